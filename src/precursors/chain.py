@@ -1,0 +1,281 @@
+"""The chain of blocks: what the equations of motion hold (Eqs. 2-10 of the paper)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from fractions import Fraction
+from numbers import Integral, Real
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """N blocks in a row on a rigid plane, pushed at block 1 through a spring (Eqs. 2-6).
+
+    Parameters
+    ----------
+    weights : array_like, shape (N,)
+        Normal load w_i of each block [N], not negative, not all zero.
+    mass : float
+        Mass m of one block [kg], positive.
+    stiffness : float
+        Stiffness k of the spring between neighbours [N/m], positive.
+    drive_stiffness : float
+        Stiffness K of the spring between the drive and block 1 [N/m], positive.
+    drive_velocity : float
+        Speed V of the drive [m/s], positive.
+    mu_s, mu_k : float
+        Coefficients of static and kinetic friction, 0 <= mu_k <= mu_s.
+    length : float
+        Length L of the contact [m], positive.
+
+    Raises
+    ------
+    ValueError
+        Naming the parameter, its value, its unit and the allowed range.
+    """
+
+    weights: FloatArray
+    mass: float
+    stiffness: float
+    drive_stiffness: float
+    drive_velocity: float
+    mu_s: float
+    mu_k: float
+    length: float = 0.1
+
+    def __post_init__(self) -> None:
+        weights = _weights(self.weights)
+        object.__setattr__(self, "weights", weights)
+        for name, unit in _POSITIVE.items():
+            object.__setattr__(self, name, positive(name, getattr(self, name), unit))
+        mu_s = not_negative("mu_s", self.mu_s, "1")
+        mu_k = not_negative("mu_k", self.mu_k, "1")
+        if mu_k > mu_s:
+            raise ValueError(f"mu_k = {mu_k!r} is larger than mu_s = {mu_s!r}: allowed is 0 <= mu_k <= mu_s")
+        object.__setattr__(self, "mu_s", mu_s)
+        object.__setattr__(self, "mu_k", mu_k)
+
+    @classmethod
+    def from_slider(
+        cls,
+        n_blocks: int = 10,
+        theta: float | str = 0.0,
+        normal_load: float = 400.0,
+        mu_s: float = 0.70,
+        mu_k: float = 0.45,
+        drive_stiffness: float = 0.8e6,
+        drive_velocity: float = 1e-4,
+        slider_mass: float = 0.012,
+        youngs_modulus: float = 2.5e9,
+        cross_section: float = 1e-4,
+        length: float = 0.1,
+    ) -> Chain:
+        """Cut a slider into N equal blocks (Eqs. 7, 9 and 10); the defaults are the paper's.
+
+        Parameters
+        ----------
+        n_blocks : int
+            Number N of blocks, at least 1.
+        theta : float or str
+            Degree of non-uniformity of the normal loading, -1 <= theta <= 1; a fraction such as "5/6" is read.
+        normal_load : float
+            Total normal load F_Z [N].
+        mu_s, mu_k : float
+            Coefficients of static and kinetic friction.
+        drive_stiffness, drive_velocity : float
+            K [N/m] and V [m/s] of the drive.
+        slider_mass, youngs_modulus, cross_section, length : float
+            M [kg], E [Pa], S [m^2] and L [m] of the slider.
+
+        Raises
+        ------
+        ValueError
+            Naming the parameter, its value, its unit and the allowed range.
+        """
+        n = whole("n_blocks", n_blocks, at_least=1)
+        length = positive("length", length, "m")
+        return cls(
+            weights=linear_weights(n, normal_load, theta),
+            mass=positive("slider_mass", slider_mass, "kg") / n,
+            stiffness=n
+            * positive("youngs_modulus", youngs_modulus, "Pa")
+            * positive("cross_section", cross_section, "m^2")
+            / length,
+            drive_stiffness=drive_stiffness,
+            drive_velocity=drive_velocity,
+            mu_s=mu_s,
+            mu_k=mu_k,
+            length=length,
+        )
+
+    @property
+    def n_blocks(self) -> int:
+        """Number N of blocks."""
+        return len(self.weights)
+
+    @property
+    def normal_load(self) -> float:
+        """Total normal load F_Z [N] (Eq. 8)."""
+        return math.fsum(self.weights)
+
+    @property
+    def strength(self) -> FloatArray:
+        """Largest static friction mu_s w_i of each block [N], shape (N,) (Eq. 5)."""
+        return self.mu_s * self.weights
+
+    @property
+    def kinetic_friction(self) -> FloatArray:
+        """Kinetic friction mu_k w_i of each block [N], shape (N,) (Eq. 6)."""
+        return self.mu_k * self.weights
+
+    @property
+    def springs(self) -> FloatArray:
+        """Stiffness of the spring behind each block [N/m], shape (N,): K, k, k, ..."""
+        return np.concatenate([[self.drive_stiffness], np.full(self.n_blocks - 1, self.stiffness)])
+
+    @property
+    def loading_rate(self) -> float:
+        """Growth K V of the tangential load while block 1 sticks [N/s]."""
+        return self.drive_stiffness * self.drive_velocity
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Chain):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
+
+    def __hash__(self) -> int:
+        return hash((self.weights.tobytes(), *(getattr(self, f.name) for f in fields(self)[1:])))
+
+
+_POSITIVE = {
+    "mass": "kg",
+    "stiffness": "N/m",
+    "drive_stiffness": "N/m",
+    "drive_velocity": "m/s",
+    "length": "m",
+}
+
+
+def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:
+    """Normal loads w_i that change linearly along the slider [N], shape (N,) (Eq. 7; w_1 = F_Z at N = 1)."""
+    n = whole("n_blocks", n_blocks, at_least=1)
+    load = positive("normal_load", normal_load, "N")
+    degree = parse_theta(theta)
+    if n == 1:
+        return np.array([load])
+    i = np.arange(1, n + 1)
+    return load / n * (1 + (2 * i - n - 1) / (n - 1) * degree)
+
+
+def parse_theta(theta: float | str) -> float:
+    """Read theta from a number or a fraction written as "5/6".
+
+    Raises
+    ------
+    ValueError
+        If it is neither, or lies outside -1 <= theta <= 1.
+    """
+    if isinstance(theta, str):
+        try:
+            value = float(Fraction(theta))
+        except (ValueError, ZeroDivisionError, OverflowError):
+            raise ValueError(
+                f'theta = {theta!r} is not a number: allowed is -1 <= theta <= 1, a fraction as "5/6"'
+            ) from None
+    else:
+        value = number("theta", theta, "1")
+    if not abs(value) <= 1:
+        raise ValueError(f"theta = {theta!r} [1] is out of range: allowed is -1 <= theta <= 1")
+    return value
+
+
+def theta_from_load_cells(load_a: float, load_b: float, spacing: float, length: float) -> float:
+    """Degree of non-uniformity from two load cells: (F_ZB - F_ZA)/F_Z * L/d, as in the paper's Sect. 5.2.
+
+    The straight line through the readings of two cells a distance `spacing` [m] apart is extended over
+    the contact of length `length` [m]. Computed in rational numbers and rounded once, so that loads of
+    100 N and 300 N at 60 mm on 100 mm give the double next to 5/6.
+
+    Raises
+    ------
+    ValueError
+        If a load is negative, both are zero, a length is not positive, or the line leaves -1 <= theta <= 1.
+    """
+    a = Fraction(repr(not_negative("load_a", load_a, "N")))
+    b = Fraction(repr(not_negative("load_b", load_b, "N")))
+    span = Fraction(repr(positive("length", length, "m"))) / Fraction(repr(positive("spacing", spacing, "m")))
+    if a + b == 0:
+        raise ValueError("load_a = load_b = 0 N: allowed is a total normal load above zero")
+    theta = float((b - a) / (a + b) * span)
+    if abs(theta) > 1:
+        raise ValueError(
+            f"load_a = {load_a!r} N and load_b = {load_b!r} N give theta = {theta:.4g}: "
+            "allowed is -1 <= theta <= 1 (a larger one would lift the slider at one end)"
+        )
+    return theta
+
+
+def number(name: str, value: object, unit: str) -> float:
+    """Return a finite float, or raise a ValueError that names the parameter."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        hint = ""
+        if isinstance(value, str):
+            hint = " (YAML reads 2.5e9 as text: write 2.5e+9)"
+        raise ValueError(f"{name} = {value!r} [{unit}] is not a number{hint}")
+    try:
+        result = float(value)
+    except OverflowError:
+        result = math.inf
+    if not math.isfinite(result):
+        raise ValueError(f"{name} = {value!r} [{unit}] is not finite")
+    return result
+
+
+def positive(name: str, value: object, unit: str) -> float:
+    """Return a float above zero, or raise a ValueError that names the parameter."""
+    result = number(name, value, unit)
+    if result <= 0:
+        raise ValueError(f"{name} = {value!r} [{unit}] is out of range: allowed is {name} > 0")
+    return result
+
+
+def not_negative(name: str, value: object, unit: str) -> float:
+    """Return a float not below zero, or raise a ValueError that names the parameter."""
+    result = number(name, value, unit)
+    if result < 0:
+        raise ValueError(f"{name} = {value!r} [{unit}] is out of range: allowed is {name} >= 0")
+    return result
+
+
+def whole(name: str, value: object, at_least: int) -> int:
+    """Return an int not below `at_least`, or raise a ValueError that names the parameter."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < at_least:
+        raise ValueError(f"{name} = {value!r} is out of range: allowed is a whole number >= {at_least}")
+    return int(value)
+
+
+def _weights(values: ArrayLike) -> FloatArray:
+    try:
+        weights = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ValueError(f"weights = {values!r} [N] are not numbers") from None
+    if weights.ndim != 1 or weights.size == 0:
+        raise ValueError(
+            f"weights have shape {weights.shape}: allowed is one value [N] for each of N >= 1 blocks"
+        )
+    wrong = np.flatnonzero(~(np.isfinite(weights) & (weights >= 0)))
+    if wrong.size:
+        i = wrong[0]
+        raise ValueError(
+            f"weights: block {i + 1} has {float(weights[i])!r} N, which is out of range: allowed is w >= 0 N"
+        )
+    if not weights.any():
+        raise ValueError("weights are all zero: allowed is a total normal load above 0 N")
+    weights.flags.writeable = False
+    return weights

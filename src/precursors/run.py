@@ -1,0 +1,239 @@
+"""A run: the transitions of a chain, the states between them, and its file."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass, fields
+from importlib.metadata import version
+from os import PathLike
+from typing import NamedTuple
+
+import h5py
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from precursors import kernel
+from precursors.chain import Chain, FloatArray
+from precursors.storage import write_atomically
+
+TRANSITION = np.dtype([("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")])
+UNITS = {
+    "time": "s",
+    "block": "1",
+    "mode": "1",
+    "tangential_load": "N",
+    "intervals": "s",
+    "start_positions": "m",
+    "start_velocities": "m/s",
+    "force": "N",
+    "velocity": "m/s",
+    "weights": "N",
+}
+FORMAT = "precursors run"
+FORMAT_VERSION = 1
+
+
+class RunFileError(ValueError):
+    """A file that is not a whole run of this format."""
+
+
+class States(NamedTuple):
+    """Spring forces [N], velocities [N/tau] and modes after every `stride` transitions; row 0 is the start."""
+
+    force: FloatArray
+    velocity: FloatArray
+    mode: NDArray[np.int64]
+    stride: int
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """The motion of a chain from time 0 to `duration`, known exactly at every time.
+
+    Attributes
+    ----------
+    chain : Chain
+        The chain that moved.
+    duration : float
+        Time reached [s].
+    transitions : structured array
+        time [s], block (1..N), mode (+1 slides forward, 0 sticks, -1 slides backward), tangential_load [N].
+    intervals : array, shape (n_transitions + 1,)
+        Time from the start to the first transition, between transitions, and from the last one to the end [s];
+        it resolves what a difference of two absolute times cannot.
+    start_positions, start_velocities : array, shape (N,)
+        State at time 0 [m], [m/s].
+    states : States
+        Stored states from which `at` starts.
+    """
+
+    chain: Chain
+    duration: float
+    transitions: NDArray[np.void]
+    intervals: FloatArray
+    start_positions: FloatArray
+    start_velocities: FloatArray
+    states: States
+
+    def at(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Positions [m] and velocities [m/s], each (len(times), N), exact to rounding.
+
+        Raises
+        ------
+        ValueError
+            If a time lies outside the run.
+        """
+        when = self._times(times)
+        force, velocity = self._evaluate(when)
+        return kernel.to_positions(self.chain, when, force), velocity
+
+    def tangential_load(self, times: ArrayLike) -> FloatArray:
+        """Tangential load F_X = K(V t - x_1) [N], shape (len(times),) (Eq. 3)."""
+        return self._evaluate(self._times(times))[0][:, 0]
+
+    def spring_forces(self, times: ArrayLike) -> FloatArray:
+        """Force in the spring behind each block [N], shape (len(times), N); column 0 is F_X."""
+        return self._evaluate(self._times(times))[0]
+
+    def _times(self, times: ArrayLike) -> FloatArray:
+        when = np.atleast_1d(np.asarray(times, dtype=np.float64))
+        outside = ~((when >= 0.0) & (when <= self.duration))
+        if outside.any():
+            raise ValueError(
+                f"times: {when[outside][0]!r} s lies outside the run: allowed is 0 <= t <= {self.duration:g} s"
+            )
+        return when
+
+    def _evaluate(self, when: FloatArray) -> tuple[FloatArray, FloatArray]:
+        system = kernel.scale(self.chain)
+        order = np.argsort(when, kind="stable")
+        shape = (len(when), self.chain.n_blocks)
+        force, velocity = np.empty(shape), np.empty(shape)
+        kernel.evaluate(
+            system,
+            when[order],
+            np.ascontiguousarray(self.transitions["time"]),
+            self.transitions["block"].astype(np.int64),
+            self.transitions["mode"].astype(np.int64),
+            self.intervals,
+            tuple(self.states[:3]),
+            self.states.stride,
+            force,
+            velocity,
+        )
+        back = np.argsort(order, kind="stable")
+        return force[back], kernel.to_velocities(system, self.chain, velocity[back])
+
+    def save(self, path: str | PathLike[str], configuration: dict[str, object] | None = None) -> None:
+        """Write the run to an HDF5 file, under a temporary name until it is whole.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; its directory is made if it is missing.
+        configuration : dict, optional
+            What the run was made from, kept as JSON in the attributes.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written.
+        """
+        content = self._content()
+        with write_atomically(path) as temporary, h5py.File(temporary, "w") as file:
+            file.attrs["format"] = FORMAT
+            file.attrs["format_version"] = FORMAT_VERSION
+            file.attrs["precursors"] = version("precursors")
+            file.attrs["numpy"], file.attrs["numba"] = np.__version__, version("numba")
+            file.attrs["configuration"] = json.dumps(configuration or {}, sort_keys=True)
+            file.attrs["duration"], file.attrs["duration_unit"] = self.duration, "s"
+            for field in fields(Chain)[1:]:
+                file.attrs[field.name] = getattr(self.chain, field.name)
+            for name, values in content.items():
+                data = file.create_dataset(name, data=values, compression="gzip", shuffle=True)
+                unit = UNITS.get(name.split("/")[-1])
+                data.attrs["unit"] = "N/tau" if name == "states/velocity" else unit
+            file["states"].attrs["stride"] = self.states.stride
+            file.attrs["sha256"] = _digest(file)
+
+    def _content(self) -> dict[str, NDArray]:
+        columns = {f"transitions/{name}": self.transitions[name] for name in TRANSITION.names or ()}
+        return {
+            "weights": self.chain.weights,
+            "start_positions": self.start_positions,
+            "start_velocities": self.start_velocities,
+            "intervals": self.intervals,
+            **columns,
+            "states/force": self.states.force,
+            "states/velocity": self.states.velocity,
+            "states/mode": self.states.mode.astype(np.int8),
+        }
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Run:
+        """Read a run from a file that `save` wrote.
+
+        Raises
+        ------
+        FileNotFoundError
+            If there is no such file.
+        RunFileError
+            If the file is not a whole run of this format.
+        """
+        try:
+            with h5py.File(path, "r") as file:
+                return cls._read(file)
+        except FileNotFoundError:
+            raise FileNotFoundError(f"{path}: no such file") from None
+        except RunFileError as error:
+            raise RunFileError(f"{path}: {error}") from None
+        except (OSError, KeyError, ValueError, TypeError, RuntimeError) as error:
+            reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+            raise RunFileError(
+                f"{path}: not a whole run file ({reason}): allowed is a file of Run.save"
+            ) from None
+
+    @classmethod
+    def _read(cls, file: h5py.File) -> Run:
+        if file.attrs.get("format") != FORMAT:
+            raise RunFileError(f'format is {file.attrs.get("format")!r}: allowed is "{FORMAT}"')
+        if file.attrs["format_version"] != FORMAT_VERSION:
+            raise RunFileError(f"format version {file.attrs['format_version']}: allowed is {FORMAT_VERSION}")
+        if file.attrs["sha256"] != _digest(file):
+            raise RunFileError("contents do not match their checksum: the file is damaged")
+        transitions = np.empty(len(file["transitions/time"]), dtype=TRANSITION)
+        for name in TRANSITION.names or ():
+            transitions[name] = file[f"transitions/{name}"][()]
+        scalars = {field.name: float(file.attrs[field.name]) for field in fields(Chain)[1:]}
+        return cls(
+            chain=Chain(weights=file["weights"][()], **scalars),
+            duration=float(file.attrs["duration"]),
+            transitions=transitions,
+            intervals=file["intervals"][()],
+            start_positions=file["start_positions"][()],
+            start_velocities=file["start_velocities"][()],
+            states=States(
+                file["states/force"][()],
+                file["states/velocity"][()],
+                file["states/mode"][()].astype(np.int64),
+                int(file["states"].attrs["stride"]),
+            ),
+        )
+
+
+def _digest(file: h5py.File) -> str:
+    """SHA-256 of every dataset and attribute but the digest itself."""
+    digest = hashlib.sha256()
+
+    def add(name: str, item: h5py.Group | h5py.Dataset) -> None:
+        for key in sorted(item.attrs):
+            if key != "sha256":
+                digest.update(f"{name}@{key}={np.asarray(item.attrs[key]).tolist()!r}".encode())
+        if isinstance(item, h5py.Dataset):
+            digest.update(f"{name}:{item.dtype.str}{item.shape}".encode())
+            digest.update(np.ascontiguousarray(item[()]).tobytes())
+
+    add("/", file)
+    file.visititems(add)
+    return digest.hexdigest()
