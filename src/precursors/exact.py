@@ -72,43 +72,44 @@ def simulate(
     velocities = _start("start_velocities", start_velocities, "m/s", chain)
 
     system = kernel.scale(chain)
-    force, velocity, start_mode = kernel.start_state(system, chain, positions, velocities)
+    velocity, force, start_mode = kernel.start_state(system, chain, positions, velocities)
     mode = np.zeros_like(start_mode)
-    clock, count = np.zeros(4), np.zeros(3, np.int64)
-    record = _Record(force, velocity, mode)
-    moving = np.flatnonzero(start_mode)
-    record.make_room(len(moving), max_transitions)
-    for k, block in enumerate(moving):
-        mode[block] = start_mode[block]
-        record.start(k, int(block), force, velocity, mode)
-    count[:] = len(moving), len(moving), len(moving) == chain.n_blocks
+    clock, count = np.zeros(4), np.zeros(4, np.int64)
+    record = _Record(velocity, force, mode)
+    mode[:] = start_mode
+    moving = np.flatnonzero(mode)
+    record.make_room(0, count, max(max_transitions, len(moving)))
+    record.start(moving, mode, force[1])
+    count[:] = len(moving), len(moving), len(moving) == chain.n_blocks, 1
 
     status = kernel.PAUSED
-    while status == kernel.PAUSED and count[kernel.TRANSITIONS] < max_transitions:
-        record.make_room(int(count[kernel.TRANSITIONS]), max_transitions)
+    while True:
         status = kernel.run_events(
-            system,
-            force,
+            *system,
             velocity,
+            force,
             mode,
             clock,
             count,
             duration,
             until is not None,
-            record.columns,
+            *record.columns,
             record.intervals,
             record.states,
             record.stride,
             WINDOWS_PER_CALL,
         )
-    n = int(count[kernel.TRANSITIONS])
+        n = int(count[kernel.TRANSITIONS])
+        if status != kernel.PAUSED or n >= max_transitions:
+            break
+        record.make_room(n, count, max_transitions)
     elapsed = clock[kernel.ONSET] + (clock[kernel.ONSET_ERROR] + clock[kernel.ELAPSED] * system.tau)
     run = Run(
         chain=chain,
         duration=duration if status == kernel.FINISHED else float(elapsed),
         start_positions=positions,
         start_velocities=velocities,
-        **record.finished(n, clock[kernel.SINCE] * system.tau),
+        **record.finished(n, int(count[kernel.STORED]), clock[kernel.SINCE] * system.tau),
     )
     if status == kernel.PAUSED:
         raise TransitionLimitError(
@@ -138,35 +139,37 @@ def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> Floa
 class _Record:
     """Room for the transitions and states of a run, grown as needed."""
 
-    def __init__(self, force: FloatArray, velocity: FloatArray, mode: IntArray) -> None:
+    def __init__(self, velocity: FloatArray, force: FloatArray, mode: IntArray) -> None:
         self.stride = 1
         self.columns = (np.empty(0), np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0))
         self.intervals = np.empty(0)
-        self.states = (force[None].copy(), velocity[None].copy(), mode[None].copy())
+        start = (force, velocity, mode, np.int64(0), 0.0)
+        self.states = tuple(np.array(value)[None] for value in start)
 
-    def make_room(self, used: int, most: int) -> None:
-        """Double the room for transitions where it is full; thin the states out where they take too much."""
-        room = len(self.intervals)
-        if used < room:
+    def make_room(self, used: int, count: IntArray, most: int) -> None:
+        """Enlarge what is full; thin the states out where they take too much."""
+        if used == len(self.intervals):
+            room = min(max(FIRST_ROOM, 2 * used), most)
+            self.columns = tuple(_enlarged(column, room) for column in self.columns)
+            self.intervals = _enlarged(self.intervals, room)
+        stored = count[kernel.STORED]
+        if stored < len(self.states[0]) > 1:
             return
-        room = min(max(FIRST_ROOM, 2 * used), max(most, used))
-        self.columns = tuple(_enlarged(column, room) for column in self.columns)
-        self.intervals = _enlarged(self.intervals, room)
-        while sum(s[0].nbytes for s in self.states) * (room // self.stride + 1) > STATES_BYTES:
-            self.states = tuple(s[::2] for s in self.states)
+        rows = max(FIRST_ROOM // self.stride, 2 * len(self.states[0]))
+        if rows * sum(s[0].nbytes for s in self.states) > STATES_BYTES and stored > 1:
+            self.states = tuple(s[:stored:2] for s in self.states)
             self.stride *= 2
-        self.states = tuple(_enlarged(s, room // self.stride + 1) for s in self.states)
+            count[kernel.STORED] = len(self.states[0])
+        self.states = tuple(_enlarged(s, rows) for s in self.states)
 
-    def start(self, k: int, block: int, force: FloatArray, velocity: FloatArray, mode: IntArray) -> None:
-        """Note a block that moves at time 0 as transition k; the state is the one after it."""
-        for column, value in zip(self.columns, (0.0, block, mode[block], force[1]), strict=True):
-            column[k] = value
-        self.intervals[k] = 0.0
-        if (k + 1) % self.stride == 0:
-            for store, value in zip(self.states, (force, velocity, mode), strict=True):
-                store[(k + 1) // self.stride] = value
+    def start(self, moving: IntArray, mode: IntArray, tangential_load: float) -> None:
+        """Note the blocks that move at time 0 as transitions."""
+        n = len(moving)
+        for column, value in zip(self.columns, (0.0, moving, mode[moving], tangential_load), strict=True):
+            column[:n] = value
+        self.intervals[:n] = 0.0
 
-    def finished(self, n: int, last_interval: float) -> dict[str, Any]:
+    def finished(self, n: int, stored: int, last_interval: float) -> dict[str, Any]:
         """Cut what was recorded to n transitions, as arguments of `Run`."""
         transitions = np.empty(n, dtype=TRANSITION)
         for name, column in zip(TRANSITION.names or (), self.columns, strict=True):
@@ -174,7 +177,7 @@ class _Record:
         return {
             "transitions": transitions,
             "intervals": np.append(self.intervals[:n], last_interval),
-            "states": States(*(s[: n // self.stride + 1].copy() for s in self.states), self.stride),
+            "states": States(*(s[:stored].copy() for s in self.states)),
         }
 
 

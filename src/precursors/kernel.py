@@ -5,12 +5,21 @@ grows linearly in time; its solution is summed as a Taylor series to rounding. T
 earliest root of a velocity (a sliding block stops) or of a stick margin mu_s w_i -+ F_i (a stuck block
 lets go). With |g''| <= M on the window, the positive root of g + g' s - M s^2/2 is a step that cannot pass
 a root of g; repeated on the function whose bound is smallest, it converges to the earliest root of all or
-proves that the window holds none.
+proves that the window holds none. A cubic with the rest of the series as its error bound is tried first.
 
-Units inside: force and m/tau^2 times displacement in N, time in tau, velocity in N/tau, with tau chosen such
-that the highest frequency of the chain times tau is at most `REACH`. The state is the force T_i in the spring
-behind each block and its velocity u_i, not its position: slips of a micrometre after a millimetre of drive
-keep all their digits. Column 0 of every array is the drive, columns 1..N the blocks, column N + 1 the free end.
+Units inside: force and m/tau^2 times displacement in N, time in tau, velocity in N/tau, with tau such that the
+highest frequency of the chain times tau is at most `REACH`. The state is the force T_i in the spring behind
+each block and its velocity v_i, not its position: slips of a micrometre after a millimetre of drive keep all
+their digits. In these units the motion is
+
+    dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides.
+
+Column 0 of every array is the drive, columns 1..N the blocks; beyond them are free ends and room for lanes of
+four, the width in which rows are worked on so that the compiler can use vector instructions.
+
+A transition changes the motion of blocks at distance d only in order 2 d + 1 of the time since. In a long
+chain each block therefore keeps a Taylor series of its own about a time of its own within a common window,
+and a transition renews those of its neighbourhood only.
 
 All compiled code is in this one file, because a compile cache does not see an edit in an imported file.
 """
@@ -25,210 +34,457 @@ from numba import njit
 
 from precursors.chain import Chain, FloatArray
 
-# The series is cut at this order: the next term is at most REACH^28/28! = 1e-21 of the first.
-ORDER = 27
 REACH = 2.0
+# Rows of the Taylor arrays; the series of a window of length r is cut where (REACH r)^n / n! < NEGLIGIBLE.
+ROWS = 30
+# Columns beyond block N: the free end, and room to work on four blocks at once.
+BEYOND = 4
+NEGLIGIBLE = 1e-19
+# Chains whose moving part is longer than LONG blocks renew neighbourhoods only, in windows of LONG_WINDOW.
+LONG = 24
+SHORT_WINDOW, LONG_WINDOW = 1.0, 0.5
 # A value below so many roundings of the forces it was computed from counts as zero.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
 
 FINISHED, GLOBAL_SLIP, PAUSED = 0, 1, 2
 
-# Columns of `clock`: time of the event's onset and its rounding error [s], time since then [tau], time since
-# the last transition [tau]. Columns of `count`: transitions, sliding blocks, whether all slid at once.
+# `clock`: time of the event's onset and its rounding error [s], time since then [tau], time since the last
+# transition [tau]. `count`: transitions, sliding blocks, whether all slid at once, stored states.
 ONSET, ONSET_ERROR, ELAPSED, SINCE = range(4)
-TRANSITIONS, SLIDING, GLOBAL = range(3)
+TRANSITIONS, SLIDING, GLOBAL, STORED = range(4)
+
+# What is known of a bound: from the cubic alone, from the whole series, the root itself. Columns of `level`.
+ROUGH, FINE, FINAL = range(3)
+ORIGIN, SPAN, ZERO, BEND = range(4)
+CUBIC_STEPS = 4
+
+REACH_SQUARED = REACH * REACH
+# Sum of the geometric bound of the tail of a series relative to its first term, for spans up to 1.
+TAIL = 1.1
+INVERSE_FACTORIAL = np.array([1.0 / math.factorial(n) for n in range(ROWS + 1)])
+REACH_POWER = REACH ** np.arange(ROWS + 1.0)
+
+
+# Products may be fused with sums; nothing else is left to the compiler but where a bound may be summed in any order.
+inner = njit(cache=True, error_model="numpy", no_cpython_wrapper=True, fastmath={"contract"})
+inner_reassociating = njit(
+    cache=True, error_model="numpy", no_cpython_wrapper=True, fastmath={"contract", "reassoc"}
+)
 
 
 class System(NamedTuple):
-    """A chain in the kernel's units."""
+    """A chain in the kernel's units; columns as in the module's docstring."""
 
     tau: float
+    drive_velocity: float
     coupling: FloatArray
     strength: FloatArray
     friction: FloatArray
-    drive_velocity: float
 
 
 def scale(chain: Chain) -> System:
-    """Express a chain in the kernel's units; tau = REACH / (a bound of the largest frequency) (Gershgorin)."""
-    springs = np.append(chain.springs, 0.0)
-    stiffest = float(np.max(springs[:-1] + springs[1:] + np.append(0.0, springs[1:-1]) + springs[1:]))
+    """Express a chain in the kernel's units, with Gershgorin's bound of its largest frequency."""
+    behind, ahead = chain.springs, np.append(chain.springs[1:], 0.0)
+    stiffest = np.max(behind + ahead + np.append(0.0, behind[1:]) + ahead)
     tau = REACH * math.sqrt(chain.mass / stiffest)
-    pad = (1, 1)
     return System(
         tau=tau,
-        coupling=np.concatenate([[0.0], springs * (tau * tau / chain.mass)]),
-        strength=np.pad(chain.strength, pad),
-        friction=np.pad(chain.kinetic_friction, pad),
         drive_velocity=chain.drive_velocity * chain.mass / tau,
+        coupling=columns(behind * (tau * tau / chain.mass)),
+        strength=columns(chain.strength),
+        friction=columns(chain.kinetic_friction),
     )
 
 
-@njit(cache=True)
-def expand(system, force, velocity, mode, last, rate, load):
-    """Taylor coefficients of the velocities (`rate`) and net spring forces (`load`) of blocks 1..last (Eq. 2).
+def columns(values: FloatArray) -> FloatArray:
+    """Put one value per block into columns 1..N."""
+    return np.pad(values, (1, BEYOND))
+
+
+@inner
+def expand(coupling, mobile, push, first, last, order, tension, rate):
+    """Taylor series of the velocities of blocks first..last from their row 0 (derivatives, rows 1..order).
 
     This is the chain's linear operator: whatever else acts linearly between transitions belongs here.
+    `mobile` is 1 where a block slides and `push` its kinetic friction with the sign of its mode; `tension` holds
+    the spring forces. Columns first - 1 and last + 1 hold the motion of the neighbours outside.
     """
-    coupling = system.coupling
-    rate[0, 0] = system.drive_velocity
-    for i in range(1, last + 1):
-        rate[0, i] = velocity[i]
-        load[0, i] = force[i] - force[i + 1]
-        rate[1, i] = load[0, i] - mode[i] * system.friction[i] if mode[i] != 0 else 0.0
-    for n in range(ORDER + 1):
-        rate[n, last + 1] = 0.0
-    for n in range(1, ORDER):
-        per_n = 1.0 / n
-        per_next = 1.0 / (n + 1)
-        for i in range(1, last + 1):
-            behind = coupling[i] * (rate[n - 1, i - 1] - rate[n - 1, i])
-            ahead = coupling[i + 1] * (rate[n - 1, i] - rate[n - 1, i + 1])
-            load[n, i] = (behind - ahead) * per_n
-            rate[n + 1, i] = load[n, i] * per_next if mode[i] != 0 else 0.0
+    behind = tension[first]
+    for i in range(first, last + 1):
+        ahead = tension[i + 1]
+        rate[1, i] = mobile[i] * (behind - ahead) - push[i]
+        behind = ahead
+    for n in range(2, order + 1):
+        v = rate[n - 2, first]
+        behind = coupling[first] * (rate[n - 2, first - 1] - v)
+        for i in range(first, last + 1):
+            v_ahead = rate[n - 2, i + 1]
+            ahead = coupling[i + 1] * (v - v_ahead)
+            rate[n, i] = mobile[i] * (behind - ahead)
+            v, behind = v_ahead, ahead
 
 
-@njit(cache=True)
-def move(system, force, velocity, mode, last, rate, s):
-    """Carry spring forces and velocities of blocks 1..last forward by s, from the Taylor coefficients."""
-    behind = system.drive_velocity * s
-    for i in range(1, last + 1):
-        slip = 0.0
+@inner
+def powers(s, order, weight):
+    """Fill weight[n] = s^n / n! for n = 0..order + 1; return the order that is enough for s."""
+    weight[0] = 1.0
+    weight[1] = power = s
+    enough = order
+    for n in range(2, order + 2):
+        power *= s
+        weight[n] = power * INVERSE_FACTORIAL[n]
+    while enough > 8 and weight[enough] * REACH_POWER[enough] < NEGLIGIBLE:
+        enough -= 1
+    return enough
+
+
+@inner
+def move_four(i, count, order, weight, rate, slip):
+    """`move` for up to four blocks from i on: eight independent sums keep the processor busy."""
+    v0 = v1 = v2 = v3 = 0.0
+    x0 = x1 = x2 = x3 = 0.0
+    ahead = weight[order + 1]
+    for n in range(order, -1, -1):
+        w = weight[n]
+        c0, c1, c2, c3 = rate[n, i], rate[n, i + 1], rate[n, i + 2], rate[n, i + 3]
+        v0 += w * c0
+        v1 += w * c1
+        v2 += w * c2
+        v3 += w * c3
+        x0 += ahead * c0
+        x1 += ahead * c1
+        x2 += ahead * c2
+        x3 += ahead * c3
+        ahead = w
+    rate[0, i] = v0
+    slip[i] += x0
+    if count > 1:
+        rate[0, i + 1] = v1
+        slip[i + 1] += x1
+    if count > 2:
+        rate[0, i + 2] = v2
+        slip[i + 2] += x2
+    if count > 3:
+        rate[0, i + 3] = v3
+        slip[i + 3] += x3
+
+
+@inner
+def stretch(first, last, coupling, slip, tension_before, tension):
+    """Spring forces of blocks first..last after the slips since the start of the window."""
+    for i in range(first, last + 1):
+        tension[i] = tension_before[i] + coupling[i] * (slip[i - 1] - slip[i])
+
+
+@inner
+def safe_step(g, slope, curvature):
+    """Positive root of g + slope s - curvature s^2/2 for g >= 0: no root of g lies before it."""
+    root = math.sqrt(slope * slope + 2.0 * curvature * g)
+    if slope < 0.0:
+        return 2.0 * g / (root - slope)
+    return (slope + root) / curvature if curvature > 0.0 else np.inf
+
+
+@inner
+def tail_bound(first, last, order, span, rate):
+    """Bound of the terms from the eighth on of the velocity series of blocks first..last (Gershgorin).
+
+    Row n + 2 of a block is at most REACH^2 times the largest of row n; the neighbours outside, in columns
+    first - 1 and last + 1, enter with all their rows, as they follow from others still further out.
+    """
+    even = 0.0
+    odd = 0.0
+    for i in range(first - 1, last + 2):
+        even = max(even, abs(rate[6, i]))
+        odd = max(odd, abs(rate[7, i]))
+    shrink = 1.0
+    for n in range(8, order + 1):
+        if n % 2 == 0:
+            shrink /= REACH_SQUARED
+            even = max(even, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, last + 1]))
+        else:
+            odd = max(odd, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, last + 1]))
+    square = span * span
+    eighth = REACH_SQUARED * TAIL * square * square * square * square
+    return eighth * (even * INVERSE_FACTORIAL[8] + odd * span * INVERSE_FACTORIAL[9])
+
+
+@inner_reassociating
+def examine(slot, count, series, level, terms, stage):
+    """Bound the first root of series[slot] (time in spans) from below by its cubic with an error bound.
+
+    A root at the start was dealt with already: it is divided out. Where the function then falls, the
+    transition is at once.
+    """
+    zero = level[slot, ZERO]
+    if abs(series[slot, 0]) <= zero:
+        p = 1
+        while p < count and abs(series[slot, p]) <= zero:
+            p += 1
+        if p == count:
+            return np.inf
+        count -= p
+        for n in range(count):
+            series[slot, n] = series[slot, n + p]
+        for n in range(count, 4):
+            series[slot, n] = 0.0
+        count = max(count, 4)
+    c0, c1, c2, c3 = series[slot, 0], series[slot, 1], series[slot, 2], series[slot, 3]
+    if c0 < 0.0:
+        stage[slot] = FINAL
+        return level[slot, ORIGIN]
+    rest = 0.0
+    bend = 0.0
+    for n in range(4, count):
+        c = abs(series[slot, n])
+        rest += c
+        bend += n * (n - 1) * c
+    down = 2.0 * max(-c2, 0.0) + 6.0 * max(-c3, 0.0)
+    if c0 + min(c1, 0.0) + min(c2, 0.0) + min(c3, 0.0) > rest:
+        return np.inf
+    terms[slot] = count
+    level[slot, BEND] = down + bend
+    stage[slot] = FINE
+    s = 0.0
+    g, slope = c0, c1
+    for _ in range(CUBIC_STEPS):
+        s += safe_step(g, slope, down + 12.0 * rest)
+        if s >= 1.0:
+            return np.inf
+        ss = s * s
+        g = c0 + s * (c1 + s * (c2 + s * c3)) - rest * ss * ss
+        if g <= 0.02 * c0:
+            break
+        slope = c1 + s * (2.0 * c2 + s * 3.0 * c3) - 4.0 * rest * ss * s
+    return level[slot, ORIGIN] + s * level[slot, SPAN]
+
+
+@inner
+def refine(slot, t, series, level, terms, stage):
+    """Step from the bound t towards the root of a watched function; it is FINAL once it is the root."""
+    span = level[slot, SPAN]
+    x = (t - level[slot, ORIGIN]) / span
+    # Even and odd terms apart, for two short chains of operations instead of a long one.
+    y = x * x
+    top = (terms[slot] - 1) // 2 * 2
+    even = series[slot, top]
+    odd = series[slot, top + 1] if top + 1 < terms[slot] else 0.0
+    even_slope = 0.0
+    odd_slope = 0.0
+    for n in range(top - 2, -1, -2):
+        even_slope = even_slope * y + even
+        odd_slope = odd_slope * y + odd
+        even = even * y + series[slot, n]
+        odd = odd * y + series[slot, n + 1]
+    g = even + x * odd
+    slope = odd + 2.0 * x * (even_slope + x * odd_slope)
+    step = safe_step(max(g, 0.0), slope, level[slot, BEND])
+    if g <= level[slot, ZERO] or x + step <= x:
+        stage[slot] = FINAL
+        step = -max(g / slope, -1e-9) if slope < 0.0 else 0.0
+    return level[slot, ORIGIN] + max(x + step, 0.0) * span
+
+
+@inner
+def watch(
+    first,
+    last,
+    origin,
+    span,
+    order,
+    coupling,
+    strength,
+    mode,
+    tension,
+    rate,
+    weight,
+    fastest,
+    series,
+    level,
+    terms,
+    stage,
+    bound,
+    active,
+):
+    """Bound the next transition of blocks first..last from below, as times in the window.
+
+    Slot 2 i watches the velocity of block i while it slides, or its margin against letting go forward while it
+    sticks; slot 2 i + 1 its margin against letting go backward. `fastest` bounds the speeds in the window.
+    active[1:active[0] + 1] are the slots that may have a root.
+    """
+    kept = 0
+    for k in range(1, active[0] + 1):
+        if active[k] < 2 * first or active[k] > 2 * last + 1:
+            kept += 1
+            active[kept] = active[k]
+    tail = tail_bound(first, last, order, span, rate)
+    w1, w2, w3, w4, w5, w6, w7 = weight[1], weight[2], weight[3], weight[4], weight[5], weight[6], weight[7]
+    for i in range(first, last + 1):
+        slot = 2 * i
+        if mode[i] == 0:
+            fastest[i] = 0.0
+            continue
+        sign = mode[i]
+        c0, c1, c2, c3 = (
+            sign * rate[0, i],
+            sign * rate[1, i] * w1,
+            sign * rate[2, i] * w2,
+            sign * rate[3, i] * w3,
+        )
+        rest = (
+            (abs(rate[4, i]) * w4 + abs(rate[5, i]) * w5)
+            + (abs(rate[6, i]) * w6 + abs(rate[7, i]) * w7)
+            + tail
+        )
+        total = c0 + abs(c1) + abs(c2) + abs(c3) + rest
+        fastest[i] = total
+        if c0 + min(c1, 0.0) + min(c2, 0.0) + min(c3, 0.0) > rest:
+            continue
+        zero = ROUNDINGS * (tension[i] + tension[i + 1] + total)
+        level[slot, ORIGIN], level[slot, SPAN], level[slot, ZERO] = origin, span, zero
+        if c0 > zero:
+            stage[slot] = ROUGH
+            curvature = 2.0 * max(-c2, 0.0) + 6.0 * max(-c3, 0.0) + 12.0 * rest
+            bound[slot] = origin + safe_step(c0, c1, curvature) * span
+        else:
+            for n in range(order + 1):
+                series[slot, n] = sign * rate[n, i] * weight[n]
+            bound[slot] = examine(slot, order + 1, series, level, terms, stage)
+        if bound[slot] < origin + span:
+            kept += 1
+            active[kept] = slot
+    for i in range(first, last + 1):
         if mode[i] != 0:
-            speed = 0.0
-            for n in range(ORDER, -1, -1):
-                speed = speed * s + rate[n, i]
-                slip = slip * s + rate[n, i] / (n + 1)
-            slip *= s
-            velocity[i] = speed
-        force[i] += system.coupling[i] * (behind - slip)
-        behind = slip
-    force[last + 1] += system.coupling[last + 1] * behind
+            continue
+        change = (coupling[i] * fastest[i - 1] + coupling[i + 1] * fastest[i + 1]) * span
+        net = tension[i] - tension[i + 1]
+        if strength[i] - abs(net) > change or change == 0.0:
+            continue
+        for side in (1, -1):
+            margin = strength[i] - side * net
+            if margin > change:
+                continue
+            slot = 2 * i if side == 1 else 2 * i + 1
+            level[slot, ORIGIN], level[slot, SPAN] = origin, span
+            level[slot, ZERO] = ROUNDINGS * (abs(tension[i]) + abs(tension[i + 1]) + strength[i] + change)
+            series[slot, 0] = margin
+            for n in range(1, order + 1):
+                growth = coupling[i] * rate[n - 1, i - 1] + coupling[i + 1] * rate[n - 1, i + 1]
+                series[slot, n] = -side * growth * weight[n]
+            bound[slot] = examine(slot, order + 1, series, level, terms, stage)
+            if bound[slot] < origin + span:
+                kept += 1
+                active[kept] = slot
+    active[0] = kept
 
 
-@njit(cache=True)
+@inner
+def next_transition(limit, order, mode, rate, origins, weight, series, level, terms, stage, bound, active):
+    """Earliest root of all watched functions: (time in the window, slot), or (limit, -1) where there is none."""
+    while True:
+        slot, t = -1, limit
+        for k in range(1, active[0] + 1):
+            if bound[active[k]] < t:
+                slot, t = active[k], bound[active[k]]
+        if slot < 0 or stage[slot] == FINAL:
+            return t, slot
+        if stage[slot] == ROUGH:
+            i = slot // 2
+            level[slot, ORIGIN] = origins[i]
+            span = level[slot, SPAN] = limit - origins[i]
+            enough = powers(span, order, weight)
+            for n in range(enough + 1):
+                series[slot, n] = mode[i] * rate[n, i] * weight[n]
+            bound[slot] = max(bound[slot], examine(slot, enough + 1, series, level, terms, stage))
+        else:
+            bound[slot] = refine(slot, t, series, level, terms, stage)
+
+
+@inner
+def shift(i, t, order, rate, origins, slip, weight):
+    """Move the origin of block i's series to time t of the window."""
+    s = t - origins[i]
+    origins[i] = t
+    if s == 0.0:
+        return
+    powers(s, order, weight)
+    way = 0.0
+    for n in range(order, -1, -1):
+        way += weight[n + 1] * rate[n, i]
+    slip[i] += way
+    for n in range(order):
+        # The n-th derivative at t from the higher ones, which are still those at the old origin.
+        total = rate[n, i]
+        for m in range(1, order + 1 - n):
+            total += weight[m] * rate[n + m, i]
+        rate[n, i] = total
+
+
+@inner
+def settle(t, first, last, order, weight, rate, origins, slip):
+    """Bring blocks first..last, each from its own origin, to time t of the window: state in row 0."""
+    at = 0.0
+    enough = order
+    i = first
+    while i <= last:
+        s = t - origins[i]
+        if s != 0.0 and s != at:
+            enough = powers(s, order, weight)
+            at = s
+        count = 1
+        while count < 4 and i + count <= last and origins[i + count] == origins[i]:
+            count += 1
+        if s != 0.0:
+            move_four(i, count, enough, weight, rate, slip)
+        for j in range(i, i + count):
+            origins[j] = t
+        i += count
+
+
+@inner
 def last_moved(mode):
     """Farthest block whose force can change: the one ahead of the farthest that slides, or N."""
-    n_blocks = mode.shape[0] - 2
+    n_blocks = mode.shape[0] - 1 - BEYOND
     i = n_blocks
     while i > 1 and mode[i] == 0:
         i -= 1
     return min(i + 1, n_blocks)
 
 
-@njit(cache=True)
-def coefficient(system, mode, rate, load, i, side, n):
-    """n-th Taylor coefficient of what must stay positive: mode * velocity, or strength - side * force."""
-    if side == 0:
-        return mode[i] * rate[n, i]
-    if n == 0:
-        return system.strength[i] - side * load[0, i]
-    return -side * load[n, i]
+@inner
+def order_for(length):
+    """Order at which the series of a window may be cut."""
+    n, term = 8, 1.0
+    for m in range(1, n + 1):
+        term *= REACH * length / m
+    while term > NEGLIGIBLE and n < ROWS - 1:
+        n += 1
+        term *= REACH * length / n
+    return n
 
 
-@njit(cache=True)
-def safe_step(g, slope, curvature):
-    """Positive root of g + slope s - curvature s^2/2 for g >= 0: no root of g lies before it."""
-    if curvature <= 0.0:
-        return -g / slope if slope < 0.0 else np.inf
-    root = math.sqrt(slope * slope + 2.0 * curvature * g)
-    return (slope + root) / curvature if slope > 0.0 else 2.0 * g / (root - slope) if root > slope else 0.0
+@inner
+def distance_reached(span):
+    """Distance beyond which a transition is not felt within `span`, in blocks."""
+    d, term = 1, span * span * span / 6.0
+    while term > NEGLIGIBLE:
+        d += 1
+        term *= span * span / (2 * d * (2 * d + 1))
+    return d
 
 
-@njit(cache=True)
-def earliest_root(system, force, mode, last, rate, load, limit, work):
-    """Time and place of the first transition before `limit`: (time, block, side); block 0 where there is none.
-
-    side is 0 where a velocity vanishes and the sign of the force where a stuck block lets go.
-    """
-    block, sides, order = work.block, work.side, work.order
-    curvature, zero, bound = work.curvature, work.zero, work.bound
-    count = 0
-    for i in range(1, last + 1):
-        if mode[i] == 0 and i > 1 and mode[i - 1] == 0 and mode[i + 1] == 0:
-            continue
-        for k in range(1 if mode[i] != 0 else 2):
-            side = 0 if mode[i] != 0 else 1 - 2 * k
-            size = abs(force[i]) + abs(force[i + 1])
-            for n in range(ORDER):
-                size += (n + 1) * abs(coefficient(system, mode, rate, load, i, side, n))
-            tolerance = ROUNDINGS * size
-            # A root at the start was dealt with already: divide it out, look where the function goes next.
-            p = 0
-            while p < ORDER and abs(coefficient(system, mode, rate, load, i, side, p)) <= tolerance:
-                p += 1
-            if p == ORDER:
-                continue
-            first = coefficient(system, mode, rate, load, i, side, p)
-            if first < 0.0:
-                return 0.0, i, side
-            second = 0.0
-            power = 1.0
-            for n in range(p + 2, ORDER):
-                second += (
-                    (n - p) * (n - p - 1) * abs(coefficient(system, mode, rate, load, i, side, n)) * power
-                )
-                power *= limit
-            block[count], sides[count], order[count] = i, side, p
-            curvature[count], zero[count] = second, tolerance
-            bound[count] = safe_step(first, coefficient(system, mode, rate, load, i, side, p + 1), second)
-            count += 1
-    while True:
-        c = -1
-        s = limit
-        for k in range(count):
-            if bound[k] < s:
-                c, s = k, bound[k]
-        if c < 0:
-            return limit, 0, 0
-        g = 0.0
-        slope = 0.0
-        for n in range(ORDER - 1, order[c] - 1, -1):
-            slope = slope * s + g
-            g = g * s + coefficient(system, mode, rate, load, block[c], sides[c], n)
-        step = safe_step(max(g, 0.0), slope, curvature[c])
-        if g <= zero[c] or s + step <= s:
-            if slope < 0.0:
-                s = min(max(s - max(g / slope, -1e-9), 0.0), limit)
-            return s, block[c], sides[c]
-        bound[c] = s + step
-
-
-class Work(NamedTuple):
-    """Room for the functions that are watched at once."""
-
-    block: np.ndarray
-    side: np.ndarray
-    order: np.ndarray
-    curvature: np.ndarray
-    zero: np.ndarray
-    bound: np.ndarray
-
-
-@njit(cache=True)
-def make_work(n_blocks):
-    """Allocate `Work` for two functions per block."""
-    n = 2 * n_blocks
-    return Work(
-        np.empty(n, np.int64),
-        np.empty(n, np.int64),
-        np.empty(n, np.int64),
-        np.empty(n),
-        np.empty(n),
-        np.empty(n),
-    )
-
-
-@njit(cache=True)
-def set_mode(velocity, mode, i, new):
-    """Apply a transition to a state: a block that stops or turns has velocity zero."""
+@inner
+def set_mode(i, new, mode, mobile, push, friction, rate):
+    """Apply a transition to the state in row 0: a block that stops or turns has velocity zero."""
     if mode[i] != 0:
-        velocity[i] = 0.0
+        rate[0, i] = 0.0
     mode[i] = new
+    mobile[i] = 1.0 if new != 0 else 0.0
+    push[i] = new * friction[i]
 
 
-@njit(cache=True)
-def advance_clock(clock, wait, tau):
+@inner
+def start_clock(clock, wait, tau):
     """Start a new event `wait` after the end of the last; the onset is carried in two doubles."""
     add = (clock[ELAPSED] + wait) * tau + clock[ONSET_ERROR]
     total = clock[ONSET] + add
@@ -238,149 +494,300 @@ def advance_clock(clock, wait, tau):
     clock[SINCE] += wait
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def run_events(
-    system,
-    force,
+    tau,
+    drive_velocity,
+    coupling,
+    strength,
+    friction,
     velocity,
+    tension,
     mode,
     clock,
     count,
     duration,
     until_global,
-    transitions,
+    time,
+    block,
+    new_mode,
+    tangential_load,
     intervals,
     states,
     stride,
     budget,
 ):
-    """Run the chain until `duration` [s], the end of the first global slip, full buffers or a spent budget.
+    """Run a chain until `duration` [s], the end of the first global slip, full buffers or a spent budget.
 
-    `transitions` = (time [s], block, mode, tangential load [N]) and `intervals` [s] are filled from
-    count[TRANSITIONS] on; after every `stride` transitions the state goes to `states` = (force, velocity, mode).
+    `velocity`, `tension`, `mode`, `clock` and `count` hold the state and are left at the state reached.
+    `time` [s], `block`, `new_mode`, `tangential_load` [N] and `intervals` [s] are filled from count[TRANSITIONS]
+    on; after every `stride` transitions or so a state goes to `states`.
     """
-    time, block, new_mode, tangential_load = transitions
-    n_blocks = mode.shape[0] - 2
-    rate = np.zeros((ORDER + 1, n_blocks + 2))
-    load = np.zeros((ORDER + 1, n_blocks + 2))
-    work = make_work(n_blocks)
-    tau = system.tau
-    loading_rate = system.coupling[1] * system.drive_velocity
-    while True:
-        k = count[TRANSITIONS]
-        if k >= time.shape[0] or budget <= 0:
-            return PAUSED
+    state_tension, state_velocity, state_mode, state_after, state_offset = states
+    wide = mode.shape[0]
+    n_blocks = wide - 1 - BEYOND
+    rate = np.zeros((ROWS + 1, wide))
+    mobile = np.zeros(wide)
+    push = np.zeros(wide)
+    slip = np.zeros(wide)
+    origins = np.zeros(wide)
+    tension_before = np.empty(wide)
+    weight = np.empty(ROWS + 2)
+    series = np.empty((2 * wide, ROWS + 1))
+    level = np.empty((2 * wide, 4))
+    terms = np.zeros(2 * wide, np.int64)
+    stage = np.zeros(2 * wide, np.int64)
+    bound = np.empty(2 * wide)
+    active = np.zeros(2 * wide + 1, np.int64)
+    fastest = np.zeros(wide)
+    fastest[0] = drive_velocity
+    rate[0] = velocity
+    rate[0, 0] = drive_velocity
+    for i in range(1, n_blocks + 1):
+        mobile[i] = 1.0 if mode[i] != 0 else 0.0
+        push[i] = mode[i] * friction[i]
+    loading_rate = coupling[1] * drive_velocity
+    short_order, long_order = order_for(SHORT_WINDOW), order_for(LONG_WINDOW)
+    room = time.shape[0]
+    k = count[TRANSITIONS]
+    sliding = count[SLIDING]
+    status = PAUSED
+    while k < room and budget > 0 and count[STORED] < state_after.shape[0]:
         budget -= 1
+        if k >= stride * count[STORED]:
+            c = count[STORED]
+            for i in range(wide):
+                state_tension[c, i], state_velocity[c, i], state_mode[c, i] = tension[i], rate[0, i], mode[i]
+            state_after[c], state_offset[c] = k, clock[SINCE] * tau
+            count[STORED] += 1
         remaining = ((duration - clock[ONSET]) - clock[ONSET_ERROR]) / tau - clock[ELAPSED]
-        if count[SLIDING] == 0:
-            if count[GLOBAL] and until_global:
-                return GLOBAL_SLIP
-            wait = max((system.strength[1] - (force[1] - force[2])) / loading_rate, 0.0)
+        if sliding == 0:
+            if count[GLOBAL] != 0 and until_global:
+                status = GLOBAL_SLIP
+                break
+            wait = max((strength[1] - (tension[1] - tension[2])) / loading_rate, 0.0)
             if wait >= remaining:
-                force[1] += loading_rate * max(remaining, 0.0)
-                advance_clock(clock, max(remaining, 0.0), tau)
-                return FINISHED
-            force[1] = force[2] + system.strength[1]
-            advance_clock(clock, wait, tau)
-            i, new = 1, 1
-        else:
-            if remaining <= 0.0:
-                return FINISHED
-            last = last_moved(mode)
-            expand(system, force, velocity, mode, last, rate, load)
-            s, i, side = earliest_root(system, force, mode, last, rate, load, min(1.0, remaining), work)
-            if s > 0.0:
-                move(system, force, velocity, mode, last, rate, s)
-                clock[ELAPSED] += s
-                clock[SINCE] += s
-            if i == 0:
-                continue
-            new = side
-            if side == 0:
-                net = force[i] - force[i + 1]
-                new = 0 if abs(net) <= system.strength[i] else (1 if net > 0.0 else -1)
-        old = mode[i]
-        set_mode(velocity, mode, i, new)
-        if new == old:
+                remaining = max(remaining, 0.0)
+                tension[1] += loading_rate * remaining
+                start_clock(clock, remaining, tau)
+                status = FINISHED
+                break
+            tension[1] = tension[2] + strength[1]
+            start_clock(clock, wait, tau)
+            set_mode(1, 1, mode, mobile, push, friction, rate)
+            sliding = 1
+            if n_blocks == 1:
+                count[GLOBAL] = 1
+            time[k] = clock[ONSET] + clock[ONSET_ERROR]
+            block[k], new_mode[k], tangential_load[k] = 1, 1, tension[1]
+            intervals[k] = clock[SINCE] * tau
+            clock[SINCE] = 0.0
+            k += 1
             continue
-        count[SLIDING] += (new != 0) - (old != 0)
-        if count[SLIDING] == n_blocks:
-            count[GLOBAL] = 1
-        time[k] = clock[ONSET] + (clock[ONSET_ERROR] + clock[ELAPSED] * tau)
-        block[k], new_mode[k], tangential_load[k] = i, new, force[1]
-        intervals[k] = clock[SINCE] * tau
-        clock[SINCE] = 0.0
-        k += 1
-        count[TRANSITIONS] = k
-        if k % stride == 0:
-            c = k // stride
-            for b in range(n_blocks + 2):
-                states[0][c, b] = force[b]
-                states[1][c, b] = velocity[b]
-                states[2][c, b] = mode[b]
+        if remaining <= 0.0:
+            status = FINISHED
+            break
+        # A window: the state is that of its start, and every series has its origin there.
+        last = last_moved(mode)
+        is_long = last > LONG
+        order = long_order if is_long else short_order
+        limit = min(LONG_WINDOW if is_long else SHORT_WINDOW, remaining)
+        for i in range(last + 2):
+            tension_before[i] = tension[i]
+            slip[i] = 0.0
+            origins[i] = 0.0
+        for n in range(order + 1):
+            rate[n, last + 1] = 0.0
+        fastest[last + 1] = 0.0
+        active[0] = 0
+        first, final = 1, last
+        noted = 0.0
+        t = 0.0
+        while True:
+            expand(coupling, mobile, push, first, final, order, tension, rate)
+            powers(limit - t, order, weight)
+            watch(
+                first,
+                final,
+                t,
+                limit - t,
+                order,
+                coupling,
+                strength,
+                mode,
+                tension,
+                rate,
+                weight,
+                fastest,
+                series,
+                level,
+                terms,
+                stage,
+                bound,
+                active,
+            )
+            t, slot = next_transition(
+                limit, order, mode, rate, origins, weight, series, level, terms, stage, bound, active
+            )
+            slip[0] = drive_velocity * t
+            if slot < 0:
+                break
+            i = slot // 2
+            if is_long:
+                distance = distance_reached(limit - t)
+                if i == last and last < n_blocks:
+                    last += 1
+                    fastest[last + 1] = 0.0
+                    slip[last], origins[last], tension_before[last + 1] = 0.0, t, tension[last + 1]
+                    for n in range(order + 1):
+                        rate[n, last] = rate[n, last + 1] = 0.0
+                first, final = max(i - distance, 1), min(i + distance, last)
+                if first > 1:
+                    shift(first - 1, t, order, rate, origins, slip, weight)
+                if final < last:
+                    shift(final + 1, t, order, rate, origins, slip, weight)
+            settle(t, first, final, order, weight, rate, origins, slip)
+            stretch(first, final + 1, coupling, slip, tension_before, tension)
+            old = mode[i]
+            if old == 0:
+                new = 1 - 2 * (slot % 2)
+            else:
+                net = tension[i] - tension[i + 1]
+                new = 0 if abs(net) <= strength[i] else (1 if net > 0.0 else -1)
+            set_mode(i, new, mode, mobile, push, friction, rate)
+            if new != old:
+                sliding += abs(new) - abs(old)
+                if sliding == n_blocks:
+                    count[GLOBAL] = 1
+                if first > 1:
+                    # Block 1 keeps its series and origin; only the load is wanted here.
+                    powers(t - origins[1], order, weight)
+                    way = slip[1]
+                    for n in range(order, -1, -1):
+                        way += weight[n + 1] * rate[n, 1]
+                    tension[1] = tension_before[1] + coupling[1] * (slip[0] - way)
+                time[k] = clock[ONSET] + (clock[ONSET_ERROR] + (clock[ELAPSED] + t) * tau)
+                block[k], new_mode[k], tangential_load[k] = i, new, tension[1]
+                intervals[k] = (clock[SINCE] + (t - noted)) * tau
+                clock[SINCE] = 0.0
+                noted = t
+                k += 1
+            if not is_long or sliding == 0 or k == room:
+                break
+        settle(t, 1, last, order, weight, rate, origins, slip)
+        stretch(1, last + 1, coupling, slip, tension_before, tension)
+        clock[ELAPSED] += t
+        clock[SINCE] += t - noted
+    count[TRANSITIONS] = k
+    count[SLIDING] = sliding
+    velocity[:] = rate[0]
+    velocity[0] = 0.0
+    return status
 
 
-@njit(cache=True, nogil=True)
-def propagate(system, force, velocity, mode, span, rate, load):
+@inner
+def propagate(drive_velocity, coupling, mode, mobile, push, span, tension, rate, slip, origins, weight):
     """Carry a state forward by `span` without a transition."""
-    if not mode[1:-1].any():
-        force[1] += system.coupling[1] * system.drive_velocity * span
+    if not mobile.any():
+        tension[1] += coupling[1] * drive_velocity * span
         return
     last = last_moved(mode)
+    order = order_for(SHORT_WINDOW)
     while span > 0.0:
-        s = min(span, 1.0)
-        expand(system, force, velocity, mode, last, rate, load)
-        move(system, force, velocity, mode, last, rate, s)
+        s = min(span, SHORT_WINDOW)
+        slip[:] = 0.0
+        origins[:] = 0.0
+        slip[0] = drive_velocity * s
+        rate[:, last + 1] = 0.0
+        expand(coupling, mobile, push, 1, last, order, tension, rate)
+        settle(s, 1, last, order, weight, rate, origins, slip)
+        stretch(1, last + 1, coupling, slip, tension.copy(), tension)
         span -= s
 
 
-@njit(cache=True, nogil=True)
-def evaluate(system, sorted_times, time, block, new_mode, intervals, states, stride, force_out, velocity_out):
+@njit(cache=True, nogil=True, error_model="numpy")
+def evaluate(
+    tau,
+    drive_velocity,
+    coupling,
+    strength,
+    friction,
+    sorted_times,
+    time,
+    block,
+    new_mode,
+    intervals,
+    states,
+    tension_out,
+    velocity_out,
+):
     """State at each of `sorted_times` [s], from the stored states and the transitions between them."""
-    n_blocks = system.strength.shape[0] - 2
-    rate = np.zeros((ORDER + 1, n_blocks + 2))
-    load = np.zeros((ORDER + 1, n_blocks + 2))
-    force, velocity, mode = states[0][0].copy(), states[1][0].copy(), states[2][0].copy()
+    state_tension, state_velocity, state_mode, state_after, state_offset = states
+    wide = strength.shape[0]
+    n_blocks = wide - 1 - BEYOND
+    rate = np.zeros((ROWS + 1, wide))
+    velocity, tension = np.zeros(wide), np.zeros(wide)
+    here = np.zeros(wide)
+    slip, origins, weight = np.zeros(wide), np.zeros(wide), np.empty(ROWS + 2)
+    mode, mobile, push = np.zeros(wide, np.int64), np.zeros(wide), np.zeros(wide)
+    row = -1
     done = 0
-    for t in range(sorted_times.shape[0]):
-        target = np.searchsorted(time, sorted_times[t], side="right")
-        if target // stride > done // stride:
-            c = target // stride
-            force[:], velocity[:], mode[:] = states[0][c], states[1][c], states[2][c]
-            done = c * stride
+    offset = 0.0
+    for q in range(sorted_times.shape[0]):
+        now = sorted_times[q]
+        target = np.searchsorted(time, now, side="right")
+        since = now - time[target - 1] if target > 0 else now
+        best = max(row, 0)
+        while best + 1 < state_after.shape[0] and (
+            state_after[best + 1] < target
+            or (state_after[best + 1] == target and state_offset[best + 1] <= since)
+        ):
+            best += 1
+        if best > row and (row < 0 or state_after[best] > done):
+            done, offset = state_after[best], state_offset[best]
+            velocity[:], tension[:], mode[:] = state_velocity[best], state_tension[best], state_mode[best]
+            velocity[0] = drive_velocity
+            for i in range(1, n_blocks + 1):
+                mobile[i] = 1.0 if mode[i] != 0 else 0.0
+                push[i] = mode[i] * friction[i]
+            rate[0] = velocity
+        row = best
         while done < target:
-            propagate(system, force, velocity, mode, intervals[done] / system.tau, rate, load)
-            set_mode(velocity, mode, block[done], new_mode[done])
+            span = (intervals[done] - offset) / tau
+            propagate(
+                drive_velocity, coupling, mode, mobile, push, span, tension, rate, slip, origins, weight
+            )
+            set_mode(block[done], new_mode[done], mode, mobile, push, friction, rate)
+            velocity[:] = rate[0]
             done += 1
-        here, speed = force.copy(), velocity.copy()
-        since = sorted_times[t] - time[done - 1] if done > 0 else sorted_times[t]
-        propagate(system, here, speed, mode, max(since, 0.0) / system.tau, rate, load)
-        force_out[t] = here[1:-1]
-        velocity_out[t] = speed[1:-1]
+            offset = 0.0
+        here[:] = tension
+        span = max(since - offset, 0.0) / tau
+        propagate(drive_velocity, coupling, mode, mobile, push, span, here, rate, slip, origins, weight)
+        tension_out[q] = here[1 : n_blocks + 1]
+        velocity_out[q] = rate[0, 1 : n_blocks + 1]
+        rate[0] = velocity
 
 
-def start_state(system, chain, positions, velocities):
-    """Spring forces, velocities and modes (float, float, int; columns as above) of a chain at time 0.
+def start_state(system: System, chain: Chain, positions: FloatArray, velocities: FloatArray):
+    """Velocities, spring forces and modes at time 0, in the kernel's units and columns.
 
     A block that moves slides; one at rest slides where its springs overcome the static friction (Eq. 5).
     """
-    force = np.zeros(chain.n_blocks + 3)
-    force[1:-2] = chain.springs * -np.diff(positions, prepend=0.0)
-    velocity = np.pad(velocities * (chain.mass / system.tau), 1)
-    net = np.pad(force[1:-2] - force[2:-1], 1)
-    overloaded = np.abs(net) > system.strength
-    mode = np.where(velocity != 0.0, np.sign(velocity), np.where(overloaded, np.sign(net), 0.0)).astype(
-        np.int64
-    )
-    return force, velocity, mode
+    velocity = columns(velocities * (chain.mass / system.tau))
+    force = columns(chain.springs * -np.diff(positions, prepend=0.0))
+    net = force - np.roll(force, -1)
+    overloaded = np.sign(net) * (np.abs(net) > system.strength)
+    overloaded[0] = 0.0
+    mode = np.where(velocity != 0.0, np.sign(velocity), overloaded).astype(np.int64)
+    return velocity, force, mode
 
 
-def to_positions(chain, times, force):
+def to_positions(chain: Chain, times: FloatArray, force: FloatArray) -> FloatArray:
     """Positions [m], shape (T, N), from the spring forces at `times` [s]: x_1 = V t - T_1/K (Eq. 3), ..."""
-    lengths = force / chain.springs
-    return chain.drive_velocity * np.asarray(times)[:, None] - np.cumsum(lengths, axis=1)
+    return chain.drive_velocity * times[:, None] - np.cumsum(force / chain.springs, axis=1)
 
 
-def to_velocities(system, chain, velocity):
-    """Velocities in m/s."""
+def to_velocities(system: System, chain: Chain, velocity: FloatArray) -> FloatArray:
+    """Velocities [m/s] from those of the kernel."""
     return velocity * (system.tau / chain.mass)

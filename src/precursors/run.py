@@ -27,7 +27,9 @@ UNITS = {
     "start_positions": "m",
     "start_velocities": "m/s",
     "force": "N",
-    "velocity": "m/s",
+    "velocity": "N/tau",
+    "after": "1",
+    "offset": "s",
     "weights": "N",
 }
 FORMAT = "precursors run"
@@ -39,12 +41,16 @@ class RunFileError(ValueError):
 
 
 class States(NamedTuple):
-    """Spring forces [N], velocities [N/tau] and modes after every `stride` transitions; row 0 is the start."""
+    """Stored states in the kernel's units and columns; row 0 is the start, before any transition.
+
+    Spring forces [N], velocities [N/tau], modes, the number of transitions before, and the time since the last.
+    """
 
     force: FloatArray
     velocity: FloatArray
     mode: NDArray[np.int64]
-    stride: int
+    after: NDArray[np.int64]
+    offset: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,14 +117,13 @@ class Run:
         shape = (len(when), self.chain.n_blocks)
         force, velocity = np.empty(shape), np.empty(shape)
         kernel.evaluate(
-            system,
+            *system,
             when[order],
             np.ascontiguousarray(self.transitions["time"]),
             self.transitions["block"].astype(np.int64),
             self.transitions["mode"].astype(np.int64),
             self.intervals,
-            tuple(self.states[:3]),
-            self.states.stride,
+            tuple(self.states),
             force,
             velocity,
         )
@@ -152,9 +157,7 @@ class Run:
                 file.attrs[field.name] = getattr(self.chain, field.name)
             for name, values in content.items():
                 data = file.create_dataset(name, data=values, compression="gzip", shuffle=True)
-                unit = UNITS.get(name.split("/")[-1])
-                data.attrs["unit"] = "N/tau" if name == "states/velocity" else unit
-            file["states"].attrs["stride"] = self.states.stride
+                data.attrs["unit"] = UNITS[name.split("/")[-1]]
             file.attrs["sha256"] = _digest(file)
 
     def _content(self) -> dict[str, NDArray]:
@@ -165,9 +168,7 @@ class Run:
             "start_velocities": self.start_velocities,
             "intervals": self.intervals,
             **columns,
-            "states/force": self.states.force,
-            "states/velocity": self.states.velocity,
-            "states/mode": self.states.mode.astype(np.int8),
+            **{f"states/{name}": values for name, values in self.states._asdict().items()},
         }
 
     @classmethod
@@ -213,12 +214,7 @@ class Run:
             intervals=file["intervals"][()],
             start_positions=file["start_positions"][()],
             start_velocities=file["start_velocities"][()],
-            states=States(
-                file["states/force"][()],
-                file["states/velocity"][()],
-                file["states/mode"][()].astype(np.int64),
-                int(file["states"].attrs["stride"]),
-            ),
+            states=States(*(file[f"states/{name}"][()] for name in States._fields)),
         )
 
 
