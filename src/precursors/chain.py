@@ -83,7 +83,7 @@ class Chain:
         n_blocks : int
             Number N of blocks, at least 1.
         theta : float or str
-            Degree of non-uniformity of the normal loading, -1 <= theta <= 1; a fraction such as "5/6" is read.
+            Degree of non-uniformity of the normal loading, -1 <= theta <= 1; a fraction as "5/6" is read.
         normal_load : float
             Total normal load F_Z [N].
         mu_s, mu_k : float

@@ -43,7 +43,8 @@ NEGLIGIBLE = 1e-19
 # Chains whose moving part is longer than LONG blocks renew neighbourhoods only, in windows of LONG_WINDOW.
 LONG = 24
 SHORT_WINDOW, LONG_WINDOW = 1.0, 0.5
-# A value below so many roundings of the forces it was computed from counts as zero.
+# A value below so many roundings of the forces it was computed from counts as zero. Where transitions follow one
+# another without time going on, rounding decides in a circle: the doubt grows until it does not.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
 
 FINISHED, GLOBAL_SLIP, PAUSED = 0, 1, 2
@@ -305,10 +306,11 @@ def watch(
     stage,
     bound,
     active,
+    doubt,
 ):
     """Bound the next transition of blocks first..last from below, as times in the window.
 
-    Slot 2 i watches the velocity of block i while it slides, or its margin against letting go forward while it
+    `doubt` is the relative size below which a value counts as zero. Slot 2 i watches the velocity of block i while it slides, or its margin against letting go forward while it
     sticks; slot 2 i + 1 its margin against letting go backward. `fastest` bounds the speeds in the window.
     active[1:active[0] + 1] are the slots that may have a root.
     """
@@ -340,7 +342,7 @@ def watch(
         fastest[i] = total
         if c0 + min(c1, 0.0) + min(c2, 0.0) + min(c3, 0.0) > rest:
             continue
-        zero = ROUNDINGS * (tension[i] + tension[i + 1] + total)
+        zero = doubt * (2.0 * (abs(tension[i]) + abs(tension[i + 1]) + strength[i]) + total)
         level[slot, ORIGIN], level[slot, SPAN], level[slot, ZERO] = origin, span, zero
         if c0 > zero:
             stage[slot] = ROUGH
@@ -366,7 +368,7 @@ def watch(
                 continue
             slot = 2 * i if side == 1 else 2 * i + 1
             level[slot, ORIGIN], level[slot, SPAN] = origin, span
-            level[slot, ZERO] = ROUNDINGS * (abs(tension[i]) + abs(tension[i + 1]) + strength[i] + change)
+            level[slot, ZERO] = doubt * (abs(tension[i]) + abs(tension[i + 1]) + strength[i] + change)
             series[slot, 0] = margin
             for n in range(1, order + 1):
                 growth = coupling[i] * rate[n - 1, i - 1] + coupling[i + 1] * rate[n - 1, i + 1]
@@ -484,6 +486,18 @@ def set_mode(i, new, mode, mobile, push, friction, rate):
 
 
 @inner
+def resting_mode(i, tension, strength, doubt):
+    """Mode of a block whose velocity is zero: it sticks within the strength, to rounding, or follows the force.
+
+    A block that sticks at the limit lets go at once where its force grows: its margin decides, not a rounding.
+    """
+    net = tension[i] - tension[i + 1]
+    if abs(net) <= strength[i] + doubt * (abs(tension[i]) + abs(tension[i + 1]) + strength[i]):
+        return 0
+    return 1 if net > 0.0 else -1
+
+
+@inner
 def start_clock(clock, wait, tau):
     """Start a new event `wait` after the end of the last; the onset is carried in two doubles."""
     add = (clock[ELAPSED] + wait) * tau + clock[ONSET_ERROR]
@@ -552,6 +566,8 @@ def run_events(
     k = count[TRANSITIONS]
     sliding = count[SLIDING]
     status = PAUSED
+    idle = 0
+    doubt = ROUNDINGS
     while k < room and budget > 0 and count[STORED] < state_after.shape[0]:
         budget -= 1
         if k >= stride * count[STORED]:
@@ -625,11 +641,14 @@ def run_events(
                 stage,
                 bound,
                 active,
+                doubt,
             )
             t, slot = next_transition(
                 limit, order, mode, rate, origins, weight, series, level, terms, stage, bound, active
             )
             slip[0] = drive_velocity * t
+            idle = idle + 1 if t == noted else 0
+            doubt = ROUNDINGS * 2.0 ** (idle // (4 * n_blocks))
             if slot < 0:
                 break
             i = slot // 2
@@ -652,8 +671,7 @@ def run_events(
             if old == 0:
                 new = 1 - 2 * (slot % 2)
             else:
-                net = tension[i] - tension[i + 1]
-                new = 0 if abs(net) <= strength[i] else (1 if net > 0.0 else -1)
+                new = resting_mode(i, tension, strength, doubt)
             set_mode(i, new, mode, mobile, push, friction, rate)
             if new != old:
                 sliding += abs(new) - abs(old)
@@ -774,13 +792,14 @@ def start_state(system: System, chain: Chain, positions: FloatArray, velocities:
 
     A block that moves slides; one at rest slides where its springs overcome the static friction (Eq. 5).
     """
-    velocity = columns(velocities * (chain.mass / system.tau))
-    force = columns(chain.springs * -np.diff(positions, prepend=0.0))
-    net = force - np.roll(force, -1)
-    overloaded = np.sign(net) * (np.abs(net) > system.strength)
-    overloaded[0] = 0.0
-    mode = np.where(velocity != 0.0, np.sign(velocity), overloaded).astype(np.int64)
-    return velocity, force, mode
+    tension = -chain.springs * np.diff(positions, prepend=0.0)
+    net = tension - np.append(tension[1:], 0.0)
+    # A position of size x is known to its rounding: a block at its limit to within that still sticks.
+    doubt = ROUNDINGS * (chain.strength + 4.0 * np.max(chain.springs) * np.max(np.abs(positions)))
+    resting = np.sign(net) * (np.abs(net) > chain.strength + doubt)
+    mode = np.where(velocities != 0.0, np.sign(velocities), resting).astype(np.int64)
+    velocity = velocities * (chain.mass / system.tau)
+    return columns(velocity), columns(tension), columns(mode)
 
 
 def to_positions(chain: Chain, times: FloatArray, force: FloatArray) -> FloatArray:

@@ -6,7 +6,9 @@ import hashlib
 import json
 from dataclasses import dataclass, fields
 from importlib.metadata import version
+from io import BytesIO
 from os import PathLike
+from pathlib import Path
 from typing import NamedTuple
 
 import h5py
@@ -32,8 +34,8 @@ UNITS = {
     "offset": "s",
     "weights": "N",
 }
-FORMAT = "precursors run"
-FORMAT_VERSION = 1
+FORMAT = "precursors run 1"
+SEAL_SIZE = 512
 
 
 class RunFileError(ValueError):
@@ -43,7 +45,7 @@ class RunFileError(ValueError):
 class States(NamedTuple):
     """Stored states in the kernel's units and columns; row 0 is the start, before any transition.
 
-    Spring forces [N], velocities [N/tau], modes, the number of transitions before, and the time since the last.
+    Spring forces [N], velocities [N/tau], modes, the number of transitions before, and the time since [s].
     """
 
     force: FloatArray
@@ -66,8 +68,8 @@ class Run:
     transitions : structured array
         time [s], block (1..N), mode (+1 slides forward, 0 sticks, -1 slides backward), tangential_load [N].
     intervals : array, shape (n_transitions + 1,)
-        Time from the start to the first transition, between transitions, and from the last one to the end [s];
-        it resolves what a difference of two absolute times cannot.
+        Time [s] from the start to the first transition, between transitions, and from the last one to the
+        end; it resolves what a difference of two absolute times cannot.
     start_positions, start_velocities : array, shape (N,)
         State at time 0 [m], [m/s].
     states : States
@@ -107,7 +109,7 @@ class Run:
         outside = ~((when >= 0.0) & (when <= self.duration))
         if outside.any():
             raise ValueError(
-                f"times: {when[outside][0]!r} s lies outside the run: allowed is 0 <= t <= {self.duration:g} s"
+                f"times: {when[outside][0]} s lies outside the run: allowed is 0 <= t <= {self.duration:g} s"
             )
         return when
 
@@ -146,19 +148,19 @@ class Run:
             If the file cannot be written.
         """
         content = self._content()
-        with write_atomically(path) as temporary, h5py.File(temporary, "w") as file:
-            file.attrs["format"] = FORMAT
-            file.attrs["format_version"] = FORMAT_VERSION
-            file.attrs["precursors"] = version("precursors")
-            file.attrs["numpy"], file.attrs["numba"] = np.__version__, version("numba")
-            file.attrs["configuration"] = json.dumps(configuration or {}, sort_keys=True)
-            file.attrs["duration"], file.attrs["duration_unit"] = self.duration, "s"
-            for field in fields(Chain)[1:]:
-                file.attrs[field.name] = getattr(self.chain, field.name)
-            for name, values in content.items():
-                data = file.create_dataset(name, data=values, compression="gzip", shuffle=True)
-                data.attrs["unit"] = UNITS[name.split("/")[-1]]
-            file.attrs["sha256"] = _digest(file)
+        with write_atomically(path) as temporary:
+            with h5py.File(temporary, "w", userblock_size=SEAL_SIZE) as file:
+                file.attrs["format"] = FORMAT
+                file.attrs["precursors"] = version("precursors")
+                file.attrs["numpy"], file.attrs["numba"] = np.__version__, version("numba")
+                file.attrs["configuration"] = json.dumps(configuration or {}, sort_keys=True)
+                file.attrs["duration"], file.attrs["duration_unit"] = self.duration, "s"
+                for field in fields(Chain)[1:]:
+                    file.attrs[field.name] = getattr(self.chain, field.name)
+                for name, values in content.items():
+                    data = file.create_dataset(name, data=values, compression="gzip", shuffle=True)
+                    data.attrs["unit"] = UNITS[name.split("/")[-1]]
+            _seal(temporary)
 
     def _content(self) -> dict[str, NDArray]:
         columns = {f"transitions/{name}": self.transitions[name] for name in TRANSITION.names or ()}
@@ -183,26 +185,19 @@ class Run:
             If the file is not a whole run of this format.
         """
         try:
-            with h5py.File(path, "r") as file:
-                return cls._read(file)
+            content = Path(path).read_bytes()
         except FileNotFoundError:
             raise FileNotFoundError(f"{path}: no such file") from None
-        except RunFileError as error:
-            raise RunFileError(f"{path}: {error}") from None
-        except (OSError, KeyError, ValueError, TypeError, RuntimeError) as error:
-            reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-            raise RunFileError(
-                f"{path}: not a whole run file ({reason}): allowed is a file of Run.save"
-            ) from None
+        seal = content[:SEAL_SIZE].rstrip(b"\0").decode("ascii", "replace").split("\n")
+        if seal[0] != FORMAT:
+            raise RunFileError(f'{path}: not a run file: allowed is a file that begins with "{FORMAT}"')
+        if seal[1:] != [_digest(content)]:
+            raise RunFileError(f"{path}: damaged: its contents do not match the checksum it begins with")
+        with h5py.File(BytesIO(content), "r") as file:
+            return cls._read(file)
 
     @classmethod
     def _read(cls, file: h5py.File) -> Run:
-        if file.attrs.get("format") != FORMAT:
-            raise RunFileError(f'format is {file.attrs.get("format")!r}: allowed is "{FORMAT}"')
-        if file.attrs["format_version"] != FORMAT_VERSION:
-            raise RunFileError(f"format version {file.attrs['format_version']}: allowed is {FORMAT_VERSION}")
-        if file.attrs["sha256"] != _digest(file):
-            raise RunFileError("contents do not match their checksum: the file is damaged")
         transitions = np.empty(len(file["transitions/time"]), dtype=TRANSITION)
         for name in TRANSITION.names or ():
             transitions[name] = file[f"transitions/{name}"][()]
@@ -218,18 +213,13 @@ class Run:
         )
 
 
-def _digest(file: h5py.File) -> str:
-    """SHA-256 of every dataset and attribute but the digest itself."""
-    digest = hashlib.sha256()
+def _seal(path: Path) -> None:
+    """Write format and checksum before the HDF5 data, so that no damaged file reaches the HDF5 library."""
+    digest = _digest(path.read_bytes())
+    with path.open("r+b") as file:
+        file.write(f"{FORMAT}\n{digest}".encode())
 
-    def add(name: str, item: h5py.Group | h5py.Dataset) -> None:
-        for key in sorted(item.attrs):
-            if key != "sha256":
-                digest.update(f"{name}@{key}={np.asarray(item.attrs[key]).tolist()!r}".encode())
-        if isinstance(item, h5py.Dataset):
-            digest.update(f"{name}:{item.dtype.str}{item.shape}".encode())
-            digest.update(np.ascontiguousarray(item[()]).tobytes())
 
-    add("/", file)
-    file.visititems(add)
-    return digest.hexdigest()
+def _digest(content: bytes) -> str:
+    """SHA-256 of a run file without its seal."""
+    return hashlib.sha256(content[SEAL_SIZE:]).hexdigest()

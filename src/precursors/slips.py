@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import pandas as pd
 
@@ -83,6 +85,85 @@ def first_global(slips: pd.DataFrame) -> int:
     if not slips["is_global"].any():
         raise ValueError("the slips hold no global slip: run the chain for a longer duration")
     return int(np.argmax(slips["is_global"].to_numpy()))
+
+
+@dataclass(frozen=True)
+class Definition:
+    """A reading of mu_sapp (Eq. 1), which the paper leaves open.
+
+    Attributes
+    ----------
+    text : str
+        The reading as a sentence.
+    at_once : bool
+        Whether a global slip wants all blocks to slide at the same instant, or each at some time of the event.
+    largest : bool
+        Whether the load is the largest up to the first global slip, or that at its onset.
+    """
+
+    text: str
+    at_once: bool
+    largest: bool
+
+
+# The first is the reading that gives the paper's numbers.
+DEFINITIONS = (
+    Definition("largest F_X up to the first event in which all blocks slide at the same instant", True, True),
+    Definition(
+        "F_X at the onset of the first event in which all blocks slide at the same instant", True, False
+    ),
+    Definition("largest F_X up to the first event in which every block slides at some time", False, True),
+    Definition("F_X at the onset of the first event in which every block slides at some time", False, False),
+)
+
+
+@dataclass(frozen=True)
+class ApparentFriction:
+    """mu_sapp and the event that sets it.
+
+    Attributes
+    ----------
+    mu_sapp : float
+        F_X / F_Z [1].
+    load : float
+        F_X [N].
+    time : float
+        When F_X had this value [s].
+    event : int
+        Number of the event that begins then, or that it lies in, from 1.
+    events_kept : int
+        Events of Fig. 13 up to and including the first global slip of this definition.
+    """
+
+    mu_sapp: float
+    load: float
+    time: float
+    event: int
+    events_kept: int
+
+
+def apparent_friction(
+    run: Run, slips: pd.DataFrame, definition: Definition = DEFINITIONS[0]
+) -> ApparentFriction | None:
+    """Apparent static friction coefficient F_Xmax / F_Z of a run (Eq. 1); None without a global slip.
+
+    F_X is largest where the drive is as fast as block 1, which is a transition to within V: the largest of the
+    transitions' loads is taken.
+    """
+    if not definition.at_once:
+        slips = slips.assign(is_global=slips["n_slid"] == run.chain.n_blocks)
+    if not slips["is_global"].any():
+        return None
+    onset = float(slips["onset"].iloc[first_global(slips)])
+    up_to = run.transitions[run.transitions["time"] <= onset]
+    peak = up_to[np.argmax(up_to["tangential_load"])] if definition.largest else up_to[-1]
+    return ApparentFriction(
+        mu_sapp=float(peak["tangential_load"]) / run.chain.normal_load,
+        load=float(peak["tangential_load"]),
+        time=float(peak["time"]),
+        event=int(np.searchsorted(slips["onset"], peak["time"], side="right")),
+        events_kept=len(find_precursors(slips)),
+    )
 
 
 def _change_of_state(block: np.ndarray, sliding: np.ndarray, n_blocks: int) -> np.ndarray:

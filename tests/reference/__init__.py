@@ -1,0 +1,16 @@
+"""The paper's chain to more than 40 digits, sharing no code with the solver, and the golden data from it."""
+
+from .chain_reference import ReferenceChain, Transition, as_array, interval_lengths, reference
+from .goldens import HeldOut, read_golden, read_held_out, write_goldens
+
+__all__ = [
+    "HeldOut",
+    "ReferenceChain",
+    "Transition",
+    "as_array",
+    "interval_lengths",
+    "read_golden",
+    "read_held_out",
+    "reference",
+    "write_goldens",
+]
