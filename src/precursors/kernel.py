@@ -30,15 +30,17 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+from numba import int64, njit
 
 from precursors.chain import Chain, FloatArray
 
 REACH = 2.0
 # Rows of the Taylor arrays; the series of a window of length r is cut where (REACH r)^n / n! < NEGLIGIBLE.
 ROWS = 30
-# Columns beyond block N: the free end, and room to work on four blocks at once.
-BEYOND = 4
+# Blocks are worked on four at a time, so that loops are short and foreseeable.
+WIDTH = 4
+# Columns beyond block N: the free end, and room for up to three blocks that are not there.
+BEYOND = WIDTH
 NEGLIGIBLE = 1e-19
 # Chains whose moving part is longer than LONG blocks renew neighbourhoods only, in windows of LONG_WINDOW.
 LONG = 24
@@ -67,10 +69,11 @@ REACH_POWER = REACH ** np.arange(ROWS + 1.0)
 
 
 # Products may be fused with sums; nothing else is left to the compiler but where a bound may be summed in any order.
-inner = njit(cache=True, error_model="numpy", no_cpython_wrapper=True, fastmath={"contract"})
-inner_reassociating = njit(
-    cache=True, error_model="numpy", no_cpython_wrapper=True, fastmath={"contract", "reassoc"}
-)
+# An index that starts from a literal is typed, as every function it goes to would be compiled for the literal anew.
+INDEX = {"first": int64, "slot": int64}
+inner = njit(cache=True, error_model="numpy", fastmath={"contract"}, locals=INDEX)
+inner_reassociating = njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
+outer = njit(cache=True, error_model="numpy", nogil=True, locals=INDEX)
 
 
 class System(NamedTuple):
@@ -103,26 +106,32 @@ def columns(values: FloatArray) -> FloatArray:
 
 
 @inner
-def expand(coupling, mobile, push, first, last, order, tension, rate):
-    """Taylor series of the velocities of blocks first..last from their row 0 (derivatives, rows 1..order).
+def expand(coupling, mobile, push, first, final, order, tension, rate):
+    """Taylor series of the velocities of blocks first..final from their row 0 (derivatives, rows 1..order).
 
     This is the chain's linear operator: whatever else acts linearly between transitions belongs here.
-    `mobile` is 1 where a block slides and `push` its kinetic friction with the sign of its mode; `tension` holds
-    the spring forces. Columns first - 1 and last + 1 hold the motion of the neighbours outside.
+    `mobile` is 1 where a block slides and `push` its kinetic friction with the sign of its mode; `tension`
+    holds the spring forces. Columns first - 1 and final + 1 hold the motion of the neighbours outside.
     """
     behind = tension[first]
-    for i in range(first, last + 1):
+    for i in range(first, final + 1):
         ahead = tension[i + 1]
         rate[1, i] = mobile[i] * (behind - ahead) - push[i]
         behind = ahead
     for n in range(2, order + 1):
         v = rate[n - 2, first]
         behind = coupling[first] * (rate[n - 2, first - 1] - v)
-        for i in range(first, last + 1):
-            v_ahead = rate[n - 2, i + 1]
-            ahead = coupling[i + 1] * (v - v_ahead)
-            rate[n, i] = mobile[i] * (behind - ahead)
-            v, behind = v_ahead, ahead
+        for i in range(first, final, WIDTH):
+            v1, v2, v3, v4 = rate[n - 2, i + 1], rate[n - 2, i + 2], rate[n - 2, i + 3], rate[n - 2, i + 4]
+            f1 = coupling[i + 1] * (v - v1)
+            f2 = coupling[i + 2] * (v1 - v2)
+            f3 = coupling[i + 3] * (v2 - v3)
+            f4 = coupling[i + 4] * (v3 - v4)
+            rate[n, i] = mobile[i] * (behind - f1)
+            rate[n, i + 1] = mobile[i + 1] * (f1 - f2)
+            rate[n, i + 2] = mobile[i + 2] * (f2 - f3)
+            rate[n, i + 3] = mobile[i + 3] * (f3 - f4)
+            v, behind = v4, f4
 
 
 @inner
@@ -140,8 +149,11 @@ def powers(s, order, weight):
 
 
 @inner
-def move_four(i, count, order, weight, rate, slip):
-    """`move` for up to four blocks from i on: eight independent sums keep the processor busy."""
+def move(i, order, weight, rate, slip):
+    """Carry blocks i..i + 3 along their series to the time of `weight`: velocity in row 0, slip added up.
+
+    Eight independent sums keep the processor busy.
+    """
     v0 = v1 = v2 = v3 = 0.0
     x0 = x1 = x2 = x3 = 0.0
     ahead = weight[order + 1]
@@ -157,17 +169,11 @@ def move_four(i, count, order, weight, rate, slip):
         x2 += ahead * c2
         x3 += ahead * c3
         ahead = w
-    rate[0, i] = v0
+    rate[0, i], rate[0, i + 1], rate[0, i + 2], rate[0, i + 3] = v0, v1, v2, v3
     slip[i] += x0
-    if count > 1:
-        rate[0, i + 1] = v1
-        slip[i + 1] += x1
-    if count > 2:
-        rate[0, i + 2] = v2
-        slip[i + 2] += x2
-    if count > 3:
-        rate[0, i + 3] = v3
-        slip[i + 3] += x3
+    slip[i + 1] += x1
+    slip[i + 2] += x2
+    slip[i + 3] += x3
 
 
 @inner
@@ -289,6 +295,7 @@ def refine(slot, t, series, level, terms, stage):
 @inner
 def watch(
     first,
+    final,
     last,
     origin,
     span,
@@ -316,10 +323,10 @@ def watch(
     """
     kept = 0
     for k in range(1, active[0] + 1):
-        if active[k] < 2 * first or active[k] > 2 * last + 1:
+        if active[k] < 2 * first or active[k] > 2 * final + 1:
             kept += 1
             active[kept] = active[k]
-    tail = tail_bound(first, last, order, span, rate)
+    tail = tail_bound(first, final, order, span, rate)
     w1, w2, w3, w4, w5, w6, w7 = weight[1], weight[2], weight[3], weight[4], weight[5], weight[6], weight[7]
     for i in range(first, last + 1):
         slot = 2 * i
@@ -381,8 +388,13 @@ def watch(
 
 
 @inner
-def next_transition(limit, order, mode, rate, origins, weight, series, level, terms, stage, bound, active):
-    """Earliest root of all watched functions: (time in the window, slot), or (limit, -1) where there is none."""
+def next_transition(
+    limit, order, mode, rate, origins, origin, weight, room, series, level, terms, stage, bound, active
+):
+    """Earliest root of all watched functions: (time in the window, slot), or (limit, -1) where there is none.
+
+    `weight` holds the powers of limit - origin; `room` is for those of other origins.
+    """
     while True:
         slot, t = -1, limit
         for k in range(1, active[0] + 1):
@@ -392,55 +404,69 @@ def next_transition(limit, order, mode, rate, origins, weight, series, level, te
             return t, slot
         if stage[slot] == ROUGH:
             i = slot // 2
-            level[slot, ORIGIN] = origins[i]
-            span = level[slot, SPAN] = limit - origins[i]
-            enough = powers(span, order, weight)
-            for n in range(enough + 1):
-                series[slot, n] = mode[i] * rate[n, i] * weight[n]
-            bound[slot] = max(bound[slot], examine(slot, enough + 1, series, level, terms, stage))
+            span = limit - origins[i]
+            level[slot, ORIGIN], level[slot, SPAN] = origins[i], span
+            if origins[i] == origin:
+                for n in range(order + 1):
+                    series[slot, n] = mode[i] * rate[n, i] * weight[n]
+            else:
+                powers(span, order, room)
+                for n in range(order + 1):
+                    series[slot, n] = mode[i] * rate[n, i] * room[n]
+            bound[slot] = max(bound[slot], examine(slot, order + 1, series, level, terms, stage))
         else:
             bound[slot] = refine(slot, t, series, level, terms, stage)
 
 
 @inner
-def shift(i, t, order, rate, origins, slip, weight):
-    """Move the origin of block i's series to time t of the window."""
+def lend(i, t, order, rate, origins, slip, weight, column):
+    """Move the origin of block i's series to time t of the window; `column` keeps what `give_back` restores."""
+    for n in range(order + 1):
+        column[n] = rate[n, i]
+    column[ROWS + 1] = slip[i]
     s = t - origins[i]
-    origins[i] = t
     if s == 0.0:
         return
     powers(s, order, weight)
-    way = 0.0
-    for n in range(order, -1, -1):
-        way += weight[n + 1] * rate[n, i]
-    slip[i] += way
-    for n in range(order):
-        # The n-th derivative at t from the higher ones, which are still those at the old origin.
-        total = rate[n, i]
+    for n in range(order + 1):
+        slip[i] += weight[n + 1] * column[n]
+        total = column[n]
         for m in range(1, order + 1 - n):
-            total += weight[m] * rate[n + m, i]
+            total += weight[m] * column[n + m]
         rate[n, i] = total
 
 
 @inner
-def settle(t, first, last, order, weight, rate, origins, slip):
-    """Bring blocks first..last, each from its own origin, to time t of the window: state in row 0."""
+def give_back(i, order, rate, slip, column):
+    """Undo `lend`."""
+    for n in range(order + 1):
+        rate[n, i] = column[n]
+    slip[i] = column[ROWS + 1]
+
+
+@inner
+def settle(t, first, final, order, weight, rate, origins, slip):
+    """Bring blocks first..final, four by four from their own origin, to time t of the window: state in row 0."""
     at = 0.0
     enough = order
-    i = first
-    while i <= last:
+    for i in range(first, final, WIDTH):
         s = t - origins[i]
-        if s != 0.0 and s != at:
-            enough = powers(s, order, weight)
-            at = s
-        count = 1
-        while count < 4 and i + count <= last and origins[i + count] == origins[i]:
-            count += 1
         if s != 0.0:
-            move_four(i, count, enough, weight, rate, slip)
-        for j in range(i, i + count):
-            origins[j] = t
-        i += count
+            if s != at:
+                enough = powers(s, order, weight)
+                at = s
+            move(i, enough, weight, rate, slip)
+            origins[i] = origins[i + 1] = origins[i + 2] = origins[i + 3] = t
+
+
+@inner
+def load_at(t, order, coupling, tension_before, rate, origins, slip, weight):
+    """Tangential load at time t of the window, block 1 keeping its series and origin."""
+    powers(t - origins[1], order, weight)
+    way = slip[1]
+    for n in range(order, -1, -1):
+        way += weight[n + 1] * rate[n, 1]
+    return tension_before[1] + coupling[1] * (slip[0] - way)
 
 
 @inner
@@ -508,7 +534,7 @@ def start_clock(clock, wait, tau):
     clock[SINCE] += wait
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@outer
 def run_events(
     tau,
     drive_velocity,
@@ -554,12 +580,13 @@ def run_events(
     bound = np.empty(2 * wide)
     active = np.zeros(2 * wide + 1, np.int64)
     fastest = np.zeros(wide)
+    behind, ahead, spare = np.empty(ROWS + 2), np.empty(ROWS + 2), np.empty(ROWS + 2)
     fastest[0] = drive_velocity
-    rate[0] = velocity
-    rate[0, 0] = drive_velocity
     for i in range(1, n_blocks + 1):
+        rate[0, i] = velocity[i]
         mobile[i] = 1.0 if mode[i] != 0 else 0.0
         push[i] = mode[i] * friction[i]
+    rate[0, 0] = drive_velocity
     loading_rate = coupling[1] * drive_velocity
     short_order, long_order = order_for(SHORT_WINDOW), order_for(LONG_WINDOW)
     room = time.shape[0]
@@ -605,18 +632,18 @@ def run_events(
             break
         # A window: the state is that of its start, and every series has its origin there.
         last = last_moved(mode)
+        end = WIDTH * ((last + WIDTH - 1) // WIDTH)
         is_long = last > LONG
         order = long_order if is_long else short_order
         limit = min(LONG_WINDOW if is_long else SHORT_WINDOW, remaining)
-        for i in range(last + 2):
+        for i in range(end + 2):
             tension_before[i] = tension[i]
-            slip[i] = 0.0
-            origins[i] = 0.0
+            slip[i] = origins[i] = 0.0
         for n in range(order + 1):
-            rate[n, last + 1] = 0.0
-        fastest[last + 1] = 0.0
+            rate[n, end + 1] = 0.0
+        fastest[end + 1] = 0.0
         active[0] = 0
-        first, final = 1, last
+        first, final = 1, end
         noted = 0.0
         t = 0.0
         while True:
@@ -625,6 +652,7 @@ def run_events(
             watch(
                 first,
                 final,
+                min(final, last),
                 t,
                 limit - t,
                 order,
@@ -643,8 +671,12 @@ def run_events(
                 active,
                 doubt,
             )
+            if first > 1:
+                give_back(first - 1, order, rate, slip, behind)
+            if final < end:
+                give_back(final + 1, order, rate, slip, ahead)
             t, slot = next_transition(
-                limit, order, mode, rate, origins, weight, series, level, terms, stage, bound, active
+                limit, order, mode, rate, origins, t, weight, spare, series, level, terms, stage, bound, active
             )
             slip[0] = drive_velocity * t
             idle = idle + 1 if t == noted else 0
@@ -653,53 +685,58 @@ def run_events(
                 break
             i = slot // 2
             if is_long:
-                distance = distance_reached(limit - t)
                 if i == last and last < n_blocks:
                     last += 1
-                    fastest[last + 1] = 0.0
-                    slip[last], origins[last], tension_before[last + 1] = 0.0, t, tension[last + 1]
-                    for n in range(order + 1):
-                        rate[n, last] = rate[n, last + 1] = 0.0
-                first, final = max(i - distance, 1), min(i + distance, last)
+                    if last > end:
+                        for n in range(order + 1):
+                            for j in range(end + 1, end + WIDTH + 2):
+                                rate[n, j] = 0.0
+                        for j in range(end + 1, end + WIDTH + 2):
+                            slip[j], origins[j], tension_before[j], fastest[j] = 0.0, t, tension[j], 0.0
+                        end += WIDTH
+                distance = distance_reached(limit - t)
+                first = WIDTH * ((max(i - distance, 1) - 1) // WIDTH) + 1
+                final = min(WIDTH * ((i + distance + WIDTH - 1) // WIDTH), end)
                 if first > 1:
-                    shift(first - 1, t, order, rate, origins, slip, weight)
-                if final < last:
-                    shift(final + 1, t, order, rate, origins, slip, weight)
+                    lend(first - 1, t, order, rate, origins, slip, weight, behind)
+                if final < end:
+                    lend(final + 1, t, order, rate, origins, slip, weight, ahead)
             settle(t, first, final, order, weight, rate, origins, slip)
             stretch(first, final + 1, coupling, slip, tension_before, tension)
             old = mode[i]
-            if old == 0:
-                new = 1 - 2 * (slot % 2)
-            else:
-                new = resting_mode(i, tension, strength, doubt)
+            new = resting_mode(i, tension, strength, doubt) if old != 0 else 1 - 2 * (slot % 2)
             set_mode(i, new, mode, mobile, push, friction, rate)
             if new != old:
                 sliding += abs(new) - abs(old)
                 if sliding == n_blocks:
                     count[GLOBAL] = 1
+                load = tension[1]
                 if first > 1:
-                    # Block 1 keeps its series and origin; only the load is wanted here.
-                    powers(t - origins[1], order, weight)
-                    way = slip[1]
-                    for n in range(order, -1, -1):
-                        way += weight[n + 1] * rate[n, 1]
-                    tension[1] = tension_before[1] + coupling[1] * (slip[0] - way)
+                    load = load_at(t, order, coupling, tension_before, rate, origins, slip, weight)
                 time[k] = clock[ONSET] + (clock[ONSET_ERROR] + (clock[ELAPSED] + t) * tau)
-                block[k], new_mode[k], tangential_load[k] = i, new, tension[1]
+                block[k], new_mode[k], tangential_load[k] = i, new, load
                 intervals[k] = (clock[SINCE] + (t - noted)) * tau
                 clock[SINCE] = 0.0
                 noted = t
                 k += 1
-            if not is_long or sliding == 0 or k == room:
+            if not is_long:
                 break
-        settle(t, 1, last, order, weight, rate, origins, slip)
-        stretch(1, last + 1, coupling, slip, tension_before, tension)
+            if sliding == 0 or k == room:
+                if first > 1:
+                    give_back(first - 1, order, rate, slip, behind)
+                if final < end:
+                    give_back(final + 1, order, rate, slip, ahead)
+                break
+        if is_long or slot < 0:
+            first = 1
+            settle(t, first, end, order, weight, rate, origins, slip)
+            stretch(first, end + 1, coupling, slip, tension_before, tension)
         clock[ELAPSED] += t
         clock[SINCE] += t - noted
     count[TRANSITIONS] = k
     count[SLIDING] = sliding
-    velocity[:] = rate[0]
-    velocity[0] = 0.0
+    for i in range(1, n_blocks + 1):
+        velocity[i] = rate[0, i]
     return status
 
 
@@ -709,21 +746,22 @@ def propagate(drive_velocity, coupling, mode, mobile, push, span, tension, rate,
     if not mobile.any():
         tension[1] += coupling[1] * drive_velocity * span
         return
-    last = last_moved(mode)
+    first, end = 1, WIDTH * ((last_moved(mode) + WIDTH - 1) // WIDTH)
     order = order_for(SHORT_WINDOW)
     while span > 0.0:
         s = min(span, SHORT_WINDOW)
-        slip[:] = 0.0
-        origins[:] = 0.0
+        slip.fill(0.0)
+        origins.fill(0.0)
         slip[0] = drive_velocity * s
-        rate[:, last + 1] = 0.0
-        expand(coupling, mobile, push, 1, last, order, tension, rate)
-        settle(s, 1, last, order, weight, rate, origins, slip)
-        stretch(1, last + 1, coupling, slip, tension.copy(), tension)
+        for n in range(order + 1):
+            rate[n, end + 1] = 0.0
+        expand(coupling, mobile, push, first, end, order, tension, rate)
+        settle(s, first, end, order, weight, rate, origins, slip)
+        stretch(first, end + 1, coupling, slip, tension.copy(), tension)
         span -= s
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@outer
 def evaluate(
     tau,
     drive_velocity,
@@ -763,12 +801,13 @@ def evaluate(
             best += 1
         if best > row and (row < 0 or state_after[best] > done):
             done, offset = state_after[best], state_offset[best]
-            velocity[:], tension[:], mode[:] = state_velocity[best], state_tension[best], state_mode[best]
-            velocity[0] = drive_velocity
             for i in range(1, n_blocks + 1):
+                velocity[i], tension[i] = state_velocity[best, i], state_tension[best, i]
+                rate[0, i] = velocity[i]
+                mode[i] = state_mode[best, i]
                 mobile[i] = 1.0 if mode[i] != 0 else 0.0
                 push[i] = mode[i] * friction[i]
-            rate[0] = velocity
+            rate[0, 0] = drive_velocity
         row = best
         while done < target:
             span = (intervals[done] - offset) / tau
@@ -776,15 +815,17 @@ def evaluate(
                 drive_velocity, coupling, mode, mobile, push, span, tension, rate, slip, origins, weight
             )
             set_mode(block[done], new_mode[done], mode, mobile, push, friction, rate)
-            velocity[:] = rate[0]
+            for i in range(1, n_blocks + 1):
+                velocity[i] = rate[0, i]
             done += 1
             offset = 0.0
-        here[:] = tension
+        for i in range(1, n_blocks + 1):
+            here[i] = tension[i]
         span = max(since - offset, 0.0) / tau
         propagate(drive_velocity, coupling, mode, mobile, push, span, here, rate, slip, origins, weight)
-        tension_out[q] = here[1 : n_blocks + 1]
-        velocity_out[q] = rate[0, 1 : n_blocks + 1]
-        rate[0] = velocity
+        for i in range(1, n_blocks + 1):
+            tension_out[q, i - 1], velocity_out[q, i - 1] = here[i], rate[0, i]
+            rate[0, i] = velocity[i]
 
 
 def start_state(system: System, chain: Chain, positions: FloatArray, velocities: FloatArray):

@@ -315,7 +315,7 @@ def test_a_dip_that_lies_between_all_first_probes_is_found(dip, is_motion):
 
 
 def test_the_bound_on_second_derivatives_holds():
-    """From random states: slopes are the derivatives of the values, and no value bends more than the bound."""
+    """From random states: slopes are the derivatives of the values, and none bends more than the bound."""
     chain, generator = SLIDER(n_blocks=7), np.random.default_rng(2010)
     run = simulate(chain, duration=1e-3)
     step = 1e-3 / math.sqrt(4 * chain.stiffness / chain.mass)

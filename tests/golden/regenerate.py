@@ -1,0 +1,62 @@
+"""Replace the golden tables and figures by what the workflow wrote to results, and print what changed."""
+
+import shutil
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib import image
+
+GOLDEN = Path(__file__).parent
+PAPERS_SCENES = ("fig10", "fig11", "fig12")
+TABLES = (*(f"{scene}_slips.csv" for scene in PAPERS_SCENES), "mu_sapp.csv", "reproduction.csv", "eq15.csv")
+FIGURES = tuple(f"{figure}.png" for figure in ("fig09", *PAPERS_SCENES, "fig13"))
+
+
+def main(results: Path, golden: Path = GOLDEN) -> None:
+    """Copy every golden file from `results` to `golden`."""
+    for kind, names, difference in (
+        ("tables", TABLES, table_difference),
+        ("figures", FIGURES, figure_difference),
+    ):
+        for name in names:
+            new, old = results / kind / name, golden / name
+            print(f"{name}: {difference(old, new) if old.exists() else 'new'}")
+            shutil.copyfile(new, old)
+
+
+def table_difference(old_path: Path, new_path: Path) -> str:
+    """Columns that differ, numbers by their largest difference."""
+    old, new = (pd.read_csv(path) for path in (old_path, new_path))
+    if list(old.columns) != list(new.columns) or len(old) != len(new):
+        return (
+            f"{len(old)} rows of {', '.join(old.columns)} became {len(new)} rows of {', '.join(new.columns)}"
+        )
+    changes = []
+    for name in old.columns:
+        a, b = old[name], new[name]
+        differs = ~((a == b) | (a.isna() & b.isna()))
+        if not differs.any():
+            continue
+        change = f"{name} differs in {differs.sum()} of {len(old)} rows"
+        if all(pd.api.types.is_float_dtype(column) for column in (a, b)):
+            change += f", by {np.abs(a - b).max():.3g} at most"
+        changes.append(change)
+    return "; ".join(changes) or "same"
+
+
+def figure_difference(old_path: Path, new_path: Path) -> str:
+    """Root mean square difference of the pixels, on the scale 0..255 of Matplotlib's compare_images."""
+    old, new = (image.imread(path)[..., :3].astype(float) * 255 for path in (old_path, new_path))
+    if old.shape != new.shape:
+        return f"{old.shape[1]} x {old.shape[0]} pixels became {new.shape[1]} x {new.shape[0]}"
+    rms = np.sqrt(np.mean((old - new) ** 2))
+    return f"rms {rms:.3g}" if rms else "same"
+
+
+if __name__ == "__main__":
+    try:
+        main(Path("results"))
+    except OSError as error:
+        sys.exit(f"golden files: {error}")

@@ -1,0 +1,39 @@
+"""The rules are written the way Snakemake's own tools ask for."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from conftest import ROOT
+
+# One environment, built from requirements.lock by the Makefile, serves all rules.
+ACCEPTED_FINDING = "Specify a conda environment or container for each rule"
+
+
+def test_lint_asks_for_nothing_but_one_software_environment_per_rule(workspace):
+    outcome = workspace.run("--lint")
+    findings = set(re.findall(r"^\s+\* (.+?)[.:]+$", outcome.text, flags=re.MULTILINE))
+    assert findings == {ACCEPTED_FINDING}, outcome.text
+
+
+def test_snakefmt_would_change_nothing():
+    snakefmt = Path(sys.executable).with_name("snakefmt")
+    done = subprocess.run(
+        [snakefmt, "--check", "Snakefile", "workflow"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_every_rule_has_a_log_and_a_benchmark():
+    for file in (ROOT / "workflow/rules").glob("*.smk"):
+        text = file.read_text(encoding="utf-8")
+        n_rules = len(re.findall(r"^rule \w+_\w+:$", text, flags=re.MULTILINE))
+        assert n_rules == len(re.findall(r"^rule ", text, flags=re.MULTILINE))
+        for directive in ("log:", "benchmark:", "threads:", "script:"):
+            assert text.count(f"\n    {directive}") == n_rules, f"{directive} in {file.name}"
+
+
+def test_code_that_a_rule_lists_exists(workspace):
+    outcome = workspace.run("-n", "all")
+    assert "MissingInput" not in outcome.text

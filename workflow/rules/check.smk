@@ -1,0 +1,25 @@
+rule check_eq15:
+    input:
+        code=collect(
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=["bound", "chain", "derivation", "eq15", "exact", "kernel", "run", "slips", "storage"],
+        ),
+    output:
+        json="results/tables/eq15.json",
+        csv=report(
+            "results/tables/eq15.csv",
+            caption="../report/eq15.rst",
+            category="Tables",
+            labels={"table": "the derivation of Eq. 15"},
+        ),
+    log:
+        "results/logs/check_eq15.log",
+    benchmark:
+        "results/benchmarks/check_eq15.tsv"
+    threads: 1
+    params:
+        sliders={scene: scene_slider(config, scene) for scene in config["fig13"]},
+        duration=config["duration"],
+    script:
+        "../scripts/check_eq15.py"

@@ -1,0 +1,17 @@
+rule simulate_scene:
+    input:
+        code=collect(
+            "{library}/{module}.py", library=LIBRARY, module=["chain", "exact", "kernel", "run", "storage"]
+        ),
+    output:
+        run="results/runs/{scene}.h5",
+    log:
+        "results/logs/simulate_scene/{scene}.log",
+    benchmark:
+        "results/benchmarks/simulate_scene/{scene}.tsv"
+    threads: 1
+    params:
+        slider=lambda wildcards: scene_slider(config, wildcards.scene),
+        duration=lambda wildcards: scene_duration(config, wildcards.scene),
+    script:
+        "../scripts/simulate_scene.py"

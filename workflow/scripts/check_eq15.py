@@ -1,0 +1,34 @@
+"""Check the derivation of Eq. 15 and write it: everything as JSON, one line a claim as CSV."""
+
+import dataclasses
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import pandas as pd
+from job import job
+
+from precursors.chain import Chain
+from precursors.eq15 import check_eq15, table
+from precursors.storage import write_atomically
+
+
+def main(scenes: Mapping[str, Chain], duration: float, json_path: str | Path, csv_path: str | Path) -> None:
+    """Write the checks for the chains of some scenes, each pushed for at most `duration` [s]."""
+    checks = check_eq15(scenes, duration)
+    claims = [dataclasses.asdict(row) for row in table(checks)]
+    text = json.dumps({"claims": claims, **dataclasses.asdict(checks)}, indent=1, allow_nan=False)
+    with write_atomically(json_path) as temporary:
+        temporary.write_text(text + "\n", encoding="utf-8")
+    with write_atomically(csv_path) as temporary:
+        pd.DataFrame(claims).to_csv(temporary, index=False, lineterminator="\n")
+
+
+if __name__ == "__main__":
+    with job() as snakemake:
+        main(
+            {name: Chain.from_slider(**slider) for name, slider in snakemake.params.sliders.items()},
+            snakemake.params.duration,
+            snakemake.output.json,
+            snakemake.output.csv,
+        )

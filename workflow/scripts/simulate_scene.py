@@ -1,0 +1,24 @@
+"""Simulate a scene and store its run."""
+
+from pathlib import Path
+from typing import Any
+
+from job import job
+
+from precursors.chain import Chain
+from precursors.exact import TransitionLimitError, simulate
+
+
+def main(slider: dict[str, Any], duration: float, output: str | Path) -> None:
+    """Run the chain of a scene for `duration` [s]; a run that meets its cap on transitions is kept too."""
+    configuration = {**slider, "duration": duration}
+    try:
+        simulate(Chain.from_slider(**slider), duration=duration).save(output, configuration)
+    except TransitionLimitError as error:
+        error.run.save(Path(output).with_suffix(".unfinished.h5"), configuration)
+        raise
+
+
+if __name__ == "__main__":
+    with job() as snakemake:
+        main(snakemake.params.slider, snakemake.params.duration, snakemake.output.run)

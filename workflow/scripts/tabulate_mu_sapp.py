@@ -1,0 +1,42 @@
+"""Tabulate the apparent static friction coefficient (Eq. 1) under the definitions that could be meant."""
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from job import job
+from tables import write_table
+
+from precursors.run import Run
+from precursors.slips import DEFINITIONS, apparent_friction, find_slips
+
+COLUMNS = ["scene", "definition", "mu_sapp", "load_N", "time_s", "event", "events_kept", "is_papers"]
+
+
+def main(runs: Mapping[str, str | Path], output: str | Path) -> None:
+    """Write one row per scene and definition, none where a run has no global slip in that sense."""
+    table = pd.DataFrame([row for scene, path in runs.items() for row in rows(scene, Run.load(path))])
+    write_table(table.rename(columns={"load": "load_N", "time": "time_s"}).reindex(columns=COLUMNS), output)
+
+
+def rows(scene: str, run: Run) -> list[dict[str, Any]]:
+    """What each definition gives for a run."""
+    slips = find_slips(run)
+    found = [(definition, apparent_friction(run, slips, definition)) for definition in DEFINITIONS]
+    return [
+        {
+            "scene": scene,
+            "definition": definition.text,
+            **asdict(friction),
+            "is_papers": definition is DEFINITIONS[0],
+        }
+        for definition, friction in found
+        if friction is not None
+    ]
+
+
+if __name__ == "__main__":
+    with job() as snakemake:
+        main(dict(zip(snakemake.params.scenes, snakemake.input.runs, strict=True)), snakemake.output.table)
