@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: all test results golden lock lint clean
+.PHONY: all test results golden bench lock lint clean
 
 all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
@@ -17,6 +17,9 @@ results: $(READY)
 
 golden: results
 	$(BIN)/python tests/golden/regenerate.py
+
+bench: $(READY)
+	$(BIN)/python benchmarks/bench.py
 
 lint: $(READY)
 	$(BIN)/ruff check . && $(BIN)/ruff format --check . && $(BIN)/snakefmt --check Snakefile workflow && $(BIN)/mypy

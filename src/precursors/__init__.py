@@ -1,9 +1,15 @@
 """Stick-slip chains solved exactly: precursors of global slip after Maegawa, Suzuki and Nakano (2010)."""
 
-from precursors.chain import Chain
-from precursors.exact import TransitionLimitError, simulate
-from precursors.run import Run, RunFileError
-from precursors.slips import find_precursors, find_slips
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from precursors.chain import Chain
+    from precursors.exact import TransitionLimitError, simulate
+    from precursors.run import Run, RunFileError
+    from precursors.slips import find_precursors, find_slips
 
 __all__ = [
     "Chain",
@@ -14,3 +20,27 @@ __all__ = [
     "find_slips",
     "simulate",
 ]
+
+# Imported when first asked for (PEP 562): who checks a configuration or draws a table waits for no compiler.
+_MODULES = {
+    "Chain": "chain",
+    "Run": "run",
+    "RunFileError": "run",
+    "TransitionLimitError": "exact",
+    "find_precursors": "slips",
+    "find_slips": "slips",
+    "simulate": "exact",
+}
+
+if not TYPE_CHECKING:  # a type checker that saw it would take every name for one of this package
+
+    def __getattr__(name: str) -> object:
+        if name not in _MODULES:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        value = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+        globals()[name] = value
+        return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

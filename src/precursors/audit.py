@@ -33,7 +33,8 @@ TIME_TOLERANCE = 1e-12
 """Of the duration: recorded times are rounded once a transition, the intervals are not."""
 
 ENERGY_TOLERANCE = 1e-10
-"""Of the largest of the work of the drive, the friction heat and the energy at the start."""
+"""Of the largest of the work of the drive, the friction heat, the energy at the start and that of all blocks
+at the speed of the drive."""
 
 MAX_PROBLEMS = 20
 """The audit stops at this many: what follows a wrong transition is wrong, and says nothing new."""
@@ -410,8 +411,9 @@ class _Auditor:
         # the force of the spring behind each block, and a zero ahead of block N
         stretch = -np.diff(np.asarray(run.start_positions, dtype=float), prepend=0.0)
         self.spring_force = np.append(self.springs * stretch, 0.0)
-        # without friction: the largest spring force at the start, and what the drive adds
-        without = np.abs(self.spring_force).max() + chain.loading_rate * float(run.duration)
+        # without friction: the largest spring force at the start, that of the speeds, what the drive adds
+        impact = np.abs(self.velocity).max() * math.sqrt(self.springs.max() * chain.mass)
+        without = np.abs(self.spring_force).max() + impact + chain.loading_rate * float(run.duration)
         self.force_scale = float(self.strength.max() or without or chain.normal_load)
         self.velocity_scale = self.force_scale / math.sqrt(self.springs.min() * chain.mass)
         self.time = 0.0
@@ -604,7 +606,10 @@ class _Auditor:
 
     def check_energy(self, start_energy: float) -> None:
         """Work of the drive = change of kinetic and elastic energy + friction heat."""
-        turnover = max(abs(self.work), abs(self.heat), start_energy)
+        chain = self.chain
+        # A block without friction gives back all the work once a period.
+        carried = 0.5 * chain.n_blocks * chain.mass * chain.drive_velocity**2
+        turnover = max(abs(self.work), abs(self.heat), start_energy, carried)
         if turnover > 0:
             self.energy_residual = abs(self.work - (self.energy() - start_energy) - self.heat) / turnover
         if self.energy_residual > self.tolerance.energy:

@@ -16,6 +16,8 @@ IntArray = NDArray[np.int64]
 MAX_TRANSITIONS = 10_000_000
 # Stored states are thinned out so that they never take more room than this.
 STATES_BYTES = 64 * 2**20
+# A state is stored after so many transitions that storing takes little time beside finding them.
+BLOCKS_PER_STRIDE = 16
 # The kernel returns after so many windows, so that Ctrl-C is heard within about a second.
 WINDOWS_PER_CALL = 500_000
 FIRST_ROOM = 4096
@@ -140,7 +142,7 @@ class _Record:
     """Room for the transitions and states of a run, grown as needed."""
 
     def __init__(self, velocity: FloatArray, force: FloatArray, mode: IntArray) -> None:
-        self.stride = 1
+        self.stride = 1 + len(mode) // BLOCKS_PER_STRIDE
         self.columns = (np.empty(0), np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0))
         self.intervals = np.empty(0)
         start = (force, velocity, mode, np.int64(0), 0.0)
@@ -150,7 +152,13 @@ class _Record:
         """Enlarge what is full; thin the states out where they take too much."""
         if used == len(self.intervals):
             room = min(max(FIRST_ROOM, 2 * used), most)
-            self.columns = tuple(_enlarged(column, room) for column in self.columns)
+            time, block, mode, load = self.columns
+            self.columns = (
+                _enlarged(time, room),
+                _enlarged(block, room),
+                _enlarged(mode, room),
+                _enlarged(load, room),
+            )
             self.intervals = _enlarged(self.intervals, room)
         stored = count[kernel.STORED]
         if stored < len(self.states[0]) > 1:
@@ -165,7 +173,8 @@ class _Record:
     def start(self, moving: IntArray, mode: IntArray, tangential_load: float) -> None:
         """Note the blocks that move at time 0 as transitions."""
         n = len(moving)
-        for column, value in zip(self.columns, (0.0, moving, mode[moving], tangential_load), strict=True):
+        values: tuple[Any, ...] = (0.0, moving, mode[moving], tangential_load)
+        for column, value in zip(self.columns, values, strict=True):
             column[:n] = value
         self.intervals[:n] = 0.0
 

@@ -7,19 +7,18 @@ lets go). With |g''| <= M on the window, the positive root of g + g' s - M s^2/2
 a root of g; repeated on the function whose bound is smallest, it converges to the earliest root of all or
 proves that the window holds none. A cubic with the rest of the series as its error bound is tried first.
 
-Units inside: force and m/tau^2 times displacement in N, time in tau, velocity in N/tau, with tau such that the
-highest frequency of the chain times tau is at most `REACH`. The state is the force T_i in the spring behind
-each block and its velocity v_i, not its position: slips of a micrometre after a millimetre of drive keep all
-their digits. In these units the motion is
+Inside, forces are in N, displacements are multiplied by m/tau^2 into N, time is in tau and velocity in N/tau,
+with tau such that the highest frequency of the chain times tau is at most `REACH`. The state is the force
+T_i in the spring behind each block and its velocity v_i, not its position: slips of a micrometre after a
+millimetre of drive keep all their digits. In these units the motion is
 
     dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides.
 
-Column 0 of every array is the drive, columns 1..N the blocks; beyond them are free ends and room for lanes of
-four, the width in which rows are worked on so that the compiler can use vector instructions.
+Column 0 of every array is the drive, columns 1..N are the blocks; beyond them is room for groups of four.
 
 A transition changes the motion of blocks at distance d only in order 2 d + 1 of the time since. In a long
-chain each block therefore keeps a Taylor series of its own about a time of its own within a common window,
-and a transition renews those of its neighbourhood only.
+chain each group of blocks therefore keeps Taylor series about a time of its own within a common window, and a
+transition renews those of its neighbourhood only.
 
 All compiled code is in this one file, because a compile cache does not see an edit in an imported file.
 """
@@ -31,6 +30,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import int64, njit
+from numpy.typing import NDArray
 
 from precursors.chain import Chain, FloatArray
 
@@ -45,8 +45,8 @@ NEGLIGIBLE = 1e-19
 # Chains whose moving part is longer than LONG blocks renew neighbourhoods only, in windows of LONG_WINDOW.
 LONG = 24
 SHORT_WINDOW, LONG_WINDOW = 1.0, 0.5
-# A value below so many roundings of the forces it was computed from counts as zero. Where transitions follow one
-# another without time going on, rounding decides in a circle: the doubt grows until it does not.
+# A value below so many roundings of the forces it was computed from counts as zero. Where transitions follow
+# one another without time going on, rounding decides in a circle: the doubt grows until it does not.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
 
 FINISHED, GLOBAL_SLIP, PAUSED = 0, 1, 2
@@ -56,21 +56,24 @@ FINISHED, GLOBAL_SLIP, PAUSED = 0, 1, 2
 ONSET, ONSET_ERROR, ELAPSED, SINCE = range(4)
 TRANSITIONS, SLIDING, GLOBAL, STORED = range(4)
 
-# What is known of a bound: from the cubic alone, from the whole series, the root itself. Columns of `level`.
-ROUGH, FINE, FINAL = range(3)
-ORIGIN, SPAN, ZERO, BEND = range(4)
+# What a bound is from: one step, the cubic, the whole series; or it is the root itself. Columns of `level`.
+ROUGH, CUBIC, WHOLE, FINAL = range(4)
+ORIGIN, SPAN, DOUBT, BEND, POWER, C0, C1, C2, C3, REST = range(10)
 CUBIC_STEPS = 4
 
 REACH_SQUARED = REACH * REACH
 # Sum of the geometric bound of the tail of a series relative to its first term, for spans up to 1.
 TAIL = 1.1
 INVERSE_FACTORIAL = np.array([1.0 / math.factorial(n) for n in range(ROWS + 1)])
+SECOND_DERIVATIVE = np.array([n * (n - 1.0) for n in range(ROWS + 1)])
 REACH_POWER = REACH ** np.arange(ROWS + 1.0)
 
-
-# Products may be fused with sums; nothing else is left to the compiler but where a bound may be summed in any order.
-# An index that starts from a literal is typed, as every function it goes to would be compiled for the literal anew.
+# Numba guards every index that may be negative; unsigned ones, and constants of their kind, save that time.
+index = np.uint64
+ZERO, ONE, TWO, THREE, FOUR, FIVE, SIX, SEVEN = (np.uint64(n) for n in range(8))
+# An index that starts from a literal is typed: what it goes to would be compiled for the literal anew.
 INDEX = {"first": int64, "slot": int64}
+# Products may be fused with sums; bounds may be summed in any order.
 inner = njit(cache=True, error_model="numpy", fastmath={"contract"}, locals=INDEX)
 inner_reassociating = njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
 outer = njit(cache=True, error_model="numpy", nogil=True, locals=INDEX)
@@ -100,7 +103,7 @@ def scale(chain: Chain) -> System:
     )
 
 
-def columns(values: FloatArray) -> FloatArray:
+def columns(values: NDArray) -> NDArray:
     """Put one value per block into columns 1..N."""
     return np.pad(values, (1, BEYOND))
 
@@ -113,24 +116,27 @@ def expand(coupling, mobile, push, first, final, order, tension, rate):
     `mobile` is 1 where a block slides and `push` its kinetic friction with the sign of its mode; `tension`
     holds the spring forces. Columns first - 1 and final + 1 hold the motion of the neighbours outside.
     """
-    behind = tension[first]
-    for i in range(first, final + 1):
-        ahead = tension[i + 1]
-        rate[1, i] = mobile[i] * (behind - ahead) - push[i]
+    start, stop = index(first), index(final) + ONE
+    behind = tension[start]
+    for i in range(start, stop):
+        ahead = tension[i + ONE]
+        rate[ONE, i] = mobile[i] * (behind - ahead) - push[i]
         behind = ahead
-    for n in range(2, order + 1):
-        v = rate[n - 2, first]
-        behind = coupling[first] * (rate[n - 2, first - 1] - v)
-        for i in range(first, final, WIDTH):
-            v1, v2, v3, v4 = rate[n - 2, i + 1], rate[n - 2, i + 2], rate[n - 2, i + 3], rate[n - 2, i + 4]
-            f1 = coupling[i + 1] * (v - v1)
-            f2 = coupling[i + 2] * (v1 - v2)
-            f3 = coupling[i + 3] * (v2 - v3)
-            f4 = coupling[i + 4] * (v3 - v4)
+    for n in range(TWO, index(order) + ONE):
+        m = n - TWO
+        v = rate[m, start]
+        behind = coupling[start] * (rate[m, start - ONE] - v)
+        for i in range(start, stop, FOUR):
+            i1, i2, i3, i4 = i + ONE, i + TWO, i + THREE, i + FOUR
+            v1, v2, v3, v4 = rate[m, i1], rate[m, i2], rate[m, i3], rate[m, i4]
+            f1 = coupling[i1] * (v - v1)
+            f2 = coupling[i2] * (v1 - v2)
+            f3 = coupling[i3] * (v2 - v3)
+            f4 = coupling[i4] * (v3 - v4)
             rate[n, i] = mobile[i] * (behind - f1)
-            rate[n, i + 1] = mobile[i + 1] * (f1 - f2)
-            rate[n, i + 2] = mobile[i + 2] * (f2 - f3)
-            rate[n, i + 3] = mobile[i + 3] * (f3 - f4)
+            rate[n, i1] = mobile[i1] * (f1 - f2)
+            rate[n, i2] = mobile[i2] * (f2 - f3)
+            rate[n, i3] = mobile[i3] * (f3 - f4)
             v, behind = v4, f4
 
 
@@ -156,10 +162,13 @@ def move(i, order, weight, rate, slip):
     """
     v0 = v1 = v2 = v3 = 0.0
     x0 = x1 = x2 = x3 = 0.0
+    i0 = index(i)
+    i1, i2, i3 = i0 + ONE, i0 + TWO, i0 + THREE
     ahead = weight[order + 1]
-    for n in range(order, -1, -1):
+    for k in range(index(order) + ONE):
+        n = index(order) - k
         w = weight[n]
-        c0, c1, c2, c3 = rate[n, i], rate[n, i + 1], rate[n, i + 2], rate[n, i + 3]
+        c0, c1, c2, c3 = rate[n, i0], rate[n, i1], rate[n, i2], rate[n, i3]
         v0 += w * c0
         v1 += w * c1
         v2 += w * c2
@@ -169,11 +178,11 @@ def move(i, order, weight, rate, slip):
         x2 += ahead * c2
         x3 += ahead * c3
         ahead = w
-    rate[0, i], rate[0, i + 1], rate[0, i + 2], rate[0, i + 3] = v0, v1, v2, v3
-    slip[i] += x0
-    slip[i + 1] += x1
-    slip[i + 2] += x2
-    slip[i + 3] += x3
+    rate[ZERO, i0], rate[ZERO, i1], rate[ZERO, i2], rate[ZERO, i3] = v0, v1, v2, v3
+    slip[i0] += x0
+    slip[i1] += x1
+    slip[i2] += x2
+    slip[i3] += x3
 
 
 @inner
@@ -193,103 +202,142 @@ def safe_step(g, slope, curvature):
 
 
 @inner
-def tail_bound(first, last, order, span, rate):
-    """Bound of the terms from the eighth on of the velocity series of blocks first..last (Gershgorin).
+def tail_bound(first, final, end, order, span, rate):
+    """Bounds of the terms from the eighth on of the velocity series of blocks first..final: sum, curvature.
 
-    Row n + 2 of a block is at most REACH^2 times the largest of row n; the neighbours outside, in columns
-    first - 1 and last + 1, enter with all their rows, as they follow from others still further out.
+    Row n + 2 of a block is at most REACH^2 times the largest of row n (Gershgorin); moving neighbours
+    outside, in columns first - 1 and final + 1, enter with all their rows, which follow from others.
     """
     even = 0.0
     odd = 0.0
-    for i in range(first - 1, last + 2):
-        even = max(even, abs(rate[6, i]))
-        odd = max(odd, abs(rate[7, i]))
-    shrink = 1.0
-    for n in range(8, order + 1):
-        if n % 2 == 0:
-            shrink /= REACH_SQUARED
-            even = max(even, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, last + 1]))
-        else:
-            odd = max(odd, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, last + 1]))
+    for i in range(index(first - 1), index(final) + TWO):
+        even = max(even, abs(rate[SIX, i]))
+        odd = max(odd, abs(rate[SEVEN, i]))
+    if first > 1 or final < end:
+        shrink = 1.0
+        for n in range(8, order + 1):
+            if n % 2 == 0:
+                shrink /= REACH_SQUARED
+                even = max(even, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, final + 1]))
+            else:
+                odd = max(odd, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, final + 1]))
+    # Each of the two sums is geometric at worst.
     square = span * span
-    eighth = REACH_SQUARED * TAIL * square * square * square * square
-    return eighth * (even * INVERSE_FACTORIAL[8] + odd * span * INVERSE_FACTORIAL[9])
+    sixth = REACH_SQUARED * TAIL * square * square * square
+    value = sixth * square * (even * INVERSE_FACTORIAL[8] + odd * span * INVERSE_FACTORIAL[9])
+    return value, sixth * square * (even * INVERSE_FACTORIAL[6] + odd * span * INVERSE_FACTORIAL[7])
 
 
-@inner_reassociating
-def examine(slot, count, series, level, terms, stage):
-    """Bound the first root of series[slot] (time in spans) from below by its cubic with an error bound.
-
-    A root at the start was dealt with already: it is divided out. Where the function then falls, the
-    transition is at once.
-    """
-    zero = level[slot, ZERO]
-    if abs(series[slot, 0]) <= zero:
-        p = 1
-        while p < count and abs(series[slot, p]) <= zero:
-            p += 1
-        if p == count:
-            return np.inf
-        count -= p
-        for n in range(count):
-            series[slot, n] = series[slot, n + p]
-        for n in range(count, 4):
-            series[slot, n] = 0.0
-        count = max(count, 4)
-    c0, c1, c2, c3 = series[slot, 0], series[slot, 1], series[slot, 2], series[slot, 3]
-    if c0 < 0.0:
-        stage[slot] = FINAL
-        return level[slot, ORIGIN]
-    rest = 0.0
-    bend = 0.0
-    for n in range(4, count):
-        c = abs(series[slot, n])
-        rest += c
-        bend += n * (n - 1) * c
-    down = 2.0 * max(-c2, 0.0) + 6.0 * max(-c3, 0.0)
-    if c0 + min(c1, 0.0) + min(c2, 0.0) + min(c3, 0.0) > rest:
-        return np.inf
-    terms[slot] = count
-    level[slot, BEND] = down + bend
-    stage[slot] = FINE
-    s = 0.0
-    g, slope = c0, c1
+@inner
+def cubic_bound(c0, c1, c2, c3, rest):
+    """Bound the first root of c0 + c1 s + c2 s^2 + c3 s^3 + e, |e| <= rest s^4, from below; inf beyond 1."""
+    curvature = downward(c2, c3) + 12.0 * rest
+    s = safe_step(c0, c1, curvature)
     for _ in range(CUBIC_STEPS):
-        s += safe_step(g, slope, down + 12.0 * rest)
         if s >= 1.0:
             return np.inf
         ss = s * s
         g = c0 + s * (c1 + s * (c2 + s * c3)) - rest * ss * ss
-        if g <= 0.02 * c0:
-            break
-        slope = c1 + s * (2.0 * c2 + s * 3.0 * c3) - 4.0 * rest * ss * s
-    return level[slot, ORIGIN] + s * level[slot, SPAN]
+        if g <= 0.01 * c0:
+            return s
+        s += safe_step(g, c1 + s * (2.0 * c2 + s * 3.0 * c3) - 4.0 * rest * ss * s, curvature)
+    return s
+
+
+@inner
+def downward(c2, c3):
+    """Bound of -g'' of a cubic on [0, 1]."""
+    return 2.0 * max(-c2, 0.0) + 6.0 * max(-c3, 0.0)
+
+
+@inner
+def surely_positive(c0, c1, c2, c3, rest):
+    """Whether c0 + c1 s + c2 s^2 + c3 s^3 + e, |e| <= rest, has no root in [0, 1]."""
+    return c0 + min(c1, 0.0) + min(c2, 0.0) + min(c3, 0.0) > rest
+
+
+@inner_reassociating
+def examine(slot, count, series, level, terms, stage):
+    """Bound the first root of series[slot] (time in spans) from below.
+
+    A root at the start was dealt with already: it is divided out. Where the function then falls, the
+    transition is at once.
+    """
+    row = index(slot)
+    count = index(count)
+    p = ZERO
+    while p < count and abs(series[row, p]) <= level[slot, DOUBT]:
+        p += ONE
+    if p == count:
+        return np.inf
+    if series[row, p] < 0.0:
+        stage[slot] = FINAL
+        return level[slot, ORIGIN]
+    divide_out(row, p, count, series)
+    count = max(count - p, FOUR)
+    c0, c1, c2, c3 = series[row, ZERO], series[row, ONE], series[row, TWO], series[row, THREE]
+    rest = 0.0
+    bend = 0.0
+    for n in range(FOUR, count):
+        c = abs(series[row, n])
+        rest += c
+        bend += SECOND_DERIVATIVE[n] * c
+    if surely_positive(c0, c1, c2, c3, rest):
+        return np.inf
+    terms[slot] = count
+    level[slot, BEND] = downward(c2, c3) + bend
+    stage[slot] = WHOLE
+    return level[slot, ORIGIN] + cubic_bound(c0, c1, c2, c3, rest) * level[slot, SPAN]
+
+
+@inner
+def divide_out(row, p, count, series):
+    """Divide series[row] by s^p; it keeps at least four terms."""
+    if p > ZERO:
+        for n in range(count - p):
+            series[row, n] = series[row, n + p]
+        for n in range(count - p, FOUR):
+            series[row, n] = 0.0
 
 
 @inner
 def refine(slot, t, series, level, terms, stage):
     """Step from the bound t towards the root of a watched function; it is FINAL once it is the root."""
+    row = index(slot)
     span = level[slot, SPAN]
     x = (t - level[slot, ORIGIN]) / span
     # Even and odd terms apart, for two short chains of operations instead of a long one.
     y = x * x
-    top = (terms[slot] - 1) // 2 * 2
-    even = series[slot, top]
-    odd = series[slot, top + 1] if top + 1 < terms[slot] else 0.0
+    top = index(terms[slot] - 1) // TWO
+    even = series[row, TWO * top]
+    odd = series[row, TWO * top + ONE] if terms[slot] % 2 == 0 else 0.0
     even_slope = 0.0
     odd_slope = 0.0
-    for n in range(top - 2, -1, -2):
+    for k in range(ONE, top + ONE):
+        n = TWO * (top - k)
         even_slope = even_slope * y + even
         odd_slope = odd_slope * y + odd
-        even = even * y + series[slot, n]
-        odd = odd * y + series[slot, n + 1]
+        even = even * y + series[row, n]
+        odd = odd * y + series[row, n + ONE]
     g = even + x * odd
     slope = odd + 2.0 * x * (even_slope + x * odd_slope)
     step = safe_step(max(g, 0.0), slope, level[slot, BEND])
-    if g <= level[slot, ZERO] or x + step <= x:
+    if g <= level[slot, DOUBT] or x + step <= x:
         stage[slot] = FINAL
         step = -max(g / slope, -1e-9) if slope < 0.0 else 0.0
     return level[slot, ORIGIN] + max(x + step, 0.0) * span
+
+
+@inner
+def margin_series(slot, i, order, coupling, strength, tension, rate, weight, series):
+    """Series of the margin of stuck block i against letting go forward (even slot) or backward (odd slot)."""
+    row, i = index(slot), index(i)
+    side = 1.0 - 2.0 * (row % TWO)
+    b, a = coupling[i], coupling[i + ONE]
+    series[row, ZERO] = strength[i] - side * (tension[i] - tension[i + ONE])
+    for n in range(ONE, index(order) + ONE):
+        growth = b * rate[n - ONE, i - ONE] + a * rate[n - ONE, i + ONE]
+        series[row, n] = -side * growth * weight[n]
 
 
 @inner
@@ -297,6 +345,8 @@ def watch(
     first,
     final,
     last,
+    end,
+    is_long,
     origin,
     span,
     order,
@@ -317,70 +367,102 @@ def watch(
 ):
     """Bound the next transition of blocks first..last from below, as times in the window.
 
-    `doubt` is the relative size below which a value counts as zero. Slot 2 i watches the velocity of block i while it slides, or its margin against letting go forward while it
-    sticks; slot 2 i + 1 its margin against letting go backward. `fastest` bounds the speeds in the window.
-    active[1:active[0] + 1] are the slots that may have a root.
+    Slot 2 i watches the velocity of block i while it slides, or its margin against letting go forward while
+    it sticks; slot 2 i + 1 its margin against letting go backward. active[1:active[0] + 1] are the slots that
+    may have a root, `fastest` bounds the speeds in the window, and a value counts as zero below the relative
+    size `doubt`.
     """
     kept = 0
     for k in range(1, active[0] + 1):
         if active[k] < 2 * first or active[k] > 2 * final + 1:
             kept += 1
             active[kept] = active[k]
-    tail = tail_bound(first, final, order, span, rate)
-    w1, w2, w3, w4, w5, w6, w7 = weight[1], weight[2], weight[3], weight[4], weight[5], weight[6], weight[7]
-    for i in range(first, last + 1):
-        slot = 2 * i
+    tail, tail_bend = tail_bound(first, final, end, order, span, rate)
+    w1, w2, w3, w4 = weight[1], weight[2], weight[3], weight[4]
+    w5, w6, w7, w8 = weight[5], weight[6], weight[7], weight[8]
+    terms_after = index(order) + ONE
+    for i in range(index(first), index(last) + ONE):
         if mode[i] == 0:
             fastest[i] = 0.0
             continue
+        slot = TWO * i
         sign = mode[i]
-        c0, c1, c2, c3 = (
-            sign * rate[0, i],
-            sign * rate[1, i] * w1,
-            sign * rate[2, i] * w2,
-            sign * rate[3, i] * w3,
-        )
-        rest = (
-            (abs(rate[4, i]) * w4 + abs(rate[5, i]) * w5)
-            + (abs(rate[6, i]) * w6 + abs(rate[7, i]) * w7)
-            + tail
-        )
-        total = c0 + abs(c1) + abs(c2) + abs(c3) + rest
+        c0, c1 = sign * rate[ZERO, i], sign * rate[ONE, i] * w1
+        c2, c3 = sign * rate[TWO, i] * w2, sign * rate[THREE, i] * w3
+        r4, r5 = abs(rate[FOUR, i]) * w4, abs(rate[FIVE, i]) * w5
+        r6, r7 = abs(rate[SIX, i]) * w6, abs(rate[SEVEN, i]) * w7
+        rest = (r4 + r5) + (r6 + r7) + tail
+        total = abs(c0) + abs(c1) + abs(c2) + abs(c3) + rest
         fastest[i] = total
-        if c0 + min(c1, 0.0) + min(c2, 0.0) + min(c3, 0.0) > rest:
+        if surely_positive(c0, c1, c2, c3, rest):
             continue
-        zero = doubt * (2.0 * (abs(tension[i]) + abs(tension[i + 1]) + strength[i]) + total)
-        level[slot, ORIGIN], level[slot, SPAN], level[slot, ZERO] = origin, span, zero
+        zero = doubt * (2.0 * (abs(tension[i]) + abs(tension[i + ONE]) + strength[i]) + total)
+        level[slot, ORIGIN], level[slot, SPAN], level[slot, DOUBT] = origin, span, zero
         if c0 > zero:
-            stage[slot] = ROUGH
-            curvature = 2.0 * max(-c2, 0.0) + 6.0 * max(-c3, 0.0) + 12.0 * rest
-            bound[slot] = origin + safe_step(c0, c1, curvature) * span
+            level[slot, POWER] = 0.0
+            level[slot, BEND] = downward(c2, c3) + 12.0 * r4 + 20.0 * r5 + 30.0 * r6 + 42.0 * r7 + tail_bend
+        elif c0 >= -zero and c1 > zero:
+            # It has just begun to move: the root at the start is divided out.
+            c0, c1, c2, c3 = c1, c2, c3, sign * rate[FOUR, i] * w4
+            rest = r5 + r6 + r7 + tail
+            if surely_positive(c0, c1, c2, c3, rest):
+                continue
+            level[slot, POWER] = 1.0
+            level[slot, BEND] = downward(c2, c3) + 12.0 * r5 + 20.0 * r6 + 30.0 * r7 + tail_bend
         else:
-            for n in range(order + 1):
+            for n in range(terms_after):
                 series[slot, n] = sign * rate[n, i] * weight[n]
-            bound[slot] = examine(slot, order + 1, series, level, terms, stage)
+            bound[slot] = examine(slot, terms_after, series, level, terms, stage)
+            if bound[slot] < origin + span:
+                kept += 1
+                active[kept] = slot
+            continue
+        level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3] = c0, c1, c2, c3
+        level[slot, REST] = rest
+        stage[slot] = ROUGH
+        bound[slot] = origin + safe_step(c0, c1, downward(c2, c3) + 12.0 * rest) * span
         if bound[slot] < origin + span:
             kept += 1
             active[kept] = slot
-    for i in range(first, last + 1):
+    for i in range(index(first), index(last) + ONE):
         if mode[i] != 0:
             continue
-        change = (coupling[i] * fastest[i - 1] + coupling[i + 1] * fastest[i + 1]) * span
-        net = tension[i] - tension[i + 1]
+        near, far = i - ONE, i + ONE
+        net = tension[i] - tension[far]
+        b, a = coupling[i], coupling[far]
+        change = (b * fastest[near] + a * fastest[far]) * span
         if strength[i] - abs(net) > change or change == 0.0:
             continue
-        for side in (1, -1):
-            margin = strength[i] - side * net
-            if margin > change:
+        # The net force grows with the velocities of the neighbours.
+        g1 = (b * rate[ZERO, near] + a * rate[ZERO, far]) * w1
+        g2 = (b * rate[ONE, near] + a * rate[ONE, far]) * w2
+        g3 = (b * rate[TWO, near] + a * rate[TWO, far]) * w3
+        r4 = abs(b * rate[THREE, near] + a * rate[THREE, far]) * w4
+        r5 = abs(b * rate[FOUR, near] + a * rate[FOUR, far]) * w5
+        r6 = abs(b * rate[FIVE, near] + a * rate[FIVE, far]) * w6
+        r7 = abs(b * rate[SIX, near] + a * rate[SIX, far]) * w7
+        r8 = abs(b * rate[SEVEN, near] + a * rate[SEVEN, far]) * w8
+        rest = (r4 + r5) + (r6 + r7) + (r8 + (a + b) * tail * span / 9.0)
+        for k in range(TWO):
+            side = 1.0 - 2.0 * k
+            c0, c1, c2, c3 = strength[i] - side * net, -side * g1, -side * g2, -side * g3
+            if surely_positive(c0, c1, c2, c3, rest):
                 continue
-            slot = 2 * i if side == 1 else 2 * i + 1
+            slot = TWO * i + k
             level[slot, ORIGIN], level[slot, SPAN] = origin, span
-            level[slot, ZERO] = doubt * (abs(tension[i]) + abs(tension[i + 1]) + strength[i] + change)
-            series[slot, 0] = margin
-            for n in range(1, order + 1):
-                growth = coupling[i] * rate[n - 1, i - 1] + coupling[i + 1] * rate[n - 1, i + 1]
-                series[slot, n] = -side * growth * weight[n]
-            bound[slot] = examine(slot, order + 1, series, level, terms, stage)
+            level[slot, DOUBT] = doubt * (abs(tension[i]) + abs(tension[far]) + strength[i] + change)
+            if c0 > level[slot, DOUBT] and not is_long:
+                level[slot, POWER] = 0.0
+                bend = 12.0 * r4 + 20.0 * r5 + 30.0 * r6 + 42.0 * r7 + 56.0 * r8
+                level[slot, BEND] = downward(c2, c3) + bend + (a + b) * tail_bend * span / 7.0
+                level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3] = c0, c1, c2, c3
+                level[slot, REST] = rest
+                stage[slot] = ROUGH
+                bound[slot] = origin + safe_step(c0, c1, downward(c2, c3) + 12.0 * rest) * span
+            else:
+                # The series of the neighbours may get other origins before this one is looked at again.
+                margin_series(slot, i, order, coupling, strength, tension, rate, weight, series)
+                bound[slot] = examine(slot, terms_after, series, level, terms, stage)
             if bound[slot] < origin + span:
                 kept += 1
                 active[kept] = slot
@@ -389,9 +471,24 @@ def watch(
 
 @inner
 def next_transition(
-    limit, order, mode, rate, origins, origin, weight, room, series, level, terms, stage, bound, active
+    limit,
+    order,
+    coupling,
+    strength,
+    mode,
+    tension,
+    rate,
+    origin,
+    weight,
+    room,
+    series,
+    level,
+    terms,
+    stage,
+    bound,
+    active,
 ):
-    """Earliest root of all watched functions: (time in the window, slot), or (limit, -1) where there is none.
+    """Earliest root of all watched functions: (time in the window, slot); (limit, -1) where there is none.
 
     `weight` holds the powers of limit - origin; `room` is for those of other origins.
     """
@@ -403,24 +500,33 @@ def next_transition(
         if slot < 0 or stage[slot] == FINAL:
             return t, slot
         if stage[slot] == ROUGH:
-            i = slot // 2
-            span = limit - origins[i]
-            level[slot, ORIGIN], level[slot, SPAN] = origins[i], span
-            if origins[i] == origin:
-                for n in range(order + 1):
+            s = cubic_bound(
+                level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3], level[slot, REST]
+            )
+            bound[slot] = level[slot, ORIGIN] + s * level[slot, SPAN]
+            stage[slot] = CUBIC
+            continue
+        if stage[slot] == CUBIC:
+            i = index(slot // 2)
+            if mode[i] == 0:
+                margin_series(slot, i, order, coupling, strength, tension, rate, weight, series)
+            elif level[slot, ORIGIN] == origin:
+                for n in range(index(order) + ONE):
                     series[slot, n] = mode[i] * rate[n, i] * weight[n]
             else:
-                powers(span, order, room)
-                for n in range(order + 1):
+                powers(level[slot, SPAN], order, room)
+                for n in range(index(order) + ONE):
                     series[slot, n] = mode[i] * rate[n, i] * room[n]
-            bound[slot] = max(bound[slot], examine(slot, order + 1, series, level, terms, stage))
-        else:
-            bound[slot] = refine(slot, t, series, level, terms, stage)
+            p = index(level[slot, POWER])
+            divide_out(index(slot), p, index(order) + ONE, series)
+            terms[slot] = order + 1 - int64(p)
+            stage[slot] = WHOLE
+        bound[slot] = refine(slot, t, series, level, terms, stage)
 
 
 @inner
 def lend(i, t, order, rate, origins, slip, weight, column):
-    """Move the origin of block i's series to time t of the window; `column` keeps what `give_back` restores."""
+    """Move the origin of block i's series to time t of the window; `column` keeps what was there."""
     for n in range(order + 1):
         column[n] = rate[n, i]
     column[ROWS + 1] = slip[i]
@@ -446,7 +552,7 @@ def give_back(i, order, rate, slip, column):
 
 @inner
 def settle(t, first, final, order, weight, rate, origins, slip):
-    """Bring blocks first..final, four by four from their own origin, to time t of the window: state in row 0."""
+    """Bring blocks first..final, by fours from their own origin, to time t of the window: state in row 0."""
     at = 0.0
     enough = order
     for i in range(first, final, WIDTH):
@@ -470,13 +576,12 @@ def load_at(t, order, coupling, tension_before, rate, origins, slip, weight):
 
 
 @inner
-def last_moved(mode):
-    """Farthest block whose force can change: the one ahead of the farthest that slides, or N."""
-    n_blocks = mode.shape[0] - 1 - BEYOND
-    i = n_blocks
+def farthest_sliding(start, mode):
+    """Farthest block that slides, none of those beyond `start` doing so; 1 where none does."""
+    i = start
     while i > 1 and mode[i] == 0:
         i -= 1
-    return min(i + 1, n_blocks)
+    return i
 
 
 @inner
@@ -513,9 +618,9 @@ def set_mode(i, new, mode, mobile, push, friction, rate):
 
 @inner
 def resting_mode(i, tension, strength, doubt):
-    """Mode of a block whose velocity is zero: it sticks within the strength, to rounding, or follows the force.
+    """Mode of a block whose velocity is zero: it sticks within its strength, or follows the force.
 
-    A block that sticks at the limit lets go at once where its force grows: its margin decides, not a rounding.
+    A block that sticks at the limit lets go at once where its force grows: its margin decides, not rounding.
     """
     net = tension[i] - tension[i + 1]
     if abs(net) <= strength[i] + doubt * (abs(tension[i]) + abs(tension[i + 1]) + strength[i]):
@@ -560,8 +665,8 @@ def run_events(
     """Run a chain until `duration` [s], the end of the first global slip, full buffers or a spent budget.
 
     `velocity`, `tension`, `mode`, `clock` and `count` hold the state and are left at the state reached.
-    `time` [s], `block`, `new_mode`, `tangential_load` [N] and `intervals` [s] are filled from count[TRANSITIONS]
-    on; after every `stride` transitions or so a state goes to `states`.
+    `time` [s], `block`, `new_mode`, `tangential_load` [N] and `intervals` [s] are filled from
+    count[TRANSITIONS] on; after every `stride` transitions or so a state goes to `states`.
     """
     state_tension, state_velocity, state_mode, state_after, state_offset = states
     wide = mode.shape[0]
@@ -574,7 +679,7 @@ def run_events(
     tension_before = np.empty(wide)
     weight = np.empty(ROWS + 2)
     series = np.empty((2 * wide, ROWS + 1))
-    level = np.empty((2 * wide, 4))
+    level = np.empty((2 * wide, 10))
     terms = np.zeros(2 * wide, np.int64)
     stage = np.zeros(2 * wide, np.int64)
     bound = np.empty(2 * wide)
@@ -587,6 +692,7 @@ def run_events(
         mobile[i] = 1.0 if mode[i] != 0 else 0.0
         push[i] = mode[i] * friction[i]
     rate[0, 0] = drive_velocity
+    farthest = farthest_sliding(n_blocks, mode)
     loading_rate = coupling[1] * drive_velocity
     short_order, long_order = order_for(SHORT_WINDOW), order_for(LONG_WINDOW)
     room = time.shape[0]
@@ -618,7 +724,7 @@ def run_events(
             tension[1] = tension[2] + strength[1]
             start_clock(clock, wait, tau)
             set_mode(1, 1, mode, mobile, push, friction, rate)
-            sliding = 1
+            sliding = farthest = 1
             if n_blocks == 1:
                 count[GLOBAL] = 1
             time[k] = clock[ONSET] + clock[ONSET_ERROR]
@@ -631,7 +737,8 @@ def run_events(
             status = FINISHED
             break
         # A window: the state is that of its start, and every series has its origin there.
-        last = last_moved(mode)
+        farthest = farthest_sliding(farthest, mode)
+        last = min(farthest + 1, n_blocks)
         end = WIDTH * ((last + WIDTH - 1) // WIDTH)
         is_long = last > LONG
         order = long_order if is_long else short_order
@@ -653,6 +760,8 @@ def run_events(
                 first,
                 final,
                 min(final, last),
+                end,
+                is_long,
                 t,
                 limit - t,
                 order,
@@ -676,7 +785,22 @@ def run_events(
             if final < end:
                 give_back(final + 1, order, rate, slip, ahead)
             t, slot = next_transition(
-                limit, order, mode, rate, origins, t, weight, spare, series, level, terms, stage, bound, active
+                limit,
+                order,
+                coupling,
+                strength,
+                mode,
+                tension,
+                rate,
+                t,
+                weight,
+                spare,
+                series,
+                level,
+                terms,
+                stage,
+                bound,
+                active,
             )
             slip[0] = drive_velocity * t
             idle = idle + 1 if t == noted else 0
@@ -706,6 +830,7 @@ def run_events(
             old = mode[i]
             new = resting_mode(i, tension, strength, doubt) if old != 0 else 1 - 2 * (slot % 2)
             set_mode(i, new, mode, mobile, push, friction, rate)
+            farthest = max(farthest, i)
             if new != old:
                 sliding += abs(new) - abs(old)
                 if sliding == n_blocks:
@@ -746,7 +871,9 @@ def propagate(drive_velocity, coupling, mode, mobile, push, span, tension, rate,
     if not mobile.any():
         tension[1] += coupling[1] * drive_velocity * span
         return
-    first, end = 1, WIDTH * ((last_moved(mode) + WIDTH - 1) // WIDTH)
+    n_blocks = mode.shape[0] - 1 - BEYOND
+    last = min(farthest_sliding(n_blocks, mode) + 1, n_blocks)
+    first, end = 1, WIDTH * ((last + WIDTH - 1) // WIDTH)
     order = order_for(SHORT_WINDOW)
     while span > 0.0:
         s = min(span, SHORT_WINDOW)

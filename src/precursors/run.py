@@ -90,7 +90,7 @@ class Run:
         Raises
         ------
         ValueError
-            If a time lies outside the run.
+            If a time lies outside the run, or the run has no stored states to start from.
         """
         when = self._times(times)
         force, velocity = self._evaluate(when)
@@ -114,6 +114,8 @@ class Run:
         return when
 
     def _evaluate(self, when: FloatArray) -> tuple[FloatArray, FloatArray]:
+        if len(self.states.after) == 0:
+            raise ValueError("the run has no stored states: allowed is one from simulate or Run.load")
         system = kernel.scale(self.chain)
         order = np.argsort(when, kind="stable")
         shape = (len(when), self.chain.n_blocks)

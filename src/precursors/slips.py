@@ -27,10 +27,10 @@ def find_slips(run: Run) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        One row per event: onset, end [s], load_before, load_after (F_X at onset and end) [N], front (farthest
-        block that slid, 1..N), n_slid (blocks that slid at some time), n_simultaneous (most blocks that slid at
-        the same instant), is_global (all N at the same instant). The event that the end of the run cuts off has
-        end and load_after NaN.
+        One row per event: onset, end [s], load_before, load_after (F_X at onset and end) [N], front
+        (farthest block that slid, 1..N), n_slid (blocks that slid at some time), n_simultaneous (most
+        blocks that slid at the same instant), is_global (all N at the same instant). The event that the
+        end of the run cuts off has end and load_after NaN.
     """
     transitions = run.transitions
     n = len(transitions)
@@ -96,7 +96,7 @@ class Definition:
     text : str
         The reading as a sentence.
     at_once : bool
-        Whether a global slip wants all blocks to slide at the same instant, or each at some time of the event.
+        Whether a global slip wants all blocks to slide at the same instant, or each at some time of it.
     largest : bool
         Whether the load is the largest up to the first global slip, or that at its onset.
     """
@@ -147,8 +147,8 @@ def apparent_friction(
 ) -> ApparentFriction | None:
     """Apparent static friction coefficient F_Xmax / F_Z of a run (Eq. 1); None without a global slip.
 
-    F_X is largest where the drive is as fast as block 1, which is a transition to within V: the largest of the
-    transitions' loads is taken.
+    F_X is largest where the drive is as fast as block 1, which is a transition to within V: the largest of
+    the transitions' loads is taken.
     """
     if not definition.at_once:
         slips = slips.assign(is_global=slips["n_slid"] == run.chain.n_blocks)

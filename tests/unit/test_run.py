@@ -1,10 +1,13 @@
 """A run knows the motion at every time, and its file gives back every bit or is refused."""
 
+from dataclasses import replace
+
 import h5py
 import numpy as np
 import pytest
 
 from precursors import Chain, Run, RunFileError, simulate
+from precursors.run import States
 
 POSITION_ROUNDING = 1e-19  # m; roundings of V t, which is 3e-5 m here
 FORCE_ROUNDING = (
@@ -47,6 +50,13 @@ def test_times_may_come_in_any_order_and_more_than_once(run):
 def test_a_time_outside_the_run_is_refused(run, time):
     with pytest.raises(ValueError, match=r"allowed is 0 <= t <= 3 s"):
         run.at([time])
+
+
+def test_a_run_without_stored_states_says_that_it_cannot_be_evaluated(run):
+    bare = replace(run, states=States(*(column[:0] for column in run.states)))
+    for evaluate in (bare.at, bare.tangential_load, bare.spring_forces):
+        with pytest.raises(ValueError, match=r"^the run has no stored states: [^\n]*$"):
+            evaluate([1.0])
 
 
 def test_nothing_moves_while_all_blocks_stick(run):

@@ -1,0 +1,27 @@
+"""Proof of a run: every transition of a chain in exact numbers, with an enclosure of its time and load.
+
+`certify` proves (it needs python-flint, the extra "proof"); certificates are read and checked without it.
+"""
+
+from precursors.certify.certificate import (
+    Certificate,
+    CertificateError,
+    CertifiedTransition,
+    Enclosure,
+    Tie,
+    certify,
+    verify,
+)
+from precursors.certify.exact_chain import ExactChain, scene_exact_chain
+
+__all__ = [
+    "Certificate",
+    "CertificateError",
+    "CertifiedTransition",
+    "Enclosure",
+    "ExactChain",
+    "Tie",
+    "certify",
+    "scene_exact_chain",
+    "verify",
+]

@@ -1,0 +1,352 @@
+"""Fixed-step methods fail where theory says and converge as fast as it says: each test finds the limit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from precursors import Chain, Run, find_slips, simulate
+from precursors.integrators import METHODS, DivergedError, karnopp, leapfrog, literal, moreau_jean, rk4
+from precursors.integrators.forces import State, at_rest, sliding_forward, system_of
+
+# So much beyond RK4's limit energy grows by GROWTH within STEPS; a wrong drive spring would move it by 1e-3.
+LIMIT_TOLERANCE = 5e-4
+# Bounded energy can rise by 1 / (1 - (omega dt / 2)^2) in leapfrog: 500 times at 0.1 % below its limit.
+GROWTH = 1e6
+STEPS = 4000
+BISECTIONS = 20
+
+# An order is measured over halvings or over a decade of steps.
+ORDER_TOLERANCE = 0.1
+# Where a switch falls within a step is chance: an average over this many steps leaves a few per cent.
+STEPS_IN_SAMPLE = 60
+SAMPLED_ORDER_TOLERANCE = 0.15
+# Relative error of sums of some hundred terms in double precision, through several windows.
+ROUNDING = 1e-12
+# Relative rounding of a step with omega dt = 100, by whose square the springs' forces outweigh inertia.
+STIFF_ROUNDING = 100**2 * float(np.finfo(float).eps)
+
+# Whether a block jumps over the zone is chance: so much between two steps.
+JUMP_TOLERANCE = 0.3
+JUMP_BISECTIONS = 7
+# Chatter and creep repeat at another step to within what the step adds to a release.
+CREEP_TOLERANCE = 0.02
+
+# Of F_Z, after some tens of transitions in chains of up to three blocks with a step of 1e-8 s.
+SHORT_CHAIN_TOLERANCE = 1e-3
+
+# A stretch in which all blocks slide forward: four radians of the fastest oscillation.
+STRETCH = 1.5e-5
+VELOCITIES = 0.5 + 0.1 * np.sin(1.0 + 2.0 * np.arange(10.0))
+# The first five slips of theta = 0, with 30 transitions.
+FIVE_SLIPS = 1.25
+
+FIXED_STEP = (
+    "rk4_skip",
+    "rk4_located",
+    "leapfrog",
+    "semi_implicit_euler",
+    "moreau_jean_half",
+    "moreau_jean_one",
+    "karnopp",
+)
+
+Slide = Callable[..., None]
+SMOOTH: dict[str, tuple[Slide, int]] = {
+    "rk4": (rk4.slide, 4),
+    "leapfrog": (lambda *start: leapfrog.slide(*start, True), 2),
+    "semi_implicit_euler": (lambda *start: leapfrog.slide(*start, False), 1),
+    "moreau_jean_half": (lambda *start: moreau_jean.slide(*start, 0.5), 2),
+    "moreau_jean_one": (lambda *start: moreau_jean.slide(*start, 1.0), 1),
+}
+
+
+@pytest.fixture(scope="module")
+def chain() -> Chain:
+    return Chain.from_slider()
+
+
+@pytest.fixture(scope="module")
+def free(chain: Chain) -> Chain:
+    """The chain without friction and with (almost) resting drive: its energy stays as it is."""
+    return replace(chain, mu_s=0.0, mu_k=0.0, drive_velocity=1e-15)
+
+
+@pytest.fixture(scope="module")
+def five_slips(chain: Chain) -> Run:
+    run = simulate(chain, FIVE_SLIPS)
+    assert len(find_slips(run)) == 5
+    return run
+
+
+def stiffness_matrix(chain: Chain) -> np.ndarray:
+    """Stiffness of the chain with the drive held [N/m], from the bonds of Eqs. 2-4."""
+    n = chain.n_blocks
+    matrix = np.zeros((n, n))
+    matrix[0, 0] = chain.drive_stiffness
+    for i in range(n - 1):
+        matrix[i : i + 2, i : i + 2] += chain.stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    return matrix
+
+
+def highest_frequency(chain: Chain) -> float:
+    return float(np.sqrt(np.linalg.eigvalsh(stiffness_matrix(chain))[-1] / chain.mass))
+
+
+def sliding(chain: Chain, velocities: np.ndarray = VELOCITIES) -> State:
+    return sliding_forward(system_of(chain), velocities)
+
+
+def energy(chain: Chain, state: State) -> float:
+    springs = state.tension[1:-1] ** 2 / chain.springs
+    return 0.5 * float(chain.mass * state.velocity[1:-1] @ state.velocity[1:-1] + springs.sum())
+
+
+def energy_grows(chain: Chain, slide: Slide, step: float) -> bool:
+    state = sliding(chain)
+    before = energy(chain, state)
+    slide(system_of(chain), state, step, STEPS)
+    with np.errstate(over="ignore", invalid="ignore"):
+        return not energy(chain, state) < GROWTH * before
+
+
+def bisect(
+    fails: Callable[[float], bool], works: float, broken: float, bisections: int = BISECTIONS
+) -> float:
+    """Limit between a value that works and one that does not, on a logarithmic scale."""
+    assert not fails(works)
+    assert fails(broken)
+    for _ in range(bisections):
+        middle = np.sqrt(works * broken)
+        works, broken = (works, middle) if fails(middle) else (middle, broken)
+    return broken
+
+
+@pytest.mark.parametrize(
+    ("name", "limit"), [("rk4", 2 * np.sqrt(2)), ("leapfrog", 2.0), ("semi_implicit_euler", 2.0)]
+)
+def test_energy_grows_beyond_the_step_that_theory_allows(free: Chain, name: str, limit: float) -> None:
+    found = bisect(partial(energy_grows, free, SMOOTH[name][0]), 1e-6, 1e-4)
+    assert found * highest_frequency(free) == pytest.approx(limit, rel=LIMIT_TOLERANCE)
+
+
+def test_beyond_the_limit_a_run_ends_with_the_last_finite_transitions(chain: Chain) -> None:
+    step = 1.5 * 2.0 / highest_frequency(chain)
+    with pytest.raises(DivergedError, match="grows beyond all numbers") as diverged:
+        METHODS["leapfrog"].solve(chain, 10.0, step, None)
+    assert np.isfinite(diverged.value.run.transitions["tangential_load"]).all()
+    assert diverged.value.run.duration < 10.0
+
+
+def test_the_drive_spring_lowers_the_limit_where_it_is_the_stiffest(free: Chain) -> None:
+    stiff = replace(free, drive_stiffness=100 * free.stiffness)
+    assert highest_frequency(stiff) > 4 * highest_frequency(free)
+    found = bisect(partial(energy_grows, stiff, SMOOTH["rk4"][0]), 1e-8, 1e-4)
+    assert found * highest_frequency(stiff) == pytest.approx(2 * np.sqrt(2), rel=LIMIT_TOLERANCE)
+
+
+def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free: Chain) -> None:
+    step = 100 / highest_frequency(free)
+
+    def grows_below(theta: float) -> bool:
+        # Below one half, growth at this step is 4 (1/2 - theta) a step: 1e6 within 4000 steps from 0.499 on.
+        return energy_grows(free, lambda *start: moreau_jean.slide(*start, theta), step)
+
+    assert bisect(grows_below, 0.6, 0.4) == pytest.approx(0.5, rel=2e-3)
+
+
+def test_moreau_jean_keeps_the_energy_at_one_half_and_loses_it_at_one(free: Chain) -> None:
+    kept = []
+    for theta in (0.5, 1.0):
+        state = sliding(free)
+        before = energy(free, state)
+        moreau_jean.slide(system_of(free), state, 100 / highest_frequency(free), STEPS, theta)
+        kept.append(energy(free, state) / before)
+    assert kept[0] == pytest.approx(1.0, rel=STEPS * STIFF_ROUNDING)
+    assert kept[1] < 1e-12
+
+
+def exact_motion(chain: Chain, time: float) -> np.ndarray:
+    """Spring forces and velocities of sliding blocks, by the exponential of the whole system's matrix."""
+    n = chain.n_blocks
+    bonds = np.eye(n) - np.eye(n, k=-1)
+    matrix = np.zeros((2 * n + 1, 2 * n + 1))
+    matrix[:n, n : 2 * n] = -chain.springs[:, None] * bonds
+    matrix[n : 2 * n, :n] = bonds.T / chain.mass
+    matrix[0, -1] = chain.loading_rate
+    matrix[n : 2 * n, -1] = -chain.kinetic_friction / chain.mass
+    return (expm(matrix * time) @ np.concatenate([np.zeros(n), VELOCITIES, [1.0]]))[:-1]
+
+
+def scaled(chain: Chain, tension: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    """Forces in the unit of velocities [m/s]."""
+    return np.concatenate([tension / np.sqrt(chain.stiffness * chain.mass), velocity])
+
+
+def smooth_error(chain: Chain, slide: Slide, n_steps: int) -> float:
+    state = sliding(chain)
+    slide(system_of(chain), state, STRETCH / n_steps, n_steps)
+    exact = exact_motion(chain, STRETCH)
+    n = chain.n_blocks
+    assert (exact[n:] > 0).all()
+    difference = scaled(chain, state.tension[1:-1] - exact[:n], state.velocity[1:-1] - exact[n:])
+    return float(np.linalg.norm(difference))
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_on_a_smooth_stretch_the_order_is_that_of_the_method(chain: Chain, name: str) -> None:
+    slide, order = SMOOTH[name]
+    coarse, fine = (smooth_error(chain, slide, n) for n in (128, 256))
+    assert np.log2(coarse / fine) == pytest.approx(order, abs=ORDER_TOLERANCE)
+
+
+@pytest.mark.parametrize("n_blocks", [1, 2, 3])
+@pytest.mark.parametrize("name", FIXED_STEP)
+def test_at_a_fine_step_every_method_gives_the_transitions_of_short_chains(name: str, n_blocks: int) -> None:
+    chain = Chain.from_slider(n_blocks=n_blocks)
+    duration = 3.6  # past the first global slip
+    exact = simulate(chain, duration)
+    run = METHODS[name].solve(chain, duration, 1e-8, None).run
+    assert find_slips(run)["is_global"].any()
+    assert load_error(run, exact) < SHORT_CHAIN_TOLERANCE * chain.normal_load
+
+
+@pytest.mark.parametrize("pieces", [1, 7, 64])
+def test_the_exact_solver_has_no_order_in_whatever_pieces_it_goes(chain: Chain, pieces: int) -> None:
+    time = STRETCH / pieces
+    position, velocity = np.zeros(10), VELOCITIES
+    for _ in range(pieces):
+        run = simulate(chain, time, start_positions=position, start_velocities=velocity)
+        positions, velocities = run.at([time])
+        position, velocity = positions[0] - chain.drive_velocity * time, velocities[0]
+    tension = chain.springs * (np.append(0.0, position[:-1]) - position)
+    exact = scaled(chain, *np.split(exact_motion(chain, STRETCH), 2))
+    assert scaled(chain, tension, velocity) == pytest.approx(exact, abs=ROUNDING * np.abs(exact).max())
+
+
+def n_right(run: Run, exact: Run) -> int:
+    """Number of transitions before the first wrong one."""
+    n = min(len(run.transitions), len(exact.transitions))
+    a, b = run.transitions[:n], exact.transitions[:n]
+    wrong = (a["block"] != b["block"]) | (a["mode"] != b["mode"])
+    return int(np.argmax(wrong)) if wrong.any() else n
+
+
+def load_error(run: Run, exact: Run) -> float:
+    """Root mean square error of F_X at the transitions [N], of a run whose transitions are the right ones."""
+    assert n_right(run, exact) == len(run.transitions) == len(exact.transitions)
+    return float(
+        np.sqrt(np.mean((run.transitions["tangential_load"] - exact.transitions["tangential_load"]) ** 2))
+    )
+
+
+def sampled_order(exact: Run, name: str, coarse: float, fine: float) -> float:
+    """Order from the errors around two steps, each over steps that spread by half as much again."""
+
+    def error(step: float) -> float:
+        steps = step * np.linspace(0.8, 1.2, STEPS_IN_SAMPLE)
+        runs = (METHODS[name].solve(exact.chain, FIVE_SLIPS, h, None).run for h in steps)
+        return float(np.sqrt(np.mean([load_error(run, exact) ** 2 for run in runs])))
+
+    return float(np.log(error(coarse) / error(fine)) / np.log(coarse / fine))
+
+
+@pytest.mark.parametrize(
+    "name", ["rk4_skip", "leapfrog", "semi_implicit_euler", "moreau_jean_half", "moreau_jean_one"]
+)
+def test_without_location_transitions_bring_every_method_down_to_order_1(five_slips: Run, name: str) -> None:
+    order = sampled_order(five_slips, name, 5e-8, 5e-9)
+    assert order == pytest.approx(1.0, abs=SAMPLED_ORDER_TOLERANCE)
+
+
+def test_with_located_transitions_rk4_keeps_order_4(five_slips: Run) -> None:
+    order = sampled_order(five_slips, "rk4_located", 8e-7, 2e-7)
+    assert order == pytest.approx(4.0, abs=SAMPLED_ORDER_TOLERANCE)
+
+
+def test_creep_in_the_dead_zone_brings_karnopp_down_to_order_one_half(five_slips: Run) -> None:
+    order = sampled_order(five_slips, "karnopp", 3e-8, 3e-9)
+    assert order == pytest.approx(0.5, abs=SAMPLED_ORDER_TOLERANCE)
+
+
+@pytest.mark.parametrize("theta", ["-5/6", 0.0, "5/6"])
+def test_eq_4_taken_literally_never_sticks_again(theta: float | str) -> None:
+    run = literal.solve(Chain.from_slider(theta=theta), 1.0, 1e-6).run
+    assert not (run.transitions["mode"] == 0).any()
+    assert len(find_slips(run)) == 1
+
+
+def literal_load(chain: Chain, step: float, times: tuple[float, ...]) -> list[float]:
+    """F_X [N] at some times after block 1 has reached its limit for the first time."""
+    system = system_of(chain)
+    state = at_rest(system)
+    state.tension[1] = chain.strength[0]
+    load = []
+    for time in np.diff([0.0, *times]):
+        karnopp.slide(system, state, step, round(time / step), 0.0)
+        load.append(float(state.tension[1]))
+    return load
+
+
+def test_eq_4_taken_literally_creeps_by_the_step_not_by_the_model(chain: Chain) -> None:
+    """Blocks tremble about v = 0 by what a step changes v, and creep in proportion to it.
+
+    F_X falls at coarse steps and rises without a slip at fine ones: the limit between them grows as V.
+    """
+
+    def limit(speed: float) -> float:
+        fast = replace(Chain.from_slider(theta="-5/6"), drive_velocity=speed)
+        seconds = 1e-6 / speed
+
+        def falls(step: float) -> bool:
+            early, late = literal_load(fast, step, (2 * seconds, 4 * seconds))
+            return late < early
+
+        return bisect(falls, 2e-5 * speed, 2e-3 * speed)
+
+    slow, fast = limit(1e-3), limit(4e-3)
+    assert fast / slow == pytest.approx(4.0, rel=CREEP_TOLERANCE)
+    # The paper's V: RK4 with a step of 1e-7 s never exceeds the first limit, with 1e-8 s it does.
+    assert 1e-8 < slow / 10 < 1e-7
+    assert max(literal_load(chain, 1e-7, (0.02, 0.04))) < chain.strength[0]
+    assert max(literal_load(chain, 1e-8, (0.02, 0.04))) > chain.strength[0]
+
+
+def dead_zone_fails(exact: Run, step: float, dead_zone: float) -> bool:
+    run = karnopp.solve(exact.chain, FIVE_SLIPS, step, None, dead_zone).run
+    return n_right(run, exact) < len(exact.transitions)
+
+
+def test_a_dead_zone_is_too_small_where_blocks_jump_over_it_which_depends_on_the_step(
+    five_slips: Run,
+) -> None:
+    limits = []
+    for step in (2e-8, 5e-9):
+        safe = karnopp.safe_width(five_slips.chain, step)
+        fails = partial(dead_zone_fails, five_slips, step)
+        limits.append(bisect(fails, 0.3 * safe, 0.05 * safe, JUMP_BISECTIONS) / safe)
+    assert max(limits) < karnopp.PART_OF_SAFE_WIDTH
+    assert limits[0] == pytest.approx(limits[1], rel=JUMP_TOLERANCE)
+
+
+def test_a_dead_zone_is_too_large_from_a_width_on_that_no_step_changes(five_slips: Run) -> None:
+    limits = [bisect(partial(dead_zone_fails, five_slips, step), 5e-4, 5e-2) for step in (1e-8, 5e-9)]
+    assert limits[0] == pytest.approx(limits[1], rel=CREEP_TOLERANCE)
+    # A part of the speed that block 1 reaches when it slips alone, (mu_s - mu_k) w_1 / sqrt(m (k + K)).
+    chain = five_slips.chain
+    drop = chain.strength[0] - chain.kinetic_friction[0]
+    speed = drop / np.sqrt(chain.mass * (chain.stiffness + chain.drive_stiffness))
+    assert 0.01 * speed < limits[0] < 0.1 * speed
+
+
+@pytest.mark.parametrize("dead_zone", [1e-4, 1e-3, 1e-2])
+def test_a_dead_zone_lets_the_load_creep_beyond_the_first_limit(chain: Chain, dead_zone: float) -> None:
+    run = karnopp.solve(chain, 1.0, 1e-8, None, dead_zone).run
+    excess = run.transitions["tangential_load"][0] - chain.strength[0]
+    delay = karnopp.release_delay(chain, dead_zone)
+    assert excess == pytest.approx(chain.loading_rate * delay, rel=CREEP_TOLERANCE)
