@@ -105,7 +105,10 @@ def scale(chain: Chain) -> System:
 
 def columns(values: NDArray) -> NDArray:
     """Put one value per block into columns 1..N."""
-    return np.pad(values, (1, BEYOND))
+    n_blocks = len(values)
+    wide = np.zeros(n_blocks + 1 + BEYOND, values.dtype)
+    wide[1 : n_blocks + 1] = values
+    return wide
 
 
 @inner
@@ -329,6 +332,18 @@ def refine(slot, t, series, level, terms, stage):
 
 
 @inner
+def grain(i, doubt, coupling, strength, tension, fastest):
+    """Size below which a force on block i, or what it does to its velocity in the window, counts as zero.
+
+    From the forces, and from what the motion of the neighbours adds to them within the window.
+    """
+    i = index(i)
+    still = abs(tension[i]) + abs(tension[i + ONE]) + strength[i]
+    moving = coupling[i] * fastest[i - ONE] + fastest[i] + coupling[i + ONE] * fastest[i + ONE]
+    return doubt * (2.0 * still + moving)
+
+
+@inner
 def margin_series(slot, i, order, coupling, strength, tension, rate, weight, series):
     """Series of the margin of stuck block i against letting go forward (even slot) or backward (odd slot)."""
     row, i = index(slot), index(i)
@@ -396,7 +411,7 @@ def watch(
         fastest[i] = total
         if surely_positive(c0, c1, c2, c3, rest):
             continue
-        zero = doubt * (2.0 * (abs(tension[i]) + abs(tension[i + ONE]) + strength[i]) + total)
+        zero = grain(i, doubt, coupling, strength, tension, fastest)
         level[slot, ORIGIN], level[slot, SPAN], level[slot, DOUBT] = origin, span, zero
         if c0 > zero:
             level[slot, POWER] = 0.0
@@ -450,7 +465,7 @@ def watch(
                 continue
             slot = TWO * i + k
             level[slot, ORIGIN], level[slot, SPAN] = origin, span
-            level[slot, DOUBT] = doubt * (abs(tension[i]) + abs(tension[far]) + strength[i] + change)
+            level[slot, DOUBT] = grain(i, doubt, coupling, strength, tension, fastest)
             if c0 > level[slot, DOUBT] and not is_long:
                 level[slot, POWER] = 0.0
                 bend = 12.0 * r4 + 20.0 * r5 + 30.0 * r6 + 42.0 * r7 + 56.0 * r8
@@ -617,13 +632,13 @@ def set_mode(i, new, mode, mobile, push, friction, rate):
 
 
 @inner
-def resting_mode(i, tension, strength, doubt):
+def resting_mode(i, doubt, coupling, strength, tension, fastest):
     """Mode of a block whose velocity is zero: it sticks within its strength, or follows the force.
 
     A block that sticks at the limit lets go at once where its force grows: its margin decides, not rounding.
     """
     net = tension[i] - tension[i + 1]
-    if abs(net) <= strength[i] + doubt * (abs(tension[i]) + abs(tension[i + 1]) + strength[i]):
+    if abs(net) <= strength[i] + grain(i, doubt, coupling, strength, tension, fastest):
         return 0
     return 1 if net > 0.0 else -1
 
@@ -828,7 +843,11 @@ def run_events(
             settle(t, first, final, order, weight, rate, origins, slip)
             stretch(first, final + 1, coupling, slip, tension_before, tension)
             old = mode[i]
-            new = resting_mode(i, tension, strength, doubt) if old != 0 else 1 - 2 * (slot % 2)
+            new = (
+                resting_mode(i, doubt, coupling, strength, tension, fastest)
+                if old != 0
+                else 1 - 2 * (slot % 2)
+            )
             set_mode(i, new, mode, mobile, push, friction, rate)
             farthest = max(farthest, i)
             if new != old:
