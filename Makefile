@@ -10,7 +10,7 @@ all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
 
 test: results
-	$(BIN)/pytest
+	$(BIN)/pytest -n $(CORES) --dist loadfile
 
 results: $(READY)
 	$(BIN)/snakemake --quiet rules host -c$(CORES) all

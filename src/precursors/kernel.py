@@ -56,8 +56,9 @@ FINISHED, GLOBAL_SLIP, PAUSED = 0, 1, 2
 ONSET, ONSET_ERROR, ELAPSED, SINCE = range(4)
 TRANSITIONS, SLIDING, GLOBAL, STORED = range(4)
 
-# What a bound is from: one step, the cubic, the whole series; or it is the root itself. Columns of `level`.
-ROUGH, CUBIC, WHOLE, FINAL = range(4)
+# What a bound is from: nothing yet, though the series is there; one step; the cubic; the whole series; or it
+# is the root itself. Columns of `level`.
+BUILT, ROUGH, CUBIC, WHOLE, FINAL = range(5)
 ORIGIN, SPAN, DOUBT, BEND, POWER, C0, C1, C2, C3, REST = range(10)
 CUBIC_STEPS = 4
 
@@ -73,9 +74,8 @@ index = np.uint64
 ZERO, ONE, TWO, THREE, FOUR, FIVE, SIX, SEVEN = (np.uint64(n) for n in range(8))
 # An index that starts from a literal is typed: what it goes to would be compiled for the literal anew.
 INDEX = {"first": int64, "slot": int64}
-# Products may be fused with sums; bounds may be summed in any order.
+# Products may be fused with sums.
 inner = njit(cache=True, error_model="numpy", fastmath={"contract"}, locals=INDEX)
-inner_reassociating = njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
 outer = njit(cache=True, error_model="numpy", nogil=True, locals=INDEX)
 
 
@@ -259,7 +259,7 @@ def surely_positive(c0, c1, c2, c3, rest):
     return c0 + min(c1, 0.0) + min(c2, 0.0) + min(c3, 0.0) > rest
 
 
-@inner_reassociating
+@inner
 def examine(slot, count, series, level, terms, stage):
     """Bound the first root of series[slot] (time in spans) from below.
 
@@ -337,7 +337,6 @@ def grain(i, doubt, coupling, strength, tension, fastest):
 
     From the forces, and from what the motion of the neighbours adds to them within the window.
     """
-    i = index(i)
     still = abs(tension[i]) + abs(tension[i + ONE]) + strength[i]
     moving = coupling[i] * fastest[i - ONE] + fastest[i] + coupling[i + ONE] * fastest[i + ONE]
     return doubt * (2.0 * still + moving)
@@ -427,10 +426,9 @@ def watch(
         else:
             for n in range(terms_after):
                 series[slot, n] = sign * rate[n, i] * weight[n]
-            bound[slot] = examine(slot, terms_after, series, level, terms, stage)
-            if bound[slot] < origin + span:
-                kept += 1
-                active[kept] = slot
+            stage[slot], bound[slot] = BUILT, origin
+            kept += 1
+            active[kept] = slot
             continue
         level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3] = c0, c1, c2, c3
         level[slot, REST] = rest
@@ -477,7 +475,7 @@ def watch(
             else:
                 # The series of the neighbours may get other origins before this one is looked at again.
                 margin_series(slot, i, order, coupling, strength, tension, rate, weight, series)
-                bound[slot] = examine(slot, terms_after, series, level, terms, stage)
+                stage[slot], bound[slot] = BUILT, origin
             if bound[slot] < origin + span:
                 kept += 1
                 active[kept] = slot
@@ -514,6 +512,9 @@ def next_transition(
                 slot, t = active[k], bound[active[k]]
         if slot < 0 or stage[slot] == FINAL:
             return t, slot
+        if stage[slot] == BUILT:
+            bound[slot] = examine(slot, order + 1, series, level, terms, stage)
+            continue
         if stage[slot] == ROUGH:
             s = cubic_bound(
                 level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3], level[slot, REST]
@@ -638,7 +639,7 @@ def resting_mode(i, doubt, coupling, strength, tension, fastest):
     A block that sticks at the limit lets go at once where its force grows: its margin decides, not rounding.
     """
     net = tension[i] - tension[i + 1]
-    if abs(net) <= strength[i] + grain(i, doubt, coupling, strength, tension, fastest):
+    if abs(net) <= strength[i] + grain(index(i), doubt, coupling, strength, tension, fastest):
         return 0
     return 1 if net > 0.0 else -1
 
@@ -738,7 +739,8 @@ def run_events(
                 break
             tension[1] = tension[2] + strength[1]
             start_clock(clock, wait, tau)
-            set_mode(1, 1, mode, mobile, push, friction, rate)
+            first = 1
+            set_mode(first, first, mode, mobile, push, friction, rate)
             sliding = farthest = 1
             if n_blocks == 1:
                 count[GLOBAL] = 1

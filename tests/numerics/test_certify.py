@@ -321,7 +321,10 @@ def test_one_digit_altered_is_refused(small: Certificate, tmp_path: Path) -> Non
             Certificate.load(path)
 
 
-@pytest.mark.parametrize("content", [b"", b"no gzip", gzip.compress(b"{}"), gzip.compress(b"[1, 2]")])
+FOREIGN = {"empty": b"", "text": b"no gzip", "object": gzip.compress(b"{}"), "list": gzip.compress(b"[1, 2]")}
+
+
+@pytest.mark.parametrize("content", FOREIGN.values(), ids=FOREIGN)
 def test_a_foreign_file_is_refused(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / "foreign.json.gz"
     path.write_bytes(content)
