@@ -20,7 +20,7 @@ STATES_BYTES = 64 * 2**20
 BLOCKS_PER_STRIDE = 16
 # The kernel returns after so many windows, so that Ctrl-C is heard within about a second.
 WINDOWS_PER_CALL = 500_000
-FIRST_ROOM = 4096
+FIRST_ROOM = 2048
 
 
 class TransitionLimitError(RuntimeError):
