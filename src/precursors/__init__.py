@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from precursors.chain import Chain
-    from precursors.exact import TransitionLimitError, simulate
+    from precursors.exact import TransitionLimitError, simulate, simulate_many
     from precursors.run import Run, RunFileError
     from precursors.slips import find_precursors, find_slips
 
@@ -19,6 +19,7 @@ __all__ = [
     "find_precursors",
     "find_slips",
     "simulate",
+    "simulate_many",
 ]
 
 # Imported when first asked for (PEP 562): who checks a configuration or draws a table waits for no compiler.
@@ -30,6 +31,7 @@ _MODULES = {
     "find_precursors": "slips",
     "find_slips": "slips",
     "simulate": "exact",
+    "simulate_many": "exact",
 }
 
 if not TYPE_CHECKING:  # a type checker that saw it would take every name for one of this package

@@ -1,8 +1,12 @@
-"""Simulate a chain exactly: every transition between stick and slip, to rounding."""
+"""Simulate chains exactly: every transition between stick and slip, to rounding."""
 
 from __future__ import annotations
 
-from typing import Any, Literal
+import os
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +16,7 @@ from precursors.chain import Chain, FloatArray, positive, whole
 from precursors.run import TRANSITION, Run, States
 
 IntArray = NDArray[np.int64]
+Until = Literal["global slip"] | None
 
 MAX_TRANSITIONS = 10_000_000
 # Stored states are thinned out so that they never take more room than this.
@@ -20,7 +25,10 @@ STATES_BYTES = 64 * 2**20
 BLOCKS_PER_STRIDE = 16
 # The kernel returns after so many windows, so that Ctrl-C is heard within about a second.
 WINDOWS_PER_CALL = 500_000
-FIRST_ROOM = 2048
+# Transitions that a run may have before it gets a record of its own, and that a thread's record has room for.
+FIRST_ROOM, SHARED_ROOM = 2048, 16384
+# Chains of a batch: many for little work between batches, few for all threads to end together.
+LARGEST_BATCH, BATCHES_PER_THREAD = 64, 8
 
 
 class TransitionLimitError(RuntimeError):
@@ -34,7 +42,7 @@ class TransitionLimitError(RuntimeError):
 def simulate(
     chain: Chain,
     duration: float = 10.0,
-    until: Literal["global slip"] | None = None,
+    until: Until = None,
     start_positions: ArrayLike | None = None,
     start_velocities: ArrayLike | None = None,
     max_transitions: int = MAX_TRANSITIONS,
@@ -66,60 +74,76 @@ def simulate(
     TransitionLimitError
         If the cap is met; its attribute `run` holds what was computed.
     """
+    duration, max_transitions = _limits(duration, until, max_transitions)
+    positions = _start("start_positions", start_positions, "m", chain)
+    velocities = _start("start_velocities", start_velocities, "m/s", chain)
+    return _run_batch([chain], positions[None], velocities[None], duration, until, max_transitions)[0]
+
+
+def simulate_many(
+    chains: Sequence[Chain],
+    duration: float = 10.0,
+    until: Until = None,
+    threads: int | None = None,
+    start_positions: Sequence[ArrayLike] | None = None,
+    start_velocities: Sequence[ArrayLike] | None = None,
+    progress: Callable[[int], object] | None = None,
+) -> list[Run]:
+    """Run an ensemble on all cores; every run is what `simulate` makes of its chain, bit for bit.
+
+    Parameters
+    ----------
+    chains : sequence of Chain
+        The chains, of any lengths.
+    duration, until
+        As in `simulate`, for all of them.
+    threads : int, optional
+        Threads to use; by default as many as there are cores for this process.
+    start_positions, start_velocities : sequence of array_like, optional
+        One start for each chain, as in `simulate`.
+    progress : callable, optional
+        Called from the calling thread with the number of runs that are done, now and then and at the end.
+
+    Returns
+    -------
+    list of Run
+        In the order of `chains`.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of range.
+    TransitionLimitError
+        If a run meets the cap of `simulate`.
+    """
+    duration, max_transitions = _limits(duration, until, MAX_TRANSITIONS)
+    threads = _cores() if threads is None else whole("threads", threads, at_least=1)
+    positions = _starts("start_positions", start_positions, "m", chains)
+    velocities = _starts("start_velocities", start_velocities, "m/s", chains)
+
+    def run(batch: list[int]) -> list[Run]:
+        start = np.array([positions[j] for j in batch]), np.array([velocities[j] for j in batch])
+        return _run_batch([chains[j] for j in batch], *start, duration, until, max_transitions)
+
+    runs: dict[int, Run] = {}
+    with ThreadPoolExecutor(threads, "simulate") as pool:
+        futures = {pool.submit(run, batch): batch for batch in _batches(chains, threads)}
+        try:
+            for future in as_completed(futures):
+                runs.update(zip(futures[future], future.result(), strict=True))
+                if progress is not None:
+                    progress(len(runs))
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return [runs[j] for j in range(len(chains))]
+
+
+def _limits(duration: float, until: Until, max_transitions: int) -> tuple[float, int]:
     duration = positive("duration", duration, "s")
     if until not in (None, "global slip"):
         raise ValueError(f'until = {until!r} is unknown: allowed is None or "global slip"')
-    max_transitions = whole("max_transitions", max_transitions, at_least=1)
-    positions = _start("start_positions", start_positions, "m", chain)
-    velocities = _start("start_velocities", start_velocities, "m/s", chain)
-
-    system = kernel.scale(chain)
-    velocity, force, start_mode = kernel.start_state(system, chain, positions, velocities)
-    mode = np.zeros_like(start_mode)
-    clock, count = np.zeros(4), np.zeros(4, np.int64)
-    record = _Record(velocity, force, mode)
-    mode[:] = start_mode
-    moving = np.flatnonzero(mode)
-    record.make_room(0, count, max(max_transitions, len(moving)))
-    record.start(moving, mode, force[1])
-    count[:] = len(moving), len(moving), len(moving) == chain.n_blocks, 1
-
-    status = kernel.PAUSED
-    while True:
-        status = kernel.run_events(
-            *system,
-            velocity,
-            force,
-            mode,
-            clock,
-            count,
-            duration,
-            until is not None,
-            *record.columns,
-            record.intervals,
-            record.states,
-            record.stride,
-            WINDOWS_PER_CALL,
-        )
-        n = int(count[kernel.TRANSITIONS])
-        if status != kernel.PAUSED or n >= max_transitions:
-            break
-        record.make_room(n, count, max_transitions)
-    elapsed = clock[kernel.ONSET] + (clock[kernel.ONSET_ERROR] + clock[kernel.ELAPSED] * system.tau)
-    run = Run(
-        chain=chain,
-        duration=duration if status == kernel.FINISHED else float(elapsed),
-        start_positions=positions,
-        start_velocities=velocities,
-        **record.finished(n, int(count[kernel.STORED]), clock[kernel.SINCE] * system.tau),
-    )
-    if status == kernel.PAUSED:
-        raise TransitionLimitError(
-            f"max_transitions = {max_transitions} reached at t = {elapsed:.9g} s of {duration:g} s, "
-            f"last at block {run.transitions['block'][-1]}: raise max_transitions or shorten duration",
-            run,
-        )
-    return run
+    return duration, whole("max_transitions", max_transitions, at_least=1)
 
 
 def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> FloatArray:
@@ -138,59 +162,246 @@ def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> Floa
     return start
 
 
-class _Record:
-    """Room for the transitions and states of a run, grown as needed."""
+def _starts(
+    name: str, values: Sequence[ArrayLike] | None, unit: str, chains: Sequence[Chain]
+) -> list[FloatArray]:
+    if values is None:
+        return [np.zeros(chain.n_blocks) for chain in chains]
+    if len(values) != len(chains):
+        raise ValueError(f"{name} are {len(values)}: allowed is one for each of the {len(chains)} chains")
+    return [
+        _start(f"{name}[{j}]", value, unit, chain)
+        for j, (value, chain) in enumerate(zip(values, chains, strict=True))
+    ]
 
-    def __init__(self, velocity: FloatArray, force: FloatArray, mode: IntArray) -> None:
-        self.stride = 1 + len(mode) // BLOCKS_PER_STRIDE
-        self.columns = (np.empty(0), np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0))
-        self.intervals = np.empty(0)
-        start = (force, velocity, mode, np.int64(0), 0.0)
-        self.states = tuple(np.array(value)[None] for value in start)
 
-    def make_room(self, used: int, count: IntArray, most: int) -> None:
-        """Enlarge what is full; thin the states out where they take too much."""
-        if used == len(self.intervals):
-            room = min(max(FIRST_ROOM, 2 * used), most)
-            time, block, mode, load = self.columns
-            self.columns = (
-                _enlarged(time, room),
-                _enlarged(block, room),
-                _enlarged(mode, room),
-                _enlarged(load, room),
+def _cores() -> int:
+    """Number of cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
+    """Numbers of chains of equal length, so many at a time as one call of the kernel takes."""
+    most = min(LARGEST_BATCH, max(1, len(chains) // (threads * BATCHES_PER_THREAD)))
+    by_length: dict[int, list[int]] = {}
+    for j, chain in enumerate(chains):
+        by_length.setdefault(chain.n_blocks, []).append(j)
+    for _, members in sorted(by_length.items(), reverse=True):
+        for first in range(0, len(members), most):
+            yield members[first : first + most]
+
+
+class _Workspace(threading.local):
+    """The record into which a thread runs chains of one length, kept from call to call."""
+
+    n_blocks = 0
+
+    def prepare(self, n_blocks: int) -> None:
+        """Make room for chains of `n_blocks`, if it is not there yet."""
+        if n_blocks == self.n_blocks:
+            return
+        wide = kernel.width(n_blocks)
+        self.stride = 1 + wide // BLOCKS_PER_STRIDE
+        self.state_room = max(FIRST_ROOM // self.stride, 2)
+        self.chain = tuple(np.zeros((3, wide)))
+        self.state = (np.zeros(wide), np.zeros(wide), np.zeros(wide, np.int64))
+        self.record: tuple[NDArray[Any], ...] = tuple(
+            np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in RECORD
+        )
+        rows = max(SHARED_ROOM // self.stride, 2)
+        self.states = (
+            np.empty((rows, wide)),
+            np.empty((rows, wide)),
+            np.empty((rows, wide), np.int64),
+            np.empty(rows, np.int64),
+            np.empty(rows),
+        )
+        self.n_blocks = n_blocks
+
+
+_workspace = _Workspace()
+
+
+def _run_batch(
+    chains: Sequence[Chain],
+    positions: FloatArray,
+    velocities: FloatArray,
+    duration: float,
+    until: Until,
+    max_transitions: int,
+) -> list[Run]:
+    """Run chains of equal length one after the other, in as few calls of the kernel as it takes."""
+    work = _workspace
+    work.prepare(chains[0].n_blocks)
+    parameters = np.array([kernel.parameters(chain) for chain in chains])
+    weights = np.array([chain.weights for chain in chains])
+    taus = np.empty(len(chains))
+    clocks = np.zeros((len(chains), kernel.CLOCK_SIZE))
+    counts = np.zeros((len(chains), kernel.COUNT_SIZE), np.int64)
+    runs: list[Run] = []
+    while len(runs) < len(chains):
+        left = slice(len(runs), None)
+        n_finished, is_paused = kernel.run_batch(
+            parameters[left],
+            weights[left],
+            positions[left],
+            velocities[left],
+            duration,
+            until is not None,
+            work.chain,
+            work.state,
+            work.record,
+            min(FIRST_ROOM, max_transitions),
+            work.states,
+            work.state_room,
+            work.stride,
+            WINDOWS_PER_CALL,
+            taus[left],
+            clocks[left],
+            counts[left],
+        )
+        for j, part in zip(
+            range(len(runs), len(runs) + n_finished + is_paused),
+            _parts(work, counts[left][: n_finished + is_paused]),
+            strict=True,
+        ):
+            if counts[j, kernel.STATUS] == kernel.PAUSED:
+                part = _go_on(chains[j], part, work, clocks[j], counts[j], duration, until, max_transitions)
+            elapsed = clocks[j, kernel.ONSET] + (
+                clocks[j, kernel.ONSET_ERROR] + clocks[j, kernel.ELAPSED] * taus[j]
             )
-            self.intervals = _enlarged(self.intervals, room)
-        stored = count[kernel.STORED]
-        if stored < len(self.states[0]) > 1:
+            transitions = part.transitions
+            run = Run(
+                chain=chains[j],
+                duration=duration if counts[j, kernel.STATUS] == kernel.FINISHED else float(elapsed),
+                transitions=transitions,
+                intervals=part.intervals,
+                start_positions=positions[j],
+                start_velocities=velocities[j],
+                states=part.states,
+                evaluations=float(counts[j, kernel.DERIVATIVES]) / chains[j].n_blocks,
+            )
+            if counts[j, kernel.STATUS] == kernel.PAUSED:
+                raise TransitionLimitError(
+                    f"max_transitions = {max_transitions} reached at t = {elapsed:.9g} s of {duration:g} s, "
+                    f"last at block {transitions['block'][-1]}: raise max_transitions or shorten duration",
+                    run,
+                )
+            runs.append(run)
+    return runs
+
+
+class _Part(NamedTuple):
+    """What was recorded of one run."""
+
+    transitions: NDArray[np.void]
+    intervals: FloatArray
+    states: States
+
+
+def _parts(work: _Workspace, counts: IntArray) -> Iterator[_Part]:
+    """Cut the record of several runs, as `counts` has them, into one part a run."""
+    used, stored = counts[:, kernel.TRANSITIONS], counts[:, kernel.STORED]
+    transitions = _transitions(work.record[:-1], int(used.sum()))
+    intervals: FloatArray = work.record[-1][: len(transitions) + len(counts)].copy()
+    states = [column[: stored.sum()].copy() for column in work.states]
+    first = first_state = 0
+    for j, (n, m) in enumerate(zip(used.tolist(), stored.tolist(), strict=True)):
+        yield _Part(
+            transitions[first : first + n],
+            intervals[first + j : first + j + n + 1],
+            _states(states, slice(first_state, first_state + m)),
+        )
+        first, first_state = first + n, first_state + m
+
+
+def _go_on(
+    chain: Chain,
+    part: _Part,
+    work: _Workspace,
+    clock: FloatArray,
+    count: IntArray,
+    duration: float,
+    until: Until,
+    max_transitions: int,
+) -> _Part:
+    """Run on a chain that the kernel left unfinished, in a record of its own."""
+    system = kernel.scale(chain)
+    state = tuple(column.copy() for column in work.state)
+    record = _Record(part, work.stride)
+    while count[kernel.STATUS] == kernel.PAUSED and count[kernel.TRANSITIONS] < max_transitions:
+        record.make_room(count, max_transitions)
+        count[kernel.STATUS] = kernel.run_events(
+            system.tau,
+            system.drive_velocity,
+            (system.coupling, system.strength, system.friction),
+            state,
+            clock,
+            count,
+            duration,
+            until is not None,
+            record.columns,
+            len(record.columns[0]),
+            record.states,
+            len(record.states[0]),
+            record.stride,
+            WINDOWS_PER_CALL,
+        )
+    return record.part(count, clock[kernel.SINCE] * system.tau)
+
+
+class _Record:
+    """Room for the transitions and states of a long run, grown as needed."""
+
+    def __init__(self, part: _Part, stride: int) -> None:
+        self.stride = stride
+        values = [part.transitions[name] for name in TRANSITION.names or ()]
+        self.columns: tuple[NDArray[Any], ...] = tuple(
+            column.astype(kind) for column, kind in zip([*values, part.intervals], RECORD, strict=True)
+        )
+        self.states: tuple[NDArray[Any], ...] = tuple(part.states)
+
+    def make_room(self, count: IntArray, most: int) -> None:
+        """Enlarge what is full; thin the states out where they take too much."""
+        used, stored = int(count[kernel.TRANSITIONS]), int(count[kernel.STORED])
+        if used >= len(self.columns[0]) or len(self.columns[0]) < len(self.columns[-1]):
+            room = min(max(FIRST_ROOM, 2 * used), most)
+            self.columns = tuple(_enlarged(column[:used], room) for column in self.columns)
+        if stored < len(self.states[0]):
             return
         rows = max(FIRST_ROOM // self.stride, 2 * len(self.states[0]))
         if rows * sum(s[0].nbytes for s in self.states) > STATES_BYTES and stored > 1:
-            self.states = tuple(s[:stored:2] for s in self.states)
+            self.states = tuple(np.ascontiguousarray(s[:stored:2]) for s in self.states)
             self.stride *= 2
             count[kernel.STORED] = len(self.states[0])
         self.states = tuple(_enlarged(s, rows) for s in self.states)
 
-    def start(self, moving: IntArray, mode: IntArray, tangential_load: float) -> None:
-        """Note the blocks that move at time 0 as transitions."""
-        n = len(moving)
-        values: tuple[Any, ...] = (0.0, moving, mode[moving], tangential_load)
-        for column, value in zip(self.columns, values, strict=True):
-            column[:n] = value
-        self.intervals[:n] = 0.0
+    def part(self, count: IntArray, last_interval: float) -> _Part:
+        """What was recorded, the time since the last transition as its last interval."""
+        n, stored = int(count[kernel.TRANSITIONS]), int(count[kernel.STORED])
+        return _Part(
+            _transitions(self.columns[:-1], n),
+            np.append(self.columns[-1][:n], last_interval),
+            _states([column[:stored].copy() for column in self.states], slice(None)),
+        )
 
-    def finished(self, n: int, stored: int, last_interval: float) -> dict[str, Any]:
-        """Cut what was recorded to n transitions, as arguments of `Run`."""
-        transitions = np.empty(n, dtype=TRANSITION)
-        for name, column in zip(TRANSITION.names or (), self.columns, strict=True):
-            transitions[name] = column[:n]
-        return {
-            "transitions": transitions,
-            "intervals": np.append(self.intervals[:n], last_interval),
-            "states": States(*(s[:stored].copy() for s in self.states)),
-        }
+
+# Types of a record's columns: time, block, mode, tangential load, interval.
+RECORD = (np.float64, np.int64, np.int64, np.float64, np.float64)
+
+
+def _states(columns: Sequence[NDArray[Any]], rows: slice) -> States:
+    return States(*(column[rows] for column in columns))
+
+
+def _transitions(columns: Sequence[NDArray], n: int) -> NDArray[np.void]:
+    transitions = np.empty(n, dtype=TRANSITION)
+    for name, column in zip(TRANSITION.names or (), columns, strict=True):
+        transitions[name] = column[:n]
+    return transitions
 
 
 def _enlarged(values: NDArray, rows: int) -> NDArray:
-    larger = np.zeros((rows, *values.shape[1:]), values.dtype)
+    larger = np.empty((rows, *values.shape[1:]), values.dtype)
     larger[: len(values)] = values
     return larger

@@ -30,7 +30,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import int64, njit
-from numpy.typing import NDArray
 
 from precursors.chain import Chain, FloatArray
 
@@ -52,15 +51,20 @@ ROUNDINGS = 8 * float(np.finfo(float).eps)
 FINISHED, GLOBAL_SLIP, PAUSED = 0, 1, 2
 
 # `clock`: time of the event's onset and its rounding error [s], time since then [tau], time since the last
-# transition [tau]. `count`: transitions, sliding blocks, whether all slid at once, stored states.
+# transition [tau]. `count`: transitions, sliding blocks, whether all slid at once, stored states, windows,
+# derivatives of single blocks that were computed, steps of the root search, and how the run ended.
 ONSET, ONSET_ERROR, ELAPSED, SINCE = range(4)
-TRANSITIONS, SLIDING, GLOBAL, STORED = range(4)
+TRANSITIONS, SLIDING, GLOBAL, STORED, WINDOWS, DERIVATIVES, ROOT_STEPS, STATUS = range(8)
+CLOCK_SIZE, COUNT_SIZE = 4, 8
 
 # What a bound is from: nothing yet, though the series is there; one step; the cubic; the whole series; or it
 # is the root itself. Columns of `level`.
 BUILT, ROUGH, CUBIC, WHOLE, FINAL = range(5)
-ORIGIN, SPAN, DOUBT, BEND, POWER, C0, C1, C2, C3, REST = range(10)
+ORIGIN, SPAN, DOUBT, BEND, POWER, C0, C1, C2, C3, REST, STEPS = range(11)
+LEVELS = 11
 CUBIC_STEPS = 4
+# A search that takes so many steps starts anew from where it is: near a flat start its steps are tiny.
+RESTART = 12
 
 REACH_SQUARED = REACH * REACH
 # Sum of the geometric bound of the tail of a series relative to its first term, for spans up to 1.
@@ -89,26 +93,52 @@ class System(NamedTuple):
     friction: FloatArray
 
 
-def scale(chain: Chain) -> System:
-    """Express a chain in the kernel's units, with Gershgorin's bound of its largest frequency."""
-    behind, ahead = chain.springs, np.append(chain.springs[1:], 0.0)
-    stiffest = np.max(behind + ahead + np.append(0.0, behind[1:]) + ahead)
-    tau = REACH * math.sqrt(chain.mass / stiffest)
-    return System(
-        tau=tau,
-        drive_velocity=chain.drive_velocity * chain.mass / tau,
-        coupling=columns(behind * (tau * tau / chain.mass)),
-        strength=columns(chain.strength),
-        friction=columns(chain.kinetic_friction),
+def width(n_blocks: int) -> int:
+    """Number of columns of a chain's arrays."""
+    return n_blocks + 1 + BEYOND
+
+
+def parameters(chain: Chain) -> tuple[float, float, float, float, float, float]:
+    """What `set_up` takes of a chain beside its weights."""
+    return (
+        chain.mass,
+        chain.stiffness,
+        chain.drive_stiffness,
+        chain.drive_velocity,
+        chain.mu_s,
+        chain.mu_k,
     )
 
 
-def columns(values: NDArray) -> NDArray:
-    """Put one value per block into columns 1..N."""
-    n_blocks = len(values)
-    wide = np.zeros(n_blocks + 1 + BEYOND, values.dtype)
-    wide[1 : n_blocks + 1] = values
-    return wide
+def scale(chain: Chain) -> System:
+    """Express a chain in the kernel's units."""
+    coupling, strength, friction = np.zeros((3, width(chain.n_blocks)))
+    # A copy, as the compiled code is for arrays that may be written to.
+    weights = chain.weights.copy()
+    tau, drive_velocity = set_up(np.array(parameters(chain)), weights, coupling, strength, friction)
+    return System(tau, drive_velocity, coupling, strength, friction)
+
+
+@outer
+def set_up(parameters, weights, coupling, strength, friction):
+    """Fill a chain's columns in the kernel's units; return tau [s] and the drive's velocity [N/tau].
+
+    tau follows from Gershgorin's bound of the largest frequency.
+    """
+    mass, stiffness, drive_stiffness, drive_velocity, mu_s, mu_k = parameters
+    n_blocks = weights.shape[0]
+    stiffest = 0.0
+    for i in range(n_blocks):
+        behind = stiffness if i > 0 else drive_stiffness
+        ahead = stiffness if i < n_blocks - 1 else 0.0
+        stiffest = max(stiffest, behind + ahead + (behind if i > 0 else 0.0) + ahead)
+    tau = REACH * math.sqrt(mass / stiffest)
+    for i in range(n_blocks):
+        spring = stiffness if i > 0 else drive_stiffness
+        coupling[i + 1] = spring * (tau * tau / mass)
+        strength[i + 1] = mu_s * weights[i]
+        friction[i + 1] = mu_k * weights[i]
+    return tau, drive_velocity * mass / tau
 
 
 @inner
@@ -289,6 +319,7 @@ def examine(slot, count, series, level, terms, stage):
         return np.inf
     terms[slot] = count
     level[slot, BEND] = downward(c2, c3) + bend
+    level[slot, STEPS] = 0.0
     stage[slot] = WHOLE
     return level[slot, ORIGIN] + cubic_bound(c0, c1, c2, c3, rest) * level[slot, SPAN]
 
@@ -329,6 +360,29 @@ def refine(slot, t, series, level, terms, stage):
         stage[slot] = FINAL
         step = -max(g / slope, -1e-9) if slope < 0.0 else 0.0
     return level[slot, ORIGIN] + max(x + step, 0.0) * span
+
+
+@inner
+def examine_from(slot, t, series, level, terms, stage):
+    """Examine the rest of the window beyond t, which no root lies before, with the series moved there."""
+    row = index(slot)
+    count = index(terms[slot])
+    x = (t - level[slot, ORIGIN]) / level[slot, SPAN]
+    for first in range(count - ONE):
+        for k in range(count - ONE - first):
+            n = count - TWO - k
+            series[row, n] += x * series[row, n + ONE]
+    rest = 1.0 - x
+    power = 1.0
+    for n in range(count):
+        series[row, n] *= power
+        power *= rest
+    level[slot, ORIGIN] = t
+    level[slot, SPAN] *= rest
+    if series[row, ZERO] <= level[slot, DOUBT]:
+        stage[slot] = FINAL
+        return t
+    return examine(slot, terms[slot], series, level, terms, stage)
 
 
 @inner
@@ -500,6 +554,7 @@ def next_transition(
     stage,
     bound,
     active,
+    count,
 ):
     """Earliest root of all watched functions: (time in the window, slot); (limit, -1) where there is none.
 
@@ -536,8 +591,14 @@ def next_transition(
             p = index(level[slot, POWER])
             divide_out(index(slot), p, index(order) + ONE, series)
             terms[slot] = order + 1 - int64(p)
+            level[slot, STEPS] = 0.0
             stage[slot] = WHOLE
-        bound[slot] = refine(slot, t, series, level, terms, stage)
+        count[ROOT_STEPS] += 1
+        level[slot, STEPS] += 1.0
+        if level[slot, STEPS] > RESTART:
+            bound[slot] = examine_from(slot, t, series, level, terms, stage)
+        else:
+            bound[slot] = refine(slot, t, series, level, terms, stage)
 
 
 @inner
@@ -656,34 +717,154 @@ def start_clock(clock, wait, tau):
 
 
 @outer
+def run_batch(
+    parameters,
+    weights,
+    positions,
+    velocities,
+    duration,
+    until_global,
+    chain,
+    state,
+    record,
+    room,
+    states,
+    state_room,
+    stride,
+    budget,
+    taus,
+    clocks,
+    counts,
+):
+    """Run chain after chain from its start, as many as there is room for, into one record.
+
+    Row j of `parameters`, `weights`, `positions` and `velocities` is a chain with its start, row j of `taus`,
+    `clocks` and `counts` where it ended. Each chain may take `room` transitions, `state_room` states and
+    `budget` windows. Returns how many chains are finished and whether the one after them is not: its state is
+    in `chain` and `state`, and what it recorded follows that of the others.
+    """
+    coupling, strength, friction = chain
+    velocity, tension, mode = state
+    time, block, new_mode, tangential_load, intervals = record
+    used = 0
+    stored = 0
+    windows = 0
+    n_blocks = weights.shape[1]
+    for j in range(weights.shape[0]):
+        if used + max(room, n_blocks) > time.shape[0] or stored + state_room > states[3].shape[0]:
+            return j, False
+        if windows > budget:
+            return j, False
+        clock, count = clocks[j], counts[j]
+        for values in (coupling, strength, friction, velocity, tension, clock):
+            for i in range(values.shape[0]):
+                values[i] = 0.0
+        for i in range(mode.shape[0]):
+            mode[i] = 0
+        for i in range(count.shape[0]):
+            count[i] = 0
+        tau, drive_velocity = set_up(parameters[j], weights[j], coupling, strength, friction)
+        mass, stiffness, drive_stiffness = parameters[j, 0], parameters[j, 1], parameters[j, 2]
+        start_from(
+            positions[j],
+            velocities[j],
+            mass,
+            stiffness,
+            drive_stiffness,
+            tau,
+            strength,
+            velocity,
+            tension,
+            mode,
+        )
+        mine = (
+            time[used:],
+            block[used:],
+            new_mode[used:],
+            tangential_load[used:],
+            intervals[used + j :],
+        )
+        my_states = (
+            states[0][stored:],
+            states[1][stored:],
+            states[2][stored:],
+            states[3][stored:],
+            states[4][stored:],
+        )
+        note_start(velocity, tension, mode, count, mine, my_states)
+        taus[j] = tau
+        status = run_events(
+            tau,
+            drive_velocity,
+            chain,
+            state,
+            clock,
+            count,
+            duration,
+            until_global,
+            mine,
+            max(room, count[TRANSITIONS]),
+            my_states,
+            state_room,
+            stride,
+            budget,
+        )
+        count[STATUS] = status
+        if status == PAUSED:
+            return j, True
+        used += count[TRANSITIONS]
+        stored += count[STORED]
+        windows += count[WINDOWS]
+        intervals[used + j] = clock[SINCE] * tau
+    return weights.shape[0], False
+
+
+@inner
+def note_start(velocity, tension, mode, count, record, states):
+    """Record the blocks that move at time 0 as transitions, and the start, at rest, as the first state."""
+    time, block, new_mode, tangential_load, intervals = record
+    state_tension, state_velocity, state_mode, state_after, state_offset = states
+    k = 0
+    n_blocks = mode.shape[0] - 1 - BEYOND
+    for i in range(mode.shape[0]):
+        state_tension[0, i], state_velocity[0, i], state_mode[0, i] = tension[i], velocity[i], 0
+        if mode[i] != 0:
+            time[k], block[k], new_mode[k], tangential_load[k] = 0.0, i, mode[i], tension[1]
+            intervals[k] = 0.0
+            k += 1
+    state_after[0], state_offset[0] = 0, 0.0
+    count[TRANSITIONS] = count[SLIDING] = k
+    count[GLOBAL] = 1 if k == n_blocks else 0
+    count[STORED] = 1
+
+
+@outer
 def run_events(
     tau,
     drive_velocity,
-    coupling,
-    strength,
-    friction,
-    velocity,
-    tension,
-    mode,
+    chain,
+    state,
     clock,
     count,
     duration,
     until_global,
-    time,
-    block,
-    new_mode,
-    tangential_load,
-    intervals,
+    record,
+    room,
     states,
+    state_room,
     stride,
     budget,
 ):
     """Run a chain until `duration` [s], the end of the first global slip, full buffers or a spent budget.
 
-    `velocity`, `tension`, `mode`, `clock` and `count` hold the state and are left at the state reached.
-    `time` [s], `block`, `new_mode`, `tangential_load` [N] and `intervals` [s] are filled from
-    count[TRANSITIONS] on; after every `stride` transitions or so a state goes to `states`.
+    `chain` holds its coupling, strength and friction; `state` (velocity, tension, mode), `clock` and `count`
+    are left at the state reached. `record`, which has times [s], blocks, new modes, tangential loads [N] and
+    intervals [s], is filled from count[TRANSITIONS] on; after every `stride` transitions or so a state goes
+    to `states`.
     """
+    coupling, strength, friction = chain
+    velocity, tension, mode = state
+    time, block, new_mode, tangential_load, intervals = record
     state_tension, state_velocity, state_mode, state_after, state_offset = states
     wide = mode.shape[0]
     n_blocks = wide - 1 - BEYOND
@@ -695,7 +876,7 @@ def run_events(
     tension_before = np.empty(wide)
     weight = np.empty(ROWS + 2)
     series = np.empty((2 * wide, ROWS + 1))
-    level = np.empty((2 * wide, 10))
+    level = np.empty((2 * wide, LEVELS))
     terms = np.zeros(2 * wide, np.int64)
     stage = np.zeros(2 * wide, np.int64)
     bound = np.empty(2 * wide)
@@ -711,14 +892,14 @@ def run_events(
     farthest = farthest_sliding(n_blocks, mode)
     loading_rate = coupling[1] * drive_velocity
     short_order, long_order = order_for(SHORT_WINDOW), order_for(LONG_WINDOW)
-    room = time.shape[0]
     k = count[TRANSITIONS]
     sliding = count[SLIDING]
     status = PAUSED
     idle = 0
     doubt = ROUNDINGS
-    while k < room and budget > 0 and count[STORED] < state_after.shape[0]:
+    while k < room and budget > 0 and count[STORED] < state_room:
         budget -= 1
+        count[WINDOWS] += 1
         if k >= stride * count[STORED]:
             c = count[STORED]
             for i in range(wide):
@@ -772,6 +953,7 @@ def run_events(
         t = 0.0
         while True:
             expand(coupling, mobile, push, first, final, order, tension, rate)
+            count[DERIVATIVES] += order * (final - first + 1)
             powers(limit - t, order, weight)
             watch(
                 first,
@@ -818,6 +1000,7 @@ def run_events(
                 stage,
                 bound,
                 active,
+                count,
             )
             slip[0] = drive_velocity * t
             idle = idle + 1 if t == noted else 0
@@ -976,19 +1159,31 @@ def evaluate(
             rate[0, i] = velocity[i]
 
 
-def start_state(system: System, chain: Chain, positions: FloatArray, velocities: FloatArray):
-    """Velocities, spring forces and modes at time 0, in the kernel's units and columns.
+@outer
+def start_from(
+    positions, velocities, mass, stiffness, drive_stiffness, tau, strength, velocity, tension, mode
+):
+    """Fill velocities, spring forces and modes at time 0, in the kernel's units and columns.
 
     A block that moves slides; one at rest slides where its springs overcome the static friction (Eq. 5).
     """
-    tension = -chain.springs * np.diff(positions, prepend=0.0)
-    net = tension - np.append(tension[1:], 0.0)
-    # A position of size x is known to its rounding: a block at its limit to within that still sticks.
-    doubt = ROUNDINGS * (chain.strength + 4.0 * np.max(chain.springs) * np.max(np.abs(positions)))
-    resting = np.sign(net) * (np.abs(net) > chain.strength + doubt)
-    mode = np.where(velocities != 0.0, np.sign(velocities), resting).astype(np.int64)
-    velocity = velocities * (chain.mass / system.tau)
-    return columns(velocity), columns(tension), columns(mode)
+    n_blocks = positions.shape[0]
+    stiffest, farthest, before = drive_stiffness, 0.0, 0.0
+    for i in range(n_blocks):
+        spring = stiffness if i > 0 else drive_stiffness
+        stiffest = max(stiffest, spring)
+        farthest = max(farthest, abs(positions[i]))
+        tension[i + 1] = -spring * (positions[i] - before)
+        before = positions[i]
+        velocity[i + 1] = velocities[i] * (mass / tau)
+    for i in range(1, n_blocks + 1):
+        # A position of size x is known to its rounding: a block at its limit to within that still sticks.
+        doubt = ROUNDINGS * (strength[i] + 4.0 * stiffest * farthest)
+        moves = velocity[i] if velocity[i] != 0.0 else tension[i] - tension[i + 1]
+        if velocity[i] == 0.0 and abs(moves) <= strength[i] + doubt:
+            mode[i] = 0
+        else:
+            mode[i] = 1 if moves > 0.0 else -1
 
 
 def to_positions(chain: Chain, times: FloatArray, force: FloatArray) -> FloatArray:

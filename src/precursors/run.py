@@ -74,6 +74,9 @@ class Run:
         State at time 0 [m], [m/s].
     states : States
         Stored states from which `at` starts.
+    evaluations : float
+        Evaluations of the forces of the whole chain that the solver made, each derivative counted as one; 0
+        where it is not known.
     """
 
     chain: Chain
@@ -83,6 +86,7 @@ class Run:
     start_positions: FloatArray
     start_velocities: FloatArray
     states: States
+    evaluations: float = 0.0
 
     def at(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Positions [m] and velocities [m/s], each (len(times), N), exact to rounding.

@@ -16,7 +16,7 @@ from hypothesis import event, given
 from hypothesis import strategies as st
 from reference import read_golden, read_held_out
 
-from precursors import Chain, TransitionLimitError, find_slips, simulate
+from precursors import Chain, TransitionLimitError, find_slips, kernel, simulate
 from precursors.audit import Tolerances
 from precursors.bound import maximal_strain_positions
 from precursors.slips import apparent_friction, first_global
@@ -464,6 +464,16 @@ class TestEdgesOfTheModel:
         """Without friction; 1e-30 m are 1e-24 N, less than a rounding of what the drive adds in 1e-8 s."""
         chain = SLIDER(2, mu_s=0.0, mu_k=0.0)
         audited(simulate(chain, duration=1e-3, start_positions=[1e-30, 0.0]))
+
+    def test_blocks_that_feel_the_drive_late_cost_no_search(self, monkeypatch):
+        """Without friction all let go at once; the drive moves block 5 as t^9, which is flat for long."""
+        counts, run_batch = [], kernel.run_batch
+        monkeypatch.setattr(kernel, "run_batch", lambda *a: (counts.append(a[-1]), run_batch(*a))[1])
+        run = simulate(Chain([10.0] * 5, 2.84e-5, 25e6, 2.7e11, 8.4e-5, 0.0, 0.0), duration=4.6e-7)
+        assert order(run) == [(block, 1) for block in range(1, 6)]
+        assert counts[0][0, kernel.WINDOWS] < 100
+        assert counts[0][0, kernel.ROOT_STEPS] < 1000
+        audited(run)
 
     def test_a_block_without_friction_swings_for_ever_about_the_drive(self):
         """Its velocity V (1 - cos omega t) touches zero once a period, and nothing holds it there."""

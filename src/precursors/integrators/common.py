@@ -170,6 +170,6 @@ def march(
 
 
 def _no_states(chain: Chain) -> States:
-    columns = len(kernel.columns(chain.weights))
+    columns = kernel.width(chain.n_blocks)
     none: FloatArray = np.empty((0, columns))
     return States(none, none, np.empty((0, columns), np.int64), np.empty(0, np.int64), np.empty(0))
