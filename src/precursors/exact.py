@@ -301,12 +301,16 @@ class _Part(NamedTuple):
 
 def _parts(work: _Workspace, counts: IntArray) -> Iterator[_Part]:
     """Cut the record of several runs, as `counts` has them, into one part a run."""
-    used, stored = counts[:, kernel.TRANSITIONS], counts[:, kernel.STORED]
-    transitions = _transitions(work.record[:-1], int(used.sum()))
-    intervals: FloatArray = work.record[-1][: len(transitions) + len(counts)].copy()
-    states = [column[: stored.sum()].copy() for column in work.states]
+    used, stored = counts[:, kernel.TRANSITIONS].tolist(), counts[:, kernel.STORED].tolist()
+    transitions = _transitions(work.record[:-1], sum(used))
+    intervals: FloatArray = work.record[-1][: sum(used) + len(used)].copy()
+    n_states = sum(stored)
+    states = [column[:n_states].copy() for column in work.states]
+    if len(used) == 1:
+        yield _Part(transitions, intervals, _states(states, slice(None)))
+        return
     first = first_state = 0
-    for j, (n, m) in enumerate(zip(used.tolist(), stored.tolist(), strict=True)):
+    for j, (n, m) in enumerate(zip(used, stored, strict=True)):
         yield _Part(
             transitions[first : first + n],
             intervals[first + j : first + j + n + 1],

@@ -26,11 +26,12 @@ All compiled code is in this one file, because a compile cache does not see an e
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import int64, njit
 
+from precursors import lanes
 from precursors.chain import Chain, FloatArray
 
 REACH = 2.0
@@ -43,7 +44,7 @@ BEYOND = WIDTH
 NEGLIGIBLE = 1e-19
 # Chains whose moving part is longer than LONG blocks renew neighbourhoods only, in windows of LONG_WINDOW.
 LONG = 24
-SHORT_WINDOW, LONG_WINDOW = 1.0, 0.5
+SHORT_WINDOW, LONG_WINDOW = 0.6875, 0.5
 # A value below so many roundings of the forces it was computed from counts as zero. Where transitions follow
 # one another without time going on, rounding decides in a circle: the doubt grows until it does not.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
@@ -60,8 +61,8 @@ CLOCK_SIZE, COUNT_SIZE = 4, 8
 # What a bound is from: nothing yet, though the series is there; one step; the cubic; the whole series; or it
 # is the root itself. Columns of `level`.
 BUILT, ROUGH, CUBIC, WHOLE, FINAL = range(5)
-ORIGIN, SPAN, DOUBT, BEND, POWER, C0, C1, C2, C3, REST, STEPS = range(11)
-LEVELS = 11
+ORIGIN, SPAN, DOUBT, BEND, TURN, POWER, C0, C1, C2, C3, REST, STEPS = range(12)
+LEVELS = 12
 CUBIC_STEPS = 4
 # A search that takes so many steps starts anew from where it is: near a flat start its steps are tiny.
 RESTART = 12
@@ -69,17 +70,26 @@ RESTART = 12
 REACH_SQUARED = REACH * REACH
 # Sum of the geometric bound of the tail of a series relative to its first term, for spans up to 1.
 TAIL = 1.1
-INVERSE_FACTORIAL = np.array([1.0 / math.factorial(n) for n in range(ROWS + 1)])
+INVERSE_FACTORIAL = np.array([1.0 / math.factorial(n) for n in range(ROWS + WIDTH)])
 SECOND_DERIVATIVE = np.array([n * (n - 1.0) for n in range(ROWS + 1)])
 REACH_POWER = REACH ** np.arange(ROWS + 1.0)
 
 # Numba guards every index that may be negative; unsigned ones, and constants of their kind, save that time.
 index = np.uint64
-ZERO, ONE, TWO, THREE, FOUR, FIVE, SIX, SEVEN = (np.uint64(n) for n in range(8))
+ZERO, ONE, TWO, THREE, FOUR, FIVE, SIX, SEVEN, EIGHT = (np.uint64(n) for n in range(9))
 # An index that starts from a literal is typed: what it goes to would be compiled for the literal anew.
 INDEX = {"first": int64, "slot": int64}
-# Products may be fused with sums.
-inner = njit(cache=True, error_model="numpy", fastmath={"contract"}, locals=INDEX)
+# Products may be fused with sums. Only `outer` code allocates, and only there are references counted (`_nrt`),
+# which took longer than the arithmetic; so did passing arrays to a function, hence what is inlined.
+options: Any = {
+    "cache": True,
+    "error_model": "numpy",
+    "fastmath": {"contract"},
+    "locals": INDEX,
+    "_nrt": False,
+}
+inner = njit(**options, forceinline=True)
+seldom = njit(**options)
 outer = njit(cache=True, error_model="numpy", nogil=True, locals=INDEX)
 
 
@@ -148,40 +158,84 @@ def expand(coupling, mobile, push, first, final, order, tension, rate):
     This is the chain's linear operator: whatever else acts linearly between transitions belongs here.
     `mobile` is 1 where a block slides and `push` its kinetic friction with the sign of its mode; `tension`
     holds the spring forces. Columns first - 1 and final + 1 hold the motion of the neighbours outside.
+    Few groups of four stay in registers from row to row, even and odd rows side by side.
     """
     start, stop = index(first), index(final) + ONE
-    behind = tension[start]
-    for i in range(start, stop):
-        ahead = tension[i + ONE]
-        rate[ONE, i] = mobile[i] * (behind - ahead) - push[i]
-        behind = ahead
-    for n in range(TWO, index(order) + ONE):
-        m = n - TWO
-        v = rate[m, start]
-        behind = coupling[start] * (rate[m, start - ONE] - v)
-        for i in range(start, stop, FOUR):
-            i1, i2, i3, i4 = i + ONE, i + TWO, i + THREE, i + FOUR
-            v1, v2, v3, v4 = rate[m, i1], rate[m, i2], rate[m, i3], rate[m, i4]
-            f1 = coupling[i1] * (v - v1)
-            f2 = coupling[i2] * (v1 - v2)
-            f3 = coupling[i3] * (v2 - v3)
-            f4 = coupling[i4] * (v3 - v4)
-            rate[n, i] = mobile[i] * (behind - f1)
-            rate[n, i1] = mobile[i1] * (f1 - f2)
-            rate[n, i2] = mobile[i2] * (f2 - f3)
-            rate[n, i3] = mobile[i3] * (f3 - f4)
-            v, behind = v4, f4
+    for i in range(start, stop, FOUR):
+        net = lanes.load(tension, i) - lanes.load(tension, i + ONE)
+        lanes.store_row(rate, ONE, i, lanes.load(mobile, i) * net - lanes.load(push, i))
+    rows = range(TWO, index(order) + ONE, TWO)
+    groups = (stop - start) // FOUR
+    if groups == ONE:
+        b1, a1 = pulls(start, coupling, mobile)
+        even1, odd1 = lanes.load_row(rate, ZERO, start), lanes.load_row(rate, ONE, start)
+        for n in rows:
+            left, right = lanes.spread(rate[n - TWO, start - ONE]), lanes.spread(rate[n - TWO, stop])
+            even1 = derive(left, even1, right, b1, a1)
+            lanes.store_row(rate, n, start, even1)
+            left, right = lanes.spread(rate[n - ONE, start - ONE]), lanes.spread(rate[n - ONE, stop])
+            odd1 = derive(left, odd1, right, b1, a1)
+            lanes.store_row(rate, n + ONE, start, odd1)
+    elif groups == THREE:
+        i1, i2, i3 = start, start + FOUR, start + EIGHT
+        b1, a1 = pulls(i1, coupling, mobile)
+        b2, a2 = pulls(i2, coupling, mobile)
+        b3, a3 = pulls(i3, coupling, mobile)
+        even1, odd1 = lanes.load_row(rate, ZERO, i1), lanes.load_row(rate, ONE, i1)
+        even2, odd2 = lanes.load_row(rate, ZERO, i2), lanes.load_row(rate, ONE, i2)
+        even3, odd3 = lanes.load_row(rate, ZERO, i3), lanes.load_row(rate, ONE, i3)
+        for n in rows:
+            left, right = lanes.spread(rate[n - TWO, start - ONE]), lanes.spread(rate[n - TWO, stop])
+            v1, v2, v3 = even1, even2, even3
+            even1 = derive(left, v1, v2, b1, a1)
+            even2 = derive(v1, v2, v3, b2, a2)
+            even3 = derive(v2, v3, right, b3, a3)
+            lanes.store_row(rate, n, i1, even1)
+            lanes.store_row(rate, n, i2, even2)
+            lanes.store_row(rate, n, i3, even3)
+            left, right = lanes.spread(rate[n - ONE, start - ONE]), lanes.spread(rate[n - ONE, stop])
+            v1, v2, v3 = odd1, odd2, odd3
+            odd1 = derive(left, v1, v2, b1, a1)
+            odd2 = derive(v1, v2, v3, b2, a2)
+            odd3 = derive(v2, v3, right, b3, a3)
+            lanes.store_row(rate, n + ONE, i1, odd1)
+            lanes.store_row(rate, n + ONE, i2, odd2)
+            lanes.store_row(rate, n + ONE, i3, odd3)
+    else:
+        for n in range(TWO, index(order) + ONE):
+            m = n - TWO
+            here = lanes.load_row(rate, m, start)
+            left = lanes.spread(rate[m, start - ONE])
+            for i in range(start, stop, FOUR):
+                right = lanes.load_row(rate, m, i + FOUR) if i + FOUR < stop else lanes.spread(rate[m, stop])
+                b, a = pulls(i, coupling, mobile)
+                lanes.store_row(rate, n, i, derive(left, here, right, b, a))
+                left, here = here, right
+
+
+@inner
+def pulls(i, coupling, mobile):
+    """Stiffness behind and ahead of blocks i..i + 3 where they slide, zero where they do not."""
+    slides = lanes.load(mobile, i)
+    return slides * lanes.load(coupling, i), slides * lanes.load(coupling, i + ONE)
+
+
+@inner
+def derive(left, here, right, back, front):
+    """Row n + 2 of four blocks from row n of them (`here`) and of the four on either side."""
+    return back * (lanes.behind(left, here) - here) - front * (here - lanes.ahead(here, right))
 
 
 @inner
 def powers(s, order, weight):
     """Fill weight[n] = s^n / n! for n = 0..order + 1; return the order that is enough for s."""
-    weight[0] = 1.0
-    weight[1] = power = s
+    ss = s * s
+    power = lanes.four_of(1.0, s, ss, s * ss)
+    fourth = ss * ss
     enough = order
-    for n in range(2, order + 2):
-        power *= s
-        weight[n] = power * INVERSE_FACTORIAL[n]
+    for n in range(ZERO, index(order) + TWO, FOUR):
+        lanes.store(weight, n, power * lanes.load(INVERSE_FACTORIAL, n))
+        power = power * fourth
     while enough > 8 and weight[enough] * REACH_POWER[enough] < NEGLIGIBLE:
         enough -= 1
     return enough
@@ -189,40 +243,39 @@ def powers(s, order, weight):
 
 @inner
 def move(i, order, weight, rate, slip):
-    """Carry blocks i..i + 3 along their series to the time of `weight`: velocity in row 0, slip added up.
-
-    Eight independent sums keep the processor busy.
-    """
-    v0 = v1 = v2 = v3 = 0.0
-    x0 = x1 = x2 = x3 = 0.0
-    i0 = index(i)
-    i1, i2, i3 = i0 + ONE, i0 + TWO, i0 + THREE
-    ahead = weight[order + 1]
-    for k in range(index(order) + ONE):
-        n = index(order) - k
+    """Carry blocks i..i + 3 along their series to the time of `weight`: velocity in row 0, slip added up."""
+    n = index(order)
+    ahead = weight[n + ONE]
+    v = v_odd = x = x_odd = lanes.spread(0.0)
+    if n % TWO == ONE:
+        c = lanes.load_row(rate, n, i)
         w = weight[n]
-        c0, c1, c2, c3 = rate[n, i0], rate[n, i1], rate[n, i2], rate[n, i3]
-        v0 += w * c0
-        v1 += w * c1
-        v2 += w * c2
-        v3 += w * c3
-        x0 += ahead * c0
-        x1 += ahead * c1
-        x2 += ahead * c2
-        x3 += ahead * c3
+        v, x = w * c, ahead * c
         ahead = w
-    rate[ZERO, i0], rate[ZERO, i1], rate[ZERO, i2], rate[ZERO, i3] = v0, v1, v2, v3
-    slip[i0] += x0
-    slip[i1] += x1
-    slip[i2] += x2
-    slip[i3] += x3
+        n -= ONE
+    # The highest order first, as it is the smallest.
+    for _ in range(n // TWO):
+        even, odd = lanes.load_row(rate, n, i), lanes.load_row(rate, n - ONE, i)
+        w, below = weight[n], weight[n - ONE]
+        v = v + w * even
+        v_odd = v_odd + below * odd
+        x = x + ahead * even
+        x_odd = x_odd + w * odd
+        ahead = below
+        n -= TWO
+    c = lanes.load_row(rate, ZERO, i)
+    lanes.store_row(rate, ZERO, i, (v + c) + v_odd)
+    lanes.store(slip, i, lanes.load(slip, i) + ((x + ahead * c) + x_odd))
 
 
 @inner
-def stretch(first, last, coupling, slip, tension_before, tension):
-    """Spring forces of blocks first..last after the slips since the start of the window."""
-    for i in range(first, last + 1):
-        tension[i] = tension_before[i] + coupling[i] * (slip[i - 1] - slip[i])
+def stretch(first, final, coupling, slip, tension_before, tension):
+    """Forces of the springs from behind block first to ahead of `final`, after the slips in the window."""
+    for i in range(index(first), index(final) + ONE, FOUR):
+        longer = lanes.load(slip, i - ONE) - lanes.load(slip, i)
+        lanes.store(tension, i, lanes.load(tension_before, i) + lanes.load(coupling, i) * longer)
+    i = index(final) + ONE
+    tension[i] = tension_before[i] + coupling[i] * (slip[i - ONE] - slip[i])
 
 
 @inner
@@ -241,11 +294,12 @@ def tail_bound(first, final, end, order, span, rate):
     Row n + 2 of a block is at most REACH^2 times the largest of row n (Gershgorin); moving neighbours
     outside, in columns first - 1 and final + 1, enter with all their rows, which follow from others.
     """
-    even = 0.0
-    odd = 0.0
-    for i in range(index(first - 1), index(final) + TWO):
-        even = max(even, abs(rate[SIX, i]))
-        odd = max(odd, abs(rate[SEVEN, i]))
+    sixth_row = seventh_row = lanes.spread(0.0)
+    for i in range(index(first), index(final) + ONE, FOUR):
+        sixth_row = lanes.larger(sixth_row, lanes.magnitude(lanes.load_row(rate, SIX, i)))
+        seventh_row = lanes.larger(seventh_row, lanes.magnitude(lanes.load_row(rate, SEVEN, i)))
+    even = max(lanes.largest(sixth_row), abs(rate[SIX, first - 1]), abs(rate[SIX, final + 1]))
+    odd = max(lanes.largest(seventh_row), abs(rate[SEVEN, first - 1]), abs(rate[SEVEN, final + 1]))
     if first > 1 or final < end:
         shrink = 1.0
         for n in range(8, order + 1):
@@ -284,6 +338,12 @@ def downward(c2, c3):
 
 
 @inner
+def turning(c2, c3):
+    """Bound of |g''| of a cubic on [0, 1]."""
+    return 2.0 * abs(c2) + 6.0 * abs(c3)
+
+
+@inner
 def surely_positive(c0, c1, c2, c3, rest):
     """Whether c0 + c1 s + c2 s^2 + c3 s^3 + e, |e| <= rest, has no root in [0, 1]."""
     return c0 + min(c1, 0.0) + min(c2, 0.0) + min(c3, 0.0) > rest
@@ -319,6 +379,7 @@ def examine(slot, count, series, level, terms, stage):
         return np.inf
     terms[slot] = count
     level[slot, BEND] = downward(c2, c3) + bend
+    level[slot, TURN] = turning(c2, c3) + bend
     level[slot, STEPS] = 0.0
     stage[slot] = WHOLE
     return level[slot, ORIGIN] + cubic_bound(c0, c1, c2, c3, rest) * level[slot, SPAN]
@@ -355,14 +416,20 @@ def refine(slot, t, series, level, terms, stage):
         odd = odd * y + series[row, n + ONE]
     g = even + x * odd
     slope = odd + 2.0 * x * (even_slope + x * odd_slope)
+    if slope < 0.0:
+        # Newton's step, where it ends so near to the root that the value there counts as zero.
+        step = max(-g / slope, -1e-9)
+        if g <= level[slot, DOUBT] or 0.5 * level[slot, TURN] * step * step <= level[slot, DOUBT]:
+            stage[slot] = FINAL
+            return level[slot, ORIGIN] + max(x + step, 0.0) * span
     step = safe_step(max(g, 0.0), slope, level[slot, BEND])
     if g <= level[slot, DOUBT] or x + step <= x:
         stage[slot] = FINAL
-        step = -max(g / slope, -1e-9) if slope < 0.0 else 0.0
+        step = 0.0
     return level[slot, ORIGIN] + max(x + step, 0.0) * span
 
 
-@inner
+@seldom
 def examine_from(slot, t, series, level, terms, stage):
     """Examine the rest of the window beyond t, which no root lies before, with the series moved there."""
     row = index(slot)
@@ -409,6 +476,45 @@ def margin_series(slot, i, order, coupling, strength, tension, rate, weight, ser
 
 
 @inner
+def may_stop(i, tail, mobile, sense, rate, weight, fastest):
+    """Bits of those of blocks i..i + 3 that slide and may stop in the window; `fastest` is set for all four.
+
+    The test is that of `surely_positive`, with the size of each term from the fourth on and the tail as rest.
+    """
+    slides, sign = lanes.load(mobile, i), lanes.load(sense, i)
+    c0 = sign * lanes.load_row(rate, ZERO, i)
+    c1 = sign * (lanes.load_row(rate, ONE, i) * weight[ONE])
+    c2 = sign * (lanes.load_row(rate, TWO, i) * weight[TWO])
+    c3 = sign * (lanes.load_row(rate, THREE, i) * weight[THREE])
+    rest = (size(FOUR, i, rate, weight) + size(FIVE, i, rate, weight)) + (
+        size(SIX, i, rate, weight) + size(SEVEN, i, rate, weight)
+    )
+    rest = rest + tail
+    total = (lanes.magnitude(c0) + lanes.magnitude(c1)) + (lanes.magnitude(c2) + lanes.magnitude(c3)) + rest
+    lanes.store(fastest, i, total * slides)
+    zero = lanes.spread(0.0)
+    least = (c0 + lanes.smaller(c1, zero)) + (lanes.smaller(c2, zero) + lanes.smaller(c3, zero))
+    return lanes.where_not_above(least, slides * rest - (1.0 - slides))
+
+
+@inner
+def size(n, i, rate, weight):
+    """Largest value of term n of the series of blocks i..i + 3 in the window."""
+    return lanes.magnitude(lanes.load_row(rate, n, i)) * weight[n]
+
+
+@inner
+def may_let_go(i, span, coupling, strength, mobile, tension, fastest):
+    """Bits of those of blocks i..i + 3 that stick and may let go in the window."""
+    slides = lanes.load(mobile, i)
+    still = 1.0 - slides
+    net = lanes.magnitude(lanes.load(tension, i) - lanes.load(tension, i + ONE))
+    change = lanes.load(coupling, i) * lanes.load(fastest, i - ONE)
+    change = (change + lanes.load(coupling, i + ONE) * lanes.load(fastest, i + ONE)) * span
+    return lanes.where_not_above(still * (lanes.load(strength, i) - net), still * change - slides)
+
+
+@inner
 def watch(
     first,
     final,
@@ -421,10 +527,13 @@ def watch(
     coupling,
     strength,
     mode,
+    mobile,
+    sense,
     tension,
     rate,
     weight,
     fastest,
+    suspects,
     series,
     level,
     terms,
@@ -445,95 +554,181 @@ def watch(
         if active[k] < 2 * first or active[k] > 2 * final + 1:
             kept += 1
             active[kept] = active[k]
+    active[0] = kept
     tail, tail_bend = tail_bound(first, final, end, order, span, rate)
+    start, stop = index(first), index(final) + ONE
+    for group in range(start, stop, FOUR):
+        suspects[group] = may_stop(group, tail, mobile, sense, rate, weight, fastest)
+    for group in range(start, stop, FOUR):
+        bits = suspects[group] | may_let_go(group, span, coupling, strength, mobile, tension, fastest)
+        i = group
+        while bits != ZERO and i <= index(last):
+            if bits & ONE:
+                zero = grain(i, doubt, coupling, strength, tension, fastest)
+                if mode[i] != 0:
+                    watch_velocity(
+                        i,
+                        origin,
+                        span,
+                        order,
+                        mode[i],
+                        rate,
+                        weight,
+                        zero,
+                        tail,
+                        tail_bend,
+                        series,
+                        level,
+                        stage,
+                        bound,
+                        active,
+                    )
+                else:
+                    watch_margins(
+                        i,
+                        is_long,
+                        origin,
+                        span,
+                        order,
+                        coupling,
+                        strength,
+                        tension,
+                        rate,
+                        weight,
+                        fastest,
+                        zero,
+                        tail,
+                        tail_bend,
+                        series,
+                        level,
+                        stage,
+                        bound,
+                        active,
+                    )
+            bits >>= ONE
+            i += ONE
+
+
+@inner
+def watch_velocity(
+    i,
+    origin,
+    span,
+    order,
+    sign,
+    rate,
+    weight,
+    zero,
+    tail,
+    tail_bend,
+    series,
+    level,
+    stage,
+    bound,
+    active,
+):
+    """Bound the time at which sliding block i stops from below."""
+    slot = TWO * i
     w1, w2, w3, w4 = weight[1], weight[2], weight[3], weight[4]
-    w5, w6, w7, w8 = weight[5], weight[6], weight[7], weight[8]
-    terms_after = index(order) + ONE
-    for i in range(index(first), index(last) + ONE):
-        if mode[i] == 0:
-            fastest[i] = 0.0
-            continue
-        slot = TWO * i
-        sign = mode[i]
-        c0, c1 = sign * rate[ZERO, i], sign * rate[ONE, i] * w1
-        c2, c3 = sign * rate[TWO, i] * w2, sign * rate[THREE, i] * w3
-        r4, r5 = abs(rate[FOUR, i]) * w4, abs(rate[FIVE, i]) * w5
-        r6, r7 = abs(rate[SIX, i]) * w6, abs(rate[SEVEN, i]) * w7
-        rest = (r4 + r5) + (r6 + r7) + tail
-        total = abs(c0) + abs(c1) + abs(c2) + abs(c3) + rest
-        fastest[i] = total
+    c0, c1 = sign * rate[ZERO, i], sign * rate[ONE, i] * w1
+    c2, c3 = sign * rate[TWO, i] * w2, sign * rate[THREE, i] * w3
+    r4, r5 = abs(rate[FOUR, i]) * w4, abs(rate[FIVE, i]) * weight[5]
+    r6, r7 = abs(rate[SIX, i]) * weight[6], abs(rate[SEVEN, i]) * weight[7]
+    rest = (r4 + r5) + (r6 + r7) + tail
+    level[slot, ORIGIN], level[slot, SPAN], level[slot, DOUBT] = origin, span, zero
+    if c0 > zero:
+        level[slot, POWER] = 0.0
+        bend = 12.0 * r4 + 20.0 * r5 + 30.0 * r6 + 42.0 * r7 + tail_bend
+    elif c0 >= -zero and c1 > zero:
+        # It has just begun to move: the root at the start is divided out.
+        c0, c1, c2, c3 = c1, c2, c3, sign * rate[FOUR, i] * w4
+        rest = r5 + r6 + r7 + tail
+        if surely_positive(c0, c1, c2, c3, rest):
+            return
+        level[slot, POWER] = 1.0
+        bend = 12.0 * r5 + 20.0 * r6 + 30.0 * r7 + tail_bend
+    else:
+        for n in range(index(order) + ONE):
+            series[slot, n] = sign * rate[n, i] * weight[n]
+        stage[slot], bound[slot] = BUILT, origin
+        keep(slot, active)
+        return
+    level[slot, BEND], level[slot, TURN] = downward(c2, c3) + bend, turning(c2, c3) + bend
+    level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3] = c0, c1, c2, c3
+    level[slot, REST] = rest
+    stage[slot] = ROUGH
+    bound[slot] = origin + safe_step(c0, c1, downward(c2, c3) + 12.0 * rest) * span
+    if bound[slot] < origin + span:
+        keep(slot, active)
+
+
+@inner
+def watch_margins(
+    i,
+    is_long,
+    origin,
+    span,
+    order,
+    coupling,
+    strength,
+    tension,
+    rate,
+    weight,
+    fastest,
+    zero,
+    tail,
+    tail_bend,
+    series,
+    level,
+    stage,
+    bound,
+    active,
+):
+    """Bound the times at which stuck block i lets go forward or backward from below."""
+    near, far = i - ONE, i + ONE
+    b, a = coupling[i], coupling[far]
+    if b * fastest[near] + a * fastest[far] == 0.0:
+        return
+    net = tension[i] - tension[far]
+    # The net force grows with the velocities of the neighbours.
+    g1 = (b * rate[ZERO, near] + a * rate[ZERO, far]) * weight[1]
+    g2 = (b * rate[ONE, near] + a * rate[ONE, far]) * weight[2]
+    g3 = (b * rate[TWO, near] + a * rate[TWO, far]) * weight[3]
+    r4 = abs(b * rate[THREE, near] + a * rate[THREE, far]) * weight[4]
+    r5 = abs(b * rate[FOUR, near] + a * rate[FOUR, far]) * weight[5]
+    r6 = abs(b * rate[FIVE, near] + a * rate[FIVE, far]) * weight[6]
+    r7 = abs(b * rate[SIX, near] + a * rate[SIX, far]) * weight[7]
+    r8 = abs(b * rate[SEVEN, near] + a * rate[SEVEN, far]) * weight[8]
+    rest = (r4 + r5) + (r6 + r7) + (r8 + (a + b) * tail * span / 9.0)
+    for k in range(TWO):
+        side = 1.0 - 2.0 * k
+        c0, c1, c2, c3 = strength[i] - side * net, -side * g1, -side * g2, -side * g3
         if surely_positive(c0, c1, c2, c3, rest):
             continue
-        zero = grain(i, doubt, coupling, strength, tension, fastest)
+        slot = TWO * i + k
         level[slot, ORIGIN], level[slot, SPAN], level[slot, DOUBT] = origin, span, zero
-        if c0 > zero:
+        if c0 > zero and not is_long:
             level[slot, POWER] = 0.0
-            level[slot, BEND] = downward(c2, c3) + 12.0 * r4 + 20.0 * r5 + 30.0 * r6 + 42.0 * r7 + tail_bend
-        elif c0 >= -zero and c1 > zero:
-            # It has just begun to move: the root at the start is divided out.
-            c0, c1, c2, c3 = c1, c2, c3, sign * rate[FOUR, i] * w4
-            rest = r5 + r6 + r7 + tail
-            if surely_positive(c0, c1, c2, c3, rest):
-                continue
-            level[slot, POWER] = 1.0
-            level[slot, BEND] = downward(c2, c3) + 12.0 * r5 + 20.0 * r6 + 30.0 * r7 + tail_bend
+            bend = 12.0 * r4 + 20.0 * r5 + 30.0 * r6 + 42.0 * r7 + 56.0 * r8
+            bend += (a + b) * tail_bend * span / 7.0
+            level[slot, BEND], level[slot, TURN] = downward(c2, c3) + bend, turning(c2, c3) + bend
+            level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3] = c0, c1, c2, c3
+            level[slot, REST] = rest
+            stage[slot] = ROUGH
+            bound[slot] = origin + safe_step(c0, c1, downward(c2, c3) + 12.0 * rest) * span
         else:
-            for n in range(terms_after):
-                series[slot, n] = sign * rate[n, i] * weight[n]
+            # The series of the neighbours may get other origins before this one is looked at again.
+            margin_series(slot, i, order, coupling, strength, tension, rate, weight, series)
             stage[slot], bound[slot] = BUILT, origin
-            kept += 1
-            active[kept] = slot
-            continue
-        level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3] = c0, c1, c2, c3
-        level[slot, REST] = rest
-        stage[slot] = ROUGH
-        bound[slot] = origin + safe_step(c0, c1, downward(c2, c3) + 12.0 * rest) * span
         if bound[slot] < origin + span:
-            kept += 1
-            active[kept] = slot
-    for i in range(index(first), index(last) + ONE):
-        if mode[i] != 0:
-            continue
-        near, far = i - ONE, i + ONE
-        net = tension[i] - tension[far]
-        b, a = coupling[i], coupling[far]
-        change = (b * fastest[near] + a * fastest[far]) * span
-        if strength[i] - abs(net) > change or change == 0.0:
-            continue
-        # The net force grows with the velocities of the neighbours.
-        g1 = (b * rate[ZERO, near] + a * rate[ZERO, far]) * w1
-        g2 = (b * rate[ONE, near] + a * rate[ONE, far]) * w2
-        g3 = (b * rate[TWO, near] + a * rate[TWO, far]) * w3
-        r4 = abs(b * rate[THREE, near] + a * rate[THREE, far]) * w4
-        r5 = abs(b * rate[FOUR, near] + a * rate[FOUR, far]) * w5
-        r6 = abs(b * rate[FIVE, near] + a * rate[FIVE, far]) * w6
-        r7 = abs(b * rate[SIX, near] + a * rate[SIX, far]) * w7
-        r8 = abs(b * rate[SEVEN, near] + a * rate[SEVEN, far]) * w8
-        rest = (r4 + r5) + (r6 + r7) + (r8 + (a + b) * tail * span / 9.0)
-        for k in range(TWO):
-            side = 1.0 - 2.0 * k
-            c0, c1, c2, c3 = strength[i] - side * net, -side * g1, -side * g2, -side * g3
-            if surely_positive(c0, c1, c2, c3, rest):
-                continue
-            slot = TWO * i + k
-            level[slot, ORIGIN], level[slot, SPAN] = origin, span
-            level[slot, DOUBT] = grain(i, doubt, coupling, strength, tension, fastest)
-            if c0 > level[slot, DOUBT] and not is_long:
-                level[slot, POWER] = 0.0
-                bend = 12.0 * r4 + 20.0 * r5 + 30.0 * r6 + 42.0 * r7 + 56.0 * r8
-                level[slot, BEND] = downward(c2, c3) + bend + (a + b) * tail_bend * span / 7.0
-                level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3] = c0, c1, c2, c3
-                level[slot, REST] = rest
-                stage[slot] = ROUGH
-                bound[slot] = origin + safe_step(c0, c1, downward(c2, c3) + 12.0 * rest) * span
-            else:
-                # The series of the neighbours may get other origins before this one is looked at again.
-                margin_series(slot, i, order, coupling, strength, tension, rate, weight, series)
-                stage[slot], bound[slot] = BUILT, origin
-            if bound[slot] < origin + span:
-                kept += 1
-                active[kept] = slot
-    active[0] = kept
+            keep(slot, active)
+
+
+@inner
+def keep(slot, active):
+    """Add a slot to those that may have a root."""
+    active[0] += 1
+    active[active[0]] = slot
 
 
 @inner
@@ -601,7 +796,7 @@ def next_transition(
             bound[slot] = refine(slot, t, series, level, terms, stage)
 
 
-@inner
+@seldom
 def lend(i, t, order, rate, origins, slip, weight, column):
     """Move the origin of block i's series to time t of the window; `column` keeps what was there."""
     for n in range(order + 1):
@@ -619,7 +814,7 @@ def lend(i, t, order, rate, origins, slip, weight, column):
         rate[n, i] = total
 
 
-@inner
+@seldom
 def give_back(i, order, rate, slip, column):
     """Undo `lend`."""
     for n in range(order + 1):
@@ -642,7 +837,7 @@ def settle(t, first, final, order, weight, rate, origins, slip):
             origins[i] = origins[i + 1] = origins[i + 2] = origins[i + 3] = t
 
 
-@inner
+@seldom
 def load_at(t, order, coupling, tension_before, rate, origins, slip, weight):
     """Tangential load at time t of the window, block 1 keeping its series and origin."""
     powers(t - origins[1], order, weight)
@@ -652,7 +847,7 @@ def load_at(t, order, coupling, tension_before, rate, origins, slip, weight):
     return tension_before[1] + coupling[1] * (slip[0] - way)
 
 
-@inner
+@seldom
 def farthest_sliding(start, mode):
     """Farthest block that slides, none of those beyond `start` doing so; 1 where none does."""
     i = start
@@ -661,7 +856,7 @@ def farthest_sliding(start, mode):
     return i
 
 
-@inner
+@seldom
 def order_for(length):
     """Order at which the series of a window may be cut."""
     n, term = 8, 1.0
@@ -673,7 +868,7 @@ def order_for(length):
     return n
 
 
-@inner
+@seldom
 def distance_reached(span):
     """Distance beyond which a transition is not felt within `span`, in blocks."""
     d, term = 1, span * span * span / 6.0
@@ -684,12 +879,13 @@ def distance_reached(span):
 
 
 @inner
-def set_mode(i, new, mode, mobile, push, friction, rate):
+def set_mode(i, new, mode, mobile, sense, push, friction, rate):
     """Apply a transition to the state in row 0: a block that stops or turns has velocity zero."""
     if mode[i] != 0:
         rate[0, i] = 0.0
     mode[i] = new
     mobile[i] = 1.0 if new != 0 else 0.0
+    sense[i] = new
     push[i] = new * friction[i]
 
 
@@ -705,7 +901,7 @@ def resting_mode(i, doubt, coupling, strength, tension, fastest):
     return 1 if net > 0.0 else -1
 
 
-@inner
+@seldom
 def start_clock(clock, wait, tau):
     """Start a new event `wait` after the end of the last; the onset is carried in two doubles."""
     add = (clock[ELAPSED] + wait) * tau + clock[ONSET_ERROR]
@@ -819,7 +1015,7 @@ def run_batch(
     return weights.shape[0], False
 
 
-@inner
+@seldom
 def note_start(velocity, tension, mode, count, record, states):
     """Record the blocks that move at time 0 as transitions, and the start, at rest, as the first state."""
     time, block, new_mode, tangential_load, intervals = record
@@ -870,11 +1066,12 @@ def run_events(
     n_blocks = wide - 1 - BEYOND
     rate = np.zeros((ROWS + 1, wide))
     mobile = np.zeros(wide)
+    sense = np.zeros(wide)
     push = np.zeros(wide)
     slip = np.zeros(wide)
     origins = np.zeros(wide)
     tension_before = np.empty(wide)
-    weight = np.empty(ROWS + 2)
+    weight = np.empty(ROWS + WIDTH)
     series = np.empty((2 * wide, ROWS + 1))
     level = np.empty((2 * wide, LEVELS))
     terms = np.zeros(2 * wide, np.int64)
@@ -882,11 +1079,13 @@ def run_events(
     bound = np.empty(2 * wide)
     active = np.zeros(2 * wide + 1, np.int64)
     fastest = np.zeros(wide)
-    behind, ahead, spare = np.empty(ROWS + 2), np.empty(ROWS + 2), np.empty(ROWS + 2)
+    suspects = np.zeros(wide, np.uint64)
+    behind, ahead, spare = np.empty(ROWS + WIDTH), np.empty(ROWS + WIDTH), np.empty(ROWS + WIDTH)
     fastest[0] = drive_velocity
     for i in range(1, n_blocks + 1):
         rate[0, i] = velocity[i]
         mobile[i] = 1.0 if mode[i] != 0 else 0.0
+        sense[i] = mode[i]
         push[i] = mode[i] * friction[i]
     rate[0, 0] = drive_velocity
     farthest = farthest_sliding(n_blocks, mode)
@@ -921,7 +1120,7 @@ def run_events(
             tension[1] = tension[2] + strength[1]
             start_clock(clock, wait, tau)
             first = 1
-            set_mode(first, first, mode, mobile, push, friction, rate)
+            set_mode(first, first, mode, mobile, sense, push, friction, rate)
             sliding = farthest = 1
             if n_blocks == 1:
                 count[GLOBAL] = 1
@@ -967,10 +1166,13 @@ def run_events(
                 coupling,
                 strength,
                 mode,
+                mobile,
+                sense,
                 tension,
                 rate,
                 weight,
                 fastest,
+                suspects,
                 series,
                 level,
                 terms,
@@ -1026,14 +1228,14 @@ def run_events(
                 if final < end:
                     lend(final + 1, t, order, rate, origins, slip, weight, ahead)
             settle(t, first, final, order, weight, rate, origins, slip)
-            stretch(first, final + 1, coupling, slip, tension_before, tension)
+            stretch(first, final, coupling, slip, tension_before, tension)
             old = mode[i]
             new = (
                 resting_mode(i, doubt, coupling, strength, tension, fastest)
                 if old != 0
                 else 1 - 2 * (slot % 2)
             )
-            set_mode(i, new, mode, mobile, push, friction, rate)
+            set_mode(i, new, mode, mobile, sense, push, friction, rate)
             farthest = max(farthest, i)
             if new != old:
                 sliding += abs(new) - abs(old)
@@ -1059,7 +1261,7 @@ def run_events(
         if is_long or slot < 0:
             first = 1
             settle(t, first, end, order, weight, rate, origins, slip)
-            stretch(first, end + 1, coupling, slip, tension_before, tension)
+            stretch(first, end, coupling, slip, tension_before, tension)
         clock[ELAPSED] += t
         clock[SINCE] += t - noted
     count[TRANSITIONS] = k
@@ -1069,8 +1271,10 @@ def run_events(
     return status
 
 
-@inner
-def propagate(drive_velocity, coupling, mode, mobile, push, span, tension, rate, slip, origins, weight):
+@outer
+def propagate(
+    drive_velocity, coupling, mode, mobile, push, span, tension, before, rate, slip, origins, weight
+):
     """Carry a state forward by `span` without a transition."""
     if not mobile.any():
         tension[1] += coupling[1] * drive_velocity * span
@@ -1088,7 +1292,8 @@ def propagate(drive_velocity, coupling, mode, mobile, push, span, tension, rate,
             rate[n, end + 1] = 0.0
         expand(coupling, mobile, push, first, end, order, tension, rate)
         settle(s, first, end, order, weight, rate, origins, slip)
-        stretch(first, end + 1, coupling, slip, tension.copy(), tension)
+        before[:] = tension
+        stretch(first, end, coupling, slip, before, tension)
         span -= s
 
 
@@ -1114,9 +1319,10 @@ def evaluate(
     n_blocks = wide - 1 - BEYOND
     rate = np.zeros((ROWS + 1, wide))
     velocity, tension = np.zeros(wide), np.zeros(wide)
-    here = np.zeros(wide)
-    slip, origins, weight = np.zeros(wide), np.zeros(wide), np.empty(ROWS + 2)
-    mode, mobile, push = np.zeros(wide, np.int64), np.zeros(wide), np.zeros(wide)
+    here, before = np.zeros(wide), np.zeros(wide)
+    slip, origins, weight = np.zeros(wide), np.zeros(wide), np.empty(ROWS + WIDTH)
+    mode = np.zeros(wide, np.int64)
+    mobile, sense, push = np.zeros(wide), np.zeros(wide), np.zeros(wide)
     row = -1
     done = 0
     offset = 0.0
@@ -1143,9 +1349,20 @@ def evaluate(
         while done < target:
             span = (intervals[done] - offset) / tau
             propagate(
-                drive_velocity, coupling, mode, mobile, push, span, tension, rate, slip, origins, weight
+                drive_velocity,
+                coupling,
+                mode,
+                mobile,
+                push,
+                span,
+                tension,
+                before,
+                rate,
+                slip,
+                origins,
+                weight,
             )
-            set_mode(block[done], new_mode[done], mode, mobile, push, friction, rate)
+            set_mode(block[done], new_mode[done], mode, mobile, sense, push, friction, rate)
             for i in range(1, n_blocks + 1):
                 velocity[i] = rate[0, i]
             done += 1
@@ -1153,7 +1370,9 @@ def evaluate(
         for i in range(1, n_blocks + 1):
             here[i] = tension[i]
         span = max(since - offset, 0.0) / tau
-        propagate(drive_velocity, coupling, mode, mobile, push, span, here, rate, slip, origins, weight)
+        propagate(
+            drive_velocity, coupling, mode, mobile, push, span, here, before, rate, slip, origins, weight
+        )
         for i in range(1, n_blocks + 1):
             tension_out[q, i - 1], velocity_out[q, i - 1] = here[i], rate[0, i]
             rate[0, i] = velocity[i]

@@ -472,7 +472,7 @@ class TestEdgesOfTheModel:
         run = simulate(Chain([10.0] * 5, 2.84e-5, 25e6, 2.7e11, 8.4e-5, 0.0, 0.0), duration=4.6e-7)
         assert order(run) == [(block, 1) for block in range(1, 6)]
         assert counts[0][0, kernel.WINDOWS] < 100
-        assert counts[0][0, kernel.ROOT_STEPS] < 1000
+        assert counts[0][0, kernel.ROOT_STEPS] < 5000  # without starting anew: millions
         audited(run)
 
     def test_a_block_without_friction_swings_for_ever_about_the_drive(self):
