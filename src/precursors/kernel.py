@@ -79,8 +79,8 @@ index = np.uint64
 ZERO, ONE, TWO, THREE, FOUR, FIVE, SIX, SEVEN, EIGHT = (np.uint64(n) for n in range(9))
 # An index that starts from a literal is typed: what it goes to would be compiled for the literal anew.
 INDEX = {"first": int64, "slot": int64}
-# Products may be fused with sums. Only `outer` code allocates, and only there are references counted (`_nrt`),
-# which took longer than the arithmetic; so did passing arrays to a function, hence what is inlined.
+# Products may be fused with sums. Only `outer` code allocates, and only there references are counted (`_nrt`),
+# as that takes longer than the arithmetic; so does passing arrays to a function: hence what is inlined.
 options: Any = {
     "cache": True,
     "error_model": "numpy",

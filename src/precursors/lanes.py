@@ -1,8 +1,7 @@
 """Four doubles at once in compiled code: a type for Numba on which +, -, * act lane by lane.
 
 Loops over the blocks of a chain are too short for LLVM to vectorise by itself. A value of this type becomes
-one AVX register, or two of SSE or NEON. Compile caches do not see an edit here: change something in `kernel.py`
-as well.
+one AVX register, or two of SSE or NEON. Compile caches do not see an edit here: change `kernel.py` as well.
 """
 
 from __future__ import annotations
