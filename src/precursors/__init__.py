@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from precursors.chain import Chain
     from precursors.exact import TransitionLimitError, simulate, simulate_many
+    from precursors.proof import certify
     from precursors.run import Run, RunFileError
     from precursors.slips import find_precursors, find_slips
 
@@ -16,6 +17,7 @@ __all__ = [
     "Run",
     "RunFileError",
     "TransitionLimitError",
+    "certify",
     "find_precursors",
     "find_slips",
     "simulate",
@@ -28,6 +30,7 @@ _MODULES = {
     "Run": "run",
     "RunFileError": "run",
     "TransitionLimitError": "exact",
+    "certify": "proof",
     "find_precursors": "slips",
     "find_slips": "slips",
     "simulate": "exact",

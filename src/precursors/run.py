@@ -32,9 +32,10 @@ UNITS = {
     "velocity": "N/tau",
     "after": "1",
     "offset": "s",
+    "grip": "N",
     "weights": "N",
 }
-FORMAT = "precursors run 1"
+FORMAT = "precursors run 2"
 SEAL_SIZE = 512
 
 
@@ -45,7 +46,8 @@ class RunFileError(ValueError):
 class States(NamedTuple):
     """Stored states in the kernel's units and columns; row 0 is the start, before any transition.
 
-    Spring forces [N], velocities [N/tau], modes, the number of transitions before, and the time since [s].
+    Spring forces [N], velocities [N/tau], modes, the number of transitions before, the time since [s], and
+    forces of the interface springs [N]: no columns where the interface is rigid.
     """
 
     force: FloatArray
@@ -53,6 +55,7 @@ class States(NamedTuple):
     mode: NDArray[np.int64]
     after: NDArray[np.int64]
     offset: FloatArray
+    grip: FloatArray = np.empty((0, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +111,24 @@ class Run:
         """Force in the spring behind each block [N], shape (len(times), N); column 0 is F_X."""
         return self._evaluate(self._times(times))[0]
 
+    def forces_and_velocities(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Spring forces [N] and velocities [m/s], each (len(times), N): the state, apart from the drive's."""
+        return self._evaluate(self._times(times))
+
+    def horizon(self, tolerance: float) -> float:
+        """Time [s] up to which the transitions hold: their order is right, their times to `tolerance` [s].
+
+        What is counted is rounding, that of the parameters too; `horizon.error_growth` has all about it.
+
+        Raises
+        ------
+        ValueError
+            If the tolerance is not positive, or the run has no stored states to start from.
+        """
+        from precursors.horizon import error_growth
+
+        return error_growth(self).horizon(tolerance)
+
     def _times(self, times: ArrayLike) -> FloatArray:
         when = np.atleast_1d(np.asarray(times, dtype=np.float64))
         outside = ~((when >= 0.0) & (when <= self.duration))
@@ -125,7 +146,10 @@ class Run:
         shape = (len(when), self.chain.n_blocks)
         force, velocity = np.empty(shape), np.empty(shape)
         kernel.evaluate(
-            *system,
+            system.tau,
+            system.drive_velocity,
+            (system.coupling, system.strength, system.friction, system.lightness),
+            system.additions,
             when[order],
             np.ascontiguousarray(self.transitions["time"]),
             self.transitions["block"].astype(np.int64),

@@ -11,15 +11,39 @@ import pytest
 from scipy.linalg import expm
 
 from precursors import Chain, Run, find_slips, simulate
-from precursors.integrators import METHODS, DivergedError, karnopp, leapfrog, literal, moreau_jean, rk4
-from precursors.integrators.forces import State, at_rest, sliding_forward, system_of
+from precursors.failures.common import transitions_right
+from precursors.failures.friction_laws import (
+    FIVE_SLIPS,
+    first_excess,
+    largest_dead_zone,
+    literal_load,
+    smallest_dead_zone,
+)
+from precursors.integrators import METHODS, DivergedError, karnopp, literal, moreau_jean
+from precursors.integrators.forces import sliding_forward, system_of
+from precursors.stability import (
+    LEAPFROG_LIMIT,
+    RK4_LIMIT,
+    SLIDES,
+    Slide,
+    bisect,
+    energy_grows,
+    energy_left,
+    highest_frequency,
+    highest_mode,
+    largest_stable_step,
+    leapfrog_growth,
+    moreau_jean_growth,
+    rk4_growth,
+    without_friction,
+)
 
-# So much beyond RK4's limit energy grows by GROWTH within STEPS; a wrong drive spring would move it by 1e-3.
+# So much beyond RK4's limit energy grows a millionfold within 4000 steps; a wrong drive spring would move it
+# by 1e-3.
 LIMIT_TOLERANCE = 5e-4
-# Bounded energy can rise by 1 / (1 - (omega dt / 2)^2) in leapfrog: 500 times at 0.1 % below its limit.
-GROWTH = 1e6
-STEPS = 4000
-BISECTIONS = 20
+
+# Of a factor a step: rounding of some tens of steps, and of the frequency.
+GROWTH_TOLERANCE = 1e-9
 
 # An order is measured over halvings or over a decade of steps.
 ORDER_TOLERANCE = 0.1
@@ -33,7 +57,6 @@ STIFF_ROUNDING = 100**2 * float(np.finfo(float).eps)
 
 # Whether a block jumps over the zone is chance: so much between two steps.
 JUMP_TOLERANCE = 0.3
-JUMP_BISECTIONS = 7
 # Chatter and creep repeat at another step to within what the step adds to a release.
 CREEP_TOLERANCE = 0.02
 
@@ -43,9 +66,6 @@ SHORT_CHAIN_TOLERANCE = 1e-3
 # A stretch in which all blocks slide forward: four radians of the fastest oscillation.
 STRETCH = 1.5e-5
 VELOCITIES = 0.5 + 0.1 * np.sin(1.0 + 2.0 * np.arange(10.0))
-# The first five slips of theta = 0, with 30 transitions.
-FIVE_SLIPS = 1.25
-
 FIXED_STEP = (
     "rk4_skip",
     "rk4_located",
@@ -56,13 +76,12 @@ FIXED_STEP = (
     "karnopp",
 )
 
-Slide = Callable[..., None]
-SMOOTH: dict[str, tuple[Slide, int]] = {
-    "rk4": (rk4.slide, 4),
-    "leapfrog": (lambda *start: leapfrog.slide(*start, True), 2),
-    "semi_implicit_euler": (lambda *start: leapfrog.slide(*start, False), 1),
-    "moreau_jean_half": (lambda *start: moreau_jean.slide(*start, 0.5), 2),
-    "moreau_jean_one": (lambda *start: moreau_jean.slide(*start, 1.0), 1),
+ORDERS = {
+    "rk4": 4,
+    "leapfrog": 2,
+    "semi_implicit_euler": 1,
+    "moreau_jean_half": 2,
+    "moreau_jean_one": 1,
 }
 
 
@@ -74,7 +93,7 @@ def chain() -> Chain:
 @pytest.fixture(scope="module")
 def free(chain: Chain) -> Chain:
     """The chain without friction and with (almost) resting drive: its energy stays as it is."""
-    return replace(chain, mu_s=0.0, mu_k=0.0, drive_velocity=1e-15)
+    return without_friction(chain)
 
 
 @pytest.fixture(scope="module")
@@ -84,54 +103,12 @@ def five_slips(chain: Chain) -> Run:
     return run
 
 
-def stiffness_matrix(chain: Chain) -> np.ndarray:
-    """Stiffness of the chain with the drive held [N/m], from the bonds of Eqs. 2-4."""
-    n = chain.n_blocks
-    matrix = np.zeros((n, n))
-    matrix[0, 0] = chain.drive_stiffness
-    for i in range(n - 1):
-        matrix[i : i + 2, i : i + 2] += chain.stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    return matrix
-
-
-def highest_frequency(chain: Chain) -> float:
-    return float(np.sqrt(np.linalg.eigvalsh(stiffness_matrix(chain))[-1] / chain.mass))
-
-
-def sliding(chain: Chain, velocities: np.ndarray = VELOCITIES) -> State:
-    return sliding_forward(system_of(chain), velocities)
-
-
-def energy(chain: Chain, state: State) -> float:
-    springs = state.tension[1:-1] ** 2 / chain.springs
-    return 0.5 * float(chain.mass * state.velocity[1:-1] @ state.velocity[1:-1] + springs.sum())
-
-
-def energy_grows(chain: Chain, slide: Slide, step: float) -> bool:
-    state = sliding(chain)
-    before = energy(chain, state)
-    slide(system_of(chain), state, step, STEPS)
-    with np.errstate(over="ignore", invalid="ignore"):
-        return not energy(chain, state) < GROWTH * before
-
-
-def bisect(
-    fails: Callable[[float], bool], works: float, broken: float, bisections: int = BISECTIONS
-) -> float:
-    """Limit between a value that works and one that does not, on a logarithmic scale."""
-    assert not fails(works)
-    assert fails(broken)
-    for _ in range(bisections):
-        middle = np.sqrt(works * broken)
-        works, broken = (works, middle) if fails(middle) else (middle, broken)
-    return broken
-
-
 @pytest.mark.parametrize(
-    ("name", "limit"), [("rk4", 2 * np.sqrt(2)), ("leapfrog", 2.0), ("semi_implicit_euler", 2.0)]
+    ("name", "limit"),
+    [("rk4", RK4_LIMIT), ("leapfrog", LEAPFROG_LIMIT), ("semi_implicit_euler", LEAPFROG_LIMIT)],
 )
 def test_energy_grows_beyond_the_step_that_theory_allows(free: Chain, name: str, limit: float) -> None:
-    found = bisect(partial(energy_grows, free, SMOOTH[name][0]), 1e-6, 1e-4)
+    found = largest_stable_step(free, SLIDES[name])
     assert found * highest_frequency(free) == pytest.approx(limit, rel=LIMIT_TOLERANCE)
 
 
@@ -146,8 +123,8 @@ def test_beyond_the_limit_a_run_ends_with_the_last_finite_transitions(chain: Cha
 def test_the_drive_spring_lowers_the_limit_where_it_is_the_stiffest(free: Chain) -> None:
     stiff = replace(free, drive_stiffness=100 * free.stiffness)
     assert highest_frequency(stiff) > 4 * highest_frequency(free)
-    found = bisect(partial(energy_grows, stiff, SMOOTH["rk4"][0]), 1e-8, 1e-4)
-    assert found * highest_frequency(stiff) == pytest.approx(2 * np.sqrt(2), rel=LIMIT_TOLERANCE)
+    found = largest_stable_step(stiff, SLIDES["rk4"])
+    assert found * highest_frequency(stiff) == pytest.approx(RK4_LIMIT, rel=LIMIT_TOLERANCE)
 
 
 def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free: Chain) -> None:
@@ -161,14 +138,32 @@ def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free: Chain) -
 
 
 def test_moreau_jean_keeps_the_energy_at_one_half_and_loses_it_at_one(free: Chain) -> None:
-    kept = []
-    for theta in (0.5, 1.0):
-        state = sliding(free)
-        before = energy(free, state)
-        moreau_jean.slide(system_of(free), state, 100 / highest_frequency(free), STEPS, theta)
-        kept.append(energy(free, state) / before)
-    assert kept[0] == pytest.approx(1.0, rel=STEPS * STIFF_ROUNDING)
-    assert kept[1] < 1e-12
+    step, n_steps = 100 / highest_frequency(free), 4000
+    half, one = (
+        energy_left(free, SLIDES[name], step, n_steps, VELOCITIES)
+        for name in ("moreau_jean_half", "moreau_jean_one")
+    )
+    assert half == pytest.approx(1.0, rel=n_steps * STIFF_ROUNDING)
+    assert one < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("name", "growth", "z", "n_steps"),
+    [
+        ("rk4", rk4_growth, 2.6, 8),
+        ("rk4", rk4_growth, 3.0, 20),
+        ("leapfrog", leapfrog_growth, 2.2, 20),
+        ("moreau_jean_half", partial(moreau_jean_growth, theta=0.5), 3.0, 200),
+        ("moreau_jean_one", partial(moreau_jean_growth, theta=1.0), 0.1, 200),
+    ],
+)
+def test_the_fastest_mode_grows_or_fades_a_step_by_the_closed_form(
+    free: Chain, name: str, growth: Callable[[float], float], z: float, n_steps: int
+) -> None:
+    step, mode = z / highest_frequency(free), highest_mode(free)
+    # Once the energy swings no more: leapfrog's second root fades meanwhile.
+    once, twice = (energy_left(free, SLIDES[name], step, n, mode) for n in (n_steps, 2 * n_steps))
+    assert (twice / once) ** (1 / n_steps) == pytest.approx(growth(z), rel=GROWTH_TOLERANCE)
 
 
 def exact_motion(chain: Chain, time: float) -> np.ndarray:
@@ -189,8 +184,9 @@ def scaled(chain: Chain, tension: np.ndarray, velocity: np.ndarray) -> np.ndarra
 
 
 def smooth_error(chain: Chain, slide: Slide, n_steps: int) -> float:
-    state = sliding(chain)
-    slide(system_of(chain), state, STRETCH / n_steps, n_steps)
+    system = system_of(chain)
+    state = sliding_forward(system, VELOCITIES)
+    slide(system, state, STRETCH / n_steps, n_steps)
     exact = exact_motion(chain, STRETCH)
     n = chain.n_blocks
     assert (exact[n:] > 0).all()
@@ -198,11 +194,10 @@ def smooth_error(chain: Chain, slide: Slide, n_steps: int) -> float:
     return float(np.linalg.norm(difference))
 
 
-@pytest.mark.parametrize("name", SMOOTH)
+@pytest.mark.parametrize("name", ORDERS)
 def test_on_a_smooth_stretch_the_order_is_that_of_the_method(chain: Chain, name: str) -> None:
-    slide, order = SMOOTH[name]
-    coarse, fine = (smooth_error(chain, slide, n) for n in (128, 256))
-    assert np.log2(coarse / fine) == pytest.approx(order, abs=ORDER_TOLERANCE)
+    coarse, fine = (smooth_error(chain, SLIDES[name], n) for n in (128, 256))
+    assert np.log2(coarse / fine) == pytest.approx(ORDERS[name], abs=ORDER_TOLERANCE)
 
 
 @pytest.mark.parametrize("n_blocks", [1, 2, 3])
@@ -229,17 +224,9 @@ def test_the_exact_solver_has_no_order_in_whatever_pieces_it_goes(chain: Chain, 
     assert scaled(chain, tension, velocity) == pytest.approx(exact, abs=ROUNDING * np.abs(exact).max())
 
 
-def n_right(run: Run, exact: Run) -> int:
-    """Number of transitions before the first wrong one."""
-    n = min(len(run.transitions), len(exact.transitions))
-    a, b = run.transitions[:n], exact.transitions[:n]
-    wrong = (a["block"] != b["block"]) | (a["mode"] != b["mode"])
-    return int(np.argmax(wrong)) if wrong.any() else n
-
-
 def load_error(run: Run, exact: Run) -> float:
     """Root mean square error of F_X at the transitions [N], of a run whose transitions are the right ones."""
-    assert n_right(run, exact) == len(run.transitions) == len(exact.transitions)
+    assert transitions_right(run, exact) == len(run.transitions) == len(exact.transitions)
     return float(
         np.sqrt(np.mean((run.transitions["tangential_load"] - exact.transitions["tangential_load"]) ** 2))
     )
@@ -281,18 +268,6 @@ def test_eq_4_taken_literally_never_sticks_again(theta: float | str) -> None:
     assert len(find_slips(run)) == 1
 
 
-def literal_load(chain: Chain, step: float, times: tuple[float, ...]) -> list[float]:
-    """F_X [N] at some times after block 1 has reached its limit for the first time."""
-    system = system_of(chain)
-    state = at_rest(system)
-    state.tension[1] = chain.strength[0]
-    load = []
-    for time in np.diff([0.0, *times]):
-        karnopp.slide(system, state, step, round(time / step), 0.0)
-        load.append(float(state.tension[1]))
-    return load
-
-
 def test_eq_4_taken_literally_creeps_by_the_step_not_by_the_model(chain: Chain) -> None:
     """Blocks tremble about v = 0 by what a step changes v, and creep in proportion to it.
 
@@ -304,7 +279,7 @@ def test_eq_4_taken_literally_creeps_by_the_step_not_by_the_model(chain: Chain) 
         seconds = 1e-6 / speed
 
         def falls(step: float) -> bool:
-            early, late = literal_load(fast, step, (2 * seconds, 4 * seconds))
+            early, late = literal_load(fast, step, np.array([2 * seconds, 4 * seconds]))
             return late < early
 
         return bisect(falls, 2e-5 * speed, 2e-3 * speed)
@@ -313,29 +288,20 @@ def test_eq_4_taken_literally_creeps_by_the_step_not_by_the_model(chain: Chain) 
     assert fast / slow == pytest.approx(4.0, rel=CREEP_TOLERANCE)
     # The paper's V: RK4 with a step of 1e-7 s never exceeds the first limit, with 1e-8 s it does.
     assert 1e-8 < slow / 10 < 1e-7
-    assert max(literal_load(chain, 1e-7, (0.02, 0.04))) < chain.strength[0]
-    assert max(literal_load(chain, 1e-8, (0.02, 0.04))) > chain.strength[0]
-
-
-def dead_zone_fails(exact: Run, step: float, dead_zone: float) -> bool:
-    run = karnopp.solve(exact.chain, FIVE_SLIPS, step, None, dead_zone).run
-    return n_right(run, exact) < len(exact.transitions)
+    assert max(literal_load(chain, 1e-7, np.array([0.02, 0.04]))) < chain.strength[0]
+    assert max(literal_load(chain, 1e-8, np.array([0.02, 0.04]))) > chain.strength[0]
 
 
 def test_a_dead_zone_is_too_small_where_blocks_jump_over_it_which_depends_on_the_step(
     five_slips: Run,
 ) -> None:
-    limits = []
-    for step in (2e-8, 5e-9):
-        safe = karnopp.safe_width(five_slips.chain, step)
-        fails = partial(dead_zone_fails, five_slips, step)
-        limits.append(bisect(fails, 0.3 * safe, 0.05 * safe, JUMP_BISECTIONS) / safe)
+    limits = [smallest_dead_zone(five_slips, step) for step in (2e-8, 5e-9)]
     assert max(limits) < karnopp.PART_OF_SAFE_WIDTH
     assert limits[0] == pytest.approx(limits[1], rel=JUMP_TOLERANCE)
 
 
 def test_a_dead_zone_is_too_large_from_a_width_on_that_no_step_changes(five_slips: Run) -> None:
-    limits = [bisect(partial(dead_zone_fails, five_slips, step), 5e-4, 5e-2) for step in (1e-8, 5e-9)]
+    limits = [largest_dead_zone(five_slips, step) for step in (1e-8, 5e-9)]
     assert limits[0] == pytest.approx(limits[1], rel=CREEP_TOLERANCE)
     # A part of the speed that block 1 reaches when it slips alone, (mu_s - mu_k) w_1 / sqrt(m (k + K)).
     chain = five_slips.chain
@@ -346,7 +312,5 @@ def test_a_dead_zone_is_too_large_from_a_width_on_that_no_step_changes(five_slip
 
 @pytest.mark.parametrize("dead_zone", [1e-4, 1e-3, 1e-2])
 def test_a_dead_zone_lets_the_load_creep_beyond_the_first_limit(chain: Chain, dead_zone: float) -> None:
-    run = karnopp.solve(chain, 1.0, 1e-8, None, dead_zone).run
-    excess = run.transitions["tangential_load"][0] - chain.strength[0]
     delay = karnopp.release_delay(chain, dead_zone)
-    assert excess == pytest.approx(chain.loading_rate * delay, rel=CREEP_TOLERANCE)
+    assert first_excess(chain, dead_zone) == pytest.approx(chain.loading_rate * delay, rel=CREEP_TOLERANCE)

@@ -1,4 +1,4 @@
-from precursors.certify import scene_exact_chain
+from precursors.proof import scene_exact_chain
 
 
 rule certify_scene:
@@ -7,11 +7,11 @@ rule certify_scene:
             "{library}/{module}.py",
             library=LIBRARY,
             module=[
-                "certify/certificate",
-                "certify/exact_chain",
-                "certify/first_root",
-                "certify/motion",
-                "certify/proof",
+                "proof/certificate",
+                "proof/exact_chain",
+                "proof/first_root",
+                "proof/motion",
+                "proof/tube",
                 "chain",
                 "storage",
             ],

@@ -24,9 +24,9 @@ from typing import NamedTuple
 
 from flint import arb, arb_poly, ctx
 
-from precursors.certify.exact_chain import ExactChain
-from precursors.certify.first_root import Gauge, Undecided, first_root
-from precursors.certify.motion import (
+from precursors.proof.exact_chain import ExactChain
+from precursors.proof.first_root import Gauge, Undecided, first_root
+from precursors.proof.motion import (
     BOUND_BITS,
     Constants,
     State,

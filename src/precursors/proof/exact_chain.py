@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from precursors.chain import Chain, whole
+from precursors.chain import Chain, require_plain, whole
 
 Number = Fraction | int | float | str
 
@@ -95,7 +95,14 @@ class ExactChain:
 
     @classmethod
     def from_chain(cls, chain: Chain) -> ExactChain:
-        """Take the doubles of a chain for exactly what they are."""
+        """Take the doubles of a chain for exactly what they are.
+
+        Raises
+        ------
+        ValueError
+            If the chain has viscosity, interface springs or a head.
+        """
+        require_plain(chain)
         numbers = {name: Fraction(getattr(chain, name)) for name in _UNITS}
         return cls(weights=tuple(Fraction(float(w)) for w in chain.weights), **numbers)
 

@@ -3,7 +3,8 @@
 `certify` proves (it needs python-flint, the extra "proof"); certificates are read and checked without it.
 """
 
-from precursors.certify.certificate import (
+from precursors.proof.agreement import Agreement, compare
+from precursors.proof.certificate import (
     Certificate,
     CertificateError,
     CertifiedTransition,
@@ -12,9 +13,10 @@ from precursors.certify.certificate import (
     certify,
     verify,
 )
-from precursors.certify.exact_chain import ExactChain, scene_exact_chain
+from precursors.proof.exact_chain import ExactChain, scene_exact_chain
 
 __all__ = [
+    "Agreement",
     "Certificate",
     "CertificateError",
     "CertifiedTransition",
@@ -22,6 +24,7 @@ __all__ = [
     "ExactChain",
     "Tie",
     "certify",
+    "compare",
     "scene_exact_chain",
     "verify",
 ]

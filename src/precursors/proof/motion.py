@@ -10,7 +10,7 @@ with T_i the force of the spring behind block i, T_{N+1} = 0 and u_0 the drive. 
 
     |e|^2 = sum e_{T_i}^2 / c_i + sum e_{u_i}^2,
 
-is the energy of their difference. While both have the same modes it does not change; see `proof` for what a
+is the energy of their difference. While both have the same modes it does not change; see `tube` for what a
 transition does to it.
 """
 
@@ -24,7 +24,7 @@ from functools import reduce
 
 from flint import arb, arb_poly, ctx, fmpq
 
-from precursors.certify.exact_chain import ExactChain
+from precursors.proof.exact_chain import ExactChain
 
 # Bits of the radii and of all that only bounds something.
 BOUND_BITS = 64

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import csv
 import dataclasses
 import gzip
 import math
@@ -13,23 +14,27 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from flint import arb, arb_poly, ctx
 from reference import HeldOut, Transition, read_golden, read_held_out
-from reference.goldens import SCENES
+from reference.goldens import GOLDEN, SCENE_DIGITS, SCENES, csv_rows
 
 from precursors import simulate
-from precursors.certify import (
+from precursors.proof import (
     Certificate,
     CertificateError,
     CertifiedTransition,
     Enclosure,
     ExactChain,
     certify,
+    compare,
     scene_exact_chain,
+    validation,
     verify,
 )
-from precursors.certify.motion import expand, tail, time_unit
-from precursors.certify.proof import Proof
+from precursors.proof.motion import expand, tail, time_unit
+from precursors.proof.tube import Proof
+from precursors.proof.validation import chain_duration, is_about
 
 # Half a unit of the last of the golden digits, relative.
 SCENE_ROUNDING = Fraction(5, 10**40)
@@ -40,6 +45,9 @@ TIME_RADIUS, LOAD_RADIUS = Fraction(1, 10**40), Fraction(1, 10**35)
 DOUBLE_TIME, DOUBLE_LOAD = 1e-9, 1e-8
 # So few that the enclosures are wide, and a start so close to the edge of what they hold at time 0.
 COARSE_BITS, CLOSE_TO_REACH = 128, Fraction(99, 100)
+CHAINS = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text())["horizon"]["chains"]
+# A committed certificate is smaller [bytes].
+LARGEST_FILE = 300_000
 # Rounding of clocks of 300 bits [s].
 CLOCK_ROUNDING = Fraction(1, 2**280)
 AT_ZERO = (Fraction(0),) * 10
@@ -91,6 +99,55 @@ def test_enclosures_up_to_the_first_global_slip_hold_the_40_digit_reference(
     widest_time, widest_load = certificate.widest
     assert widest_time <= TIME_RADIUS
     assert widest_load <= LOAD_RADIUS
+
+
+COMMITTED = Path(__file__).parents[2] / "workflow" / "certificates"
+# The chains of the three scenes in horizon.chains of the configuration.
+PROVED_SCENES = {"fig10": "uniform", "fig11": "trailing", "fig12": "leading"}
+
+
+@pytest.mark.parametrize(("scene", "chain"), PROVED_SCENES.items())
+def test_the_golden_tables_are_the_proof_rounded_digit_for_digit(scene: str, chain: str) -> None:
+    certificate = verify(COMMITTED / f"{chain}.json.gz")
+    assert certificate.chain == ExactChain.from_slider(theta=SCENES[scene])
+    assert certificate.proved_until == 10
+    with (GOLDEN / f"reference_{scene}.csv").open(newline="") as file:
+        _, *golden = csv.reader(file)
+    # Both ends of every enclosure round to the digits of the golden table.
+    for end in ("lower", "upper"):
+        ends = [
+            Transition(getattr(t.time, end), t.block, t.mode, getattr(t.tangential_load, end))
+            for t in certificate.transitions
+        ]
+        assert csv_rows(ends, SCENE_DIGITS) == golden
+
+
+@pytest.mark.parametrize("name", CHAINS)
+def test_the_committed_certificates_are_about_the_chains_of_the_configuration(name: str) -> None:
+    certificate = verify(COMMITTED / f"{name}.json.gz")
+    assert is_about(certificate, validation.exact_chain(CHAINS[name]), chain_duration(CHAINS[name]))
+    assert not is_about(certificate, validation.exact_chain(CHAINS[name]), 2 * chain_duration(CHAINS[name]))
+    assert (COMMITTED / f"{name}.json.gz").stat().st_size < LARGEST_FILE
+
+
+def test_a_run_is_compared_up_to_where_it_goes_another_way(small: Certificate) -> None:
+    run = simulate(small.chain.to_chain(), 4.0)
+    whole = compare(run, small)
+    assert whole.n_agreeing == len(small.transitions)
+    assert whole.lost == math.inf
+    assert whole.time_error.max() < DOUBLE_TIME
+    assert whole.load_error.max() < DOUBLE_LOAD
+    # A transition too many, one too few, and one of another block.
+    missing = dataclasses.replace(run, transitions=np.delete(run.transitions, 10))
+    swapped = run.transitions.copy()
+    swapped["block"][10] = 3 - swapped["block"][10] % 3
+    for other in (missing, dataclasses.replace(run, transitions=swapped)):
+        part = compare(other, small)
+        assert part.n_agreeing == len(part.time_error) == 10
+        assert part.lost == pytest.approx(float(small.transitions[10].time.midpoint), abs=DOUBLE_TIME)
+    ended = compare(dataclasses.replace(run, transitions=run.transitions[:-1]), small)
+    assert ended.n_agreeing == len(small.transitions) - 1
+    assert ended.lost == float(small.transitions[-1].time.midpoint)
 
 
 def test_the_double_solver_agrees_with_the_proof_transition_by_transition(
@@ -356,6 +413,17 @@ def test_a_shifted_load_is_refused(small: Certificate) -> None:
     )
     with pytest.raises(CertificateError, match="its load is not proved within"):
         verify(shifted, recompute=True)
+
+
+@pytest.mark.parametrize("digit", [2, 9, 20, 35, 43])
+def test_an_altered_digit_is_refused_when_proved_again_whatever_the_checksum(
+    small: Certificate, digit: int
+) -> None:
+    step = Fraction(1, 10**digit)
+    altered = replace(small, 7, lambda t: t._replace(time=Enclosure(t.time.midpoint + step, t.time.radius)))
+    assert altered.sha256 == altered.sealed().sha256 != small.sha256
+    with pytest.raises(CertificateError, match=r"its time is not proved within|does not hold"):
+        verify(altered, recompute=True)
 
 
 def test_swapped_transitions_are_refused(small: Certificate) -> None:

@@ -1,4 +1,9 @@
-"""Certificates: what is proved of a run, as data that anyone can read, check and prove again."""
+"""Certificates: what is proved of a run, as data that anyone can read, check and prove again.
+
+The checksum tells that a file is the one that was written, not who wrote it: one may alter a certificate and
+give it the checksum of what it then holds. What is consistent is then accepted by `verify`, unless it makes
+the proof again (`recompute`); what it accepts in that way is true, whoever wrote it.
+"""
 
 from __future__ import annotations
 
@@ -17,15 +22,15 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.certify.exact_chain import ExactChain, Number, exact, exact_positions
 from precursors.chain import Chain, whole
+from precursors.proof.exact_chain import ExactChain, Number, exact, exact_positions
 from precursors.run import TRANSITION
 from precursors.storage import write_atomically
 
 if TYPE_CHECKING:
     from flint import arb
 
-    from precursors.certify.proof import Proof, Unproved
+    from precursors.proof.tube import Proof, Unproved
 
 FORMAT = "precursors certificate 1"
 CLAIM = (
@@ -124,6 +129,8 @@ class Certificate:
         Working precision at the start of the proof.
     width : Fraction
         No time has a radius above this [s].
+    restarts : int
+        How often the proof was begun again with more bits.
     sha256 : str
         Checksum of all of the above.
     """
@@ -136,6 +143,7 @@ class Certificate:
     tie: Tie | None
     bits: int
     width: Fraction
+    restarts: int = 0
     sha256: str = ""
 
     @property
@@ -218,6 +226,7 @@ class Certificate:
             "until": self.until,
             "bits": self.bits,
             "width_s": str(self.width),
+            "restarts": self.restarts,
             "tie": tie
             and {
                 "time_s": _enclosure_text(tie.time),
@@ -255,6 +264,7 @@ class Certificate:
             ),
             bits=int(text["bits"]),
             width=Fraction(text["width_s"]),
+            restarts=int(text["restarts"]),
             sha256=str(text["sha256"]),
         )
 
@@ -306,10 +316,12 @@ def certify(
         exact_chain, limit, until, exact_positions(exact_chain, start_positions), (), None, 0, widest
     )
     bits = min(FIRST_BITS, whole("max_bits", max_bits, at_least=FIRST_BITS))
+    restarts = 0
     while True:
         proof, failure = _prove(certificate, bits)
         if failure is None or bits >= max_bits:
             break
+        restarts += 1
         bits = min(_more_bits(proof, failure, limit), max_bits)
     tie = _tie(failure) if failure else None
     if tie and tie.closeness > widest:
@@ -317,7 +329,7 @@ def certify(
             f"max_bits = {max_bits} do not suffice beyond t = {float(tie.time.midpoint):.9g} s of "
             f"{float(limit):g} s ({tie.question}): allow more, or prove a shorter duration"
         )
-    return replace(certificate, transitions=_published(proof), tie=tie, bits=bits).sealed()
+    return replace(certificate, transitions=_published(proof), tie=tie, bits=bits, restarts=restarts).sealed()
 
 
 def verify(certificate: Certificate | str | os.PathLike[str], recompute: bool = False) -> Certificate:
@@ -351,7 +363,7 @@ def verify(certificate: Certificate | str | os.PathLike[str], recompute: bool = 
 
 def _prove(certificate: Certificate, bits: int) -> tuple[Proof, Unproved | None]:
     """Run the proof of a certificate's chain with so many bits; return it and why it stopped short, if so."""
-    from precursors.certify.proof import Proof, Unproved
+    from precursors.proof.tube import Proof, Unproved
 
     proof = Proof(
         certificate.chain,

@@ -1,0 +1,253 @@
+"""The reference with viscosity, interface springs and a head is right, by closed forms and exponentials."""
+
+from __future__ import annotations
+
+import csv
+from fractions import Fraction
+
+import pytest
+from mpmath import mp
+from reference import (
+    EXTENDED,
+    Additions,
+    ExtendedScene,
+    ReferenceChain,
+    Transition,
+    extended_reference,
+    read_extended,
+    reference,
+)
+from reference.extended_goldens import DIGITS
+from reference.goldens import GOLDEN, csv_rows
+
+FORTY_DIGITS = mp.mpf(10) ** -40  # relative, what the reference promises
+# A time of up to 10 s has 25 digits; accelerations are below 1e6 m/s^2 and rates of forces below 1e8 N/s.
+LOAD_ROUNDING = mp.mpf(10) ** -15  # N
+SPEED_ROUNDING = mp.mpf(10) ** -15  # m/s
+JUDGED_TRANSITIONS = 9
+SAMPLES = 5  # times between two transitions at which the rules are checked
+QUICK = [
+    ("viscous", "stiff_viscosity"),
+    ("head", "two_blocks"),
+    ("head", "one_block"),
+    ("interface", "one_block"),
+]
+JUDGED = [
+    ("viscous", "stiff_viscosity"),
+    ("viscous", "backward"),
+    ("interface", "one_block"),
+    ("interface", "three_blocks"),
+    ("interface", "backward"),
+    ("head", "two_blocks"),
+    ("head", "backward"),
+    ("head", "all_additions"),
+]
+
+
+@pytest.fixture(autouse=True)
+def _sixty_digits():
+    with mp.workdps(60):
+        yield
+
+
+def ratio(x: Fraction) -> mp.mpf:
+    return mp.mpf(x.numerator) / x.denominator
+
+
+def close(a: mp.mpf, b: mp.mpf) -> bool:
+    return abs(a - b) <= FORTY_DIGITS * abs(b)
+
+
+class Judge:
+    """Motion by matrix exponentials of z = (x, v, p, t, 1) [m, m/s, N, s], with the modes as given."""
+
+    def __init__(self, scene: ExtendedScene) -> None:
+        chain, added = scene.chain, scene.added
+        self.n = n = len(chain.weights)
+        self.strength = [ratio(chain.mu_s * w) for w in chain.weights]
+        self.kinetic = [ratio(chain.mu_k * w) for w in chain.weights]
+        self.kappa = (
+            None if added.interface_stiffness is None else list(map(ratio, added.interface_stiffness))
+        )
+        self.mass = [ratio(chain.mass + (added.head_mass if i == 0 else 0)) for i in range(n)]
+        self.drive_stiffness = ratio(chain.drive_stiffness)
+        self.drive_velocity = ratio(chain.drive_velocity)
+        # Rows of G, the net force of springs and dashpots.
+        self.net = mp.zeros(n, 3 * n + 2)
+        self.net[0, 0] -= self.drive_stiffness
+        self.net[0, 3 * n] += self.drive_stiffness * self.drive_velocity
+        for i in range(1, n):
+            for columns, size in ((0, ratio(chain.stiffness)), (n, ratio(added.viscosity))):
+                for row, sign in ((i, 1), (i - 1, -1)):
+                    self.net[row, columns + i - 1] += sign * size
+                    self.net[row, columns + i] -= sign * size
+        self.state = mp.zeros(3 * n + 2, 1)
+        self.state[3 * n + 1] = 1
+        self.modes = [0] * n
+
+    def rate(self) -> mp.matrix:
+        """F of dz/dt = F z between transitions."""
+        n = self.n
+        rate = mp.zeros(3 * n + 2)
+        rate[3 * n, 3 * n + 1] = 1
+        for i, mode in enumerate(self.modes):
+            if mode == 0 and self.kappa is None:
+                continue
+            rate[i, n + i] = 1
+            rate[n + i, :] = self.net[i, :] / self.mass[i]
+            if mode:
+                rate[n + i, 3 * n + 1] -= mode * self.kinetic[i] / self.mass[i]
+            else:
+                rate[n + i, 2 * n + i] -= 1 / self.mass[i]
+                rate[2 * n + i, n + i] = self.kappa[i]
+        return rate
+
+    def interface_force(self, i: int) -> mp.mpf:
+        """Force of the interface on a block that sticks."""
+        return self.net_force(i) if self.kappa is None else self.state[2 * self.n + i]
+
+    def net_force(self, i: int) -> mp.mpf:
+        return (self.net[i, :] * self.state)[0]
+
+    def load(self) -> mp.mpf:
+        return self.drive_stiffness * (self.drive_velocity * self.state[3 * self.n] - self.state[0])
+
+    def obey_the_rules(self) -> bool:
+        """No block that slides has turned, none that sticks is beyond its strength."""
+        return all(
+            mode * self.state[self.n + i] > 0 if mode else abs(self.interface_force(i)) < self.strength[i]
+            for i, mode in enumerate(self.modes)
+        )
+
+    def follow(self, t: Transition) -> None:
+        """Go to the next transition and demand that it is one, and the first."""
+        i = t.block - 1
+        wait = ratio(t.time) - self.state[3 * self.n]
+        step = mp.expm(self.rate() * (wait / SAMPLES))
+        for sample in range(SAMPLES):
+            self.state = step * self.state
+            assert sample == SAMPLES - 1 or self.obey_the_rules()
+        speed = self.state[self.n + i]
+        assert abs(self.load() - ratio(t.tangential_load)) < LOAD_ROUNDING
+        if self.modes[i]:
+            assert abs(speed) < SPEED_ROUNDING
+            self.state[self.n + i] = 0
+            force = self.net_force(i)
+            assert t.mode == (0 if abs(force) <= self.strength[i] else mp.sign(force))
+            self.state[2 * self.n + i] = force
+        else:
+            force = self.interface_force(i)
+            assert abs(abs(force) - self.strength[i]) < LOAD_ROUNDING
+            assert t.mode == mp.sign(force)
+            assert speed * t.mode > -SPEED_ROUNDING
+        self.modes[i] = t.mode
+
+
+@pytest.mark.parametrize(("addition", "name"), JUDGED)
+def test_each_transition_is_the_first_by_the_matrix_exponential(addition: str, name: str) -> None:
+    scene, transitions = read_extended(addition)[name]
+    judge = Judge(scene)
+    for t in transitions[:JUDGED_TRANSITIONS]:
+        judge.follow(t)
+
+
+def test_the_judge_refuses_a_transition_that_is_late_by_a_picosecond() -> None:
+    scene, transitions = read_extended("viscous")["stiff_viscosity"]
+    judge = Judge(scene)
+    judge.follow(transitions[0])
+    with pytest.raises(AssertionError):
+        judge.follow(transitions[1]._replace(time=transitions[1].time + Fraction(1, 10**12)))
+
+
+def test_without_additions_it_is_the_papers_chain() -> None:
+    chain = ReferenceChain.from_slider(n_blocks=4, theta="1/3")
+    plain = reference(chain, 10, until="global slip")
+    assert extended_reference(chain, Additions(), 10, until="global slip") == plain
+
+
+def test_first_slip_with_viscosity_is_that_of_a_damped_oscillator() -> None:
+    scene = EXTENDED["viscous"]["stiff_viscosity"]
+    c, eta = scene.chain, ratio(scene.added.viscosity)
+    release, stop = extended_reference(c, scene.added, 10, max_transitions=2)
+    mass, stiffness = ratio(c.mass), ratio(c.stiffness + c.drive_stiffness)
+    damping = eta / (2 * mass)
+    omega = mp.sqrt(stiffness / mass - damping**2)
+    creep = ratio(c.drive_stiffness * c.drive_velocity) / stiffness
+    push = ratio((c.mu_s - c.mu_k) * c.weights[0]) / mass
+
+    def speed(t: mp.mpf) -> mp.mpf:
+        swing = creep * mp.cos(omega * t) + (creep * damping - push) / omega * mp.sin(omega * t)
+        return creep - mp.exp(-damping * t) * swing
+
+    duration = mp.findroot(speed, (0.9 * mp.pi / omega, 1.1 * mp.pi / omega))
+    assert (release.block, release.mode, stop.block, stop.mode) == (1, 1, 1, 0)
+    assert close(ratio(release.time), ratio(c.mu_s * c.weights[0] / (c.drive_stiffness * c.drive_velocity)))
+    assert close(ratio(stop.time - release.time), duration)
+
+
+def test_beyond_critical_damping_block_1_creeps_without_an_end() -> None:
+    _, transitions = read_extended("viscous")["creep"]
+    assert [(t.block, t.mode) for t in transitions] == [(1, 1)]
+
+
+def test_a_head_adds_its_mass_to_the_slip_of_block_1() -> None:
+    scene = EXTENDED["head"]["papers_chain"]
+    c = scene.chain
+    release, stop = extended_reference(c, scene.added, 10, max_transitions=2)
+    mass, stiffness = ratio(c.mass + scene.added.head_mass), ratio(c.stiffness + c.drive_stiffness)
+    omega = mp.sqrt(stiffness / mass)
+    drop, rate = ratio((c.mu_s - c.mu_k) * c.weights[0]), ratio(c.drive_stiffness * c.drive_velocity)
+    assert close(ratio(stop.time - release.time), (mp.pi + 2 * mp.atan(rate / drop / omega)) / omega)
+
+
+def test_a_slider_with_a_head_of_312_g_slips_as_one_body_for_2_ms() -> None:
+    _, (release, stop, *_) = read_extended("head")["one_block"]
+    assert abs(float(stop.time - release.time) - 2e-3) < 1e-6
+
+
+def test_one_block_on_an_interface_spring_is_released_where_its_spring_breaks() -> None:
+    scene = EXTENDED["interface"]["one_block"]
+    c, (kappa,) = scene.chain, map(ratio, scene.added.interface_stiffness or ())
+    (release,) = extended_reference(c, scene.added, 1, max_transitions=1)
+    start, nearby = ratio(release.time), mp.mpf(10) ** -6
+    drive, speed = ratio(c.drive_stiffness), ratio(c.drive_velocity)
+    omega = mp.sqrt((drive + kappa) / ratio(c.mass))
+
+    def lacking(t: mp.mpf) -> mp.mpf:
+        return ratio(c.mu_s * c.weights[0]) - kappa * drive * speed / (drive + kappa) * (
+            t - mp.sin(omega * t) / omega
+        )
+
+    assert close(ratio(release.time), mp.findroot(lacking, (start * (1 - nearby), start * (1 + nearby))))
+
+
+def test_a_stiffer_interface_comes_nearer_to_the_rigid_one() -> None:
+    chain = ReferenceChain.from_slider(n_blocks=3, theta="1/3", drive_velocity="0.1")
+    rigid = reference(chain, 1, max_transitions=4)
+    errors = []
+    for stiffness in ("1e9", "1e10"):
+        additions = Additions.of(3, interface_stiffness=stiffness)
+        soft = extended_reference(chain, additions, 1, max_transitions=4)
+        assert [(t.block, t.mode) for t in soft] == [(t.block, t.mode) for t in rigid]
+        errors.append([s.tangential_load - r.tangential_load for s, r in zip(soft, rigid, strict=True)])
+    # The compliance of the interface is ten times smaller; the ringing at the release falls with its root.
+    assert all(0 < stiff < soft / 3 for soft, stiff in zip(*errors, strict=True))
+
+
+@pytest.mark.parametrize(("addition", "name"), QUICK)
+def test_golden_digits_are_reproduced_with_64_places_less(addition: str, name: str) -> None:
+    with (GOLDEN / f"reference_{addition}.csv").open(newline="") as file:
+        rows = [row for chain, *row in csv.reader(file) if chain == name]
+    assert csv_rows(EXTENDED[addition][name].run(bits=192), DIGITS) == rows
+
+
+@pytest.mark.parametrize("addition", EXTENDED)
+def test_golden_scenes_are_complete_and_hold_backward_slip(addition: str) -> None:
+    scenes = read_extended(addition)
+    assert all(transitions for _, transitions in scenes.values())
+    assert any(t.mode == -1 for t in scenes["backward"][1])
+
+
+def test_rejects_an_unknown_stop() -> None:
+    with pytest.raises(ValueError, match="allowed is None"):
+        extended_reference(ReferenceChain.from_slider(), Additions(), 1, until="noon")

@@ -1,0 +1,153 @@
+from precursors.proof.validation import certificate_path, chain_duration, exact_chain
+
+CHAINS = config["horizon"]["chains"]
+COMMITTED = os.path.relpath(f"{workflow.basedir}/workflow/certificates")
+PROOF_CODE = [
+    f"{LIBRARY}/proof/{name}.py" for name in ["certificate", "exact_chain", "first_root", "motion", "tube"]
+]
+
+
+wildcard_constraints:
+    chain="|".join(CHAINS),
+
+
+rule take_certificates:
+    input:
+        committed=[path for chain in CHAINS for path in certificate_path(COMMITTED, chain)],
+        code=PROOF_CODE,
+    output:
+        certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
+    log:
+        "results/logs/take_certificates.log",
+    benchmark:
+        "results/benchmarks/take_certificates.tsv"
+    threads: 1
+    params:
+        chains=[exact_chain(values).as_text() for values in CHAINS.values()],
+        durations=[chain_duration(values) for values in CHAINS.values()],
+    script:
+        "../scripts/take_certificates.py"
+
+
+rule prove_again:
+    input:
+        certificate="results/certificates/chains/{chain}.json.gz",
+        code=PROOF_CODE,
+    output:
+        table="results/tables/proved/{chain}.csv",
+    log:
+        "results/logs/prove_again/{chain}.log",
+    benchmark:
+        "results/benchmarks/prove_again/{chain}.tsv"
+    threads: 1
+    script:
+        "../scripts/prove_again.py"
+
+
+rule prove_scenes:
+    input:
+        collect("results/tables/proved/{chain}.csv", chain=CHAINS),
+
+
+rule tabulate_certificates:
+    input:
+        certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
+        effort=f"{COMMITTED}/effort.csv",
+        code=collect(
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=["proof/certificate", "proof/validation", "storage"],
+        ),
+    output:
+        table="results/tables/certificates.csv",
+    log:
+        "results/logs/tabulate_certificates.log",
+    benchmark:
+        "results/benchmarks/tabulate_certificates.tsv"
+    threads: 1
+    params:
+        chains=list(CHAINS),
+    script:
+        "../scripts/tabulate_certificates.py"
+
+
+rule tabulate_horizon:
+    input:
+        certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
+        code=collect(
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=[
+                "chain",
+                "exact",
+                "horizon",
+                "kernel",
+                "lanes",
+                "proof/agreement",
+                "proof/certificate",
+                "proof/validation",
+                "run",
+                "storage",
+                "tangent",
+            ],
+        ),
+    output:
+        horizon="results/tables/horizon.csv",
+        summary="results/tables/solver_vs_proof.csv",
+    log:
+        "results/logs/tabulate_horizon.log",
+    benchmark:
+        "results/benchmarks/tabulate_horizon.tsv"
+    threads: 1
+    params:
+        chains=list(CHAINS),
+        tolerance=config["horizon"]["tolerance"],
+    script:
+        "../scripts/tabulate_horizon.py"
+
+
+rule tabulate_lyapunov:
+    input:
+        code=collect(
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=["chain", "exact", "kernel", "lanes", "lyapunov", "run", "storage", "tangent"],
+        ),
+    output:
+        table="results/tables/lyapunov.csv",
+    log:
+        "results/logs/tabulate_lyapunov.log",
+    benchmark:
+        "results/benchmarks/tabulate_lyapunov.tsv"
+    threads: 1
+    params:
+        sliders={scene: scene_slider(config, scene) for scene in config["fig13"]},
+        duration=config["horizon"]["lyapunov_duration"],
+    script:
+        "../scripts/tabulate_lyapunov.py"
+
+
+rule draw_horizon:
+    input:
+        horizon="results/tables/horizon.csv",
+        summary="results/tables/solver_vs_proof.csv",
+        lyapunov="results/tables/lyapunov.csv",
+        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["horizon", "style"]),
+    output:
+        png="results/figures/horizon.png",
+        svg=report(
+            "results/figures/horizon.svg",
+            caption="../report/horizon.rst",
+            category="Proof and horizon",
+            labels={"figure": "horizon", "shows": "predicted and actual error"},
+        ),
+    log:
+        "results/logs/draw_horizon.log",
+    benchmark:
+        "results/benchmarks/draw_horizon.tsv"
+    threads: 1
+    params:
+        chains=CHAINS,
+        tolerance=config["horizon"]["tolerance"],
+    script:
+        "../scripts/draw_horizon.py"
