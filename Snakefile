@@ -20,12 +20,33 @@ except ValueError as error:
 
 rule all:
     input:
+        "results/explorer.html",
         collect(
             "results/figures/{figure}.{kind}",
             figure=["fig09", *scene_names(config), "fig13"],
             kind=["png", "svg"],
         ),
         collect("results/tables/{table}.csv", table=["mu_sapp", "reproduction", "eq15"]),
+        collect("results/figures/definitions.{kind}", kind=["png", "svg"]),
+        lambda wildcards: LEDGER,
+        collect(
+            "results/figures/{figure}.{kind}",
+            figure=["work_precision", "work_precision_evaluations", "growth"],
+            kind=["png", "svg"],
+        ),
+        collect(
+            "results/figures/{figure}.{kind}", figure=["step_sweep", "failure_gallery"], kind=["png", "svg"]
+        ),
+        collect("results/figures/spread_{question}.svg", question=["loads", "theta", "start", "parameters"]),
+        collect("results/figures/map_{axis}.svg", axis=["blocks", "friction", "stiffness", "velocity"]),
+        collect("results/figures/{figure}.svg", figure=["resolution", "long_runs"]),
+        collect(
+            "results/tables/{table}.csv",
+            table=["spread", "robustness", "resolution", "resolution_limits", "long_runs_statistics"],
+        ),
+        collect("results/figures/horizon.{kind}", kind=["png", "svg"]),
+        collect("results/tables/{table}.csv", table=["certificates", "solver_vs_proof", "lyapunov"]),
+        collect("results/figures/ladder.{kind}", kind=["png", "svg"]),
 
 
 include: "workflow/rules/common.smk"
@@ -34,3 +55,13 @@ include: "workflow/rules/analyse.smk"
 include: "workflow/rules/check.smk"
 include: "workflow/rules/draw.smk"
 include: "workflow/rules/certify.smk"
+include: "workflow/rules/horizon.smk"
+include: "workflow/rules/accuracy.smk"
+include: "workflow/rules/failures.smk"
+include: "workflow/rules/ensembles.smk"
+include: "workflow/rules/spread.smk"
+include: "workflow/rules/maps.smk"
+include: "workflow/rules/claims.smk"
+include: "workflow/rules/explore.smk"
+include: "workflow/rules/ladder.smk"
+include: "workflow/rules/cluster.smk"

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import svd
 
-from precursors.chain import Chain, FloatArray, positive
+from precursors.chain import Chain, FloatArray, positive, require_plain
 
 if TYPE_CHECKING:
     from precursors.run import Run
@@ -152,8 +152,9 @@ def audit(run: Run, tolerance: Tolerances | float | None = None) -> Audit:
     Raises
     ------
     ValueError
-        If a tolerance is not a number above zero.
+        If a tolerance is not a number above zero, or the chain has viscosity, interface springs or a head.
     """
+    require_plain(run.chain)
     if tolerance is None:
         tolerance = Tolerances()
     elif not isinstance(tolerance, Tolerances):

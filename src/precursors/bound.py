@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linprog
 
-from precursors.chain import Chain, FloatArray
+from precursors.chain import Chain, FloatArray, require_plain
 
 # HiGHS allows 1e-7 by default. Loads are posed in units of F_Z, so this is 1e-10 F_Z.
 LP_FEASIBILITY = 1e-10
@@ -37,7 +37,13 @@ def maximal_compressions(chain: Chain) -> FloatArray:
     """Compressions y_i^max [m], shape (N,), with every block at +mu_s w_i (Eq. 12, corrected).
 
     Each spring carries the strength of all blocks ahead of it.
+
+    Raises
+    ------
+    ValueError
+        If the chain has viscosity, interface springs or a head.
     """
+    require_plain(chain)
     carried = np.cumsum(chain.strength[::-1])[::-1]
     return carried / chain.springs
 
@@ -86,9 +92,12 @@ def loads_at_rest(chain: Chain) -> LoadRange:
 
     Raises
     ------
+    ValueError
+        If the chain has viscosity, interface springs or a head.
     RuntimeError
         If the solver finds no optimum.
     """
+    require_plain(chain)
     # y_i in units of F_Z/s_i and forces in units of F_Z: the program is as well scaled for any K/k.
     unit = chain.normal_load / chain.springs
     net = balance_matrix(chain) * unit / chain.normal_load

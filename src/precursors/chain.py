@@ -33,6 +33,13 @@ class Chain:
         Coefficients of static and kinetic friction, 0 <= mu_k <= mu_s.
     length : float
         Length L of the contact [m], positive.
+    viscosity : float
+        Viscosity eta of the dashpot beside each spring between neighbours [N s/m]; 0 is none.
+    interface_stiffness : float
+        Stiffness kappa of the spring between each block and the plane while it sticks [N/m]; 0 is a rigid
+        interface.
+    head_mass : float
+        Mass M_h that moves with block 1 [kg].
 
     Raises
     ------
@@ -48,12 +55,17 @@ class Chain:
     mu_s: float
     mu_k: float
     length: float = 0.1
+    viscosity: float = 0.0
+    interface_stiffness: float = 0.0
+    head_mass: float = 0.0
 
     def __post_init__(self) -> None:
         weights = _weights(self.weights)
         object.__setattr__(self, "weights", weights)
         for name, unit in _POSITIVE.items():
             object.__setattr__(self, name, positive(name, getattr(self, name), unit))
+        for name, unit in _ADDITIONS.items():
+            object.__setattr__(self, name, not_negative(name, getattr(self, name), unit))
         mu_s = not_negative("mu_s", self.mu_s, "1")
         mu_k = not_negative("mu_k", self.mu_k, "1")
         if mu_k > mu_s:
@@ -75,6 +87,9 @@ class Chain:
         youngs_modulus: float = 2.5e9,
         cross_section: float = 1e-4,
         length: float = 0.1,
+        viscosity: float = 0.0,
+        interface_stiffness: float = 0.0,
+        head_mass: float = 0.0,
     ) -> Chain:
         """Cut a slider into N equal blocks (Eqs. 7, 9 and 10); the defaults are the paper's.
 
@@ -92,6 +107,12 @@ class Chain:
             K [N/m] and V [m/s] of the drive.
         slider_mass, youngs_modulus, cross_section, length : float
             M [kg], E [Pa], S [m^2] and L [m] of the slider.
+        viscosity : float
+            eta of each dashpot between neighbours [N s/m]; 0 is none.
+        interface_stiffness : float
+            Tangential stiffness K_t of the whole interface [N/m], shared equally; 0 is a rigid interface.
+        head_mass : float
+            Mass M_h of the loading head [kg].
 
         Raises
         ------
@@ -112,6 +133,9 @@ class Chain:
             mu_s=mu_s,
             mu_k=mu_k,
             length=length,
+            viscosity=viscosity,
+            interface_stiffness=not_negative("interface_stiffness", interface_stiffness, "N/m") / n,
+            head_mass=head_mass,
         )
 
     @property
@@ -140,6 +164,11 @@ class Chain:
         return np.concatenate([[self.drive_stiffness], np.full(self.n_blocks - 1, self.stiffness)])
 
     @property
+    def is_plain(self) -> bool:
+        """Whether it is the paper's chain: no viscosity, a rigid interface, no head."""
+        return not any(getattr(self, name) for name in _ADDITIONS)
+
+    @property
     def loading_rate(self) -> float:
         """Growth K V of the tangential load while block 1 sticks [N/s]."""
         return self.drive_stiffness * self.drive_velocity
@@ -160,6 +189,23 @@ _POSITIVE = {
     "drive_velocity": "m/s",
     "length": "m",
 }
+
+
+_ADDITIONS = {"viscosity": "N s/m", "interface_stiffness": "N/m", "head_mass": "kg"}
+
+
+def require_plain(chain: Chain) -> None:
+    """Refuse a chain that is more than the paper's, where nothing else is allowed for.
+
+    Raises
+    ------
+    ValueError
+        Naming the addition, its value and its unit.
+    """
+    for name, unit in _ADDITIONS.items():
+        value = getattr(chain, name)
+        if value:
+            raise ValueError(f"{name} = {value!r} [{unit}]: allowed is 0 here, the paper's chain")
 
 
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:

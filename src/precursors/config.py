@@ -14,7 +14,19 @@ from precursors.chain import Chain, parse_theta, theta_from_load_cells
 Config = Mapping[str, Any]
 
 SCENE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,63}")
-RESERVED_NAMES = ("fig09", "fig13")  # the figures that are no scene's
+# The figures that are no scene's: none of their names, or what they begin with, is allowed as a scene's.
+RESERVED_NAMES = (
+    "definitions",
+    "failure_gallery",
+    "fig09",
+    "fig13",
+    "growth",
+    "horizon",
+    "ladder",
+    "long_runs",
+    "resolution",
+)
+RESERVED_BEGINNINGS = ("map_", "spread_", "step_sweep", "work_precision")
 
 
 def scene_names(config: Config) -> list[str]:
@@ -91,6 +103,13 @@ def _complaints(config: Config, schema_path: str | os.PathLike[str]) -> Iterator
     for name in config["fig13"]:
         if name not in config["scenes"]:
             yield f"fig13 names {name!r}, which is no scene: allowed are {', '.join(config['scenes'])}"
+    proved = config["horizon"]["chains"]
+    for name in config["accuracy"]["chains"]:
+        if name not in proved:
+            yield (
+                f"accuracy.chains names {name!r}, which is no chain of horizon.chains: "
+                f"allowed are {', '.join(proved)}"
+            )
 
 
 def _odd_values(where: str, value: object) -> Iterator[str]:
@@ -136,8 +155,9 @@ def _wrong_scene(config: Config, name: str, scene: Mapping[str, Any]) -> Iterato
     where = f"scenes.{name}"
     if not SCENE_NAME.fullmatch(name):
         yield f"scenes: {name!r} is no name: allowed are a letter and up to 63 letters, digits, _ and -"
-    if name.lower() in RESERVED_NAMES:
-        yield f"{where}: a figure of its own has this name: allowed is any but {' and '.join(RESERVED_NAMES)}"
+    if name.lower() in RESERVED_NAMES or name.lower().startswith(RESERVED_BEGINNINGS):
+        others = ", ".join([*RESERVED_NAMES, *(f"{beginning}..." for beginning in RESERVED_BEGINNINGS)])
+        yield f"{where}: a figure of its own has this name: allowed is any but {others}"
 
     cells = [key for key in ("load_cell_a", "load_cell_b") if key in scene]
     if ("theta" in scene) == bool(cells) or len(cells) == 1:

@@ -181,29 +181,30 @@ def _cores() -> int:
 
 
 def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
-    """Numbers of chains of equal length, so many at a time as one call of the kernel takes."""
+    """Numbers of chains of equal length and kind, so many at a time as one call of the kernel takes."""
     most = min(LARGEST_BATCH, max(1, len(chains) // (threads * BATCHES_PER_THREAD)))
-    by_length: dict[int, list[int]] = {}
+    alike: dict[tuple[int, bool], list[int]] = {}
     for j, chain in enumerate(chains):
-        by_length.setdefault(chain.n_blocks, []).append(j)
-    for _, members in sorted(by_length.items(), reverse=True):
+        alike.setdefault((chain.n_blocks, kernel.is_linked(chain)), []).append(j)
+    for _, members in sorted(alike.items(), reverse=True):
         for first in range(0, len(members), most):
             yield members[first : first + most]
 
 
 class _Workspace(threading.local):
-    """The record into which a thread runs chains of one length, kept from call to call."""
+    """The record into which a thread runs chains of one length and kind, kept from call to call."""
 
-    n_blocks = 0
+    n_blocks, is_linked = 0, False
 
-    def prepare(self, n_blocks: int) -> None:
+    def prepare(self, n_blocks: int, is_linked: bool) -> None:
         """Make room for chains of `n_blocks`, if it is not there yet."""
-        if n_blocks == self.n_blocks:
+        if (n_blocks, is_linked) == (self.n_blocks, self.is_linked):
             return
         wide = kernel.width(n_blocks)
         self.stride = 1 + wide // BLOCKS_PER_STRIDE
         self.state_room = max(FIRST_ROOM // self.stride, 2)
-        self.chain = tuple(np.zeros((3, wide)))
+        self.chain = tuple(np.zeros((4, wide)))
+        self.additions = kernel.new_additions(n_blocks) if is_linked else None
         self.state = (np.zeros(wide), np.zeros(wide), np.zeros(wide, np.int64))
         self.record: tuple[NDArray[Any], ...] = tuple(
             np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in RECORD
@@ -215,8 +216,9 @@ class _Workspace(threading.local):
             np.empty((rows, wide), np.int64),
             np.empty(rows, np.int64),
             np.empty(rows),
+            np.zeros((rows, wide if is_linked else 0)),
         )
-        self.n_blocks = n_blocks
+        self.n_blocks, self.is_linked = n_blocks, is_linked
 
 
 _workspace = _Workspace()
@@ -232,7 +234,7 @@ def _run_batch(
 ) -> list[Run]:
     """Run chains of equal length one after the other, in as few calls of the kernel as it takes."""
     work = _workspace
-    work.prepare(chains[0].n_blocks)
+    work.prepare(chains[0].n_blocks, kernel.is_linked(chains[0]))
     parameters = np.array([kernel.parameters(chain) for chain in chains])
     weights = np.array([chain.weights for chain in chains])
     taus = np.empty(len(chains))
@@ -249,6 +251,7 @@ def _run_batch(
             duration,
             until is not None,
             work.chain,
+            work.additions,
             work.state,
             work.record,
             min(FIRST_ROOM, max_transitions),
@@ -278,7 +281,7 @@ def _run_batch(
                 intervals=part.intervals,
                 start_positions=positions[j],
                 start_velocities=velocities[j],
-                states=part.states,
+                states=_needed(part.states, chains[j]),
                 evaluations=float(counts[j, kernel.DERIVATIVES]) / chains[j].n_blocks,
             )
             if counts[j, kernel.STATUS] == kernel.PAUSED:
@@ -332,13 +335,17 @@ def _go_on(
     """Run on a chain that the kernel left unfinished, in a record of its own."""
     system = kernel.scale(chain)
     state = tuple(column.copy() for column in work.state)
+    if system.additions is not None and work.additions is not None:
+        for mine, shared in zip(system.additions, work.additions, strict=True):
+            mine[:] = shared
     record = _Record(part, work.stride)
     while count[kernel.STATUS] == kernel.PAUSED and count[kernel.TRANSITIONS] < max_transitions:
         record.make_room(count, max_transitions)
         count[kernel.STATUS] = kernel.run_events(
             system.tau,
             system.drive_velocity,
-            (system.coupling, system.strength, system.friction),
+            (system.coupling, system.strength, system.friction, system.lightness),
+            system.additions,
             state,
             clock,
             count,
@@ -396,6 +403,13 @@ RECORD = (np.float64, np.int64, np.int64, np.float64, np.float64)
 
 def _states(columns: Sequence[NDArray[Any]], rows: slice) -> States:
     return States(*(column[rows] for column in columns))
+
+
+def _needed(states: States, chain: Chain) -> States:
+    """The states without the forces of interface springs where there are none."""
+    if chain.interface_stiffness or not states.grip.size:
+        return states
+    return states._replace(grip=np.empty((len(states.after), 0)))
 
 
 def _transitions(columns: Sequence[NDArray], n: int) -> NDArray[np.void]:

@@ -12,13 +12,23 @@ with tau such that the highest frequency of the chain times tau is at most `REAC
 T_i in the spring behind each block and its velocity v_i, not its position: slips of a micrometre after a
 millimetre of drive keep all their digits. In these units the motion is
 
-    dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides.
+    dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = r_i (G_i - f_i),    G_i = T_i - T_{i+1} + dashpots
+
+where f_i is mode_i mu_k w_i on a block that slides. The share r_i of a block's mass in what moves with it is
+1, but for block 1 with a loading head. Without additions there are no dashpots, and a block that sticks does
+not move: `additions` is None then, and what they need is not even compiled. Else it holds four arrays:
+
+- `dashpot`, gamma_i: G_i has gamma_i (v_{i-1} - v_i) - gamma_{i+1} (v_i - v_{i+1}) besides;
+- `anchor`, chi_i: a block that sticks hangs on a spring between it and the plane; zero where the interface is
+  rigid. On springs, all blocks move all the time;
+- `grip`, p_i: the force f_i of that spring, dp_i/dt = chi_i v_i; a block that stops begins with p_i = G_i;
+- `hold`: r_i chi_i of the blocks that stick, zero of the others.
 
 Column 0 of every array is the drive, columns 1..N are the blocks; beyond them is room for groups of four.
 
-A transition changes the motion of blocks at distance d only in order 2 d + 1 of the time since. In a long
-chain each group of blocks therefore keeps Taylor series about a time of its own within a common window, and a
-transition renews those of its neighbourhood only.
+A transition changes the motion of blocks at distance d only in order 2 d + 1 of the time since, with dashpots
+in order d + 1. In a long chain each group of blocks therefore keeps Taylor series about a time of its own
+within a common window, and a transition renews those of its neighbourhood only.
 
 All compiled code is in this one file, because a compile cache does not see an edit in an imported file.
 """
@@ -45,6 +55,8 @@ NEGLIGIBLE = 1e-19
 # Chains whose moving part is longer than LONG blocks renew neighbourhoods only, in windows of LONG_WINDOW.
 LONG = 24
 SHORT_WINDOW, LONG_WINDOW = 0.6875, 0.5
+# On interface springs there is no rest: a state is stored after so many windows, for every one of the stride.
+WINDOWS_PER_STATE = 512
 # A value below so many roundings of the forces it was computed from counts as zero. Where transitions follow
 # one another without time going on, rounding decides in a circle: the doubt grows until it does not.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
@@ -79,8 +91,8 @@ index = np.uint64
 ZERO, ONE, TWO, THREE, FOUR, FIVE, SIX, SEVEN, EIGHT = (np.uint64(n) for n in range(9))
 # An index that starts from a literal is typed: what it goes to would be compiled for the literal anew.
 INDEX = {"first": int64, "slot": int64}
-# Products may be fused with sums. Only `outer` code allocates, and only there references are counted (`_nrt`),
-# as that takes longer than the arithmetic; so does passing arrays to a function: hence what is inlined.
+# Products may be fused with sums. Only `outer` code allocates, and counts references (`_nrt`), as that takes
+# longer than the arithmetic; so does passing arrays to a function: hence what is inlined.
 options: Any = {
     "cache": True,
     "error_model": "numpy",
@@ -93,6 +105,15 @@ seldom = njit(**options)
 outer = njit(cache=True, error_model="numpy", nogil=True, locals=INDEX)
 
 
+class Additions(NamedTuple):
+    """What joins blocks to each other and to the plane besides springs; see the module's docstring."""
+
+    dashpot: FloatArray
+    anchor: FloatArray
+    grip: FloatArray
+    hold: FloatArray
+
+
 class System(NamedTuple):
     """A chain in the kernel's units; columns as in the module's docstring."""
 
@@ -101,6 +122,8 @@ class System(NamedTuple):
     coupling: FloatArray
     strength: FloatArray
     friction: FloatArray
+    lightness: FloatArray
+    additions: Additions | None
 
 
 def width(n_blocks: int) -> int:
@@ -108,7 +131,17 @@ def width(n_blocks: int) -> int:
     return n_blocks + 1 + BEYOND
 
 
-def parameters(chain: Chain) -> tuple[float, float, float, float, float, float]:
+def is_linked(chain: Chain) -> bool:
+    """Whether the compiled code has to know of `additions`: dashpots or interface springs."""
+    return chain.viscosity > 0.0 or chain.interface_stiffness > 0.0
+
+
+def new_additions(n_blocks: int) -> Additions:
+    """Room for the additions of a chain."""
+    return Additions(*np.zeros((4, width(n_blocks))))
+
+
+def parameters(chain: Chain) -> tuple[float, ...]:
     """What `set_up` takes of a chain beside its weights."""
     return (
         chain.mass,
@@ -117,37 +150,52 @@ def parameters(chain: Chain) -> tuple[float, float, float, float, float, float]:
         chain.drive_velocity,
         chain.mu_s,
         chain.mu_k,
+        chain.head_mass,
+        chain.viscosity,
+        chain.interface_stiffness,
     )
 
 
 def scale(chain: Chain) -> System:
     """Express a chain in the kernel's units."""
-    coupling, strength, friction = np.zeros((3, width(chain.n_blocks)))
+    coupling, strength, friction, lightness = np.zeros((4, width(chain.n_blocks)))
+    additions = new_additions(chain.n_blocks) if is_linked(chain) else None
     # A copy, as the compiled code is for arrays that may be written to.
     weights = chain.weights.copy()
-    tau, drive_velocity = set_up(np.array(parameters(chain)), weights, coupling, strength, friction)
-    return System(tau, drive_velocity, coupling, strength, friction)
+    columns = coupling, strength, friction, lightness
+    tau, drive_velocity = set_up(np.array(parameters(chain)), weights, columns, additions)
+    return System(tau, drive_velocity, coupling, strength, friction, lightness, additions)
 
 
 @outer
-def set_up(parameters, weights, coupling, strength, friction):
+def set_up(parameters, weights, chain, additions):
     """Fill a chain's columns in the kernel's units; return tau [s] and the drive's velocity [N/tau].
 
-    tau follows from Gershgorin's bound of the largest frequency.
+    tau follows from Gershgorin's bounds: a row of a Taylor series is at most a times the row two before it,
+    and b times the row before it, and a + b REACH <= REACH^2.
     """
-    mass, stiffness, drive_stiffness, drive_velocity, mu_s, mu_k = parameters
+    coupling, strength, friction, lightness = chain
+    mass, stiffness, drive_stiffness, drive_velocity, mu_s, mu_k, head_mass, viscosity, anchorage = parameters
     n_blocks = weights.shape[0]
     stiffest = 0.0
     for i in range(n_blocks):
         behind = stiffness if i > 0 else drive_stiffness
         ahead = stiffness if i < n_blocks - 1 else 0.0
         stiffest = max(stiffest, behind + ahead + (behind if i > 0 else 0.0) + ahead)
-    tau = REACH * math.sqrt(mass / stiffest)
+    if additions is None:
+        tau = REACH * math.sqrt(mass / stiffest)
+    else:
+        a, b = (stiffest + anchorage) / mass, 4.0 * viscosity / mass
+        tau = 2.0 * REACH / (b + math.sqrt(b * b + 4.0 * a))
+        for i in range(n_blocks):
+            additions.dashpot[i + 1] = viscosity * (tau / mass) if i > 0 else 0.0
+            additions.anchor[i + 1] = anchorage * (tau * tau / mass)
     for i in range(n_blocks):
         spring = stiffness if i > 0 else drive_stiffness
         coupling[i + 1] = spring * (tau * tau / mass)
         strength[i + 1] = mu_s * weights[i]
         friction[i + 1] = mu_k * weights[i]
+        lightness[i + 1] = mass / (mass + head_mass) if i == 0 else 1.0
     return tau, drive_velocity * mass / tau
 
 
@@ -155,9 +203,9 @@ def set_up(parameters, weights, coupling, strength, friction):
 def expand(coupling, mobile, push, first, final, order, tension, rate):
     """Taylor series of the velocities of blocks first..final from their row 0 (derivatives, rows 1..order).
 
-    This is the chain's linear operator: whatever else acts linearly between transitions belongs here.
-    `mobile` is 1 where a block slides and `push` its kinetic friction with the sign of its mode; `tension`
-    holds the spring forces. Columns first - 1 and final + 1 hold the motion of the neighbours outside.
+    This is the chain's linear operator, that with additions is `expand_linked`. `mobile` is r_i where a block
+    slides, else 0, and `push` its kinetic friction with the sign of its mode times r_i; `tension` holds the
+    spring forces. Columns first - 1 and final + 1 hold the motion of the neighbours outside.
     Few groups of four stay in registers from row to row, even and odd rows side by side.
     """
     start, stop = index(first), index(final) + ONE
@@ -214,10 +262,36 @@ def expand(coupling, mobile, push, first, final, order, tension, rate):
 
 
 @inner
+def expand_linked(coupling, mobile, push, additions, first, final, order, tension, rate):
+    """Do what `expand` does, with dashpots and interface springs; `push` of a stuck block is r_i p_i."""
+    start, stop = index(first), index(final) + ONE
+    for i in range(start, stop, FOUR):
+        net = lanes.load(tension, i) - lanes.load(tension, i + ONE)
+        here = lanes.load_row(rate, ZERO, i)
+        net = net + lanes.load(additions.dashpot, i) * (lanes.load_row(rate, ZERO, i - ONE) - here)
+        net = net - lanes.load(additions.dashpot, i + ONE) * (here - lanes.load_row(rate, ZERO, i + ONE))
+        lanes.store_row(rate, ONE, i, lanes.load(mobile, i) * net - lanes.load(push, i))
+    for n in range(TWO, index(order) + ONE):
+        m, k = n - TWO, n - ONE
+        here, above = lanes.load_row(rate, m, start), lanes.load_row(rate, k, start)
+        left, left_above = lanes.spread(rate[m, start - ONE]), lanes.spread(rate[k, start - ONE])
+        for i in range(start, stop, FOUR):
+            right, right_above = lanes.spread(rate[m, stop]), lanes.spread(rate[k, stop])
+            if i + FOUR < stop:
+                right, right_above = lanes.load_row(rate, m, i + FOUR), lanes.load_row(rate, k, i + FOUR)
+            b, a = pulls(i, coupling, mobile)
+            row = derive(left, here, right, b, a) - lanes.load(additions.hold, i) * here
+            b, a = pulls(i, additions.dashpot, mobile)
+            lanes.store_row(rate, n, i, row + derive(left_above, above, right_above, b, a))
+            left, here = here, right
+            left_above, above = above, right_above
+
+
+@inner
 def pulls(i, coupling, mobile):
-    """Stiffness behind and ahead of blocks i..i + 3 where they slide, zero where they do not."""
-    slides = lanes.load(mobile, i)
-    return slides * lanes.load(coupling, i), slides * lanes.load(coupling, i + ONE)
+    """Stiffness behind and ahead of blocks i..i + 3 where they move, zero where they do not."""
+    moves = lanes.load(mobile, i)
+    return moves * lanes.load(coupling, i), moves * lanes.load(coupling, i + ONE)
 
 
 @inner
@@ -279,6 +353,32 @@ def stretch(first, final, coupling, slip, tension_before, tension):
 
 
 @inner
+def stretch_linked(
+    first,
+    final,
+    coupling,
+    slip,
+    tension_before,
+    tension,
+    lost,
+    springy,
+    n_blocks,
+    mode,
+    push,
+    lightness,
+    lost_grip,
+    additions,
+):
+    """Do what `stretch` does; on interface springs, which move in millions of windows, without drift."""
+    if springy:
+        for i in range(1, n_blocks + 1):
+            add_to(tension, lost, i, coupling[i] * (slip[i - 1] - slip[i]))
+        renew_grip(n_blocks, mode, push, lightness, slip, lost_grip, additions)
+    else:
+        stretch(first, final, coupling, slip, tension_before, tension)
+
+
+@inner
 def safe_step(g, slope, curvature):
     """Positive root of g + slope s - curvature s^2/2 for g >= 0: no root of g lies before it."""
     root = math.sqrt(slope * slope + 2.0 * curvature * g)
@@ -288,7 +388,7 @@ def safe_step(g, slope, curvature):
 
 
 @inner
-def tail_bound(first, final, end, order, span, rate):
+def tail_bound(first, final, end, order, span, rate, additions):
     """Bounds of the terms from the eighth on of the velocity series of blocks first..final: sum, curvature.
 
     Row n + 2 of a block is at most REACH^2 times the largest of row n (Gershgorin); moving neighbours
@@ -308,6 +408,10 @@ def tail_bound(first, final, end, order, span, rate):
                 even = max(even, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, final + 1]))
             else:
                 odd = max(odd, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, final + 1]))
+    if additions is not None:
+        # Dashpots mix even and odd rows: what grows by REACH at most is the larger of two rows on end.
+        even = max(even, odd / REACH)
+        odd = even * REACH
     # Each of the two sums is geometric at worst.
     square = span * span
     sixth = REACH_SQUARED * TAIL * square * square * square
@@ -453,21 +557,33 @@ def examine_from(slot, t, series, level, terms, stage):
 
 
 @inner
-def grain(i, doubt, coupling, strength, tension, fastest):
+def grain(i, doubt, coupling, strength, tension, fastest, additions):
     """Size below which a force on block i, or what it does to its velocity in the window, counts as zero.
 
     From the forces, and from what the motion of the neighbours adds to them within the window.
     """
     still = abs(tension[i]) + abs(tension[i + ONE]) + strength[i]
     moving = coupling[i] * fastest[i - ONE] + fastest[i] + coupling[i + ONE] * fastest[i + ONE]
+    if additions is not None:
+        still += abs(additions.grip[i])
+        moving += (
+            additions.dashpot[i] * fastest[i - ONE]
+            + additions.anchor[i] * fastest[i]
+            + additions.dashpot[i + ONE] * fastest[i + ONE]
+        )
     return doubt * (2.0 * still + moving)
 
 
 @inner
-def margin_series(slot, i, order, coupling, strength, tension, rate, weight, series):
+def margin_series(slot, i, order, coupling, strength, tension, rate, weight, series, additions):
     """Series of the margin of stuck block i against letting go forward (even slot) or backward (odd slot)."""
     row, i = index(slot), index(i)
     side = 1.0 - 2.0 * (row % TWO)
+    if additions is not None:
+        linked_margin_series(
+            row, i, side, order, coupling, strength, tension, rate, weight, series, additions
+        )
+        return
     b, a = coupling[i], coupling[i + ONE]
     series[row, ZERO] = strength[i] - side * (tension[i] - tension[i + ONE])
     for n in range(ONE, index(order) + ONE):
@@ -476,12 +592,30 @@ def margin_series(slot, i, order, coupling, strength, tension, rate, weight, ser
 
 
 @inner
-def may_stop(i, tail, mobile, sense, rate, weight, fastest):
+def linked_margin_series(row, i, side, order, coupling, strength, tension, rate, weight, series, additions):
+    """Do what `margin_series` does, with dashpots or interface springs."""
+    b, a, near, far = coupling[i], coupling[i + ONE], i - ONE, i + ONE
+    d, c = additions.dashpot[i], additions.dashpot[i + ONE]
+    if additions.anchor[i] > 0.0:
+        series[row, ZERO] = strength[i] - side * additions.grip[i]
+        for n in range(ONE, index(order) + ONE):
+            series[row, n] = -side * additions.anchor[i] * rate[n - ONE, i] * weight[n]
+    else:
+        net = tension[i] - tension[far] + d * rate[ZERO, near] + c * rate[ZERO, far]
+        series[row, ZERO] = strength[i] - side * net
+        for n in range(ONE, index(order) + ONE):
+            growth = b * rate[n - ONE, near] + a * rate[n - ONE, far] + d * rate[n, near] + c * rate[n, far]
+            series[row, n] = -side * growth * weight[n]
+
+
+@inner
+def may_stop(i, tail, sense, rate, weight, fastest):
     """Bits of those of blocks i..i + 3 that slide and may stop in the window; `fastest` is set for all four.
 
     The test is that of `surely_positive`, with the size of each term from the fourth on and the tail as rest.
     """
-    slides, sign = lanes.load(mobile, i), lanes.load(sense, i)
+    sign = lanes.load(sense, i)
+    slides = sign * sign
     c0 = sign * lanes.load_row(rate, ZERO, i)
     c1 = sign * (lanes.load_row(rate, ONE, i) * weight[ONE])
     c2 = sign * (lanes.load_row(rate, TWO, i) * weight[TWO])
@@ -504,14 +638,43 @@ def size(n, i, rate, weight):
 
 
 @inner
-def may_let_go(i, span, coupling, strength, mobile, tension, fastest):
+def may_let_go(i, span, coupling, strength, sense, tension, fastest, additions):
     """Bits of those of blocks i..i + 3 that stick and may let go in the window."""
-    slides = lanes.load(mobile, i)
+    slides = lanes.load(sense, i) * lanes.load(sense, i)
     still = 1.0 - slides
+    if additions is not None:
+        return linked_may_let_go(i, span, slides, coupling, strength, tension, fastest, additions)
     net = lanes.magnitude(lanes.load(tension, i) - lanes.load(tension, i + ONE))
     change = lanes.load(coupling, i) * lanes.load(fastest, i - ONE)
     change = (change + lanes.load(coupling, i + ONE) * lanes.load(fastest, i + ONE)) * span
     return lanes.where_not_above(still * (lanes.load(strength, i) - net), still * change - slides)
+
+
+@inner
+def linked_may_let_go(i, span, slides, coupling, strength, tension, fastest, additions):
+    """Do what `may_let_go` does, with dashpots or interface springs."""
+    still = 1.0 - slides
+    if additions.anchor[ONE] > 0.0:
+        change = lanes.load(additions.anchor, i) * lanes.load(fastest, i) * span
+        force = lanes.magnitude(lanes.load(additions.grip, i))
+    else:
+        near, far = lanes.load(fastest, i - ONE), lanes.load(fastest, i + ONE)
+        change = (lanes.load(coupling, i) * near + lanes.load(coupling, i + ONE) * far) * span
+        # Both what the dashpots hold now and what they come to hold.
+        change = change + (
+            lanes.load(additions.dashpot, i) * near + lanes.load(additions.dashpot, i + ONE) * far
+        )
+        force = lanes.magnitude(lanes.load(tension, i) - lanes.load(tension, i + ONE))
+    return lanes.where_not_above(still * (lanes.load(strength, i) - force), still * change - slides)
+
+
+@inner
+def speed_bound(i, tail, rate, weight, fastest):
+    """Set `fastest` of blocks i..i + 3 whether they slide or not."""
+    total = lanes.spread(tail)
+    for n in range(ZERO, EIGHT):
+        total = total + size(n, i, rate, weight)
+    lanes.store(fastest, i, total)
 
 
 @inner
@@ -526,8 +689,8 @@ def watch(
     order,
     coupling,
     strength,
+    additions,
     mode,
-    mobile,
     sense,
     tension,
     rate,
@@ -555,16 +718,20 @@ def watch(
             kept += 1
             active[kept] = active[k]
     active[0] = kept
-    tail, tail_bend = tail_bound(first, final, end, order, span, rate)
+    tail, tail_bend = tail_bound(first, final, end, order, span, rate, additions)
     start, stop = index(first), index(final) + ONE
     for group in range(start, stop, FOUR):
-        suspects[group] = may_stop(group, tail, mobile, sense, rate, weight, fastest)
+        suspects[group] = may_stop(group, tail, sense, rate, weight, fastest)
+        if additions is not None and on_springs(additions):
+            speed_bound(group, tail, rate, weight, fastest)
     for group in range(start, stop, FOUR):
-        bits = suspects[group] | may_let_go(group, span, coupling, strength, mobile, tension, fastest)
+        bits = suspects[group] | may_let_go(
+            group, span, coupling, strength, sense, tension, fastest, additions
+        )
         i = group
         while bits != ZERO and i <= index(last):
             if bits & ONE:
-                zero = grain(i, doubt, coupling, strength, tension, fastest)
+                zero = grain(i, doubt, coupling, strength, tension, fastest, additions)
                 if mode[i] != 0:
                     watch_velocity(
                         i,
@@ -592,6 +759,7 @@ def watch(
                         order,
                         coupling,
                         strength,
+                        additions,
                         tension,
                         rate,
                         weight,
@@ -671,6 +839,7 @@ def watch_margins(
     order,
     coupling,
     strength,
+    additions,
     tension,
     rate,
     weight,
@@ -687,19 +856,24 @@ def watch_margins(
     """Bound the times at which stuck block i lets go forward or backward from below."""
     near, far = i - ONE, i + ONE
     b, a = coupling[i], coupling[far]
-    if b * fastest[near] + a * fastest[far] == 0.0:
-        return
-    net = tension[i] - tension[far]
-    # The net force grows with the velocities of the neighbours.
-    g1 = (b * rate[ZERO, near] + a * rate[ZERO, far]) * weight[1]
-    g2 = (b * rate[ONE, near] + a * rate[ONE, far]) * weight[2]
-    g3 = (b * rate[TWO, near] + a * rate[TWO, far]) * weight[3]
-    r4 = abs(b * rate[THREE, near] + a * rate[THREE, far]) * weight[4]
-    r5 = abs(b * rate[FOUR, near] + a * rate[FOUR, far]) * weight[5]
-    r6 = abs(b * rate[FIVE, near] + a * rate[FIVE, far]) * weight[6]
-    r7 = abs(b * rate[SIX, near] + a * rate[SIX, far]) * weight[7]
-    r8 = abs(b * rate[SEVEN, near] + a * rate[SEVEN, far]) * weight[8]
-    rest = (r4 + r5) + (r6 + r7) + (r8 + (a + b) * tail * span / 9.0)
+    if additions is None:
+        if b * fastest[near] + a * fastest[far] == 0.0:
+            return
+        net = tension[i] - tension[far]
+        # The net force grows with the velocities of the neighbours.
+        g1 = (b * rate[ZERO, near] + a * rate[ZERO, far]) * weight[1]
+        g2 = (b * rate[ONE, near] + a * rate[ONE, far]) * weight[2]
+        g3 = (b * rate[TWO, near] + a * rate[TWO, far]) * weight[3]
+        r4 = abs(b * rate[THREE, near] + a * rate[THREE, far]) * weight[4]
+        r5 = abs(b * rate[FOUR, near] + a * rate[FOUR, far]) * weight[5]
+        r6 = abs(b * rate[FIVE, near] + a * rate[FIVE, far]) * weight[6]
+        r7 = abs(b * rate[SIX, near] + a * rate[SIX, far]) * weight[7]
+        r8 = abs(b * rate[SEVEN, near] + a * rate[SEVEN, far]) * weight[8]
+        rest = (r4 + r5) + (r6 + r7) + (r8 + (a + b) * tail * span / 9.0)
+    else:
+        net, g1, g2, g3, r4, r5, r6, r7, r8, rest, bend_beyond = linked_growth(
+            i, span, coupling, additions, tension, rate, weight, tail, tail_bend
+        )
     for k in range(TWO):
         side = 1.0 - 2.0 * k
         c0, c1, c2, c3 = strength[i] - side * net, -side * g1, -side * g2, -side * g3
@@ -710,7 +884,10 @@ def watch_margins(
         if c0 > zero and not is_long:
             level[slot, POWER] = 0.0
             bend = 12.0 * r4 + 20.0 * r5 + 30.0 * r6 + 42.0 * r7 + 56.0 * r8
-            bend += (a + b) * tail_bend * span / 7.0
+            if additions is None:
+                bend += (a + b) * tail_bend * span / 7.0
+            else:
+                bend += bend_beyond
             level[slot, BEND], level[slot, TURN] = downward(c2, c3) + bend, turning(c2, c3) + bend
             level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3] = c0, c1, c2, c3
             level[slot, REST] = rest
@@ -718,10 +895,42 @@ def watch_margins(
             bound[slot] = origin + safe_step(c0, c1, downward(c2, c3) + 12.0 * rest) * span
         else:
             # The series of the neighbours may get other origins before this one is looked at again.
-            margin_series(slot, i, order, coupling, strength, tension, rate, weight, series)
+            margin_series(slot, i, order, coupling, strength, tension, rate, weight, series, additions)
             stage[slot], bound[slot] = BUILT, origin
         if bound[slot] < origin + span:
             keep(slot, active)
+
+
+@inner
+def linked_growth(i, span, coupling, additions, tension, rate, weight, tail, tail_bend):
+    """Force on stuck block i, terms 1 to 3 of its series, sizes of 4 to 8, bounds of the rest and its bend.
+
+    It is the force of the interface: that of its spring, or the net force of springs and dashpots.
+    """
+    near, far = i - ONE, i + ONE
+    if additions.anchor[i] > 0.0:
+        b = additions.anchor[i]
+        g1, g2, g3 = b * rate[ZERO, i] * weight[1], b * rate[ONE, i] * weight[2], b * rate[TWO, i] * weight[3]
+        r4, r5 = b * abs(rate[THREE, i]) * weight[4], b * abs(rate[FOUR, i]) * weight[5]
+        r6, r7 = b * abs(rate[FIVE, i]) * weight[6], b * abs(rate[SIX, i]) * weight[7]
+        r8 = b * abs(rate[SEVEN, i]) * weight[8]
+        rest = (r4 + r5) + (r6 + r7) + (r8 + b * tail * span / 9.0)
+        return additions.grip[i], g1, g2, g3, r4, r5, r6, r7, r8, rest, b * tail_bend * span / 7.0
+    b, a = coupling[i], coupling[far]
+    d, c = additions.dashpot[i], additions.dashpot[far]
+    net = tension[i] - tension[far] + d * rate[ZERO, near] + c * rate[ZERO, far]
+    g1 = (b * rate[ZERO, near] + a * rate[ZERO, far] + d * rate[ONE, near] + c * rate[ONE, far]) * weight[1]
+    g2 = (b * rate[ONE, near] + a * rate[ONE, far] + d * rate[TWO, near] + c * rate[TWO, far]) * weight[2]
+    g3 = (b * rate[TWO, near] + a * rate[TWO, far] + d * rate[THREE, near] + c * rate[THREE, far]) * weight[3]
+    r4 = abs(b * rate[THREE, near] + a * rate[THREE, far] + d * rate[FOUR, near] + c * rate[FOUR, far])
+    r5 = abs(b * rate[FOUR, near] + a * rate[FOUR, far] + d * rate[FIVE, near] + c * rate[FIVE, far])
+    r6 = abs(b * rate[FIVE, near] + a * rate[FIVE, far] + d * rate[SIX, near] + c * rate[SIX, far])
+    r7 = abs(b * rate[SIX, near] + a * rate[SIX, far] + d * rate[SEVEN, near] + c * rate[SEVEN, far])
+    r8 = abs(b * rate[SEVEN, near] + a * rate[SEVEN, far]) * weight[8]
+    r4, r5, r6, r7 = r4 * weight[4], r5 * weight[5], r6 * weight[6], r7 * weight[7]
+    beyond = (a + b) * span / 9.0 + c + d
+    rest = (r4 + r5) + (r6 + r7) + (r8 + beyond * tail)
+    return net, g1, g2, g3, r4, r5, r6, r7, r8, rest, ((a + b) * span / 7.0 + c + d) * tail_bend
 
 
 @inner
@@ -737,6 +946,7 @@ def next_transition(
     order,
     coupling,
     strength,
+    additions,
     mode,
     tension,
     rate,
@@ -775,7 +985,7 @@ def next_transition(
         if stage[slot] == CUBIC:
             i = index(slot // 2)
             if mode[i] == 0:
-                margin_series(slot, i, order, coupling, strength, tension, rate, weight, series)
+                margin_series(slot, i, order, coupling, strength, tension, rate, weight, series, additions)
             elif level[slot, ORIGIN] == origin:
                 for n in range(index(order) + ONE):
                     series[slot, n] = mode[i] * rate[n, i] * weight[n]
@@ -869,8 +1079,14 @@ def order_for(length):
 
 
 @seldom
-def distance_reached(span):
+def distance_reached(span, additions):
     """Distance beyond which a transition is not felt within `span`, in blocks."""
+    if additions is not None:
+        d, term = 1, span * span / 2.0
+        while term > NEGLIGIBLE:
+            d += 1
+            term *= span / (d + 1)
+        return d
     d, term = 1, span * span * span / 6.0
     while term > NEGLIGIBLE:
         d += 1
@@ -879,24 +1095,73 @@ def distance_reached(span):
 
 
 @inner
-def set_mode(i, new, mode, mobile, sense, push, friction, rate):
+def set_mode(i, new, mode, mobile, sense, push, friction, lightness, tension, rate, additions):
     """Apply a transition to the state in row 0: a block that stops or turns has velocity zero."""
     if mode[i] != 0:
         rate[0, i] = 0.0
     mode[i] = new
-    mobile[i] = 1.0 if new != 0 else 0.0
-    sense[i] = new
-    push[i] = new * friction[i]
+    if additions is not None and additions.anchor[i] > 0.0:
+        # A block that begins to stick is attached where no net force acts on it.
+        additions.grip[i] = net_force(i, tension, rate, additions) if new == 0 else 0.0
+    take_mode(i, mode, mobile, sense, push, friction, lightness, additions)
 
 
 @inner
-def resting_mode(i, doubt, coupling, strength, tension, fastest):
+def take_mode(i, mode, mobile, sense, push, friction, lightness, additions):
+    """Set what follows from the mode of block i, and from the force of its interface spring if it sticks."""
+    mobile[i] = lightness[i] if mode[i] != 0 else 0.0
+    sense[i] = mode[i]
+    push[i] = mode[i] * friction[i] * lightness[i]
+    if additions is not None and additions.anchor[i] > 0.0:
+        mobile[i] = lightness[i]
+        additions.hold[i] = lightness[i] * additions.anchor[i] if mode[i] == 0 else 0.0
+        if mode[i] == 0:
+            push[i] = lightness[i] * additions.grip[i]
+
+
+@inner
+def on_springs(additions):
+    """Whether blocks that stick hang on interface springs, and move."""
+    return additions.anchor[ONE] > 0.0
+
+
+@inner
+def net_force(i, tension, rate, additions):
+    """Force of springs and dashpots on block i, G_i."""
+    damped = additions.dashpot[i] * (rate[0, i - 1] - rate[0, i]) - additions.dashpot[i + 1] * (
+        rate[0, i] - rate[0, i + 1]
+    )
+    return tension[i] - tension[i + 1] + damped
+
+
+@inner
+def add_to(values, lost, i, change):
+    """Add to values[i]; what rounding takes away is kept in lost[i] for the next time."""
+    change += lost[i]
+    total = values[i] + change
+    lost[i] = change - (total - values[i])
+    values[i] = total
+
+
+@inner
+def renew_grip(n_blocks, mode, push, lightness, slip, lost, additions):
+    """Force of the interface springs after the slips in a window, and the push that follows from it."""
+    for i in range(1, n_blocks + 1):
+        if mode[i] == 0:
+            add_to(additions.grip, lost, i, additions.anchor[i] * slip[i])
+            push[i] = lightness[i] * additions.grip[i]
+
+
+@inner
+def resting_mode(i, doubt, coupling, strength, tension, rate, fastest, additions):
     """Mode of a block whose velocity is zero: it sticks within its strength, or follows the force.
 
     A block that sticks at the limit lets go at once where its force grows: its margin decides, not rounding.
     """
     net = tension[i] - tension[i + 1]
-    if abs(net) <= strength[i] + grain(index(i), doubt, coupling, strength, tension, fastest):
+    if additions is not None:
+        net += additions.dashpot[i] * rate[0, i - 1] + additions.dashpot[i + 1] * rate[0, i + 1]
+    if abs(net) <= strength[i] + grain(index(i), doubt, coupling, strength, tension, fastest, additions):
         return 0
     return 1 if net > 0.0 else -1
 
@@ -921,6 +1186,7 @@ def run_batch(
     duration,
     until_global,
     chain,
+    additions,
     state,
     record,
     room,
@@ -937,9 +1203,9 @@ def run_batch(
     Row j of `parameters`, `weights`, `positions` and `velocities` is a chain with its start, row j of `taus`,
     `clocks` and `counts` where it ended. Each chain may take `room` transitions, `state_room` states and
     `budget` windows. Returns how many chains are finished and whether the one after them is not: its state is
-    in `chain` and `state`, and what it recorded follows that of the others.
+    in `chain`, `additions` and `state`, and what it recorded follows that of the others.
     """
-    coupling, strength, friction = chain
+    coupling, strength, friction, lightness = chain
     velocity, tension, mode = state
     time, block, new_mode, tangential_load, intervals = record
     used = 0
@@ -952,14 +1218,18 @@ def run_batch(
         if windows > budget:
             return j, False
         clock, count = clocks[j], counts[j]
-        for values in (coupling, strength, friction, velocity, tension, clock):
+        for values in (coupling, strength, friction, lightness, velocity, tension, clock):
             for i in range(values.shape[0]):
                 values[i] = 0.0
+        if additions is not None:
+            for values in additions:
+                for i in range(values.shape[0]):
+                    values[i] = 0.0
         for i in range(mode.shape[0]):
             mode[i] = 0
         for i in range(count.shape[0]):
             count[i] = 0
-        tau, drive_velocity = set_up(parameters[j], weights[j], coupling, strength, friction)
+        tau, drive_velocity = set_up(parameters[j], weights[j], chain, additions)
         mass, stiffness, drive_stiffness = parameters[j, 0], parameters[j, 1], parameters[j, 2]
         start_from(
             positions[j],
@@ -969,6 +1239,7 @@ def run_batch(
             drive_stiffness,
             tau,
             strength,
+            additions,
             velocity,
             tension,
             mode,
@@ -986,13 +1257,15 @@ def run_batch(
             states[2][stored:],
             states[3][stored:],
             states[4][stored:],
+            states[5][stored:],
         )
-        note_start(velocity, tension, mode, count, mine, my_states)
+        note_start(velocity, tension, mode, count, mine, my_states, additions)
         taus[j] = tau
         status = run_events(
             tau,
             drive_velocity,
             chain,
+            additions,
             state,
             clock,
             count,
@@ -1016,10 +1289,13 @@ def run_batch(
 
 
 @seldom
-def note_start(velocity, tension, mode, count, record, states):
+def note_start(velocity, tension, mode, count, record, states, additions):
     """Record the blocks that move at time 0 as transitions, and the start, at rest, as the first state."""
     time, block, new_mode, tangential_load, intervals = record
-    state_tension, state_velocity, state_mode, state_after, state_offset = states
+    state_tension, state_velocity, state_mode, state_after, state_offset, state_grip = states
+    if additions is not None:
+        for i in range(mode.shape[0]):
+            state_grip[0, i] = additions.grip[i]
     k = 0
     n_blocks = mode.shape[0] - 1 - BEYOND
     for i in range(mode.shape[0]):
@@ -1039,6 +1315,7 @@ def run_events(
     tau,
     drive_velocity,
     chain,
+    additions,
     state,
     clock,
     count,
@@ -1053,15 +1330,15 @@ def run_events(
 ):
     """Run a chain until `duration` [s], the end of the first global slip, full buffers or a spent budget.
 
-    `chain` holds its coupling, strength and friction; `state` (velocity, tension, mode), `clock` and `count`
-    are left at the state reached. `record`, which has times [s], blocks, new modes, tangential loads [N] and
-    intervals [s], is filled from count[TRANSITIONS] on; after every `stride` transitions or so a state goes
-    to `states`.
+    `chain` holds its coupling, strength, friction, lightness. `state` (velocity, tension, mode), the grip in
+    `additions`, `clock` and `count` are left at the state reached. `record`, which has times [s], blocks, new
+    modes, tangential loads [N] and intervals [s], is filled from count[TRANSITIONS] on; after every `stride`
+    transitions or so a state goes to `states`.
     """
-    coupling, strength, friction = chain
+    coupling, strength, friction, lightness = chain
     velocity, tension, mode = state
     time, block, new_mode, tangential_load, intervals = record
-    state_tension, state_velocity, state_mode, state_after, state_offset = states
+    state_tension, state_velocity, state_mode, state_after, state_offset, state_grip = states
     wide = mode.shape[0]
     n_blocks = wide - 1 - BEYOND
     rate = np.zeros((ROWS + 1, wide))
@@ -1084,9 +1361,7 @@ def run_events(
     fastest[0] = drive_velocity
     for i in range(1, n_blocks + 1):
         rate[0, i] = velocity[i]
-        mobile[i] = 1.0 if mode[i] != 0 else 0.0
-        sense[i] = mode[i]
-        push[i] = mode[i] * friction[i]
+        take_mode(i, mode, mobile, sense, push, friction, lightness, additions)
     rate[0, 0] = drive_velocity
     farthest = farthest_sliding(n_blocks, mode)
     loading_rate = coupling[1] * drive_velocity
@@ -1096,17 +1371,36 @@ def run_events(
     status = PAUSED
     idle = 0
     doubt = ROUNDINGS
+    springy = False
+    if additions is not None:
+        springy = on_springs(additions)
+        lost, lost_grip = np.zeros(wide), np.zeros(wide)
+        since_state = 0
     while k < room and budget > 0 and count[STORED] < state_room:
         budget -= 1
         count[WINDOWS] += 1
-        if k >= stride * count[STORED]:
+        store = k >= stride * count[STORED]
+        if additions is not None and springy:
+            since_state += 1
+            store = since_state > WINDOWS_PER_STATE * stride
+        if store:
             c = count[STORED]
+            if additions is not None:
+                for i in range(wide):
+                    state_grip[c, i] = additions.grip[i]
+                since_state = 0
             for i in range(wide):
                 state_tension[c, i], state_velocity[c, i], state_mode[c, i] = tension[i], rate[0, i], mode[i]
             state_after[c], state_offset[c] = k, clock[SINCE] * tau
             count[STORED] += 1
         remaining = ((duration - clock[ONSET]) - clock[ONSET_ERROR]) / tau - clock[ELAPSED]
-        if sliding == 0:
+        rests = sliding == 0
+        if additions is not None and springy and rests:
+            if count[GLOBAL] != 0 and until_global:
+                status = GLOBAL_SLIP
+                break
+            rests = False
+        if rests:
             if count[GLOBAL] != 0 and until_global:
                 status = GLOBAL_SLIP
                 break
@@ -1120,7 +1414,7 @@ def run_events(
             tension[1] = tension[2] + strength[1]
             start_clock(clock, wait, tau)
             first = 1
-            set_mode(first, first, mode, mobile, sense, push, friction, rate)
+            set_mode(first, first, mode, mobile, sense, push, friction, lightness, tension, rate, additions)
             sliding = farthest = 1
             if n_blocks == 1:
                 count[GLOBAL] = 1
@@ -1137,7 +1431,12 @@ def run_events(
         farthest = farthest_sliding(farthest, mode)
         last = min(farthest + 1, n_blocks)
         end = WIDTH * ((last + WIDTH - 1) // WIDTH)
+        if additions is not None and springy:
+            last = n_blocks
+            end = WIDTH * ((last + WIDTH - 1) // WIDTH)
         is_long = last > LONG
+        if additions is not None and springy:
+            is_long = False
         order = long_order if is_long else short_order
         limit = min(LONG_WINDOW if is_long else SHORT_WINDOW, remaining)
         for i in range(end + 2):
@@ -1151,7 +1450,10 @@ def run_events(
         noted = 0.0
         t = 0.0
         while True:
-            expand(coupling, mobile, push, first, final, order, tension, rate)
+            if additions is None:
+                expand(coupling, mobile, push, first, final, order, tension, rate)
+            else:
+                expand_linked(coupling, mobile, push, additions, first, final, order, tension, rate)
             count[DERIVATIVES] += order * (final - first + 1)
             powers(limit - t, order, weight)
             watch(
@@ -1165,8 +1467,8 @@ def run_events(
                 order,
                 coupling,
                 strength,
+                additions,
                 mode,
-                mobile,
                 sense,
                 tension,
                 rate,
@@ -1190,6 +1492,7 @@ def run_events(
                 order,
                 coupling,
                 strength,
+                additions,
                 mode,
                 tension,
                 rate,
@@ -1220,7 +1523,7 @@ def run_events(
                         for j in range(end + 1, end + WIDTH + 2):
                             slip[j], origins[j], tension_before[j], fastest[j] = 0.0, t, tension[j], 0.0
                         end += WIDTH
-                distance = distance_reached(limit - t)
+                distance = distance_reached(limit - t, additions)
                 first = WIDTH * ((max(i - distance, 1) - 1) // WIDTH) + 1
                 final = min(WIDTH * ((i + distance + WIDTH - 1) // WIDTH), end)
                 if first > 1:
@@ -1228,14 +1531,32 @@ def run_events(
                 if final < end:
                     lend(final + 1, t, order, rate, origins, slip, weight, ahead)
             settle(t, first, final, order, weight, rate, origins, slip)
-            stretch(first, final, coupling, slip, tension_before, tension)
+            if additions is None:
+                stretch(first, final, coupling, slip, tension_before, tension)
+            else:
+                stretch_linked(
+                    first,
+                    final,
+                    coupling,
+                    slip,
+                    tension_before,
+                    tension,
+                    lost,
+                    springy,
+                    n_blocks,
+                    mode,
+                    push,
+                    lightness,
+                    lost_grip,
+                    additions,
+                )
             old = mode[i]
             new = (
-                resting_mode(i, doubt, coupling, strength, tension, fastest)
+                resting_mode(i, doubt, coupling, strength, tension, rate, fastest, additions)
                 if old != 0
                 else 1 - 2 * (slot % 2)
             )
-            set_mode(i, new, mode, mobile, sense, push, friction, rate)
+            set_mode(i, new, mode, mobile, sense, push, friction, lightness, tension, rate, additions)
             farthest = max(farthest, i)
             if new != old:
                 sliding += abs(new) - abs(old)
@@ -1261,7 +1582,25 @@ def run_events(
         if is_long or slot < 0:
             first = 1
             settle(t, first, end, order, weight, rate, origins, slip)
-            stretch(first, end, coupling, slip, tension_before, tension)
+            if additions is None:
+                stretch(first, end, coupling, slip, tension_before, tension)
+            else:
+                stretch_linked(
+                    first,
+                    end,
+                    coupling,
+                    slip,
+                    tension_before,
+                    tension,
+                    lost,
+                    springy,
+                    n_blocks,
+                    mode,
+                    push,
+                    lightness,
+                    lost_grip,
+                    additions,
+                )
         clock[ELAPSED] += t
         clock[SINCE] += t - noted
     count[TRANSITIONS] = k
@@ -1273,27 +1612,49 @@ def run_events(
 
 @outer
 def propagate(
-    drive_velocity, coupling, mode, mobile, push, span, tension, before, rate, slip, origins, weight
+    drive_velocity,
+    chain,
+    additions,
+    mode,
+    mobile,
+    push,
+    span,
+    tension,
+    before,
+    rate,
+    slip,
+    origins,
+    weight,
 ):
     """Carry a state forward by `span` without a transition."""
+    coupling, _, _, lightness = chain
     if not mobile.any():
         tension[1] += coupling[1] * drive_velocity * span
         return
     n_blocks = mode.shape[0] - 1 - BEYOND
     last = min(farthest_sliding(n_blocks, mode) + 1, n_blocks)
+    if additions is not None and on_springs(additions):
+        last = n_blocks
     first, end = 1, WIDTH * ((last + WIDTH - 1) // WIDTH)
     order = order_for(SHORT_WINDOW)
     while span > 0.0:
         s = min(span, SHORT_WINDOW)
-        slip.fill(0.0)
-        origins.fill(0.0)
+        for i in range(end + 2):
+            before[i] = tension[i]
+            slip[i] = origins[i] = 0.0
         slip[0] = drive_velocity * s
         for n in range(order + 1):
             rate[n, end + 1] = 0.0
-        expand(coupling, mobile, push, first, end, order, tension, rate)
+        if additions is None:
+            expand(coupling, mobile, push, first, end, order, tension, rate)
+        else:
+            expand_linked(coupling, mobile, push, additions, first, end, order, tension, rate)
         settle(s, first, end, order, weight, rate, origins, slip)
-        before[:] = tension
         stretch(first, end, coupling, slip, before, tension)
+        if additions is not None and on_springs(additions):
+            for i in range(n_blocks + 1):
+                before[i] = 0.0
+            renew_grip(n_blocks, mode, push, lightness, slip, before, additions)
         span -= s
 
 
@@ -1301,9 +1662,8 @@ def propagate(
 def evaluate(
     tau,
     drive_velocity,
-    coupling,
-    strength,
-    friction,
+    chain,
+    additions,
     sorted_times,
     time,
     block,
@@ -1314,7 +1674,8 @@ def evaluate(
     velocity_out,
 ):
     """State at each of `sorted_times` [s], from the stored states and the transitions between them."""
-    state_tension, state_velocity, state_mode, state_after, state_offset = states
+    _, strength, friction, lightness = chain
+    state_tension, state_velocity, state_mode, state_after, state_offset, state_grip = states
     wide = strength.shape[0]
     n_blocks = wide - 1 - BEYOND
     rate = np.zeros((ROWS + 1, wide))
@@ -1323,9 +1684,13 @@ def evaluate(
     slip, origins, weight = np.zeros(wide), np.zeros(wide), np.empty(ROWS + WIDTH)
     mode = np.zeros(wide, np.int64)
     mobile, sense, push = np.zeros(wide), np.zeros(wide), np.zeros(wide)
+    held = np.zeros(wide)
+    springy = False
+    if additions is not None:
+        springy = on_springs(additions)
     row = -1
     done = 0
-    offset = 0.0
+    offset = advanced = 0.0
     for q in range(sorted_times.shape[0]):
         now = sorted_times[q]
         target = np.searchsorted(time, now, side="right")
@@ -1336,21 +1701,27 @@ def evaluate(
             or (state_after[best + 1] == target and state_offset[best + 1] <= since)
         ):
             best += 1
-        if best > row and (row < 0 or state_after[best] > done):
+        is_ahead = best > row and (row < 0 or state_after[best] > done)
+        if springy and best > row and state_after[best] == done:
+            is_ahead = True
+        if is_ahead:
+            advanced = 0.0
             done, offset = state_after[best], state_offset[best]
             for i in range(1, n_blocks + 1):
                 velocity[i], tension[i] = state_velocity[best, i], state_tension[best, i]
                 rate[0, i] = velocity[i]
                 mode[i] = state_mode[best, i]
-                mobile[i] = 1.0 if mode[i] != 0 else 0.0
-                push[i] = mode[i] * friction[i]
+                if additions is not None and springy:
+                    additions.grip[i] = state_grip[best, i]
+                take_mode(i, mode, mobile, sense, push, friction, lightness, additions)
             rate[0, 0] = drive_velocity
         row = best
         while done < target:
-            span = (intervals[done] - offset) / tau
+            span = (intervals[done] - offset) / tau - advanced
             propagate(
                 drive_velocity,
-                coupling,
+                chain,
+                additions,
                 mode,
                 mobile,
                 push,
@@ -1362,25 +1733,88 @@ def evaluate(
                 origins,
                 weight,
             )
-            set_mode(block[done], new_mode[done], mode, mobile, sense, push, friction, rate)
+            set_mode(
+                block[done],
+                new_mode[done],
+                mode,
+                mobile,
+                sense,
+                push,
+                friction,
+                lightness,
+                tension,
+                rate,
+                additions,
+            )
             for i in range(1, n_blocks + 1):
                 velocity[i] = rate[0, i]
             done += 1
-            offset = 0.0
+            offset = advanced = 0.0
+        span = max(since - offset, 0.0) / tau
+        if springy:
+            # Nothing rests: what lies behind in whole windows is not gone through again for the next time.
+            whole = SHORT_WINDOW * math.floor(span / SHORT_WINDOW)
+            propagate(
+                drive_velocity,
+                chain,
+                additions,
+                mode,
+                mobile,
+                push,
+                whole - advanced,
+                tension,
+                before,
+                rate,
+                slip,
+                origins,
+                weight,
+            )
+            for i in range(1, n_blocks + 1):
+                velocity[i] = rate[0, i]
+            advanced = whole
+            span -= whole
         for i in range(1, n_blocks + 1):
             here[i] = tension[i]
-        span = max(since - offset, 0.0) / tau
+        if additions is not None:
+            for i in range(1, n_blocks + 1):
+                held[i] = additions.grip[i]
         propagate(
-            drive_velocity, coupling, mode, mobile, push, span, here, before, rate, slip, origins, weight
+            drive_velocity,
+            chain,
+            additions,
+            mode,
+            mobile,
+            push,
+            span,
+            here,
+            before,
+            rate,
+            slip,
+            origins,
+            weight,
         )
         for i in range(1, n_blocks + 1):
             tension_out[q, i - 1], velocity_out[q, i - 1] = here[i], rate[0, i]
             rate[0, i] = velocity[i]
+        if additions is not None:
+            for i in range(1, n_blocks + 1):
+                additions.grip[i] = held[i]
+                take_mode(i, mode, mobile, sense, push, friction, lightness, additions)
 
 
 @outer
 def start_from(
-    positions, velocities, mass, stiffness, drive_stiffness, tau, strength, velocity, tension, mode
+    positions,
+    velocities,
+    mass,
+    stiffness,
+    drive_stiffness,
+    tau,
+    strength,
+    additions,
+    velocity,
+    tension,
+    mode,
 ):
     """Fill velocities, spring forces and modes at time 0, in the kernel's units and columns.
 
@@ -1398,9 +1832,16 @@ def start_from(
     for i in range(1, n_blocks + 1):
         # A position of size x is known to its rounding: a block at its limit to within that still sticks.
         doubt = ROUNDINGS * (strength[i] + 4.0 * stiffest * farthest)
-        moves = velocity[i] if velocity[i] != 0.0 else tension[i] - tension[i + 1]
+        net = tension[i] - tension[i + 1]
+        if additions is not None:
+            behind, ahead = additions.dashpot[i] * velocity[i - 1], additions.dashpot[i + 1] * velocity[i + 1]
+            net += behind + ahead
+            doubt += ROUNDINGS * (abs(behind) + abs(ahead))
+        moves = velocity[i] if velocity[i] != 0.0 else net
         if velocity[i] == 0.0 and abs(moves) <= strength[i] + doubt:
             mode[i] = 0
+            if additions is not None and additions.anchor[i] > 0.0:
+                additions.grip[i] = net
         else:
             mode[i] = 1 if moves > 0.0 else -1
 

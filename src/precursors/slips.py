@@ -1,8 +1,10 @@
-"""Slip events, precursors, the first global slip and the apparent static friction coefficient (Eq. 1)."""
+"""Slip events, precursors, the first global slip and mu_sapp (Eq. 1), under any reading of these words."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 import pandas as pd
@@ -19,6 +21,13 @@ COLUMNS = [
     "n_simultaneous",
     "is_global",
 ]
+
+
+SHORT_EVENTS = {
+    "shorter": "shorter than one before it",
+    "not longer": "not longer than all before it",
+    "shorter than the last": "shorter than the one just before it",
+}
 
 
 def find_slips(run: Run) -> pd.DataFrame:
@@ -64,14 +73,28 @@ def find_slips(run: Run) -> pd.DataFrame:
     )
 
 
-def find_precursors(slips: pd.DataFrame) -> pd.DataFrame:
+def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame:
     """Events of Fig. 13: short ones left out, up to and including the first global slip.
 
     An event is short if its front is strictly less than the farthest front before it; equal ones are kept.
-    Without a global slip all events that are not short are returned.
+    `short` may name another reading of SHORT_EVENTS. Without a global slip all events that are not short are
+    returned.
+
+    Raises
+    ------
+    ValueError
+        If `short` is no key of SHORT_EVENTS.
     """
     until_global = slips.iloc[: first_global(slips) + 1] if slips["is_global"].any() else slips
-    return until_global[until_global["front"] >= until_global["front"].cummax()]
+    front = until_global["front"]
+    if short == "shorter than the last":
+        return until_global[front >= front.shift(fill_value=0)]
+    farthest_before = front.cummax().shift(fill_value=0)
+    if short == "not longer":
+        return until_global[front > farthest_before]
+    if short == "shorter":
+        return until_global[front >= farthest_before]
+    raise ValueError(f"short = {short!r}: allowed are {', '.join(map(repr, SHORT_EVENTS))}")
 
 
 def first_global(slips: pd.DataFrame) -> int:
@@ -87,34 +110,89 @@ def first_global(slips: pd.DataFrame) -> int:
     return int(np.argmax(slips["is_global"].to_numpy()))
 
 
+GLOBAL_SLIPS = {
+    "at once": "in which all blocks slide at the same instant",
+    "each": "in which every block slides at some time",
+}
+FRONTS = {
+    "front": "farthest block that slid",
+    "n_slid": "number of blocks that slid",
+    "n_simultaneous": "most blocks that slid at the same instant",
+}
+
+
 @dataclass(frozen=True)
 class Definition:
-    """A reading of mu_sapp (Eq. 1), which the paper leaves open.
+    """A reading of what the paper leaves open; the default is the one that gives its numbers.
 
     Attributes
     ----------
-    text : str
-        The reading as a sentence.
-    at_once : bool
-        Whether a global slip wants all blocks to slide at the same instant, or each at some time of it.
+    global_slip : str or float
+        A key of GLOBAL_SLIPS, or the drop of F_X [N] above which an event is a global slip.
+    front : str
+        The column of the slip table that is the length of an event, a key of FRONTS.
+    short : str
+        Which events Fig. 13 leaves out, a key of SHORT_EVENTS.
     largest : bool
-        Whether the load is the largest up to the first global slip, or that at its onset.
+        Whether mu_sapp (Eq. 1) is the largest load up to the first global slip, or that at its onset.
+
+    Raises
+    ------
+    ValueError
+        If one of them is none of these.
     """
 
-    text: str
-    at_once: bool
-    largest: bool
+    global_slip: str | float = "at once"
+    front: str = "front"
+    short: str = "shorter"
+    largest: bool = True
+
+    def __post_init__(self) -> None:
+        if isinstance(self.global_slip, str) and self.global_slip not in GLOBAL_SLIPS:
+            allowed = " and ".join(map(repr, GLOBAL_SLIPS))
+            raise ValueError(
+                f"global_slip = {self.global_slip!r}: allowed are {allowed}, or a drop of the load [N]"
+            )
+        if self.front not in FRONTS:
+            raise ValueError(f"front = {self.front!r}: allowed are {', '.join(map(repr, FRONTS))}")
+        if self.short not in SHORT_EVENTS:
+            raise ValueError(f"short = {self.short!r}: allowed are {', '.join(map(repr, SHORT_EVENTS))}")
+
+    @property
+    def text(self) -> str:
+        """What mu_sapp is, as a sentence."""
+        load = "largest F_X up to" if self.largest else "F_X at the onset of"
+        return f"{load} the first event {self.global_slip_text}"
+
+    @property
+    def global_slip_text(self) -> str:
+        """What makes an event a global slip."""
+        if isinstance(self.global_slip, str):
+            return GLOBAL_SLIPS[self.global_slip]
+        return f"in which F_X drops by more than {self.global_slip:g} N"
+
+    def read(self, slips: pd.DataFrame, n_blocks: int) -> pd.DataFrame:
+        """The slips of a chain of N blocks with `front` and `is_global` as this reading has them."""
+        if self.global_slip == "at once":
+            is_global = slips["n_simultaneous"] == n_blocks
+        elif self.global_slip == "each":
+            is_global = slips["n_slid"] == n_blocks
+        else:
+            is_global = slips["load_before"] - slips["load_after"] > self.global_slip
+        return slips.assign(front=slips[self.front], is_global=is_global)
 
 
-# The first is the reading that gives the paper's numbers.
-DEFINITIONS = (
-    Definition("largest F_X up to the first event in which all blocks slide at the same instant", True, True),
-    Definition(
-        "F_X at the onset of the first event in which all blocks slide at the same instant", True, False
-    ),
-    Definition("largest F_X up to the first event in which every block slides at some time", False, True),
-    Definition("F_X at the onset of the first event in which every block slides at some time", False, False),
+# The readings of mu_sapp (Eq. 1). The first is the one that gives the paper's numbers.
+DEFINITIONS = tuple(
+    Definition(global_slip, largest=largest) for global_slip in GLOBAL_SLIPS for largest in (True, False)
 )
+
+
+def every_definition(load_drops: Iterable[float]) -> Iterator[Definition]:
+    """All readings of global slip, short event and front; `load_drops` [N] are those of a global slip."""
+    global_slips: list[str | float] = [*GLOBAL_SLIPS, *load_drops]
+    for global_slip, short, front in product(global_slips, SHORT_EVENTS, FRONTS):
+        yield Definition(global_slip, front, short)
 
 
 @dataclass(frozen=True)
@@ -150,8 +228,7 @@ def apparent_friction(
     F_X is largest where the drive is as fast as block 1, which is a transition to within V: the largest of
     the transitions' loads is taken.
     """
-    if not definition.at_once:
-        slips = slips.assign(is_global=slips["n_slid"] == run.chain.n_blocks)
+    slips = definition.read(slips, run.chain.n_blocks)
     if not slips["is_global"].any():
         return None
     onset = float(slips["onset"].iloc[first_global(slips)])
@@ -162,7 +239,7 @@ def apparent_friction(
         load=float(peak["tangential_load"]),
         time=float(peak["time"]),
         event=int(np.searchsorted(slips["onset"], peak["time"], side="right")),
-        events_kept=len(find_precursors(slips)),
+        events_kept=len(find_precursors(slips, definition.short)),
     )
 
 

@@ -10,7 +10,13 @@ from matplotlib import image
 
 GOLDEN = Path(__file__).parent
 PAPERS_SCENES = ("fig10", "fig11", "fig12")
-TABLES = (*(f"{scene}_slips.csv" for scene in PAPERS_SCENES), "mu_sapp.csv", "reproduction.csv", "eq15.csv")
+TABLES = (
+    *(f"{scene}_slips.csv" for scene in PAPERS_SCENES),
+    "mu_sapp.csv",
+    "reproduction.csv",
+    "eq15.csv",
+    "claims.csv",
+)
 FIGURES = tuple(f"{figure}.png" for figure in ("fig09", *PAPERS_SCENES, "fig13"))
 
 

@@ -3,11 +3,12 @@
 import math
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from precursors import Chain, find_precursors, find_slips, simulate
 from precursors.run import TRANSITION, Run, States
-from precursors.slips import DEFINITIONS, apparent_friction
+from precursors.slips import DEFINITIONS, Definition, apparent_friction, every_definition, first_global
 
 
 def run_of(n_blocks, transitions, duration):
@@ -79,3 +80,53 @@ def test_mu_sapp_under_every_definition_is_that_of_the_stated_event():
     assert [(f.event, f.events_kept) for f in found] == [(7, 6), (7, 6), (6, 5), (6, 5)]
     assert [round(f.mu_sapp, 4) for f in found] == [0.4845, 0.4845, 0.4336, 0.4336]
     assert found[0].load == pytest.approx(found[0].mu_sapp * 400.0, rel=1e-15)
+
+
+# Front, blocks that slid, most at once, load before and after, of five events of a chain of three blocks.
+EVENTS = pd.DataFrame(
+    [
+        (2, 2, 1, 9.0, 8.0),
+        (1, 1, 1, 10.0, 9.5),
+        (2, 2, 2, 11.0, 8.0),
+        (3, 3, 2, 12.0, 10.0),
+        (3, 3, 3, 11.0, 5.0),
+    ],
+    columns=["front", "n_slid", "n_simultaneous", "load_before", "load_after"],
+)
+
+
+@pytest.mark.parametrize(
+    ("definition", "global_slip", "kept"),
+    [
+        (Definition(), 4, [0, 2, 3, 4]),
+        (Definition("each"), 3, [0, 2, 3]),
+        (Definition(2.5), 2, [0, 2]),
+        (Definition(short="not longer"), 4, [0, 3]),
+        (Definition(short="shorter than the last"), 4, [0, 2, 3, 4]),
+        (Definition(front="n_simultaneous"), 4, [0, 1, 2, 3, 4]),
+        (Definition("each", "n_simultaneous", "not longer"), 3, [0, 2]),
+    ],
+)
+def test_a_reading_decides_which_event_is_global_and_which_are_short(definition, global_slip, kept):
+    slips = definition.read(EVENTS, n_blocks=3)
+    assert first_global(slips) == global_slip
+    assert find_precursors(slips, definition.short).index.tolist() == kept
+
+
+def test_the_first_definition_reads_slips_as_find_slips_does():
+    slips = find_slips(simulate(Chain.from_slider(), duration=3.0))
+    pd.testing.assert_frame_equal(DEFINITIONS[0].read(slips, 10), slips)
+
+
+def test_every_definition_is_tried_once():
+    found = list(every_definition([5.0]))
+    assert len(found) == len(set(found)) == 3 * 3 * 3
+    assert DEFINITIONS[0] in found
+
+
+@pytest.mark.parametrize("word", ["global_slip", "front", "short"])
+def test_an_unknown_reading_is_refused_with_those_that_are_known(word):
+    with pytest.raises(ValueError, match=f"{word} = 'none': allowed are '"):
+        Definition(**{word: "none"})
+    with pytest.raises(ValueError, match="short = 'none': allowed are 'shorter'"):
+        find_precursors(EVENTS.assign(is_global=False), "none")

@@ -113,7 +113,7 @@ def _copy_workflow(path: Path) -> Workspace:
     path.mkdir()
     for name in ("Snakefile", "config.yaml"):
         shutil.copy2(ROOT / name, path)
-    for name in ("workflow", "src"):
+    for name in ("workflow", "src", "paper"):
         shutil.copytree(ROOT / name, path / name)
     return Workspace(path)
 

@@ -1,9 +1,28 @@
 """What is run: every job once, and after an edit only what the edit touches."""
 
+import re
+
 import pytest
+from conftest import ROOT
 
 SCENE_JOBS = {"simulate_scene", "tabulate_slips", "tabulate_trace", "draw_scene"}
-SHARED_JOBS = {"tabulate_mu_sapp", "tabulate_reproduction", "check_eq15", "draw_chain", "draw_fig13"}
+# Rules that `all` leaves out.
+ON_DEMAND = {
+    "accuracy_full",
+    "certify_scene",
+    "draw_film",
+    "draw_work_precision_full",
+    "measure_methods_fully",
+    "prove_again",
+    "prove_scenes",
+}
+RULES = {
+    rule
+    for file in (ROOT / "workflow/rules").glob("*.smk")
+    for rule in re.findall(r"^rule (\w+):", file.read_text(encoding="utf-8"), flags=re.MULTILINE)
+}
+SHARED_JOBS = RULES - SCENE_JOBS - ON_DEMAND
+LISTS_OF_SCENES = {"tabulate_mu_sapp", "tabulate_reproduction", "judge_claims", "write_explorer"}
 PAPERS = ("fig10", "fig11", "fig12")
 NEW_SCENE = """\
   steep:
@@ -47,12 +66,12 @@ def test_a_second_run_has_nothing_to_do(finished):
 
 def test_four_lines_make_a_new_scene(finished):
     add_scene(finished)
-    assert finished.would_run() == of("steep") | {"tabulate_mu_sapp", "tabulate_reproduction"}
+    assert finished.would_run() == of("steep") | LISTS_OF_SCENES
 
 
 def test_a_scene_may_have_any_name_that_is_a_word(finished):
     finished.edit("config.yaml", "\nfig13: [", f"{NEW_SCENE.replace('steep', 'fig10_slips')}\nfig13: [")
-    assert finished.would_run() == of("fig10_slips") | {"tabulate_mu_sapp", "tabulate_reproduction"}
+    assert finished.would_run() == of("fig10_slips") | LISTS_OF_SCENES
 
 
 @pytest.mark.parametrize(
@@ -61,6 +80,9 @@ def test_a_scene_may_have_any_name_that_is_a_word(finished):
         ("chain_schematic", {"draw_chain"}),
         ("scene", {"draw_scene fig10", "draw_scene fig11", "draw_scene fig12"}),
         ("precursor_lengths", {"draw_fig13"}),
+        ("definitions", {"draw_definitions"}),
+        ("spread", {"draw_spread"}),
+        ("maps", {"draw_maps"}),
     ],
 )
 def test_an_edit_of_a_figure_module_redraws_its_figures_only(finished, module, redrawn):
@@ -70,10 +92,12 @@ def test_an_edit_of_a_figure_module_redraws_its_figures_only(finished, module, r
 
 def test_an_edit_of_the_style_redraws_all_figures_and_simulates_nothing(finished):
     finished.append("src/precursors/figures/style.py", "\nCOLOR = 'red'\n")
-    assert finished.would_run() == {"draw_chain", "draw_fig13"} | {f"draw_scene {scene}" for scene in PAPERS}
+    drawings = {job for job in SHARED_JOBS if job.startswith("draw_")}
+    scenes = {f"draw_scene {scene}" for scene in PAPERS}
+    assert finished.would_run() == drawings | scenes | {"write_explorer"}
 
 
-@pytest.mark.parametrize("module", ["chain", "exact", "kernel", "run"])
+@pytest.mark.parametrize("module", ["chain", "exact", "kernel", "lanes", "run"])
 def test_an_edit_of_the_solver_simulates_again(finished, module):
     finished.append(f"src/precursors/{module}.py", "\nCHANGED = True\n")
     assert {f"simulate_scene {scene}" for scene in PAPERS} <= finished.would_run()
@@ -88,14 +112,67 @@ def test_an_edit_of_a_scene_runs_that_scene_only(finished):
     add_scene(finished)
     finished.run("-c2", "all")
     finished.edit("config.yaml", 'theta: "9/10"', 'theta: "8/10"')
-    assert finished.would_run() == of("steep") | {"tabulate_mu_sapp", "tabulate_reproduction"}
+    assert finished.would_run() == of("steep") | LISTS_OF_SCENES
 
 
 def test_a_new_title_simulates_nothing(finished):
     finished.edit("config.yaml", "title: uniform normal loading", "title: same load on every block")
-    assert finished.would_run() == {"draw_scene fig10"}
+    assert finished.would_run() == {"draw_scene fig10", "write_explorer"}
 
 
 def test_a_new_number_of_the_paper_simulates_nothing(finished):
     finished.edit("config.yaml", "events_kept: 9", "events_kept: 8")
-    assert finished.would_run() == {"tabulate_reproduction"}
+    of_definitions = {"tabulate_definitions", "draw_definitions"}
+    assert finished.would_run() == {"tabulate_reproduction", "judge_claims"} | of_definitions
+
+
+def test_the_full_comparison_of_methods_is_a_target_of_its_own(workspace):
+    assert workspace.run("-n", "accuracy_full").jobs == {
+        "take_certificates",
+        "measure_methods_fully",
+        "draw_work_precision_full",
+        "tabulate_step_sweep",
+        "draw_step_sweep",
+        "accuracy_full",
+    }
+
+
+def test_an_edit_of_a_method_measures_again_and_proves_nothing(finished):
+    finished.append("src/precursors/integrators/moreau_jean.py", "\nCHANGED = True\n")
+    jobs = finished.would_run()
+    assert {"measure_methods", "draw_work_precision"} <= jobs
+    assert not {"take_certificates", "measure_growth", "measure_methods_fully"} & jobs
+
+
+def test_an_edit_of_a_chart_measures_nothing(finished):
+    finished.append("src/precursors/figures/growth.py", "\nCOLOR = 'red'\n")
+    finished.append("src/precursors/figures/work_precision.py", "\nCOLOR = 'red'\n")
+    assert finished.would_run() == {"draw_growth", "draw_work_precision"}
+
+
+def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):
+    finished.edit("config.yaml", "n_blocks: 10\n  mu_s", "n_blocks: 20\n  mu_s")
+    jobs = finished.would_run()
+    assert "simulate_scene fig10" in jobs
+    assert not {"measure_methods", "measure_growth"} & jobs
+
+
+def test_an_edit_of_a_claim_judges_again_and_nothing_else(finished):
+    finished.edit("paper/claims.yaml", "  limit: 280\n", "  limit: 281\n")
+    assert finished.would_run() == {"judge_claims"}
+
+
+def test_a_configuration_without_the_papers_scenes_has_no_ledger(workspace):
+    workspace.edit("config.yaml", "  fig12:\n    title", "  mine:\n    title")
+    workspace.edit("config.yaml", "fig13: [fig11, fig10, fig12]", "fig13: [fig11, fig10, mine]")
+    jobs = workspace.would_run()
+    assert "tabulate_definitions" in jobs
+    assert "judge_claims" not in jobs
+
+
+def test_a_wrong_claim_stops_the_workflow_in_one_line(workspace):
+    workspace.edit("paper/claims.yaml", "  limit: 280\n", "  limit: much\n")
+    outcome = workspace.run("-n", "all")
+    assert outcome.code == 1
+    assert "paper/claims.yaml: claim eq15-in-motion: limit = 'much': allowed is a number" in outcome.text
+    assert "Traceback" not in outcome.text

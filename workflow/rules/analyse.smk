@@ -1,7 +1,7 @@
 rule tabulate_slips:
     input:
         run="results/runs/{scene}.h5",
-        code=collect("{library}/{module}.py", library=LIBRARY, module=["run", "slips", "storage"]),
+        code=collect("{library}/{module}.py", library=LIBRARY, module=["run", "slips", "storage", "tables"]),
     output:
         table="results/tables/{scene}_slips.csv",
     log:
@@ -16,7 +16,11 @@ rule tabulate_slips:
 rule tabulate_trace:
     input:
         run="results/runs/{scene}.h5",
-        code=collect("{library}/{module}.py", library=LIBRARY, module=["kernel", "run", "slips", "storage"]),
+        code=collect(
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=["kernel", "lanes", "run", "slips", "storage", "tables"],
+        ),
     output:
         table="results/tables/{scene}_trace.csv",
     log:
@@ -33,12 +37,7 @@ rule tabulate_mu_sapp:
         runs=collect("results/runs/{scene}.h5", scene=SCENES),
         code=collect("{library}/{module}.py", library=LIBRARY, module=["run", "slips", "storage"]),
     output:
-        table=report(
-            "results/tables/mu_sapp.csv",
-            caption="../report/mu_sapp.rst",
-            category="Tables",
-            labels={"table": "apparent static friction, definition by definition"},
-        ),
+        table="results/tables/mu_sapp.csv",
     log:
         "results/logs/tabulate_mu_sapp.log",
     benchmark:
@@ -56,12 +55,7 @@ rule tabulate_reproduction:
         mu_sapp="results/tables/mu_sapp.csv",
         code=f"{LIBRARY}/storage.py",
     output:
-        table=report(
-            "results/tables/reproduction.csv",
-            caption="../report/reproduction.rst",
-            category="Tables",
-            labels={"table": "paper and reproduction"},
-        ),
+        table="results/tables/reproduction.csv",
     log:
         "results/logs/tabulate_reproduction.log",
     benchmark:

@@ -6,7 +6,7 @@ rule draw_chain:
         svg=report(
             "results/figures/fig09.svg",
             caption="../report/chain.rst",
-            category="Figures",
+            category="Reproduction",
             labels={"figure": "fig09", "shows": "the chain"},
         ),
     log:
@@ -28,7 +28,7 @@ rule draw_scene:
         svg=report(
             "results/figures/{scene}.svg",
             caption="../report/scene.rst",
-            category="Figures",
+            category="Reproduction",
             labels={"figure": "{scene}", "shows": "load and slips over time"},
         ),
     log:
@@ -52,7 +52,7 @@ rule draw_fig13:
         svg=report(
             "results/figures/fig13.svg",
             caption="../report/fig13.rst",
-            category="Figures",
+            category="Reproduction",
             labels={"figure": "fig13", "shows": "propagation length against load"},
         ),
     log:

@@ -1,7 +1,9 @@
 rule simulate_scene:
     input:
         code=collect(
-            "{library}/{module}.py", library=LIBRARY, module=["chain", "exact", "kernel", "run", "storage"]
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=["chain", "exact", "kernel", "lanes", "run", "storage"],
         ),
     output:
         run="results/runs/{scene}.h5",

@@ -6,16 +6,12 @@ from job import job
 from tables import write_table
 
 from precursors.run import Run
-from precursors.slips import find_precursors, find_slips
-
-UNITS = {"onset": "onset_s", "end": "end_s", "load_before": "load_before_N", "load_after": "load_after_N"}
+from precursors.tables import slip_table
 
 
 def main(run: str | Path, output: str | Path) -> None:
     """Write every slip event; `kept` tells the rows of Fig. 13."""
-    slips = find_slips(Run.load(run))
-    kept = slips.index.isin(find_precursors(slips).index)
-    write_table(slips.rename(columns=UNITS).assign(kept=kept), output)
+    write_table(slip_table(Run.load(run)), output)
 
 
 if __name__ == "__main__":

@@ -112,7 +112,7 @@ def read_slips(path: str | Path) -> pd.DataFrame:
     ValueError
         If a column is missing or holds something else than it should.
     """
-    return _read(path, SLIP_COLUMNS)
+    return read_columns(path, SLIP_COLUMNS)
 
 
 def read_trace(path: str | Path) -> pd.DataFrame:
@@ -123,7 +123,7 @@ def read_trace(path: str | Path) -> pd.DataFrame:
     ValueError
         If a column is missing or holds something else than it should.
     """
-    return _read(path, TRACE_COLUMNS)
+    return read_columns(path, TRACE_COLUMNS)
 
 
 def theta_text(theta: float) -> str:
@@ -138,7 +138,14 @@ def plain(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def _read(path: str | Path, columns: Mapping[str, type]) -> pd.DataFrame:
+def read_columns(path: str | Path, columns: Mapping[str, type]) -> pd.DataFrame:
+    """Read a table that has at least some columns, of some types.
+
+    Raises
+    ------
+    ValueError
+        If a column is missing or holds something else than it should.
+    """
     table = pd.read_csv(path)
     missing = [name for name in columns if name not in table.columns]
     if missing:

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from precursors.chain import Chain, FloatArray, positive
+from precursors.chain import Chain, FloatArray, positive, require_plain
 from precursors.exact import TransitionLimitError
 from precursors.integrators.common import Result, run_from
 
@@ -175,7 +175,14 @@ def time_unit(chain: Chain) -> float:
 
 
 def scaled(chain: Chain) -> tuple[float, float, FloatArray]:
-    """tau [s], the drive's velocity [N/tau] and the springs c_i (the stiffest is 1)."""
+    """tau [s], the drive's velocity [N/tau] and the springs c_i (the stiffest is 1).
+
+    Raises
+    ------
+    ValueError
+        If the chain has viscosity, interface springs or a head.
+    """
+    require_plain(chain)
     tau = time_unit(chain)
     return tau, chain.drive_velocity * chain.mass / tau, chain.springs / np.max(chain.springs)
 

@@ -21,7 +21,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from precursors.chain import Chain, FloatArray
+from precursors.chain import Chain, FloatArray, require_plain
 
 FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, MOVING = range(5)
 
@@ -74,7 +74,14 @@ class Record(NamedTuple):
 
 
 def system_of(chain: Chain) -> System:
-    """Put a chain into columns."""
+    """Put a chain into columns.
+
+    Raises
+    ------
+    ValueError
+        If the chain has viscosity, interface springs or a head.
+    """
+    require_plain(chain)
     return System(
         1.0 / chain.mass,
         chain.drive_velocity,

@@ -1,0 +1,145 @@
+"""Resolution: which numbers of the paper belong to the slider, and which to its N blocks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from precursors.chain import FloatArray
+from precursors.config import Config, scene_slider
+from precursors.ensembles.chunks import seconds_to_first_slip
+from precursors.ensembles.study import Study
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+QUANTITIES = ("events_kept", "mu_sapp", "time_s", "front_speed_m_per_s")
+QUANTILES = {"q05": 0.05, "q25": 0.25, "q50": 0.5, "q75": 0.75, "q95": 0.95}
+
+
+# The law that each number is carried on by, from the smallest N that the configuration names.
+LAWS = {
+    "events_kept": "c N^p",
+    "mu_sapp": "a + b/N",
+    "time_s": "a + b/N",
+    "front_speed_m_per_s": "a + b/N",
+}
+
+
+def resolution_study(config: Config) -> Study:
+    """Chains of more and more blocks with the loading of the scenes of Fig. 13.
+
+    The first member of each chain has the normal loads of Eq. 7, the others have them with noise. There are
+    as many as `seconds_per_point` allows, between `least_runs` and `most_runs`.
+    """
+    settings = config["resolution"]
+    blocks: list[dict[str, Any]] = []
+    for scene in config["fig13"]:
+        for n_blocks in settings["n_blocks"]:
+            n_runs = int(settings["seconds_per_point"] / seconds_to_first_slip(n_blocks))
+            draw = np.arange(np.clip(n_runs, settings["least_runs"], settings["most_runs"]))
+            slider = scene_slider(config, scene) | {"n_blocks": n_blocks, "scene": scene}
+            blocks.append(slider | {"load_noise": np.where(draw == 0, 0.0, settings["noise"]), "draw": draw})
+    for group, block in enumerate(blocks):
+        block["group"] = group
+    return Study.of_blocks("resolution_members", blocks, duration=config["duration"], seed=settings["seed"])
+
+
+def estimated_mu_sapp(n_blocks: ArrayLike, mu_s: float, mu_k: float) -> FloatArray:
+    """Estimate mu_k + 2 (mu_s - mu_k) / N of the apparent static friction coefficient [1].
+
+    The load is the kinetic friction of all blocks, and above it the drop of the load when one block slides.
+    """
+    return mu_k + 2.0 * (mu_s - mu_k) / np.asarray(n_blocks, float)
+
+
+def front_speed(n_blocks: NDArray, length: float, crossing_time: NDArray) -> FloatArray:
+    """Mean speed [m/s] of the front of the first global slip from block 1 to block N."""
+    distance = length * (n_blocks - 1) / n_blocks
+    return np.divide(distance, crossing_time, out=np.full(len(n_blocks), np.nan), where=crossing_time > 0)
+
+
+def resolution_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
+    """What the number of blocks makes of each number.
+
+    Parameters
+    ----------
+    members : DataFrame
+        The gathered study.
+    length : float
+        Length L of the contact [m].
+
+    Returns
+    -------
+    DataFrame
+        One row per scene, theta, n_blocks and quantity: the value without noise; mean, standard deviation and
+        quantiles over all members; the number of members n.
+    """
+    import pandas as pd
+
+    speed = front_speed(members["n_blocks"].to_numpy(), length, members["crossing_time_s"].to_numpy())
+    members = members.assign(front_speed_m_per_s=speed)
+    rows = []
+    for (scene, n_blocks), runs in members.groupby(["scene", "n_blocks"], sort=False):
+        [(_, without_noise)] = runs[runs["load_noise"] == 0.0].iterrows()
+        for quantity in QUANTITIES:
+            values = runs[quantity].dropna()
+            rows.append(
+                {
+                    "scene": scene,
+                    "theta": without_noise["theta"],
+                    "n_blocks": n_blocks,
+                    "quantity": quantity,
+                    "without_noise": without_noise[quantity],
+                    "mean": values.mean(),
+                    "deviation": values.std(),
+                    **{name: values.quantile(share) for name, share in QUANTILES.items()},
+                    "n": len(values),
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def extrapolation_table(resolution: pd.DataFrame, from_n_blocks: int) -> pd.DataFrame:
+    """Carry each number on to an infinite number of blocks, by least squares over the medians.
+
+    Parameters
+    ----------
+    resolution : DataFrame
+        See `resolution_table`.
+    from_n_blocks : int
+        Smallest number of blocks that takes part.
+
+    Returns
+    -------
+    DataFrame
+        One row per scene and quantity: the law; a (the limit) and b, or c and p, with their standard errors;
+        n_points, how many N took part. NaN where there are fewer than three.
+    """
+    import pandas as pd
+
+    rows = []
+    for (scene, quantity), table in resolution.groupby(["scene", "quantity"], sort=False):
+        law = LAWS[str(quantity)]
+        used = table[(table["n_blocks"] >= from_n_blocks) & table["q50"].notna()]
+        n_blocks, value = used["n_blocks"].to_numpy(float), used["q50"].to_numpy(float)
+        if law == "c N^p":
+            (power, factor), errors = straight_line(np.log(n_blocks), np.log(value))
+            c = np.exp(factor)
+            names = {"p": power, "p_error": errors[0], "c": c, "c_error": c * errors[1]}
+        else:
+            (slope, limit), errors = straight_line(1.0 / n_blocks, value)
+            names = {"a": limit, "a_error": errors[1], "b": slope, "b_error": errors[0]}
+        rows.append({"scene": scene, "quantity": quantity, "law": law, **names, "n_points": len(used)})
+    return pd.DataFrame(rows)
+
+
+def straight_line(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Slope and intercept of the line of least squares, and their standard errors; NaN below three points."""
+    if len(x) < 3:
+        return np.full(2, np.nan), np.full(2, np.nan)
+    coefficients, covariance = np.polyfit(x, y, 1, cov="unscaled")
+    spread = np.sum((y - np.polyval(coefficients, x)) ** 2) / (len(x) - 2)
+    return coefficients, np.sqrt(np.diag(covariance) * spread)

@@ -1,0 +1,120 @@
+"""Maps of events kept, mu_sapp and the share of global slips over theta and one parameter more."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.figure import Figure
+
+from precursors.chain import FloatArray
+from precursors.figures import style
+
+HEIGHT_MM = 62.0
+
+
+@dataclass(frozen=True)
+class Axis:
+    """The second axis of a map: its column, what the figure calls it, the paper's value, and its scale."""
+
+    column: str
+    label: str
+    papers: float
+    logarithmic: bool = False
+
+
+AXES = {
+    "map_blocks": Axis("n_blocks", "Number of blocks $N$ [-]", 10),
+    "map_friction": Axis("friction_ratio", r"$\mu_k/\mu_s$ [-]", 0.45 / 0.70),
+    "map_stiffness": Axis("stiffness_ratio", "$K/k$ [-]", 0.8e6 / 25e6, logarithmic=True),
+    "map_velocity": Axis("drive_velocity", "$V$ [m/s]", 1e-4, logarithmic=True),
+}
+PAPERS_THETAS = (-5 / 6, 0.0, 5 / 6)
+PANELS = {
+    "events_kept": "Events kept [-]",
+    "mu_sapp": r"$\mu_\mathrm{sapp}$ [-]",
+    "share_global": "Share of global slips [%]",
+}
+
+
+def read_map(path: str | Path, name: str) -> pd.DataFrame:
+    """Read the table of a map.
+
+    Raises
+    ------
+    ValueError
+        If a column is missing or holds something else than it should.
+    """
+    numbers = ["theta", AXES[name].column, "mu_sapp", "events_kept", "n_global", "n_all_events"]
+    return style.read_columns(path, {**dict.fromkeys(numbers, float), "reached": bool})
+
+
+def draw_map(table: pd.DataFrame, name: str) -> Figure:
+    """Draw the three panels of a map, white where a run met no global slip; crosses are the paper's scenes.
+
+    Parameters
+    ----------
+    table : DataFrame
+        One row per run, see `read_map`.
+    name : str
+        A key of `AXES`.
+    """
+    axis = AXES[name]
+    share = 100.0 * table["n_global"] / table["n_all_events"].where(table["n_all_events"] > 0)
+    kept = table["events_kept"].where(table["reached"])
+    table = table.assign(share_global=share, events_kept=kept)
+    with style.styled():
+        figure = style.new_figure(style.PAGE_MM, HEIGHT_MM)
+        panels = figure.subplots(1, len(PANELS), sharey=True)
+        for panel, (quantity, label) in zip(panels, PANELS.items(), strict=True):
+            _draw_panel(panel, table, axis, quantity, label)
+        panels[0].set_ylabel(axis.label)
+        style.lay_out(figure)
+    return figure
+
+
+def _draw_panel(axes: Axes, table: pd.DataFrame, axis: Axis, quantity: str, label: str) -> None:
+    thetas, seconds = np.unique(table["theta"]), np.unique(table[axis.column])
+    ordered = table.sort_values([axis.column, "theta"])[quantity].to_numpy(float)
+    values = ordered.reshape(len(seconds), len(thetas))
+    known = values[np.isfinite(values)]
+    norm: Normalize
+    if quantity == "events_kept":
+        norm = LogNorm(max(1.0, known.min()), known.max())
+    else:
+        norm = Normalize(*np.quantile(known, [0.01, 0.99]))
+    theta, second = _edges(thetas), _edges(seconds, axis.logarithmic)
+    image = axes.pcolormesh(theta, second, values, norm=norm, cmap="viridis", rasterized=True)
+    if axis.logarithmic:
+        axes.set_yscale("log")
+    axes.plot(
+        PAPERS_THETAS,
+        [axis.papers] * len(PAPERS_THETAS),
+        "+",
+        color="white",
+        markersize=7,
+        markeredgewidth=2.2,
+    )
+    axes.plot(PAPERS_THETAS, [axis.papers] * len(PAPERS_THETAS), "+", color=style.BLACK, markersize=6)
+    axes.set_xlim(theta[0], theta[-1])
+    axes.set_ylim(second[0], second[-1])
+    axes.set_xlabel(r"$\theta$ [-]")
+    bar = axes.figure.colorbar(image, ax=axes, location="top", aspect=25, use_gridspec=False)
+    bar.set_label(label, fontsize=8)
+    bar.ax.tick_params(labelsize=7)
+    if quantity == "events_kept":
+        ticks = [t for t in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if known.min() <= t <= known.max()]
+        bar.set_ticks(ticks, labels=[str(t) for t in ticks])
+        bar.minorticks_off()
+
+
+def _edges(centres: FloatArray, logarithmic: bool = False) -> FloatArray:
+    """Borders of the cells around evenly spaced values, or values evenly spaced in their logarithms."""
+    places = np.log(centres) if logarithmic else centres
+    half = np.diff(places) / 2
+    borders = np.concatenate([[places[0] - half[0]], places[:-1] + half, [places[-1] + half[-1]]])
+    return np.exp(borders) if logarithmic else borders

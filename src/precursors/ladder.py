@@ -1,0 +1,198 @@
+"""The ladder of models: what each rung answers, how far from the paper's chain, and at what cost."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from precursors.chain import Chain, FloatArray
+from precursors.reduced import MODELS, QUANTITIES, Model
+from precursors.reduced.quantities import (
+    EVENTS_KEPT,
+    FIRST_LOAD,
+    FRONT_LOADS,
+    MU_SAPP,
+    SLIP_DURATION,
+    WAVEFORM,
+)
+
+PAPERS_MODEL = "chain"
+REPEATS = 3
+WAVEFORM_SAMPLES = 2001
+
+COLUMNS = [
+    "scene",
+    "question",
+    "rung",
+    "model",
+    "label",
+    "value",
+    "unit",
+    "error",
+    "error_unit",
+    "tolerance",
+    "is_answer",
+    "is_smallest",
+    "cost_s",
+]
+
+
+@dataclass(frozen=True)
+class Question:
+    """A row of the ladder.
+
+    Attributes
+    ----------
+    quantity : str
+        Key of `QUANTITIES`.
+    shown : callable
+        One number that stands for the answer in the table.
+    error : callable
+        (answer, answer of the paper's chain, chain) -> distance between them.
+    error_unit : str
+        Unit of the error: "1" where it is relative, to the answer or to F_Z.
+    """
+
+    quantity: str
+    shown: Callable[[Any], float]
+    error: Callable[[Any, Any, Chain], float]
+    error_unit: str
+
+
+def relative(answer: float, exact: float, chain: Chain) -> float:
+    """Error relative to the paper's chain."""
+    return abs(answer - exact) / abs(exact)
+
+
+def difference(answer: float, exact: float, chain: Chain) -> float:
+    """Error as it stands."""
+    return abs(answer - exact)
+
+
+def loads_apart(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
+    """Root mean square over the blocks of the error in the load that brings the front there, over F_Z."""
+    return root_mean_square(answer - exact) / chain.normal_load
+
+
+def waveforms_apart(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
+    """Root mean square over time of the error in F_X, over F_Z, up to the end of the exact first global slip.
+
+    An answer that ends earlier keeps its last load.
+    """
+    times = np.linspace(0.0, exact[-1, 0], WAVEFORM_SAMPLES)
+    loads = [np.interp(times, wave[:, 0], wave[:, 1]) for wave in (answer, exact)]
+    return root_mean_square(loads[0] - loads[1]) / chain.normal_load
+
+
+def root_mean_square(values: FloatArray) -> float:
+    """Root of the mean square."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+QUESTIONS = (
+    Question(FIRST_LOAD, float, relative, "1"),
+    Question(EVENTS_KEPT, float, difference, "events"),
+    Question(MU_SAPP, float, relative, "1"),
+    # The load at which the front reaches the middle stands for all.
+    Question(FRONT_LOADS, lambda loads: float(loads[(len(loads) - 1) // 2]), loads_apart, "1"),
+    Question(SLIP_DURATION, float, relative, "1"),
+    # The largest load stands for the waveform.
+    Question(WAVEFORM, lambda wave: float(wave[:, 1].max()), waveforms_apart, "1"),
+)
+
+
+def climb(
+    chains: Mapping[str, Chain],
+    tolerances: Mapping[str, float],
+    models: Mapping[str, Model] = MODELS,
+    repeats: int = REPEATS,
+) -> pd.DataFrame:
+    """Ask every model every question it answers, for the chains of some scenes.
+
+    Parameters
+    ----------
+    chains : mapping
+        Scene to chain.
+    tolerances : mapping
+        Largest error that counts as an answer, by quantity, in the unit of the question's error.
+    models : mapping
+        The rungs, from the smallest to the largest; the paper's chain among them.
+    repeats : int
+        How often each answer is timed; the least time counts.
+
+    Returns
+    -------
+    DataFrame
+        One row for each scene, question and model that answers it: rung (1, 2, ...), name and label of the
+        model, value and its unit, error against the paper's chain, tolerance, is_answer (the error is within
+        it), is_smallest (the first model that answers in every scene), cost_s (time from the chain to the
+        answer [s]).
+
+    Raises
+    ------
+    ValueError
+        If a question has no tolerance, or a model does not apply to one of the chains.
+    """
+    rows = []
+    for question in QUESTIONS:
+        if question.quantity not in tolerances:
+            raise ValueError(f"no tolerance for {question.quantity!r}: needed is one for each question")
+        tolerance = tolerances[question.quantity]
+        exact = {scene: ask(models[PAPERS_MODEL], chain, question, 1)[0] for scene, chain in chains.items()}
+        found = [
+            {"rung": rung, **_row(scene, chain, model, question, exact[scene], tolerance, repeats)}
+            for rung, model in enumerate(models.values(), 1)
+            if question.quantity in model.answers
+            for scene, chain in chains.items()
+        ]
+        smallest = next(
+            (name for name in models if _answers_everywhere([row for row in found if row["model"] == name])),
+            None,
+        )
+        rows += [{**row, "is_smallest": row["model"] == smallest} for row in found]
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def ask(model: Model, chain: Chain, question: Question, repeats: int) -> tuple[Any, float]:
+    """Answer of a model, and the least time it took [s]."""
+    cost = np.inf
+    for _ in range(repeats):
+        start = perf_counter()
+        answer = model.answer(chain, [question.quantity])[question.quantity]
+        cost = min(cost, perf_counter() - start)
+    return answer, cost
+
+
+def _row(
+    scene: str,
+    chain: Chain,
+    model: Model,
+    question: Question,
+    exact: Any,
+    tolerance: float,
+    repeats: int,
+) -> dict[str, Any]:
+    answer, cost = ask(model, chain, question, repeats)
+    error = question.error(answer, exact, chain)
+    return {
+        "scene": scene,
+        "question": question.quantity,
+        "model": model.name,
+        "label": model.label,
+        "value": question.shown(answer),
+        "unit": QUANTITIES[question.quantity].unit,
+        "error": error,
+        "error_unit": question.error_unit,
+        "tolerance": tolerance,
+        "is_answer": error <= tolerance,
+        "cost_s": cost,
+    }
+
+
+def _answers_everywhere(rows: list[dict[str, Any]]) -> bool:
+    return bool(rows) and all(row["is_answer"] for row in rows)

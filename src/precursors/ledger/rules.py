@@ -1,0 +1,126 @@
+"""The words that a claim may use: rows, what is taken of them, and the rules that give a verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from precursors.chain import FloatArray
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+REPRODUCED = "reproduced"
+FRAGILE = "reproduced but fragile"
+NOT_REPRODUCED = "not reproduced"
+MISPRINT = "misprint"
+NOT_TESTABLE = "not testable by the model"
+VERDICTS = (REPRODUCED, FRAGILE, NOT_REPRODUCED, MISPRINT, NOT_TESTABLE)
+
+
+def _rank_correlation(values: FloatArray) -> float:
+    """Kendall's tau of the values with their order: 1 where each is larger than all before it."""
+    n = len(values)
+    later_less_earlier = np.sign(values[np.newaxis, :] - values[:, np.newaxis])
+    return float(np.triu(later_less_earlier).sum()) / (n * (n - 1) / 2) if n > 1 else np.nan
+
+
+def _variation(values: FloatArray) -> float:
+    """Standard deviation of the steps between values over their mean: 0 for a period."""
+    steps = np.diff(values)
+    return float(np.std(steps) / np.mean(steps)) if len(steps) > 1 else np.nan
+
+
+# What is made of the values of a column; "count" counts rows, "slope" fits a line by least squares.
+TAKES: dict[str, Callable[[FloatArray], Any]] = {
+    "each": lambda values: values,
+    "first": lambda values: values[0] if len(values) else np.nan,
+    "last": lambda values: values[-1] if len(values) else np.nan,
+    "smallest": lambda values: values.min() if len(values) else np.nan,
+    "largest": lambda values: values.max() if len(values) else np.nan,
+    "mean": lambda values: values.mean() if len(values) else np.nan,
+    "sum": np.sum,
+    "count": len,
+    "rank correlation": _rank_correlation,
+    "variation of steps": _variation,
+}
+SLOPE = "slope"
+
+
+def _first_global(table: pd.DataFrame) -> int:
+    return int(table["is_global"].argmax()) if table["is_global"].any() else len(table)
+
+
+ROWS: dict[str, Callable[[pd.DataFrame], pd.DataFrame]] = {
+    "all": lambda table: table,
+    "up to the global slip": lambda table: table.iloc[: _first_global(table) + 1],
+    "before the global slip": lambda table: table.iloc[: _first_global(table)],
+}
+
+
+@dataclass(frozen=True)
+class Margin:
+    """How exactly values are compared.
+
+    Attributes
+    ----------
+    tolerance, relative : float
+        Allowed difference, in the unit of the values and relative to what they are compared with.
+    digits : int or None
+        Digits after the point that the paper prints.
+    """
+
+    tolerance: float = 0.0
+    relative: float = 0.0
+    digits: int | None = None
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A way to judge.
+
+    Attributes
+    ----------
+    holds : callable
+        (values, what they are compared with, Margin) -> bool.
+    compares : bool
+        Whether the values are compared with something: `against`, `limit` or `paper` of the claim.
+    otherwise : str
+        The verdict where it does not hold.
+    """
+
+    holds: Callable[[FloatArray, FloatArray, Margin], Any]
+    compares: bool = True
+    otherwise: str = NOT_REPRODUCED
+
+
+def _equal(values: FloatArray, reference: FloatArray, margin: Margin) -> Any:
+    return np.all(np.abs(values - reference) <= margin.tolerance + margin.relative * np.abs(reference))
+
+
+def _rounds(values: FloatArray, reference: FloatArray, margin: Margin) -> Any:
+    half = 0.5 * 10.0 ** -(margin.digits or 0)
+    return np.all((values >= reference - half) & (values < reference + half))
+
+
+NO_RESULT = "no result"
+ROUNDS = "rounds to"
+RULES = {
+    "equal": Rule(_equal),
+    ROUNDS: Rule(_rounds),
+    "above": Rule(lambda values, reference, _: np.all(values > reference)),
+    "at least": Rule(lambda values, reference, _: np.all(values >= reference)),
+    "below": Rule(lambda values, reference, _: np.all(values < reference)),
+    "at most": Rule(lambda values, reference, _: np.all(values <= reference)),
+    "increasing": Rule(lambda values, *_: len(values) > 1 and np.all(np.diff(values) > 0), compares=False),
+    "decreasing": Rule(lambda values, *_: len(values) > 1 and np.all(np.diff(values) < 0), compares=False),
+    "same": Rule(lambda values, _, margin: np.ptp(values) <= margin.tolerance, compares=False),
+    "holds": Rule(lambda values, *_: np.all(values == 1), compares=False),
+    # The values are what a formula or word gives as it is printed; they are compared with the right ones.
+    "as printed": Rule(_equal, otherwise=MISPRINT),
+    # The quantity is none of the model's: no table speaks of it.
+    NO_RESULT: Rule(lambda *_: False, compares=False, otherwise=NOT_TESTABLE),
+}

@@ -1,0 +1,72 @@
+"""The paper's dynamic chain as a rung of the ladder: the exact solver, up to the first global slip."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from precursors.chain import Chain, FloatArray
+from precursors.exact import simulate
+from precursors.reduced.quantities import (
+    EVENTS_KEPT,
+    FIRST_LOAD,
+    FRONT_LOADS,
+    MU_SAPP,
+    SLIP_DURATION,
+    WAVEFORM,
+    Model,
+    events_kept,
+    first_load,
+    front_loads,
+    slip_duration,
+)
+from precursors.run import Run
+from precursors.slips import apparent_friction, find_slips
+
+# In units of the time in which the drive reaches mu_s F_Z against a slider that does not give way.
+LIMIT = 10.0
+
+
+class Motion(NamedTuple):
+    """A run to the end of the first global slip, and its slip events."""
+
+    run: Run
+    slips: pd.DataFrame
+
+
+def to_global_slip(chain: Chain) -> Motion:
+    """Simulate a chain to the end of its first global slip, or to `LIMIT`."""
+    yielding = 1.0 / chain.drive_stiffness + (chain.n_blocks - 1) / chain.stiffness
+    limit = LIMIT * chain.mu_s * chain.normal_load * yielding / chain.drive_velocity
+    run = simulate(chain, limit, until="global slip")
+    return Motion(run, find_slips(run))
+
+
+def _mu_sapp(motion: Motion) -> float:
+    friction = apparent_friction(motion.run, motion.slips)
+    return np.nan if friction is None else friction.mu_sapp
+
+
+def _waveform(motion: Motion) -> FloatArray:
+    """Time [s] and load [N] at the start and at every transition, shape (n_transitions + 1, 2)."""
+    transitions = motion.run.transitions
+    return np.column_stack(
+        [np.append(0.0, transitions["time"]), np.append(0.0, transitions["tangential_load"])]
+    )
+
+
+CHAIN = Model(
+    "chain",
+    "paper's chain",
+    {
+        FIRST_LOAD: lambda motion: first_load(motion.slips),
+        EVENTS_KEPT: lambda motion: events_kept(motion.slips),
+        MU_SAPP: _mu_sapp,
+        FRONT_LOADS: lambda motion: front_loads(motion.slips, motion.run.chain.n_blocks),
+        SLIP_DURATION: lambda motion: slip_duration(motion.slips),
+        WAVEFORM: _waveform,
+    },
+    to_global_slip,
+)

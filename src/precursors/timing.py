@@ -1,0 +1,92 @@
+"""One way to measure time: side by side, in turn, warmed up, medians.
+
+A machine's load changes from second to second, so what is compared is measured in the same round, one
+right after the other, and the ratio is the median of the rounds' ratios. Whoever measures sets
+OMP_NUM_THREADS and its like to 1 before NumPy is imported; Snakemake does so for a rule with one thread.
+"""
+
+from __future__ import annotations
+
+import gc
+import statistics
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+ROUNDS = 11
+# A task is repeated within a round until it takes so long, well above the clock's resolution.
+SHORTEST = 0.02  # s
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Seconds per call in each round: on the clock, and of processor time of the calling thread."""
+
+    wall: tuple[float, ...]
+    cpu: tuple[float, ...]
+
+    @property
+    def seconds(self) -> float:
+        """Median on the clock [s]."""
+        return statistics.median(self.wall)
+
+    def times_faster_than(self, other: Timing) -> tuple[float, float]:
+        """How many times longer the other takes, on the clock and in processor time: medians of rounds."""
+        return (
+            statistics.median(b / a for a, b in zip(self.wall, other.wall, strict=True)),
+            statistics.median(b / a for a, b in zip(self.cpu, other.cpu, strict=True)),
+        )
+
+
+def measure(
+    tasks: Mapping[str, Callable[[], object]],
+    rounds: int = ROUNDS,
+    shortest: float = SHORTEST,
+    seconds: Mapping[str, float] | None = None,
+) -> dict[str, Timing]:
+    """Time tasks in turn, round after round, after warming each up.
+
+    Parameters
+    ----------
+    tasks : mapping
+        What to time, by name.
+    rounds : int
+        How often each is timed.
+    shortest : float
+        Time [s] that a task is repeated for within a round; the round counts the mean.
+    seconds : mapping, optional
+        Roughly how long each task takes [s], if they are warm already.
+    """
+    if seconds is None:
+        seconds = {name: seconds_when_warm(task) for name, task in tasks.items()}
+    repeats = {name: max(1, round(shortest / max(seconds[name], 1e-9))) for name in tasks}
+    wall: dict[str, list[float]] = {name: [] for name in tasks}
+    cpu: dict[str, list[float]] = {name: [] for name in tasks}
+    collecting = gc.isenabled()
+    gc.collect()
+    gc.freeze()  # what the libraries hold for good need not be looked through before every task
+    try:
+        for _ in range(rounds):
+            for name, task in tasks.items():
+                gc.collect()
+                gc.disable()
+                clock, processor = time.perf_counter(), time.thread_time()
+                for _ in range(repeats[name]):
+                    task()
+                wall[name].append((time.perf_counter() - clock) / repeats[name])
+                cpu[name].append((time.thread_time() - processor) / repeats[name])
+                if collecting:
+                    gc.enable()
+    finally:
+        gc.unfreeze()
+        if collecting:
+            gc.enable()
+    return {name: Timing(tuple(wall[name]), tuple(cpu[name])) for name in tasks}
+
+
+def seconds_when_warm(task: Callable[[], object]) -> float:
+    """Time of the second of two calls [s]."""
+    task()
+    start = time.perf_counter()
+    task()
+    return time.perf_counter() - start

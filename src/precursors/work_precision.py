@@ -1,0 +1,236 @@
+"""Speed against accuracy: methods over the values of their knobs, timed side by side, held to the truth."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from importlib import import_module
+from typing import TYPE_CHECKING, Literal
+
+import pandas as pd
+
+from precursors import integrators, timing
+from precursors.accuracy import Truth, compare
+from precursors.chain import Chain
+from precursors.exact import TransitionLimitError, simulate
+from precursors.integrators import METHODS, DivergedError, Method, Result
+
+if TYPE_CHECKING:
+    from precursors.proof import Certificate
+
+Until = Literal["global slip"] | None
+Sweeps = Mapping[str, Sequence[float]]
+
+COLUMNS = [
+    "scene",
+    "theta",
+    "until",
+    "truth",
+    "method",
+    "label",
+    "knob",
+    "value",
+    "evaluations",
+    "seconds",
+    "error_load_N",
+    "error_time_s",
+    "transitions_right",
+    "transitions_found",
+    "transitions_true",
+    "slips_right",
+    "slips_found",
+    "slips_true",
+]
+# A task is repeated within a round until it takes so long [s].
+SHORTEST = 0.002
+SHORT = 0.1  # s, a call that may be made twice before it is timed
+END = "end"
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """What all methods are asked to do.
+
+    Attributes
+    ----------
+    scene : str
+        Name of the scene.
+    theta : float
+        Degree of non-uniformity of its normal loading.
+    chain : Chain
+        The chain.
+    duration : float
+        Time [s], or its limit.
+    until : "global slip" or None
+        Where the run ends; None: after `duration`.
+    truth : Truth
+        The true run, over the same time.
+    is_proved : bool
+        Whether the truth has a proof; else it is the run of the exact solver.
+    """
+
+    scene: str
+    theta: float
+    chain: Chain
+    duration: float
+    until: Until
+    truth: Truth
+    is_proved: bool
+
+
+def measure_methods(case: Case, sweeps: Sweeps, repetitions: int, longest: float) -> pd.DataFrame:
+    """Time the methods over the values of their knobs, and compare each run with the truth.
+
+    Parameters
+    ----------
+    case : Case
+        What to run.
+    sweeps : mapping
+        Values of the knob for each method, from loose to tight; methods whose package is missing are left
+        out.
+    repetitions : int
+        Number of rounds, after a warm-up, that the median is taken of; methods take turns in a round.
+    longest : float
+        Where a call takes longer [s], the sweep of its method ends before it.
+
+    Returns
+    -------
+    DataFrame
+        A row per method and value, with `COLUMNS`; `evaluations` is NaN for a method that counts none, and
+        errors are those of `Comparison`, NaN for the exact solver where it is itself the truth.
+
+    Raises
+    ------
+    ValueError
+        If there is no method of a name.
+    """
+    check_methods(sweeps)
+    tried = {
+        f"{name} {value!r}": (METHODS[name], value, attempt)
+        for name, values in sweeps.items()
+        if name in METHODS
+        for value, attempt in _sweep(METHODS[name], values, case, longest)
+    }
+    tasks: dict[str, Callable[[], object]] = {
+        key: partial(outcome, method, value, case) for key, (method, value, _) in tried.items()
+    }
+    timings = timing.measure(
+        tasks, repetitions, SHORTEST, {key: attempt.seconds for key, (_, _, attempt) in tried.items()}
+    )
+    return pd.DataFrame(
+        [
+            _row(case, method, value, attempt.result, timings[key].seconds)
+            for key, (method, value, attempt) in tried.items()
+        ],
+        columns=COLUMNS,
+    )
+
+
+def proved_cases(scene: str, theta: float, certificate: Certificate) -> tuple[Case, Case]:
+    """Make two cases of what a certificate proves: to the end of the first global slip, and to its own end.
+
+    If a tie ends the proof, the truth is the run of the exact solver.
+    """
+    chain, duration = certificate.chain.to_chain(), float(certificate.duration)
+    is_proved = certificate.tie is None
+    start = [float(x) for x in certificate.start_positions]
+    if any(start):
+        raise ValueError(f"{scene} starts from {start} m: allowed is a start with springs at natural length")
+    truth = Truth.proved(certificate) if is_proved else Truth.of_run(simulate(chain, duration))
+    whole = Case(scene, theta, chain, duration, certificate.until, truth, is_proved)
+    return replace(whole, until="global slip", truth=truth.until_global_slip()), whole
+
+
+def sweeps_of(values: Mapping[str, Sequence[float] | str]) -> Sweeps:
+    """Replace the word "sweep" by all values that the table of methods has for a method.
+
+    Raises
+    ------
+    ValueError
+        If there is no method of a name.
+    """
+    check_methods(values)
+    return {
+        name: METHODS[name].sweep if isinstance(wanted, str) else wanted
+        for name, wanted in values.items()
+        if name in METHODS
+    }
+
+
+def check_methods(names: Iterable[str]) -> None:
+    """Refuse a name that is no method's, be its package installed or not.
+
+    Raises
+    ------
+    ValueError
+        In one line, with the names there are.
+    """
+    modules = [import_module(f"{integrators.__name__}.{module}") for module in integrators.MODULES]
+    known = {method.name for module in modules for method in module.METHODS}
+    for name in names:
+        if name not in known:
+            raise ValueError(f"there is no method {name!r}: allowed are {', '.join(sorted(known))}")
+
+
+def outcome(method: Method, value: float, case: Case) -> Result:
+    """Run a method; of a run that breaks off, what there is."""
+    try:
+        return method.solve(case.chain, case.duration, value, case.until)
+    except (DivergedError, TransitionLimitError) as error:
+        return Result(error.run, 0)
+
+
+@dataclass(frozen=True)
+class _Attempt:
+    """A first result, and about how long it takes to have it [s]."""
+
+    result: Result
+    seconds: float
+
+
+def _sweep(
+    method: Method, values: Sequence[float], case: Case, longest: float
+) -> Iterator[tuple[float, _Attempt]]:
+    for value in values:
+        attempt = _attempt(method, value, case)
+        # What is compiled or imported at first is no part of it; a long call is spared a second one.
+        if not SHORT < attempt.seconds <= longest:
+            attempt = _attempt(method, value, case)
+        if attempt.seconds > longest:
+            return
+        yield value, attempt
+
+
+def _attempt(method: Method, value: float, case: Case) -> _Attempt:
+    start = time.perf_counter()
+    result = outcome(method, value, case)
+    return _Attempt(result, time.perf_counter() - start)
+
+
+def _row(case: Case, method: Method, value: float, result: Result, seconds: float) -> dict[str, object]:
+    found = compare(result.run, case.truth)
+    # The exact solver's distance from itself is no error.
+    is_the_truth = method.name == "exact" and not case.is_proved
+    return {
+        "scene": case.scene,
+        "theta": case.theta,
+        "until": case.until or END,
+        "truth": "proved" if case.is_proved else "exact solver",
+        "method": method.name,
+        "label": method.label,
+        "knob": method.knob,
+        "value": value,
+        "evaluations": result.evaluations or math.nan,
+        "seconds": seconds,
+        "error_load_N": math.nan if is_the_truth else found.load_error,
+        "error_time_s": math.nan if is_the_truth else found.time_error,
+        "transitions_right": found.transitions_right,
+        "transitions_found": found.transitions_found,
+        "transitions_true": found.transitions_true,
+        "slips_right": found.slips_right,
+        "slips_found": found.slips_found,
+        "slips_true": found.slips_true,
+    }

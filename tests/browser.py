@@ -1,0 +1,189 @@
+"""A headless Chromium, driven over its DevTools pipe: pages, clicks, the wheel, and what goes wrong."""
+
+from __future__ import annotations
+
+import base64
+import fcntl
+import json
+import os
+import select
+import shutil
+import signal
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+TIMEOUT = 20.0  # s
+FLAGS = (
+    "--headless=new",
+    "--remote-debugging-pipe",
+    "--no-sandbox",  # containers often run as root, which the sandbox refuses
+    "--disable-gpu",
+    "--disable-dev-shm-usage",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--force-device-scale-factor=1",
+    "--hide-scrollbars",
+)
+
+
+def find_browser() -> str | None:
+    """Path of a Chromium or Chrome, or None."""
+    return next((path for name in NAMES if (path := shutil.which(name))), None)
+
+
+class Page:
+    """A page in the browser; `requests` and `complaints` tell what it asked for and what went wrong in it."""
+
+    def __init__(self, send: int, receive: int) -> None:
+        self._send, self._receive = send, receive
+        self._buffer = b""
+        self._last = 0
+        self._session: str | None = None
+        self.requests: list[str] = []
+        self.complaints: list[str] = []
+
+    def open(self, url: str, width: int = 1400, height: int = 900) -> None:
+        """Open an address and wait until it has loaded."""
+        self._session = None
+        self.requests.clear()
+        self.complaints.clear()
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        self._session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(f"{domain}.enable")
+        self.call(
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=height,
+            deviceScaleFactor=1,
+            mobile=False,
+        )
+        self.call("Page.navigate", url=url)
+        self.wait_for("document.readyState === 'complete'")
+
+    def call(self, method: str, **parameters: Any) -> dict[str, Any]:
+        """Call a method of the DevTools protocol and return its result."""
+        self._last += 1
+        message: dict[str, Any] = {"id": self._last, "method": method, "params": parameters}
+        if self._session:
+            message["sessionId"] = self._session
+        os.write(self._send, json.dumps(message).encode() + b"\0")
+        while True:
+            answer = self._next()
+            if answer.get("id") == self._last:
+                if "error" in answer:
+                    raise RuntimeError(f"{method}: {answer['error']['message']}")
+                result: dict[str, Any] = answer["result"]
+                return result
+
+    def evaluate(self, expression: str) -> Any:
+        """Value of a JavaScript expression, awaited if it is a promise."""
+        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        if "exceptionDetails" in result:
+            raise RuntimeError(f"{expression}: {result['exceptionDetails']}")
+        return result["result"].get("value")
+
+    def wait_for(self, expression: str) -> None:
+        """Wait until an expression is true."""
+        deadline = time.monotonic() + TIMEOUT
+        while not self.evaluate(f"Boolean({expression})"):
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"{expression} did not become true; complaints: {self.complaints}")
+            time.sleep(0.02)
+
+    def settle(self) -> None:
+        """Wait until what was asked for is drawn."""
+        self.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def move(self, x: float, y: float) -> None:
+        """Point at a pixel."""
+        self._mouse("mouseMoved", x, y)
+
+    def click(self, x: float, y: float) -> None:
+        """Click on a pixel."""
+        self.move(x, y)
+        for kind in ("mousePressed", "mouseReleased"):
+            self._mouse(kind, x, y, button="left", clickCount=1)
+
+    def wheel(self, x: float, y: float, delta: float) -> None:
+        """Turn the wheel over a pixel; negative is away from the user."""
+        self._mouse("mouseWheel", x, y, deltaX=0, deltaY=delta)
+
+    def screenshot(self, path: str | Path) -> None:
+        """Write what is in view as a PNG."""
+        data = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=True)["data"]
+        Path(path).write_bytes(base64.b64decode(data))
+
+    def _mouse(self, kind: str, x: float, y: float, **more: Any) -> None:
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
+
+    def _next(self) -> dict[str, Any]:
+        while b"\0" not in self._buffer:
+            if not select.select([self._receive], [], [], TIMEOUT)[0]:
+                raise TimeoutError("the browser does not answer")
+            read = os.read(self._receive, 1 << 20)
+            if not read:
+                raise RuntimeError("the browser has ended")
+            self._buffer += read
+        text, _, self._buffer = self._buffer.partition(b"\0")
+        message: dict[str, Any] = json.loads(text)
+        self._note(message.get("method", ""), message.get("params", {}))
+        return message
+
+    def _note(self, method: str, event: dict[str, Any]) -> None:
+        if method == "Network.requestWillBeSent" and not event["request"]["url"].startswith("data:"):
+            self.requests.append(event["request"]["url"])
+        elif method == "Runtime.exceptionThrown":
+            details = event["exceptionDetails"]
+            self.complaints.append(details.get("exception", {}).get("description", details["text"]))
+        elif method == "Runtime.consoleAPICalled" and event["type"] in ("error", "warning", "assert"):
+            self.complaints.append(str(event["args"]))
+        elif method == "Log.entryAdded" and event["entry"]["level"] in ("error", "warning"):
+            self.complaints.append(event["entry"]["text"])
+
+
+@contextmanager
+def browser(path: str) -> Iterator[Callable[[], Page]]:
+    """Run a browser, and yield what opens a page in it."""
+    (to_browser, send), (receive, from_browser) = _pipe(), _pipe()
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        actions = [
+            (os.POSIX_SPAWN_DUP2, to_browser, 3),  # the browser reads 3 and writes 4
+            (os.POSIX_SPAWN_DUP2, from_browser, 4),
+            *((os.POSIX_SPAWN_OPEN, output, os.devnull, os.O_WRONLY, 0) for output in (1, 2)),
+        ]
+        command = [path, *FLAGS, f"--user-data-dir={profile}"]
+        process = os.posix_spawn(path, command, os.environ, file_actions=actions)
+        os.close(to_browser)
+        os.close(from_browser)
+        try:
+            yield lambda: Page(send, receive)
+        finally:
+            os.close(send)  # the browser ends when nobody can write to it
+            _wait_or_kill(process)
+            os.close(receive)
+
+
+def _pipe() -> list[int]:
+    """Read and write end of a pipe, with numbers that leave 3 and 4 to the browser."""
+    low = os.pipe()
+    high = [fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, 10) for end in low]
+    for end in low:
+        os.close(end)
+    return high
+
+
+def _wait_or_kill(process: int) -> None:
+    deadline = time.monotonic() + 5.0
+    while os.waitpid(process, os.WNOHANG) == (0, 0):
+        if time.monotonic() > deadline:
+            os.kill(process, signal.SIGKILL)
+            os.waitpid(process, 0)
+            break
+        time.sleep(0.02)

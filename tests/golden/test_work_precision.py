@@ -1,0 +1,58 @@
+"""The published comparison of methods: its chart is its table drawn, and the table says what is said of it.
+
+`snakemake -c2 accuracy_full` measures anew, some ten minutes with nothing else running; its table and
+work_precision_full.png then replace the two golden files.
+"""
+
+from __future__ import annotations
+
+import pytest
+from golden.regenerate import GOLDEN
+from golden.test_golden import FIGURE_RMS, MOST_BYTES
+from matplotlib.testing.compare import compare_images
+
+from precursors.figures import style
+from precursors.figures.work_precision import draw_work_precision, read_work_precision
+
+TABLE, CHART = GOLDEN / "work_precision_full.csv", GOLDEN / "work_precision_full.png"
+PEERS = {"heyoka", "cvode_adams", "cvode_bdf", "scipy_dop853", "scipy_rk45", "scipy_lsoda", "scipy_radau"}
+
+
+@pytest.fixture(scope="module")
+def table():
+    return read_work_precision(TABLE)
+
+
+def test_the_chart_is_the_table_drawn(table, tmp_path):
+    style.save(draw_work_precision(table), tmp_path / CHART.name)
+    assert compare_images(str(CHART), str(tmp_path / CHART.name), tol=FIGURE_RMS) is None
+
+
+def test_both_files_are_small():
+    assert max(TABLE.stat().st_size, CHART.stat().st_size) < MOST_BYTES
+
+
+def test_the_peers_are_in_it_and_the_truth_is_proved(table):
+    assert set(table["method"]) > PEERS
+    assert table["truth"].eq("proved").all()
+    assert table.groupby("scene")["theta"].first().round(4).to_dict() == {
+        "trailing": -0.8333,
+        "uniform": 0.0,
+        "leading": 0.8333,
+    }
+
+
+def test_the_exact_solver_has_every_transition_right(table):
+    exact = table[table["method"] == "exact"]
+    assert len(exact) == 3 * 2
+    for found in ("transitions_right", "transitions_found"):
+        assert (exact[found] == exact["transitions_true"]).all()
+
+
+def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(table):
+    for _, rows in table[table["until"] == "global slip"].groupby("scene"):
+        (exact,) = rows[rows["method"] == "exact"].to_dict("records")
+        whole = rows[(rows["transitions_right"] == rows["transitions_true"]) & (rows["method"] != "exact")]
+        as_close = whole[whole["error_time_s"] <= exact["error_time_s"]]
+        assert (as_close["seconds"] > exact["seconds"]).all()
+        assert set(as_close["method"]) <= {"heyoka"}

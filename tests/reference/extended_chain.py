@@ -1,0 +1,287 @@
+"""The chain with internal viscosity, interface springs and a loading head, to more than 40 digits.
+
+The equations and the rules of transitions are those of docs/models.md. Units and method are those of
+`chain_reference`: time in T = 2^-s sqrt(m/k), displacement in newtons (u = k x), fixed-point numbers, a
+Taylor series over windows of length T, and the first zero isolated by Bernstein coefficients. In these units
+
+    u_i'' = 4^-s r_i (g_i + h_i - f_i),   h_i = c (u'_{i-1} - u'_i) - c (u'_i - u'_{i+1}),   c = eta / (k T),
+
+with r_1 = m / (m + M_h), the other r_i = 1, and no viscosity between the drive point and block 1. The force
+f_i of the interface is mode_i mu_k w_i on a block that slides, and p_i on one that sticks, with
+p_i' = (kappa_i / k) u_i'. Without interface springs (kappa infinite) a block that sticks does not move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import factorial, isqrt, sqrt
+
+from .chain_reference import BITS, NOISE, Number, ReferenceChain, Transition
+from .polynomials import GUARD_BITS, derivative, first_zero, value
+
+Change = tuple[int, int]  # block, and the direction of its release if it is stuck
+
+
+@dataclass(frozen=True)
+class Additions:
+    """What the later models add to the chain, in exact numbers; zero and None switch an addition off.
+
+    Parameters
+    ----------
+    viscosity : Fraction
+        eta of the dashpot between neighbours [N s/m].
+    interface_stiffness : tuple of Fraction or None
+        kappa_i of the spring between each block and the plane [N/m]; None for a rigid interface.
+    head_mass : Fraction
+        Mass M_h that moves with block 1 [kg].
+    """
+
+    viscosity: Fraction = Fraction(0)
+    interface_stiffness: tuple[Fraction, ...] | None = None
+    head_mass: Fraction = Fraction(0)
+
+    @classmethod
+    def of(
+        cls,
+        n_blocks: int,
+        viscosity: Number = 0,
+        interface_stiffness: Number | None = None,
+        head_mass: Number = 0,
+    ) -> Additions:
+        """Share the stiffness of the whole interface [N/m] equally among the blocks."""
+        total = None if interface_stiffness is None else Fraction(interface_stiffness)
+        shares = None if total is None else (total / n_blocks,) * n_blocks
+        return cls(Fraction(viscosity), shares, Fraction(head_mass))
+
+    def rounded_to_doubles(self) -> Additions:
+        """Return the numbers that a solver in double precision is given: each rounded once."""
+        springs = self.interface_stiffness
+        return Additions(
+            Fraction(float(self.viscosity)),
+            None if springs is None else tuple(Fraction(float(x)) for x in springs),
+            Fraction(float(self.head_mass)),
+        )
+
+
+def extended_reference(
+    chain: ReferenceChain,
+    additions: Additions,
+    duration: Number,
+    until: str | None = None,
+    start_positions: Sequence[Number] | None = None,
+    max_transitions: int | None = None,
+    bits: int = BITS,
+) -> list[Transition]:
+    """Return all transitions up to `duration` [s], in time order; arguments as those of `reference`."""
+    if until not in (None, "global slip"):
+        raise ValueError(f'until = {until!r}: allowed is None or "global slip"')
+    motion = _Motion(_scale(chain, additions, bits), chain, start_positions)
+    end = _fixed(Fraction(duration) / motion.scaled.time_unit, bits)
+    transitions = motion.overloaded()
+    all_slid = False
+    while max_transitions is None or len(transitions) < max_transitions:
+        all_slid = all_slid or all(motion.modes[1:])
+        if until == "global slip" and all_slid and not any(motion.modes):
+            break
+        all_slid = all_slid and any(motion.modes)
+        changes = motion.slide() if motion.moves() else motion.load()
+        if motion.time > end:
+            break
+        transitions += [motion.change(i, way) for i, way in changes]
+    return transitions
+
+
+@dataclass(frozen=True)
+class _Scaled:
+    """The chain in fixed-point numbers: forces in newtons, time in T. Index 0 is the drive point."""
+
+    bits: int
+    order: int  # of the Taylor series
+    halvings: int  # s
+    time_unit: Fraction  # T [s]
+    stiffness_ratio: int  # K/k
+    drive_velocity: int  # k V T
+    strength: tuple[int, ...]  # mu_s w_i
+    kinetic: tuple[int, ...]  # mu_k w_i
+    damping: int  # c
+    springs: tuple[int, ...] | None  # kappa_i / k
+    lightness: int  # r_1
+
+
+def _fixed(x: Fraction, bits: int) -> int:
+    return round(x * (1 << bits))
+
+
+def _scale(chain: ReferenceChain, additions: Additions, bits: int) -> _Scaled:
+    ratio = chain.drive_stiffness / chain.stiffness
+    springs = additions.interface_stiffness
+    softest = Fraction(0) if springs is None else max(springs) / chain.stiffness
+    # Gershgorin for |lambda|^2 <= a + b |lambda|, in units of k/m; a power of two above the exact bound.
+    a = max(4.0, 2.0 + float(ratio)) + float(softest)
+    b = 4.0 * float(additions.viscosity) / sqrt(float(chain.mass * chain.stiffness))
+    halvings = 0
+    while (b + sqrt(b * b + 4.0 * a)) / 2.0 > 2.0 * 2**halvings * (1.0 + 1e-9):
+        halvings += 1
+    root = isqrt(int(chain.mass / chain.stiffness * (1 << 4 * bits)))
+    time_unit = Fraction(root, 1 << (2 * bits + halvings))
+    order = 1
+    while factorial(order) < 1 << (order + bits + GUARD_BITS):
+        order += 1
+    return _Scaled(
+        bits=bits,
+        order=order,
+        halvings=halvings,
+        time_unit=time_unit,
+        stiffness_ratio=_fixed(ratio, bits),
+        drive_velocity=_fixed(chain.stiffness * chain.drive_velocity * time_unit, bits),
+        strength=(0, *(_fixed(chain.mu_s * w, bits) for w in chain.weights)),
+        kinetic=(0, *(_fixed(chain.mu_k * w, bits) for w in chain.weights)),
+        damping=_fixed(additions.viscosity / (chain.stiffness * time_unit), bits),
+        springs=None if springs is None else (0, *(_fixed(x / chain.stiffness, bits) for x in springs)),
+        lightness=_fixed(chain.mass / (chain.mass + additions.head_mass), bits),
+    )
+
+
+class _Motion:
+    """Positions, velocities, modes and interface forces of the drive point (index 0) and of the blocks."""
+
+    def __init__(
+        self, scaled: _Scaled, chain: ReferenceChain, start_positions: Sequence[Number] | None
+    ) -> None:
+        n = len(chain.weights)
+        metres = [0] * n if start_positions is None else start_positions
+        if len(metres) != n:
+            raise ValueError(f"{len(metres)} start positions for {n} blocks")
+        self.scaled = scaled
+        self.time = 0
+        self.positions = [0, *(_fixed(chain.stiffness * Fraction(x), scaled.bits) for x in metres)]
+        self.velocities = [scaled.drive_velocity] + [0] * n
+        self.modes = [0] * (n + 1)
+        self.held = [0] * (n + 1)  # p_i of the blocks that stick
+
+    def overloaded(self) -> list[Transition]:
+        """Let the blocks slide whose net force exceeds static friction at the start; attach the others."""
+        found = []
+        for i in range(1, len(self.modes)):
+            force = self._net(self.positions, self.velocities, i)
+            if abs(force) > self.scaled.strength[i] + NOISE:
+                self.modes[i] = 1 if force > 0 else -1
+                found.append(self._transition(i))
+            else:
+                self.held[i] = force
+        return found
+
+    def moves(self) -> bool:
+        """Whether a block may move: with interface springs, one that sticks does."""
+        return self.scaled.springs is not None or any(self.modes)
+
+    def load(self) -> list[Change]:
+        """Load the resting chain until block 1 is released: no other block feels the drive."""
+        scaled = self.scaled
+        margin = scaled.strength[1] - self._net(self.positions, self.velocities, 1)
+        if margin > NOISE:
+            loading_rate = scaled.stiffness_ratio * scaled.drive_velocity
+            self._set_time(self.time + (margin << 2 * scaled.bits) // loading_rate)
+        return [(1, 1)]
+
+    def slide(self) -> list[Change]:
+        """Advance to the first transition, but by one window at most; return the blocks that change then."""
+        bits = self.scaled.bits
+        u = self._taylor()
+        du = [derivative(coefficients) for coefficients in u]
+        zeros: dict[Change, int | None] = {}
+        for i in range(1, len(self.modes)):
+            if self.modes[i]:
+                zeros[i, 0] = first_zero(_without_zero_now([self.modes[i] * c for c in du[i]]), bits)
+            else:
+                for way in (1, -1):
+                    zeros[i, way] = first_zero(self._margin(u, du, i, way), bits)
+        found = {change: zero for change, zero in zeros.items() if zero is not None}
+        # Zeros that coincide come out apart by rounding; no others come as close as half of the places.
+        tie = 1 << bits // 2
+        step = min(found.values(), default=1 << bits)
+        if step >= tie:
+            for i in range(1, len(self.modes)):
+                if not self.modes[i] and self.scaled.springs is not None:
+                    moved = value([0, *u[i][1:]], step, bits)
+                    self.held[i] += self.scaled.springs[i] * moved >> bits
+            for i in range(1, len(self.modes)):
+                self.positions[i] = value(u[i], step, bits)
+                self.velocities[i] = value(du[i], step, bits)
+            self._set_time(self.time + step)
+        return [change for change, zero in found.items() if zero - step < tie]
+
+    def change(self, i: int, way: int) -> Transition:
+        """Release a block that sticks; stop or turn one that slides, and attach it without a net force."""
+        if self.modes[i]:
+            self.velocities[i] = 0
+            force = self._net(self.positions, self.velocities, i)
+            holds = abs(force) <= self.scaled.strength[i] + NOISE
+            self.modes[i] = 0 if holds else (1 if force > 0 else -1)
+            self.held[i] = force
+        else:
+            self.modes[i] = way
+        return self._transition(i)
+
+    def _taylor(self) -> list[list[int]]:
+        scaled = self.scaled
+        bits = scaled.bits
+        u = [[x, v] + [0] * (scaled.order - 1) for x, v in zip(self.positions, self.velocities, strict=True)]
+        mobile = [i for i in range(1, len(self.modes)) if self.modes[i] or scaled.springs is not None]
+        for n in range(scaled.order - 1):
+            now = [c[n] for c in u]
+            rate = [(n + 1) * c[n + 1] for c in u]
+            for i in mobile:
+                force = self._net(now, rate, i)
+                if n == 0:
+                    force -= self.modes[i] * scaled.kinetic[i] if self.modes[i] else self.held[i]
+                elif not self.modes[i] and scaled.springs is not None:
+                    force -= scaled.springs[i] * now[i] >> bits
+                if i == 1:
+                    force = force * scaled.lightness >> bits
+                u[i][n + 2] = (force >> 2 * scaled.halvings) // ((n + 1) * (n + 2))
+        return u
+
+    def _margin(self, u: list[list[int]], du: list[list[int]], i: int, way: int) -> list[int]:
+        """What the force of the interface on a stuck block still lacks to its strength."""
+        scaled = self.scaled
+        if scaled.springs is not None:
+            margin = [-way * (scaled.springs[i] * c >> scaled.bits) for c in u[i]]
+            margin[0] = scaled.strength[i] - way * self.held[i]
+        else:
+            padded = [[*c, 0] for c in du]
+            margin = [
+                -way * self._net([c[n] for c in u], [c[n] for c in padded], i) for n in range(len(u[i]))
+            ]
+            margin[0] += scaled.strength[i]
+        return _without_zero_now(margin)
+
+    def _net(self, u: Sequence[int], du: Sequence[int], i: int) -> int:
+        """g_i + h_i: net force of springs and dashpots on block i, or one order of its series."""
+        scaled = self.scaled
+        behind = u[i - 1] - u[i]
+        if i == 1:
+            force = scaled.stiffness_ratio * behind >> scaled.bits
+        else:
+            force = behind + (scaled.damping * (du[i - 1] - du[i]) >> scaled.bits)
+        if i + 1 < len(u):
+            force -= u[i] - u[i + 1] + (scaled.damping * (du[i] - du[i + 1]) >> scaled.bits)
+        return force
+
+    def _transition(self, i: int) -> Transition:
+        scaled = self.scaled
+        one = 1 << scaled.bits
+        load = scaled.stiffness_ratio * (self.positions[0] - self.positions[1]) >> scaled.bits
+        return Transition(Fraction(self.time, one) * scaled.time_unit, i, self.modes[i], Fraction(load, one))
+
+    def _set_time(self, time: int) -> None:
+        self.time = time
+        self.positions[0] = time * self.scaled.drive_velocity >> self.scaled.bits
+
+
+def _without_zero_now(p: list[int]) -> list[int]:
+    """Divide p by the power of time with which it begins, up to rounding: only zeros to come are left."""
+    begin = next((k for k, coefficient in enumerate(p) if abs(coefficient) > NOISE), None)
+    return [2 * NOISE] if begin is None else p[begin:]

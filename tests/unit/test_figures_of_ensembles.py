@@ -1,0 +1,105 @@
+"""Figures of ensembles show every run of their tables, and nothing else."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.patches import Rectangle
+
+from precursors.figures.long_runs import draw_long_runs
+from precursors.figures.maps import AXES, draw_map
+from precursors.figures.resolution import LABELS, draw_resolution
+from precursors.figures.spread import draw_spread
+
+
+def spread_members() -> pd.DataFrame:
+    alone = {
+        "scene": "s",
+        "theta": 0.5,
+        "events_kept": 4,
+        "mu_sapp": 0.5,
+        "size": 0.0,
+        "perturbation": "none",
+    }
+    noise = {"perturbation": "normal loads", "question": "loads"}
+    changed = [
+        {**alone, **noise, "size": size, "events_kept": 4 + k, "mu_sapp": 0.5 + 0.01 * k}
+        for size in (1e-4, 1e-2)
+        for k in range(3)
+    ]
+    sweep = [
+        {**alone, "question": "theta", "perturbation": "sweep", "size": 0.1, "theta": 0.4 + 0.05 * k}
+        for k in range(5)
+    ]
+    return pd.DataFrame([{**alone, "question": q} for q in ("loads", "theta")] + changed + sweep)
+
+
+def test_bands_and_shades_are_those_of_the_ensembles():
+    figure = draw_spread(spread_members(), "loads")
+    bands, counts = figure.axes[:2]
+    [median, *_] = bands.lines
+    assert median.get_ydata().tolist() == pytest.approx([0.51, 0.51])
+    cells = [patch for patch in counts.patches if isinstance(patch, Rectangle)]
+    assert sorted((cell.get_x() + 0.5, cell.get_y() + 0.5) for cell in cells) == [
+        (position, count) for position in (0.0, 1.0) for count in (4.0, 5.0, 6.0)
+    ]
+    assert len({cell.get_facecolor() for cell in cells}) == 1  # a third each
+
+
+def test_every_run_of_the_sweep_is_a_dot_at_its_change_of_theta():
+    dots = draw_spread(spread_members(), "theta").axes[0].lines[0]
+    assert dots.get_xdata().tolist() == pytest.approx([-100, -50, 0, 50, 100])
+
+
+def test_a_question_without_members_is_refused():
+    with pytest.raises(ValueError, match="'start'"):
+        draw_spread(spread_members(), "start")
+
+
+@pytest.mark.parametrize("name", AXES)
+def test_a_cell_of_a_map_is_the_run_at_its_place(name):
+    axis = AXES[name]
+    seconds, thetas = (1.0, 2.0, 4.0) if axis.logarithmic else (1.0, 2.0, 3.0), (-0.5, 0.5)
+    rows = [
+        {
+            "theta": theta,
+            axis.column: second,
+            "mu_sapp": 0.1 * second + theta,
+            "events_kept": 3,
+            "n_global": 1,
+        }
+        for theta in thetas
+        for second in seconds
+    ]
+    table = pd.DataFrame(rows).assign(n_all_events=4, reached=True)
+    table.loc[0, "reached"] = False
+    figure = draw_map(table, name)
+    kept, mu_sapp, share = (
+        np.ma.filled(axes.collections[0].get_array().astype(float), np.nan) for axes in figure.axes[:3]
+    )
+    expected = [[0.1 * second + theta for theta in thetas] for second in seconds]
+    np.testing.assert_allclose(np.reshape(mu_sapp, (3, 2)), expected)
+    np.testing.assert_allclose(np.ravel(share), 25.0)
+    assert np.isnan(np.ravel(kept)).tolist() == [True] + [False] * 5
+
+
+def test_medians_of_the_resolution_are_drawn_in_the_units_of_the_axis():
+    n_blocks = np.array([2, 20, 200])
+    table = pd.concat(
+        pd.DataFrame({"scene": "s", "theta": 0.0, "n_blocks": n_blocks, "quantity": quantity, "q50": 1000.0})
+        for quantity in LABELS
+    )
+    table = table.assign(q05=900.0, q95=1100.0, without_noise=1000.0)
+    limits = pd.DataFrame({"scene": ["s"], "quantity": ["mu_sapp"], "a": [0.45], "a_error": [0.01]})
+    figure = draw_resolution(table, limits, {2: 0.7, 200: 0.4525}, wave_speed=1443.0)
+    medians = dict(zip(LABELS, (axes.lines[0].get_ydata().tolist() for axes in figure.axes), strict=True))
+    assert medians == {"front_speed_m_per_s": [1.0] * 3} | {
+        quantity: [1000.0] * 3 for quantity in LABELS if quantity != "front_speed_m_per_s"
+    }
+
+
+def test_the_histogram_of_a_long_run_leaves_the_first_slip_out():
+    slips = pd.DataFrame({"scene": "s", "theta": 0.0, "mu": [0.6, 0.50, 0.51, 0.52, 0.53]})
+    axes = draw_long_runs(slips).axes[0]
+    [outline] = axes.patches
+    assert outline.get_xy()[:, 1].max() == pytest.approx(25.0)
+    assert "4 slips, 0.515" in axes.get_legend().get_texts()[0].get_text()

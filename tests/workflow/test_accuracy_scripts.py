@@ -1,0 +1,104 @@
+"""Methods are measured in the size that is asked for, held to the truth, and drawn from the table."""
+
+import copy
+
+import draw_growth
+import draw_work_precision
+import measure_growth
+import measure_methods
+import pytest
+import yaml
+from conftest import ROOT
+from tables import read_table
+
+from precursors.config import check_config
+from precursors.proof import ExactChain, certify
+from precursors.work_precision import COLUMNS, check_methods
+
+CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
+SIZE = {
+    "repetitions": 5,
+    "longest": 1.0,
+    "first_slip": {"exact": "sweep", "leapfrog": [1e-6, 1e-7]},
+    "whole_run": {"exact": "sweep"},
+}
+DURATION = 6.0
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    directory = tmp_path_factory.mktemp("accuracy")
+    certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), DURATION).save(directory / "two.json.gz")
+    measure(directory, SIZE)
+    measure_growth.main(
+        {"sizes": [5, 10], "repetitions": 5, "least_transitions": 20, "transitions_per_block": 1},
+        directory / "growth.csv",
+    )
+    return directory
+
+
+def measure(directory, size):
+    certificates, thetas = {"two": directory / "two.json.gz"}, {"two": 0.25}
+    measure_methods.main(certificates, thetas, size, directory / "methods.csv")
+
+
+def test_methods_are_measured_to_the_first_slip_and_to_the_end(files):
+    table = read_table(files / "methods.csv")
+    assert list(table.columns) == COLUMNS
+    assert table[["until", "truth", "method"]].to_numpy().tolist() == [
+        ["global slip", "proved", "exact"],
+        ["global slip", "proved", "leapfrog"],
+        ["global slip", "proved", "leapfrog"],
+        ["end", "proved", "exact"],
+    ]
+    assert table["scene"].eq("two").all()
+    assert table["theta"].eq(0.25).all()
+    exact = table[table["method"] == "exact"]
+    assert (exact["transitions_right"] == exact["transitions_true"]).all()
+    assert exact["transitions_true"].is_monotonic_increasing
+    assert 0 < exact["error_time_s"].iloc[0] < table["error_time_s"].iloc[2]
+
+
+def test_a_name_that_is_no_methods_is_refused_before_anything_is_measured(files):
+    with pytest.raises(ValueError, match="no method 'leapfrogs'"):
+        measure(files, SIZE | {"whole_run": {"leapfrogs": "sweep"}})
+
+
+def test_the_charts_are_drawn_from_the_tables(files):
+    draw_work_precision.main(files / "methods.csv", [files / "time.png"], [files / "evaluations.svg"])
+    draw_growth.main(files / "growth.csv", [files / "growth.svg"])
+    assert (files / "time.png").read_bytes().startswith(b"\x89PNG")
+    for name in ("evaluations.svg", "growth.svg"):
+        assert (files / name).read_text(encoding="utf-8").rstrip().endswith("</svg>")
+
+
+@pytest.mark.parametrize("size", ["default", "full"])
+@pytest.mark.parametrize("extent", ["first_slip", "whole_run"])
+def test_the_configuration_names_methods_only_and_the_exact_solver_first(size, extent):
+    names = list(CONFIG["accuracy"][size][extent])
+    check_methods(names)
+    assert names[0] == "exact"
+
+
+@pytest.mark.parametrize(
+    ("where", "value", "words"),
+    [
+        (["chains"], ["fig10"], ["accuracy.chains names 'fig10'", "uniform"]),
+        (["default", "repetitions"], 3, ["accuracy.default.repetitions = 3", ">= 5"]),
+        (["full", "longest"], "1e0", ["accuracy.full.longest", "write 1.0e+0"]),
+        (["full", "first_slip", "exact"], "all", ["accuracy.full.first_slip.exact = 'all'", '"sweep"']),
+        (["full", "first_slip", "exact"], ["1e-6"], ["exact[0] = '1e-6'", "write 1.0e-6"]),
+        (["growth", "sizes"], [], ["accuracy.growth.sizes = []"]),
+    ],
+)
+def test_a_bad_size_is_refused_in_one_line(where, value, words):
+    config = copy.deepcopy(CONFIG)
+    part = config["accuracy"]
+    for key in where[:-1]:
+        part = part[key]
+    part[where[-1]] = value
+    with pytest.raises(ValueError, match=r"^configuration: ") as refusal:
+        check_config(config, SCHEMA)
+    assert "\n" not in str(refusal.value)
+    assert all(word in str(refusal.value) for word in words), refusal.value

@@ -1,0 +1,57 @@
+rule climb_ladder:
+    input:
+        code=collect(
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=[
+                "bound",
+                "chain",
+                "exact",
+                "kernel",
+                "lanes",
+                "ladder",
+                "reduced/__init__",
+                "reduced/dynamic",
+                "reduced/quantities",
+                "reduced/quasistatic",
+                "reduced/rigid",
+                "reduced/statics",
+                "run",
+                "slips",
+                "storage",
+            ],
+        ),
+    output:
+        table="results/tables/ladder.csv",
+    log:
+        "results/logs/climb_ladder.log",
+    benchmark:
+        "results/benchmarks/climb_ladder.tsv"
+    threads: 1
+    params:
+        sliders={scene: scene_slider(config, scene) for scene in config["fig13"]},
+        tolerances=config["ladder"]["tolerances"],
+        repetitions=config["ladder"]["repetitions"],
+    script:
+        "../scripts/climb_ladder.py"
+
+
+rule draw_ladder:
+    input:
+        ladder="results/tables/ladder.csv",
+        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["ladder", "style"]),
+    output:
+        png="results/figures/ladder.png",
+        svg=report(
+            "results/figures/ladder.svg",
+            caption="../report/ladder.rst",
+            category="Models",
+            labels={"figure": "ladder", "shows": "which model answers which question"},
+        ),
+    log:
+        "results/logs/draw_ladder.log",
+    benchmark:
+        "results/benchmarks/draw_ladder.tsv"
+    threads: 1
+    script:
+        "../scripts/draw_ladder.py"

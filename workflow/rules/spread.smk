@@ -1,0 +1,40 @@
+from precursors.ensembles.spread import QUESTIONS
+
+
+rule tabulate_spread:
+    input:
+        members="results/tables/spread_members.csv",
+        code=collect("{library}/{module}.py", library=LIBRARY, module=["ensembles/spread", "storage"]),
+    output:
+        spread="results/tables/spread.csv",
+        robustness="results/tables/robustness.csv",
+    log:
+        "results/logs/tabulate_spread.log",
+    benchmark:
+        "results/benchmarks/tabulate_spread.tsv"
+    threads: 1
+    script:
+        "../scripts/tabulate_spread.py"
+
+
+rule draw_spread:
+    input:
+        members="results/tables/spread_members.csv",
+        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["spread", "style"]),
+    output:
+        collect("results/figures/spread_{question}.png", question=QUESTIONS),
+        report(
+            collect("results/figures/spread_{question}.svg", question=QUESTIONS),
+            caption="../report/spread.rst",
+            category="Figures",
+            labels={"shows": "spread of mu_sapp and of the events kept"},
+        ),
+    log:
+        "results/logs/draw_spread.log",
+    benchmark:
+        "results/benchmarks/draw_spread.tsv"
+    threads: 1
+    params:
+        questions=[*QUESTIONS, *QUESTIONS],
+    script:
+        "../scripts/draw_spread.py"

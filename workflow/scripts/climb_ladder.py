@@ -1,0 +1,27 @@
+"""Ask every model of the ladder what it answers, for the scenes of Fig. 13."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from job import job
+from tables import write_table
+
+from precursors.chain import Chain
+from precursors.ladder import climb
+
+
+def main(
+    scenes: Mapping[str, Chain], tolerances: Mapping[str, float], repetitions: int, output: str | Path
+) -> None:
+    """Write one row for each scene, question and model that answers it."""
+    write_table(climb(scenes, tolerances, repeats=repetitions), output)
+
+
+if __name__ == "__main__":
+    with job() as snakemake:
+        main(
+            {name: Chain.from_slider(**slider) for name, slider in snakemake.params.sliders.items()},
+            snakemake.params.tolerances,
+            snakemake.params.repetitions,
+            snakemake.output.table,
+        )

@@ -1,0 +1,19 @@
+"""Judge what the paper states by the tables, and write the ledger."""
+
+from pathlib import Path
+
+from job import job
+from tables import write_table
+
+from precursors.ledger.claims import read_claims
+from precursors.ledger.judge import judge, to_table
+
+
+def main(claims: str | Path, output: str | Path) -> None:
+    """Write one row per claim with its verdict, judged by the tables beside the output."""
+    write_table(to_table(judge(read_claims(claims), Path(output).parent)), output)
+
+
+if __name__ == "__main__":
+    with job() as snakemake:
+        main(snakemake.input.claims, snakemake.output.table)
