@@ -41,5 +41,5 @@ $(READY): requirements.lock
 	$(BIN)/python -m pip install -q --no-deps --require-hashes -r .venv/uv.txt
 	$(BIN)/uv pip sync -q -p $(BIN)/python --compile-bytecode --require-hashes requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
-	$(BIN)/python -c 'from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.1).at([0.1])' # compile once
+	$(BIN)/python -m precursors.warm_up
 	touch $(READY)
