@@ -55,8 +55,13 @@ NEGLIGIBLE = 1e-19
 # Chains whose moving part is longer than LONG blocks renew neighbourhoods only, in windows of LONG_WINDOW.
 LONG = 24
 SHORT_WINDOW, LONG_WINDOW = 0.6875, 0.5
-# On interface springs there is no rest: a state is stored after so many windows, for every one of the stride.
+# On interface springs there is no rest: a state is stored after so many windows for each one of the stride.
 WINDOWS_PER_STATE = 512
+# While all blocks stick there, 2^k windows are gone through at once, k = LEAST_LEAP..LEAPS, where it is sure
+# that none lets go; a state that allows none is looked at again after so many windows.
+LEAST_LEAP, LEAPS, BETWEEN_LOOKS = 3, 9, 12
+# The energy that bounds the ringing is known to better than this.
+SAFETY = 1.0 + 1e-9
 # A value below so many roundings of the forces it was computed from counts as zero. Where transitions follow
 # one another without time going on, rounding decides in a circle: the doubt grows until it does not.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
@@ -1152,6 +1157,122 @@ def renew_grip(n_blocks, mode, push, lightness, slip, lost, additions):
             push[i] = lightness[i] * additions.grip[i]
 
 
+@seldom
+def prepare_leaps(drive_velocity, coupling, lightness, additions, pivot, softness, creep, leaps):
+    """Fill what `leap` needs: pivots and diagonal of A^-1, quasi-static velocities, the leaps themselves.
+
+    On springs, a chain that sticks rings about the quasi-static motion, in which blocks move at the constant
+    velocities A^-1 (c_1 V, 0, ...), A the stiffness of springs and interface (tridiagonal). leaps[k] carries
+    displacements and velocities of the ringing over 2^k windows.
+    """
+    n_blocks = softness.shape[0] - 1 - BEYOND
+    for i in range(1, n_blocks + 1):
+        pivot[i] = coupling[i] + coupling[i + 1] + additions.anchor[i]
+        if i > 1:
+            pivot[i] -= coupling[i] * coupling[i] / pivot[i - 1]
+    ahead = 0.0
+    for j in range(n_blocks):
+        i = n_blocks - j
+        softness[i] = 1.0 / (pivot[i] - ahead)
+        back = coupling[i] + coupling[i + 1] + additions.anchor[i] - ahead
+        ahead = coupling[i] * coupling[i] / back
+        creep[i] = 0.0
+    creep[1] = coupling[1] * drive_velocity
+    relax(n_blocks, coupling, pivot, creep)
+    order = order_for(SHORT_WINDOW)
+    for column in range(2 * n_blocks):
+        # leaps[1] and leaps[2] have room for a term of the series of this column, and for the next one.
+        for j in range(2 * n_blocks):
+            leaps[0, j, column] = leaps[1, 0, j] = 1.0 if j == column else 0.0
+        for n in range(1, order + 1):
+            length = SHORT_WINDOW / n
+            for j in range(n_blocks):
+                i = j + 1
+                x, v = leaps[1, 0, j], leaps[1, 0, n_blocks + j]
+                x_behind = v_behind = x_ahead = v_ahead = 0.0
+                if j > 0:
+                    x_behind, v_behind = leaps[1, 0, j - 1], leaps[1, 0, n_blocks + j - 1]
+                if i < n_blocks:
+                    x_ahead, v_ahead = leaps[1, 0, j + 1], leaps[1, 0, n_blocks + j + 1]
+                force = (
+                    coupling[i] * (x_behind - x) - coupling[i + 1] * (x - x_ahead) - additions.anchor[i] * x
+                )
+                force += additions.dashpot[i] * (v_behind - v) - additions.dashpot[i + 1] * (v - v_ahead)
+                leaps[2, 0, j] = length * v
+                leaps[2, 0, n_blocks + j] = length * lightness[i] * force
+            for j in range(2 * n_blocks):
+                leaps[1, 0, j] = leaps[2, 0, j]
+                leaps[0, j, column] += leaps[2, 0, j]
+    for k in range(1, LEAPS + 1):
+        for i in range(2 * n_blocks):
+            for j in range(2 * n_blocks):
+                leaps[k, i, j] = 0.0
+            for m in range(2 * n_blocks):
+                factor = leaps[k - 1, i, m]
+                for j in range(2 * n_blocks):
+                    leaps[k, i, j] += factor * leaps[k - 1, m, j]
+
+
+@seldom
+def relax(n_blocks, coupling, pivot, force):
+    """Solve A x = force in place, by the pivots of A."""
+    for i in range(2, n_blocks + 1):
+        force[i] += coupling[i] / pivot[i - 1] * force[i - 1]
+    force[n_blocks] /= pivot[n_blocks]
+    for j in range(1, n_blocks):
+        i = n_blocks - j
+        force[i] = (force[i] + coupling[i + 1] * force[i + 1]) / pivot[i]
+
+
+@seldom
+def leap(
+    remaining, coupling, strength, lightness, tension, additions, pivot, softness, creep, leaps, rate, slip
+):
+    """Let a chain that sticks move on by 2^k windows: velocities in row 0, slips; returns k, or -1 for none.
+
+    The energy E of the ringing does not grow: p_i stays within chi_i sqrt(2 E (A^-1)_ii) of what it is in
+    quasi-static motion, which grows linearly; the leap ends before one of them can reach its strength.
+    """
+    n_blocks = softness.shape[0] - 1 - BEYOND
+    for i in range(1, n_blocks + 1):
+        damped = additions.dashpot[i] * (creep[i - 1] - creep[i])
+        damped -= additions.dashpot[i + 1] * (creep[i] - creep[i + 1])
+        slip[i] = tension[i] - tension[i + 1] - additions.grip[i] + damped
+    energy = 0.0
+    for i in range(1, n_blocks + 1):
+        pivot[n_blocks + i] = slip[i]
+    relax(n_blocks, coupling, pivot, slip)
+    for i in range(1, n_blocks + 1):
+        ringing = rate[0, i] - creep[i]
+        energy += abs(pivot[n_blocks + i] * slip[i]) + ringing * ringing / lightness[i]
+    longest = remaining
+    for i in range(1, n_blocks + 1):
+        chi = additions.anchor[i]
+        held = additions.grip[i] + chi * slip[i]
+        swing = SAFETY * chi * math.sqrt(energy * softness[i])
+        if strength[i] - swing <= abs(held):
+            return -1
+        longest = min(longest, (strength[i] - swing - held) / (chi * creep[i]))
+    k, span = -1, SHORT_WINDOW
+    while k < LEAPS and span <= longest:
+        k += 1
+        span *= 2.0
+    if k < LEAST_LEAP:
+        return -1
+    span = SHORT_WINDOW * 2.0**k
+    for i in range(1, n_blocks + 1):
+        leaps[LEAPS + 1, 0, i - 1] = -slip[i]
+        leaps[LEAPS + 1, 0, n_blocks + i - 1] = rate[0, i] - creep[i]
+    for i in range(1, n_blocks + 1):
+        x = v = 0.0
+        for j in range(2 * n_blocks):
+            x += leaps[k, i - 1, j] * leaps[LEAPS + 1, 0, j]
+            v += leaps[k, n_blocks + i - 1, j] * leaps[LEAPS + 1, 0, j]
+        slip[i] += creep[i] * span + x
+        rate[0, i] = creep[i] + v
+    return k
+
+
 @inner
 def resting_mode(i, doubt, coupling, strength, tension, rate, fastest, additions):
     """Mode of a block whose velocity is zero: it sticks within its strength, or follows the force.
@@ -1375,7 +1496,10 @@ def run_events(
     if additions is not None:
         springy = on_springs(additions)
         lost, lost_grip = np.zeros(wide), np.zeros(wide)
-        since_state = 0
+        since_state = until_look = 0
+        n_leaps, size_of_leap = (LEAPS + 2, 2 * n_blocks) if springy else (0, 0)
+        leaps = np.zeros((n_leaps, size_of_leap, size_of_leap))
+        pivot, softness, creep = np.zeros(2 * wide), np.zeros(wide), np.zeros(wide)
     while k < room and budget > 0 and count[STORED] < state_room:
         budget -= 1
         count[WINDOWS] += 1
@@ -1427,6 +1551,54 @@ def run_events(
         if remaining <= 0.0:
             status = FINISHED
             break
+        if additions is not None and springy and sliding == 0:
+            until_look -= 1
+            if until_look < 0:
+                until_look = BETWEEN_LOOKS
+                if pivot[1] == 0.0:
+                    prepare_leaps(
+                        drive_velocity, coupling, lightness, additions, pivot, softness, creep, leaps
+                    )
+                power = leap(
+                    remaining,
+                    coupling,
+                    strength,
+                    lightness,
+                    tension,
+                    additions,
+                    pivot,
+                    softness,
+                    creep,
+                    leaps,
+                    rate,
+                    slip,
+                )
+                if power >= 0:
+                    until_look = 0
+                    t = SHORT_WINDOW * 2.0**power
+                    slip[0] = drive_velocity * t
+                    first = 1
+                    stretch_linked(
+                        first,
+                        n_blocks,
+                        coupling,
+                        slip,
+                        tension,
+                        tension,
+                        lost,
+                        springy,
+                        n_blocks,
+                        mode,
+                        push,
+                        lightness,
+                        lost_grip,
+                        additions,
+                    )
+                    clock[ELAPSED] += t
+                    clock[SINCE] += t
+                    since_state += 2**power
+                    count[DERIVATIVES] += 4 * n_blocks * n_blocks
+                    continue
         # A window: the state is that of its start, and every series has its origin there.
         farthest = farthest_sliding(farthest, mode)
         last = min(farthest + 1, n_blocks)

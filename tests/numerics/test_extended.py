@@ -1,4 +1,4 @@
-"""The chain with a loading head, viscosity and interface springs: in the same solver, as exact as without."""
+"""A loading head, viscosity and interface springs: in the same solver, as exact as without."""
 
 from itertools import pairwise
 
@@ -46,7 +46,7 @@ def order(run: Run) -> list[tuple[int, int]]:
 
 
 class Judge:
-    """Motion by matrix exponentials, the rules of docs/models.md applied to it; the solver's code is not used.
+    """Motion by matrix exponentials, with the rules of docs/models.md; the solver's code is not used.
 
     The state is (omega x, v, p / (m omega), omega V t, 1) with time in 1/omega.
     """
@@ -262,25 +262,25 @@ def test_the_work_of_the_drive_is_stored_or_lost_to_friction_and_viscosity(added
     assert (ledger.dissipated["viscosity"] > 1e-3 * largest) == (chain.viscosity > 0)
 
 
-@pytest.mark.parametrize("viscosity", [1e-12, 1e-9])
+@pytest.mark.parametrize("viscosity", [1e-12, 1e-9, 1e-6])
 def test_a_viscosity_that_goes_to_zero_gives_the_papers_chain(viscosity):
     plain = simulate(SLIDER(), until="global slip")
     run = simulate(SLIDER(viscosity=viscosity), until="global slip")
     assert order(run) == order(plain)
-    # Changes grow on the way to the global slip: measured is 6e-9 s at 1e-9 N s/m.
-    bound = 1e-12 + 30.0 * viscosity
+    # Measured is 0.024 s for each N s/m.
+    bound = TIME + 0.1 * viscosity
     np.testing.assert_allclose(run.transitions["time"], plain.transitions["time"], rtol=0, atol=bound)
 
 
 def test_a_stiffer_interface_is_nearer_to_a_rigid_one():
     slider = {"n_blocks": 3, "theta": "1/3", "drive_velocity": 0.1, "viscosity": 54.77}
-    rigid = simulate(SLIDER(**slider), 0.0016)
+    rigid = simulate(SLIDER(**slider), 0.003)
     distance = []
     for stiffness in (3e9, 3e10, 3e11):
-        run = simulate(SLIDER(**slider, interface_stiffness=stiffness), 0.0016)
+        run = simulate(SLIDER(**slider, interface_stiffness=stiffness), 0.003)
         assert order(run) == order(rigid)
         distance.append(np.abs(run.transitions["time"] - rigid.transitions["time"]).max())
-    assert len(rigid.transitions) > 5
+    assert len(rigid.transitions) > 10
     assert distance[2] < distance[1] / 5 < distance[0] / 25
 
 
@@ -382,3 +382,16 @@ def test_an_addition_is_a_number_that_is_not_negative(name):
 
 def test_the_stiffness_of_the_interface_is_shared_among_the_blocks():
     assert SLIDER(8, interface_stiffness=4e8).interface_stiffness == 5e7
+
+
+def test_the_first_release_on_springs_is_where_the_static_load_breaks_the_first_one():
+    # docs/models.md has the force on block 1 of a long chain at rest. Ringing adds a part that falls with the
+    # drive's velocity: measured are 9.4e-6 at 1e-3 m/s and 9.4e-7 at 1e-4 m/s.
+    for velocity, rest in ((1e-3, 2e-5), (1e-4, 2e-6)):
+        chain = SLIDER(30, interface_stiffness=7.5e9, viscosity=54.77, drive_velocity=velocity)
+        run = first_transitions(chain, 1, duration=10.0)
+        k, kappa = chain.stiffness, chain.interface_stiffness
+        decay = 1 + kappa / (2 * k) - np.sqrt((1 + kappa / (2 * k)) ** 2 - 1)
+        assert order(run) == [(1, 1)]
+        load = chain.strength[0] * (kappa + k * (1 - decay)) / kappa
+        assert run.transitions["tangential_load"][0] == pytest.approx(load, rel=rest)
