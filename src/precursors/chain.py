@@ -12,6 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 
+# Products and squares of three such numbers stay within what doubles hold.
+SMALLEST, LARGEST = 1e-60, 1e60
+
 
 @dataclass(frozen=True, eq=False)
 class Chain:
@@ -288,6 +291,10 @@ def positive(name: str, value: object, unit: str) -> float:
     result = number(name, value, unit)
     if result <= 0:
         raise ValueError(f"{name} = {value!r} [{unit}] is out of range: allowed is {name} > 0")
+    if not SMALLEST <= result <= LARGEST:
+        raise ValueError(
+            f"{name} = {value!r} [{unit}] cannot be computed with: allowed is {SMALLEST:g} to {LARGEST:g}"
+        )
     return result
 
 
@@ -296,6 +303,8 @@ def not_negative(name: str, value: object, unit: str) -> float:
     result = number(name, value, unit)
     if result < 0:
         raise ValueError(f"{name} = {value!r} [{unit}] is out of range: allowed is {name} >= 0")
+    if result > LARGEST:
+        raise ValueError(f"{name} = {value!r} [{unit}] cannot be computed with: allowed is up to {LARGEST:g}")
     return result
 
 
@@ -315,11 +324,12 @@ def _weights(values: ArrayLike) -> FloatArray:
         raise ValueError(
             f"weights have shape {weights.shape}: allowed is one value [N] for each of N >= 1 blocks"
         )
-    wrong = np.flatnonzero(~(np.isfinite(weights) & (weights >= 0)))
-    if wrong.size:
-        i = wrong[0]
+    fits = (weights == 0) | ((weights >= SMALLEST) & (weights <= LARGEST))
+    if not fits.all():
+        i = int(np.argmin(fits))
         raise ValueError(
-            f"weights: block {i + 1} has {float(weights[i])!r} N, which is out of range: allowed is w >= 0 N"
+            f"weights: block {i + 1} has {float(weights[i])!r} N, which is out of range: allowed is 0 N, or "
+            f"{SMALLEST:g} to {LARGEST:g} N"
         )
     if not weights.any():
         raise ValueError("weights are all zero: allowed is a total normal load above 0 N")

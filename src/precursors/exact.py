@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors import kernel
-from precursors.chain import Chain, FloatArray, positive, whole
+from precursors.chain import LARGEST, Chain, FloatArray, positive, whole
 from precursors.run import TRANSITION, Run, States
 
 IntArray = NDArray[np.int64]
@@ -25,6 +25,8 @@ STATES_BYTES = 64 * 2**20
 BLOCKS_PER_STRIDE = 16
 # The kernel returns after so many windows, so that Ctrl-C is heard within about a second.
 WINDOWS_PER_CALL = 500_000
+# Blocks that slide without end would keep the kernel busy for ever: some 10 minutes at N = 10.
+MAX_WINDOWS = 1_000_000_000
 # Transitions that a run may have before it gets a record of its own, and that a thread's record has room for.
 FIRST_ROOM, SHARED_ROOM = 2048, 16384
 # Chains of a batch: many for little work between batches, few for all threads to end together.
@@ -32,7 +34,7 @@ LARGEST_BATCH, BATCHES_PER_THREAD = 64, 8
 
 
 class TransitionLimitError(RuntimeError):
-    """A run met its cap on transitions; `run` holds what was computed up to there."""
+    """A run met its cap on transitions or on work; `run` holds what was computed up to there."""
 
     def __init__(self, message: str, run: Run) -> None:
         super().__init__(message)
@@ -72,7 +74,8 @@ def simulate(
     ValueError
         If an argument is out of range.
     TransitionLimitError
-        If the cap is met; its attribute `run` holds what was computed.
+        If the cap, or one on the work of chains that hardly ever rest, is met; its attribute `run` holds what
+        was computed.
     """
     duration, max_transitions = _limits(duration, until, max_transitions)
     positions = _start("start_positions", start_positions, "m", chain)
@@ -159,6 +162,8 @@ def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> Floa
         )
     if not np.isfinite(start).all():
         raise ValueError(f"{name} hold a value that is not finite: allowed are finite numbers [{unit}]")
+    if np.abs(start).max() > LARGEST:
+        raise ValueError(f"{name} hold a value beyond {LARGEST:g} {unit}, which cannot be computed with")
     return start
 
 
@@ -285,9 +290,16 @@ def _run_batch(
                 evaluations=float(counts[j, kernel.DERIVATIVES]) / chains[j].n_blocks,
             )
             if counts[j, kernel.STATUS] == kernel.PAUSED:
+                where = f"at t = {elapsed:.9g} s of {duration:g} s"
+                if len(transitions) >= max_transitions:
+                    raise TransitionLimitError(
+                        f"max_transitions = {max_transitions} reached {where}, last at block "
+                        f"{transitions['block'][-1]}: raise max_transitions or shorten duration",
+                        run,
+                    )
                 raise TransitionLimitError(
-                    f"max_transitions = {max_transitions} reached at t = {elapsed:.9g} s of {duration:g} s, "
-                    f"last at block {transitions['block'][-1]}: raise max_transitions or shorten duration",
+                    f"{MAX_WINDOWS:g} steps of the motion made {where}, blocks slide nearly all the time: "
+                    "shorten duration",
                     run,
                 )
             runs.append(run)
@@ -339,7 +351,11 @@ def _go_on(
         for mine, shared in zip(system.additions, work.additions, strict=True):
             mine[:] = shared
     record = _Record(part, work.stride)
-    while count[kernel.STATUS] == kernel.PAUSED and count[kernel.TRANSITIONS] < max_transitions:
+    while (
+        count[kernel.STATUS] == kernel.PAUSED
+        and count[kernel.TRANSITIONS] < max_transitions
+        and count[kernel.WINDOWS] < MAX_WINDOWS
+    ):
         record.make_room(count, max_transitions)
         count[kernel.STATUS] = kernel.run_events(
             system.tau,

@@ -16,7 +16,7 @@ from hypothesis import event, given
 from hypothesis import strategies as st
 from reference import read_golden, read_held_out
 
-from precursors import Chain, TransitionLimitError, find_slips, kernel, simulate
+from precursors import Chain, TransitionLimitError, exact, find_slips, kernel, simulate
 from precursors.audit import Tolerances
 from precursors.bound import maximal_strain_positions
 from precursors.slips import apparent_friction, first_global
@@ -261,6 +261,15 @@ class TestStopping:
             run.transitions["tangential_load"][-1], rel=1e-12
         )
 
+    def test_a_chain_that_slides_without_end_meets_a_cap_on_work(self, monkeypatch):
+        monkeypatch.setattr(exact, "MAX_WINDOWS", 1000)
+        monkeypatch.setattr(exact, "WINDOWS_PER_CALL", 400)
+        with pytest.raises(
+            TransitionLimitError, match=r"^1000 steps .* at t = \S+ s of 1 s.*shorten"
+        ) as error:
+            simulate(SLIDER(2, mu_s=0.0, mu_k=0.0), duration=1.0)
+        audited(error.value.run)
+
     def test_a_cap_that_is_just_enough_raises_nothing(self):
         assert len(simulate(SLIDER(), until="global slip", max_transitions=217).transitions) == 216
 
@@ -292,6 +301,8 @@ class TestStopping:
             ({"start_positions": [0.0] * 9}, "start_positions have shape (9,): allowed is (10,)"),
             ({"start_velocities": [math.inf] * 10}, "start_velocities hold a value that is not finite"),
             ({"start_velocities": ["a"] * 10}, "[m/s] are not numbers"),
+            ({"start_positions": [1e61] + [0.0] * 9}, "start_positions hold a value beyond 1e+60 m"),
+            ({"duration": 1e-61}, "duration = 1e-61 [s] cannot be computed with: allowed is 1e-60 to 1e+60"),
         ],
     )
     def test_a_bad_argument_is_named_in_one_line(self, options, words):
