@@ -1,0 +1,26 @@
+"""The reproduction paper: its numbers, taken from results by name, and its pages, set from them by Typst."""
+
+from precursors.paper.numbers import (
+    Number,
+    PaperError,
+    Source,
+    collect_numbers,
+    configured,
+    read_sources,
+    tables_needed,
+    write_numbers,
+)
+from precursors.paper.pages import files_shown, set_pages
+
+__all__ = [
+    "Number",
+    "PaperError",
+    "Source",
+    "collect_numbers",
+    "configured",
+    "files_shown",
+    "read_sources",
+    "set_pages",
+    "tables_needed",
+    "write_numbers",
+]

@@ -1,0 +1,24 @@
+"""The words of a PDF, page by page."""
+
+from __future__ import annotations
+
+import re
+from io import BytesIO
+
+from pypdf import PdfReader
+from pypdf.generic import DecodedStreamObject, NameObject
+
+# Between BT and ET a page sets text; all else, such as the many lines of a figure, takes seconds to read.
+TEXT = re.compile(rb"\bBT\b.*?\bET\b", re.DOTALL)
+
+
+def pages_of(pdf: bytes) -> list[str]:
+    """Text of each page, on one line and without that of its figures."""
+    texts = []
+    for page in PdfReader(BytesIO(pdf)).pages:
+        content = DecodedStreamObject()
+        content.set_data(b"\n".join(TEXT.findall(page.get_contents().get_data())))
+        page[NameObject("/Contents")] = content
+        page["/Resources"].pop("/XObject", None)
+        texts.append(" ".join(page.extract_text().split()))
+    return texts

@@ -1,0 +1,37 @@
+# On demand: snakemake -c1 results/tables/scaling.csv; it takes a minute or two with nothing else running.
+
+
+rule measure_scaling:
+    input:
+        code=collect(
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=[
+                "chain",
+                "ensembles/maps",
+                "ensembles/resolution",
+                "ensembles/study",
+                "exact",
+                "kernel",
+                "lanes",
+                "run",
+                "scaling",
+                "summary",
+            ],
+        ),
+    output:
+        costs="results/tables/scaling.csv",
+        maps="results/tables/scaling_maps.csv",
+        text="results/tables/scaling.md",
+    log:
+        "results/logs/measure_scaling.log",
+    benchmark:
+        "results/benchmarks/measure_scaling.tsv"
+    threads: 1
+    params:
+        **{
+            key: config[key]
+            for key in ["chain", "duration", "fig13", "maps", "resolution", "scaling", "scenes"]
+        },
+    script:
+        "../scripts/measure_scaling.py"
