@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from dataclasses import dataclass, fields
 from importlib.metadata import version
 from io import BytesIO
 from os import PathLike
-from pathlib import Path
 from typing import NamedTuple
 
 import h5py
@@ -17,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from precursors import kernel
 from precursors.chain import Chain, FloatArray
-from precursors.storage import write_atomically
+from precursors.storage import SEAL_SIZE, read_sealed, write_sealed
 
 TRANSITION = np.dtype([("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")])
 UNITS = {
@@ -36,7 +34,6 @@ UNITS = {
     "weights": "N",
 }
 FORMAT = "precursors run 2"
-SEAL_SIZE = 512
 
 
 class RunFileError(ValueError):
@@ -178,19 +175,20 @@ class Run:
             If the file cannot be written.
         """
         content = self._content()
-        with write_atomically(path) as temporary:
-            with h5py.File(temporary, "w", userblock_size=SEAL_SIZE) as file:
-                file.attrs["format"] = FORMAT
-                file.attrs["precursors"] = version("precursors")
-                file.attrs["numpy"], file.attrs["numba"] = np.__version__, version("numba")
-                file.attrs["configuration"] = json.dumps(configuration or {}, sort_keys=True)
-                file.attrs["duration"], file.attrs["duration_unit"] = self.duration, "s"
-                for field in fields(Chain)[1:]:
-                    file.attrs[field.name] = getattr(self.chain, field.name)
-                for name, values in content.items():
-                    data = file.create_dataset(name, data=values, compression="gzip", shuffle=True)
-                    data.attrs["unit"] = UNITS[name.split("/")[-1]]
-            _seal(temporary)
+        with (
+            write_sealed(path, FORMAT) as memory,
+            h5py.File(memory, "w", userblock_size=SEAL_SIZE) as file,
+        ):
+            file.attrs["format"] = FORMAT
+            file.attrs["precursors"] = version("precursors")
+            file.attrs["numpy"], file.attrs["numba"] = np.__version__, version("numba")
+            file.attrs["configuration"] = json.dumps(configuration or {}, sort_keys=True)
+            file.attrs["duration"], file.attrs["duration_unit"] = self.duration, "s"
+            for field in fields(Chain)[1:]:
+                file.attrs[field.name] = getattr(self.chain, field.name)
+            for name, values in content.items():
+                data = file.create_dataset(name, data=values, compression="gzip", shuffle=True)
+                data.attrs["unit"] = UNITS[name.split("/")[-1]]
 
     def _content(self) -> dict[str, NDArray]:
         columns = {f"transitions/{name}": self.transitions[name] for name in TRANSITION.names or ()}
@@ -215,14 +213,9 @@ class Run:
             If the file is not a whole run of this format.
         """
         try:
-            content = Path(path).read_bytes()
-        except FileNotFoundError:
-            raise FileNotFoundError(f"{path}: no such file") from None
-        seal = content[:SEAL_SIZE].rstrip(b"\0").decode("ascii", "replace").split("\n")
-        if seal[0] != FORMAT:
-            raise RunFileError(f'{path}: not a run file: allowed is a file that begins with "{FORMAT}"')
-        if seal[1:] != [_digest(content)]:
-            raise RunFileError(f"{path}: damaged: its contents do not match the checksum it begins with")
+            content = read_sealed(path, FORMAT)
+        except ValueError as error:
+            raise RunFileError(str(error)) from None
         with h5py.File(BytesIO(content), "r") as file:
             return cls._read(file)
 
@@ -241,15 +234,3 @@ class Run:
             start_velocities=file["start_velocities"][()],
             states=States(*(file[f"states/{name}"][()] for name in States._fields)),
         )
-
-
-def _seal(path: Path) -> None:
-    """Write format and checksum before the HDF5 data, so that no damaged file reaches the HDF5 library."""
-    digest = _digest(path.read_bytes())
-    with path.open("r+b") as file:
-        file.write(f"{FORMAT}\n{digest}".encode())
-
-
-def _digest(content: bytes) -> str:
-    """SHA-256 of a run file without its seal."""
-    return hashlib.sha256(content[SEAL_SIZE:]).hexdigest()

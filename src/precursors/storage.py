@@ -7,9 +7,12 @@ import os
 import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
 
 SEAL_SIZE = 512
+# Directory beside a table for the checksums of what lies there, as `sha256sum` writes them.
+CHECKSUMS = ".sha256"
 
 
 @contextmanager
@@ -45,16 +48,30 @@ def write_atomically(path: str | os.PathLike[str]) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
-def seal(path: str | os.PathLike[str], form: str) -> None:
-    """Write the name of the format and a checksum into the first 512 bytes of a file, which it left free."""
-    file = Path(path)
-    digest = _digest(file.read_bytes())
-    with file.open("r+b") as opened:
-        opened.write(f"{form}\n{digest}".encode())
+@contextmanager
+def write_sealed(path: str | os.PathLike[str], form: str) -> Iterator[BytesIO]:
+    """Yield memory for a file that leaves its first 512 bytes free; write it sealed, or not at all.
+
+    A library that writes to a disk which is full may take the interpreter with it; HDF5's does.
+
+    Raises
+    ------
+    OSError
+        In one line that names `path`, if it cannot be written.
+    """
+    memory = BytesIO()
+    yield memory
+    content = memory.getvalue()
+    head = f"{form}\n{_digest(content)}".encode().ljust(SEAL_SIZE, b"\0")
+    with write_atomically(path) as temporary:
+        try:
+            temporary.write_bytes(head + content[SEAL_SIZE:])
+        except OSError as error:
+            raise _cannot_write(Path(path), error) from error
 
 
 def read_sealed(path: str | os.PathLike[str], form: str) -> bytes:
-    """Content of a file that `seal` sealed; no damaged file gets past it to the library that reads it.
+    """Content of a file that `write_sealed` wrote; no damaged file gets past it to the library that reads it.
 
     Raises
     ------
@@ -69,10 +86,53 @@ def read_sealed(path: str | os.PathLike[str], form: str) -> bytes:
         raise FileNotFoundError(f"{path}: no such file") from None
     found = content[:SEAL_SIZE].rstrip(b"\0").decode("ascii", "replace").split("\n")
     if found[0] != form:
-        raise ValueError(f'{path}: not such a file: allowed is one that begins with "{form}"')
+        raise ValueError(f'{path}: not a {form.split()[1]} file: allowed is a file that begins with "{form}"')
     if found[1:] != [_digest(content)]:
         raise ValueError(f"{path}: damaged: its contents do not match the checksum it begins with")
     return content
+
+
+@contextmanager
+def write_checked(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """Write a file as `write_atomically` does, and its checksum beside it: other programs read it as well.
+
+    Raises
+    ------
+    OSError
+        As in `write_atomically`.
+    """
+    with write_atomically(path) as temporary:
+        yield temporary
+        # The checksum first: where only it gets written, the old file is refused, not taken for the new.
+        with write_atomically(_checksum_file(Path(path))) as beside:
+            digest = hashlib.sha256(temporary.read_bytes()).hexdigest()
+            beside.write_text(f"{digest}  {Path(path).name}\n", encoding="utf-8")
+
+
+def open_checked(path: str | os.PathLike[str]) -> BytesIO:
+    """Content of a file that `write_checked` wrote, or of any other file that no checksum lies beside.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read.
+    ValueError
+        If the content is not what was written.
+    """
+    content = Path(path).read_bytes()
+    beside = _checksum_file(Path(path))
+    if beside.is_file():
+        expected = beside.read_bytes().split(b"  ")[0]
+        if expected != hashlib.sha256(content).hexdigest().encode():
+            raise ValueError(
+                f"{path} is not what was written there (its SHA-256 is in {beside}): "
+                "remove it, and the workflow makes it anew"
+            )
+    return BytesIO(content)
+
+
+def _checksum_file(path: Path) -> Path:
+    return path.parent / CHECKSUMS / f"{path.name}.sha256"
 
 
 def _digest(content: bytes) -> str:

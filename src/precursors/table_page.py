@@ -1,4 +1,4 @@
-"""A table as a web page of its own: readable digits, every digit on pointing, and the CSV file inside to keep."""
+"""A table as a web page of its own: readable digits, every digit on pointing, and the CSV file inside."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ DIGITS = 6  # shown of a number; the file inside the page has them all
 STYLE = """
 body { font: 14px/1.35 system-ui, sans-serif; margin: 1em; color: #222; }
 table { border-collapse: collapse; }
-th, td { padding: .25em .7em; text-align: left; vertical-align: top; max-width: 34em; overflow-wrap: break-word; }
+th, td { padding: .25em .7em; text-align: left; vertical-align: top; }
+td { max-width: 34em; overflow-wrap: break-word; }
 th { position: sticky; top: 0; background: #e9edf2; cursor: pointer; white-space: nowrap; }
 tbody tr:nth-child(even) { background: #f6f7f9; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
@@ -59,7 +60,9 @@ def table_page(name: str, text: str) -> str:
         raise ValueError(f"{name}: an empty table: needed is a header")
     for number, row in enumerate(rows, start=2):
         if len(row) != len(header):
-            raise ValueError(f"{name}: line {number} has {len(row)} cells: allowed is {len(header)}, as the header")
+            raise ValueError(
+                f"{name}: line {number} has {len(row)} cells: allowed is {len(header)}, as the header"
+            )
     data = base64.b64encode(text.encode()).decode()
     link = f'<a download="{name}.csv" href="data:text/csv;base64,{data}">{name}.csv</a>'
     head = "".join(f"<th>{html.escape(cell)}</th>" for cell in header)

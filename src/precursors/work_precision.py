@@ -45,7 +45,7 @@ COLUMNS = [
     "slips_true",
 ]
 # A task is repeated within a round until it takes so long [s].
-SHORTEST = 0.002
+SHORTEST = 0.006
 SHORT = 0.1  # s, a call that may be made twice before it is timed
 END = "end"
 

@@ -11,7 +11,7 @@ import pytest
 import yaml
 
 from precursors import Chain, simulate
-from precursors.ensembles import chunks, long_runs, resolution, spread
+from precursors.ensembles import chunks, long_runs, resolution, resolution_models, spread
 from precursors.ensembles.catalogue import chunk_names, make_study
 from precursors.ensembles.progress import progress_bar
 from precursors.ensembles.study import Study, run_members
@@ -82,6 +82,19 @@ def test_long_chains_and_long_runs_are_expected_to_take_longer():
     for_ten_seconds = chunks.estimated_seconds(Study("one", slider, blocks, until=None))
     assert (np.diff(to_first_slip) > 0).all()
     assert (for_ten_seconds > to_first_slip).all()
+
+
+def test_chains_on_interface_springs_are_expected_to_take_longer_and_longest_without_viscosity():
+    slider = {**CONFIG["chain"], "theta": 0.0, "n_blocks": 10}
+    added = {
+        "interface_stiffness": np.array([0.0, 25e6, 25e6]),
+        "viscosity": np.array([54.77, 54.77, 0.0]),
+    }
+    for until in ("global slip", None):
+        viscous, damped, ringing = chunks.estimated_seconds(Study("one", slider, added, until=until))
+        assert 2 * viscous < damped < 0.5 * ringing
+    plain = chunks.estimated_seconds(Study("one", slider, {"viscosity": np.array([0.0, 54.77])}))
+    assert plain[0] == plain[1]
 
 
 def test_a_chunk_file_gives_back_its_results_with_units(study, results, tmp_path):
@@ -346,3 +359,62 @@ def test_global_slips_of_a_long_run_begin_at_the_largest_load_since_the_one_befo
     assert statistics["n"] == len(table) - 1
     assert statistics["mu_first"] == pytest.approx(0.48576, abs=1e-5)
     assert statistics["least"] <= statistics["q05"] <= statistics["mean"] <= statistics["largest"]
+
+
+MODELS_SETTINGS = {
+    "n_blocks": [4, 10, 20],
+    "longest_run": 0.2,
+    "seconds_per_point": 0.0,
+    "least_runs": 2,
+    "models": {
+        "plain": {},
+        "material": {"relaxation_time": 1e-6},
+        "soft": {"interface_stiffness": 25e6},
+        "both": {"interface_stiffness": 25e6, "viscosity": 54.77},
+    },
+}
+
+
+@pytest.fixture(scope="module")
+def models_study():
+    config = {**CONFIG, "resolution_models": {**CONFIG["resolution_models"], **MODELS_SETTINGS}}
+    return make_study(config, "resolution_models_members")
+
+
+def test_a_material_has_the_same_relaxation_time_and_an_interface_the_same_stiffness_at_every_n(models_study):
+    for i in range(len(models_study)):
+        chain, _ = models_study.member(i)
+        model = models_study.columns["model"][i]
+        if model == "material":
+            assert chain.viscosity == pytest.approx(1e-6 * chain.stiffness)
+        else:
+            assert chain.viscosity == (54.77 if model == "both" else 0.0)
+        whole = chain.n_blocks * chain.interface_stiffness
+        assert whole == pytest.approx(25e6 if model in ("soft", "both") else 0.0)
+
+
+def test_numbers_of_blocks_that_would_take_too_long_are_left_out_model_by_model(models_study):
+    longest = {
+        model: models_study.column("n_blocks")[models_study.columns["model"] == model].max()
+        for model in MODELS_SETTINGS["models"]
+    }
+    assert longest == {"plain": 20, "material": 20, "soft": 10, "both": 20}
+
+
+def test_the_table_of_models_has_each_model_once_for_every_n_with_its_values(models_study):
+    members = pd.DataFrame(dict(models_study.columns))
+    results = pd.DataFrame(run_members(models_study, 0, len(models_study)))
+    results = results.rename(columns={name: f"{name}_s" for name in ("time", "end", "crossing_time")})
+    table = resolution_models.resolution_models_table(pd.concat([members, results], axis=1), models_study)
+    rows = table[table["quantity"] == "mu_sapp"].set_index(["model", "n_blocks"])
+    assert list(rows.index) == [
+        *((model, n) for model in ("plain", "material") for n in (4, 10, 20)),
+        ("soft", 4),
+        ("soft", 10),
+        *(("both", n) for n in (4, 10, 20)),
+    ]
+    assert rows.loc[("plain", 10), "without_noise"] == pytest.approx(0.485763, abs=1e-6)
+    assert set(rows.loc["material", "viscous_time_s"]) == {1e-6}
+    assert set(rows.loc["material", "viscosity_N_s_per_m"]) == {0.0}
+    assert set(rows.loc["both", "interface_stiffness_N_per_m"]) == {25e6}
+    assert (rows["n"] == 2).all()

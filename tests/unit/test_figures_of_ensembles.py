@@ -8,6 +8,7 @@ from matplotlib.patches import Rectangle
 from precursors.figures.long_runs import draw_long_runs
 from precursors.figures.maps import AXES, draw_map
 from precursors.figures.resolution import LABELS, draw_resolution
+from precursors.figures.resolution_models import QUANTITIES, draw_resolution_models
 from precursors.figures.spread import draw_spread
 
 
@@ -103,3 +104,44 @@ def test_the_histogram_of_a_long_run_leaves_the_first_slip_out():
     [outline] = axes.patches
     assert outline.get_xy()[:, 1].max() == pytest.approx(25.0)
     assert "4 slips, 0.515" in axes.get_legend().get_texts()[0].get_text()
+
+
+def resolution_of_models() -> pd.DataFrame:
+    values = {
+        "plain": (0.0, 0.0, 0.0),
+        "slow": (1e-6, 0.0, 0.0),
+        "viscous": (0.0, 54.77, 0.0),
+        "soft": (0.0, 0.0, 25e6),
+        "both": (0.0, 54.77, 25e6),
+    }
+    columns = ["viscous_time_s", "viscosity_N_s_per_m", "interface_stiffness_N_per_m"]
+    return pd.DataFrame(
+        [
+            {"model": model, "theta": 0.0, **dict(zip(columns, value, strict=True)), "n_blocks": n}
+            | {"quantity": quantity, "q05": 0.9 * n, "q50": 1.0 * n, "q95": 1.1 * n}
+            for model, value in values.items()
+            for n in ((2, 10, 100) if model != "soft" else (2, 10))
+            for quantity in QUANTITIES
+        ]
+    )
+
+
+def test_each_model_is_a_line_in_the_row_of_its_kind_beside_the_papers_chain():
+    figure = draw_resolution_models(resolution_of_models())
+    names = [
+        [line.get_label() for line in axes.lines if len(line.get_xdata()) > 2 or "K_t" in line.get_label()]
+        for axes in figure.axes[::3]
+    ]
+    paper = "paper's chain"
+    assert names == [
+        [paper, "$t_v = 1$ µs", r"$\eta = 54.8$ N s/m"],
+        [paper, "$K_t = 25$ MN/m"],
+        [paper, r"$K_t = 25$ MN/m, $\eta = 54.8$ N s/m"],
+    ]
+
+
+def test_a_model_that_ends_early_has_a_line_that_ends_early():
+    figure = draw_resolution_models(resolution_of_models())
+    [soft] = [line for line in figure.axes[3].lines if "K_t" in str(line.get_label())]
+    assert list(soft.get_xdata()) == [2, 10]
+    assert list(soft.get_ydata()) == [2.0, 10.0]

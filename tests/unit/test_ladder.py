@@ -6,11 +6,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from precursors import Chain
+from precursors import Chain, find_precursors, find_slips, simulate
 from precursors.figures import style
 from precursors.figures.ladder import draw_ladder, read_ladder
 from precursors.ladder import climb, waveforms_apart
 from precursors.reduced import MODELS
+from precursors.scene_models import ADDED
 
 SCENES = {name: Chain.from_slider(theta=theta) for name, theta in (("lead", "5/6"), ("even", 0.0))}
 TOLERANCES = {
@@ -21,11 +22,12 @@ TOLERANCES = {
     "slip_duration": 0.1,
     "waveform": 0.02,
 }
+ADDITIONS = {"viscosity": 54.77, "interface_stiffness": 25e6, "head_mass": 0.3122}
 
 
 @pytest.fixture(scope="module")
 def ladder() -> pd.DataFrame:
-    return climb(SCENES, TOLERANCES, repeats=1)
+    return climb(SCENES, TOLERANCES, repeats=1, additions=ADDITIONS)
 
 
 def smallest(ladder: pd.DataFrame) -> dict[str, str]:
@@ -78,10 +80,43 @@ def test_a_question_without_a_tolerance_is_refused() -> None:
         climb(SCENES, {"first_load": 1.0, "events_kept": 1.0}, repeats=1)
 
 
+def test_a_model_whose_addition_has_no_value_is_left_out() -> None:
+    found = climb(SCENES, TOLERANCES, repeats=1, additions={"head_mass": 0.3122})
+    assert set(MODELS) - set(found["model"]) == {"viscous", "interface"}
+
+
+@pytest.mark.parametrize(
+    ("model", "addition", "text"),
+    [
+        ("viscous", {"viscosity": 54.77}, "54.77 N s/m"),
+        ("interface", {"interface_stiffness": 25e6}, "2.5e+07 N/m"),
+        ("head", {"head_mass": 0.3122}, "0.3122 kg"),
+    ],
+)
+def test_an_addition_has_its_value_for_the_whole_slider(ladder, model, addition, text) -> None:
+    run = simulate(Chain.from_slider(theta="5/6", **addition), 10.0, until="global slip")
+    rows = ladder[(ladder["model"] == model) & (ladder["scene"] == "lead")].set_index("question")
+    assert rows.loc["events_kept", "value"] == len(find_precursors(find_slips(run)))
+    assert set(rows["addition"]) == {text}
+
+
+def test_an_addition_is_never_the_smallest_model(ladder: pd.DataFrame) -> None:
+    added = ladder[ladder["model"].isin(ADDED)]
+    assert set(added["model"]) == set(ADDED)
+    assert not added["is_smallest"].any()
+    assert (ladder.loc[~ladder["model"].isin(ADDED), "addition"] == "none").all()
+
+
 def test_the_figure_frames_the_smallest_models(ladder: pd.DataFrame, tmp_path) -> None:
     ladder.to_csv(tmp_path / "ladder.csv", index=False)
     figure = draw_ladder(read_ladder(tmp_path / "ladder.csv"))
     frames = [p for p in figure.axes[0].patches if not p.get_fill()]
     assert len(frames) == len(TOLERANCES)
+    heads = [label.get_text() for label in figure.axes[0].get_xticklabels()]
+    assert heads[-3:] == [
+        "with\nviscosity\n54.8 N s/m",
+        "with\ninterface\nsprings\n25 MN/m",
+        "with\nhead mass\n0.312 kg",
+    ]
     style.save(figure, tmp_path / "ladder.png")
     assert (tmp_path / "ladder.png").stat().st_size > 10_000

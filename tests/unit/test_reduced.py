@@ -8,9 +8,11 @@ import pytest
 from precursors import Chain, find_slips, simulate
 from precursors.bound import balance_matrix
 from precursors.reduced import MODELS, QUANTITIES
+from precursors.reduced.answers import answers_table
 from precursors.reduced.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
 from precursors.reduced.rigid import rigid_run, rigid_slip_duration, slip_load
 from precursors.reduced.statics import first_precursor_load, front_load_law
+from precursors.scene_models import ADDED, ANSWERED
 
 SLIDER = Chain.from_slider
 THETAS = ["-5/6", 0.0, "5/6"]
@@ -212,3 +214,43 @@ def test_bad_questions_get_one_clear_line(call, message: str) -> None:
 def test_a_cap_on_events_that_is_met_is_said() -> None:
     with pytest.raises(RuntimeError, match="no global slip within 3 events"):
         quasistatic_slips(SLIDER(), max_events=3)
+
+
+@pytest.mark.parametrize(
+    "addition", [{"viscosity": 54.77}, {"interface_stiffness": 25e6}, {"head_mass": 0.3122}]
+)
+@pytest.mark.parametrize("model", ["statics", "law", "rigid", "overdamped", "quasistatic", "chain"])
+def test_a_model_of_the_papers_chain_refuses_an_addition_to_it(model: str, addition: dict) -> None:
+    [(name, _)] = addition.items()
+    with pytest.raises(ValueError, match=rf"\A{name} = [^\n]+: allowed is 0 here, the paper's chain\Z"):
+        MODELS[model].answer(SLIDER(**addition))
+
+
+@pytest.mark.parametrize("model", ADDED)
+def test_a_model_with_an_addition_refuses_a_chain_without_it(model: str) -> None:
+    with pytest.raises(ValueError, match=rf"\A{ADDED[model]} = 0: allowed is {ADDED[model]} > 0"):
+        MODELS[model].answer(SLIDER(), ["mu_sapp"])
+
+
+def test_additions_may_be_combined() -> None:
+    chain = SLIDER(viscosity=54.77, interface_stiffness=25e6)
+    answers = [MODELS[model].answer(chain, ["events_kept", "mu_sapp"]) for model in ("viscous", "interface")]
+    assert answers[0] == answers[1]
+
+
+def test_the_plan_of_a_workflow_knows_what_each_model_answers() -> None:
+    assert {name: set(model.quantities) for name, model in MODELS.items()} == {
+        name: set(quantities) for name, quantities in ANSWERED.items()
+    }
+    assert list(MODELS) == list(ANSWERED)
+
+
+def test_answers_are_a_table_of_what_was_asked_for_and_nothing_else() -> None:
+    table = answers_table(SLIDER(theta="5/6"), "quasistatic", ["events_kept", "front_loads"])
+    assert list(table["quantity"]) == ["events_kept"] + 10 * ["front_loads"]
+    assert list(table["block"][1:]) == list(range(1, 11))
+    assert table["value"][0] == 14.0
+    assert set(table["unit"]) == {"1", "N"}
+    wave = answers_table(SLIDER(), "rigid", ["waveform"])
+    assert wave["time_s"].is_monotonic_increasing
+    assert wave["value"].max() == pytest.approx(280.0)

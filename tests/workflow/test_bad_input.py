@@ -8,6 +8,7 @@ import yaml
 from conftest import ROOT
 
 from precursors.config import check_config, scene_chain, scene_names
+from precursors.proof import scene_exact_chain
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 PAPERS = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
@@ -60,6 +61,46 @@ BAD = [
     ("scenes.a/b", STEEP, ["'a/b'", "letters, digits, _ and -"]),
     ("scenes." + 65 * "a", STEEP, [65 * "a", "letters, digits, _ and -"]),
     ("scenes", {12: STEEP}, ["scenes", "key 12", "a name or quotes"]),
+    ("scenes.steep", STEEP | {"model": "dynamic"}, ["scenes.steep.model = 'dynamic'", "statics, law, rigid"]),
+    ("scenes.steep", STEEP | {"model": 3}, ["scenes.steep.model = 3", "a text"]),
+    (
+        "scenes.steep",
+        STEEP | {"model": "law", "quantities": ["mu_sapp", "waveform"]},
+        ["scenes.steep.quantities", "'waveform'", "the model 'law'", "front_loads, mu_sapp"],
+    ),
+    ("scenes.steep", STEEP | {"quantities": []}, ["scenes.steep.quantities = []"]),
+    ("scenes.steep", STEEP | {"quantities": ["load"]}, ["'load'", "the model 'chain'", "first_load"]),
+    (
+        "scenes.steep",
+        STEEP | {"viscosity": 54.77},
+        ["scenes.steep.viscosity = 54.77 [N s/m]", "the model 'chain'", "viscous, interface, head"],
+    ),
+    ("scenes.steep", STEEP | {"model": "viscous"}, ["scenes.steep.viscosity is missing", "> 0 [N s/m]"]),
+    (
+        "scenes.steep",
+        STEEP | {"model": "head", "viscosity": 1.0},
+        ["scenes.steep.head_mass is missing", "'head'", "[kg]"],
+    ),
+    (
+        "scenes.steep",
+        STEEP | {"model": "interface", "interface_stiffness": 0},
+        ["scenes.steep.interface_stiffness = 0", "> 0", "[N/m]"],
+    ),
+    (
+        "scenes.steep",
+        STEEP | {"quantities": ["mu_sapp"], "duration": 1.0},
+        ["scenes.steep.duration", "only answers quantities", "first global slip"],
+    ),
+    ("scenes.fig10.quantities", ["mu_sapp"], ["scenes.fig10.paper", "only answers quantities"]),
+    ("scenes.fig12.model", "quasistatic", ["scenes.fig12.paper", "only answers quantities"]),
+    (
+        "scenes.fig10",
+        STEEP | {"model": "viscous", "viscosity": 54.77},
+        ["fig13 names 'fig10'", "the model 'chain' without quantities"],
+    ),
+    ("resolution_models.models.soft", {"friction": 1.0}, ["models.soft.friction", "relaxation_time"]),
+    ("ladder.additions.head_mass", -1.0, ["ladder.additions.head_mass = -1.0", "> 0", "[kg]"]),
+    ("scenes.resolution_models", STEEP, ["scenes.resolution_models", "resolution_models"]),
     ("fig13", ["fig10", "fig11", "fig21"], ["fig13", "'fig21'", "fig10, fig11, fig12"]),
     ("fig13", ["fig10", "fig11", "fig11"], ["fig13", "3 different entries"]),
     ("fig13", ["fig10"], ["fig13", "3 different entries"]),
@@ -145,3 +186,11 @@ def test_a_results_directory_that_cannot_be_written_to_is_named(workspace):
     assert outcome.code != 0
     assert "Traceback" not in outcome.text
     assert "results cannot be written to" in outcome.text
+
+
+def test_a_scene_of_another_model_has_no_proof():
+    config = changed("scenes.steep", STEEP | {"model": "viscous", "viscosity": 54.77})
+    with pytest.raises(
+        ValueError, match=r"\Ascenes.steep.model = 'viscous': proofs are of the model 'chain'"
+    ):
+        scene_exact_chain(config, "steep")

@@ -2,19 +2,30 @@
 
 import re
 
+import pandas as pd
 import pytest
 from conftest import ROOT
+
+from precursors import Chain, Run
+from precursors.reduced import MODELS
+from precursors.storage import open_checked
 
 SCENE_JOBS = {"simulate_scene", "tabulate_slips", "tabulate_trace", "draw_scene"}
 # Rules that `all` leaves out.
 ON_DEMAND = {
     "accuracy_full",
+    "answer_scene",
     "certify_scene",
     "draw_film",
     "draw_work_precision_full",
     "measure_methods_fully",
+    "measure_scaling",
     "prove_again",
     "prove_scenes",
+    "table_pages",
+    "write_crate",
+    "write_provenance",  # part of `all`, but in no list of jobs here
+    "write_table_page",
 }
 RULES = {
     rule
@@ -22,7 +33,9 @@ RULES = {
     for rule in re.findall(r"^rule (\w+):", file.read_text(encoding="utf-8"), flags=re.MULTILINE)
 }
 SHARED_JOBS = RULES - SCENE_JOBS - ON_DEMAND
-LISTS_OF_SCENES = {"tabulate_mu_sapp", "tabulate_reproduction", "judge_claims", "write_explorer"}
+# The paper shows nearly all tables and figures, and is set again when one of them may change.
+PAPER = {"write_paper"}
+LISTS_OF_SCENES = {"tabulate_mu_sapp", "tabulate_reproduction", "judge_claims", "write_explorer"} | PAPER
 PAPERS = ("fig10", "fig11", "fig12")
 NEW_SCENE = """\
   steep:
@@ -77,12 +90,12 @@ def test_a_scene_may_have_any_name_that_is_a_word(finished):
 @pytest.mark.parametrize(
     ("module", "redrawn"),
     [
-        ("chain_schematic", {"draw_chain"}),
-        ("scene", {"draw_scene fig10", "draw_scene fig11", "draw_scene fig12"}),
-        ("precursor_lengths", {"draw_fig13"}),
+        ("chain_schematic", {"draw_chain"} | PAPER),
+        ("scene", {"draw_scene fig10", "draw_scene fig11", "draw_scene fig12"} | PAPER),
+        ("precursor_lengths", {"draw_fig13"} | PAPER),
         ("definitions", {"draw_definitions"}),
-        ("spread", {"draw_spread"}),
-        ("maps", {"draw_maps"}),
+        ("spread", {"draw_spread"} | PAPER),
+        ("maps", {"draw_maps"} | PAPER),
     ],
 )
 def test_an_edit_of_a_figure_module_redraws_its_figures_only(finished, module, redrawn):
@@ -94,7 +107,7 @@ def test_an_edit_of_the_style_redraws_all_figures_and_simulates_nothing(finished
     finished.append("src/precursors/figures/style.py", "\nCOLOR = 'red'\n")
     drawings = {job for job in SHARED_JOBS if job.startswith("draw_")}
     scenes = {f"draw_scene {scene}" for scene in PAPERS}
-    assert finished.would_run() == drawings | scenes | {"write_explorer"}
+    assert finished.would_run() == drawings | scenes | {"write_explorer"} | PAPER
 
 
 @pytest.mark.parametrize("module", ["chain", "exact", "kernel", "lanes", "run"])
@@ -105,7 +118,7 @@ def test_an_edit_of_the_solver_simulates_again(finished, module):
 
 def test_an_edit_of_a_script_runs_its_rule_again(finished):
     finished.append("workflow/scripts/draw_fig13.py", "\n# edited\n")
-    assert finished.would_run() == {"draw_fig13"}
+    assert finished.would_run() == {"draw_fig13"} | PAPER
 
 
 def test_an_edit_of_a_scene_runs_that_scene_only(finished):
@@ -117,13 +130,13 @@ def test_an_edit_of_a_scene_runs_that_scene_only(finished):
 
 def test_a_new_title_simulates_nothing(finished):
     finished.edit("config.yaml", "title: uniform normal loading", "title: same load on every block")
-    assert finished.would_run() == {"draw_scene fig10", "write_explorer"}
+    assert finished.would_run() == {"draw_scene fig10", "write_explorer"} | PAPER
 
 
 def test_a_new_number_of_the_paper_simulates_nothing(finished):
     finished.edit("config.yaml", "events_kept: 9", "events_kept: 8")
     of_definitions = {"tabulate_definitions", "draw_definitions"}
-    assert finished.would_run() == {"tabulate_reproduction", "judge_claims"} | of_definitions
+    assert finished.would_run() == {"tabulate_reproduction", "judge_claims"} | of_definitions | PAPER
 
 
 def test_the_full_comparison_of_methods_is_a_target_of_its_own(workspace):
@@ -147,7 +160,7 @@ def test_an_edit_of_a_method_measures_again_and_proves_nothing(finished):
 def test_an_edit_of_a_chart_measures_nothing(finished):
     finished.append("src/precursors/figures/growth.py", "\nCOLOR = 'red'\n")
     finished.append("src/precursors/figures/work_precision.py", "\nCOLOR = 'red'\n")
-    assert finished.would_run() == {"draw_growth", "draw_work_precision"}
+    assert finished.would_run() == {"draw_growth", "draw_work_precision"} | PAPER
 
 
 def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):
@@ -159,15 +172,15 @@ def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(fi
 
 def test_an_edit_of_a_claim_judges_again_and_nothing_else(finished):
     finished.edit("paper/claims.yaml", "  limit: 280\n", "  limit: 281\n")
-    assert finished.would_run() == {"judge_claims"}
+    assert finished.would_run() == {"judge_claims"} | PAPER
 
 
-def test_a_configuration_without_the_papers_scenes_has_no_ledger(workspace):
+def test_a_configuration_without_the_papers_scenes_has_no_ledger_and_no_paper(workspace):
     workspace.edit("config.yaml", "  fig12:\n    title", "  mine:\n    title")
     workspace.edit("config.yaml", "fig13: [fig11, fig10, fig12]", "fig13: [fig11, fig10, mine]")
     jobs = workspace.would_run()
     assert "tabulate_definitions" in jobs
-    assert "judge_claims" not in jobs
+    assert not {"judge_claims", "write_paper"} & jobs
 
 
 def test_a_wrong_claim_stops_the_workflow_in_one_line(workspace):
@@ -176,3 +189,93 @@ def test_a_wrong_claim_stops_the_workflow_in_one_line(workspace):
     assert outcome.code == 1
     assert "paper/claims.yaml: claim eq15-in-motion: limit = 'much': allowed is a number" in outcome.text
     assert "Traceback" not in outcome.text
+
+
+def test_an_edit_of_the_text_sets_the_paper_again_and_nothing_else(finished):
+    finished.append("paper/sections/limits.typ", "\nOne sentence more.\n")
+    assert finished.would_run() == PAPER
+
+
+def test_an_entry_of_the_papers_numbers_that_is_wrong_stops_the_workflow_in_one_line(workspace):
+    workspace.edit(
+        "paper/numbers.yaml", "  mu-s: {config: chain.mu_s}\n", "  mu-s: {configuration: chain.mu_s}\n"
+    )
+    outcome = workspace.run("-n", "all")
+    assert outcome.code == 1
+    assert "numbers.yaml: mu-s: 'configuration' is an unknown key: allowed are unit, table" in outcome.text
+    assert "Traceback" not in outcome.text
+
+
+ASKED_SCENE = """\
+  quick:
+    title: what a smaller model says
+    theta: "9/10"
+    model: {model}
+    quantities: [mu_sapp, events_kept]
+"""
+SOFT_SCENE = """\
+  steep:
+    title: an interface with springs and viscosity
+    theta: "9/10"
+    duration: 1.0
+    model: interface
+    interface_stiffness: 25.0e+6
+    viscosity: 54.77
+"""
+
+
+def add(workspace, scene):
+    workspace.edit("config.yaml", "\nfig13: [", f"{scene}\nfig13: [")
+
+
+@pytest.mark.parametrize("model", ["quasistatic", "chain"])
+def test_a_scene_that_asks_for_quantities_is_answered_and_nothing_else(finished, model):
+    add(finished, ASKED_SCENE.format(model=model))
+    assert finished.would_run() == {"answer_scene quick"}
+
+
+def test_a_scene_of_a_smaller_model_is_answered_without_naming_its_quantities(finished):
+    add(finished, ASKED_SCENE.format(model="law").replace("    quantities: [mu_sapp, events_kept]\n", ""))
+    assert finished.would_run() == {"answer_scene quick"}
+
+
+def test_a_scene_that_only_answers_has_no_run(finished):
+    add(finished, ASKED_SCENE.format(model="law").replace("mu_sapp, events_kept", "mu_sapp"))
+    outcome = finished.run("-n", "results/runs/quick.h5")
+    assert outcome.code != 0
+    assert "MissingRuleException" in outcome.text
+
+
+def test_a_scene_with_an_addition_has_the_jobs_of_any_scene(finished):
+    add(finished, SOFT_SCENE)
+    assert finished.would_run() == of("steep") | LISTS_OF_SCENES
+
+
+def test_a_new_value_of_an_addition_runs_that_scene_only(finished):
+    add(finished, SOFT_SCENE)
+    finished.run("-c2", "all")
+    finished.edit("config.yaml", "    viscosity: 54.77\n", "    viscosity: 50.0\n")
+    assert finished.would_run() == of("steep") | LISTS_OF_SCENES
+
+
+def test_another_quantity_asks_that_scene_again_and_nothing_else(finished):
+    add(finished, ASKED_SCENE.format(model="chain"))
+    finished.run("-c2", "all")
+    finished.edit("config.yaml", "[mu_sapp, events_kept]", "[mu_sapp]")
+    assert finished.would_run() == {"answer_scene quick"}
+
+
+def test_scenes_with_models_are_computed(workspace):
+    add(workspace, ASKED_SCENE.format(model="chain") + SOFT_SCENE)
+    outcome = workspace.run("-c1", "results/tables/quick_answers.csv", "results/runs/steep.h5")
+    assert outcome.code == 0, outcome.text
+    results = workspace.path / "results"
+    answers = pd.read_csv(open_checked(results / "tables/quick_answers.csv"))
+    assert list(answers["quantity"]) == ["mu_sapp", "events_kept"]
+    expected = MODELS["chain"].answer(Chain.from_slider(theta="9/10"), answers["quantity"])
+    assert list(answers["value"]) == list(expected.values())
+    assert [path.name for path in (results / "runs").iterdir()] == ["steep.h5"]
+    run = Run.load(results / "runs/steep.h5")
+    assert run.chain == Chain.from_slider(theta="9/10", interface_stiffness=25e6, viscosity=54.77)
+    # From the first transition on the interface's springs carry the load before the block does.
+    assert run.transitions["tangential_load"][0] > run.chain.strength[0]

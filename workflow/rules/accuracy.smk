@@ -59,14 +59,14 @@ rule draw_work_precision:
             "results/figures/work_precision.svg",
             caption="../report/work_precision.rst",
             category="Speed and accuracy",
-            labels={"figure": "work_precision", "shows": "errors against time"},
+            labels={"figure": "work_precision: errors against time"},
         ),
         evaluations_png="results/figures/work_precision_evaluations.png",
         evaluations_svg=report(
             "results/figures/work_precision_evaluations.svg",
             caption="../report/work_precision_evaluations.rst",
             category="Speed and accuracy",
-            labels={"figure": "work_precision_evaluations", "shows": "errors against evaluations"},
+            labels={"figure": "work_precision_evaluations: errors against evaluations"},
         ),
     log:
         "results/logs/draw_work_precision.log",
@@ -95,17 +95,14 @@ rule draw_work_precision_full:
             "results/figures/work_precision_full.svg",
             caption="../report/work_precision.rst",
             category="Speed and accuracy",
-            labels={"figure": "work_precision_full", "shows": "errors against time, all methods"},
+            labels={"figure": "work_precision_full: errors against time, all methods"},
         ),
         evaluations_png="results/figures/work_precision_evaluations_full.png",
         evaluations_svg=report(
             "results/figures/work_precision_evaluations_full.svg",
             caption="../report/work_precision_evaluations.rst",
             category="Speed and accuracy",
-            labels={
-                "figure": "work_precision_evaluations_full",
-                "shows": "errors against evaluations, all methods",
-            },
+            labels={"figure": "work_precision_evaluations_full: errors against evaluations, all methods"},
         ),
     log:
         "results/logs/draw_work_precision_full.log",
@@ -146,7 +143,7 @@ rule draw_growth:
             "results/figures/growth.svg",
             caption="../report/growth.rst",
             category="Speed and accuracy",
-            labels={"figure": "growth", "shows": "time per transition against N"},
+            labels={"figure": "growth: time per transition against N"},
         ),
     log:
         "results/logs/draw_growth.log",

@@ -1,7 +1,7 @@
 from precursors.ledger.claims import read_claims, scenes_needed, tables_needed
 
 PAPERS_SCENES = config["fig13"]
-CLAIMS_FILE = os.path.relpath(f"{workflow.basedir}/paper/claims.yaml")
+CLAIMS_FILE = f"{ROOT}/paper/claims.yaml"
 
 try:
     CLAIMS = read_claims(CLAIMS_FILE)
@@ -46,7 +46,7 @@ rule draw_definitions:
             "results/figures/definitions.svg",
             caption="../report/definitions.rst",
             category="Reproduction",
-            labels={"figure": "definitions", "shows": "what every reading gives"},
+            labels={"figure": "definitions: what every reading gives"},
         ),
     log:
         "results/logs/draw_definitions.log",

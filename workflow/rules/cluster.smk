@@ -2,6 +2,7 @@
 localrules:
     all,
     accuracy_full,
+    answer_scene,
     draw_chain,
     draw_definitions,
     draw_failure_gallery,
@@ -13,6 +14,7 @@ localrules:
     draw_long_runs,
     draw_maps,
     draw_resolution,
+    draw_resolution_models,
     draw_scene,
     draw_spread,
     draw_step_sweep,
@@ -30,6 +32,7 @@ localrules:
     tabulate_mu_sapp,
     tabulate_reproduction,
     tabulate_resolution,
+    tabulate_resolution_models,
     tabulate_slips,
     tabulate_spread,
     tabulate_trace,

@@ -7,7 +7,7 @@ rule draw_chain:
             "results/figures/fig09.svg",
             caption="../report/chain.rst",
             category="Reproduction",
-            labels={"figure": "fig09", "shows": "the chain"},
+            labels={"figure": "fig09: the chain"},
         ),
     log:
         "results/logs/draw_chain.log",
@@ -29,7 +29,7 @@ rule draw_scene:
             "results/figures/{scene}.svg",
             caption="../report/scene.rst",
             category="Reproduction",
-            labels={"figure": "{scene}", "shows": "load and slips over time"},
+            labels={"figure": "{scene}: load and slips over time"},
         ),
     log:
         "results/logs/draw_scene/{scene}.log",
@@ -53,7 +53,7 @@ rule draw_fig13:
             "results/figures/fig13.svg",
             caption="../report/fig13.rst",
             category="Reproduction",
-            labels={"figure": "fig13", "shows": "propagation length against load"},
+            labels={"figure": "fig13: propagation length against load"},
         ),
     log:
         "results/logs/draw_fig13.log",

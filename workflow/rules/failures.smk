@@ -63,8 +63,8 @@ rule draw_step_sweep:
         svg=report(
             "results/figures/{sweep}.svg",
             caption="../report/step_sweep.rst",
-            category="Accuracy",
-            labels={"figure": "{sweep}", "shows": "the paper's numbers against the step"},
+            category="Speed and accuracy",
+            labels={"figure": "{sweep}: the paper's numbers against the step"},
         ),
     log:
         "results/logs/draw_step_sweep/{sweep}.log",
@@ -132,7 +132,7 @@ rule draw_failure_gallery:
             "results/figures/failure_gallery.svg",
             caption="../report/failure_gallery.rst",
             category="Speed and accuracy",
-            labels={"figure": "failure_gallery", "shows": "how methods fail"},
+            labels={"figure": "failure_gallery: how methods fail"},
         ),
     log:
         "results/logs/draw_failure_gallery.log",

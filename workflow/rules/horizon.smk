@@ -1,7 +1,7 @@
 from precursors.proof.validation import certificate_path, chain_duration, exact_chain
 
 CHAINS = config["horizon"]["chains"]
-COMMITTED = os.path.relpath(f"{workflow.basedir}/workflow/certificates")
+COMMITTED = f"{ROOT}/workflow/certificates"
 PROOF_CODE = [
     f"{LIBRARY}/proof/{name}.py" for name in ["certificate", "exact_chain", "first_root", "motion", "tube"]
 ]
@@ -139,7 +139,7 @@ rule draw_horizon:
             "results/figures/horizon.svg",
             caption="../report/horizon.rst",
             category="Proof and horizon",
-            labels={"figure": "horizon", "shows": "predicted and actual error"},
+            labels={"figure": "horizon: predicted and actual error"},
         ),
     log:
         "results/logs/draw_horizon.log",

@@ -17,6 +17,7 @@ rule climb_ladder:
                 "reduced/rigid",
                 "reduced/statics",
                 "run",
+                "scene_models",
                 "slips",
                 "storage",
             ],
@@ -31,6 +32,7 @@ rule climb_ladder:
     params:
         sliders={scene: scene_slider(config, scene) for scene in config["fig13"]},
         tolerances=config["ladder"]["tolerances"],
+        additions=config["ladder"]["additions"],
         repetitions=config["ladder"]["repetitions"],
     script:
         "../scripts/climb_ladder.py"
@@ -46,7 +48,7 @@ rule draw_ladder:
             "results/figures/ladder.svg",
             caption="../report/ladder.rst",
             category="Models",
-            labels={"figure": "ladder", "shows": "which model answers which question"},
+            labels={"figure": "ladder: which model answers which question"},
         ),
     log:
         "results/logs/draw_ladder.log",

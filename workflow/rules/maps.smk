@@ -41,7 +41,7 @@ rule draw_resolution:
             "results/figures/resolution.svg",
             caption="../report/resolution.rst",
             category="Sensitivity",
-            labels={"figure": "resolution", "shows": "what the number of blocks does"},
+            labels={"figure": "resolution: what the number of blocks does"},
         ),
     log:
         "results/logs/draw_resolution.log",
@@ -54,18 +54,65 @@ rule draw_resolution:
         "../scripts/draw_resolution.py"
 
 
+rule tabulate_resolution_models:
+    input:
+        members="results/tables/resolution_models_members.csv",
+        code=collect(
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=["ensembles/resolution", "ensembles/resolution_models", "storage"],
+        ),
+    output:
+        table="results/tables/resolution_models.csv",
+    log:
+        "results/logs/tabulate_resolution_models.log",
+    benchmark:
+        "results/benchmarks/tabulate_resolution_models.tsv"
+    threads: 1
+    script:
+        "../scripts/tabulate_resolution_models.py"
+
+
+rule draw_resolution_models:
+    input:
+        table="results/tables/resolution_models.csv",
+        code=collect(
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=["figures/resolution", "figures/resolution_models", "figures/style"],
+        ),
+    output:
+        png="results/figures/resolution_models.png",
+        svg=report(
+            "results/figures/resolution_models.svg",
+            caption="../report/resolution_models.rst",
+            category="Sensitivity",
+            labels={"figure": "resolution_models: the same with viscosity and interface springs"},
+        ),
+    log:
+        "results/logs/draw_resolution_models.log",
+    benchmark:
+        "results/benchmarks/draw_resolution_models.tsv"
+    threads: 1
+    script:
+        "../scripts/draw_resolution_models.py"
+
+
 rule draw_maps:
     input:
         tables=collect("results/tables/{map}.csv", map=MAPS),
         code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["maps", "style"]),
     output:
         collect("results/figures/{map}.png", map=MAPS),
-        report(
-            collect("results/figures/{map}.svg", map=MAPS),
-            caption="../report/maps.rst",
-            category="Figures",
-            labels={"shows": "map over theta and one parameter more"},
-        ),
+        [
+            report(
+                f"results/figures/{name}.svg",
+                caption="../report/maps.rst",
+                category="Sensitivity",
+                labels={"figure": f"{name}: theta and {axis.replace('_', ' ')}"},
+            )
+            for name, (axis, _) in AXES.items()
+        ],
     log:
         "results/logs/draw_maps.log",
     benchmark:
@@ -109,7 +156,7 @@ rule draw_long_runs:
             "results/figures/long_runs.svg",
             caption="../report/long_runs.rst",
             category="Sensitivity",
-            labels={"figure": "long_runs", "shows": "peak loads of hundreds of global slips"},
+            labels={"figure": "long_runs: peak loads of hundreds of global slips"},
         ),
     log:
         "results/logs/draw_long_runs.log",

@@ -17,14 +17,19 @@ TABLES = {
     "spread": "what small changes make of the numbers",
     "resolution": "numbers against the number of blocks",
     "resolution_limits": "numbers carried on to infinitely many blocks",
+    "resolution_models": "numbers against the number of blocks, with viscosity and interface springs",
     "long_runs_statistics": "peak loads of hundreds of global slips",
 }
 TABLES |= {"claims": "what the paper states, and the verdict"} if LEDGER else {}
-TABLES |= {f"{scene}_slips": f"slip events of {scene}" for scene in SCENES}
+SLIPS = {f"{scene}_slips": f"slip events of {scene}" for scene in SCENES}
+ANSWERS = {f"{scene}_answers": f"what the model of {scene} answers" for scene in ASKED}
+PAGES = TABLES | SLIPS | ANSWERS
+TEXTS = {page: page for page in TABLES} | dict.fromkeys(SLIPS, "slips") | dict.fromkeys(ANSWERS, "answers")
+CAPTIONS = {page: Path(f"{ROOT}/workflow/report/tables/{text}.rst") for page, text in TEXTS.items()}
 
 
 wildcard_constraints:
-    page="|".join(TABLES),
+    page="|".join(PAGES),
 
 
 rule write_table_page:
@@ -36,7 +41,7 @@ rule write_table_page:
             "results/pages/{page}.html",
             caption="../report/table.rst",
             category="Tables",
-            labels=lambda wildcards: {"table": wildcards.page, "shows": TABLES[wildcards.page]},
+            labels=lambda wildcards: {"table": f"{wildcards.page}: {PAGES[wildcards.page]}"},
         ),
     log:
         "results/logs/write_table_page/{page}.log",
@@ -44,11 +49,7 @@ rule write_table_page:
         "results/benchmarks/write_table_page/{page}.tsv"
     threads: 1
     params:
-        caption=lambda wildcards: (
-            f"{ROOT}/workflow/report/tables/"
-            + ("slips" if wildcards.page in [f"{scene}_slips" for scene in SCENES] else wildcards.page)
-            + ".rst"
-        ),
+        caption=lambda wildcards: CAPTIONS[wildcards.page].read_text(encoding="utf-8"),
     script:
         "../scripts/write_table_page.py"
 
@@ -56,4 +57,4 @@ rule write_table_page:
 # What `make report` needs besides `all`.
 rule table_pages:
     input:
-        collect("results/pages/{page}.html", page=TABLES),
+        collect("results/pages/{page}.html", page=PAGES),

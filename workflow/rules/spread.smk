@@ -23,12 +23,15 @@ rule draw_spread:
         code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["spread", "style"]),
     output:
         collect("results/figures/spread_{question}.png", question=QUESTIONS),
-        report(
-            collect("results/figures/spread_{question}.svg", question=QUESTIONS),
-            caption="../report/spread.rst",
-            category="Figures",
-            labels={"shows": "spread of mu_sapp and of the events kept"},
-        ),
+        [
+            report(
+                f"results/figures/spread_{question}.svg",
+                caption="../report/spread.rst",
+                category="Sensitivity",
+                labels={"figure": f"spread_{question}: changes of {question}"},
+            )
+            for question in QUESTIONS
+        ],
     log:
         "results/logs/draw_spread.log",
     benchmark:

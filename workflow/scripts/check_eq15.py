@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 from job import job
+from tables import write_table
 
 from precursors.chain import Chain
 from precursors.eq15 import check_eq15, table
@@ -20,8 +21,7 @@ def main(scenes: Mapping[str, Chain], duration: float, json_path: str | Path, cs
     text = json.dumps({"claims": claims, **dataclasses.asdict(checks)}, indent=1, allow_nan=False)
     with write_atomically(json_path) as temporary:
         temporary.write_text(text + "\n", encoding="utf-8")
-    with write_atomically(csv_path) as temporary:
-        pd.DataFrame(claims).to_csv(temporary, index=False, lineterminator="\n")
+    write_table(pd.DataFrame(claims), csv_path)
 
 
 if __name__ == "__main__":

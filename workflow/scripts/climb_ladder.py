@@ -11,10 +11,14 @@ from precursors.ladder import climb
 
 
 def main(
-    scenes: Mapping[str, Chain], tolerances: Mapping[str, float], repetitions: int, output: str | Path
+    scenes: Mapping[str, Chain],
+    tolerances: Mapping[str, float],
+    additions: Mapping[str, float],
+    repetitions: int,
+    output: str | Path,
 ) -> None:
     """Write one row for each scene, question and model that answers it."""
-    write_table(climb(scenes, tolerances, repeats=repetitions), output)
+    write_table(climb(scenes, tolerances, repeats=repetitions, additions=additions), output)
 
 
 if __name__ == "__main__":
@@ -22,6 +26,7 @@ if __name__ == "__main__":
         main(
             {name: Chain.from_slider(**slider) for name, slider in snakemake.params.sliders.items()},
             snakemake.params.tolerances,
+            snakemake.params.additions,
             snakemake.params.repetitions,
             snakemake.output.table,
         )

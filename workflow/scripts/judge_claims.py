@@ -1,5 +1,6 @@
 """Judge what the paper states by the tables, and write the ledger."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from job import job
@@ -9,11 +10,12 @@ from precursors.ledger.claims import read_claims
 from precursors.ledger.judge import judge, to_table
 
 
-def main(claims: str | Path, output: str | Path) -> None:
-    """Write one row per claim with its verdict, judged by the tables beside the output."""
-    write_table(to_table(judge(read_claims(claims), Path(output).parent)), output)
+def main(claims: str | Path, tables: Sequence[str | Path], output: str | Path) -> None:
+    """Write one row per claim with its verdict, judged by these of the tables beside the output."""
+    names = [Path(table).stem for table in tables]
+    write_table(to_table(judge(read_claims(claims), Path(output).parent, names)), output)
 
 
 if __name__ == "__main__":
     with job() as snakemake:
-        main(snakemake.input.claims, snakemake.output.table)
+        main(snakemake.input.claims, snakemake.input.tables, snakemake.output.table)

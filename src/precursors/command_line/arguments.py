@@ -26,6 +26,9 @@ CHAIN_NUMBERS = (
     ("--youngs-modulus", "youngs_modulus", "2.5e9", "Young's modulus E [Pa]"),
     ("--cross-section", "cross_section", "1e-4", "cross section S [m^2]"),
     ("--length", "length", "0.1", "length L of the contact [m]"),
+    ("--viscosity", "viscosity", "0", "dashpot between neighbours [N s/m]"),
+    ("--interface-stiffness", "interface_stiffness", "0", "stiffness of the whole interface [N/m], 0: rigid"),
+    ("--head-mass", "head_mass", "0", "mass of a loading head on block 1 [kg]"),
 )
 DURATION = 10.0
 

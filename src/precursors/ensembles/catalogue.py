@@ -10,12 +10,14 @@ from precursors.config import Config
 from precursors.ensembles.chunks import plan_chunks
 from precursors.ensembles.maps import AXES, map_study
 from precursors.ensembles.resolution import resolution_study
+from precursors.ensembles.resolution_models import resolution_models_study
 from precursors.ensembles.spread import spread_study
 from precursors.ensembles.study import Study
 
 STUDIES: dict[str, Callable[[Config], Study]] = {
     "spread_members": spread_study,
     "resolution_members": resolution_study,
+    "resolution_models_members": resolution_models_study,
     **{name: partial(map_study, name=name) for name in AXES},
 }
 

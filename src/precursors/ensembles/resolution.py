@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -61,7 +62,9 @@ def front_speed(n_blocks: NDArray, length: float, crossing_time: NDArray) -> Flo
     return np.divide(distance, crossing_time, out=np.full(len(n_blocks), np.nan), where=crossing_time > 0)
 
 
-def resolution_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
+def resolution_table(
+    members: pd.DataFrame, length: float, chains: Sequence[str] = ("scene", "theta")
+) -> pd.DataFrame:
     """What the number of blocks makes of each number.
 
     Parameters
@@ -70,11 +73,13 @@ def resolution_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
         The gathered study.
     length : float
         Length L of the contact [m].
+    chains : sequence of str
+        Columns that say which chain it is, whatever the number of its blocks.
 
     Returns
     -------
     DataFrame
-        One row per scene, theta, n_blocks and quantity: the value without noise; mean, standard deviation and
+        One row per chain, n_blocks and quantity: the value without noise; mean, standard deviation and
         quantiles over all members; the number of members n.
     """
     import pandas as pd
@@ -82,15 +87,13 @@ def resolution_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
     speed = front_speed(members["n_blocks"].to_numpy(), length, members["crossing_time_s"].to_numpy())
     members = members.assign(front_speed_m_per_s=speed)
     rows = []
-    for (scene, n_blocks), runs in members.groupby(["scene", "n_blocks"], sort=False):
+    for keys, runs in members.groupby([*chains, "n_blocks"], sort=False):
         [(_, without_noise)] = runs[runs["load_noise"] == 0.0].iterrows()
         for quantity in QUANTITIES:
             values = runs[quantity].dropna()
             rows.append(
                 {
-                    "scene": scene,
-                    "theta": without_noise["theta"],
-                    "n_blocks": n_blocks,
+                    **dict(zip([*chains, "n_blocks"], keys, strict=True)),
                     "quantity": quantity,
                     "without_noise": without_noise[quantity],
                     "mean": values.mean(),

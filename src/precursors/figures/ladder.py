@@ -1,8 +1,9 @@
-"""The ladder of models as a chart: questions down, models across, error and cost in each cell."""
+"""The ladder of models as a chart: questions down, models across; value, error and cost in each cell."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,28 +14,47 @@ from matplotlib.patches import Rectangle
 from precursors.figures import style
 
 WIDTH_MM = 175.0
-ROW_MM, HEAD_MM = 13.0, 18.0
+ROW_MM, HEAD_MM = 14.0, 26.0
+# Beyond the paper's chain: how far columns stand off, in their widths.
+GAP = 0.2
+NOTHING = "none"
 LADDER_COLUMNS = {
     "scene": str,
     "question": str,
     "rung": int,
     "label": str,
     "value": float,
+    "unit": str,
     "error": float,
     "error_unit": str,
     "tolerance": float,
     "is_answer": bool,
     "is_smallest": bool,
     "cost_s": float,
+    "addition": str,
 }
+DIM = "#5A5A5A"
 ANSWERED, MISSED, SILENT = "#CDE7DC", "#F6DDD0", "#F2F2F2"
 QUESTION_LABELS = {
-    "first_load": "Load of the\nfirst precursor",
-    "events_kept": "Number of\nevents kept",
-    "mu_sapp": r"$\mu_\mathrm{sapp}$",
-    "front_loads": "$L_p$ against $F_X$",
-    "slip_duration": "Duration of the\nglobal slip",
-    "waveform": "Waveform $F_X(t)$",
+    "first_load": "First precursor,\nload [N]",
+    "events_kept": "Events kept [-]",
+    "mu_sapp": "$\\mu_\\mathrm{sapp}$ [-]",
+    "front_loads": "$L_p$ against $F_X$,\nload at $L/2$ [N]",
+    "slip_duration": "Global slip,\nduration [ms]",
+    "waveform": "Waveform $F_X(t)$,\npeak [N]",
+}
+# What values are shown in, as a multiple of their SI unit.
+SCALES = {"slip_duration": 1e3}
+HEADS = {
+    "statics": "statics",
+    "front law": "front\nlaw",
+    "rigid slider": "rigid\nslider",
+    "overdamped chain": "over-\ndamped\nchain",
+    "quasi-static chain": "quasi-\nstatic\nchain",
+    "paper's chain": "paper's\nchain",
+    "with viscosity": "with\nviscosity",
+    "with interface springs": "with\ninterface\nsprings",
+    "with head mass": "with\nhead mass",
 }
 
 
@@ -50,9 +70,10 @@ def read_ladder(path: str | Path) -> pd.DataFrame:
 
 
 def draw_ladder(ladder: pd.DataFrame) -> Figure:
-    """Draw the largest error over the scenes and the median cost of each model for each question.
+    """Draw the values over the scenes, the largest error and the median cost of each model for each question.
 
-    Green cells answer within the tolerance in every scene; the smallest model that does has a frame.
+    Green cells answer within the tolerance in every scene; the smallest model that does has a frame. Models
+    that add to the paper's chain stand apart.
 
     Parameters
     ----------
@@ -60,17 +81,20 @@ def draw_ladder(ladder: pd.DataFrame) -> Figure:
         See `read_ladder`.
     """
     questions = list(dict.fromkeys(ladder["question"]))
-    models = list(ladder.sort_values("rung")["label"].unique())
+    models = ladder.sort_values("rung").drop_duplicates("label")
+    added = models["addition"] != NOTHING
+    places = np.arange(len(models)) + GAP * added.to_numpy()
     with style.styled():
         figure = style.new_figure(WIDTH_MM, HEAD_MM + ROW_MM * len(questions))
         axes = figure.subplots()
         for y, question in enumerate(questions):
-            for x, model in enumerate(models):
+            for x, model in zip(places, models["label"], strict=True):
                 cell = ladder[(ladder["question"] == question) & (ladder["label"] == model)]
                 _draw_cell(axes, x, y, cell)
-        axes.set_xlim(-0.5, len(models) - 0.5)
+        axes.set_xlim(places[0] - 0.5, places[-1] + 0.5)
         axes.set_ylim(len(questions) - 0.5, -0.5)
-        axes.set_xticks(range(len(models)), [label.replace(" ", "\n", 1) for label in models])
+        heads = [_head(model) for _, model in models.iterrows()]
+        axes.set_xticks(places, heads, fontsize=6.5)
         axes.set_yticks(range(len(questions)), [_row_label(ladder, question) for question in questions])
         axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False)
         axes.spines[:].set_visible(False)
@@ -78,7 +102,17 @@ def draw_ladder(ladder: pd.DataFrame) -> Figure:
     return figure
 
 
-def _draw_cell(axes: Axes, x: int, y: int, cell: pd.DataFrame) -> None:
+def _head(model: pd.Series) -> str:
+    """Name of a model, and the value of what it adds."""
+    name = HEADS.get(str(model["label"]), str(model["label"]).replace(" ", "\n", 1))
+    if model["addition"] == NOTHING:
+        return name
+    value, _, unit = str(model["addition"]).partition(" ")
+    number, unit = (float(value) * 1e-6, f"M{unit}") if float(value) >= 1e6 else (float(value), unit)
+    return f"{name}\n{number:.3g} {unit}"
+
+
+def _draw_cell(axes: Axes, x: float, y: int, cell: pd.DataFrame) -> None:
     answered = len(cell) > 0 and bool(cell["is_answer"].all())
     color = SILENT if cell.empty else ANSWERED if answered else MISSED
     axes.add_patch(Rectangle((x - 0.48, y - 0.46), 0.96, 0.92, facecolor=color, edgecolor="none"))
@@ -88,10 +122,19 @@ def _draw_cell(axes: Axes, x: int, y: int, cell: pd.DataFrame) -> None:
     if cell["is_smallest"].any():
         frame = Rectangle((x - 0.48, y - 0.46), 0.96, 0.92, fill=False, edgecolor=style.GREEN, linewidth=1.4)
         axes.add_patch(frame)
+    centred: dict[str, Any] = {"ha": "center", "va": "center"}
+    values = cell["value"] * SCALES.get(str(cell["question"].iloc[0]), 1.0)
+    axes.text(x, y - 0.26, _range_text(values.min(), values.max()), fontsize=6, **centred)
     error = _error_text(float(cell["error"].max()), str(cell["error_unit"].iloc[0]))
-    axes.text(x, y - 0.16, error, ha="center", va="center", fontsize=7.5)
+    axes.text(x, y + 0.02, error, fontsize=6.5, fontweight="bold", **centred)
     cost = _time_text(float(cell["cost_s"].median()))
-    axes.text(x, y + 0.22, cost, ha="center", va="center", fontsize=6.5, color=style.GREY)
+    axes.text(x, y + 0.3, cost, fontsize=6, color=DIM, **centred)
+
+
+def _range_text(low: float, high: float) -> str:
+    """Values over the scenes, from the least to the largest."""
+    first, last = f"{low:.3g}", f"{high:.3g}"
+    return first if first == last else f"{first}\N{EN DASH}{last}"
 
 
 def _row_label(ladder: pd.DataFrame, question: str) -> str:

@@ -13,7 +13,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from precursors.storage import write_atomically
+from precursors.storage import open_checked, write_atomically
 
 # Okabe and Ito (2008): told apart by colour-blind readers too.
 BLACK = "#000000"
@@ -146,7 +146,7 @@ def read_columns(path: str | Path, columns: Mapping[str, type]) -> pd.DataFrame:
     ValueError
         If a column is missing or holds something else than it should.
     """
-    table = pd.read_csv(path)
+    table = pd.read_csv(open_checked(path))
     missing = [name for name in columns if name not in table.columns]
     if missing:
         raise ValueError(f"{path}: column {missing[0]} is missing: needed are {', '.join(columns)}")

@@ -24,6 +24,7 @@ from precursors.ledger.rules import (
     RULES,
     TAKES,
 )
+from precursors.storage import open_checked
 
 # More values than this are told by their number, the smallest and the largest.
 MOST_VALUES_SHOWN = 6
@@ -44,8 +45,13 @@ class Judgement:
     varies: str
 
 
-def judge(claims: Iterable[Claim], tables: str | os.PathLike[str]) -> list[Judgement]:
+def judge(
+    claims: Iterable[Claim], tables: str | os.PathLike[str], names: Iterable[str] | None = None
+) -> list[Judgement]:
     """Judge claims by the tables of a directory as they lie there; what has no row is not reproduced.
+
+    A claim of no result is held against the tables of these `names`, or against all that lie there: while a
+    workflow runs, others are being written.
 
     Raises
     ------
@@ -53,7 +59,7 @@ def judge(claims: Iterable[Claim], tables: str | os.PathLike[str]) -> list[Judge
         In one line: a table or column that a claim names is missing or holds no numbers, or a claim of no
         result that has one.
     """
-    library = _Library(Path(tables))
+    library = _Library(Path(tables), names)
     judgements = []
     for claim in claims:
         try:
@@ -88,8 +94,9 @@ def differences(found: pd.DataFrame, expected: pd.DataFrame, same_processor: boo
 class _Library:
     """The tables of a directory, each read once."""
 
-    def __init__(self, directory: Path) -> None:
+    def __init__(self, directory: Path, names: Iterable[str] | None) -> None:
         self.directory = directory
+        self.names = None if names is None else set(names)
         self._tables: dict[str, pd.DataFrame] = {}
 
     def table(self, name: str) -> pd.DataFrame:
@@ -104,6 +111,8 @@ class _Library:
             # The ledger itself speaks of what is not tested.
             if path.stem in ("claims", "erratum"):
                 continue
+            if self.names is not None and path.stem not in self.names:
+                continue
             names = list(_read(path, nrows=0).columns)
             if "quantity" in names:
                 names += _read(path, usecols=["quantity"])["quantity"].astype(str).unique().tolist()
@@ -114,7 +123,7 @@ class _Library:
 
 def _read(path: Path, **how: Any) -> pd.DataFrame:
     try:
-        return pd.read_csv(path, **how)
+        return pd.read_csv(open_checked(path), **how)
     except FileNotFoundError:
         raise ClaimError(f"{path} is missing: the workflow writes it") from None
     except (ValueError, OSError) as error:

@@ -12,6 +12,7 @@ import hashlib
 import json
 import math
 import os
+import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Context, Decimal, Inexact
@@ -207,6 +208,8 @@ class Certificate:
             EOFError,
             OSError,
             ZeroDivisionError,
+            RecursionError,
+            zlib.error,
         ) as error:
             raise CertificateError(
                 f"{path} is not a whole certificate: {error or type(error).__name__}"

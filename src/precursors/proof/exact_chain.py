@@ -170,8 +170,16 @@ def exact(name: str, value: object, unit: str) -> Fraction:
 
 
 def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
-    """Return the chain of a scene of the configuration; theta from load cells is not rounded (Sect. 5.2)."""
+    """Return the chain of a scene of the configuration; theta from load cells is not rounded (Sect. 5.2).
+
+    Raises
+    ------
+    ValueError
+        If the scene's model is another than the paper's chain.
+    """
     scene = config["scenes"][name]
+    if scene.get("model", "chain") != "chain":
+        raise ValueError(f"scenes.{name}.model = {scene['model']!r}: proofs are of the model 'chain' alone")
     slider: dict[str, Any] = {key: scene.get(key, value) for key, value in config["chain"].items()}
     if "theta" in scene:
         return ExactChain.from_slider(**slider, theta=scene["theta"])

@@ -1,12 +1,14 @@
 """The ladder of models: no more model than a question needs, one table."""
 
-from precursors.reduced.dynamic import CHAIN
+from precursors.reduced.dynamic import CHAIN, HEAD, INTERFACE, VISCOUS
 from precursors.reduced.quantities import QUANTITIES, Model, Quantity
 from precursors.reduced.quasistatic import DAMPED, QUASISTATIC
 from precursors.reduced.rigid import RIGID
 from precursors.reduced.statics import LAW, STATICS
 
 # From the smallest to the largest; the name is the word after `model:` in a scene.
-MODELS: dict[str, Model] = {model.name: model for model in (STATICS, LAW, RIGID, DAMPED, QUASISTATIC, CHAIN)}
+MODELS: dict[str, Model] = {
+    model.name: model for model in (STATICS, LAW, RIGID, DAMPED, QUASISTATIC, CHAIN, VISCOUS, INTERFACE, HEAD)
+}
 
 __all__ = ["MODELS", "QUANTITIES", "Model", "Quantity"]

@@ -1,28 +1,30 @@
-"""The paper's dynamic chain as a rung of the ladder: the exact solver, up to the first global slip."""
+"""The dynamic chains as rungs of the ladder: the exact solver, up to the first global slip.
+
+The paper's chain, and the three additions to it: internal viscosity, interface springs, a head with mass.
+"""
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
-from precursors.chain import Chain, FloatArray
+from precursors.chain import Chain, FloatArray, require_plain
 from precursors.exact import simulate
-from precursors.reduced.quantities import (
+from precursors.reduced.quantities import Model, events_kept, first_load, front_loads, slip_duration
+from precursors.run import Run
+from precursors.scene_models import (
+    ADDED,
     EVENTS_KEPT,
     FIRST_LOAD,
     FRONT_LOADS,
     MU_SAPP,
+    PAPERS_MODEL,
     SLIP_DURATION,
     WAVEFORM,
-    Model,
-    events_kept,
-    first_load,
-    front_loads,
-    slip_duration,
 )
-from precursors.run import Run
 from precursors.slips import apparent_friction, find_slips
 
 # In units of the time in which the drive reaches mu_s F_Z against a slider that does not give way.
@@ -57,16 +59,32 @@ def _waveform(motion: Motion) -> FloatArray:
     )
 
 
-CHAIN = Model(
-    "chain",
-    "paper's chain",
-    {
-        FIRST_LOAD: lambda motion: first_load(motion.slips),
-        EVENTS_KEPT: lambda motion: events_kept(motion.slips),
-        MU_SAPP: _mu_sapp,
-        FRONT_LOADS: lambda motion: front_loads(motion.slips, motion.run.chain.n_blocks),
-        SLIP_DURATION: lambda motion: slip_duration(motion.slips),
-        WAVEFORM: _waveform,
-    },
-    to_global_slip,
-)
+_ANSWERS = {
+    FIRST_LOAD: lambda motion: first_load(motion.slips),
+    EVENTS_KEPT: lambda motion: events_kept(motion.slips),
+    MU_SAPP: _mu_sapp,
+    FRONT_LOADS: lambda motion: front_loads(motion.slips, motion.run.chain.n_blocks),
+    SLIP_DURATION: lambda motion: slip_duration(motion.slips),
+    WAVEFORM: _waveform,
+}
+
+
+def _plain(chain: Chain) -> Motion:
+    require_plain(chain)
+    return to_global_slip(chain)
+
+
+def _extended(chain: Chain, addition: str) -> Motion:
+    if not getattr(chain, addition):
+        raise ValueError(f"{addition} = 0: allowed is {addition} > 0 where the model is named after it")
+    return to_global_slip(chain)
+
+
+def _model(name: str, label: str) -> Model:
+    return Model(name, label, _ANSWERS, partial(_extended, addition=ADDED[name]))
+
+
+CHAIN = Model(PAPERS_MODEL, "paper's chain", _ANSWERS, _plain)
+VISCOUS = _model("viscous", "with viscosity")
+INTERFACE = _model("interface", "with interface springs")
+HEAD = _model("head", "with head mass")

@@ -9,7 +9,16 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.chain import Chain, FloatArray
+from precursors.chain import Chain, FloatArray, require_plain
+from precursors.scene_models import (
+    EVENTS_KEPT,
+    FIRST_LOAD,
+    FRONT_LOADS,
+    LOAD_BOUND,
+    MU_SAPP,
+    SLIP_DURATION,
+    WAVEFORM,
+)
 from precursors.slips import find_precursors, first_global
 
 
@@ -21,14 +30,6 @@ class Quantity:
     label: str
     unit: str
 
-
-FIRST_LOAD = "first_load"
-EVENTS_KEPT = "events_kept"
-MU_SAPP = "mu_sapp"
-FRONT_LOADS = "front_loads"
-SLIP_DURATION = "slip_duration"
-WAVEFORM = "waveform"
-LOAD_BOUND = "load_bound"
 
 QUANTITIES = {
     quantity.name: quantity
@@ -90,6 +91,12 @@ class Model:
             return {}
         basis = self.prepare(chain)
         return {name: self.answers[name](basis) for name in asked}
+
+
+def plain(chain: Chain) -> Chain:
+    """The chain itself, refused where it is more than the paper's."""
+    require_plain(chain)
+    return chain
 
 
 def first_load(slips: pd.DataFrame) -> float:

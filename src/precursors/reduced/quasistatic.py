@@ -32,17 +32,9 @@ import numpy as np
 import pandas as pd
 from numba import njit
 
-from precursors.chain import Chain, not_negative, whole
-from precursors.reduced.quantities import (
-    EVENTS_KEPT,
-    FIRST_LOAD,
-    FRONT_LOADS,
-    MU_SAPP,
-    Model,
-    events_kept,
-    first_load,
-    front_loads,
-)
+from precursors.chain import Chain, not_negative, require_plain, whole
+from precursors.reduced.quantities import Model, events_kept, first_load, front_loads
+from precursors.scene_models import EVENTS_KEPT, FIRST_LOAD, FRONT_LOADS, MU_SAPP
 from precursors.slips import COLUMNS
 
 ENERGY_CONSERVED, OVERDAMPED = 1.0, 0.0
@@ -78,10 +70,12 @@ def quasistatic_slips(
     Raises
     ------
     ValueError
-        If the overshoot is not within 0..1, a block has no weight, or mu_s = mu_k.
+        If the overshoot is not within 0..1, a block has no weight, mu_s = mu_k, or the chain is more than the
+        paper's.
     RuntimeError
         If the first global slip is not reached within the cap, or an event does not come to rest.
     """
+    require_plain(chain)
     overshoot = not_negative("overshoot", overshoot, "1")
     max_events = whole("max_events", max_events, at_least=1)
     if overshoot > 1.0:

@@ -7,24 +7,24 @@ from typing import Any
 
 import numpy as np
 
-from precursors.chain import Chain, FloatArray, positive
-from precursors.reduced.quantities import (
-    EVENTS_KEPT,
-    FIRST_LOAD,
-    FRONT_LOADS,
-    MU_SAPP,
-    SLIP_DURATION,
-    WAVEFORM,
-    Model,
-)
+from precursors.chain import Chain, FloatArray, positive, require_plain
+from precursors.reduced.quantities import Model, plain
 from precursors.run import TRANSITION, Run, States
+from precursors.scene_models import EVENTS_KEPT, FIRST_LOAD, FRONT_LOADS, MU_SAPP, SLIP_DURATION, WAVEFORM
 
 # Corners of the half wave that draws a slip; straight lines between them are within 0.3 % of its height.
 WAVE_POINTS = 33
 
 
 def as_rigid(chain: Chain) -> Chain:
-    """One block with the weight and the mass of the whole chain."""
+    """One block with the weight and the mass of the whole chain.
+
+    Raises
+    ------
+    ValueError
+        If the chain is more than the paper's.
+    """
+    require_plain(chain)
     return Chain(
         weights=np.array([chain.normal_load]),
         mass=chain.n_blocks * chain.mass,
@@ -133,4 +133,4 @@ _ANSWERS: dict[str, Any] = {
     SLIP_DURATION: rigid_slip_duration,
     WAVEFORM: _waveform,
 }
-RIGID = Model("rigid", "rigid slider", _ANSWERS, lambda chain: chain)
+RIGID = Model("rigid", "rigid slider", _ANSWERS, plain)

@@ -6,7 +6,8 @@ import numpy as np
 
 from precursors.bound import load_bound
 from precursors.chain import Chain, FloatArray
-from precursors.reduced.quantities import FIRST_LOAD, FRONT_LOADS, LOAD_BOUND, MU_SAPP, Model
+from precursors.reduced.quantities import Model, plain
+from precursors.scene_models import FIRST_LOAD, FRONT_LOADS, LOAD_BOUND, MU_SAPP
 
 
 def first_precursor_load(chain: Chain) -> float:
@@ -33,11 +34,11 @@ STATICS = Model(
     "statics",
     "statics",
     {LOAD_BOUND: load_bound, FIRST_LOAD: first_precursor_load},
-    lambda chain: chain,
+    plain,
 )
 LAW = Model(
     "law",
     "front law",
     {FRONT_LOADS: front_load_law, MU_SAPP: apparent_friction_law},
-    lambda chain: chain,
+    plain,
 )

@@ -1,0 +1,92 @@
+"""What docs/ shows works: its code runs in a copy of the repository, and its map of figures is current."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import ROOT
+from list_figures import DRY_RUN, main
+
+DOCS = ROOT / "docs"
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", flags=re.MULTILINE | re.DOTALL)
+
+
+def blocks(section):
+    """Language, name of the file if there is one, and text of the blocks of a section of adding.md."""
+    text = (DOCS / "adding.md").read_text(encoding="utf-8")
+    (body,) = [part for part in text.split("\n## ")[1:] if part.startswith(f"{section}\n")]
+    for language, code in BLOCK.findall(body):
+        named = re.match(r"# ([\w./]+\.\w+|Snakefile|\w+/Snakefile)\n", code)
+        yield language, named and named[1], code[named.end() :] if named else code
+
+
+def write_files(workspace, section):
+    """Make the new files of a section, and its changes."""
+    for language, name, code in blocks(section):
+        if name and language == "diff":
+            lines = code.splitlines(keepends=True)
+            old, new = ("".join(line[1:] for line in lines if line[0] in signs) for signs in (" -", " +"))
+            workspace.edit(name, old, new)
+        elif name:
+            (workspace.path / name).parent.mkdir(exist_ok=True)
+            (workspace.path / name).write_text(code, encoding="utf-8")
+
+
+def commands(section):
+    return [code.split() for language, _, code in blocks(section) if language == "sh"]
+
+
+def run_python(workspace, section):
+    """Run the code of a section that belongs to no file; what it printed, and what the section shows."""
+    code = "\n".join(code for language, name, code in blocks(section) if language == "python" and not name)
+    environment = {**os.environ, "PYTHONPATH": str(workspace.path / "src")}
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
+    )
+    (shown,) = [code for language, _, code in blocks(section) if language == "text"]
+    return done.stdout + done.stderr, shown
+
+
+def test_the_scene_and_the_figure_shown_are_made(workspace):
+    for section in ("A scene", "A figure"):
+        write_files(workspace, section)
+    (scene,), (figure,) = commands("A scene"), commands("A figure")
+    assert "draw_scene steep" in workspace.run("-n", *scene[1:]).jobs
+    outcome = workspace.run(*figure[1:])
+    assert outcome.code == 0, outcome.text
+    assert (workspace.path / figure[-1]).read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("section", ["A model", "A method"])
+def test_the_model_and_the_method_shown_give_what_is_shown(workspace, section):
+    write_files(workspace, section)
+    printed, shown = run_python(workspace, section)
+    assert printed == shown
+
+
+def test_the_workflow_shown_uses_this_one_as_a_module(workspace):
+    write_files(workspace, "Within another workflow")
+    outer = type(workspace)(workspace.path / "elsewhere")
+    outcome = outer.run("-n", "precursors_all")
+    assert outcome.code == 0, outcome.text
+    assert {"precursors_draw_scene soft", "precursors_write_paper"} <= outcome.jobs
+    outcome = outer.run("-c1")
+    assert outcome.code == 0, outcome.text
+    assert float((outer.path / "first_slip.txt").read_text().split(",")[0]) == pytest.approx(2.8)
+
+
+def test_the_map_of_figures_is_that_of_the_workflow(workspace):
+    listing = workspace.run(*DRY_RUN)
+    assert listing.code == 0, listing.text
+    shown = (DOCS / "figures.md").read_text(encoding="utf-8")
+    assert main(listing.text, ROOT) == shown, "stale: make docs"
+
+
+@pytest.mark.parametrize("page", sorted(DOCS.glob("*.md")), ids=lambda page: page.name)
+def test_files_that_a_page_links_to_exist(page):
+    links = re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8"))
+    missing = [link for link in links if "://" not in link and not (DOCS / Path(link)).exists()]
+    assert missing == []

@@ -1,0 +1,39 @@
+rule answer_scene:
+    input:
+        code=collect(
+            "{library}/{module}.py",
+            library=LIBRARY,
+            module=[
+                "bound",
+                "chain",
+                "exact",
+                "kernel",
+                "lanes",
+                "reduced/__init__",
+                "reduced/answers",
+                "reduced/dynamic",
+                "reduced/quantities",
+                "reduced/quasistatic",
+                "reduced/rigid",
+                "reduced/statics",
+                "run",
+                "scene_models",
+                "slips",
+                "storage",
+            ],
+        ),
+    output:
+        table="results/tables/{scene}_answers.csv",
+    log:
+        "results/logs/answer_scene/{scene}.log",
+    benchmark:
+        "results/benchmarks/answer_scene/{scene}.tsv"
+    wildcard_constraints:
+        scene="|".join(ASKED) or "(?!)",
+    threads: 1
+    params:
+        slider=lambda wildcards: scene_slider(config, wildcards.scene),
+        model=lambda wildcards: scene_model(config, wildcards.scene),
+        quantities=lambda wildcards: scene_quantities(config, wildcards.scene),
+    script:
+        "../scripts/answer_scene.py"

@@ -1,0 +1,32 @@
+# Comes after everything else that `all` asks for.
+rule write_provenance:
+    input:
+        RESULTS,
+        code=collect("{library}/{module}.py", library=LIBRARY, module=["provenance", "storage"]),
+    output:
+        json="results/provenance.json",
+    log:
+        "results/logs/write_provenance.log",
+    benchmark:
+        "results/benchmarks/write_provenance.tsv"
+    threads: 1
+    params:
+        root=ROOT,
+        config=config,
+    script:
+        "../scripts/write_provenance.py"
+
+
+rule write_crate:
+    input:
+        provenance="results/provenance.json",
+        code=collect("{library}/{module}.py", library=LIBRARY, module=["crate", "provenance", "storage"]),
+    output:
+        metadata="results/ro-crate-metadata.json",
+    log:
+        "results/logs/write_crate.log",
+    benchmark:
+        "results/benchmarks/write_crate.tsv"
+    threads: 1
+    script:
+        "../scripts/write_crate.py"

@@ -1,0 +1,26 @@
+"""Ask the model of a scene for its quantities, and for nothing else."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from job import job
+from tables import write_table
+
+from precursors.chain import Chain
+from precursors.reduced.answers import answers_table
+
+
+def main(slider: dict[str, Any], model: str, quantities: Sequence[str], output: str | Path) -> None:
+    """Write one row per number that the model answers."""
+    write_table(answers_table(Chain.from_slider(**slider), model, quantities), output)
+
+
+if __name__ == "__main__":
+    with job() as snakemake:
+        main(
+            snakemake.params.slider,
+            snakemake.params.model,
+            snakemake.params.quantities,
+            snakemake.output.table,
+        )
