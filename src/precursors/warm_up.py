@@ -1,4 +1,4 @@
-"""Compile all compiled code into its cache, two parts at a time: python -m precursors.warm_up."""
+"""Compile all compiled code into its cache, a part on each core: python -m precursors.warm_up."""
 
 from __future__ import annotations
 
@@ -25,6 +25,13 @@ def solver() -> None:
     quasistatic_slips(chain, overshoot=1.0)
 
 
+def linked_solver() -> None:
+    """The exact solver for chains with viscosity or interface springs, compiled apart."""
+    from precursors import Chain, simulate
+
+    simulate(Chain.from_slider(viscosity=1.0), DURATION).at([DURATION])
+
+
 def methods() -> None:
     """The methods with a fixed step that it is compared with, with transitions and without."""
     from precursors import Chain
@@ -37,7 +44,7 @@ def methods() -> None:
         largest_stable_step(Chain.from_slider(), SLIDES[name])
 
 
-PARTS: tuple[Callable[[], None], ...] = (solver, methods)
+PARTS: tuple[Callable[[], None], ...] = (solver, linked_solver, methods)
 
 
 def main() -> None:
