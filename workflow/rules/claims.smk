@@ -1,7 +1,7 @@
 from precursors.ledger.claims import read_claims, scenes_needed, tables_needed
 
 PAPERS_SCENES = config["fig13"]
-CLAIMS_FILE = f"{ROOT}/paper/claims.yaml"
+CLAIMS_FILE = os.path.normpath(f"{ROOT}/paper/claims.yaml")
 
 try:
     CLAIMS = read_claims(CLAIMS_FILE)

@@ -1,7 +1,7 @@
 from precursors.proof.validation import certificate_path, chain_duration, exact_chain
 
 CHAINS = config["horizon"]["chains"]
-COMMITTED = f"{ROOT}/workflow/certificates"
+COMMITTED = os.path.normpath(f"{ROOT}/workflow/certificates")
 PROOF_CODE = [
     f"{LIBRARY}/proof/{name}.py" for name in ["certificate", "exact_chain", "first_root", "motion", "tube"]
 ]
