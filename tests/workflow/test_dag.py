@@ -183,6 +183,13 @@ def test_a_configuration_without_the_papers_scenes_has_no_ledger_and_no_paper(wo
     assert not {"judge_claims", "write_paper"} & jobs
 
 
+def test_a_scene_of_the_paper_given_by_theta_leaves_out_the_paper_and_runs(workspace):
+    workspace.edit("config.yaml", "    load_cell_a: 200.0\n    load_cell_b: 200.0\n", "    theta: 0\n")
+    jobs = workspace.would_run()
+    assert "simulate_scene fig10" in jobs
+    assert "write_paper" not in jobs
+
+
 def test_a_wrong_claim_stops_the_workflow_in_one_line(workspace):
     workspace.edit("paper/claims.yaml", "  limit: 280\n", "  limit: much\n")
     outcome = workspace.run("-n", "all")

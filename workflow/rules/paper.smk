@@ -1,4 +1,4 @@
-from precursors.paper import configured, files_shown, read_sources, tables_needed
+from precursors.paper import configured, files_shown, is_configured, read_sources, tables_needed
 
 PAPER_SOURCE = Path(ROOT) / "paper"
 
@@ -7,8 +7,10 @@ try:
 except ValueError as error:
     raise WorkflowError(str(error)) from None
 
-# Like the ledger, the paper is about the paper's three scenes.
-PAPER = ["results/paper.pdf", "results/numbers.json"] if LEDGER else []
+# Like the ledger, the paper is about the paper's three scenes, and needs them as the configuration has them here.
+PAPER = (
+    ["results/paper.pdf", "results/numbers.json"] if LEDGER and is_configured(PAPERS_NUMBERS, config) else []
+)
 SHOWN = files_shown(PAPER_SOURCE)
 
 

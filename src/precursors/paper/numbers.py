@@ -118,6 +118,15 @@ def tables_needed(sources: Iterable[Source]) -> list[str]:
     return list(dict.fromkeys(source.table for source in sources if source.table))
 
 
+def is_configured(sources: Iterable[Source], config: Mapping[str, Any]) -> bool:
+    """Whether a configuration has every key that a number of the paper is read from."""
+    try:
+        configured(sources, config)
+    except PaperError:
+        return False
+    return True
+
+
 def configured(sources: Iterable[Source], config: Mapping[str, Any]) -> dict[str, Value]:
     """Values of the configuration that are numbers of the paper, by their key.
 

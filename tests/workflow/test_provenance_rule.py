@@ -1,0 +1,45 @@
+"""Provenance comes after all other results and has their checksums; the crate is made on demand."""
+
+import hashlib
+import json
+import shutil
+
+from conftest import ROOT
+
+CRATE = "results/ro-crate-metadata.json"
+
+
+def test_all_ends_with_the_provenance_of_all_results(finished):
+    outcome = finished.run("-n", "-F", "all")
+    (job,) = [
+        part for part in outcome.text.split("\nrule ") if "\n    output: results/provenance.json" in part
+    ]
+    needed = job.split("\n    input: ")[1].split("\n")[0].split(", ")
+    figures = sorted((finished.path / "results/figures").glob("*.svg"))
+    assert len(figures) > 20
+    assert {f"results/figures/{figure.name}" for figure in figures} <= set(needed)
+    assert "write_crate" not in outcome.jobs
+
+
+def test_the_provenance_has_checksums_of_what_lies_there_and_follows_an_edit(finished):
+    for script in ("write_provenance.py", "write_crate.py", "job.py"):
+        shutil.copy2(ROOT / "workflow/scripts" / script, finished.path / "workflow/scripts")
+    outcome = finished.run("-c1", "--rerun-triggers", "mtime", "--force", "results/provenance.json")
+    assert outcome.code == 0, outcome.text
+    outcome = finished.run("-c1", CRATE)
+    assert outcome.code == 0, outcome.text
+    provenance = json.loads((finished.path / "results/provenance.json").read_text(encoding="utf-8"))
+    assert {"figures/fig13.svg", "runs/fig10.h5", "tables/fig10_slips.csv"} <= set(provenance["outputs"])
+    for name in ("figures/fig13.svg", "runs/fig10.h5"):
+        digest = hashlib.sha256((finished.path / "results" / name).read_bytes()).hexdigest()
+        assert provenance["outputs"][name]["sha256"] == digest
+    assert {"Snakefile", "workflow/rules/provenance.smk", "src/precursors/kernel.py"} <= set(
+        provenance["inputs"]
+    )
+    assert provenance["config"]["chain"]["n_blocks"] == 10
+    crate = json.loads((finished.path / CRATE).read_text(encoding="utf-8"))
+    files = {entity["@id"] for entity in crate["@graph"] if entity["@type"] == "File"}
+    assert files == {*provenance["outputs"], "provenance.json"}
+
+    finished.append("src/precursors/figures/precursor_lengths.py", "\nCOLOR = 'red'\n")
+    assert "rule write_provenance:" in finished.run("-n", "all").text
