@@ -30,8 +30,6 @@ AGREEMENT = ListedColormap(["white", "#D6EAF7", style.SKY])
 # No to six numbers of a reading and size of theta.
 NUMBERS = ListedColormap(["white", "#EDF5FA", "#D6EAF7", "#B5D9F0", "#8AC6EA", style.SKY, style.BLUE])
 SIX = 6
-# In widths of the left panel.
-LEFT_OF_ROW_NAMES = -0.36
 
 SHORT_NAMES = {
     "in which all blocks slide at the same instant": "all blocks\nslide at once",
