@@ -6,17 +6,16 @@ import os
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors import kernel
-from precursors.chain import LARGEST, Chain, FloatArray, positive, whole
+from precursors.chain import LARGEST, Chain, FloatArray, Until, checked_span, whole
 from precursors.run import TRANSITION, Run, States
 
 IntArray = NDArray[np.int64]
-Until = Literal["global slip"] | None
 
 MAX_TRANSITIONS = 10_000_000
 # Stored states are thinned out so that they never take more room than this.
@@ -120,7 +119,7 @@ def simulate_many(
         If a run meets the cap of `simulate`.
     """
     duration, max_transitions = _limits(duration, until, MAX_TRANSITIONS)
-    threads = _cores() if threads is None else whole("threads", threads, at_least=1)
+    threads = available_cores() if threads is None else whole("threads", threads, at_least=1)
     positions = _starts("start_positions", start_positions, "m", chains)
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)
 
@@ -143,10 +142,7 @@ def simulate_many(
 
 
 def _limits(duration: float, until: Until, max_transitions: int) -> tuple[float, int]:
-    duration = positive("duration", duration, "s")
-    if until not in (None, "global slip"):
-        raise ValueError(f'until = {until!r} is unknown: allowed is None or "global slip"')
-    return duration, whole("max_transitions", max_transitions, at_least=1)
+    return checked_span(duration, until), whole("max_transitions", max_transitions, at_least=1)
 
 
 def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> FloatArray:
@@ -180,7 +176,7 @@ def _starts(
     ]
 
 
-def _cores() -> int:
+def available_cores() -> int:
     """Number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
@@ -199,31 +195,35 @@ def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
 class _Workspace(threading.local):
     """The record into which a thread runs chains of one length and kind, kept from call to call."""
 
-    n_blocks, is_linked = 0, False
+    kind: tuple[int, bool, bool] | None = None
 
-    def prepare(self, n_blocks: int, is_linked: bool) -> None:
+    def prepare(self, n_blocks: int, is_linked: bool, on_springs: bool) -> None:
         """Make room for chains of `n_blocks`, if it is not there yet."""
-        if (n_blocks, is_linked) == (self.n_blocks, self.is_linked):
+        if (n_blocks, is_linked, on_springs) == self.kind:
             return
         wide = kernel.width(n_blocks)
         self.stride = 1 + wide // BLOCKS_PER_STRIDE
         self.state_room = max(FIRST_ROOM // self.stride, 2)
-        self.chain = tuple(np.zeros((4, wide)))
         self.additions = kernel.new_additions(n_blocks) if is_linked else None
-        self.state = (np.zeros(wide), np.zeros(wide), np.zeros(wide, np.int64))
-        self.record: tuple[NDArray[Any], ...] = tuple(
-            np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in RECORD
-        )
+        self.ringing = kernel.new_ringing(n_blocks, on_springs) if is_linked else None
         rows = max(SHARED_ROOM // self.stride, 2)
-        self.states = (
-            np.empty((rows, wide)),
-            np.empty((rows, wide)),
-            np.empty((rows, wide), np.int64),
-            np.empty(rows, np.int64),
-            np.empty(rows),
-            np.zeros((rows, wide if is_linked else 0)),
+        self.room = kernel.Room(
+            kernel.new_columns(n_blocks),
+            kernel.new_state(n_blocks),
+            kernel.new_motion(n_blocks),
+            kernel.new_search(n_blocks),
+            kernel.Record._make(np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in RECORD),
+            kernel.States(
+                np.empty((rows, wide)),
+                np.empty((rows, wide)),
+                np.empty((rows, wide), np.int64),
+                np.empty(rows, np.int64),
+                np.empty(rows),
+                np.zeros((rows, wide if is_linked else 0)),
+            ),
         )
-        self.n_blocks, self.is_linked = n_blocks, is_linked
+        self.arrays = self.room.arrays
+        self.kind = n_blocks, is_linked, on_springs
 
 
 _workspace = _Workspace()
@@ -239,13 +239,17 @@ def _run_batch(
 ) -> list[Run]:
     """Run chains of equal length one after the other, in as few calls of the kernel as it takes."""
     work = _workspace
-    work.prepare(chains[0].n_blocks, kernel.is_linked(chains[0]))
+    on_springs = any(chain.interface_stiffness > 0.0 for chain in chains)
+    work.prepare(chains[0].n_blocks, kernel.is_linked(chains[0]), on_springs)
     parameters = np.array([kernel.parameters(chain) for chain in chains])
     weights = np.array([chain.weights for chain in chains])
     taus = np.empty(len(chains))
     clocks = np.zeros((len(chains), kernel.CLOCK_SIZE))
     counts = np.zeros((len(chains), kernel.COUNT_SIZE), np.int64)
+    ends = taus, clocks, counts
     runs: list[Run] = []
+    ends_at = duration, until is not None
+    most = min(FIRST_ROOM, max_transitions), work.state_room, WINDOWS_PER_CALL
     while len(runs) < len(chains):
         left = slice(len(runs), None)
         n_finished, is_paused = kernel.run_batch(
@@ -253,20 +257,16 @@ def _run_batch(
             weights[left],
             positions[left],
             velocities[left],
-            duration,
-            until is not None,
-            work.chain,
-            work.additions,
-            work.state,
-            work.record,
-            min(FIRST_ROOM, max_transitions),
-            work.states,
-            work.state_room,
+            *ends_at,
+            *most,
+            False,
             work.stride,
-            WINDOWS_PER_CALL,
+            work.additions,
+            work.ringing,
             taus[left],
             clocks[left],
             counts[left],
+            *work.arrays,
         )
         for j, part in zip(
             range(len(runs), len(runs) + n_finished + is_paused),
@@ -274,7 +274,9 @@ def _run_batch(
             strict=True,
         ):
             if counts[j, kernel.STATUS] == kernel.PAUSED:
-                part = _go_on(chains[j], part, work, clocks[j], counts[j], duration, until, max_transitions)
+                mine = slice(j, j + 1)
+                chain = parameters[mine], weights[mine], positions[mine], velocities[mine], *ends_at
+                part = _go_on(chain, part, work, [values[mine] for values in ends], max_transitions)
             elapsed = clocks[j, kernel.ONSET] + (
                 clocks[j, kernel.ONSET_ERROR] + clocks[j, kernel.ELAPSED] * taus[j]
             )
@@ -317,10 +319,10 @@ class _Part(NamedTuple):
 def _parts(work: _Workspace, counts: IntArray) -> Iterator[_Part]:
     """Cut the record of several runs, as `counts` has them, into one part a run."""
     used, stored = counts[:, kernel.TRANSITIONS].tolist(), counts[:, kernel.STORED].tolist()
-    transitions = _transitions(work.record[:-1], sum(used))
-    intervals: FloatArray = work.record[-1][: sum(used) + len(used)].copy()
+    transitions = _transitions(work.room.record[:-1], sum(used))
+    intervals: FloatArray = work.room.record[-1][: sum(used) + len(used)].copy()
     n_states = sum(stored)
-    states = [column[:n_states].copy() for column in work.states]
+    states = [column[:n_states].copy() for column in work.room.states]
     if len(used) == 1:
         yield _Part(transitions, intervals, _states(states, slice(None)))
         return
@@ -335,21 +337,14 @@ def _parts(work: _Workspace, counts: IntArray) -> Iterator[_Part]:
 
 
 def _go_on(
-    chain: Chain,
+    chain: tuple[Any, ...],
     part: _Part,
     work: _Workspace,
-    clock: FloatArray,
-    count: IntArray,
-    duration: float,
-    until: Until,
+    ends: Sequence[NDArray[Any]],
     max_transitions: int,
 ) -> _Part:
     """Run on a chain that the kernel left unfinished, in a record of its own."""
-    system = kernel.scale(chain)
-    state = tuple(column.copy() for column in work.state)
-    if system.additions is not None and work.additions is not None:
-        for mine, shared in zip(system.additions, work.additions, strict=True):
-            mine[:] = shared
+    [tau], [clock], [count] = ends
     record = _Record(part, work.stride)
     while (
         count[kernel.STATUS] == kernel.PAUSED
@@ -357,24 +352,11 @@ def _go_on(
         and count[kernel.WINDOWS] < MAX_WINDOWS
     ):
         record.make_room(count, max_transitions)
-        count[kernel.STATUS] = kernel.run_events(
-            system.tau,
-            system.drive_velocity,
-            (system.coupling, system.strength, system.friction, system.lightness),
-            system.additions,
-            state,
-            clock,
-            count,
-            duration,
-            until is not None,
-            record.columns,
-            len(record.columns[0]),
-            record.states,
-            len(record.states[0]),
-            record.stride,
-            WINDOWS_PER_CALL,
-        )
-    return record.part(count, clock[kernel.SINCE] * system.tau)
+        room = work.room._replace(record=record.columns, states=record.states)
+        most = len(record.columns.time), len(record.states.after), WINDOWS_PER_CALL
+        linked = work.additions, work.ringing
+        kernel.run_batch(*chain, *most, True, record.stride, *linked, *ends, *room.arrays)
+    return record.part(count, clock[kernel.SINCE] * tau)
 
 
 class _Record:
@@ -383,25 +365,25 @@ class _Record:
     def __init__(self, part: _Part, stride: int) -> None:
         self.stride = stride
         values = [part.transitions[name] for name in TRANSITION.names or ()]
-        self.columns: tuple[NDArray[Any], ...] = tuple(
+        self.columns = kernel.Record._make(
             column.astype(kind) for column, kind in zip([*values, part.intervals], RECORD, strict=True)
         )
-        self.states: tuple[NDArray[Any], ...] = tuple(part.states)
+        self.states = part.states
 
     def make_room(self, count: IntArray, most: int) -> None:
         """Enlarge what is full; thin the states out where they take too much."""
         used, stored = int(count[kernel.TRANSITIONS]), int(count[kernel.STORED])
         if used >= len(self.columns[0]) or len(self.columns[0]) < len(self.columns[-1]):
             room = min(max(FIRST_ROOM, 2 * used), most)
-            self.columns = tuple(_enlarged(column[:used], room) for column in self.columns)
+            self.columns = kernel.Record._make(_enlarged(column[:used], room) for column in self.columns)
         if stored < len(self.states[0]):
             return
         rows = max(FIRST_ROOM // self.stride, 2 * len(self.states[0]))
         if rows * sum(s[0].nbytes for s in self.states) > STATES_BYTES and stored > 1:
-            self.states = tuple(np.ascontiguousarray(s[:stored:2]) for s in self.states)
+            self.states = kernel.States._make(np.ascontiguousarray(s[:stored:2]) for s in self.states)
             self.stride *= 2
             count[kernel.STORED] = len(self.states[0])
-        self.states = tuple(_enlarged(s, rows) for s in self.states)
+        self.states = kernel.States._make(_enlarged(s, rows) for s in self.states)
 
     def part(self, count: IntArray, last_interval: float) -> _Part:
         """What was recorded, the time since the last transition as its last interval."""
@@ -414,7 +396,7 @@ class _Record:
 
 
 # Types of a record's columns: time, block, mode, tangential load, interval.
-RECORD = (np.float64, np.int64, np.int64, np.float64, np.float64)
+RECORD: tuple[Any, ...] = (np.float64, np.int64, np.int64, np.float64, np.float64)
 
 
 def _states(columns: Sequence[NDArray[Any]], rows: slice) -> States:
@@ -435,7 +417,7 @@ def _transitions(columns: Sequence[NDArray], n: int) -> NDArray[np.void]:
     return transitions
 
 
-def _enlarged(values: NDArray, rows: int) -> NDArray:
+def _enlarged(values: NDArray[Any], rows: int) -> NDArray[Any]:
     larger = np.empty((rows, *values.shape[1:]), values.dtype)
     larger[: len(values)] = values
     return larger

@@ -7,7 +7,6 @@ from dataclasses import dataclass, fields
 from importlib.metadata import version
 from io import BytesIO
 from os import PathLike
-from typing import NamedTuple
 
 import h5py
 import numpy as np
@@ -15,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from precursors import kernel
 from precursors.chain import Chain, FloatArray
+from precursors.kernel import States
 from precursors.storage import SEAL_SIZE, read_sealed, write_sealed
 
 TRANSITION = np.dtype([("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")])
@@ -38,21 +38,6 @@ FORMAT = "precursors run 2"
 
 class RunFileError(ValueError):
     """A file that is not a whole run of this format."""
-
-
-class States(NamedTuple):
-    """Stored states in the kernel's units and columns; row 0 is the start, before any transition.
-
-    Spring forces [N], velocities [N/tau], modes, the number of transitions before, the time since [s], and
-    forces of the interface springs [N]: no columns where the interface is rigid.
-    """
-
-    force: FloatArray
-    velocity: FloatArray
-    mode: NDArray[np.int64]
-    after: NDArray[np.int64]
-    offset: FloatArray
-    grip: FloatArray = np.empty((0, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +72,47 @@ class Run:
     start_velocities: FloatArray
     states: States
     evaluations: float = 0.0
+
+    @classmethod
+    def from_transitions(
+        cls,
+        chain: Chain,
+        duration: float,
+        time: ArrayLike,
+        block: ArrayLike,
+        mode: ArrayLike,
+        tangential_load: ArrayLike,
+        intervals: ArrayLike | None = None,
+    ) -> Run:
+        """Make a run from its transitions; it knows no states between them, so that `at` refuses.
+
+        Parameters
+        ----------
+        chain : Chain
+            The chain that moved, from rest with springs at natural length.
+        duration : float
+            Time reached [s].
+        time, block, mode, tangential_load : array_like, shape (n,)
+            When [s], which block (1..N), its new mode (+1, 0, -1) and F_X [N].
+        intervals : array_like, shape (n + 1,), optional
+            Seconds to the first transition, between them and to the end; by default differences of `time`,
+            whose rounding grows with the time.
+        """
+        transitions = np.empty(len(np.atleast_1d(np.asarray(time))), dtype=TRANSITION)
+        transitions["time"], transitions["block"], transitions["mode"] = time, block, mode
+        transitions["tangential_load"] = tangential_load
+        if intervals is None:
+            intervals = np.diff(np.concatenate([[0.0], transitions["time"], [duration]]))
+        at_rest = np.zeros(chain.n_blocks)
+        return cls(
+            chain=chain,
+            duration=float(duration),
+            transitions=transitions,
+            intervals=np.array(intervals, dtype=np.float64),
+            start_positions=at_rest,
+            start_velocities=at_rest,
+            states=States.none(chain.n_blocks),
+        )
 
     def at(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Positions [m] and velocities [m/s], each (len(times), N), exact to rounding.
@@ -138,26 +164,17 @@ class Run:
     def _evaluate(self, when: FloatArray) -> tuple[FloatArray, FloatArray]:
         if len(self.states.after) == 0:
             raise ValueError("the run has no stored states: allowed is one from simulate or Run.load")
-        system = kernel.scale(self.chain)
         order = np.argsort(when, kind="stable")
-        shape = (len(when), self.chain.n_blocks)
-        force, velocity = np.empty(shape), np.empty(shape)
-        kernel.evaluate(
-            system.tau,
-            system.drive_velocity,
-            (system.coupling, system.strength, system.friction, system.lightness),
-            system.additions,
-            when[order],
+        record = kernel.Record(
             np.ascontiguousarray(self.transitions["time"]),
             self.transitions["block"].astype(np.int64),
             self.transitions["mode"].astype(np.int64),
+            np.ascontiguousarray(self.transitions["tangential_load"]),
             self.intervals,
-            tuple(self.states),
-            force,
-            velocity,
         )
+        force, velocity = kernel.evaluate(self.chain, when[order], record, self.states)
         back = np.argsort(order, kind="stable")
-        return force[back], kernel.to_velocities(system, self.chain, velocity[back])
+        return force[back], velocity[back]
 
     def save(self, path: str | PathLike[str], configuration: dict[str, object] | None = None) -> None:
         """Write the run to an HDF5 file, under a temporary name until it is whole.

@@ -1,7 +1,7 @@
 """Four doubles at once in compiled code: a type for Numba on which +, -, * act lane by lane.
 
 Loops over the blocks of a chain are too short for LLVM to vectorise by itself. A value of this type becomes
-one AVX register, or two of SSE or NEON. Compile caches do not see an edit here: change `kernel.py` as well.
+one AVX register, or two of SSE or NEON.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import operator
 
 from llvmlite import ir
 from numba.core import cgutils, types
-from numba.extending import intrinsic, models, overload, register_model
+from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
 
 LANES = 4
 DOUBLE = ir.DoubleType()
@@ -86,6 +86,22 @@ def store_row(typingctx, array, n, i, value):
         return context.get_dummy_value()
 
     return types.void(array, n, i, value), generate
+
+
+@intrinsic
+def of_width(typingctx, array, width):
+    """The same array of two dimensions, C-contiguous, with rows of a width that the compiler knows."""
+
+    def generate(context, builder, signature, arguments):
+        value, columns = arguments
+        view = context.make_array(signature.args[0])(context, builder, value=value)
+        n_rows = builder.extract_value(view.shape, 0)
+        view.shape = cgutils.pack_array(builder, [n_rows, columns])
+        item = ir.Constant(columns.type, DOUBLE.get_abi_size(context.target_data))
+        view.strides = cgutils.pack_array(builder, [builder.mul(columns, item), item])
+        return view._getvalue()
+
+    return array(array, types.intp), generate
 
 
 @intrinsic
@@ -198,33 +214,26 @@ def largest(typingctx, value):
     return types.float64(four), generate
 
 
-def _binary(name):
-    def typed(typingctx, a, b):
-        def generate(context, builder, signature, arguments):
-            values = [
-                v if t == four else _splat(builder, v) for v, t in zip(arguments, signature.args, strict=True)
-            ]
-            return getattr(builder, name)(*values)
+def _lane_by_lane(operation, name):
+    """Let an operator act on two values of four, or on one and a number."""
 
-        if four not in (a, b):
-            return None
-        return four(a, b), generate
+    @type_callable(operation)
+    def typed(context):
+        def result(a, b):
+            return four if {a, b} <= {four, types.float64} and four in (a, b) else None
 
-    typed.__name__ = name
-    return intrinsic(typed)
+        return result
 
+    def generate(context, builder, signature, arguments):
+        values = [
+            v if t == four else _splat(builder, v) for v, t in zip(arguments, signature.args, strict=True)
+        ]
+        return getattr(builder, name)(*values)
 
-_ADD, _SUBTRACT, _MULTIPLY = (_binary(name) for name in ("fadd", "fsub", "fmul"))
-
-
-def _overload(operation, lane_by_lane):
-    @overload(operation)
-    def implement(a, b):
-        if {a, b} <= {four, types.float64} and four in (a, b):
-            return lambda a, b: lane_by_lane(a, b)
-        return None
+    for pair in ((four, four), (four, types.float64), (types.float64, four)):
+        lower_builtin(operation, *pair)(generate)
 
 
-_overload(operator.add, _ADD)
-_overload(operator.sub, _SUBTRACT)
-_overload(operator.mul, _MULTIPLY)
+_lane_by_lane(operator.add, "fadd")
+_lane_by_lane(operator.sub, "fsub")
+_lane_by_lane(operator.mul, "fmul")
