@@ -1,13 +1,12 @@
 """An independent check that a run is a motion of the model: equation of motion, Coulomb's law, energy.
 
 Nothing of the solver is used. Every interval between two transitions is propagated by the normal modes of
-the sliding blocks, and what must hold inside it is proved with a bound on the second derivative.
+the sliding blocks, and what must hold inside it is proved with a bound on the fourth derivative.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -15,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import svd
 
-from precursors.chain import Chain, FloatArray, positive, require_plain
+from precursors.chain import Chain, FloatArray, not_negative, positive, require_plain
 
 if TYPE_CHECKING:
     from precursors.run import Run
@@ -39,8 +38,11 @@ at the speed of the drive."""
 MAX_PROBLEMS = 20
 """The audit stops at this many: what follows a wrong transition is wrong, and says nothing new."""
 
-_PHASE_PER_CELL = 0.3  # rad of the fastest mode: what a first cell can usually be proved for
-_FEWEST_CELLS = 8
+_UNIT = 2.0**-53  # a rounding, relative
+_START_ROUNDINGS = 8
+_PHASE_PER_CELL = 1.0  # rad of the fastest mode: what a first cell can usually be proved for
+_FEWEST_CELLS = 2
+_PARTS = 8  # of a cell for which that does not suffice
 _PROBES_AT_ONCE = 200_000  # numbers per array: bounds the memory on long intervals and long chains
 _MODES_KEPT = 2e8  # bytes
 
@@ -53,19 +55,24 @@ class Tolerances:
     ----------
     force, velocity, time, energy : float
         Fractions of the largest strength, of mu_s w/sqrt(K m), of the duration and of the energy turned over.
+    roundings : float
+        Not 0: forces and velocities may be off by so many roundings of a step (see `_Rounding`), instead of
+        by fixed fractions. Of an exact run it is 16, which is what the solver counts as zero.
 
     Raises
     ------
     ValueError
-        If one of them is not a finite number above zero.
+        If `roundings` is not a finite number from zero on, or another is not a finite number above zero.
     """
 
     force: float = FORCE_TOLERANCE
     velocity: float = VELOCITY_TOLERANCE
     time: float = TIME_TOLERANCE
     energy: float = ENERGY_TOLERANCE
+    roundings: float = 0.0
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "roundings", not_negative("tolerance roundings", self.roundings, "1"))
         for name in ("force", "velocity", "time", "energy"):
             object.__setattr__(self, name, positive(f"tolerance {name}", getattr(self, name), "1"))
 
@@ -86,6 +93,8 @@ class Audit:
         Largest difference of a recorded time and the sum of the intervals [s].
     energy_residual : float
         Work of the drive minus change of energy minus friction heat, relative.
+    roundings : float
+        Largest deviation of a force or a velocity, in roundings.
     n_intervals : int
         Number of intervals that were propagated.
     problems : tuple of str
@@ -99,6 +108,7 @@ class Audit:
     transition_residual: float
     time_residual: float
     energy_residual: float
+    roundings: float
     n_intervals: int
     problems: tuple[str, ...]
 
@@ -162,7 +172,7 @@ def audit(run: Run, tolerance: Tolerances | float | None = None) -> Audit:
     malformed = _malformed(run)
     if malformed:
         nan = math.nan
-        return Audit(nan, nan, nan, nan, nan, nan, nan, n_intervals=0, problems=(malformed,))
+        return Audit(nan, nan, nan, nan, nan, nan, nan, nan, n_intervals=0, problems=(malformed,))
     return _Auditor(run, tolerance).audit()
 
 
@@ -190,21 +200,19 @@ def _malformed(run: Run) -> str:
 
 @dataclass(frozen=True, eq=False)
 class _Modes:
-    """Normal modes of blocks first..last (from 0) between neighbours that do not move.
+    """Normal modes of blocks that slide, between neighbours that do not move.
 
-    frequencies (n,) [rad/s]; shapes (n, n): displacement = shapes @ q; spring_shapes (n_springs, n): the
-    forces of the springs first, first + 1, ... grow by -spring_shapes @ q.
+    frequencies (n,) [rad/s]; shapes (n blocks, n): displacement = shapes @ q; spring_shapes (n springs, n):
+    the forces of the springs grow by -spring_shapes @ q.
     """
 
-    first: int
-    last: int
     frequencies: FloatArray
     shapes: FloatArray
     spring_shapes: FloatArray
 
 
 def normal_modes(chain: Chain, first: int, last: int) -> _Modes:
-    """Normal modes of the blocks first..last, counted from 0.
+    """Normal modes of the blocks first..last, counted from 0, and of the springs behind and ahead of them.
 
     With springs s, the stiffness matrix is B B^T, B the bidiagonal matrix of +sqrt(s_i), -sqrt(s_i+1). Its
     singular values, not the eigenvalues of the product, keep the digits of a mode that is slower than the
@@ -220,8 +228,6 @@ def normal_modes(chain: Chain, first: int, last: int) -> _Modes:
     left, singular, right = svd(balance, lapack_driver="gesvd", check_finite=False)
     singular = singular[:n]
     return _Modes(
-        first=first,
-        last=last,
         frequencies=singular / math.sqrt(chain.mass),
         shapes=np.ascontiguousarray(left[:n, :n]),
         spring_shapes=roots[:, None] * right[:n].T * singular,
@@ -230,7 +236,7 @@ def normal_modes(chain: Chain, first: int, last: int) -> _Modes:
 
 @dataclass(frozen=True, eq=False)
 class _Motion:
-    """Motion of one group, mode by mode: q'' + omega^2 q = push + ramp s, q = 0 and q' = speed at s = 0."""
+    """Motion mode by mode: q'' + omega^2 q = push + ramp s, q = 0 and q' = speed at s = 0."""
 
     modes: _Modes
     speed: FloatArray
@@ -252,19 +258,23 @@ class _Motion:
         acceleration = self.push * cosine + (self.ramp / omega - self.speed * omega) * sine
         return displacement, velocity, acceleration
 
-    def integral(self, s: float) -> FloatArray:
-        """Integral of the modal displacements from 0 to s, shape (n,)."""
+    def swing(self, s: float) -> FloatArray:
+        """Integral of how far the modal displacements are behind equilibrium, from 0 to s, shape (n,)."""
         omega = self.modes.frequencies
-        versine = 2 * (np.sin(0.5 * omega * s) / omega) ** 2
-        lag = s - np.sin(omega * s) / omega
-        return self.speed * versine + (self.push * lag + self.ramp * (s**2 / 2 - versine)) / omega**2
+        sine, versine = np.sin(omega * s), 2 * np.sin(0.5 * omega * s) ** 2
+        return (self.push / omega * sine - (self.speed - self.ramp / omega**2) * versine) / omega**2
 
     def bounds(self) -> tuple[FloatArray, FloatArray]:
-        """Largest acceleration and largest jerk that each block of the group can have, each of shape (n,)."""
+        """Largest fourth derivatives of modal displacements and velocities, each of shape (n,)."""
         omega = self.modes.frequencies
-        amplitude = np.hypot(self.push, self.ramp / omega - self.speed * omega)
-        shapes = np.abs(self.modes.shapes)
-        return shapes @ amplitude, shapes @ (amplitude * omega)
+        acceleration = np.hypot(self.push, self.ramp / omega - self.speed * omega)
+        return acceleration * omega**2, acceleration * omega**3
+
+    def speed_bound(self) -> float:
+        """Largest speed that all modes together can have: the root of the sum of the squares."""
+        omega = self.modes.frequencies
+        largest = np.abs(self.speed) + np.abs(self.push / omega) + 2 * np.abs(self.ramp / omega**2)
+        return float(np.linalg.norm(largest))
 
 
 class _Gauges:
@@ -272,12 +282,11 @@ class _Gauges:
 
     One column for each sliding block (its velocity in the direction of its mode, over the velocity scale),
     then two for each stuck block whose force can change (mu_s w - force and mu_s w + force, over the force
-    scale). `curvature` bounds the second derivative of each column.
+    scale). `fourth` bounds the fourth derivative of each column.
     """
 
-    def __init__(self, auditor: _Auditor, motions: list[_Motion]) -> None:
-        self.motions, self.chain = motions, auditor.chain
-        self.velocity_scale, self.force_scale = auditor.velocity_scale, auditor.force_scale
+    def __init__(self, auditor: _Auditor, motion: _Motion) -> None:
+        self.motion = motion
         moves = auditor.mode != 0
         near = moves.copy()
         near[0] = True
@@ -286,66 +295,37 @@ class _Gauges:
         self.sliding = np.flatnonzero(moves)
         self.stuck = np.flatnonzero(near & ~moves)
         self.blocks = np.concatenate([self.sliding, self.stuck, self.stuck])
-        self.sign = auditor.mode[self.sliding]
-        self.strength = auditor.strength[self.stuck]
-        self.force = auditor.net_force()[self.stuck]
-        self.rate = np.where(self.stuck == 0, self.chain.loading_rate, 0.0)
-        self.curvature = self._curvature()
-
-    def _neighbours(self, motion: _Motion) -> Iterator[tuple[int, int, float]]:
-        """Stuck neighbours of a group: column in `stuck`, end of the group (0, -1), spring between."""
-        first, last = motion.modes.first, motion.modes.last
-        if first > 0:
-            yield int(np.searchsorted(self.stuck, first - 1)), 0, self.chain.stiffness
-        if last + 1 < self.chain.n_blocks:
-            yield int(np.searchsorted(self.stuck, last + 1)), -1, self.chain.stiffness
-
-    def _curvature(self) -> FloatArray:
-        jerks, force = [], np.zeros(len(self.stuck))
-        for motion in self.motions:
-            acceleration, jerk = motion.bounds()
-            jerks.append(jerk / self.velocity_scale)
-            for column, end, stiffness in self._neighbours(motion):
-                force[column] += stiffness * acceleration[end]
-        force /= self.force_scale
-        return np.concatenate([*jerks, force, force])
+        springs = motion.modes.spring_shapes
+        self.to_speed = motion.modes.shapes.T * (auditor.mode[self.sliding] / auditor.velocity_scale)
+        self.to_force = (springs[self.stuck + 1] - springs[self.stuck]).T / auditor.force_scale
+        self.strength = auditor.strength[self.stuck] / auditor.force_scale
+        self.force = auditor.net_force()[self.stuck] / auditor.force_scale
+        self.rate = np.where(self.stuck == 0, auditor.chain.loading_rate / auditor.force_scale, 0.0)
+        displacement, velocity = motion.bounds()
+        force = displacement @ np.abs(self.to_force)
+        self.fourth = np.concatenate([velocity @ np.abs(self.to_speed), force, force])
 
     def __call__(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Values and slopes at the times s, each of shape (len(s), number of columns)."""
-        velocity, acceleration = [], []
-        force = self.force + s[:, None] * self.rate
-        rate = np.broadcast_to(self.rate, force.shape).copy()
-        for motion in self.motions:
-            q, dq, ddq = motion.at(s)
-            shapes = motion.modes.shapes
-            velocity.append(dq @ shapes.T)
-            acceleration.append(ddq @ shapes.T)
-            for column, end, stiffness in self._neighbours(motion):
-                force[:, column] += stiffness * (q @ shapes[end])
-                rate[:, column] += stiffness * velocity[-1][:, end]
-        sign, scale = self.sign / self.velocity_scale, self.force_scale
-        n = len(self.sliding)
-        values = np.empty((len(s), len(self.blocks)))
-        slopes = np.empty_like(values)
-        if n:
-            values[:, :n] = np.concatenate(velocity, axis=1) * sign
-            slopes[:, :n] = np.concatenate(acceleration, axis=1) * sign
-        m = n + len(self.stuck)
-        values[:, n:m], values[:, m:] = (self.strength - force) / scale, (self.strength + force) / scale
-        slopes[:, n:m], slopes[:, m:] = -rate / scale, rate / scale
-        return values, slopes
+        displacement, velocity, acceleration = self.motion.at(s)
+        force = displacement @ self.to_force + self.force + s[:, None] * self.rate
+        rate = velocity @ self.to_force + self.rate
+        values = [velocity @ self.to_speed, self.strength - force, self.strength + force]
+        slopes = [acceleration @ self.to_speed, -rate, rate]
+        return np.concatenate(values, axis=1), np.concatenate(slopes, axis=1)
 
     def lowest(self, duration: float, tolerance: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Lowest values that were probed and their times, each of shape (number of columns,).
 
         Where none is below -tolerance, none is below -2 tolerance anywhere in the interval. The proof: with
-        |g''| <= M on a cell of width d, g stays above min(g(a), g(b)) - M d^2/8 and above its tangents at
-        both ends less M d^2/2; a cell for which neither suffices is halved. The search ends where something
-        is below -tolerance.
+        a fourth derivative of at most M, g is off by at most M d^4/384 on a cell of width d from the cubic
+        that has its values and slopes at both ends, and a cubic is above the least of its Bernstein
+        coefficients; a cell for which that does not suffice is cut. The search ends where something is
+        below -tolerance.
         """
-        fastest = max((motion.modes.frequencies[0] for motion in self.motions), default=0.0)
-        n_cells = max(_FEWEST_CELLS, math.ceil(duration * fastest / _PHASE_PER_CELL)) if self.motions else 1
-        at_once = max(_FEWEST_CELLS, _PROBES_AT_ONCE // len(self.blocks)) if len(self.blocks) else n_cells
+        fastest = self.motion.modes.frequencies.max(initial=0.0)
+        n_cells = max(_FEWEST_CELLS, math.ceil(duration * fastest / _PHASE_PER_CELL)) if fastest else 1
+        at_once = max(_FEWEST_CELLS, _PROBES_AT_ONCE // len(self.blocks))
         lowest, when = np.full(len(self.blocks), np.inf), np.zeros(len(self.blocks))
         for k in range(0, n_cells, at_once):
             edges = duration / n_cells * np.arange(k, min(k + at_once, n_cells) + 1, dtype=np.float64)
@@ -355,25 +335,28 @@ class _Gauges:
         return lowest, when
 
     def _search(self, edges: FloatArray, tolerance: FloatArray, lowest: FloatArray, when: FloatArray) -> None:
-        """Prove the cells between the edges, or halve them; lowest and when are updated."""
+        """Prove the cells between the edges, or cut them into parts; lowest and when are updated."""
         values, slopes = self(edges)
         _note(values, edges, lowest, when)
-        start, end = edges[:-1], edges[1:]
-        low, low_slope, high, high_slope = values[:-1], slopes[:-1], values[1:], slopes[1:]
         while True:
-            width = (end - start)[:, None]
-            bound = _lower_bound(low, low_slope, high, high_slope, width, self.curvature)
+            # One row of `edges` is one edge of all cells, the next row the other.
+            start, end = edges[:-1].ravel(), edges[1:].ravel()
+            shape = len(start), len(self.blocks)
+            low, low_slope = values[:-1].reshape(shape), slopes[:-1].reshape(shape)
+            high, high_slope = values[1:].reshape(shape), slopes[1:].reshape(shape)
+            bound = _lower_bound(low, low_slope, high, high_slope, (end - start)[:, None], self.fourth)
             open_cells = np.flatnonzero(np.any((bound < -2 * tolerance) & (lowest >= -tolerance), axis=1))
             if not open_cells.size:
                 return
-            start, end = start[open_cells], end[open_cells]
-            middle = 0.5 * (start + end)
-            values, slopes = self(middle)
-            _note(values, middle, lowest, when)
-            low, high = np.concatenate([low[open_cells], values]), np.concatenate([values, high[open_cells]])
-            low_slope = np.concatenate([low_slope[open_cells], slopes])
-            high_slope = np.concatenate([slopes, high_slope[open_cells]])
-            start, end = np.concatenate([start, middle]), np.concatenate([middle, end])
+            edges = np.linspace(start[open_cells], end[open_cells], _PARTS + 1)
+            inner = edges[1:-1].ravel()
+            inner_values, inner_slopes = self(inner)
+            _note(inner_values, inner, lowest, when)
+            parts = _PARTS - 1, *low[open_cells].shape
+            values = np.vstack([low[None, open_cells], inner_values.reshape(parts), high[None, open_cells]])
+            slopes = np.vstack(
+                [low_slope[None, open_cells], inner_slopes.reshape(parts), high_slope[None, open_cells]]
+            )
 
 
 def _lower_bound(
@@ -382,14 +365,11 @@ def _lower_bound(
     high: FloatArray,
     high_slope: FloatArray,
     width: FloatArray,
-    curvature: FloatArray,
+    fourth: FloatArray,
 ) -> FloatArray:
-    """Bound g from below on cells of a width, from values and slopes at both ends and |g''| <= curvature."""
-    bend = curvature * width**2 / 2
-    chord = np.minimum(low, high) - bend / 4
-    forward = np.minimum(low, low + low_slope * width - bend)
-    backward = np.minimum(high, high - high_slope * width - bend)
-    return np.maximum(chord, np.maximum(forward, backward))
+    """Bound g from below on cells of a width: values and slopes at both ends, largest fourth derivative."""
+    inner = np.minimum(low + low_slope * (width / 3), high - high_slope * (width / 3))
+    return np.minimum(np.minimum(low, high), inner) - fourth * (width**4 / 384)
 
 
 def _note(values: FloatArray, times: FloatArray, lowest: FloatArray, when: FloatArray) -> None:
@@ -398,6 +378,58 @@ def _note(values: FloatArray, times: FloatArray, lowest: FloatArray, when: Float
     value = values[row, np.arange(values.shape[1])]
     deeper = value < lowest
     lowest[deeper], when[deeper] = value[deeper], times[row[deeper]]
+
+
+class _Rounding:
+    """What rounding may have done so far to forces and velocities, in the solver and here.
+
+    Both carry spring forces f and velocities v in doubles. Each step rounds them by some units of 2^-53 of
+    the largest they can be, in the norm sum f_i^2/k_i + m v_i^2, twice the energy: a step is a transition, or
+    a radian of the fastest motion, and the drive counts as a mass that moves. In this norm the difference of
+    two motions with the same transitions does not grow: springs and masses keep it, and what stops loses it.
+    So roundings add up: those of an interval one by one, as they may all go the same way (that of a
+    frequency does), those of different intervals as squares. One rounding a step comes to `total` [sqrt(J)],
+    which is total/sqrt(m) of a velocity and total sqrt(k) of the force of a spring. Positions at the start,
+    of which forces are the differences, are sums over springs: known to `_START_ROUNDINGS` of theirs.
+    """
+
+    def __init__(self, run: Run) -> None:
+        chain, positions = run.chain, np.asarray(run.start_positions, dtype=float)
+        ends = positions**2 + np.append(0.0, positions[:-1]) ** 2
+        self.total = _START_ROUNDINGS * _UNIT * math.sqrt(float(chain.springs @ ends))
+        self.fastest = 2 * math.sqrt(chain.springs.max() / chain.mass)
+        self.root_mass = math.sqrt(chain.mass)
+        self.root_springs = np.sqrt(np.append(chain.springs, 0.0))
+        self.drive = self.root_mass * chain.drive_velocity
+        self.total += _UNIT * self.drive
+        self.most = 0.0
+
+    def add(self, duration: float, motion: _Motion, energy: float) -> None:
+        """Add one rounding for each step of an interval, at whose ends the chain has at most this energy."""
+        steps = 1 + self.fastest * duration if motion.speed.size else 1
+        moving = self.root_mass * motion.speed_bound()
+        size = math.sqrt(2 * energy) + moving + self.drive
+        self.total = math.hypot(self.total, _UNIT * steps * size)
+
+    @property
+    def load(self) -> float:
+        """One rounding of the tangential load so far [N]."""
+        return self.total * float(self.root_springs[0])
+
+    @property
+    def force(self) -> FloatArray:
+        """One rounding of the net force on each block so far [N]."""
+        return self.total * (self.root_springs[:-1] + self.root_springs[1:])
+
+    @property
+    def speed(self) -> float:
+        """One rounding of a velocity so far [m/s]."""
+        return self.total / self.root_mass
+
+    def note(self, wrong: FloatArray | float, one: FloatArray | float) -> None:
+        """Keep the largest deviation, in roundings."""
+        wrong, one = np.atleast_1d(wrong), np.atleast_1d(one)
+        self.most = max(self.most, float(np.max(wrong[one > 0] / one[one > 0], initial=0.0)))
 
 
 class _Auditor:
@@ -417,6 +449,7 @@ class _Auditor:
         without = np.abs(self.spring_force).max() + impact + chain.loading_rate * float(run.duration)
         self.force_scale = float(self.strength.max() or without or chain.normal_load)
         self.velocity_scale = self.force_scale / math.sqrt(self.springs.min() * chain.mass)
+        self.rounding = _Rounding(run)
         self.time = 0.0
         self.velocity_violation = self.stick_violation = 0.0
         self.transition_residual = self.time_residual = self.energy_residual = 0.0
@@ -457,6 +490,7 @@ class _Auditor:
             transition_residual=self.transition_residual,
             time_residual=self.time_residual,
             energy_residual=self.energy_residual,
+            roundings=self.rounding.most,
             n_intervals=n_audited,
             problems=tuple(self.problems[:MAX_PROBLEMS]),
         )
@@ -482,17 +516,36 @@ class _Auditor:
             self.velocity[i] = 0.0
         excess = np.where(stuck, np.abs(self.net_force()) - self.strength, 0.0)
         self.stick_violation = max(self.stick_violation, float(excess.max()))
-        for i in np.flatnonzero(excess > self.tolerance.force * self.force_scale):
+        for i in np.flatnonzero(excess > self.allowed_force(self.rounding.force)):
             self.report(f"block {i + 1} starts stuck, with a force {excess[i]:.3g} N beyond mu_s w")
+
+    def allowed_force(self, one: FloatArray) -> FloatArray:
+        """What forces may be off by [N], each with its rounding."""
+        if self.tolerance.roundings:
+            return self.tolerance.roundings * one
+        return np.full(np.shape(one), self.tolerance.force * self.force_scale)
+
+    def allowed_speed(self) -> float:
+        """What a velocity may be off by [m/s]."""
+        if self.tolerance.roundings:
+            return self.tolerance.roundings * self.rounding.speed
+        return self.tolerance.velocity * self.velocity_scale
 
     def pass_interval(self, duration: float) -> None:
         """Check Coulomb's law inside an interval and move the state to its end."""
-        motions = [self.motion(first, last) for first, last in self.groups()]
-        gauges = _Gauges(self, motions)
+        motion = self.motion()
+        gauges = _Gauges(self, motion)
+        before = self.energy()
+        self.advance(motion, duration)
+        self.rounding.add(duration, motion, max(before, self.energy()))
         n = len(gauges.sliding)
-        tolerance = np.full(len(gauges.blocks), self.tolerance.force)
-        tolerance[:n] = self.tolerance.velocity
+        force = self.rounding.force[gauges.blocks[n:]]
+        tolerance = np.empty(len(gauges.blocks))
+        tolerance[:n] = self.allowed_speed() / self.velocity_scale
+        tolerance[n:] = self.allowed_force(force) / self.force_scale
         lowest, when = gauges.lowest(duration, tolerance)
+        self.rounding.note(-lowest[:n] * self.velocity_scale, np.full(n, self.rounding.speed))
+        self.rounding.note(-lowest[n:] * self.force_scale, force)
         against = -self.velocity_scale * min(lowest[:n].tolist(), default=0.0)
         beyond = -self.force_scale * min(lowest[n:].tolist(), default=0.0)
         self.velocity_violation = max(self.velocity_violation, against)
@@ -506,7 +559,6 @@ class _Auditor:
                 excess = -lowest[j] * self.force_scale
                 way = "forward" if j < n + len(gauges.stuck) else "backward"
                 self.report(f"block {block} is stuck, pushed {way} {excess:.3g} N beyond mu_s w", time)
-        self.advance(motions, duration)
 
     def groups(self) -> list[tuple[int, int]]:
         """First and last block, from 0, of each row of neighbours that slide."""
@@ -514,34 +566,64 @@ class _Auditor:
         first, behind = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
         return list(zip(first.tolist(), (behind - 1).tolist(), strict=True))
 
-    def motion(self, first: int, last: int) -> _Motion:
-        """Modal motion of the blocks first..last from the carried state."""
-        modes, group = self.normal_modes(first, last), slice(first, last + 1)
-        force = self.net_force()[group] - self.mode[group] * self.friction[group]
-        loading_rate = self.chain.loading_rate if first == 0 else 0.0
+    def modes(self) -> _Modes:
+        """Normal modes of all blocks that slide, and of all springs; each group has its own."""
+        springs = self.chain.n_blocks + 1
+        n = int(np.count_nonzero(self.mode))
+        modes = _Modes(np.zeros(n), np.zeros((n, n)), np.zeros((springs, n)))
+        done = 0
+        for first, last in self.groups():
+            group = self.normal_modes(first, last)
+            columns = slice(done, done + len(group.frequencies))
+            modes.frequencies[columns] = group.frequencies
+            modes.shapes[columns, columns] = group.shapes
+            modes.spring_shapes[first : first + len(group.spring_shapes), columns] = group.spring_shapes
+            done = columns.stop
+        return modes
+
+    def motion(self) -> _Motion:
+        """Modal motion of the blocks that slide from the carried state."""
+        modes, slides = self.modes(), self.mode != 0
+        force = (self.net_force() - self.mode * self.friction)[slides]
+        # The drive loads block 1 only.
+        loads_first = modes.shapes[0] if slides[0] else np.zeros(len(force))
         return _Motion(
             modes=modes,
-            speed=self.velocity[group] @ modes.shapes,
+            speed=self.velocity[slides] @ modes.shapes,
             push=force @ modes.shapes / self.chain.mass,
-            ramp=loading_rate / self.chain.mass * modes.shapes[0],
+            ramp=self.chain.loading_rate / self.chain.mass * loads_first,
         )
 
-    def advance(self, motions: list[_Motion], duration: float) -> None:
+    def advance(self, motion: _Motion, duration: float) -> None:
         """Move the state to the end of the interval and add up work and heat."""
-        load_impulse = (self.spring_force[0] + 0.5 * self.chain.loading_rate * duration) * duration
+        self.work += self.chain.drive_velocity * self.load_impulse(motion, duration)
+        slides = self.mode != 0
+        (displacement,), (velocity,), _ = motion.at(np.array([duration]))
+        slip = motion.modes.shapes @ displacement
+        self.heat += float((self.friction * self.mode)[slides] @ slip)
+        self.velocity[slides] = motion.modes.shapes @ velocity
         self.spring_force[0] += self.chain.loading_rate * duration
-        for motion in motions:
-            modes = motion.modes
-            group = slice(modes.first, modes.last + 1)
-            (displacement,), (velocity,), _ = motion.at(np.array([duration]))
-            slip = modes.shapes @ displacement
-            self.heat += float(self.friction[group] * self.mode[group] @ slip)
-            self.velocity[group] = modes.shapes @ velocity
-            self.spring_force[modes.first :][: len(modes.spring_shapes)] -= modes.spring_shapes @ displacement
-            if modes.first == 0:
-                slip_integral = float(modes.shapes[0] @ motion.integral(duration))
-                load_impulse -= self.chain.drive_stiffness * slip_integral
-        self.work += self.chain.drive_velocity * load_impulse
+        self.spring_force -= motion.modes.spring_shapes @ displacement
+
+    def load_impulse(self, motion: _Motion, duration: float) -> float:
+        """Integral of the tangential load over an interval [N s].
+
+        Under a stiff drive the load swings about an equilibrium that hardly grows, while K V t and K x_1 both
+        do: so it is integrated as the equilibrium and the swings. At equilibrium each spring from the drive
+        to the first block that sticks has the force of the one behind it less the friction between, and
+        together they are as long as they are.
+        """
+        if self.mode[0] == 0:
+            return (float(self.spring_force[0]) + 0.5 * self.chain.loading_rate * duration) * duration
+        last = self.groups()[0][1]
+        friction = np.append(0.0, np.cumsum(self.mode[: last + 1] * self.friction[: last + 1]))
+        force, rate = float(friction[-1]), 0.0
+        if last + 1 < self.chain.n_blocks:
+            softness = 1 / self.springs[: last + 2]
+            force = float((self.spring_force[: last + 2] + friction) @ softness / softness.sum())
+            rate = self.chain.drive_velocity / float(softness.sum())
+        swings = float(motion.modes.spring_shapes[0] @ motion.swing(duration))
+        return (force + 0.5 * rate * duration) * duration + swings
 
     def apply_transition(self, time: float, block: int, mode: int, load: float, at_start: bool) -> None:
         """Check a transition against the switching rule and the record, then change the block's mode."""
@@ -578,17 +660,20 @@ class _Auditor:
             if not at_start:
                 self.check_force(block, f"releases to {mode:+d} beyond the limit", excess)
 
-    def check_force(self, block: int, what: str, wrong: float) -> None:
-        """Count a force that is wrong by some newtons, if positive."""
+    def check_force(self, block: int, what: str, wrong: float, one: float | None = None) -> None:
+        """Count a force that is wrong by some newtons, if positive; one rounding is that of the net force."""
+        rounding = float(self.rounding.force[block - 1]) if one is None else one
         self.transition_residual = max(self.transition_residual, wrong / self.force_scale)
-        if wrong > self.tolerance.force * self.force_scale:
+        self.rounding.note(wrong, rounding)
+        if wrong > self.allowed_force(np.array(rounding)):
             self.report(f"block {block} {what}, by {wrong:.3g} N")
 
     def check_stop(self, block: int) -> None:
         """A block that stops sliding in its direction is at rest."""
         speed = abs(float(self.velocity[block - 1]))
         self.transition_residual = max(self.transition_residual, speed / self.velocity_scale)
-        if speed > self.tolerance.velocity * self.velocity_scale:
+        self.rounding.note(speed, self.rounding.speed)
+        if speed > self.allowed_speed():
             self.report(f"block {block} changes its mode while it moves at {speed:.3g} m/s")
 
     def check_load(self, load: float, block: int) -> None:
@@ -596,7 +681,8 @@ class _Auditor:
         wrong = abs(load - float(self.spring_force[0]))
         if math.isnan(wrong):
             self.report(f"a transition of block {block} has no tangential load")
-        self.check_force(block, f"has {load:.9g} N recorded as tangential load, which is wrong", wrong)
+        what = f"has {load:.9g} N recorded as tangential load, which is wrong"
+        self.check_force(block, what, wrong, self.rounding.load)
 
     def check_time(self, time: float, what: str) -> None:
         """A recorded time is the sum of the intervals up to it."""

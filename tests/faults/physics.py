@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import multiprocessing
 import os
+import re
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -17,23 +18,19 @@ from numerics.chains import first_transitions, positions_under
 from numpy.random import Generator
 
 from faults.outcome import Outcome
-from precursors import Chain, Run
-from precursors.audit import FORCE_TOLERANCE, Tolerances, audit
+from precursors import Chain
+from precursors.audit import Tolerances, audit
 
 SEED = 1961
 CHAINS = 20_000
 CHUNK = 50
-# Of the work of the drive, the friction heat and the energy at the start.
-ENERGY = 1e-10
-# A drive stiffer than the chain by more than this pushes it back and forth: its work is a small difference.
-STIFF_DRIVE = 1e5
-# A force is known to so many roundings of the largest force in the chain: where friction is a
-# millionth of that, the auditor cannot ask for more digits of it.
-ROUNDINGS = 2e-13
-# Forces at the start are differences of positions, which are rounded where they are far from zero.
-START_ROUNDINGS = 2e-15
-# A trial takes milliseconds, and up to a minute of the auditor; one that takes longer [s] hangs.
-PATIENCE = 180.0
+# What the solver counts as zero, 8 eps, as roundings of 2^-53 that a step may add: deviations come to 12.
+ROUNDINGS = 16.0
+# Of the work of the drive, the friction heat and the energy at the start: rounding adds up to 3e-13.
+ENERGY = 2e-12
+TOLERANCES = Tolerances(energy=ENERGY, roundings=ROUNDINGS)
+# A trial takes milliseconds, and up to a second of the auditor; one that takes longer [s] hangs.
+PATIENCE = 60.0
 
 
 @dataclass(frozen=True)
@@ -164,32 +161,12 @@ def verdict(case: Trial) -> str:
     if not (np.isfinite(positions).all() and np.isfinite(velocities).all()):
         return "the state at the end is not finite"
     try:
-        report = audit(run, tolerances(run))
+        report = audit(run, TOLERANCES)
     except ArithmeticError as error:
         return f"cannot be audited: {type(error).__name__}: {error}"
     if report.ok:
         return "survived"
     return f"{len(report.problems)} problems after {report.n_intervals} intervals: {report.problems[0]}"
-
-
-def tolerances(run: Run) -> Tolerances:
-    """What the auditor may ask for: 1e-10 of the strength, or the rounding of forces that are much larger."""
-    chain = run.chain
-    instants = np.concatenate([[0.0], run.transitions["time"], [run.duration]])
-    # Speeds are largest between transitions.
-    times = np.concatenate([instants, (instants[1:] + instants[:-1]) / 2, np.linspace(0.0, run.duration, 50)])
-    strength = float(chain.strength.max())
-    if strength == 0.0:
-        return Tolerances(energy=ENERGY)
-    force = float(np.abs(run.spring_forces(times)).max())
-    stiffest = max(chain.stiffness, chain.drive_stiffness)
-    speed = max(float(np.abs(run.at(times)[1]).max()), chain.drive_velocity)
-    largest = max(force, speed * math.sqrt(stiffest * chain.mass))
-    start = stiffest * float(np.abs(run.start_positions).max())
-    digits = max(FORCE_TOLERANCE, ROUNDINGS * largest / strength, START_ROUNDINGS * start / strength)
-    # Of a friction that is below a rounding of the forces nothing can be asked.
-    energy = ENERGY * max(1.0, chain.drive_stiffness / chain.stiffness / STIFF_DRIVE)
-    return Tolerances(min(digits, 1e50), min(digits, 1e50), energy=min(energy, 1e50))
 
 
 def judged(number: int) -> tuple[str, str]:
@@ -280,16 +257,37 @@ def try_all(share: float = 1.0, processes: int = 2, first: int = 0) -> list[Outc
     return list(outcomes.values())
 
 
-def main(first: int, last: int, processes: int = 2, without: str = "") -> None:
-    """Print every chain that is lost, as it is found, then the counts and the slowest."""
+def reason(number: int) -> str:
+    """Why the trial with a number is refused, without the numbers in it."""
+    try:
+        _, case = trial(number)
+        first_transitions(case.chain, case.most, duration=case.duration, **case.start)
+    except ValueError as error:
+        return re.sub(r"-?\d[\d.]*(e[+-]?\d+)?", "#", str(error))
+    return ""
+
+
+def main(first: int, last: int, processes: int = 2) -> None:
+    """Print every chain that is lost, as it is found, then counts, refusals, times and the slowest."""
     counts: Counter[tuple[str, str]] = Counter()
+    refusals: Counter[str] = Counter()
+    seconds_of = dict.fromkeys(KINDS, 0.0)
     slowest: list[tuple[float, int]] = []
-    for number, kind, answer, seconds in verdicts(
-        (n for n in range(first, last) if trial_kind(n) != without), processes
-    ):
+    begin = time.monotonic()
+    for number, kind, answer, seconds in verdicts(iter(range(first, last)), processes):
+        kind = kind or trial_kind(number)
         good = answer in ("survived", "refused")
         counts[kind, answer if good else "lost"] += 1
-        slowest = sorted([*slowest, (seconds, number)])[-5:]
+        seconds_of[kind] += seconds
+        slowest = sorted([*slowest, (seconds, number)])[-10:]
+        if answer == "refused":
+            refusals[reason(number)] += 1
         if not good:
             print(f"trial({number}) {kind}: {answer[:300]}", flush=True)
-    print(dict(counts), "slowest", slowest)
+    print(f"{last - first} trials in {time.monotonic() - begin:.0f} s on {processes} processes")
+    for kind in KINDS:
+        ends = ", ".join(f"{counts[kind, end]} {end}" for end in ("survived", "refused", "lost"))
+        print(f"{kind}: {ends}, {seconds_of[kind]:.0f} s")
+    for why, times in refusals.most_common():
+        print(f"refused {times} times: {why}")
+    print("slowest:", ", ".join(f"trial({number}) {seconds:.2f} s" for seconds, number in reversed(slowest)))

@@ -6,6 +6,7 @@ from dataclasses import replace
 import mpmath
 import numpy as np
 import pytest
+from chains import positions_under
 
 from precursors import Chain, Run, TransitionLimitError, simulate
 from precursors.audit import MAX_PROBLEMS, Tolerances, _Auditor, _Gauges, audit, normal_modes
@@ -16,6 +17,8 @@ SHIFT = 1e-9
 STRAINED = 1e-5 * np.sin(np.arange(10.0))
 # Rounding of an exact run, seen by the auditor: 1e-13 in the paper's 10 s (30 times as many transitions).
 ROUNDING = 1e-12
+# Of a step, that may pass: what the solver counts as zero.
+ROUNDINGS = 16.0
 
 
 @pytest.fixture(scope="module")
@@ -314,25 +317,26 @@ def test_a_dip_that_lies_between_all_first_probes_is_found(dip, is_motion):
         assert report.velocity_violation == pytest.approx(chain.drive_velocity * dip, rel=0.5)
 
 
-def test_the_bound_on_second_derivatives_holds():
+def test_the_bound_on_fourth_derivatives_holds():
     """From random states: slopes are the derivatives of the values, and none bends more than the bound."""
     chain, generator = SLIDER(n_blocks=7), np.random.default_rng(2010)
     run = simulate(chain, duration=1e-3)
-    step = 1e-3 / math.sqrt(4 * chain.stiffness / chain.mass)
+    step = 0.02 / math.sqrt(4 * chain.stiffness / chain.mass)
     seconds = step * np.arange(20_000)
     for _ in range(20):
         state = _Auditor(run, Tolerances())
         state.mode[:] = generator.integers(-1, 2, 7)
         state.velocity[:] = np.where(state.mode, generator.normal(size=7), 0.0)
         state.spring_force[:-1] = 100 * generator.normal(size=7)
-        gauges = _Gauges(state, [state.motion(first, last) for first, last in state.groups()])
+        gauges = _Gauges(state, state.motion())
         values, slopes = gauges(seconds)
         rounding = 1e-14 * abs(values).max(axis=0)
-        bend = np.diff(values, 2, axis=0) / step**2
-        assert np.all(abs(bend) <= gauges.curvature + rounding / step**2)
+        fourth = abs(np.diff(values, 4, axis=0) / step**4).max(axis=0)
+        assert np.all(fourth <= gauges.fourth + rounding / step**4)
+        assert np.any(fourth > 0.3 * gauges.fourth)
         central = (values[2:] - values[:-2]) / (2 * step)
-        # the central difference is off by (omega step)^2/6 < 2e-7
-        assert np.all(abs(central - slopes[1:-1]) <= 2e-7 * abs(slopes).max(axis=0) + rounding / step)
+        # the central difference is off by (omega step)^2/6 < 1e-4
+        assert np.all(abs(central - slopes[1:-1]) <= 1e-4 * abs(slopes).max(axis=0) + rounding / step)
 
 
 def test_energy_that_a_late_stop_destroys_is_found(uniform):
@@ -352,6 +356,51 @@ def test_a_caller_sets_the_tolerances_for_an_approximate_run(uniform):
     audit(run, Tolerances(force=1e-6, velocity=1e-4)).raise_if_failed()
     with pytest.raises(ValueError, match="tolerance"):
         audit(run, tolerance=0.0)
+
+
+@pytest.mark.parametrize("name", ["uniform", "falling", "strained"])
+def test_an_exact_run_is_off_by_a_few_roundings_of_its_steps(name, request):
+    run = request.getfixturevalue(name)
+    report = audit(run, Tolerances(roundings=ROUNDINGS))
+    report.raise_if_failed()
+    assert 0 < report.roundings < ROUNDINGS / 3
+
+
+def test_a_mistake_too_small_for_fixed_tolerances_is_found_among_roundings():
+    """Block 10 stops a millionth of its slip too late, and block 1 has nearly all the weight of the chain."""
+    chain = Chain(np.r_[4e6, np.full(9, 0.04)], 0.0012, 25e6, 0.8e6, 1e-4, 0.7, 0.45)
+    run = simulate(chain, duration=1e-3, start_velocities=np.r_[np.zeros(9), 1e-6])
+    stop = next_of_block(run, 0)
+    assert run.transitions["block"][stop] == 10
+    spoiled = shifted(run, stop, 1e-6 * run.intervals[stop])
+    assert audit(spoiled).ok
+    assert audit(run, Tolerances(roundings=ROUNDINGS)).ok
+    assert not audit(spoiled, Tolerances(roundings=ROUNDINGS)).ok
+
+
+@pytest.mark.parametrize("more", range(10))
+def test_positions_far_from_zero_are_known_to_their_rounding(more):
+    """Blocks 1 and 4 start at their limits; the soft drive is so far away that rounding moves them beyond."""
+    chain = SLIDER(n_blocks=5, drive_stiffness=25.0)
+    pushes = 0.1 + 0.01 * more * np.arange(5)
+    pushes[[0, 3]] = chain.strength[0], -chain.strength[3]
+    run = simulate(chain, duration=0.01, start_positions=positions_under(chain, pushes))
+    audit(run, Tolerances(roundings=ROUNDINGS)).raise_if_failed()
+    moved = run.start_positions * np.r_[1.0, 1.0, 1.0 + 1e-11, 1.0, 1.0]
+    assert not audit(replace(run, start_positions=moved), Tolerances(roundings=ROUNDINGS)).ok
+
+
+def test_the_work_of_a_stiff_drive_keeps_its_digits():
+    """Three blocks swing without friction about a drive that moves on for 1e4 radians of its own spring.
+
+    K V t and K x_1 agree in eight digits; the energy of the swing is the rest.
+    """
+    chain = SLIDER(n_blocks=3, mu_s=0.0, mu_k=0.0, drive_stiffness=7.5e12, drive_velocity=1e-2)
+    duration = 1e4 / math.sqrt(chain.drive_stiffness / chain.mass)
+    run = simulate(chain, duration=duration, start_velocities=[1.3e-2, 1e-2, 8e-3])
+    report = audit(run)
+    report.raise_if_failed()
+    assert report.energy_residual < ROUNDING
 
 
 def test_arrays_that_do_not_fit_are_one_problem_and_no_crash(uniform):

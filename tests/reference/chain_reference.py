@@ -100,6 +100,7 @@ def reference(
     start_positions: Sequence[Number] | None = None,
     max_transitions: int | None = None,
     bits: int = BITS,
+    start_velocities: Sequence[Number] | None = None,
 ) -> list[Transition]:
     """Return all transitions up to `duration` [s], in time order.
 
@@ -112,23 +113,28 @@ def reference(
     until : {None, "global slip"}
         Stop at the end of the first event in which all blocks slide at the same instant.
     start_positions : sequence of N numbers, optional
-        Positions at t = 0 [m], all blocks at rest; without them the springs have their natural length.
+        Positions at t = 0 [m]; without them the springs have their natural length.
     max_transitions : int, optional
         Stop after at least this many transitions.
     bits : int
         Binary places of the fixed-point numbers.
+    start_velocities : sequence of N numbers, optional
+        Velocities at t = 0 [m/s]; without them all blocks are at rest.
 
     Raises
     ------
     ValueError
-        If `until` is neither None nor "global slip", or there is not one start position for each block.
+        If `until` is neither None nor "global slip", or there is not one start position, or velocity, for
+        each block.
     """
     if until not in (None, "global slip"):
         raise ValueError(f'until = {until!r}: allowed is None or "global slip"')
     scaled = _scale(chain, bits)
     state = _rest(chain, scaled, start_positions)
     end = _fixed(Fraction(duration) / scaled.time_unit, bits)
-    transitions = [_release(scaled, state, i, way) for i, way in _overloaded(scaled, state)]
+    moving = _start_moving(chain, scaled, state, start_velocities)
+    starting = sorted(dict(_overloaded(scaled, state) + moving).items())
+    transitions = [_release(scaled, state, i, way) for i, way in starting]
     all_slid = False
     while max_transitions is None or len(transitions) < max_transitions:
         all_slid = all_slid or all(state.modes[1:])
@@ -224,6 +230,19 @@ def _rest(chain: ReferenceChain, scaled: _Scaled, start_positions: Sequence[Numb
         raise ValueError(f"{len(metres)} start positions for {n} blocks")
     positions = [0, *(_fixed(chain.stiffness * Fraction(x), scaled.bits) for x in metres)]
     return _State(0, positions, [scaled.drive_velocity] + [0] * n, [0] * (n + 1))
+
+
+def _start_moving(
+    chain: ReferenceChain, scaled: _Scaled, state: _State, start_velocities: Sequence[Number] | None
+) -> list[Change]:
+    """Give the blocks their velocities at the start; those that move slide, whatever their force."""
+    n = len(chain.weights)
+    speeds = [0] * n if start_velocities is None else start_velocities
+    if len(speeds) != n:
+        raise ValueError(f"{len(speeds)} start velocities for {n} blocks")
+    for i, speed in enumerate(speeds, 1):
+        state.velocities[i] = _fixed(chain.stiffness * Fraction(speed) * scaled.time_unit, scaled.bits)
+    return [(i, 1 if v > 0 else -1) for i, v in enumerate(state.velocities) if i and v]
 
 
 def _overloaded(scaled: _Scaled, state: _State) -> list[Change]:
