@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
+import json
 import os
+import re
 import secrets
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager, suppress
 from io import BytesIO
 from pathlib import Path
+from typing import IO, Any
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
 
 SEAL_SIZE = 512
+NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 # Directory beside a table for the checksums of what lies there, as `sha256sum` writes them.
 CHECKSUMS = ".sha256"
 
@@ -22,11 +32,13 @@ def write_atomically(path: str | os.PathLike[str]) -> Iterator[Path]:
     An error in the block removes the temporary file and leaves an existing `path` as it was. Every call
     has a temporary name of its own, so several processes may write the same `path`: the last one stays.
     The name ends like `path`, for writers that choose a format by the suffix. Parent directories are made.
+    What a killed process left beside `path` is removed; what another one still writes is locked, and stays.
 
     Raises
     ------
     OSError
-        In one line that names `path`, if its directory cannot be made or written, or `path` is a directory.
+        In one line that names `path`, if its directory cannot be made or written, `path` is a directory, or
+        there is no room.
     """
     target = Path(path)
     temporary = target.with_name(f".{secrets.token_hex(8)}.{target.name}")
@@ -34,18 +46,23 @@ def write_atomically(path: str | os.PathLike[str]) -> Iterator[Path]:
         if target.is_dir():
             raise IsADirectoryError(0, "it is a directory")
         target.parent.mkdir(parents=True, exist_ok=True)
-        # "x" gives the file the permissions that the user's umask asks for; tempfile would make it private.
-        temporary.open("x").close()
+        _remove_leftovers(target)
+        being_written = _create(temporary)
     except OSError as error:
         raise _cannot_write(target, error) from error
-    try:
-        yield temporary
+    with closing(being_written):
         try:
-            os.replace(temporary, target)
+            yield temporary
+            try:
+                os.replace(temporary, target)
+            except OSError as error:
+                raise _cannot_write(target, error) from error
         except OSError as error:
-            raise _cannot_write(target, error) from error
-    finally:
-        temporary.unlink(missing_ok=True)
+            if error.errno in NO_ROOM:
+                raise _cannot_write(target, error) from error
+            raise
+        finally:
+            temporary.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -64,10 +81,7 @@ def write_sealed(path: str | os.PathLike[str], form: str) -> Iterator[BytesIO]:
     content = memory.getvalue()
     head = f"{form}\n{_digest(content)}".encode().ljust(SEAL_SIZE, b"\0")
     with write_atomically(path) as temporary:
-        try:
-            temporary.write_bytes(head + content[SEAL_SIZE:])
-        except OSError as error:
-            raise _cannot_write(Path(path), error) from error
+        temporary.write_bytes(head + content[SEAL_SIZE:])
 
 
 def read_sealed(path: str | os.PathLike[str], form: str) -> bytes:
@@ -129,6 +143,49 @@ def open_checked(path: str | os.PathLike[str]) -> BytesIO:
                 "remove it, and the workflow makes it anew"
             )
     return BytesIO(content)
+
+
+def read_json(path: str | os.PathLike[str]) -> Any:
+    """Content of a JSON file that `write_checked` wrote, or of any other that no checksum lies beside.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read.
+    ValueError
+        If the content is not what was written, or no JSON.
+    """
+    content = open_checked(path).read()
+    try:
+        return json.loads(content)
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{path} is no JSON: {error}") from None
+
+
+def _create(temporary: Path) -> IO[str]:
+    """Create a file that is locked, as being written, until it is closed; Windows has no such locks."""
+    while True:
+        # "x" gives the file the permissions that the user's umask asks for; tempfile would make it private.
+        file = temporary.open("x")
+        if fcntl is None:
+            file.close()
+            return file
+        with suppress(OSError):  # not every file system has locks
+            fcntl.flock(file, fcntl.LOCK_EX)
+        if os.fstat(file.fileno()).st_nlink:
+            return file
+        # Another writer took it for a leftover in the instant before it was locked.
+        file.close()
+
+
+def _remove_leftovers(target: Path) -> None:
+    """Remove the temporary files of a target that nobody is writing."""
+    leftover = re.compile(rf"\.[0-9a-f]{{16}}\.{re.escape(target.name)}")
+    for path in target.parent.iterdir():
+        if fcntl is not None and leftover.fullmatch(path.name):
+            with suppress(OSError), path.open("r+b") as file:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                path.unlink(missing_ok=True)
 
 
 def _checksum_file(path: Path) -> Path:

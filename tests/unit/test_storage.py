@@ -1,12 +1,27 @@
 """A file is complete or absent, and what was there before is never half overwritten."""
 
+import ast
+import errno
 import os
+import signal
 import stat
+import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 
 from precursors.storage import write_atomically
+
+WRITE_SLOWLY = """
+import sys, time
+from precursors.storage import write_atomically
+with write_atomically(sys.argv[1]) as temporary:
+    temporary.write_text("half")
+    print("writing", flush=True)
+    time.sleep(60)
+"""
 
 
 def test_the_file_appears_complete_when_the_block_ends(tmp_path):
@@ -85,3 +100,89 @@ def test_writers_at_once_leave_one_whole_file(tmp_path):
     for writer in writers:
         writer.result()
     assert os.listdir(tmp_path) == ["table.csv"]
+
+
+@pytest.fixture
+def slow_writer(tmp_path):
+    """A process that has begun to write table.csv and goes on for a minute."""
+    command = [sys.executable, "-c", WRITE_SLOWLY, tmp_path / "table.csv"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "writing\n"
+        yield process
+        process.kill()
+
+
+def test_what_a_killed_writer_left_is_removed_by_the_next_one(tmp_path, slow_writer):
+    slow_writer.send_signal(signal.SIGKILL)
+    slow_writer.wait()
+    assert len(os.listdir(tmp_path)) == 1
+    with write_atomically(tmp_path / "table.csv") as temporary:
+        temporary.write_text("whole")
+    assert os.listdir(tmp_path) == ["table.csv"]
+
+
+def test_what_another_process_is_writing_is_not_taken_for_a_leftover(tmp_path, slow_writer):
+    with write_atomically(tmp_path / "table.csv") as temporary:
+        temporary.write_text("whole")
+    assert len(os.listdir(tmp_path)) == 2
+
+
+def test_hidden_files_of_others_are_no_leftovers(tmp_path):
+    others = {".table.csv", ".mine.table.csv", f".{'a' * 16}.another_table.csv"}
+    for name in others:
+        (tmp_path / name).write_text("x")
+    with write_atomically(tmp_path / "table.csv") as temporary:
+        temporary.write_text("whole")
+    assert set(os.listdir(tmp_path)) == others | {"table.csv"}
+
+
+def test_no_room_is_an_error_that_names_the_file(tmp_path):
+    path = tmp_path / "table.csv"
+    path.write_text("old")
+
+    def fill_the_disk():
+        with write_atomically(path):
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    with pytest.raises(OSError, match=r"^cannot write .*table\.csv: No space left on device$"):
+        fill_the_disk()
+    assert path.read_text() == "old"
+    assert os.listdir(tmp_path) == ["table.csv"]
+
+
+ROOT = Path(__file__).parents[2]
+WRITERS = {"savefig", "to_csv", "write_bytes", "write_text"}
+WHOLE = {"write_atomically", "write_checked", "write_sealed"}
+# Logs, a page of docs/, and what is copied for Typst into a directory that is thrown away.
+NO_RESULTS = {"job.py", "list_figures.py", "pages.py: target"}
+
+
+def written_in_place(path):
+    """Calls that write a file outside a block that renames it, as file: what is written to."""
+
+    def visit(node, inside):
+        if isinstance(node, ast.With):
+            calls = [item.context_expr for item in node.items]
+            inside = inside or any(isinstance(c, ast.Call) and ast.unparse(c.func) in WHOLE for c in calls)
+        if not inside and isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            if node.func.attr in WRITERS:
+                yield f"{path.name}: {ast.unparse(node.func.value)}"
+            mode = [a.value for a in node.args if isinstance(a, ast.Constant) and isinstance(a.value, str)]
+            if node.func.attr == "open" and set("wax") & set("".join(mode)):
+                yield f"{path.name}: {ast.unparse(node)}"
+        for child in ast.iter_child_nodes(node):
+            yield from visit(child, inside)
+
+    yield from visit(ast.parse(path.read_text(encoding="utf-8")), inside=False)
+
+
+def test_no_result_is_written_in_place():
+    files = [*(ROOT / "src").rglob("*.py"), *(ROOT / "workflow/scripts").glob("*.py")]
+    assert len(files) > 100
+    found = {call for path in files if path.name != "storage.py" for call in written_in_place(path)}
+    assert not {c for c in found if c not in NO_RESULTS and c.split(":")[0] not in NO_RESULTS}
+
+
+def test_a_result_that_is_written_in_place_is_seen(tmp_path):
+    (tmp_path / "a.py").write_text("def f(table, path):\n    table.to_csv(path)\n    path.open('w')\n")
+    assert list(written_in_place(tmp_path / "a.py")) == ["a.py: table", "a.py: path.open('w')"]
