@@ -6,11 +6,14 @@ import math
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from numbers import Integral, Real
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
+# Where a run ends before its duration is over.
+Until = Literal["global slip"] | None
 
 # Products and squares of three such numbers stay within what doubles hold.
 SMALLEST, LARGEST = 1e-60, 1e60
@@ -39,8 +42,8 @@ class Chain:
     viscosity : float
         Viscosity eta of the dashpot beside each spring between neighbours [N s/m]; 0 is none.
     interface_stiffness : float
-        Stiffness kappa of the spring between each block and the plane while it sticks [N/m]; 0 is a rigid
-        interface.
+        Stiffness kappa = K_t/N of the spring between each block and the plane while it sticks [N/m], the
+        N-th part of what `from_slider` calls by this name; 0 is a rigid interface.
     head_mass : float
         Mass M_h that moves with block 1 [kg].
 
@@ -67,7 +70,7 @@ class Chain:
         object.__setattr__(self, "weights", weights)
         for name, unit in _POSITIVE.items():
             object.__setattr__(self, name, positive(name, getattr(self, name), unit))
-        for name, unit in _ADDITIONS.items():
+        for name, unit in ADDITIONS.items():
             object.__setattr__(self, name, not_negative(name, getattr(self, name), unit))
         mu_s = not_negative("mu_s", self.mu_s, "1")
         mu_k = not_negative("mu_k", self.mu_k, "1")
@@ -113,7 +116,8 @@ class Chain:
         viscosity : float
             eta of each dashpot between neighbours [N s/m]; 0 is none.
         interface_stiffness : float
-            Tangential stiffness K_t of the whole interface [N/m], shared equally; 0 is a rigid interface.
+            Tangential stiffness K_t of the whole interface [N/m], N times the chain's value of this name,
+            which is one block's share; 0 is a rigid interface.
         head_mass : float
             Mass M_h of the loading head [kg].
 
@@ -127,10 +131,12 @@ class Chain:
         return cls(
             weights=linear_weights(n, normal_load, theta),
             mass=positive("slider_mass", slider_mass, "kg") / n,
-            stiffness=n
-            * positive("youngs_modulus", youngs_modulus, "Pa")
-            * positive("cross_section", cross_section, "m^2")
-            / length,
+            stiffness=neighbour_stiffness(
+                n,
+                positive("youngs_modulus", youngs_modulus, "Pa"),
+                positive("cross_section", cross_section, "m^2"),
+                length,
+            ),
             drive_stiffness=drive_stiffness,
             drive_velocity=drive_velocity,
             mu_s=mu_s,
@@ -167,9 +173,10 @@ class Chain:
         return np.concatenate([[self.drive_stiffness], np.full(self.n_blocks - 1, self.stiffness)])
 
     @property
-    def is_plain(self) -> bool:
-        """Whether it is the paper's chain: no viscosity, a rigid interface, no head."""
-        return not any(getattr(self, name) for name in _ADDITIONS)
+    def fastest_frequency_bound(self) -> float:
+        """Angular frequency [rad/s] above all of the chain's (Gershgorin), apart from viscosity."""
+        stiffness = 4 * self.stiffness + self.drive_stiffness + self.interface_stiffness
+        return math.sqrt(stiffness / self.mass)
 
     @property
     def loading_rate(self) -> float:
@@ -194,7 +201,8 @@ _POSITIVE = {
 }
 
 
-_ADDITIONS = {"viscosity": "N s/m", "interface_stiffness": "N/m", "head_mass": "kg"}
+# What a chain may have beyond the paper's, and its unit.
+ADDITIONS = {"viscosity": "N s/m", "interface_stiffness": "N/m", "head_mass": "kg"}
 
 
 def require_plain(chain: Chain) -> None:
@@ -205,10 +213,15 @@ def require_plain(chain: Chain) -> None:
     ValueError
         Naming the addition, its value and its unit.
     """
-    for name, unit in _ADDITIONS.items():
+    for name, unit in ADDITIONS.items():
         value = getattr(chain, name)
         if value:
             raise ValueError(f"{name} = {value!r} [{unit}]: allowed is 0 here, the paper's chain")
+
+
+def neighbour_stiffness(n_blocks: Any, youngs_modulus: Any, cross_section: Any, length: Any) -> Any:
+    """Stiffness k = N E S/L [N/m] of the spring between neighbours (Eq. 10), of one slider or of many."""
+    return n_blocks * youngs_modulus * cross_section / length
 
 
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:
@@ -232,16 +245,16 @@ def parse_theta(theta: float | str) -> float:
     """
     if isinstance(theta, str):
         try:
-            value = float(Fraction(theta))
+            value = Fraction(theta)
         except (ValueError, ZeroDivisionError, OverflowError):
             raise ValueError(
                 f'theta = {theta!r} is not a number: allowed is -1 <= theta <= 1, a fraction as "5/6"'
             ) from None
     else:
-        value = number("theta", theta, "1")
-    if not abs(value) <= 1:
+        value = Fraction(number("theta", theta, "1"))
+    if abs(value) > 1:
         raise ValueError(f"theta = {theta!r} [1] is out of range: allowed is -1 <= theta <= 1")
-    return value
+    return float(value)
 
 
 def theta_from_load_cells(load_a: float, load_b: float, spacing: float, length: float) -> float:
@@ -256,15 +269,20 @@ def theta_from_load_cells(load_a: float, load_b: float, spacing: float, length: 
     ValueError
         If a load is negative, both are zero, a length is not positive, or the line leaves -1 <= theta <= 1.
     """
+    return float(exact_theta_from_load_cells(load_a, load_b, spacing, length))
+
+
+def exact_theta_from_load_cells(load_a: float, load_b: float, spacing: float, length: float) -> Fraction:
+    """The same of the numbers as they are written, not rounded: 5/6 is 5/6."""
     a = Fraction(repr(not_negative("load_a", load_a, "N")))
     b = Fraction(repr(not_negative("load_b", load_b, "N")))
     span = Fraction(repr(positive("length", length, "m"))) / Fraction(repr(positive("spacing", spacing, "m")))
     if a + b == 0:
         raise ValueError("load_a = load_b = 0 N: allowed is a total normal load above zero")
-    theta = float((b - a) / (a + b) * span)
+    theta = (b - a) / (a + b) * span
     if abs(theta) > 1:
         raise ValueError(
-            f"load_a = {load_a!r} N and load_b = {load_b!r} N give theta = {theta:.4g}: "
+            f"load_a = {load_a!r} N and load_b = {load_b!r} N give theta = {float(theta):.4g}: "
             "allowed is -1 <= theta <= 1 (a larger one would lift the slider at one end)"
         )
     return theta
@@ -313,6 +331,19 @@ def whole(name: str, value: object, at_least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, Integral) or value < at_least:
         raise ValueError(f"{name} = {value!r} is out of range: allowed is a whole number >= {at_least}")
     return int(value)
+
+
+def checked_span(duration: object, until: object) -> float:
+    """Return the duration [s] of a run, or raise a ValueError that names what is wrong with it or `until`."""
+    checked_until(until)
+    return positive("duration", duration, "s")
+
+
+def checked_until(until: object) -> Until:
+    """Return where a run may end before its duration, or raise a ValueError that says what is allowed."""
+    if until is not None and until != "global slip":
+        raise ValueError(f'until = {until!r} is unknown: allowed is None or "global slip"')
+    return "global slip" if until else None
 
 
 def _weights(values: ArrayLike) -> FloatArray:

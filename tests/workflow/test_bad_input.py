@@ -2,15 +2,29 @@
 
 import copy
 import math
+import shutil
+from importlib import import_module
 
 import pytest
 import yaml
-from conftest import ROOT
+from conftest import ROOT, Workspace
 
-from precursors.config import check_config, scene_chain, scene_names
-from precursors.proof import scene_exact_chain
+from precursors import Run, integrators
+from precursors.config import (
+    LONGEST_RUN,
+    check_config,
+    scene_chain,
+    scene_names,
+    scene_seconds,
+    trace_seconds,
+)
+from precursors.config_schema import allowed
+from precursors.config_studies import PROVED_FOR
+from precursors.proof import proved, scene_exact_chain
+from precursors.scaling_text import GROWS_FROM
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
+SCHEMA_ITSELF = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))
 PAPERS = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
 MISSING = object()
 STEEP = {"title": "steep", "theta": 0.9}
@@ -104,6 +118,53 @@ BAD = [
     ("fig13", ["fig10", "fig11", "fig21"], ["fig13", "'fig21'", "fig10, fig11, fig12"]),
     ("fig13", ["fig10", "fig11", "fig11"], ["fig13", "3 different entries"]),
     ("fig13", ["fig10"], ["fig13", "3 different entries"]),
+    ("horizon.chains.uniform.theta", "7", ["horizon.chains.uniform: theta = '7'", "-1 <= theta <= 1"]),
+    ("horizon.chains.uniform.mu_k", 0.8, ["horizon.chains.uniform: mu_k = 0.8", "mu_s = 0.7"]),
+    ("horizon.chains.uniform.duration", 0.1, ["horizon.chains.uniform.duration = 0.1", "more than 0.35 s"]),
+    ("horizon.chains.uniform.n_blocks", 1000, ["horizon.chains.uniform would take", "longest_run"]),
+    ("horizon.chains.null", {"theta": 0}, ["horizon.chains.null", "give this name back"]),
+    ("horizon.chains.two words", {"theta": 0}, ["horizon.chains.two words", "a letter, then"]),
+    ("resolution_models.models.nan", {}, ["resolution_models.models.nan", "give this name back"]),
+    ("scenes.None", STEEP, ["scenes.None", "give this name back"]),
+    ("definitions.theta", ["7"], ["definitions.theta[0]: theta = '7'", "-1 <= theta <= 1"]),
+    ("definitions.theta", ["5/6", "0/3"], ["definitions.theta[1] = '0/3'", "0 < theta <= 1"]),
+    ("definitions.theta", [0.5, "1/2"], ["definitions.theta[1] = '1/2'", "0.5 too", "once"]),
+    ("resolution_models.theta", ["-3/2"], ["resolution_models.theta[0]: theta = '-3/2'"]),
+    ("resolution_models.theta", [0, "0/1"], ["resolution_models.theta[1] = '0/1'", "once"]),
+    (
+        "accuracy.default.first_slip.rk45",
+        "sweep",
+        ["accuracy.default.first_slip.rk45", "exact, heyoka", "rk4"],
+    ),
+    ("accuracy.full.whole_run.rk4", "swep", ["whole_run.rk4 = 'swep'", 'the word "sweep"']),
+    ("accuracy.full.whole_run.rk4", [0.0], ["whole_run.rk4[0] = 0.0", ">= 1e-16 and <= 1", "step [s]"]),
+    ("step_sweep.full.coarsest", 1e-10, ["step_sweep.full.finest = 1e-09 [s]", "coarsest = 1e-10 s"]),
+    ("step_sweep.full.finest_every_step", 1e-12, ["finest_every_step = 1e-12", ">= 1e-09"]),
+    ("step_sweep.full.finest_every_step", 1e-4, ["step_sweep.full.finest_every_step = 0.0001", "coarsest"]),
+    ("maps.theta", [0.5, -0.5], ["maps.theta = [0.5, -0.5]", "the lower value, then the upper"]),
+    ("maps.n_blocks", [25, 2], ["maps.n_blocks = [25, 2]", "the lower value, then the upper"]),
+    ("maps.drive_velocity", [1e-3, 1e-3], ["maps.drive_velocity = [0.001, 0.001]", "the lower value"]),
+    ("maps.friction_ratio", [0.1, 1.0], ["maps.friction_ratio[1] = 1.0", "> 0 and < 1"]),
+    ("maps.drive_velocity", [1e-70, 1e-3], ["maps.drive_velocity: drive_velocity = 1e-70", "1e-60"]),
+    ("maps.stiffness_ratio", [1e-70, 1.0], ["maps.stiffness_ratio: drive_stiffness", "1e-60"]),
+    ("maps.loadings", 0.5, ["maps.loadings = 0.5", ">= 1"]),
+    ("long_runs.duration", 0.5, ["long_runs.duration = 0.5", "fig11", "at least 4.004 s"]),
+    ("maps.loadings", 1e9, ["maps.", "would take", "longest_run"]),
+    ("maps.friction_ratio", [0.1], ["maps.friction_ratio = [0.1]", "a list of 2 entries"]),
+    ("resolution.least_runs", 41, ["resolution.least_runs = 41", "most_runs = 40"]),
+    ("resolution_models.most_runs", 5, ["resolution_models.least_runs = 6", "most_runs = 5"]),
+    ("resolution_models.full.most_runs", 2, ["resolution_models.full.least_runs = 20", "most_runs = 2"]),
+    (
+        "resolution_models.longest_run",
+        1e-4,
+        ["resolution_models.longest_run = 0.0001", "nothing", "at least"],
+    ),
+    ("resolution_models.models.hard", {"interface_stiffness": 1e70}, ["models.hard", "interface_stiffness"]),
+    ("ladder.additions.head_mass", 1e70, ["ladder.additions.head_mass"]),
+    ("spread.parameters", [1e-3, 0.4], ["spread.parameters[1] = 0.4", "mu_k", "up to 0.357"]),
+    ("spread.loads", [], ["spread.loads = []", "a list of at least 1 different entry"]),
+    ("scaling.n_blocks", [2, 5], ["scaling.n_blocks = [2, 5]", "at least 2 of them >= 20"]),
+    ("scaling.durations", [3.0, 1e9], ["scaling.durations would take", "longest_run"]),
 ]
 # Refused by Snakemake itself in the same way as all others, so a few of them are enough.
 THROUGH_SNAKEMAKE = [BAD[i] for i in (0, 3, 6, 14, 28, 31)]
@@ -141,6 +202,123 @@ def test_a_bad_value_is_named_with_its_place_and_what_is_allowed(key, value, wor
         assert word in str(error.value)
 
 
+def test_a_table_that_no_scene_uses_as_it_is_is_looked_at_too():
+    """Maps and definitions take `chain` itself."""
+    config = changed("chain.mu_k", 0.8)
+    for scene in config["scenes"].values():
+        scene["mu_k"] = 0.45
+    with pytest.raises(ValueError, match=r"\Aconfiguration: chain: mu_k = 0.8 is larger than mu_s = 0.7"):
+        check_config(config, SCHEMA)
+
+
+def test_a_chain_to_be_proved_has_the_papers_values_whatever_the_chain_of_the_scenes_has():
+    """As in `ExactChain.from_slider`: 100 blocks would be refused for what their proof takes."""
+    check_config(changed("chain.n_blocks", 100), SCHEMA)
+    with pytest.raises(ValueError, match=r"horizon\.chains\.uniform would take"):
+        check_config(changed("horizon.chains.uniform.n_blocks", 100), SCHEMA)
+
+
+def test_a_scene_whose_trace_would_take_too_long_is_refused():
+    """Its run alone would be allowed, and is where the scene has no trace."""
+    config = changed("scenes.steep", STEEP | {"theta": 0.1, "duration": 1e6})
+    assert (
+        0.2 * LONGEST_RUN < 2 * scene_seconds(config, "steep") < LONGEST_RUN < trace_seconds(config, "steep")
+    )
+    with pytest.raises(ValueError, match=r"\Aconfiguration: scenes.steep would take about"):
+        check_config(config, SCHEMA)
+    only_answers = changed("scenes.steep", STEEP | {"quantities": ["mu_sapp"]})
+    assert trace_seconds(only_answers, "steep") == 0.0
+
+
+def test_the_duration_of_a_chain_that_gives_none_is_the_one_it_is_proved_for():
+    assert PROVED_FOR == proved.DURATION
+
+
+def test_the_schema_knows_all_methods_and_no_others():
+    modules = [import_module(f"precursors.integrators.{name}") for name in integrators.MODULES]
+    names = SCHEMA_ITSELF["$defs"]["sweeps"]["propertyNames"]["enum"]
+    assert sorted(names) == sorted(method.name for module in modules for method in module.METHODS)
+
+
+def test_the_schema_wants_the_sizes_that_growth_is_fitted_to():
+    sizes = SCHEMA_ITSELF["properties"]["scaling"]["properties"]["n_blocks"]
+    assert sizes["contains"] == {"minimum": GROWS_FROM}
+
+
+# A part of a schema, and what it allows in words: every keyword that the schema has, alone or with another.
+IN_WORDS = [
+    ({"type": "number"}, "a number"),
+    ({"type": "integer", "minimum": 2}, "a whole number >= 2"),
+    ({"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1}, "a number > 0 and < 1"),
+    ({"type": "number", "minimum": -1, "maximum": 1}, "a number >= -1 and <= 1"),
+    ({"type": "number", "description": "time [s]."}, "a number (time [s])"),
+    ({"type": "string", "minLength": 1}, "a text of at least 1 character"),
+    (
+        {"type": "string", "minLength": 1, "maxLength": 120},
+        "a text of at least 1 and at most 120 characters",
+    ),
+    ({"type": "string", "pattern": "^a", "description": "with an a"}, "a text (with an a)"),
+    ({"enum": ["a", "b"]}, "one of a, b"),
+    ({"type": "object", "minProperties": 1}, "a table of keys and values with at least 1 entry"),
+    ({"type": "array"}, "a list"),
+    ({"type": "array", "minItems": 1}, "a list of at least 1 entry"),
+    ({"type": "array", "maxItems": 3}, "a list of at most 3 entries"),
+    ({"type": "array", "minItems": 2, "maxItems": 2}, "a list of 2 entries"),
+    ({"type": "array", "minItems": 3, "maxItems": 3, "uniqueItems": True}, "a list of 3 different entries"),
+    ({"type": "array", "minItems": 2, "uniqueItems": True}, "a list of at least 2 different entries"),
+    ({"type": "array", "uniqueItems": True}, "a list of different entries"),
+    (
+        {"type": "array", "minItems": 2, "contains": {"minimum": 20}, "minContains": 2},
+        "a list of at least 2 entries, at least 2 of them >= 20",
+    ),
+    (
+        {"type": ["array", "string"], "minItems": 1, "pattern": "^sweep$", "description": 'or "sweep"'},
+        'a list of at least 1 entry or a text (or "sweep")',
+    ),
+    ({"type": ["number", "string"], "maximum": 1, "pattern": "^."}, "a number <= 1 or a text"),
+]
+# These say by themselves, or by their error, what they mean.
+NOT_IN_WORDS = {
+    "$schema",
+    "$ref",
+    "$defs",
+    "title",
+    "properties",
+    "additionalProperties",
+    "required",
+    "items",
+}
+NOT_IN_WORDS |= {"propertyNames"}
+
+
+@pytest.mark.parametrize(("part", "words"), IN_WORDS)
+def test_what_a_part_of_the_schema_allows_is_said_in_words(part, words):
+    assert allowed(part) == words
+
+
+def keywords(part):
+    """All keywords of a schema."""
+    for key, value in part.items():
+        yield key
+        if key in ("properties", "$defs"):
+            for inner in value.values():
+                yield from keywords(inner)
+        elif isinstance(value, dict):
+            yield from keywords(value)
+
+
+def test_no_keyword_of_the_schema_is_without_words():
+    assert set(keywords(SCHEMA_ITSELF)) - NOT_IN_WORDS <= {key for part, _ in IN_WORDS for key in part}
+
+
+@pytest.fixture(scope="module")
+def finished(_finished, tmp_path_factory):
+    """Shared by tests that bring a configuration each: where it is refused, all else stays as it is."""
+    workspace = Workspace(tmp_path_factory.mktemp("bad") / "copy")
+    shutil.copytree(_finished.path, workspace.path)
+    return workspace
+
+
 @pytest.mark.parametrize(("key", "value", "words"), THROUGH_SNAKEMAKE)
 @pytest.mark.parametrize("arguments", [["-c1", "all"], ["-n"]])
 def test_snakemake_refuses_a_bad_configuration_in_one_line(finished, key, value, words, arguments):
@@ -164,6 +342,42 @@ def test_snakemake_refuses_a_file_that_is_no_configuration(finished, text):
     assert "Traceback" not in outcome.text
     assert "Config file" in outcome.text
     assert finished.results() == before
+
+
+@pytest.mark.parametrize("file", ["config.yaml", "odd.yaml"])
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("__use_yte__: true", "asks Snakemake to evaluate Python in it"),
+        ("duration: 3.0\nduration: 3.0", "the key 'duration' stands twice"),
+        ("odd: !!python/tuple [1]", "could not determine a constructor"),
+    ],
+)
+def test_a_configuration_file_of_more_than_plain_values_is_refused(workspace, file, line, words):
+    text = (workspace.path / "config.yaml").read_text(encoding="utf-8")
+    (workspace.path / file).write_text(f"{line}\n{text}", encoding="utf-8")
+    outcome = workspace.run("-n", *(["--configfile", file] if file != "config.yaml" else []))
+    assert outcome.code != 0
+    assert "Traceback" not in outcome.text
+    [said] = [line for line in outcome.text.splitlines() if "configuration: " in line]
+    assert words in said
+
+
+def test_python_in_config_yaml_is_not_evaluated(workspace):
+    """It is in a file of the command line, which Snakemake has read before it reads the Snakefile."""
+    text = (workspace.path / "config.yaml").read_text(encoding="utf-8")
+    python = "odd: ?open('evaluated', 'w').write('')"
+    (workspace.path / "config.yaml").write_text(f"__use_yte__: true\n{python}\n{text}", encoding="utf-8")
+    assert workspace.run("-n").code != 0
+    assert not (workspace.path / "evaluated").exists()
+
+
+@pytest.mark.parametrize("arguments", [["--config", "duration=3"], ["--configfile", "mine.yaml"]])
+def test_plain_values_of_the_command_line_are_taken(compiled_workspace, arguments):
+    (compiled_workspace.path / "mine.yaml").write_text("duration: 3\n", encoding="utf-8")
+    outcome = compiled_workspace.run("-c1", *arguments, "--", "results/runs/fig10.h5")
+    assert outcome.code == 0, outcome.text
+    assert Run.load(compiled_workspace.path / "results/runs/fig10.h5").duration == 3.0
 
 
 def test_a_file_in_place_of_the_results_directory_is_named(workspace):
