@@ -9,7 +9,9 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
+from precursors.peak_load import largest_load
 from precursors.run import Run
+from precursors.slip_rows import first_global, up_to_first_global
 
 COLUMNS = [
     "onset",
@@ -85,7 +87,7 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
     ValueError
         If `short` is no key of SHORT_EVENTS.
     """
-    until_global = slips.iloc[: first_global(slips) + 1] if slips["is_global"].any() else slips
+    until_global = up_to_first_global(slips)
     front = until_global["front"]
     if short == "shorter than the last":
         return until_global[front >= front.shift(fill_value=0)]
@@ -95,19 +97,6 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
     if short == "shorter":
         return until_global[front >= farthest_before]
     raise ValueError(f"short = {short!r}: allowed are {', '.join(map(repr, SHORT_EVENTS))}")
-
-
-def first_global(slips: pd.DataFrame) -> int:
-    """Row number of the first global slip.
-
-    Raises
-    ------
-    ValueError
-        If there is none.
-    """
-    if not slips["is_global"].any():
-        raise ValueError("the slips hold no global slip: run the chain for a longer duration")
-    return int(np.argmax(slips["is_global"].to_numpy()))
 
 
 GLOBAL_SLIPS = {
@@ -208,7 +197,8 @@ class ApparentFriction:
     time : float
         When F_X had this value [s].
     event : int
-        Number of the event that begins then, or that it lies in, from 1.
+        Number of the event that begins then, that it lies in, or that is the last before it, from 1; 0
+        where there is none.
     events_kept : int
         Events of Fig. 13 up to and including the first global slip of this definition.
     """
@@ -225,20 +215,27 @@ def apparent_friction(
 ) -> ApparentFriction | None:
     """Apparent static friction coefficient F_Xmax / F_Z of a run (Eq. 1); None without a global slip.
 
-    F_X is largest where the drive is as fast as block 1, which is a transition to within V: the largest of
-    the transitions' loads is taken.
+    Parameters
+    ----------
+    run : Run
+        The run; with stored states if its interface is elastic, see `largest_load`.
+    slips : DataFrame
+        Its slip events, see `find_slips`.
+    definition : Definition
+        What the words mean.
     """
     slips = definition.read(slips, run.chain.n_blocks)
-    if not slips["is_global"].any():
+    first = first_global(slips)
+    if first is None:
         return None
-    onset = float(slips["onset"].iloc[first_global(slips)])
-    up_to = run.transitions[run.transitions["time"] <= onset]
-    peak = up_to[np.argmax(up_to["tangential_load"])] if definition.largest else up_to[-1]
+    time, load = slips["onset"].iloc[first], slips["load_before"].iloc[first]
+    if definition.largest:
+        time, load = largest_load(run, slips, time)
     return ApparentFriction(
-        mu_sapp=float(peak["tangential_load"]) / run.chain.normal_load,
-        load=float(peak["tangential_load"]),
-        time=float(peak["time"]),
-        event=int(np.searchsorted(slips["onset"], peak["time"], side="right")),
+        mu_sapp=float(load) / run.chain.normal_load,
+        load=float(load),
+        time=float(time),
+        event=int(np.searchsorted(slips["onset"], time, side="right")),
         events_kept=len(find_precursors(slips, definition.short)),
     )
 
