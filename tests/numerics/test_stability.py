@@ -52,6 +52,10 @@ STEPS_IN_SAMPLE = 60
 SAMPLED_ORDER_TOLERANCE = 0.15
 # Relative error of sums of some hundred terms in double precision, through several windows.
 ROUNDING = 1e-12
+# Relative, of a slip of 4e-4 s by a clock that does not start anew at its onset, at 3.5 s.
+CLOCK_ROUNDING = 1e-9
+# What the load changes by in the step in which a block stops [N]; other methods differ by 1e-6 to 1 N.
+LAST_STEP = 2e-3
 # Relative rounding of a step with omega dt = 100, by whose square the springs' forces outweigh inertia.
 STIFF_ROUNDING = 100**2 * float(np.finfo(float).eps)
 
@@ -198,6 +202,29 @@ def smooth_error(chain: Chain, slide: Slide, n_steps: int) -> float:
 def test_on_a_smooth_stretch_the_order_is_that_of_the_method(chain: Chain, name: str) -> None:
     coarse, fine = (smooth_error(chain, SLIDES[name], n) for n in (128, 256))
     assert np.log2(coarse / fine) == pytest.approx(ORDERS[name], abs=ORDER_TOLERANCE)
+
+
+@pytest.mark.parametrize("name", SLIDES)
+def test_a_slip_of_the_method_in_the_table_is_made_of_its_smooth_steps(name: str) -> None:
+    chain, step = Chain.from_slider(n_blocks=1), 1e-6
+    run = METHODS[name].solve(chain, 3.6, step, None).run
+    system = system_of(chain)
+    state = sliding_forward(system, np.zeros(1))
+    release, stop = run.transitions[:2]
+    state.tension[1] = release["tangential_load"]
+    n_steps = 0
+    while state.velocity[1] >= 0.0:
+        SLIDES[name](system, state, step, 1)
+        n_steps += 1
+    assert run.intervals[1] == pytest.approx(n_steps * step, rel=CLOCK_ROUNDING)
+    # Moreau-Jean time stepping stops the block within the last step, the others after it.
+    last_step = LAST_STEP if name.startswith("moreau_jean") else 0.0
+    assert stop["tangential_load"] == pytest.approx(state.tension[1], rel=ROUNDING, abs=last_step)
+
+
+def test_only_rk4_as_it_stands_makes_steps_while_all_blocks_stick(chain: Chain) -> None:
+    assert METHODS["rk4"].solve(chain, 0.1, 1e-5, None).evaluations == pytest.approx(40_000, abs=8)
+    assert {METHODS[name].solve(chain, 0.1, 1e-5, None).evaluations for name in FIXED_STEP} == {0}
 
 
 @pytest.mark.parametrize("n_blocks", [1, 2, 3])

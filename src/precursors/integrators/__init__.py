@@ -3,7 +3,7 @@
 from importlib import import_module
 from importlib.util import find_spec
 
-from precursors.integrators.common import DivergedError, Method, Result, run_from
+from precursors.integrators.common import DivergedError, Method, Result
 
 # The module of a method and the package it needs beyond the library's own; without that it is absent.
 MODULES = {
@@ -27,4 +27,4 @@ METHODS: dict[str, Method] = {
     for method in import_module(f"{__name__}.{module}").METHODS
 }
 
-__all__ = ["METHODS", "DivergedError", "Method", "Result", "run_from"]
+__all__ = ["METHODS", "DivergedError", "Method", "Result"]

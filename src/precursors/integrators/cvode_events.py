@@ -13,7 +13,7 @@ import numpy as np
 
 from precursors.chain import Chain, FloatArray
 from precursors.integrators.common import Method, Result
-from precursors.integrators.events import Motion, gauges, jacobian, march_events, rates
+from precursors.integrators.events import Motion, gauges, jacobian, march_restarting, rates
 
 Formula = Literal["Adams", "BDF"]
 TOLERANCES: dict[Formula, tuple[float, ...]] = {
@@ -50,7 +50,19 @@ def solve_cvode(
         If CVODE reports a failure.
     """
     motion = Motion(chain, duration, until)
-    return march_events(motion, partial(_slip, solver=_solver(motion, tolerance, formula)))
+    solver = _solver(motion, tolerance, formula)
+
+    def go_on(time: float) -> tuple[float, int]:
+        solver.init_step(time, motion.state)
+        solution = solver.step(motion.remaining, tstop=motion.remaining)
+        motion.evaluations += int(solution.nfev)
+        if not solution.success:
+            raise RuntimeError(f"CVODE at t = {motion.onset:.9g} s: {solution.message}")
+        motion.state[:] = solution.y
+        fired = np.flatnonzero(solution.i_events[-1]) if solution.status == EVENT_FOUND else [-1]
+        return float(solution.t), int(fired[0])
+
+    return march_restarting(motion, go_on)
 
 
 def _solver(motion: Motion, tolerance: float, formula: Formula) -> Any:
@@ -78,24 +90,6 @@ def _solver(motion: Motion, tolerance: float, formula: Formula) -> Any:
         jacfn=matrix,
         max_num_steps=MAX_STEPS,
     )
-
-
-def _slip(motion: Motion, solver: Any) -> None:
-    time = 0.0
-    sliding = True
-    while sliding and time < motion.remaining:
-        solver.init_step(time, motion.state)
-        solution = solver.step(motion.remaining, tstop=motion.remaining)
-        motion.evaluations += int(solution.nfev)
-        if not solution.success:
-            raise RuntimeError(f"CVODE at t = {motion.onset:.9g} s: {solution.message}")
-        time = float(solution.t)
-        motion.state[:] = solution.y
-        if solution.status != EVENT_FOUND:
-            return
-        # If another has fired at the same instant, it is overdue after this one or fires again at once.
-        fired = int(np.flatnonzero(solution.i_events[-1])[0])
-        sliding = motion.switch(fired, time)
 
 
 METHODS = tuple(

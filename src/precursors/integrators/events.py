@@ -24,9 +24,10 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from precursors.chain import Chain, FloatArray, positive, require_plain
+from precursors.chain import Chain, FloatArray, checked_span, require_plain
 from precursors.exact import TransitionLimitError
-from precursors.integrators.common import Result, run_from
+from precursors.integrators.common import Result
+from precursors.run import Run
 
 # Rows of `Motion.settings`.
 SLIDES, PUSH, MODE, STICKS = range(4)
@@ -69,10 +70,8 @@ class Motion:
         settings: FloatArray | None = None,
         nudge: float = NUDGE,
     ) -> None:
-        if until not in (None, "global slip"):
-            raise ValueError(f'until = {until!r} is unknown: allowed is None or "global slip"')
         self.chain = chain
-        self.duration = positive("duration", duration, "s")
+        self.duration = checked_span(duration, until)
         self.until = until
         n = chain.n_blocks
         self.tau, self.drive_velocity, self.coupling = scaled(chain)
@@ -152,7 +151,8 @@ class Motion:
         since = self._waited
         if self.n_sliding:
             since += (self.remaining - self.elapsed) * self.tau
-        run = run_from(self.chain, self.duration, time, block, mode, load, np.append(interval, since))
+        intervals = np.append(interval, since)
+        run = Run.from_transitions(self.chain, self.duration, time, block, mode, load, intervals)
         return Result(run, self.evaluations)
 
 
@@ -167,6 +167,24 @@ def march_events(motion: Motion, slip: Callable[[Motion], Any]) -> Result:
         if motion.n_sliding:
             break
     return motion.run()
+
+
+def march_restarting(motion: Motion, go_on: Callable[[float], tuple[float, int]]) -> Result:
+    """Run a chain by a solver that is started anew at each transition.
+
+    `go_on(time)` integrates the state in `motion` from a time [tau] to the next root of an event function. It
+    returns the time of that and the function's number, or the end of the run and -1. If another has fired at
+    the same instant, it is overdue after this one or fires again at once.
+    """
+
+    def slip(motion: Motion) -> None:
+        time = 0.0
+        while motion.n_sliding and time < motion.remaining:
+            time, event = go_on(time)
+            if event >= 0:
+                motion.switch(event, time)
+
+    return march_events(motion, slip)
 
 
 def time_unit(chain: Chain) -> float:

@@ -197,7 +197,7 @@ def solve(
     if dead_zone is None:
         dead_zone = PART_OF_SAFE_WIDTH * safe_width(chain, positive("step", step, "s"))
     width = not_negative("dead_zone", dead_zone, "m/s")
-    return march(run_karnopp, chain, duration, until, step, width)
+    return march(run_karnopp, (width,), chain, duration, step, until)
 
 
 METHODS = (Method("karnopp", "Karnopp's dead zone", "step [s]", STEPS, solve),)

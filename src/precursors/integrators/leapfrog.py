@@ -5,8 +5,7 @@ Stick and slip are switched once a step, as with `rk4`; while all blocks stick t
 
 from __future__ import annotations
 
-from precursors.chain import Chain
-from precursors.integrators.common import Method, Result, march
+from precursors.integrators.common import fixed_step
 from precursors.integrators.forces import (
     ELAPSED,
     EVALUATIONS,
@@ -81,29 +80,8 @@ def run_symplectic(system, state, record, clock, count, duration, until_global, 
     return PAUSED
 
 
-def solve_verlet(chain: Chain, duration: float, step: float, until: str | None = None) -> Result:
-    """Integrate with velocity Verlet: order 2 while nothing switches.
-
-    Raises
-    ------
-    ValueError, DivergedError, TransitionLimitError
-        As `march`.
-    """
-    return march(run_symplectic, chain, duration, until, step, True)
-
-
-def solve_euler(chain: Chain, duration: float, step: float, until: str | None = None) -> Result:
-    """Integrate with semi-implicit Euler: order 1.
-
-    Raises
-    ------
-    ValueError, DivergedError, TransitionLimitError
-        As `march`.
-    """
-    return march(run_symplectic, chain, duration, until, step, False)
-
-
 METHODS = (
-    Method("leapfrog", "leapfrog", "step [s]", STEPS, solve_verlet),
-    Method("semi_implicit_euler", "semi-implicit Euler", "step [s]", STEPS, solve_euler),
+    # Of order 2 and 1 while nothing switches.
+    fixed_step("leapfrog", "leapfrog", STEPS, run_symplectic, True),
+    fixed_step("semi_implicit_euler", "semi-implicit Euler", STEPS, run_symplectic, False),
 )

@@ -16,8 +16,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from precursors.chain import Chain
-from precursors.integrators.common import Method, Result, march
+from precursors.integrators.common import fixed_step
 from precursors.integrators.forces import (
     ELAPSED,
     EVALUATIONS,
@@ -36,6 +35,7 @@ from precursors.integrators.forces import (
 )
 
 STEPS = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
+# theta: of order 2 while nothing switches, without damping; of order 1, damping what is faster than a step.
 TRAPEZOIDAL, IMPLICIT = 0.5, 1.0
 # The active set settles in two or three solutions; where it goes in a circle, this many are enough.
 SOLUTIONS_PER_BLOCK = 4
@@ -147,7 +147,8 @@ def run_moreau_jean(system, state, record, clock, count, duration, until_global,
     """Run until `duration` [s], the end of the first global slip, a full record or a spent budget.
 
     A block that turns round needs a step to stop in, whose friction brakes it; a rest of one step between the
-    two directions is recorded as the turn that it stands for.
+    two directions is recorded as the turn that it stands for. Each solution of the tridiagonal system counts
+    as an evaluation.
     """
     scratch = new_scratch(state)
     trial = state.mode.copy()
@@ -185,31 +186,7 @@ def run_moreau_jean(system, state, record, clock, count, duration, until_global,
     return PAUSED
 
 
-def solve_trapezoidal(chain: Chain, duration: float, step: float, until: str | None = None) -> Result:
-    """Integrate with theta = 1/2: order 2 while nothing switches, no damping; waits in closed form.
-
-    Each solution of the tridiagonal system counts as an evaluation.
-
-    Raises
-    ------
-    ValueError, DivergedError, TransitionLimitError
-        As `march`.
-    """
-    return march(run_moreau_jean, chain, duration, until, step, TRAPEZOIDAL)
-
-
-def solve_implicit(chain: Chain, duration: float, step: float, until: str | None = None) -> Result:
-    """Integrate with theta = 1: order 1, and damps what is faster than the step.
-
-    Raises
-    ------
-    ValueError, DivergedError, TransitionLimitError
-        As `march`.
-    """
-    return march(run_moreau_jean, chain, duration, until, step, IMPLICIT)
-
-
 METHODS = (
-    Method("moreau_jean_half", "Moreau-Jean, theta = 1/2", "step [s]", STEPS, solve_trapezoidal),
-    Method("moreau_jean_one", "Moreau-Jean, theta = 1", "step [s]", STEPS, solve_implicit),
+    fixed_step("moreau_jean_half", "Moreau-Jean, trapezoidal", STEPS, run_moreau_jean, TRAPEZOIDAL),
+    fixed_step("moreau_jean_one", "Moreau-Jean, implicit", STEPS, run_moreau_jean, IMPLICIT),
 )

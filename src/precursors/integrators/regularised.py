@@ -21,9 +21,10 @@ import numpy as np
 from scipy.integrate import BDF, Radau
 from scipy.optimize import brentq, minimize_scalar
 
-from precursors.chain import Chain, FloatArray, positive
-from precursors.integrators.common import Method, Result, run_from
+from precursors.chain import Chain, FloatArray, checked_span, positive
+from precursors.integrators.common import Method, Result
 from precursors.integrators.events import jacobian, scaled, time_unit
+from precursors.run import Run
 
 Solver = Literal["Radau", "BDF"]
 SOLVERS: dict[Solver, Any] = {"Radau": Radau, "BDF": BDF}
@@ -121,9 +122,7 @@ def solve_regularised(
     RuntimeError
         If SciPy reports a failure.
     """
-    duration = positive("duration", duration, "s")
-    if until not in (None, "global slip"):
-        raise ValueError(f'until = {until!r} is unknown: allowed is None or "global slip"')
+    duration = checked_span(duration, until)
     positive("width", width, "m/s")
     n = chain.n_blocks
     tau, velocity_unit = time_unit(chain), chain.mass / time_unit(chain)
@@ -156,7 +155,7 @@ def solve_regularised(
             duration = rows[-1][0]
             break
     columns = zip(*rows, strict=True) if rows else ((),) * 4
-    return Result(run_from(chain, duration, *columns), stepper.nfev)
+    return Result(Run.from_transitions(chain, duration, *columns), stepper.nfev)
 
 
 def _modes(velocity: FloatArray, threshold: float) -> np.ndarray:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from precursors.chain import Chain
-from precursors.integrators.common import Method, Result, march
+from precursors.integrators.common import fixed_step
 from precursors.integrators.forces import (
     ELAPSED,
     EVALUATIONS,
@@ -92,7 +91,12 @@ def slide(system, state, h, n_steps):
 
 @outer
 def run_rk4(system, state, record, clock, count, duration, until_global, step, skipping):
-    """Run until `duration` [s], the end of the first global slip, a full record or a spent budget."""
+    """Run until `duration` [s], the end of the first global slip, a full record or a spent budget.
+
+    A block whose velocity has changed its sign at the end of a step is stopped there, and sticks or turns
+    round; a stuck block whose force exceeds mu_s w at the end of a step lets go there. While all blocks stick
+    each step is made as well, or (`skipping`) the wait is in closed form.
+    """
     scratch = new_scratch(state)
     for _ in range(LEGS_PER_CALL):
         status = begin_leg(system, state, record, clock, count, duration, until_global, skipping)
@@ -109,26 +113,7 @@ def run_rk4(system, state, record, clock, count, duration, until_global, step, s
     return PAUSED
 
 
-def solve(chain: Chain, duration: float, step: float, until: str | None = None) -> Result:
-    """Integrate every step, also while all blocks stick.
-
-    A block whose velocity has changed its sign at the end of a step is stopped there, and sticks or turns
-    round; a stuck block whose force exceeds mu_s w at the end of a step lets go there.
-
-    Raises
-    ------
-    ValueError, DivergedError, TransitionLimitError
-        As `march`.
-    """
-    return march(run_rk4, chain, duration, until, step, False)
-
-
-def solve_skipping(chain: Chain, duration: float, step: float, until: str | None = None) -> Result:
-    """Integrate as `solve`, but wait in closed form while all blocks stick."""
-    return march(run_rk4, chain, duration, until, step, True)
-
-
 METHODS = (
-    Method("rk4", "RK4, every step", "step [s]", STEPS[:5], solve),
-    Method("rk4_skip", "RK4", "step [s]", STEPS, solve_skipping),
+    fixed_step("rk4", "RK4, every step", STEPS[:5], run_rk4, False),
+    fixed_step("rk4_skip", "RK4", STEPS, run_rk4, True),
 )

@@ -3,7 +3,7 @@
 A gauge of each block is positive while its state lasts: its velocity in its mode's direction, or what mu_s w
 is larger than its force. The cubic through the gauges and their rates at both ends of a step shows the first
 zero, also of two in one step; the step is then made again as long as that, and its length corrected until the
-gauge is zero to rounding.
+gauge is zero to rounding. While all blocks stick the wait is in closed form.
 
 The compiled step is that of `rk4`: Numba's cache does not see an edit there.
 """
@@ -14,8 +14,7 @@ import math
 
 import numpy as np
 
-from precursors.chain import Chain
-from precursors.integrators.common import Method, Result, march
+from precursors.integrators.common import fixed_step
 from precursors.integrators.forces import (
     ELAPSED,
     EVALUATIONS,
@@ -204,15 +203,4 @@ def run_located(system, state, record, clock, count, duration, until_global, ste
     return PAUSED
 
 
-def solve(chain: Chain, duration: float, step: float, until: str | None = None) -> Result:
-    """Integrate with steps that end at every transition; wait in closed form while all blocks stick.
-
-    Raises
-    ------
-    ValueError, DivergedError, TransitionLimitError
-        As `march`.
-    """
-    return march(run_located, chain, duration, until, step)
-
-
-METHODS = (Method("rk4_located", "RK4, transitions located", "step [s]", STEPS, solve),)
+METHODS = (fixed_step("rk4_located", "RK4, transitions located", STEPS, run_located),)

@@ -17,7 +17,7 @@ from scipy.integrate import solve_ivp
 
 from precursors.chain import Chain, FloatArray
 from precursors.integrators.common import Method, Result
-from precursors.integrators.events import MODE, NUDGE, Motion, jacobian, march_events, rates
+from precursors.integrators.events import MODE, NUDGE, Motion, jacobian, march_restarting, rates
 
 Solver = Literal["RK45", "DOP853", "LSODA", "Radau"]
 IMPLICIT = ("LSODA", "Radau")
@@ -28,14 +28,6 @@ TOLERANCES: dict[Solver, tuple[float, ...]] = {
     "LSODA": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12),
     "Radau": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10),
 }
-LABELS: dict[Solver, str] = {
-    "RK45": "SciPy RK45 with events",
-    "DOP853": "SciPy DOP853 with events",
-    "LSODA": "SciPy LSODA with events",
-    "Radau": "SciPy Radau with events",
-}
-# Absolute tolerances are the relative one times these: a force of 1 N and the velocity that goes with it.
-SCALE = 1.0
 FALLING = -1.0
 
 EventFunction = Callable[[float, FloatArray], float]
@@ -76,29 +68,19 @@ def solve_scipy(
         If SciPy reports a failure.
     """
     motion = Motion(chain, duration, until, nudge=nudge)
-    return march_events(
-        motion, partial(_slip, solver=solver, tolerance=tolerance, max_step=max_step, direction=direction)
-    )
-
-
-def _slip(motion: Motion, solver: Solver, tolerance: float, max_step: float, direction: float) -> None:
-    n = motion.chain.n_blocks
+    n = chain.n_blocks
 
     def right_hand_side(_time: float, state: FloatArray) -> FloatArray:
         result = np.empty(2 * n)
         rates(state, motion.settings, motion.coupling, motion.drive_velocity, result)
         return result
 
-    time = 0.0
-    sliding = True
-    while sliding:
-        if time >= motion.remaining:
-            return
+    def go_on(time: float) -> tuple[float, int]:
         events = dict(watched(motion, direction))
         options: dict[str, Any] = {}
         if solver in IMPLICIT:
             matrix = jacobian(motion.settings, motion.coupling, np.zeros((2 * n, 2 * n)))
-            options["jac"] = matrix if solver == "Radau" else lambda _t, _y, matrix=matrix: matrix
+            options["jac"] = matrix if solver == "Radau" else lambda _t, _y: matrix
         solution = solve_ivp(
             right_hand_side,
             (time, motion.remaining),
@@ -106,20 +88,18 @@ def _slip(motion: Motion, solver: Solver, tolerance: float, max_step: float, dir
             method=solver,
             events=list(events.values()),
             rtol=tolerance,
-            atol=SCALE * tolerance,
+            atol=tolerance,
             max_step=max_step / motion.tau,
             **options,
         )
         motion.evaluations += solution.nfev
         if not solution.success:
             raise RuntimeError(f"{solver} at t = {motion.onset:.9g} s: {solution.message}")
-        time = float(solution.t[-1])
         motion.state[:] = solution.y[:, -1]
         fired = [number for number, times in zip(events, solution.t_events or (), strict=True) if len(times)]
-        if not fired:
-            return
-        # If another has fired at the same instant, it is overdue after this one or fires again at once.
-        sliding = motion.switch(fired[0], time)
+        return float(solution.t[-1]), fired[0] if fired else -1
+
+    return march_restarting(motion, go_on)
 
 
 def watched(motion: Motion, direction: float = FALLING) -> Iterator[tuple[int, EventFunction]]:
@@ -154,7 +134,7 @@ def _terminal(function: EventFunction, direction: float) -> EventFunction:
 METHODS = tuple(
     Method(
         f"scipy_{solver.lower()}",
-        LABELS[solver],
+        f"SciPy {solver} with events",
         "relative tolerance",
         TOLERANCES[solver],
         partial(solve_scipy, solver=solver),
