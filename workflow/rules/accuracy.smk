@@ -2,21 +2,12 @@ from precursors.chain import parse_theta
 
 COMPARED = config["accuracy"]["chains"]
 THETAS = {name: parse_theta(config["horizon"]["chains"][name].get("theta", 0)) for name in COMPARED}
-METHOD_CODE = [
-    *collect(
-        "{library}/{name}.py",
-        library=LIBRARY,
-        name=["accuracy", "chain", "exact", "kernel", "lanes", "run", "slips", "timing", "work_precision"],
-    ),
-    *sorted(map(str, Path(LIBRARY).glob("integrators/*.py"))),
-]
-CHART_CODE = collect("{library}/figures/{name}.py", library=LIBRARY, name=["style", "work_precision"])
 
 
 rule measure_methods:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=COMPARED),
-        code=METHOD_CODE,
+        code=code_of("measure_methods"),
     output:
         table="results/tables/work_precision.csv",
     log:
@@ -34,7 +25,7 @@ rule measure_methods:
 rule measure_methods_fully:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=COMPARED),
-        code=METHOD_CODE,
+        code=code_of("measure_methods"),
     output:
         table="results/tables/work_precision_full.csv",
     log:
@@ -52,7 +43,7 @@ rule measure_methods_fully:
 rule draw_work_precision:
     input:
         table="results/tables/work_precision.csv",
-        code=CHART_CODE,
+        code=code_of("draw_work_precision"),
     output:
         time_png="results/figures/work_precision.png",
         time_svg=report(
@@ -88,7 +79,7 @@ rule accuracy_full:
 rule draw_work_precision_full:
     input:
         table="results/tables/work_precision_full.csv",
-        code=CHART_CODE,
+        code=code_of("draw_work_precision"),
     output:
         time_png="results/figures/work_precision_full.png",
         time_svg=report(
@@ -115,11 +106,7 @@ rule draw_work_precision_full:
 
 rule measure_growth:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["bound", "chain", "exact", "growth", "kernel", "lanes", "run", "timing"],
-        ),
+        code=code_of("measure_growth"),
     output:
         table="results/tables/growth.csv",
     log:
@@ -136,7 +123,7 @@ rule measure_growth:
 rule draw_growth:
     input:
         table="results/tables/growth.csv",
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["growth", "style"]),
+        code=code_of("draw_growth"),
     output:
         png="results/figures/growth.png",
         svg=report(

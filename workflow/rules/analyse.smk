@@ -1,7 +1,7 @@
 rule tabulate_slips:
     input:
         run="results/runs/{scene}.h5",
-        code=collect("{library}/{module}.py", library=LIBRARY, module=["run", "slips", "storage", "tables"]),
+        code=code_of("tabulate_slips"),
     output:
         table="results/tables/{scene}_slips.csv",
     log:
@@ -16,11 +16,7 @@ rule tabulate_slips:
 rule tabulate_trace:
     input:
         run="results/runs/{scene}.h5",
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["kernel", "lanes", "run", "slips", "storage", "tables"],
-        ),
+        code=code_of("tabulate_trace"),
     output:
         table="results/tables/{scene}_trace.csv",
     log:
@@ -35,7 +31,7 @@ rule tabulate_trace:
 rule tabulate_mu_sapp:
     input:
         runs=collect("results/runs/{scene}.h5", scene=SCENES),
-        code=collect("{library}/{module}.py", library=LIBRARY, module=["run", "slips", "storage"]),
+        code=code_of("tabulate_mu_sapp"),
     output:
         table="results/tables/mu_sapp.csv",
     log:
@@ -53,7 +49,7 @@ rule tabulate_reproduction:
     input:
         slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
         mu_sapp="results/tables/mu_sapp.csv",
-        code=f"{LIBRARY}/storage.py",
+        code=code_of("tabulate_reproduction"),
     output:
         table="results/tables/reproduction.csv",
     log:

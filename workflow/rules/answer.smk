@@ -1,27 +1,6 @@
 rule answer_scene:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=[
-                "bound",
-                "chain",
-                "exact",
-                "kernel",
-                "lanes",
-                "reduced/__init__",
-                "reduced/answers",
-                "reduced/dynamic",
-                "reduced/quantities",
-                "reduced/quasistatic",
-                "reduced/rigid",
-                "reduced/statics",
-                "run",
-                "scene_models",
-                "slips",
-                "storage",
-            ],
-        ),
+        code=code_of("answer_scene"),
     output:
         table="results/tables/{scene}_answers.csv",
     log:

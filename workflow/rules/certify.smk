@@ -3,19 +3,7 @@ from precursors.proof import scene_exact_chain
 
 rule certify_scene:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=[
-                "proof/certificate",
-                "proof/exact_chain",
-                "proof/first_root",
-                "proof/motion",
-                "proof/tube",
-                "chain",
-                "storage",
-            ],
-        ),
+        code=code_of("certify_scene"),
     output:
         certificate="results/certificates/{scene}.json.gz",
     log:

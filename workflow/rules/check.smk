@@ -1,21 +1,6 @@
 rule check_eq15:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=[
-                "bound",
-                "chain",
-                "derivation",
-                "eq15",
-                "exact",
-                "kernel",
-                "lanes",
-                "run",
-                "slips",
-                "storage",
-            ],
-        ),
+        code=code_of("check_eq15"),
     output:
         json="results/tables/eq15.json",
         csv="results/tables/eq15.csv",

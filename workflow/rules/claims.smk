@@ -14,11 +14,7 @@ LEDGER = ["results/tables/claims.csv"] if set(scenes_needed(CLAIMS)) <= set(PAPE
 
 rule tabulate_definitions:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["chain", "exact", "kernel", "lanes", "run", "slips", "storage"],
-        ),
+        code=code_of("tabulate_definitions"),
     output:
         table="results/tables/definitions.csv",
     log:
@@ -39,7 +35,7 @@ rule tabulate_definitions:
 rule draw_definitions:
     input:
         table="results/tables/definitions.csv",
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["definitions", "style"]),
+        code=code_of("draw_definitions"),
     output:
         png="results/figures/definitions.png",
         svg=report(
@@ -60,11 +56,7 @@ rule draw_definitions:
 rule tabulate_measures:
     input:
         runs=collect("results/runs/{scene}.h5", scene=PAPERS_SCENES),
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["bound", "kernel", "lanes", "measures", "run", "slips", "storage"],
-        ),
+        code=code_of("tabulate_measures"),
     output:
         table="results/tables/measures.csv",
     log:
@@ -81,25 +73,7 @@ rule tabulate_measures:
 rule tabulate_erratum:
     input:
         runs=collect("results/runs/{scene}.h5", scene=PAPERS_SCENES),
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=[
-                "bound",
-                "chain",
-                "erratum",
-                "exact",
-                "integrators/common",
-                "integrators/forces",
-                "integrators/karnopp",
-                "integrators/literal",
-                "kernel",
-                "lanes",
-                "run",
-                "slips",
-                "storage",
-            ],
-        ),
+        code=code_of("tabulate_erratum"),
     output:
         table="results/tables/erratum.csv",
     log:
@@ -117,11 +91,7 @@ rule judge_claims:
     input:
         tables=collect("results/tables/{table}.csv", table=tables_needed(CLAIMS)),
         claims=CLAIMS_FILE,
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["ledger/claims", "ledger/judge", "ledger/rules", "storage"],
-        ),
+        code=code_of("judge_claims"),
     output:
         table="results/tables/claims.csv",
     log:

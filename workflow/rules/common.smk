@@ -8,13 +8,30 @@ from precursors.config import (
     scene_slider,
     scenes_with,
 )
+from precursors.imports import files_used
 
 SCENES = scenes_with(config, "run")
 ASKED = scenes_with(config, "answers")
 # As seen from the working directory; `workflow.basedir` would be another workflow's that uses this one as a module.
 ROOT = os.path.relpath(f"{workflow.current_basedir.get_path_or_uri(secret_free=True)}/../..")
-# Rules name the modules that they use, so that an edit re-runs them.
 LIBRARY = os.path.normpath(f"{ROOT}/src/precursors")
+# Imports whose edit changes no result, so that nothing is run again for it.
+ASIDE = {
+    # Members come in by the fingerprint of their study, a parameter of run_chunk.
+    "scripts/run_chunk": ["ensembles/catalogue", "progress"],
+    "scripts/gather_members": ["ensembles/catalogue"],
+    "scripts/tabulate_resolution_models": ["ensembles/catalogue"],
+    "config": ["config_schema", "config_studies", "cost"],  # what is refused
+    "proof/exact_chain": ["config"],  # the chain of a scene, a parameter of certify_scene
+    "run": ["horizon"],  # what a run tells its user when asked
+}
+
+
+def code_of(script):
+    """The modules that a script uses: an edit of one of them runs its rules again."""
+    return [
+        f"{LIBRARY}/{file}" for file in files_used(f"{ROOT}/workflow/scripts/{script}.py", LIBRARY, ASIDE)
+    ]
 
 
 wildcard_constraints:

@@ -1,6 +1,6 @@
 rule draw_chain:
     input:
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["chain_schematic", "style"]),
+        code=code_of("draw_chain"),
     output:
         png="results/figures/fig09.png",
         svg=report(
@@ -22,7 +22,7 @@ rule draw_scene:
     input:
         slips="results/tables/{scene}_slips.csv",
         trace="results/tables/{scene}_trace.csv",
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["scene", "style"]),
+        code=code_of("draw_scene"),
     output:
         png="results/figures/{scene}.png",
         svg=report(
@@ -46,7 +46,7 @@ rule draw_scene:
 rule draw_fig13:
     input:
         slips=collect("results/tables/{scene}_slips.csv", scene=config["fig13"]),
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["precursor_lengths", "style"]),
+        code=code_of("draw_fig13"),
     output:
         png="results/figures/fig13.png",
         svg=report(

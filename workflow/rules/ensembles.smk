@@ -8,21 +8,7 @@ wildcard_constraints:
 
 rule run_chunk:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=[
-                "chain",
-                "ensembles/chunks",
-                "ensembles/study",
-                "exact",
-                "kernel",
-                "lanes",
-                "run",
-                "storage",
-                "summary",
-            ],
-        ),
+        code=code_of("run_chunk"),
     output:
         chunk="results/ensembles/{study}/{chunk}.h5",
     log:
@@ -41,7 +27,7 @@ rule gather_members:
         chunks=lambda wildcards: collect(
             "results/ensembles/{{study}}/{chunk}.h5", chunk=chunk_names(config, wildcards.study)
         ),
-        code=collect("{library}/{module}.py", library=LIBRARY, module=["ensembles/chunks", "storage"]),
+        code=code_of("gather_members"),
     output:
         table="results/tables/{study}.csv",
     log:

@@ -1,22 +1,11 @@
 rule write_explorer:
     input:
         runs=collect("results/runs/{scene}.h5", scene=SCENES),
-        code=collect(
-            "{library}/{file}",
+        code=code_of("write_explorer"),
+        page=collect(
+            "{library}/explorer/{file}",
             library=LIBRARY,
-            file=[
-                "explorer/detail.py",
-                "explorer/explorer.css",
-                "explorer/explorer.js",
-                "explorer/page.html",
-                "explorer/page.py",
-                "figures/style.py",
-                "kernel.py",
-                "lanes.py",
-                "run.py",
-                "slips.py",
-                "storage.py",
-            ],
+            file=["explorer.css", "explorer.js", "page.html"],
         ),
     output:
         page="results/explorer.html",
@@ -35,11 +24,7 @@ rule write_explorer:
 rule draw_film:
     input:
         run="results/runs/{scene}.h5",
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["figures/film", "figures/style", "kernel", "lanes", "run", "slips", "storage"],
-        ),
+        code=code_of("draw_film"),
     output:
         film="results/films/{scene}.gif",
     log:

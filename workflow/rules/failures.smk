@@ -17,24 +17,7 @@ WAYS_TO_FAIL = [
 
 rule tabulate_step_sweep:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=[
-                "accuracy",
-                "chain",
-                "exact",
-                "integrators/common",
-                "integrators/forces",
-                "integrators/rk4",
-                "kernel",
-                "lanes",
-                "run",
-                "slips",
-                "step_sweep",
-                "storage",
-            ],
-        ),
+        code=code_of("tabulate_step_sweep"),
     output:
         table="results/tables/{sweep}.csv",
     log:
@@ -57,7 +40,7 @@ rule tabulate_step_sweep:
 rule draw_step_sweep:
     input:
         table="results/tables/{sweep}.csv",
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["step_sweep", "style"]),
+        code=code_of("draw_step_sweep"),
     output:
         png="results/figures/{sweep}.png",
         svg=report(
@@ -79,36 +62,7 @@ rule draw_step_sweep:
 
 rule tabulate_failures:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=[
-                "accuracy",
-                "chain",
-                "exact",
-                "failures/__init__",
-                "failures/backward",
-                "failures/common",
-                "failures/energy",
-                "failures/friction_laws",
-                "failures/locating",
-                "integrators/common",
-                "integrators/events",
-                "integrators/forces",
-                "integrators/karnopp",
-                "integrators/leapfrog",
-                "integrators/moreau_jean",
-                "integrators/regularised",
-                "integrators/rk4",
-                "integrators/scipy_events",
-                "kernel",
-                "lanes",
-                "run",
-                "slips",
-                "stability",
-                "storage",
-            ],
-        ),
+        code=code_of("tabulate_failures"),
     output:
         table="results/tables/failures.csv",
         curves=collect("results/tables/failures/{way}.csv", way=WAYS_TO_FAIL),
@@ -125,7 +79,7 @@ rule draw_failure_gallery:
     input:
         numbers="results/tables/failures.csv",
         curves=collect("results/tables/failures/{way}.csv", way=WAYS_TO_FAIL),
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["failure_gallery", "style"]),
+        code=code_of("draw_failure_gallery"),
     output:
         png="results/figures/failure_gallery.png",
         svg=report(

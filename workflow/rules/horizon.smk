@@ -1,10 +1,7 @@
-from precursors.proof.validation import certificate_path, chain_duration, exact_chain
+from precursors.proof.proved import certificate_path, chain_duration, exact_chain
 
 CHAINS = config["horizon"]["chains"]
 COMMITTED = os.path.normpath(f"{ROOT}/workflow/certificates")
-PROOF_CODE = [
-    f"{LIBRARY}/proof/{name}.py" for name in ["certificate", "exact_chain", "first_root", "motion", "tube"]
-]
 
 
 wildcard_constraints:
@@ -14,7 +11,7 @@ wildcard_constraints:
 rule take_certificates:
     input:
         committed=[path for chain in CHAINS for path in certificate_path(COMMITTED, chain)],
-        code=PROOF_CODE,
+        code=code_of("take_certificates"),
     output:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
     log:
@@ -32,7 +29,7 @@ rule take_certificates:
 rule prove_again:
     input:
         certificate="results/certificates/chains/{chain}.json.gz",
-        code=PROOF_CODE,
+        code=code_of("prove_again"),
     output:
         table="results/tables/proved/{chain}.csv",
     log:
@@ -53,11 +50,7 @@ rule tabulate_certificates:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
         effort=f"{COMMITTED}/effort.csv",
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["proof/certificate", "proof/validation", "storage"],
-        ),
+        code=code_of("tabulate_certificates"),
     output:
         table="results/tables/certificates.csv",
     log:
@@ -74,23 +67,7 @@ rule tabulate_certificates:
 rule tabulate_horizon:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=[
-                "chain",
-                "exact",
-                "horizon",
-                "kernel",
-                "lanes",
-                "proof/agreement",
-                "proof/certificate",
-                "proof/validation",
-                "run",
-                "storage",
-                "tangent",
-            ],
-        ),
+        code=code_of("tabulate_horizon"),
     output:
         horizon="results/tables/horizon.csv",
         summary="results/tables/solver_vs_proof.csv",
@@ -108,11 +85,7 @@ rule tabulate_horizon:
 
 rule tabulate_lyapunov:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["chain", "exact", "kernel", "lanes", "lyapunov", "run", "storage", "tangent"],
-        ),
+        code=code_of("tabulate_lyapunov"),
     output:
         table="results/tables/lyapunov.csv",
     log:
@@ -132,7 +105,7 @@ rule draw_horizon:
         horizon="results/tables/horizon.csv",
         summary="results/tables/solver_vs_proof.csv",
         lyapunov="results/tables/lyapunov.csv",
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["horizon", "style"]),
+        code=code_of("draw_horizon"),
     output:
         png="results/figures/horizon.png",
         svg=report(
@@ -148,6 +121,7 @@ rule draw_horizon:
     threads: 1
     params:
         chains=CHAINS,
+        thetas={scene: scene_slider(config, scene)["theta"] for scene in config["fig13"]},
         tolerance=config["horizon"]["tolerance"],
     script:
         "../scripts/draw_horizon.py"

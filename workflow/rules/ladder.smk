@@ -1,27 +1,6 @@
 rule climb_ladder:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=[
-                "bound",
-                "chain",
-                "exact",
-                "kernel",
-                "lanes",
-                "ladder",
-                "reduced/__init__",
-                "reduced/dynamic",
-                "reduced/quantities",
-                "reduced/quasistatic",
-                "reduced/rigid",
-                "reduced/statics",
-                "run",
-                "scene_models",
-                "slips",
-                "storage",
-            ],
-        ),
+        code=code_of("climb_ladder"),
     output:
         table="results/tables/ladder.csv",
     log:
@@ -41,7 +20,7 @@ rule climb_ladder:
 rule draw_ladder:
     input:
         ladder="results/tables/ladder.csv",
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["ladder", "style"]),
+        code=code_of("draw_ladder"),
     output:
         png="results/figures/ladder.png",
         svg=report(

@@ -10,7 +10,7 @@ wildcard_constraints:
 rule tabulate_resolution:
     input:
         members="results/tables/resolution_members.csv",
-        code=collect("{library}/{module}.py", library=LIBRARY, module=["ensembles/resolution", "storage"]),
+        code=code_of("tabulate_resolution"),
     output:
         table="results/tables/resolution.csv",
         limits="results/tables/resolution_limits.csv",
@@ -20,7 +20,7 @@ rule tabulate_resolution:
         "results/benchmarks/tabulate_resolution.tsv"
     threads: 1
     params:
-        length=config["chain"]["length"],
+        slider=config["chain"],
         fit_from=config["resolution"]["fit_from"],
     script:
         "../scripts/tabulate_resolution.py"
@@ -30,11 +30,7 @@ rule draw_resolution:
     input:
         table="results/tables/resolution.csv",
         limits="results/tables/resolution_limits.csv",
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["ensembles/resolution", "figures/resolution", "figures/style"],
-        ),
+        code=code_of("draw_resolution"),
     output:
         png="results/figures/resolution.png",
         svg=report(
@@ -49,25 +45,24 @@ rule draw_resolution:
         "results/benchmarks/draw_resolution.tsv"
     threads: 1
     params:
-        slider=config["chain"],
+        papers_n=config["chain"]["n_blocks"],
     script:
         "../scripts/draw_resolution.py"
 
 
 rule tabulate_resolution_models:
     input:
-        members="results/tables/resolution_models_members.csv",
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["ensembles/resolution", "ensembles/resolution_models", "storage"],
-        ),
+        members="results/tables/{models}_members.csv",
+        code=code_of("tabulate_resolution_models"),
     output:
-        table="results/tables/resolution_models.csv",
+        table="results/tables/{models}.csv",
+        runs="results/tables/{models}_runs.csv",
     log:
-        "results/logs/tabulate_resolution_models.log",
+        "results/logs/tabulate_resolution_models/{models}.log",
     benchmark:
-        "results/benchmarks/tabulate_resolution_models.tsv"
+        "results/benchmarks/tabulate_resolution_models/{models}.tsv"
+    wildcard_constraints:
+        models="resolution_models(_full)?",
     threads: 1
     script:
         "../scripts/tabulate_resolution_models.py"
@@ -75,25 +70,31 @@ rule tabulate_resolution_models:
 
 rule draw_resolution_models:
     input:
-        table="results/tables/resolution_models.csv",
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["figures/resolution", "figures/resolution_models", "figures/style"],
-        ),
+        table="results/tables/{models}.csv",
+        runs="results/tables/{models}_runs.csv",
+        code=code_of("draw_resolution_models"),
     output:
-        png="results/figures/resolution_models.png",
+        png="results/figures/{models}.png",
         svg=report(
-            "results/figures/resolution_models.svg",
+            "results/figures/{models}.svg",
             caption="../report/resolution_models.rst",
             category="Sensitivity",
-            labels={"figure": "resolution_models: the same with viscosity and interface springs"},
+            labels={"figure": "{models}: the same with viscosity and interface springs"},
         ),
     log:
-        "results/logs/draw_resolution_models.log",
+        "results/logs/draw_resolution_models/{models}.log",
     benchmark:
-        "results/benchmarks/draw_resolution_models.tsv"
+        "results/benchmarks/draw_resolution_models/{models}.tsv"
+    wildcard_constraints:
+        models="resolution_models(_full)?",
     threads: 1
+    params:
+        papers_n=config["chain"]["n_blocks"],
+        longest_run=lambda wildcards: (
+            config["resolution_models"]["full"]
+            if wildcards.models.endswith("_full")
+            else config["resolution_models"]
+        )["longest_run"],
     script:
         "../scripts/draw_resolution_models.py"
 
@@ -101,7 +102,7 @@ rule draw_resolution_models:
 rule draw_maps:
     input:
         tables=collect("results/tables/{map}.csv", map=MAPS),
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["maps", "style"]),
+        code=code_of("draw_maps"),
     output:
         collect("results/figures/{map}.png", map=MAPS),
         [
@@ -120,17 +121,14 @@ rule draw_maps:
     threads: 1
     params:
         maps=MAPS,
+        sliders=[scene_slider(config, scene) for scene in config["fig13"]],
     script:
         "../scripts/draw_maps.py"
 
 
 rule tabulate_long_runs:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["chain", "ensembles/long_runs", "exact", "kernel", "lanes", "run", "slips", "storage"],
-        ),
+        code=code_of("tabulate_long_runs"),
     output:
         slips="results/tables/long_runs.csv",
         statistics="results/tables/long_runs_statistics.csv",
@@ -149,7 +147,8 @@ rule tabulate_long_runs:
 rule draw_long_runs:
     input:
         slips="results/tables/long_runs.csv",
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["long_runs", "style"]),
+        statistics="results/tables/long_runs_statistics.csv",
+        code=code_of("draw_long_runs"),
     output:
         png="results/figures/long_runs.png",
         svg=report(

@@ -22,11 +22,7 @@ rule write_paper:
         ),
         shown=SHOWN,
         tables=collect("results/tables/{table}.csv", table=tables_needed(PAPERS_NUMBERS)),
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["ledger/rules", "paper/numbers", "paper/pages", "storage"],
-        ),
+        code=code_of("write_paper"),
     output:
         pdf="results/paper.pdf",
         numbers="results/numbers.json",

@@ -2,7 +2,7 @@
 rule write_provenance:
     input:
         RESULTS,
-        code=collect("{library}/{module}.py", library=LIBRARY, module=["provenance", "storage"]),
+        code=code_of("write_provenance"),
     output:
         json="results/provenance.json",
     log:
@@ -20,7 +20,7 @@ rule write_provenance:
 rule write_crate:
     input:
         provenance="results/provenance.json",
-        code=collect("{library}/{module}.py", library=LIBRARY, module=["crate", "provenance", "storage"]),
+        code=code_of("write_crate"),
     output:
         metadata="results/ro-crate-metadata.json",
     log:

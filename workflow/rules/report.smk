@@ -5,7 +5,7 @@ TABLES = {
     "reproduction": "paper and reproduction",
     "eq15": "the derivation of Eq. 15",
     "definitions": "what every reading of the definitions gives",
-    "erratum": "errors and open points of the paper",
+    "erratum": "misprints and open points of the paper",
     "certificates": "what is proved",
     "solver_vs_proof": "the solver against the proof",
     "lyapunov": "largest Lyapunov exponents",
@@ -35,7 +35,7 @@ wildcard_constraints:
 rule write_table_page:
     input:
         table="results/tables/{page}.csv",
-        code=collect("{library}/{module}.py", library=LIBRARY, module=["storage", "table_page"]),
+        code=code_of("write_table_page"),
     output:
         page=report(
             "results/pages/{page}.html",

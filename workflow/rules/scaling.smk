@@ -3,22 +3,7 @@
 
 rule measure_scaling:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=[
-                "chain",
-                "ensembles/maps",
-                "ensembles/resolution",
-                "ensembles/study",
-                "exact",
-                "kernel",
-                "lanes",
-                "run",
-                "scaling",
-                "summary",
-            ],
-        ),
+        code=code_of("measure_scaling"),
     output:
         costs="results/tables/scaling.csv",
         maps="results/tables/scaling_maps.csv",

@@ -1,10 +1,6 @@
 rule simulate_scene:
     input:
-        code=collect(
-            "{library}/{module}.py",
-            library=LIBRARY,
-            module=["chain", "exact", "kernel", "lanes", "run", "storage"],
-        ),
+        code=code_of("simulate_scene"),
     output:
         run="results/runs/{scene}.h5",
     log:

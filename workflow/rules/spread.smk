@@ -4,7 +4,7 @@ from precursors.ensembles.spread import QUESTIONS
 rule tabulate_spread:
     input:
         members="results/tables/spread_members.csv",
-        code=collect("{library}/{module}.py", library=LIBRARY, module=["ensembles/spread", "storage"]),
+        code=code_of("tabulate_spread"),
     output:
         spread="results/tables/spread.csv",
         robustness="results/tables/robustness.csv",
@@ -20,7 +20,8 @@ rule tabulate_spread:
 rule draw_spread:
     input:
         members="results/tables/spread_members.csv",
-        code=collect("{library}/figures/{module}.py", library=LIBRARY, module=["spread", "style"]),
+        spread="results/tables/spread.csv",
+        code=code_of("draw_spread"),
     output:
         collect("results/figures/spread_{question}.png", question=QUESTIONS),
         [
