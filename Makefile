@@ -3,6 +3,10 @@ CORES ?= 2
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
+# Caches of uv and Snakemake, which cannot do without, where the home directory cannot be written.
+ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
+export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
+endif
 
 .PHONY: all test test-faults test-cluster results check report golden docs bench lock lint clean
 
@@ -10,7 +14,7 @@ all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
 
 test: results
-	$(BIN)/pytest -n $(CORES) --dist loadfile
+	$(BIN)/pytest -n $(CORES) --dist worksteal
 
 # Kills, full disks, damaged files, hostile input, other machines: 20 minutes on two cores; FAULTS_SHARE=0.1 tries a tenth.
 test-faults: $(READY)
@@ -25,7 +29,7 @@ results: $(READY)
 
 # Judges the results as they lie there: nothing is computed anew.
 check: $(READY)
-	@$(BIN)/python workflow/scripts/check_claims.py paper/claims.yaml results/tables tests/golden/claims.csv
+	@$(BIN)/python -m precursors check --full
 
 # Every figure and table with its caption, the rule that made it and its time, in one file for a browser.
 report: results
@@ -48,14 +52,15 @@ lock: $(READY)
 	$(BIN)/uv pip compile pyproject.toml --all-extras --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header -q -o requirements.lock
 
 clean:
-	rm -rf .venv .snakemake results/*/
+	rm -rf .venv .snakemake
+	find results -mindepth 1 ! -path results/README.md -delete
 
 $(READY): requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and f"Python 3.11 or later is needed, and $(PYTHON) is {sys.version.split()[0]}: set PYTHON=")'
 	rm -rf .venv && $(PYTHON) -m venv .venv
 	awk '/^[^ #]/ {wanted = /^uv==/} wanted' requirements.lock > .venv/uv.txt
 	$(BIN)/python -m pip install -q --no-deps --require-hashes -r .venv/uv.txt
-	$(BIN)/uv pip sync -q -p $(BIN)/python --compile-bytecode --require-hashes requirements.lock
+	$(BIN)/uv pip sync -q -p $(BIN)/python --compile-bytecode --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
 	$(BIN)/python -m precursors.warm_up
 	touch $(READY)

@@ -1,11 +1,37 @@
+import shlex
+import signal
+import sys
+import threading
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 from precursors.config import check_config, check_directory, scenes_with
+from precursors.config_file import check_config_file
 
 min_version("9.20")
+
+# Snakemake writes it into shell commands as it is, and a path may hold spaces (snakemake/snakemake#2645).
+sys.executable = shlex.quote(sys.executable)
+
+GO_ON = "What is finished is kept: the same command goes on from there."
+
+# asyncio takes Ctrl-C over from Python's own handler, and Snakemake may lose it there or take it for an error.
+if (
+    threading.current_thread() is threading.main_thread()
+    and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+):
+    signal.signal(signal.SIGINT, lambda *_: sys.exit(f"Interrupted. {GO_ON}"))
+
+
+# Before Snakemake reads it, and evaluates Python in it if it asks for that. Files of the command line are read by now.
+if not workflow.modifier.skip_configfile:
+    try:
+        for path in ["config.yaml", *workflow.overwrite_configfiles]:
+            check_config_file(path)
+    except ValueError as error:
+        raise WorkflowError(str(error)) from None
 
 
 configfile: "config.yaml"
@@ -61,7 +87,7 @@ RESULTS = [
 
 
 onerror:
-    print("What is finished is kept: the same command goes on from there. Each job says why in results/logs.")
+    print(f"{GO_ON} Each job says why in results/logs.")
 
 
 rule all:

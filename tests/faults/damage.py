@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+import contextlib
 import gzip
+import io
 import re
+import shutil
 import tempfile
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, replace
+from functools import cache, partial
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
+import print_reproduction
+import write_provenance
 import yaml
-from tables import read_table, write_table
 
+import precursors.ledger.judge as judge
 from faults.outcome import Outcome
 from precursors import Chain, Run, simulate
 from precursors.ensembles.catalogue import make_study
@@ -25,8 +31,13 @@ from precursors.ensembles.chunks import FORMAT as CHUNK
 from precursors.ensembles.chunks import load_chunk, save_chunk
 from precursors.ensembles.study import Study, run_members
 from precursors.figures.style import read_columns
+from precursors.paper import Number, Source, collect_numbers, write_numbers
+from precursors.paper.pages import take_along
 from precursors.proof.certificate import Certificate
 from precursors.run import FORMAT as RUN
+from precursors.storage import CHECKSUMS, read_json
+from precursors.table_files import read_table, write_table
+from precursors.table_page import write_table_page
 from precursors.tables import slip_table
 
 ROOT = Path(__file__).parents[2]
@@ -47,12 +58,16 @@ OTHERS = {
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of file: how it is made, read, and turned into what two readings are compared by."""
+    """A kind of file, and one way to read it: how it is made, read, and what two readings are compared by.
+
+    `places` are where such files lie in results/; every other file there is read by nothing.
+    """
 
     name: str
     write: Callable[[Path], None]
     read: Callable[[Path], Any]
     other_version: tuple[bytes, bytes]
+    places: tuple[str, ...] = ()
 
 
 def _write_run(path: Path) -> None:
@@ -76,7 +91,20 @@ def _write_chunk(path: Path) -> None:
 
 
 def _read_chunk(path: Path) -> Any:
-    first, columns = load_chunk(path, _study())
+    return _chunk(path, _study())
+
+
+def _read_chunk_of(name: str, path: Path) -> Any:
+    return _chunk(path, _study_now(name))
+
+
+@cache
+def _study_now(name: str) -> Study:
+    return make_study(yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8")), name)
+
+
+def _chunk(path: Path, study: Study) -> Any:
+    first, columns = load_chunk(path, study)
     return repr([first, {name: values.tolist() for name, values in columns.items()}])
 
 
@@ -100,13 +128,85 @@ def _read_certificate(path: Path) -> Any:
     return hash(Certificate.load(path))
 
 
+def _read_for_the_paper(path: Path) -> Any:
+    source = Source("load", table=path.stem, column="load_before_N", take="largest")
+    return collect_numbers([source], path.parent, {})
+
+
+def _read_for_typst(path: Path) -> Any:
+    with tempfile.TemporaryDirectory() as root:
+        take_along({f"results/{path.name}": path}, root)
+        return (Path(root) / "results" / path.name).read_bytes()
+
+
+def _read_for_a_page(path: Path) -> Any:
+    page = path.parent / "page.html"
+    write_table_page(path, page)
+    return page.read_bytes()
+
+
+def _write_reproduction(path: Path) -> None:
+    names = ["scene", "theta", "quantity", "unit", "paper", "reproduced"]
+    write_table(pd.DataFrame([["fig10", 0.0, "events kept", "1", 9, 9.0]], columns=names), path)
+
+
+def _read_aloud(path: Path) -> Any:
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        print_reproduction.main(path, path.parent)
+    return printed.getvalue()
+
+
+def _read_for_the_ledger(path: Path) -> Any:
+    return judge._read(path).to_csv()
+
+
+def _write_some_numbers(path: Path) -> None:
+    write_numbers({"load": Number(194.31, "N", "results/tables/fig10_slips.csv, load_before_N")}, path)
+
+
+def _write_origin(path: Path) -> None:
+    (path.parent / "root").mkdir(exist_ok=True)
+    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+    write_provenance.main(config, str(ROOT / "workflow"), path)
+
+
 KINDS = (
-    Kind("run.h5", _write_run, _read_run, (RUN.encode(), b"precursors run 0")),
-    Kind("chunk.h5", _write_chunk, _read_chunk, (CHUNK.encode(), b"precursors chunk 0")),
-    Kind("table.csv", _write_table, _read_table, (b"onset_s", b"onset_m")),
+    Kind("run.h5", _write_run, _read_run, (RUN.encode(), b"precursors run 0"), ("runs/*.h5",)),
+    Kind("chunk.h5", _write_chunk, _read_chunk, (CHUNK.encode(), b"a chunk 0"), ("ensembles/*/*.h5",)),
+    Kind("table.csv", _write_table, _read_table, (b"onset_s", b"onset_m"), ("tables/**/*.csv",)),
     Kind("slips.csv", _write_table, _read_figure_table, (b"front", b"frond")),
-    Kind("certificate.json.gz", _write_certificate, _read_certificate, (b"", b"")),
+    Kind("numbers.csv", _write_table, _read_for_the_paper, (b"load_before_N", b"load_before_lb")),
+    Kind("shown.csv", _write_table, _read_for_typst, (b"front", b"frond")),
+    Kind("page.csv", _write_table, _read_for_a_page, (b"front", b"frond")),
+    Kind("reproduction.csv", _write_reproduction, _read_aloud, (b"reproduced", b"recomputed")),
+    Kind("evidence.csv", _write_table, _read_for_the_ledger, (b"front", b"frond")),
+    Kind("proof.json.gz", _write_certificate, _read_certificate, (b"", b""), ("certificates/**/*.json.gz",)),
+    Kind("numbers.json", _write_some_numbers, _read_for_typst, (b"value", b"worth"), ("numbers.json",)),
+    Kind("origin.json", _write_origin, read_json, (b"outputs", b"put"), ("provenance.json", "tables/*.json")),
 )
+# Written for others, and not read here.
+NOT_READ = ("ro-crate-metadata.json",)
+
+
+def kind_of(place: str) -> Kind | None:
+    """The kind of a file of results/ by where it lies, or None for one that no kind is known for."""
+    return next((kind for kind in KINDS if any(_lies(place, pattern) for pattern in kind.places)), None)
+
+
+def _lies(place: str, pattern: str) -> bool:
+    parts = [re.escape(part).replace(r"\*\*", "@").replace(r"\*", "[^/]+") for part in pattern.split("/")]
+    return re.fullmatch("/".join(parts).replace("@/", "(.+/)?"), place) is not None
+
+
+def data_files(results: Path) -> list[str]:
+    """Every HDF5, CSV and JSON file that lies in a directory of results now, and is read by something."""
+    endings = (".h5", ".hdf5", ".csv", ".json", ".gz")
+    found = (path.relative_to(results).as_posix() for path in sorted(results.rglob("*")) if path.is_file())
+    return [
+        place
+        for place in found
+        if place.endswith(endings) and place not in NOT_READ and not re.search(r"(^|/)\.", place)
+    ]
 
 
 def damaged(content: bytes, kind: Kind, share: float) -> Iterator[tuple[str, bytes]]:
@@ -124,7 +224,7 @@ def damaged(content: bytes, kind: Kind, share: float) -> Iterator[tuple[str, byt
     if kind.name.endswith(".gz"):
         text = gzip.decompress(content)
         yield "of another version", gzip.compress(re.sub(rb'("format": "[^"]*)"', rb'\1 9"', text))
-    else:
+    elif old in content:
         yield "of another version", content.replace(old, new, 1)
 
 
@@ -147,28 +247,63 @@ def try_kind(name: str, share: float) -> Outcome:
     with tempfile.TemporaryDirectory() as directory:
         path = Path(directory) / kind.name
         kind.write(path)
-        content, right = path.read_bytes(), kind.read(path)
-        for what, damage in damaged(content, kind, share):
-            path.write_bytes(damage)
-            answer = reading(kind, path, right)
-            outcome.count(answer if answer in ("survived", "refused") else f"{kind.name} {what}: {answer}")
-        path.unlink()
-        for what in ("absent", "a directory"):
-            answer = reading(kind, path, right)
-            outcome.count(answer if answer == "refused" else f"{kind.name} {what}: {answer}")
-            path.mkdir(exist_ok=True)
+        _damage(kind, path, share, outcome)
     return outcome
 
 
+def try_result(place: str, share: float, results: Path = ROOT / "results") -> Outcome:
+    """Damage a copy of a file of results/ in every way, if its kind is known."""
+    outcome = Outcome("damaged files of results/")
+    kind = kind_of(place)
+    if kind is None:
+        outcome.count(f"{place}: nobody knows how it is read: add its kind")
+        return outcome
+    if kind.name == "chunk.h5":
+        kind = replace(kind, read=partial(_read_chunk_of, Path(place).parent.name))
+    with tempfile.TemporaryDirectory() as directory:
+        path = Path(directory) / Path(place).name
+        shutil.copyfile(results / place, path)
+        beside = (results / place).parent / CHECKSUMS / f"{path.name}.sha256"
+        if beside.is_file():
+            (path.parent / CHECKSUMS).mkdir()
+            shutil.copyfile(beside, path.parent / CHECKSUMS / beside.name)
+        elif path.suffix in (".csv", ".json"):
+            outcome.count(f"{place}: no checksum lies beside it: have it made anew")
+            return outcome
+        _damage(kind, path, share, outcome)
+    return outcome
+
+
+def _damage(kind: Kind, path: Path, share: float, outcome: Outcome) -> None:
+    try:
+        content, right = path.read_bytes(), kind.read(path)
+    except (ValueError, OSError):
+        outcome.count(reading(kind, path, None))  # left from another version
+        return
+    for what, damage in damaged(content, kind, share):
+        path.write_bytes(damage)
+        answer = reading(kind, path, right)
+        outcome.count(answer if answer in ("survived", "refused") else f"{path.name} {what}: {answer}")
+    path.unlink()
+    for what in ("absent", "a directory"):
+        answer = reading(kind, path, right)
+        outcome.count(answer if answer == "refused" else f"{path.name} {what}: {answer}")
+        path.mkdir(exist_ok=True)
+
+
 def try_all(share: float = 1.0, processes: int = 2) -> list[Outcome]:
-    """Damage every kind of file that is read; a file that takes the interpreter with it is lost."""
-    outcomes = []
+    """Damage every kind of file that is read, and every file of results/; one that crashes Python is lost."""
+    outcomes = {name: Outcome(name) for name in [f"damaged {kind.name}" for kind in KINDS]}
+    last = outcomes["damaged files of results/"] = Outcome("damaged files of results/")
+    places = data_files(ROOT / "results")
+    last.note = f"{len(places)} files" if places else "there are none: make all"
     with ProcessPoolExecutor(processes, get_context("spawn")) as pool:
-        for kind, future in [(kind, pool.submit(try_kind, kind.name, share)) for kind in KINDS]:
+        jobs = [(kind.name, pool.submit(try_kind, kind.name, share)) for kind in KINDS]
+        jobs += [(place, pool.submit(try_result, place, share)) for place in places]
+        for what, future in jobs:
             try:
-                outcomes.append(future.result())
+                outcome = future.result()
             except BrokenProcessPool:
-                outcomes.append(
-                    Outcome(f"damaged {kind.name}", 1, lost=[f"{kind.name}: the interpreter crashed"])
-                )
-    return outcomes
+                outcome = Outcome(last.fault, 1, lost=[f"{what}: the interpreter crashed"])
+            outcomes[outcome.fault] += outcome
+    return list(outcomes.values())

@@ -8,125 +8,186 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from faults.outcome import Outcome
-from faults.workspace import Workspace, workspace
+from faults.workspace import Witness, Workspace, jobs, wait_until, workspace
 
-# Room [bytes] that is left on the small disk: for nothing, for a part of the runs, for most of them.
-ROOM = (4096, 40_000, 100_000, 200_000, 300_000)
+# Runs, tables made of them, a figure and the explorer.
+FEW = ("results/tables/reproduction.csv", "results/figures/fig13.svg", "results/explorer.html")
+DISK = 256 * 2**20
+# Bytes left on the disk: for nothing, for marks of Snakemake, for a part of the files, for most of them.
+ROOM = (0, 30_000, 150_000, 400_000, 1_500_000)
 # Of address space: the interpreter starts, the numerical libraries do not, or a job does not.
-MEMORY = (400e6, 700e6, 1000e6)
+MEMORY = (400e6, 550e6, 700e6)
+# From the beginning of the first job to the deletion of results/ [s].
+DELETED_AFTER = (0.5, 2.0, 4.0)
+# Writes a file of each kind, then again with less and less room; says what is wrong, or "refused".
 WRITE = """
-import sys
+import resource, sys
+from pathlib import Path
+import pandas as pd
+from matplotlib.figure import Figure
+from precursors.table_files import write_table
 from precursors import Chain, simulate
-try:
-    simulate(Chain.from_slider(), 3.0).save(sys.argv[1])
-except OSError as error:
-    sys.exit(f"refused: {error}")
+from precursors.explorer import Scene, write_explorer
+from precursors.figures import style
+
+path = Path(sys.argv[1])
+run = simulate(Chain.from_slider(), 3.0)
+figure = Figure()
+figure.subplots().plot(range(99))
+table = pd.DataFrame({"a": [i / 7 for i in range(3000)]})
+write = {
+    "run.h5": run.save,
+    "table.csv": lambda path: write_table(table, path),
+    "figure.png": lambda path: style.save(figure, path),
+    "figure.svg": lambda path: style.save(figure, path),
+    "explorer.html": lambda path: write_explorer([Scene("fig10", "a", 0.0, run)], path),
+}[path.name]
+write(path)
+old, names = path.read_bytes(), sorted(path.parent.rglob("*"))
+for limit in (0, 100, 512, 4096, len(old) // 2, len(old) - 1):
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
+    try:
+        write(path)
+        said = "nothing was said"
+    except OSError as error:
+        said = str(error)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+    if path.read_bytes() != old or sorted(path.parent.rglob("*")) != names:
+        said = "the old file was harmed"
+    fine = said.startswith("cannot write ") and str(path.parent) in said and len(said.splitlines()) == 1
+    print("refused" if fine else f"{path.name}, limit of {limit} bytes: {said}", flush=True)
 """
 
 
 def try_all(share: float = 1.0, processes: int = 2) -> list[Outcome]:
     """A full disk, a directory that is read-only or goes away, and too little memory."""
-    with tempfile.TemporaryDirectory() as directory, workspace(Path(directory)) as work:
+    with (
+        tempfile.TemporaryDirectory() as directory,
+        small_disk(Path(directory) / "disk") as mounted,
+        workspace(Path(directory) / "disk", FEW) as work,
+    ):
+        # What is printed must not need the room that is missing.
+        work.output = Path(directory) / "snakemake.out"
         code, text = work.run()
         if code != 0:
             return [Outcome("disk", 1, lost=[f"the undisturbed run failed: {text[-500:]}"])]
         right = work.contents()
-        rooms = ROOM[: max(2, round(len(ROOM) * share))]
+        rooms = ROOM[: max(2, round(len(ROOM) * share))] if mounted else ()
         return [
             full_disk(work, right, rooms),
-            full_disk_anywhere(work),
-            read_only(work, right),
-            gone(work, right, max(1, round(3 * share))),
+            no_room_for_a_file(work),
+            read_only(work, right, mounted),
+            gone(work, right, DELETED_AFTER[: max(1, round(3 * share))]),
             little_memory(work, right, MEMORY[: max(1, round(3 * share))]),
         ]
 
 
-def _ended_well(work: Workspace, right: dict[str, bytes], harm: str, code: int, text: str) -> str:
-    """Judge a run that had to fail, then go on without the fault: "refused", or what is wrong."""
+@contextmanager
+def small_disk(place: Path, size: int = DISK) -> Iterator[bool]:
+    """A file system of so many bytes at a place, and whether it could be mounted."""
+    place.mkdir()
+    mounted = _mount("-o", f"size={size}", place)
+    try:
+        yield mounted
+    finally:
+        if mounted:
+            subprocess.run(["umount", "-l", place], check=True)
+
+
+def _mount(*arguments: str | Path) -> bool:
+    try:
+        done = subprocess.run(
+            ["mount", "-t", "tmpfs", *arguments[:-1], "tmpfs", arguments[-1]], capture_output=True
+        )
+    except FileNotFoundError:
+        return False
+    return done.returncode == 0
+
+
+def _refused(work: Workspace, right: dict[str, bytes], code: int, text: str) -> str:
+    """Judge a run that had to fail: nothing, or what is wrong."""
+    witness = Witness(work, right)
+    witness.look()
     if code == 0:
-        return f"{harm}: nothing was said"
-    half = work.half_files()
-    if half:
-        return f"{harm}: half files {half}"
-    lines = [line for line in text.splitlines() if "rror" in line or "annot" in line or "No space" in line]
-    if not lines:
-        return f"{harm}: no clear error in {text[-300:]!r}"
-    return _goes_on(work, right, harm) or "refused"
+        return "nothing was said"
+    if witness.wrong:
+        return f"not right under a final name: {sorted(witness.wrong)}"
+    said = [line for line in text.splitlines() if "rror" in line or "annot" in line or "No space" in line]
+    return "" if said else f"no clear error in {text[-300:]!r}"
 
 
-def _goes_on(work: Workspace, right: dict[str, bytes], harm: str) -> str:
-    code, text = work.run("--rerun-incomplete")
+def _goes_on(work: Workspace, right: dict[str, bytes], finished: set[str]) -> str:
+    """Go on without the fault: nothing, or what is wrong."""
+    code, text = work.run()
     if code != 0 and "--unlock" in text:
         work.run("--unlock")
-        code, text = work.run("--rerun-incomplete")
+        code, text = work.run()
     if code != 0:
-        return f"{harm}: does not go on: {text[-300:]!r}"
-    return "" if work.contents() == right else f"{harm}: outputs differ afterwards"
+        return f"does not go on: {text[-300:]!r}"
+    again = sorted(jobs(text)[0] & finished)
+    if again:
+        return f"made again without need: {again}"
+    return _harmed(work, right)
 
 
-@contextmanager
-def small_disk(place: Path, size: int) -> Iterator[None]:
-    """A file system of so many bytes at a place."""
-    place.mkdir(parents=True, exist_ok=True)
-    subprocess.run(
-        ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", place], check=True, capture_output=True
-    )
-    try:
-        yield
-    finally:
-        subprocess.run(["umount", "-l", place], check=True)
+def _harmed(work: Workspace, right: dict[str, bytes]) -> str:
+    """What is not as in an undisturbed run; a file that nothing else needs may be gone with results/."""
+    found = work.contents()
+    missing = [target for target in work.targets if target not in found]
+    wrong = sorted(name for name in found if found[name] != right.get(name))
+    return f"outputs differ afterwards: {missing + wrong}" if missing or wrong else ""
 
 
 def full_disk(work: Workspace, right: dict[str, bytes], rooms: tuple[int, ...]) -> Outcome:
-    """The whole of results/ on a disk that fills up."""
-    outcome = Outcome("disk full")
+    """The disk of the whole project fills up, with a little more room each time, then with enough."""
+    outcome, finished = Outcome("disk full"), set[str]()
+    if not rooms:
+        outcome.note = "not tried: mounting takes a privilege"
+        return outcome
+    ballast = work.directory.parent / "ballast"
+    work.clean()
     for room in rooms:
-        work.clean()
-        harm = f"disk of {room} bytes"
-        try:
-            with small_disk(work.directory / "results", room):
-                code, text = work.run()
-                half = work.half_files()
-        except (subprocess.CalledProcessError, FileNotFoundError):
-            return Outcome("disk full", note="not tried: mounting takes a privilege")
-        if half:
-            outcome.count(f"{harm}: half files {half}")
-        else:
-            outcome.count(_ended_well(work, right, harm, code, text))
+        ballast.unlink(missing_ok=True)
+        disk = os.statvfs(work.directory)
+        with ballast.open("wb") as file:
+            # Whole pages: tmpfs counts in these.
+            size = (disk.f_bavail * disk.f_frsize - room) // disk.f_frsize * disk.f_frsize
+            os.posix_fallocate(file.fileno(), 0, size)
+        code, text = work.run()
+        if code != 0 and "LockException" in text:
+            work.run("--unlock")
+            code, text = work.run()
+        again = sorted(jobs(text)[0] & finished)
+        finished |= jobs(text)[1]
+        answer = _refused(work, right, code, text) or (again and f"made again without need: {again}")
+        outcome.count(f"{room} bytes left: {answer}" if answer else "refused")
+    ballast.unlink()
+    answer = _goes_on(work, right, finished)
+    outcome.count(f"with room again: {answer}" if answer else "survived")
     return outcome
 
 
-def full_disk_anywhere(work: Workspace) -> Outcome:
-    """A limit on the size of a file stops the writing of a run at any byte: the old file stays."""
+def no_room_for_a_file(work: Workspace) -> Outcome:
+    """A limit on the size of a file stops the writing of each kind at any byte: the old file stays."""
     outcome = Outcome("no room for a file")
-    with tempfile.TemporaryDirectory() as directory:
-        path = Path(directory) / "run.h5"
-        subprocess.run([sys.executable, "-c", WRITE, path], env=work.environment, check=True)
-        old, size = path.read_bytes(), path.stat().st_size
-        for limit in [0, 100, 512, 4096, size // 2, size - 1]:
+    path = f"{work.directory / 'src'}{os.pathsep}{work.directory / 'workflow/scripts'}"
+    for name in ("run.h5", "table.csv", "figure.png", "figure.svg", "explorer.html"):
+        with tempfile.TemporaryDirectory() as directory:
             done = subprocess.run(
-                [sys.executable, "-c", WRITE, path],
-                env=work.environment,
+                [sys.executable, "-c", WRITE, Path(directory) / name],
+                env=work.environment | {"PYTHONPATH": path},
                 capture_output=True,
                 text=True,
-                preexec_fn=_limited(resource.RLIMIT_FSIZE, limit),
             )
-            left = [p.name for p in Path(directory).iterdir()]
-            if path.read_bytes() != old or left != ["run.h5"]:
-                outcome.count(f"limit of {limit} bytes: left {left}")
-            elif (
-                done.returncode != 1 or not done.stderr.startswith("refused: ") or done.stderr.count("\n") > 1
-            ):
-                outcome.count(f"limit of {limit} bytes: {done.returncode}, {done.stderr[-200:]!r}")
-            else:
-                outcome.count("refused")
+        for verdict in done.stdout.splitlines():
+            outcome.count(verdict)
+        if done.returncode != 0:
+            outcome.count(f"{name}: {done.returncode}, {done.stderr[-300:]!r}")
     return outcome
 
 
@@ -137,54 +198,46 @@ def _limited(what: int, limit: int) -> Callable[[], None]:
     return limited
 
 
-def read_only(work: Workspace, right: dict[str, bytes]) -> Outcome:
+def read_only(work: Workspace, right: dict[str, bytes], mounted: bool) -> Outcome:
     """results/ is a directory that cannot be written to, or a file."""
     outcome = Outcome("results/ not writable")
     results = work.directory / "results"
+    work.clean()
+    results.mkdir()
     if os.geteuid() != 0:
-        work.clean()
-        results.mkdir()
         results.chmod(0o555)
-        code, text = work.run()
-        results.chmod(0o755)
-        outcome.count(_ended_well(work, right, "read-only results/", code, text))
+        outcome.count(_judged(work, right, lambda: results.chmod(0o755)))
+    elif mounted and _mount("-o", "ro", results):
+        outcome.count(_judged(work, right, lambda: subprocess.run(["umount", "-l", results], check=True)))
     else:
-        work.clean()
-        results.mkdir()
-        try:
-            subprocess.run(
-                ["mount", "-t", "tmpfs", "-o", "ro", "tmpfs", results], check=True, capture_output=True
-            )
-            code, text = work.run()
-            subprocess.run(["umount", "-l", results], check=True)
-            outcome.count(_ended_well(work, right, "read-only results/", code, text))
-        except (subprocess.CalledProcessError, FileNotFoundError):
-            outcome.note = (
-                "read-only directory not tried: the superuser writes anywhere, and may not mount here"
-            )
+        outcome.note = "read-only directory not tried: the superuser writes anywhere, and may not mount here"
     work.clean()
     results.write_text("not a directory")
-    code, text = work.run()
-    results.unlink()
-    outcome.count(_ended_well(work, right, "results a file", code, text))
+    outcome.count(_judged(work, right, results.unlink))
     return outcome
 
 
-def gone(work: Workspace, right: dict[str, bytes], times: int) -> Outcome:
+def _judged(work: Workspace, right: dict[str, bytes], mend: Callable[[], object]) -> str:
+    """A run that has to be refused, and one after it is mended."""
+    code, text = work.run()
+    answer = _refused(work, right, code, text)
+    mend()
+    return answer or _goes_on(work, right, jobs(text)[1]) or "refused"
+
+
+def gone(work: Workspace, right: dict[str, bytes], moments: tuple[float, ...]) -> Outcome:
     """results/ is deleted while jobs run."""
     outcome = Outcome("results/ deleted")
-    for number in range(times):
+    for moment in moments:
         work.clean()
-        process = work.start()
-        timer = threading.Timer(3.0 + 1.3 * number, shutil.rmtree, [work.directory / "results", True])
-        timer.start()
-        process.communicate()
-        timer.join()
-        time.sleep(0.1)
-        harm = f"deleted after {3.0 + 1.3 * number:.1f} s"
-        half = work.half_files()
-        answer = f"{harm}: half files {half}" if half else _goes_on(work, right, harm)
-        outcome.count(answer or "survived")
+        witness, process = Witness(work, right), work.start()
+        wait_until(lambda process=process: process.poll() is not None or bool(jobs(work.text())[0]))  # type: ignore[misc]
+        witness.watch(process, moment)
+        shutil.rmtree(work.directory / "results", ignore_errors=True)
+        code = process.wait()
+        answer = _refused(work, right, code, work.text()) if code else _harmed(work, right)
+        answer = answer or _goes_on(work, right, set())
+        outcome.count(f"deleted after {moment} s: {answer}" if answer else "survived")
     return outcome
 
 
@@ -194,9 +247,9 @@ def little_memory(work: Workspace, right: dict[str, bytes], limits: tuple[float,
     for limit in limits:
         work.clean()
         code, text = work.run(preexec_fn=_limited(resource.RLIMIT_AS, int(limit)))
-        harm = f"{limit / 1e6:g} MB of address space"
         if code == 0:
-            outcome.count("survived" if work.contents() == right else f"{harm}: outputs differ")
+            answer = _harmed(work, right) or "survived"
         else:
-            outcome.count(_ended_well(work, right, harm, code, text))
+            answer = _refused(work, right, code, text) or _goes_on(work, right, jobs(text)[1]) or "refused"
+        outcome.count(answer if answer in ("survived", "refused") else f"{limit / 1e6:g} MB: {answer}")
     return outcome

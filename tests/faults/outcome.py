@@ -39,6 +39,14 @@ class Outcome:
         else:
             self.lost.append(verdict)
 
+    def __iadd__(self, other: Outcome) -> Outcome:
+        """Add the trials of the same fault that were counted elsewhere."""
+        self.tried += other.tried
+        self.survived += other.survived
+        self.refused += other.refused
+        self.lost += other.lost
+        return self
+
 
 def table(outcomes: Iterable[Outcome]) -> str:
     """The table that `make test-faults` prints."""

@@ -1,9 +1,11 @@
 """Every dependency is used, asked for, pinned, and justified in docs/dependencies.md."""
 
 import ast
+import platform
 import re
 import sys
 import tomllib
+from importlib.metadata import PackageNotFoundError, distribution
 from itertools import chain
 from pathlib import Path
 
@@ -21,6 +23,7 @@ BY_NAME = {
     "mypy": ("Makefile", r"/mypy"),
     "uv": ("Makefile", r"/uv "),
     "hatchling": ("pyproject.toml", r'build-backend = "hatchling'),
+    "setuptools": ("Makefile", r"--build-constraints requirements\.lock"),
     "scipy-stubs": ("Makefile", r"/mypy"),
     "pandas-stubs": ("Makefile", r"/mypy"),
     "types-pyyaml": ("Makefile", r"/mypy"),
@@ -31,12 +34,25 @@ BY_NAME = {
 PARTS = {"mpmath": "sympy", "llvmlite": "numba", "mpl_toolkits": "matplotlib", "_pytest": "pytest"}
 
 
+# Brought by a package, and counted with it.
+BROUGHT = {"numba": ["llvmlite"]}
+# How far a size may be off, as another version's may be.
+OTHER_VERSION = 0.25
+DOCUMENT = (ROOT / "docs/dependencies.md").read_text(encoding="utf-8")
+
+
+def name_of(requirement: str) -> str:
+    """Name of a package that is asked for."""
+    return re.match(r"[A-Za-z0-9_-]+", requirement)[0].lower()
+
+
 def packages() -> list[str]:
     """Names of all packages that are asked for, without versions."""
     asked = [*PROJECT["dependencies"], *chain.from_iterable(PROJECT["optional-dependencies"].values())]
-    return sorted({re.match(r"[A-Za-z0-9_-]+", line)[0].lower() for line in asked})
+    return sorted(set(map(name_of, asked)))
 
 
+@pytest.fixture(scope="module")
 def imported() -> dict[str, Path]:
     """Top-level modules that the project imports, with a file that does so; rules are read line by line."""
     found: dict[str, Path] = {}
@@ -53,28 +69,58 @@ def imported() -> dict[str, Path]:
     return found
 
 
-IMPORTED = imported()
-
-
 @pytest.mark.parametrize("package", packages())
-def test_a_package_that_is_asked_for_is_used(package):
+def test_a_package_that_is_asked_for_is_used(package, imported):
     if package in BY_NAME:
         name, words = BY_NAME[package]
         assert re.search(words, (ROOT / name).read_text(encoding="utf-8"))
     else:
-        assert MODULES.get(package, package.replace("-", "_")) in IMPORTED
+        assert MODULES.get(package, package.replace("-", "_")) in imported
+
+
+def justifications() -> dict[str, tuple[float, str]]:
+    """Size [MB] and reason of the packages in each row of docs/dependencies.md."""
+    text = DOCUMENT.split("## Oldest versions")[0]
+    rows = re.findall(r"^\| ([a-z][a-z0-9, -]*) \| (\d+) \| (.*) \|$", text, re.MULTILINE)
+    return {names: (float(size), reason) for names, size, reason in rows}
 
 
 @pytest.mark.parametrize("package", packages())
 def test_a_package_that_is_asked_for_is_justified_in_a_line(package):
-    lines = (ROOT / "docs/dependencies.md").read_text(encoding="utf-8").splitlines()
-    rows = [line.split("|") for line in lines if re.match(r"\| [a-z]", line)]
-    [row] = [row for row in rows if package in re.split(r",? ", row[1].strip())]
-    assert float(row[2]) > 0
-    assert len(row[3].split()) > 1
+    [row] = [row for names, row in justifications().items() if package in names.split(", ")]
+    assert len(row[1].split()) > 1
 
 
-def test_everything_that_is_imported_is_asked_for():
+def test_no_package_is_justified_that_is_not_asked_for():
+    named = {name for names in justifications() for name in names.split(", ")}
+    assert sorted(named - {"package"}) == packages()
+
+
+@pytest.mark.skipif(sys.platform != "linux" or platform.machine() != "x86_64", reason="sizes of other wheels")
+@pytest.mark.parametrize("names", justifications())
+def test_a_package_has_the_size_that_is_told(names):
+    packages = [part for name in names.split(", ") for part in (name, *BROUGHT.get(name, ()))]
+    try:
+        found = [distribution(package) for package in packages]
+    except PackageNotFoundError as error:
+        pytest.skip(f"{error.name} is not installed")
+    files = [file for package in found for file in package.files if file.suffix != ".pyc"]
+    size = sum(file.locate().stat().st_size for file in files if file.locate().is_file()) / 1e6
+    assert justifications()[names][0] == pytest.approx(size, rel=OTHER_VERSION, abs=1.0)
+
+
+@pytest.mark.parametrize("package", sorted(map(name_of, PROJECT["dependencies"])))
+def test_the_oldest_version_of_a_library_is_told_as_it_is_asked_for(package):
+    [asked] = [line.split(">=")[1] for line in PROJECT["dependencies"] if name_of(line) == package]
+    text = DOCUMENT.split("## Oldest versions")[1]
+    rows = re.findall(r"^\| ([a-z][a-z0-9, -]*) \| ([0-9., ]+) \|", text, re.MULTILINE)
+    told = dict(
+        pair for names, versions in rows for pair in zip(names.split(", "), versions.split(", "), strict=True)
+    )
+    assert told[package] == asked
+
+
+def test_everything_that_is_imported_is_asked_for(imported):
     own = {
         path.stem
         for folder in ("src", "workflow", "tests", "benchmarks", "paper")
@@ -83,7 +129,7 @@ def test_everything_that_is_imported_is_asked_for():
     own |= {path.name for folder in ("src", "tests") for path in (ROOT / folder).iterdir()}
     asked = {MODULES.get(package, package.replace("-", "_")) for package in packages()}
     others = {
-        name: path for name, path in IMPORTED.items() if name not in {*sys.stdlib_module_names, *own, *asked}
+        name: path for name, path in imported.items() if name not in {*sys.stdlib_module_names, *own, *asked}
     }
     assert {name: str(path) for name, path in others.items() if PARTS.get(name) not in asked} == {}
 

@@ -4,21 +4,27 @@ import gzip
 import json
 import re
 from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 import yaml
-from tables import read_table, write_table
 
-from faults import configuration, damage, physics
+from faults import configuration, damage, hostile, physics
 from faults.outcome import Outcome, table
-from precursors import Chain, simulate
+from faults.workspace import Witness, Workspace, jobs
+from precursors import Chain, simulate, storage, table_files
 from precursors.config import check_config, scene_seconds
+from precursors.config_file import check_config_file
+from precursors.paper import pages
 from precursors.proof.certificate import Certificate, CertificateError
 from precursors.storage import CHECKSUMS, open_checked, write_sealed
+from precursors.table_files import read_table, write_table
 from precursors.tables import slip_table
 
+ROOT = Path(__file__).parents[2]
 GOOD = {"survived", "refused"}
 # Not the first ones, which `make test-faults` tries again.
 FEW_CHAINS = range(15_000, 15_040)
@@ -27,7 +33,7 @@ FEW = 0.02
 
 
 def papers(**changes):
-    return configuration.a_copy() | changes
+    return hostile.a_copy() | changes
 
 
 def refusal(config) -> str:
@@ -73,6 +79,72 @@ def test_a_damaged_file_is_refused_in_a_sentence_that_names_it(kind):
     outcome = damage.try_kind(kind, FEW)
     assert outcome.tried > 20
     assert not outcome.lost
+
+
+def test_every_data_file_that_a_rule_makes_is_of_a_kind_that_is_damaged():
+    """A new kind of file in results/ has to say how it is read, or that nothing reads it."""
+    rules = "".join(path.read_text(encoding="utf-8") for path in ROOT.glob("workflow/rules/*.smk"))
+    made = set(re.findall(r'"results/([^"]+\.(?:h5|csv|json|json\.gz))"', rules))
+    assert len(made) > 20
+    assert {p for p in made if damage.kind_of(p) is None} <= set(damage.NOT_READ)
+
+
+def test_every_data_file_in_results_is_of_a_kind_that_is_damaged():
+    assert not [place for place in damage.data_files(ROOT / "results") if damage.kind_of(place) is None]
+
+
+def test_a_file_of_a_new_kind_is_not_forgotten(tmp_path):
+    for place in ("tables/a.csv", "tables/deep/b.csv", "new/c.h5", "d.json", "runs/.0123.h5", "e.svg"):
+        (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / place).touch()
+    assert damage.data_files(tmp_path) == ["d.json", "new/c.h5", "tables/a.csv", "tables/deep/b.csv"]
+    assert [damage.kind_of(place) is None for place in damage.data_files(tmp_path)] == [
+        True,
+        True,
+        False,
+        False,
+    ]
+    assert "add its kind" in damage.try_result("d.json", FEW, tmp_path).lost[0]
+
+
+# Readers of data files that pass by the checksums, and what they read: nothing that lies in results/.
+UNCHECKED = {
+    "src/precursors/config_file.py": "the configuration",
+    "src/precursors/ensembles/catalogue.py": "a configuration in memory",
+    "src/precursors/proof/certificate.py": "certificates, which hold their checksum",
+    "src/precursors/storage.py": "what it has checked",
+}
+RAW_READERS = re.compile(
+    r"read_csv\((?!open_checked\(|checked,)|json\.loads?\(|csv\.(?:DictReader|reader)\((?!io\.StringIO\(|file\))"
+    r"|h5py\.File\((?!memory|BytesIO\()|np\.(?:load|loadtxt|genfromtxt)\("
+)
+
+
+def test_no_data_file_is_read_but_by_way_of_its_checksum():
+    sources = [p for part in ("src", "workflow", "benchmarks") for p in sorted(ROOT.glob(f"{part}/**/*.py"))]
+    found = {
+        path.relative_to(ROOT).as_posix()
+        for path in sources
+        if RAW_READERS.search(path.read_text(encoding="utf-8"))
+    }
+    assert found == UNCHECKED.keys()
+
+
+@pytest.mark.parametrize(
+    "line", ["pd.read_csv(path)", "json.loads(text)", "h5py.File(path)", "np.load(path)"]
+)
+def test_a_reader_that_passes_by_the_checksums_is_seen(line):
+    assert RAW_READERS.search(line)
+
+
+@pytest.mark.parametrize("kind", ["table.csv", "numbers.csv", "shown.csv", "evidence.csv", "numbers.json"])
+def test_a_checksum_that_is_not_compared_is_seen(monkeypatch, kind):
+    """Without this, `refused` would say nothing about tables."""
+    monkeypatch.setattr(storage, "open_checked", lambda path: BytesIO(Path(path).read_bytes()))
+    for module in (table_files, pages):
+        monkeypatch.setattr(module, "open_checked", storage.open_checked)
+    outcome = damage.try_kind(kind, FEW)
+    assert any("a wrong content was read" in line for line in outcome.lost)
 
 
 def test_a_table_that_was_changed_by_hand_is_refused(tmp_path):
@@ -125,7 +197,7 @@ def test_a_certificate_of_json_inside_json_without_end_is_refused(tmp_path):
 
 @pytest.mark.parametrize("number", FEW_CONFIGURATIONS)
 def test_a_hostile_configuration_is_refused_in_one_line_or_runs(number):
-    assert configuration.verdict(configuration.configuration(number)) in GOOD
+    assert configuration.verdict(hostile.configuration(number)) in GOOD
 
 
 def test_a_configuration_that_holds_itself_is_refused():
@@ -148,6 +220,87 @@ def test_a_key_of_two_lines_is_refused_in_one():
 
 def test_a_name_without_end_is_shortened():
     assert len(refusal(papers(fig13=["x" * 100_000] * 3))) < 600
+
+
+FILES = {
+    "b: 1\nb: 2\n": "the key 'b' stands twice, in line 2, column 1",
+    '{"b": 1, "b": 2}': "the key 'b' stands twice",
+    "__use_yte__: true\nb: ?1\n": "__use_yte__ asks Snakemake to evaluate Python in it",
+    hostile.laughs("[1]", f"[{', '.join(9 * '*')}]"): "laugh5 holds 125479 values, by aliases of aliases",
+    "[" * 100_000: "nested too deeply",
+    "{a: " * 100_000: "values inside values without end, in line 1",
+    "- " * 100_000: "values inside values without end, in line 1",
+    "&a {chain: *a}": "values inside values without end",
+    "a: 1\n---\na: 1\n": "another document in line 2",
+    "a:\n\tb: 1\n": "cannot start any token in line 2",
+    "a: 2026-13-45\n": "month must be in 1..12",
+    "a: !!python/name:os.system\n": "could not determine a constructor for the tag",
+    "a: !!int ''\n": "a value that is none of its type",
+    "a: \0\n": "control characters are not allowed",
+    "- 1\n": "needed are keys and values",
+    "": "needed are keys and values",
+}
+
+
+@pytest.mark.parametrize("text", FILES, ids=lambda text: repr(text[:20]))
+def test_a_file_that_snakemake_would_misread_or_evaluate_is_refused_in_one_line(tmp_path, text):
+    """The compiled loader crashed at a hundred thousand brackets, and ten lines held a billion values."""
+    (tmp_path / "odd.yaml").write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=r"configuration: Config file .*odd\.yaml: ") as error:
+        check_config_file(tmp_path / "odd.yaml")
+    assert FILES[text] in str(error.value)
+    assert len(str(error.value).splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    "text", ["a: 1\n", '{"a": 1}', '{\n\t"a": 1\n}', "\ufeffa: 1\n", "b: &b {x: 1}\na:\n  <<: *b\n  x: 2\n"]
+)
+def test_plain_files_are_left_to_snakemake(tmp_path, text):
+    (tmp_path / "plain.yaml").write_text(text, encoding="utf-8")
+    check_config_file(tmp_path / "plain.yaml")
+    check_config_file(tmp_path / "absent.yaml")
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "value", "words"),
+    [
+        ("long_runs", "duration", 1e300, "long_runs.duration would take about"),
+        ("horizon", "lyapunov_duration", 1e12, "horizon.lyapunov_duration would take about"),
+        ("horizon", "chains", {"slow": {"duration": 1e9}}, "horizon.chains.slow would take about"),
+        ("maps", "points", 10**8, "maps.points = 100000000"),
+        ("spread", "members", 10**6, "spread.members = 1000000"),
+        ("ensembles", "seconds_per_chunk", 1e-300, "ensembles.seconds_per_chunk = 1e-300"),
+    ],
+)
+def test_runs_beside_the_scenes_that_would_not_end_are_refused(part, key, value, words):
+    """Snakemake did not come to the end of planning them."""
+    config = papers()
+    config[part][key] = value
+    assert words in refusal(config)
+
+
+# Expected to take milliseconds, they took minutes: a cross-section in mm^2 and more, a soft chain, dashpots.
+@pytest.mark.parametrize(
+    ("values", "at_least"),
+    [
+        ({"cross_section": 2710002.0}, 10.0),
+        (
+            {
+                "youngs_modulus": 1.36e6,
+                "drive_velocity": 4.9e-3,
+                "drive_stiffness": 11.4e6,
+                "duration": 148.0,
+            },
+            5.0,
+        ),
+        ({"model": "viscous", "viscosity": 9070.0, "duration": 2.26}, 1.6),
+        ({"mu_k": 3e-6}, 3.0),
+    ],
+)
+def test_a_scene_of_another_size_is_expected_to_take_what_it_takes(values, at_least):
+    config = papers()
+    config["scenes"] = {"odd": {"title": "odd", "theta": 0, **values}}
+    assert at_least < scene_seconds(config, "odd") < 1e4
 
 
 @pytest.mark.parametrize("absurd", [{"n_blocks": 1000, "duration": 1e6}, {"duration": 1e9}])
@@ -182,3 +335,22 @@ def test_the_table_counts_what_was_lost():
         outcome.count(verdict)
     assert re.search(r"cut +3 +1 +1 +1", table([outcome]))
     assert json.dumps(outcome.lost) == '["a wrong content was read"]'
+
+
+def test_the_witness_sees_a_file_that_is_half_and_forgets_it_not(tmp_path):
+    (tmp_path / "results/tables").mkdir(parents=True)
+    witness = Witness(Workspace(tmp_path, tmp_path / "out"), {"results/tables/a.csv": b"whole"})
+    (tmp_path / "results/tables/.0123456789abcdef.a.csv").write_bytes(b"ha")
+    witness.look()
+    assert not witness.wrong
+    (tmp_path / "results/tables/a.csv").write_bytes(b"ha")
+    witness.look()
+    (tmp_path / "results/tables/a.csv").write_bytes(b"whole")
+    witness.look()
+    assert witness.wrong == {"results/tables/a.csv"}
+
+
+def test_the_jobs_that_were_killed_are_told_from_those_that_are_finished():
+    block = "localrule draw:\n    input: a\n    output: {0}.png, {0}.svg\n    log: x\n    jobid: {1}\n"
+    text = block.format("b", 7) + block.format("c", 8) + "Finished jobid: 8 (Rule: draw)\n"
+    assert jobs(text) == ({"b.png", "c.png"}, {"c.png"})
