@@ -5,10 +5,10 @@ from pathlib import Path
 from typing import Any
 
 from job import job
-from tables import write_table
 
 from precursors.chain import Chain
 from precursors.reduced.answers import answers_table
+from precursors.table_files import write_table
 
 
 def main(slider: dict[str, Any], model: str, quantities: Sequence[str], output: str | Path) -> None:

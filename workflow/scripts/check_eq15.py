@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pandas as pd
 from job import job
-from tables import write_table
 
 from precursors.chain import Chain
 from precursors.eq15 import check_eq15, table
-from precursors.storage import write_atomically
+from precursors.storage import write_checked
+from precursors.table_files import write_table
 
 
 def main(scenes: Mapping[str, Chain], duration: float, json_path: str | Path, csv_path: str | Path) -> None:
@@ -19,7 +19,7 @@ def main(scenes: Mapping[str, Chain], duration: float, json_path: str | Path, cs
     checks = check_eq15(scenes, duration)
     claims = [dataclasses.asdict(row) for row in table(checks)]
     text = json.dumps({"claims": claims, **dataclasses.asdict(checks)}, indent=1, allow_nan=False)
-    with write_atomically(json_path) as temporary:
+    with write_checked(json_path) as temporary:
         temporary.write_text(text + "\n", encoding="utf-8")
     write_table(pd.DataFrame(claims), csv_path)
 

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from job import job
-from tables import write_table
 
 from precursors.chain import Chain
 from precursors.ladder import climb
+from precursors.table_files import write_table
 
 
 def main(
@@ -18,7 +18,7 @@ def main(
     output: str | Path,
 ) -> None:
     """Write one row for each scene, question and model that answers it."""
-    write_table(climb(scenes, tolerances, repeats=repetitions, additions=additions), output)
+    write_table(climb(scenes, tolerances, rounds=repetitions, additions=additions), output)
 
 
 if __name__ == "__main__":

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from job import job
-from tables import read_table
 
 from precursors.figures import style
 from precursors.figures.definitions import draw_definitions
+from precursors.table_files import read_table
 
 
 def main(table: str | Path, outputs: Sequence[str | Path]) -> None:

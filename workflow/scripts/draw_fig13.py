@@ -7,7 +7,7 @@ from typing import Any
 from job import job
 
 from precursors.figures import style
-from precursors.figures.precursor_lengths import Scene, draw_precursor_lengths
+from precursors.figures.precursor_lengths import PrecursorLengths, draw_precursor_lengths
 
 
 def main(
@@ -15,7 +15,7 @@ def main(
 ) -> None:
     """Draw the slip tables of several scenes in one figure, once for each file name."""
     scenes = [
-        Scene(style.read_slips(path), slider["theta"], slider["n_blocks"], slider["normal_load"])
+        PrecursorLengths(style.read_slips(path), slider["theta"], slider["n_blocks"], slider["normal_load"])
         for path, slider in zip(slips, sliders, strict=True)
     ]
     figure = draw_precursor_lengths(scenes)

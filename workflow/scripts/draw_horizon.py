@@ -7,18 +7,20 @@ from typing import Any
 from job import job
 
 from precursors.figures import style
-from precursors.figures.horizon import draw_horizon
+from precursors.figures.horizon import ERROR_COLUMNS, EXPONENT_COLUMNS, OVERVIEW_COLUMNS, draw_horizon
 
 
 def main(
     tables: Sequence[str | Path],
     chains: Mapping[str, Mapping[str, Any]],
+    thetas: Mapping[str, float],
     tolerance: float,
     outputs: Sequence[str | Path],
 ) -> None:
     """Draw the tables horizon, solver_vs_proof and lyapunov in one figure, once for each file name."""
-    errors, overview, exponents = (style.read_columns(path, {}) for path in tables)
-    figure = draw_horizon(errors, overview, exponents, chains, tolerance)
+    needed = (ERROR_COLUMNS, OVERVIEW_COLUMNS, EXPONENT_COLUMNS)
+    errors, overview, exponents = map(style.read_columns, tables, needed)
+    figure = draw_horizon(errors, overview, exponents, chains, thetas, tolerance)
     for output in outputs:
         style.save(figure, output)
 
@@ -28,6 +30,7 @@ if __name__ == "__main__":
         main(
             [snakemake.input.horizon, snakemake.input.summary, snakemake.input.lyapunov],
             snakemake.params.chains,
+            snakemake.params.thetas,
             snakemake.params.tolerance,
             snakemake.output,
         )

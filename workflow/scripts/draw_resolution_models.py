@@ -6,16 +6,17 @@ from pathlib import Path
 from job import job
 
 from precursors.figures import style
-from precursors.figures.resolution_models import COLUMNS, draw_resolution_models
+from precursors.figures.resolution_models import COLUMNS, RUN_COLUMNS, draw_resolution_models
 
 
-def main(table: str | Path, outputs: Sequence[str | Path]) -> None:
+def main(table: str | Path, runs: str | Path, papers_n: int, outputs: Sequence[str | Path]) -> None:
     """Draw the figure, once for each file name."""
-    figure = draw_resolution_models(style.read_columns(table, COLUMNS))
+    tables = style.read_columns(table, COLUMNS), style.read_columns(runs, RUN_COLUMNS)
+    figure = draw_resolution_models(*tables, papers_n)
     for output in outputs:
         style.save(figure, output)
 
 
 if __name__ == "__main__":
     with job() as snakemake:
-        main(snakemake.input.table, snakemake.output)
+        main(snakemake.input.table, snakemake.input.runs, snakemake.params.papers_n, snakemake.output)

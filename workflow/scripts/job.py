@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import traceback
 from collections.abc import Iterator
@@ -23,6 +24,8 @@ def job() -> Iterator[Any]:
     cannot be used has its traceback in the log besides.
     """
     snakemake = vars(sys.modules["__main__"])["snakemake"]
+    # Python's own handler waits until compiled code returns, and prints a traceback.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     log = Path(snakemake.log[0])
     name = ", ".join([snakemake.rule, *snakemake.wildcards])
     start = perf_counter()

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from job import job
-from tables import write_table
 
 from precursors.ledger.claims import read_claims
 from precursors.ledger.judge import judge, to_table
+from precursors.table_files import write_table
 
 
 def main(claims: str | Path, tables: Sequence[str | Path], output: str | Path) -> None:

@@ -29,7 +29,9 @@ def main(listing: str, root: Path) -> str:
     lines = []
     for rule, inputs, outputs in _jobs(listing):
         code = [name.partition("src/precursors/")[2] for name in inputs if "src/precursors/" in name]
-        drawing = [name for name in code if re.match(r"(figures|explorer|paper)/(?!style)\w+\.py", name)]
+        drawing = [
+            name for name in code if re.match(r"(figures|explorer|paper)/(?!style|__init__)\w+\.py", name)
+        ]
         data = _shortened([name.removeprefix("results/") for name in inputs if name.startswith("results/")])
         for output in filter(_is_figure, outputs):
             made_by, script = files[rule]

@@ -7,9 +7,9 @@ from typing import Any
 from job import job  # before NumPy: it sets the number of threads
 
 # isort: split
-from tables import write_table
 
 from precursors.growth import measure_growth
+from precursors.table_files import write_table
 
 
 def main(size: Mapping[str, Any], output: str | Path) -> None:

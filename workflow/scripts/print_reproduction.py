@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import csv
+import io
 import sys
 from pathlib import Path
+
+from precursors.storage import open_checked
 
 
 def main(table: str | Path, figures: str | Path) -> None:
     """Print the table of the reproduction for reading, four digits a number."""
-    with Path(table).open(encoding="utf-8", newline="") as file:
-        header, *rows = csv.reader(file)
+    header, *rows = csv.reader(io.StringIO(open_checked(table).read().decode(), newline=""))
     cells = [header]
     for scene, theta, quantity, unit, paper, reproduced in rows:
         cells.append([scene, digits(theta), quantity, unit, digits(paper), digits(reproduced)])
@@ -26,4 +28,7 @@ def digits(number: str) -> str:
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    try:
+        main(*sys.argv[1:])
+    except (ValueError, OSError) as error:
+        sys.exit(f"reproduction: {error}")

@@ -5,10 +5,10 @@ from time import process_time
 
 import pandas as pd
 from job import job
-from tables import write_table
 
 from precursors.proof import verify
-from precursors.proof.validation import certificate_row
+from precursors.proof.proved import certificate_row
+from precursors.table_files import write_table
 
 
 def main(certificate: str | Path, output: str | Path) -> None:

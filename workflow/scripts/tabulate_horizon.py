@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pandas as pd
 from job import job
-from tables import write_table
 
 from precursors.proof import Certificate
 from precursors.proof.validation import error_table, summary, validate
+from precursors.table_files import write_table
 
 
 def main(

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pandas as pd
 from job import job
-from tables import write_table
 
 from precursors.measures import measures
 from precursors.run import Run
+from precursors.table_files import write_table
 
 COLUMNS = ["scene", "quantity", "block", "unit", "value"]
 

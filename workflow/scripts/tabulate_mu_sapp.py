@@ -7,10 +7,10 @@ from typing import Any
 
 import pandas as pd
 from job import job
-from tables import write_table
 
 from precursors.run import Run
 from precursors.slips import DEFINITIONS, apparent_friction, find_slips
+from precursors.table_files import write_table
 
 COLUMNS = ["scene", "definition", "mu_sapp", "load_N", "time_s", "event", "events_kept", "is_papers"]
 

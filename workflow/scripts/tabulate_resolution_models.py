@@ -5,18 +5,27 @@ from pathlib import Path
 from typing import Any
 
 from job import job
-from tables import read_table, write_table
 
 from precursors.ensembles.catalogue import make_study
-from precursors.ensembles.resolution_models import resolution_models_table
+from precursors.ensembles.resolution_models import resolution_models_runs, resolution_models_table
+from precursors.table_files import read_table, write_table
 
 
-def main(config: Mapping[str, Any], members: str | Path, output: str | Path) -> None:
-    """Write a row per model, theta, N and number."""
-    study = make_study(config, "resolution_models_members")
-    write_table(resolution_models_table(read_table(members), study), output)
+def main(
+    config: Mapping[str, Any], name: str, members: str | Path, table: str | Path, runs: str | Path
+) -> None:
+    """Write a row per model, theta, N and number, and one per run and number, of the study of this name."""
+    study, found = make_study(config, name), read_table(members)
+    write_table(resolution_models_table(found, study), table)
+    write_table(resolution_models_runs(found, study), runs)
 
 
 if __name__ == "__main__":
     with job() as snakemake:
-        main(snakemake.config, snakemake.input.members, snakemake.output.table)
+        main(
+            snakemake.config,
+            f"{snakemake.wildcards.models}_members",
+            snakemake.input.members,
+            snakemake.output.table,
+            snakemake.output.runs,
+        )

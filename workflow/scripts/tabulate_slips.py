@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from job import job
-from tables import write_table
 
 from precursors.run import Run
+from precursors.table_files import write_table
 from precursors.tables import slip_table
 
 

@@ -3,14 +3,14 @@
 from pathlib import Path
 
 from job import job
-from tables import write_table
 
+from precursors.load_curve import load_trace
 from precursors.run import Run
-from precursors.tables import load_trace
+from precursors.table_files import write_table
 
 
 def main(run: str | Path, output: str | Path) -> None:
-    """Write the exact F_X at the start, at every transition, at points inside every slip, and at the end."""
+    """Write points of the exact F_X between which it is straight to 1e-4 N, every transition among them."""
     write_table(load_trace(Run.load(run)), output)
 
 

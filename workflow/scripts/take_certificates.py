@@ -8,7 +8,7 @@ from typing import Any
 from job import job
 
 from precursors.proof import ExactChain, certify, verify
-from precursors.proof.validation import is_about
+from precursors.proof.proved import is_about
 from precursors.storage import write_atomically
 
 

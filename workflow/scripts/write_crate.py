@@ -1,16 +1,16 @@
 """Write the metadata that make the results an RO-Crate."""
 
-import json
 from pathlib import Path
 
 from job import job
 
 from precursors.crate import write_crate
+from precursors.storage import read_json
 
 
 def main(provenance: str | Path, output: str | Path) -> None:
     """Write the metadata beside the provenance."""
-    write_crate(json.loads(Path(provenance).read_text(encoding="utf-8")), Path(output).parent)
+    write_crate(read_json(provenance), Path(output).parent)
 
 
 if __name__ == "__main__":

@@ -8,12 +8,12 @@ from typing import Any
 from job import job
 
 from precursors.provenance import provenance
-from precursors.storage import write_atomically
+from precursors.storage import write_checked
 
 
 def main(config: Mapping[str, Any], root: str, output: str | Path) -> None:
     """Write versions, machine, configuration and checksums as JSON."""
-    with write_atomically(output) as temporary:
+    with write_checked(output) as temporary:
         text = json.dumps(provenance(config, root, Path(output).parent), indent=1, ensure_ascii=False)
         temporary.write_text(f"{text}\n", encoding="utf-8")
 

@@ -12,7 +12,6 @@ import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from importlib.resources import files
 from os import PathLike
 from pathlib import Path
@@ -38,8 +37,9 @@ from bokeh.resources import INLINE
 from bokeh.settings import settings
 from numpy.typing import NDArray
 
-from precursors.explorer.detail import find_slides, load_curve
+from precursors.explorer.detail import find_slides
 from precursors.figures import style
+from precursors.load_curve import load_curve
 from precursors.run import Run
 from precursors.slips import find_precursors, find_slips
 from precursors.storage import write_atomically
@@ -124,11 +124,9 @@ def _scene_data(scene: Scene) -> dict[str, Any]:
 
 
 def theta_text(theta: float) -> str:
-    """Write theta for reading: a fraction if it has a small denominator (+5/6), else a decimal number."""
-    fraction = Fraction(theta).limit_denominator(12)
+    """Write theta for reading, with its sign."""
     sign = "+" if theta > 0 else "\N{MINUS SIGN}" if theta < 0 else ""
-    value = str(abs(fraction)) if abs(float(fraction) - theta) < 1e-12 else f"{abs(theta):.4g}"
-    return f"\N{GREEK SMALL LETTER THETA} = {sign}{value}"
+    return f"\N{GREEK SMALL LETTER THETA} = {sign}{style.fraction_text(abs(theta))}"
 
 
 def _figures() -> dict[str, Any]:

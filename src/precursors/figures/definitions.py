@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from fractions import Fraction
 
 import numpy as np
 import pandas as pd
@@ -25,11 +24,6 @@ NUMBERS = ListedColormap(["white", "#EDF5FA", "#D6EAF7", "#B5D9F0", "#8AC6EA", s
 SIX = 6
 # Where the outer names of the rows stand, in widths of the left panel, and what they tell apart.
 OUTER_NAMES = {-0.17: ["global_slip", "short"], -0.34: ["global_slip"]}
-# None, one and both of the two numbers of a cell are the paper's.
-AGREEMENT = ListedColormap(["white", "#D6EAF7", style.SKY])
-# No to six numbers of a reading and size of theta.
-NUMBERS = ListedColormap(["white", "#EDF5FA", "#D6EAF7", "#B5D9F0", "#8AC6EA", style.SKY, style.BLUE])
-SIX = 6
 
 SHORT_NAMES = {
     "in which all blocks slide at the same instant": "all blocks\nslide at once",
@@ -114,7 +108,7 @@ def _draw_numbers(axes: Axes, table: pd.DataFrame, readings: pd.DataFrame, theta
         edgecolors=style.GREY,
         linewidth=0.2,
     )
-    axes.set_xticks(range(len(thetas)), [_theta(theta) for theta in thetas])
+    axes.set_xticks(range(len(thetas)), [f"${style.fraction_text(theta)}$" for theta in thetas])
     axes.set_xlabel(r"$\theta$")
     axes.set_title(r"Events kept, and below them $\mu_{\mathrm{sapp}}$", fontsize=7)
     axes.xaxis.tick_top()
@@ -146,7 +140,7 @@ def _draw_agreement(axes: Axes, table: pd.DataFrame, readings: pd.DataFrame, siz
         axes.text(
             column, row, f"{value}", ha="center", va="center", fontsize=5.5, color=color, fontweight=weight
         )
-    axes.set_xticks(range(len(sizes)), [_theta(size) for size in sizes])
+    axes.set_xticks(range(len(sizes)), [f"${style.fraction_text(size)}$" for size in sizes])
     axes.set_xlabel(r"$|\theta|$")
     axes.set_title("Of the paper's six\nnumbers, so many", fontsize=7)
     axes.xaxis.tick_top()
@@ -180,8 +174,3 @@ def _label_rows(axes: Axes, readings: pd.DataFrame) -> None:
 def _short_name(text: str) -> str:
     drop = re.fullmatch(r"in which F_X drops by more than (\S+) N", text)
     return f"$F_X$ drops by\nmore than {drop[1]} N" if drop else SHORT_NAMES.get(text, text)
-
-
-def _theta(theta: float) -> str:
-    fraction = Fraction(theta).limit_denominator(12)
-    return f"${fraction}$" if abs(float(fraction) - theta) < 1e-12 else f"${theta:.4g}$"

@@ -10,8 +10,9 @@ from typing import Any
 
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from precursors.figures import style
 
@@ -22,6 +23,9 @@ LINE_PT = 8.2
 # A layout made for the longest title would leave no room for the panels.
 LAYOUT = {"left": 0.07, "right": 0.99, "bottom": 0.04, "top": 0.95, "wspace": 0.38, "hspace": 0.7}
 TEXT_LEFT_PT = -24.0
+# Where the ends of an axis are closer than by this factor it has one or two decades, and where it is all
+# above this number its labels are decimals.
+FEW_DECADES, SHORT = 110.0, 1e-4
 MICRO, MILLI = 1e6, 1e3
 
 NUMBER_COLUMNS = {
@@ -45,6 +49,36 @@ THEORY_OF = "theory, "
 
 
 @dataclass(frozen=True)
+class Sentence:
+    """A line above a panel, and which of the way's numbers stands in it.
+
+    Attributes
+    ----------
+    text : str
+        With columns of the table as format fields, such as {value}.
+    quantity : str
+        What the number's quantity begins with.
+    knob, method : str
+        The number's knob and method, where the quantity alone does not tell it from others.
+    """
+
+    text: str
+    quantity: str
+    knob: str = ""
+    method: str = ""
+
+    def find(self, numbers: pd.DataFrame) -> pd.Series:
+        """The number among those of a way.
+
+        Raises
+        ------
+        LookupError
+            If it is not there, or not alone.
+        """
+        return find_number(numbers, self.quantity, self.knob, self.method)
+
+
+@dataclass(frozen=True)
 class Panel:
     """A panel: what it is about, its axes, and the sentences in which the numbers stand.
 
@@ -54,14 +88,14 @@ class Panel:
         The way to fail.
     x, y : str
         Labels of the axes.
-    sentences : tuple of (row, text)
-        Row of the way's numbers, and a text with {value} and {exact} as format fields.
+    sentences : tuple of Sentence
+        What stands above it.
     scale : tuple of float
         What the table's x and y are multiplied by for the axes.
     logarithmic : str
         Which axes are: "", "x", "y" or "xy".
-    vertical : int, optional
-        Row of a number that stands at a place on the x axis.
+    vertical : str
+        Quantity of a number that stands at a place on the x axis.
     joined : bool
         Whether lines join the points of what fails.
     markers : bool
@@ -77,10 +111,10 @@ class Panel:
     title: str
     x: str
     y: str
-    sentences: tuple[tuple[int, str], ...]
+    sentences: tuple[Sentence, ...]
     scale: tuple[float, float] = (1.0, 1.0)
     logarithmic: str = ""
-    vertical: int | None = None
+    vertical: str = ""
     joined: bool = True
     markers: bool = True
     drawstyle: str = "default"
@@ -88,36 +122,50 @@ class Panel:
     limits: Mapping[str, tuple[float | None, float | None]] = field(default_factory=dict)
 
 
+OMEGA_DT = r"$\omega_\mathrm{max}\,\Delta t$ [-]"
+RIGHT_OF_ALL = "{knob}: {value:.0f} of {exact:.0f} transitions right"
+STABLE_STEP = Sentence(r"that is $\Delta t$ = {value:.3g} s on the paper's chain", "largest stable dt")
+
 PANELS: dict[str, Panel] = {
     "rk4_unstable": Panel(
         "RK4 above its stability limit",
-        r"$\omega_\mathrm{max}\,\Delta t$ [-]",
+        OMEGA_DT,
         "Energy factor per step [-]",
         (
-            (0, r"stable up to $\omega\Delta t$ = {value:.3f}; theory $2\sqrt{{2}}$ = {exact:.3f}"),
-            (1, r"that is $\Delta t$ = {value:.3g} s on the paper's chain"),
+            Sentence(
+                r"stable up to $\omega\Delta t$ = {value:.3f}; theory $2\sqrt{{2}}$ = {exact:.3f}",
+                "largest stable omega dt",
+            ),
+            STABLE_STEP,
         ),
-        vertical=0,
+        vertical="largest stable omega dt",
         joined=False,
     ),
     "leapfrog_unstable": Panel(
         "Leapfrog above its stability limit",
-        r"$\omega_\mathrm{max}\,\Delta t$ [-]",
+        OMEGA_DT,
         "Energy factor per step [-]",
         (
-            (0, r"stable up to $\omega\Delta t$ = {value:.3f}; theory {exact:.3f}"),
-            (1, r"that is $\Delta t$ = {value:.3g} s on the paper's chain"),
+            Sentence(
+                r"stable up to $\omega\Delta t$ = {value:.3f}; theory {exact:.3f}", "largest stable omega dt"
+            ),
+            STABLE_STEP,
         ),
-        vertical=0,
+        vertical="largest stable omega dt",
         joined=False,
     ),
     "numerical_damping": Panel(
-        r"Moreau-Jean, $\theta$ = 1, damps motion",
+        "Implicit Moreau-Jean damps motion",
         r"Time [$\mu$s]",
         "Energy left [-]",
         (
-            (1, r"{knob}: {value:.3f} left after 100 $\mu$s; exact {exact:g}"),
-            (3, r"$\theta$ = 1/2, {knob}: {value:.3f} left"),
+            Sentence(
+                "{knob}: {value:.3f} of the energy left; exact {exact:g}",
+                "energy left",
+                "dt = 1e-07 s",
+                "Moreau-Jean, implicit",
+            ),
+            Sentence("{method}, {knob}: {value:.3f}", "energy left", method="Moreau-Jean, trapezoidal"),
         ),
         scale=(MICRO, 1.0),
         legend=(0.5, 0.12),
@@ -127,19 +175,26 @@ PANELS: dict[str, Panel] = {
         "Eq. 4 taken literally never sticks again",
         "Time [s]",
         "$F_X$ [N]",
-        ((1, "largest $F_X$ in 1 s: {value:.2f} N; exact {exact:.2f} N"),),
+        (
+            Sentence("{quantity}: {value:.2f} N; exact {exact:.2f} N", "largest F_X", "dt = 1e-06 s"),
+            Sentence("with {knob}: {value:.2f} N", "largest F_X", "dt = 3e-06 s"),
+        ),
         markers=False,
     ),
     "dead_zone_too_small": Panel(
         "Dead zone too small: jumped over",
-        "Width of the zone / safe width [-]",
+        r"Zone / safe width $(\mu_s+\mu_k)\,w\,\Delta t/2m$ [-]",
         "Transitions right [-]",
         (
-            (0, "{knob}: {value:.0f} of {exact:.0f} right"),
-            (2, "all are right from {value:.2g} safe width on"),
+            Sentence(
+                "{knob}: {value:.0f} of {exact:.0f} right",
+                "transitions right",
+                "dt = 4e-08 s, zone = 0.05 safe",
+            ),
+            Sentence("all are right from {value:.2g} {unit} on", "zone from which all is right"),
         ),
         logarithmic="x",
-        vertical=2,
+        vertical="zone from which all is right",
         limits={"y": (0.0, None)},
     ),
     "dead_zone_too_large": Panel(
@@ -147,11 +202,11 @@ PANELS: dict[str, Panel] = {
         "Width of the zone [m/s]",
         r"$F_X - \mu_s w_1$ at release [N]",
         (
-            (1, "{knob}: {value:.0f} of {exact:.0f} transitions right"),
-            (2, "all are right up to {value:.2g} m/s"),
+            Sentence(RIGHT_OF_ALL, "transitions right"),
+            Sentence("all are right up to {value:.2g} {unit}", "zone up to which all is right"),
         ),
         logarithmic="xy",
-        vertical=2,
+        vertical="zone up to which all is right",
         joined=False,
     ),
     "creep": Panel(
@@ -159,8 +214,11 @@ PANELS: dict[str, Panel] = {
         r"Load / $\mu_s w$ [-]",
         "Velocity [m/s]",
         (
-            (0, "{knob}:"),
-            (1, "creeps at {value:.2%} of the drive's velocity; exact 0"),
+            Sentence("{knob}:", "velocity in stick, of the drive's"),
+            Sentence(
+                "creeps at {value:.2%} of the drive's $V$; exact {exact:g}",
+                "velocity in stick, of the drive's",
+            ),
         ),
         logarithmic="y",
         joined=False,
@@ -172,8 +230,8 @@ PANELS: dict[str, Panel] = {
         "Width [m/s]",
         "Fastest rate [1/s]",
         (
-            (0, "{knob}: {value:.1e} /s; chain {exact:.1e} /s"),
-            (1, "RK4 stable up to {value:.1e} s; chain {exact:.1e} s"),
+            Sentence("{knob}: {value:.1e} /s; chain {exact:.1e} /s", "fastest rate"),
+            Sentence("RK4 stable up to {value:.1e} s; chain {exact:.1e} s", "longest stable step of RK4"),
         ),
         logarithmic="xy",
         joined=False,
@@ -181,10 +239,12 @@ PANELS: dict[str, Panel] = {
     "missed_roots": Panel(
         "DOP853 misses two roots in a step",
         r"Time since the last transition [$\mu$s]",
-        "Velocity of the block [mm/s]",
+        "Block's velocity [mm/s]",
         (
-            (1, "{knob}: {value:.0f} of {exact:.0f} transitions right"),
-            (3, "and max_step = 1e-06 s: {value:.0f} of {exact:.0f}"),
+            Sentence(RIGHT_OF_ALL, "transitions right", "rtol = 1e-07"),
+            Sentence(
+                "{knob}: {value:.0f} of {exact:.0f}", "transitions right", "rtol = 1e-07, max_step = 1e-06 s"
+            ),
         ),
         scale=(MICRO, MILLI),
     ),
@@ -193,8 +253,8 @@ PANELS: dict[str, Panel] = {
         "Time [s]",
         "Transitions [-]",
         (
-            (0, "{quantity}: {value:.0f}, no end; exact {exact:.0f}"),
-            (1, "with the sign of the acceleration: {value:.0f} in 1 s"),
+            Sentence("{quantity}: {value:.0f}, no end; exact {exact:.0f}", "transitions at t"),
+            Sentence("{knob}: {value:.0f}; exact {exact:.0f}", "transitions in"),
         ),
         markers=False,
         drawstyle="steps-post",
@@ -204,8 +264,8 @@ PANELS: dict[str, Panel] = {
         "Merged within [s]",
         "Transitions right [-]",
         (
-            (1, "{knob}: {value:.0f} of {exact:.0f} transitions right,"),
-            (0, "though only {value:.0f} of them lie so close"),
+            Sentence(RIGHT_OF_ALL + ",", "transitions right"),
+            Sentence("though only {value:.0f} of them lie so close", "transitions merged"),
         ),
         logarithmic="x",
         limits={"y": (0.0, None)},
@@ -215,8 +275,10 @@ PANELS: dict[str, Panel] = {
         "Time [s]",
         "$F_X$ [N]",
         (
-            (5, r"{knob}: $\mu_\mathrm{{sapp}}$ = {value:.4f}; exact {exact:.4f}"),
-            (0, r"{knob}: {value:.0f} of {exact:.0f} transitions right"),
+            Sentence(
+                r"{knob}: $\mu_\mathrm{{sapp}}$ = {value:.4f}; exact {exact:.4f}", "mu_sapp", "theta = 5/6"
+            ),
+            Sentence(RIGHT_OF_ALL, "transitions right", "theta = -5/6"),
         ),
         markers=False,
         limits={"x": (2.0, None), "y": (125.0, None)},
@@ -237,16 +299,18 @@ def draw_failure_gallery(numbers: pd.DataFrame, curves: Mapping[str, pd.DataFram
     Raises
     ------
     ValueError
-        If a way has too few numbers or no curves.
+        If a way has no curves, or a number of a sentence is missing or not the only one.
     """
     with style.styled():
         figure = style.new_figure(style.PAGE_MM, HEIGHT_MM)
         grid = figure.subplots(ROWS, COLUMNS).ravel()
         for letter, axes, (way, panel) in zip("abcdefghijkl", grid, PANELS.items(), strict=True):
-            own = numbers[numbers["way"] == way].reset_index(drop=True)
-            if way not in curves or len(own) <= max(row for row, _ in panel.sentences):
-                raise ValueError(f"{way}: {len(own)} numbers are too few or curves are missing")
-            _draw_panel(axes, panel, letter, own, curves[way])
+            if way not in curves:
+                raise ValueError(f"{way}: its curves are missing")
+            try:
+                _draw_panel(axes, panel, letter, numbers[numbers["way"] == way], curves[way])
+            except LookupError as error:
+                raise ValueError(f"{way}: {error}") from None
         figure.subplots_adjust(**LAYOUT)
     return figure
 
@@ -262,15 +326,36 @@ def read_numbers(path: str | Path) -> pd.DataFrame:
     return style.read_columns(path, NUMBER_COLUMNS)
 
 
+def find_number(numbers: pd.DataFrame, quantity: str, knob: str = "", method: str = "") -> pd.Series:
+    """The only number of a way whose quantity begins so, with a knob and a method if these are given.
+
+    Raises
+    ------
+    LookupError
+        If there is none, or more than one.
+    """
+    found = numbers[numbers["quantity"].str.startswith(quantity)]
+    for column, wanted in (("knob", knob), ("method", method)):
+        found = found[found[column] == wanted] if wanted else found
+    if len(found) != 1:
+        which = ", ".join(filter(None, (repr(quantity), knob, method)))
+        raise LookupError(f"{len(found)} numbers are {which}: needed is one")
+    return found.iloc[0]
+
+
 def sentence(text: str, number: pd.Series) -> str:
     """A sentence of a panel, with powers of ten and the names of variables as mathematics."""
     fields = {str(key): value for key, value in number.items()}
-    return pretty(text.format(**fields)).replace("mu_s w", r"$\mu_s w$")
+    return pretty(text.format(**fields)).replace("mu_s w", r"$\mu_s w$").replace(" F_X ", " $F_X$ ")
 
 
 def pretty(text: str) -> str:
     """Write 1e-07 as a power of ten and the names of variables as mathematics."""
-    text = text.replace("dt =", r"$\Delta t$ =").replace("theta =", r"$\theta$ =")
+    text = (
+        text.replace("dt =", r"$\Delta t$ =")
+        .replace("theta =", r"$\theta$ =")
+        .replace("= -", "= \N{MINUS SIGN}")
+    )
     text = re.sub(r"\b1(?:\.0+)?e([-+]\d+)", lambda m: f"$10^{{{int(m[1])}}}$", text)
     return re.sub(r"(\d+(?:\.\d+)?)e([-+]\d+)", lambda m: rf"${m[1]}\times10^{{{int(m[2])}}}$", text)
 
@@ -292,22 +377,20 @@ def _draw_panel(axes: Axes, panel: Panel, letter: str, numbers: pd.DataFrame, cu
             drawstyle=panel.drawstyle,
             **{"label": pretty(str(curve)), **look},
         )
-    if panel.vertical is not None:
-        place = numbers["value"].iloc[panel.vertical] * panel.scale[0]
+    if panel.vertical:
+        place = find_number(numbers, panel.vertical)["value"] * panel.scale[0]
         axes.axvline(place, color=style.GREY, linewidth=0.6, linestyle=(0, (1, 2)), zorder=1)
-    if "x" in panel.logarithmic:
-        axes.set_xscale("log")
-        axes.xaxis.set_minor_formatter(NullFormatter())
-    if "y" in panel.logarithmic:
-        axes.set_yscale("log")
-        axes.yaxis.set_minor_formatter(NullFormatter())
+    for axis in panel.logarithmic:
+        (axes.set_xscale if axis == "x" else axes.set_yscale)("log")
     for axis, limits in panel.limits.items():
         (axes.set_xlim if axis == "x" else axes.set_ylim)(*limits)
+    for axis in panel.logarithmic:
+        _label(axes.xaxis if axis == "x" else axes.yaxis)
     axes.set_xlabel(panel.x, fontsize=TITLE_SIZE)
     axes.set_ylabel(panel.y, fontsize=TITLE_SIZE)
     axes.tick_params(labelsize=TEXT_SIZE)
     axes.legend(loc=panel.legend, fontsize=LEGEND_SIZE, handlelength=1.4, borderaxespad=0.3)
-    lines = [sentence(text, numbers.iloc[row]) for row, text in panel.sentences]
+    lines = [sentence(line.text, line.find(numbers)) for line in panel.sentences]
     axes.annotate(
         "\n".join(lines),
         (0, 1),
@@ -316,11 +399,20 @@ def _draw_panel(axes: Axes, panel: Panel, letter: str, numbers: pd.DataFrame, cu
         fontsize=TEXT_SIZE,
         color=style.VERMILION,
     )
-    height = 4 + LINE_PT * len(lines)
+    height = 4 + LINE_PT * max(len(other.sentences) for other in PANELS.values())
     axes.annotate(
         f"{letter}  {panel.title}", (0, 1), xytext=(TEXT_LEFT_PT, height), **_ABOVE, fontsize=TITLE_SIZE,
         fontweight="bold",
     )  # fmt: skip
+
+
+def _label(axis: Axis) -> None:
+    """Label the decades of a logarithmic axis; where it has few, 2 and 5 times them in place of that."""
+    low, high = sorted(axis.get_view_interval())
+    if high < low * FEW_DECADES and low > SHORT:
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 _ABOVE: dict[str, Any] = {

@@ -20,7 +20,8 @@ from PIL import Image
 from precursors.chain import Chain, FloatArray, positive
 from precursors.figures import style
 from precursors.run import Run
-from precursors.slips import find_precursors, find_slips, first_global
+from precursors.slip_rows import require_first_global
+from precursors.slips import find_precursors, find_slips
 from precursors.storage import write_atomically
 
 WIDTH_MM, HEIGHT_MM, DPI = 165.0, 118.0, 100
@@ -75,11 +76,16 @@ def film_clips(run: Run, seconds_per_event: float = SECONDS_PER_EVENT) -> list[C
     Raises
     ------
     ValueError
-        If the run has no finished global slip, or no precursor before it.
+        If the run has no finished global slip, or no precursor before it, or its interface is elastic.
     """
+    if run.chain.interface_stiffness:
+        raise ValueError(
+            f"interface_stiffness = {run.chain.interface_stiffness!r} [N/m]: allowed is 0 in a film, which "
+            "shows stuck blocks at rest"
+        )
     n_frames = round(positive("seconds_per_event", seconds_per_event, "s") * FRAMES_PER_SECOND) + 1
     slips = find_slips(run)
-    number = first_global(slips)
+    number = require_first_global(slips)
     if np.isnan(slips["end"].iloc[number]):
         raise ValueError("the first global slip is not over when the run ends: run the chain for longer")
     precursors = find_precursors(slips).drop(index=slips.index[number])
@@ -125,7 +131,8 @@ def write_film(clips: Sequence[Clip], path: str | Path) -> None:
 def friction_over_strength(chain: Chain, spring_forces: FloatArray, velocities: FloatArray) -> FloatArray:
     """Friction force over strength mu_s w_i, positive where it resists sliding forward (Eqs. 5, 6).
 
-    A stuck block's friction balances its springs; a sliding one's is mu_k w_i against its velocity.
+    A stuck block's friction balances its springs and dashpots; a sliding one's is mu_k w_i against its
+    velocity. The interface is rigid: a block whose velocity is zero sticks.
 
     Parameters
     ----------
@@ -134,8 +141,10 @@ def friction_over_strength(chain: Chain, spring_forces: FloatArray, velocities: 
     spring_forces, velocities : array, shape (n, N)
         Force in the spring behind each block [N] and velocity of each block [m/s].
     """
-    ahead = np.column_stack([spring_forces[:, 1:], np.zeros(len(spring_forces))])
-    friction = np.where(velocities == 0, spring_forces - ahead, np.sign(velocities) * chain.kinetic_friction)
+    behind = np.array(spring_forces)
+    behind[:, 1:] -= chain.viscosity * np.diff(velocities, axis=1)
+    ahead = np.column_stack([behind[:, 1:], np.zeros(len(behind))])
+    friction = np.where(velocities == 0, behind - ahead, np.sign(velocities) * chain.kinetic_friction)
     return np.divide(friction, chain.strength, out=np.zeros_like(friction), where=chain.strength > 0)
 
 

@@ -12,12 +12,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from precursors.figures import style
+from precursors.scene_models import NO_ADDITION
 
 WIDTH_MM = 175.0
 ROW_MM, HEAD_MM = 14.0, 26.0
 # Beyond the paper's chain: how far columns stand off, in their widths.
 GAP = 0.2
-NOTHING = "none"
 LADDER_COLUMNS = {
     "scene": str,
     "question": str,
@@ -82,7 +82,7 @@ def draw_ladder(ladder: pd.DataFrame) -> Figure:
     """
     questions = list(dict.fromkeys(ladder["question"]))
     models = ladder.sort_values("rung").drop_duplicates("label")
-    added = models["addition"] != NOTHING
+    added = models["addition"] != NO_ADDITION
     places = np.arange(len(models)) + GAP * added.to_numpy()
     with style.styled():
         figure = style.new_figure(WIDTH_MM, HEAD_MM + ROW_MM * len(questions))
@@ -105,7 +105,7 @@ def draw_ladder(ladder: pd.DataFrame) -> Figure:
 def _head(model: pd.Series) -> str:
     """Name of a model, and the value of what it adds."""
     name = HEADS.get(str(model["label"]), str(model["label"]).replace(" ", "\n", 1))
-    if model["addition"] == NOTHING:
+    if model["addition"] == NO_ADDITION:
         return name
     value, _, unit = str(model["addition"]).partition(" ")
     number, unit = (float(value) * 1e-6, f"M{unit}") if float(value) >= 1e6 else (float(value), unit)

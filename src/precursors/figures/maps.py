@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,21 +20,30 @@ HEIGHT_MM = 62.0
 
 @dataclass(frozen=True)
 class Axis:
-    """The second axis of a map: its column, what the figure calls it, the paper's value, and its scale."""
+    """The second axis of a map: its column, what the figure calls it, a slider's value, and its scale."""
 
     column: str
     label: str
-    papers: float
+    value: Callable[[Mapping[str, float]], float]
     logarithmic: bool = False
 
 
+def _stiffness_ratio(slider: Mapping[str, float]) -> float:
+    """K/k with k = N E S/L (Eq. 10)."""
+    spring = slider["n_blocks"] * slider["youngs_modulus"] * slider["cross_section"] / slider["length"]
+    return slider["drive_stiffness"] / spring
+
+
 AXES = {
-    "map_blocks": Axis("n_blocks", "Number of blocks $N$ [-]", 10),
-    "map_friction": Axis("friction_ratio", r"$\mu_k/\mu_s$ [-]", 0.45 / 0.70),
-    "map_stiffness": Axis("stiffness_ratio", "$K/k$ [-]", 0.8e6 / 25e6, logarithmic=True),
-    "map_velocity": Axis("drive_velocity", "$V$ [m/s]", 1e-4, logarithmic=True),
+    "map_blocks": Axis("n_blocks", "Number of blocks $N$ [-]", lambda slider: slider["n_blocks"]),
+    "map_friction": Axis(
+        "friction_ratio", r"$\mu_k/\mu_s$ [-]", lambda slider: slider["mu_k"] / slider["mu_s"]
+    ),
+    "map_stiffness": Axis("stiffness_ratio", "$K/k$ [-]", _stiffness_ratio, logarithmic=True),
+    "map_velocity": Axis(
+        "drive_velocity", "$V$ [m/s]", lambda slider: slider["drive_velocity"], logarithmic=True
+    ),
 }
-PAPERS_THETAS = (-5 / 6, 0.0, 5 / 6)
 PANELS = {
     "events_kept": "Events kept [-]",
     "mu_sapp": r"$\mu_\mathrm{sapp}$ [-]",
@@ -53,8 +63,8 @@ def read_map(path: str | Path, name: str) -> pd.DataFrame:
     return style.read_columns(path, {**dict.fromkeys(numbers, float), "reached": bool})
 
 
-def draw_map(table: pd.DataFrame, name: str) -> Figure:
-    """Draw the three panels of a map, white where a run met no global slip; crosses are the paper's scenes.
+def draw_map(table: pd.DataFrame, name: str, sliders: Sequence[Mapping[str, float]] = ()) -> Figure:
+    """Draw the three panels of a map, white where a run met no global slip; crosses are scenes.
 
     Parameters
     ----------
@@ -62,8 +72,11 @@ def draw_map(table: pd.DataFrame, name: str) -> Figure:
         One row per run, see `read_map`.
     name : str
         A key of `AXES`.
+    sliders : sequence of mapping
+        Arguments of `Chain.from_slider` of the scenes to mark.
     """
     axis = AXES[name]
+    scenes = [slider["theta"] for slider in sliders], [axis.value(slider) for slider in sliders]
     share = 100.0 * table["n_global"] / table["n_all_events"].where(table["n_all_events"] > 0)
     kept = table["events_kept"].where(table["reached"])
     table = table.assign(share_global=share, events_kept=kept)
@@ -72,6 +85,8 @@ def draw_map(table: pd.DataFrame, name: str) -> Figure:
         panels = figure.subplots(1, len(PANELS), sharey=True)
         for panel, (quantity, label) in zip(panels, PANELS.items(), strict=True):
             _draw_panel(panel, table, axis, quantity, label)
+            panel.plot(*scenes, "+", color="white", markersize=7, markeredgewidth=2.2)
+            panel.plot(*scenes, "+", color=style.BLACK, markersize=6)
         panels[0].set_ylabel(axis.label)
         style.lay_out(figure)
     return figure
@@ -91,15 +106,6 @@ def _draw_panel(axes: Axes, table: pd.DataFrame, axis: Axis, quantity: str, labe
     image = axes.pcolormesh(theta, second, values, norm=norm, cmap="viridis", rasterized=True)
     if axis.logarithmic:
         axes.set_yscale("log")
-    axes.plot(
-        PAPERS_THETAS,
-        [axis.papers] * len(PAPERS_THETAS),
-        "+",
-        color="white",
-        markersize=7,
-        markeredgewidth=2.2,
-    )
-    axes.plot(PAPERS_THETAS, [axis.papers] * len(PAPERS_THETAS), "+", color=style.BLACK, markersize=6)
     axes.set_xlim(theta[0], theta[-1])
     axes.set_ylim(second[0], second[-1])
     axes.set_xlabel(r"$\theta$ [-]")

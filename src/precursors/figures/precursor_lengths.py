@@ -14,17 +14,17 @@ from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 
 from precursors.figures import style
+from precursors.slip_rows import up_to_first_global
 
 HEIGHT_MM = 76.0
 # The fill tells the sign of theta, as in the paper; a second scene of the same sign has another outline.
 OUTLINES = ("o", "s", "D", "^", "v", "h")
-COLORS = {-1: style.VERMILION, 0: style.BLACK, 1: style.BLUE}
 # All scenes meet at the global slip: circles of different size stay visible around each other.
 SIZES = {-1: 4.2, 0: 5.2, 1: 6.6}
 
 
 @dataclass(frozen=True)
-class Scene:
+class PrecursorLengths:
     """A scene as Fig. 13 needs it.
 
     Parameters
@@ -45,12 +45,12 @@ class Scene:
     normal_load_N: float
 
 
-def draw_precursor_lengths(scenes: Sequence[Scene], with_short_events: bool = True) -> Figure:
+def draw_precursor_lengths(scenes: Sequence[PrecursorLengths], with_short_events: bool = True) -> Figure:
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
 
     Parameters
     ----------
-    scenes : sequence of Scene
+    scenes : sequence of PrecursorLengths
         At least one.
     with_short_events : bool
         Whether the short events that Fig. 13 leaves out are shown too, faint and small.
@@ -98,14 +98,16 @@ _SHORT: dict[str, Any] = {
 }
 
 
-def _outlines(scenes: Sequence[Scene]) -> list[str]:
+def _outlines(scenes: Sequence[PrecursorLengths]) -> list[str]:
     signs = [np.sign(scene.theta) for scene in scenes]
     return [OUTLINES[signs[:i].count(sign) % len(OUTLINES)] for i, sign in enumerate(signs)]
 
 
-def _draw_scene(axes: Axes, scene: Scene, outline: str, with_short_events: bool) -> tuple[Line2D, ...]:
+def _draw_scene(
+    axes: Axes, scene: PrecursorLengths, outline: str, with_short_events: bool
+) -> tuple[Line2D, ...]:
     sign = int(np.sign(scene.theta))
-    color = COLORS[sign]
+    color = style.theta_color(scene.theta)
     if with_short_events:
         short = _short_events(scene.slips)
         axes.plot(short["load_before_N"], short["front"] / scene.n_blocks, **_SHORT, color=color, zorder=1.5)
@@ -120,15 +122,10 @@ def _draw_scene(axes: Axes, scene: Scene, outline: str, with_short_events: bool)
 
 
 def _short_events(slips: pd.DataFrame) -> pd.DataFrame:
-    return _until_global_slip(slips).query("not kept")
+    return up_to_first_global(slips).query("not kept")
 
 
-def _until_global_slip(slips: pd.DataFrame) -> pd.DataFrame:
-    onset = slips.loc[slips["is_global"], "onset_s"].min()
-    return slips if np.isnan(onset) else slips[slips["onset_s"] <= onset]
-
-
-def _label(scene: Scene, scenes: Sequence[Scene]) -> str:
+def _label(scene: PrecursorLengths, scenes: Sequence[PrecursorLengths]) -> str:
     name = style.theta_text(scene.theta)
     if len({other.n_blocks for other in scenes}) > 1:
         name += f", $N = {scene.n_blocks}$"
@@ -139,7 +136,7 @@ def _label(scene: Scene, scenes: Sequence[Scene]) -> str:
     return f"{name}: {n_kept} event{'' if n_kept == 1 else 's'}{note}"
 
 
-def _draw_friction_coefficient(axes: Axes, scenes: Sequence[Scene]) -> None:
+def _draw_friction_coefficient(axes: Axes, scenes: Sequence[PrecursorLengths]) -> None:
     normal_load = scenes[0].normal_load_N
     if any(scene.normal_load_N != normal_load for scene in scenes):
         return
@@ -147,16 +144,13 @@ def _draw_friction_coefficient(axes: Axes, scenes: Sequence[Scene]) -> None:
         "top", functions=(lambda load: np.divide(load, normal_load), lambda mu: np.multiply(mu, normal_load))
     )
     upper.set_xlabel("Friction coefficient $F_X/F_Z$ [-]")
-    with_global_slip = [scene.slips for scene in scenes if scene.slips["is_global"].any()]
-    if not with_global_slip:
+    up_to = [up_to_first_global(scene.slips) for scene in scenes if scene.slips["is_global"].any()]
+    if not up_to:
         return
-    mu_sapp = (
-        np.mean([_until_global_slip(slips)["load_before_N"].max() for slips in with_global_slip])
-        / normal_load
-    )
+    mu_sapp = float(np.mean([slips["load_before_N"].max() for slips in up_to])) / normal_load
     axes.axvline(mu_sapp * normal_load, color=style.GREY, linewidth=0.6, linestyle=(0, (1, 2)), zorder=1)
     axes.annotate(
-        ("mean " if len(with_global_slip) > 1 else "") + rf"$\mu_\mathrm{{sapp}} = {mu_sapp:.3f}$",
+        ("mean " if len(up_to) > 1 else "") + rf"$\mu_\mathrm{{sapp}} = {mu_sapp:.3f}$",
         xy=(mu_sapp * normal_load, 0.6),
         xytext=(2, 0),
         textcoords="offset points",

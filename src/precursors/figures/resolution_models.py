@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter, NullLocator
 
 from precursors.figures import style
-from precursors.figures.resolution import EXPERIMENT_MU_SAPP, LABELS, PAPERS_N, SCALES
+from precursors.figures.resolution import LABELS, SCALES, draw_experiments_mu_sapp, mark_papers_n
 
 HEIGHT_MM = 132.0
 QUANTITIES = ("events_kept", "mu_sapp", "front_speed_m_per_s")
@@ -25,6 +25,15 @@ COLUMNS = {
     "q05": float,
     "q50": float,
     "q95": float,
+    "n": int,
+}
+RUN_COLUMNS = {
+    "model": str,
+    "theta": float,
+    **dict.fromkeys(VALUES, float),
+    "n_blocks": int,
+    "quantity": str,
+    "value": float,
 }
 ROWS = {
     (True, False): "viscosity alone",
@@ -34,15 +43,30 @@ ROWS = {
 COLORS = (style.VERMILION, style.BLUE, style.GREEN, style.PURPLE, style.ORANGE, style.SKY)
 MARKERS = ("o", "s", "^", "v", "D", "P")
 DASHES = ("-", "--", ":")
+# So many runs have a band; fewer are dots.
+MANY = 10
+DOTS: dict[str, Any] = {
+    "linestyle": "none",
+    "marker": ".",
+    "markersize": 3,
+    "markeredgewidth": 0,
+    "alpha": 0.7,
+}
 
 
-def draw_resolution_models(table: pd.DataFrame) -> Figure:
-    """Draw three numbers against N: medians, bands of 5 to 95 % of the runs, the paper's chain in grey.
+def draw_resolution_models(table: pd.DataFrame, runs: pd.DataFrame, papers_n: int) -> Figure:
+    """Draw three numbers against N: medians, and of the runs bands of 5 to 95 %, or dots where they are few.
+
+    The paper's chain is grey.
 
     Parameters
     ----------
     table : DataFrame
         tables/resolution_models.csv, see `COLUMNS`; further theta are drawn dashed and dotted.
+    runs : DataFrame
+        tables/resolution_models_runs.csv, see `RUN_COLUMNS`.
+    papers_n : int
+        Number of blocks that a dotted line marks.
     """
     damped = (table["viscous_time_s"] > 0.0) | (table["viscosity_N_s_per_m"] > 0.0)
     sprung = table["interface_stiffness_N_per_m"] > 0.0
@@ -54,13 +78,12 @@ def draw_resolution_models(table: pd.DataFrame) -> Figure:
         for row, kind in zip(axes, kinds, strict=True):
             of_kind = table[(damped == kind[0]) & (sprung == kind[1])] if any(kind) else table.iloc[:0]
             for panel, quantity in zip(row, QUANTITIES, strict=True):
-                _draw_models(panel, plain[plain["quantity"] == quantity], quantity, "paper's chain")
-                _draw_models(panel, of_kind[of_kind["quantity"] == quantity], quantity)
-                _finish(panel, quantity)
+                dots = runs[runs["quantity"] == quantity]
+                _draw_models(panel, plain[plain["quantity"] == quantity], dots, quantity, "paper's chain")
+                _draw_models(panel, of_kind[of_kind["quantity"] == quantity], dots, quantity)
+                _finish(panel, quantity, papers_n)
             row[0].legend(loc="lower right", handlelength=1.4, labelspacing=0.25, borderaxespad=0.2)
-            row[1].axhline(
-                EXPERIMENT_MU_SAPP, color=style.ORANGE, linestyle=":", linewidth=1.2, label="experiment, 0.49"
-            )
+            draw_experiments_mu_sapp(row[1])
             row[1].set_title(_title(of_kind, kind), fontsize=8)
         handles, labels = axes[0, 1].get_legend_handles_labels()
         shown = [(h, text) for h, text in zip(handles, labels, strict=True) if text.startswith("experiment")]
@@ -70,17 +93,23 @@ def draw_resolution_models(table: pd.DataFrame) -> Figure:
     return figure
 
 
-def _draw_models(axes: Axes, table: pd.DataFrame, quantity: str, label: str | None = None) -> None:
-    """A line with its band for each model and theta; the paper's chain, which has a label, in grey."""
+def _draw_models(
+    axes: Axes, table: pd.DataFrame, runs: pd.DataFrame, quantity: str, label: str | None = None
+) -> None:
+    """A line with its runs for each model and theta; the paper's chain, which has a label, in grey."""
     scale = SCALES.get(quantity, 1.0)
     names = [name for name in VALUES if len(set(table[name])) > 1] or VALUES
     for i, (_, model) in enumerate(table.groupby("model", sort=False)):
         look: dict[str, Any] = {"color": COLORS[i % len(COLORS)], "marker": MARKERS[i % len(MARKERS)]}
         if label:
             look = {"color": style.GREY, "marker": None}
-        for dashes, (_, chain) in zip(DASHES, model.groupby("theta", sort=False), strict=False):
+        for dashes, (theta, chain) in zip(DASHES, model.groupby("theta", sort=False), strict=False):
             n, low, middle, high = (chain[name] for name in ("n_blocks", "q05", "q50", "q95"))
-            axes.fill_between(n, low * scale, high * scale, color=look["color"], alpha=0.15, linewidth=0)
+            band: dict[str, Any] = {"color": look["color"], "alpha": 0.15, "linewidth": 0}
+            axes.fill_between(n, low * scale, high * scale, where=chain["n"] >= MANY, **band)
+            few = runs["n_blocks"].isin(n[chain["n"] < MANY])
+            dots = runs[few & (runs["model"] == model["model"].iloc[0]) & (runs["theta"] == theta)]
+            axes.plot(dots["n_blocks"], dots["value"] * scale, **DOTS, color=look["color"])
             name = (label or _name(model.iloc[0], names)) if dashes == "-" else None
             axes.plot(n, middle * scale, **look, markersize=2.8, linestyle=dashes, label=name)
 
@@ -105,10 +134,10 @@ def _title(table: pd.DataFrame, kind: tuple[bool, bool]) -> str:
     return rf"{ROWS[kind]}, $\eta = {table['viscosity_N_s_per_m'].iloc[0]:.3g}$ N s/m"
 
 
-def _finish(axes: Axes, quantity: str) -> None:
+def _finish(axes: Axes, quantity: str, papers_n: int) -> None:
     axes.set_xscale("log")
     axes.set_ylabel(LABELS[quantity])
-    axes.axvline(PAPERS_N, color=style.GREY, linewidth=0.6, linestyle=(0, (1, 2)), zorder=1)
+    mark_papers_n(axes, papers_n)
     if quantity == "events_kept":
         axes.set_yscale("log")
         ticks = [1, 2, 5, 10, 20, 50, 100]

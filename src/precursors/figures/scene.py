@@ -14,6 +14,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from precursors.figures import style
+from precursors.slip_rows import first_global
 
 HEIGHT_MM = 112.0
 PARTIAL = style.BLUE
@@ -61,24 +62,25 @@ def draw_scene(
     """
     if trace.empty:
         raise ValueError("the trace has no rows: allowed is at least one point of the tangential load")
-    first_global = _first_global_slip(slips)
+    first = first_global(slips)
+    first_s = None if first is None else float(slips["onset_s"].iloc[first])
     with style.styled():
         figure = style.new_figure(style.PAGE_MM, HEIGHT_MM)
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[2.2, 1])
         end = float(trace["time_s"].iloc[-1])
-        _draw_load(upper, trace, HEADROOM if first_global is None else HEADROOM_WITH_INSET)
-        if first_global is None and len(slips):
+        _draw_load(upper, trace, HEADROOM if first_s is None else HEADROOM_WITH_INSET)
+        if first_s is None and len(slips):
             label = f"{label} (no global slip)".strip()
         upper.set_title(fill(label, LINE_OF_LABEL), loc="left", fontsize=8, pad=3)
         _draw_fronts(lower, slips, n_blocks, length_m, end)
         lower.set_xlabel("Time $t$ [s]")
-        if first_global is None:
+        if first_s is None:
             lower.set_xlim(0, end)
         else:
-            lower.set_xlim(0, max(end, INSET_END * first_global))
+            lower.set_xlim(0, max(end, INSET_END * first_s))
             for axes in (upper, lower):
-                _draw_first_global_slip(axes, first_global)
-            _draw_inset(upper, slips, trace, first_global)
+                _draw_first_global_slip(axes, first_s)
+            _draw_inset(upper, slips, trace, first_s)
         _draw_legend(lower, slips)
         figure.align_ylabels([upper, lower])
         style.lay_out(figure)
@@ -87,11 +89,6 @@ def draw_scene(
 
 def _color(is_global: bool) -> str:
     return GLOBAL if is_global else PARTIAL
-
-
-def _first_global_slip(slips: pd.DataFrame) -> float | None:
-    onsets = slips.loc[slips["is_global"], "onset_s"]
-    return None if onsets.empty else float(onsets.min())
 
 
 def _draw_load(axes: Axes, trace: pd.DataFrame, headroom: float) -> None:
@@ -139,27 +136,27 @@ def _draw_first_global_slip(axes: Axes, time_s: float) -> None:
     axes.axvline(time_s, color=GLOBAL, **BROKEN, zorder=1.5)
 
 
-def _draw_inset(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, first_global: float) -> None:
-    start = INSET_START * first_global
-    if first_global == 0:
+def _draw_inset(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, first_s: float) -> None:
+    start = INSET_START * first_s
+    if first_s == 0:
         return
-    if first_global < 0.6 * axes.get_xlim()[1]:
+    if first_s < 0.6 * axes.get_xlim()[1]:
         inset = axes.inset_axes(INSET_ON_THE_RIGHT)
         inset.yaxis.tick_right()
     else:
         inset = axes.inset_axes(INSET_ON_THE_LEFT)
     inset.plot(trace["time_s"], trace["tangential_load_N"], color=style.BLACK, linewidth=0.8)
-    _draw_first_global_slip(inset, first_global)
-    inset.set_xlim(start, INSET_END * first_global)
+    _draw_first_global_slip(inset, first_s)
+    inset.set_xlim(start, INSET_END * first_s)
     inset.tick_params(labelsize=6.5)
     inset.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
-    seen = trace["time_s"].between(start, first_global)
+    seen = trace["time_s"].between(start, first_s)
     load = np.append(
         trace.loc[seen, "tangential_load_N"], np.interp(start, trace["time_s"], trace["tangential_load_N"])
     )
     span = np.ptp(load) or 1.0
     inset.set_ylim(load.min() - 0.08 * span, load.max() + 0.22 * span)
-    for _, event in _largest_drops(slips, start, first_global).iterrows():
+    for _, event in _largest_drops(slips, start, first_s).iterrows():
         inset.annotate(
             "",
             xy=(event["onset_s"], event["load_before_N"]),
@@ -178,8 +175,8 @@ def _draw_inset(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, first_glob
         connector.set_visible(is_shown)
 
 
-def _largest_drops(slips: pd.DataFrame, start: float, first_global: float) -> pd.DataFrame:
-    inside = slips[(slips["onset_s"] > start) & (slips["onset_s"] < first_global)]
+def _largest_drops(slips: pd.DataFrame, start: float, first_s: float) -> pd.DataFrame:
+    inside = slips[(slips["onset_s"] > start) & (slips["onset_s"] < first_s)]
     drop = (inside["load_before_N"] - inside["load_after_N"]).fillna(np.inf)
     return inside.loc[drop.sort_values(ascending=False, kind="stable").index[:MOST_ARROWS]].sort_index()
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,11 +17,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
+from precursors.ensembles.spread import UNPERTURBED
 from precursors.figures import style
 
 HEIGHT_MM = 92.0
 # Room between the ensembles of two parameters, in ensembles.
 GAP = 1.0
+# And at the ends of the axis.
+EDGE = 1.2
 SHADES = LinearSegmentedColormap.from_list("share", ["white", style.SKY, style.BLUE])
 MEMBER_COLUMNS = {
     "scene": str,
@@ -32,6 +35,11 @@ MEMBER_COLUMNS = {
     "events_kept": int,
     "mu_sapp": float,
 }
+QUANTILES = ("q05", "q25", "q50", "q75", "q95")
+SPREAD_COLUMNS = {
+    **dict.fromkeys(("scene", "question", "perturbation", "quantity"), str),
+    **dict.fromkeys(("size", *QUANTILES), float),
+}
 SYMBOLS = {
     "mu_s": r"$\mu_s$",
     "mu_k": r"$\mu_k$",
@@ -41,11 +49,10 @@ SYMBOLS = {
     "theta": r"$\theta$",
 }
 SIZE_LABELS = {
-    "loads": "Relative noise in the normal loads",
-    "start": r"Noise in the initial positions, in units of $\mu_s F_Z/(Nk)$",
+    "loads": "Relative noise in the normal loads [-]",
+    "start": r"Noise in the initial positions, in units of $\mu_s F_Z/(Nk)$ [-]",
     "parameters": "Parameter that is changed, by up to {sizes} from left to right ($\\theta$: absolute)",
 }
-UNPERTURBED = "none"
 BINS = {"mu_sapp": 0.005, "events_kept": 1.0}  # their widths
 UNCHANGED_LINE: dict[str, Any] = {
     "color": style.GREY,
@@ -57,10 +64,11 @@ UNCHANGED_LINE: dict[str, Any] = {
 
 @dataclass(frozen=True)
 class Ensemble:
-    """Members that were changed alike, and where they stand on the axis."""
+    """Members that were changed alike, their row of mu_sapp in spread.csv, and their place on the axis."""
 
     position: float
     members: pd.DataFrame
+    mu_sapp: Mapping[Hashable, Any]
 
 
 def read_members(path: str | Path) -> pd.DataFrame:
@@ -74,13 +82,15 @@ def read_members(path: str | Path) -> pd.DataFrame:
     return style.read_columns(path, MEMBER_COLUMNS)
 
 
-def draw_spread(members: pd.DataFrame, question: str) -> Figure:
+def draw_spread(members: pd.DataFrame, spread: pd.DataFrame, question: str) -> Figure:
     """Draw what the members of one question make of mu_sapp and of the events kept.
 
     Parameters
     ----------
     members : DataFrame
         See `read_members`.
+    spread : DataFrame
+        tables/spread.csv, see `SPREAD_COLUMNS`.
     question : {"loads", "theta", "start", "parameters"}
         Which of its questions.
 
@@ -93,17 +103,21 @@ def draw_spread(members: pd.DataFrame, question: str) -> Figure:
     if asked.empty:
         raise ValueError(f"the table has no member of the question {question!r}")
     with style.styled():
-        return _draw_sweep(asked) if question == "theta" else _draw_ensembles(asked, question)
+        if question == "theta":
+            return _draw_sweep(asked)
+        mu_sapp = spread[(spread["question"] == question) & (spread["quantity"] == "mu_sapp")]
+        return _draw_ensembles(asked, mu_sapp, question)
 
 
-def _draw_ensembles(members: pd.DataFrame, question: str) -> Figure:
+def _draw_ensembles(members: pd.DataFrame, mu_sapp: pd.DataFrame, question: str) -> Figure:
     """Bands of mu_sapp, and shares of each count, one column a scene."""
     scenes = list(members.groupby("scene", sort=False))
     figure = style.new_figure(style.PAGE_MM, HEIGHT_MM)
     axes = figure.subplots(2, len(scenes), sharex=True, sharey="row", squeeze=False, height_ratios=[1.3, 1])
-    for column, (_, of_scene) in zip(axes.T, scenes, strict=True):
+    for column, (scene, of_scene) in zip(axes.T, scenes, strict=True):
         alone = of_scene[of_scene["perturbation"] == UNPERTURBED].iloc[0]
-        groups = _grouped(of_scene[of_scene["perturbation"] != UNPERTURBED])
+        changed = of_scene[of_scene["perturbation"] != UNPERTURBED]
+        groups = _grouped(changed, mu_sapp[mu_sapp["scene"] == scene])
         ensembles = [ensemble for group in groups for ensemble in group]
         _draw_bands(column[0], ensembles, alone["mu_sapp"])
         _draw_counts(column[1], ensembles, alone["events_kept"])
@@ -121,12 +135,18 @@ def _draw_ensembles(members: pd.DataFrame, question: str) -> Figure:
     return figure
 
 
-def _grouped(members: pd.DataFrame) -> list[list[Ensemble]]:
+def _grouped(members: pd.DataFrame, mu_sapp: pd.DataFrame) -> list[list[Ensemble]]:
     """Ensembles parameter by parameter, from the smallest size to the largest."""
     groups, position = [], 0.0
-    for _, alike in members.groupby("perturbation", sort=False):
+    known = mu_sapp.set_index(["perturbation", "size"])[list(QUANTILES)].to_dict("index")
+    for perturbation, alike in members.groupby("perturbation", sort=False):
         sizes = list(alike.groupby("size"))
-        groups.append([Ensemble(position + i, ensemble) for i, (_, ensemble) in enumerate(sizes)])
+        groups.append(
+            [
+                Ensemble(position + i, ensemble, known[perturbation, size])
+                for i, (size, ensemble) in enumerate(sizes)
+            ]
+        )
         position += len(sizes) + GAP
     return groups
 
@@ -134,8 +154,7 @@ def _grouped(members: pd.DataFrame) -> list[list[Ensemble]]:
 def _draw_bands(axes: Axes, ensembles: Sequence[Ensemble], unperturbed: float) -> None:
     """5 to 95 % as a thin line, 25 to 75 % as a thick one, the median as a tick."""
     at = np.array([ensemble.position for ensemble in ensembles])
-    shares = np.array([0.05, 0.25, 0.5, 0.75, 0.95])
-    q = np.array([ensemble.members["mu_sapp"].quantile(shares) for ensemble in ensembles]).T
+    q = np.array([[ensemble.mu_sapp[name] for name in QUANTILES] for ensemble in ensembles]).T
     median: dict[str, Any] = {"marker": "_", "markersize": 5, "markeredgewidth": 1.0, "color": style.BLACK}
     axes.plot(at, q[2], linestyle="none", label="median of the runs", **median)
     axes.vlines(at, q[1], q[3], color=style.SKY, linewidth=3.0, zorder=1.9, label="25 to 75 %")
@@ -156,7 +175,7 @@ def _draw_counts(axes: Axes, ensembles: Sequence[Ensemble], unperturbed: int) ->
 def _label_sizes(axes: Axes, groups: Sequence[Sequence[Ensemble]]) -> None:
     """Sizes below the axis, or the parameters where there are several."""
     ends = [group[-1].position for group in groups]
-    axes.set_xlim(-0.8, ends[-1] + 0.8)
+    axes.set_xlim(-EDGE, ends[-1] + EDGE)
     if len(groups) > 1:
         middles = [(group[0].position + group[-1].position) / 2 for group in groups]
         names = [group[0].members["perturbation"].iloc[0] for group in groups]

@@ -13,7 +13,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from precursors.storage import open_checked, write_atomically
+from precursors.storage import write_atomically
+from precursors.table_files import read_table
 
 # Okabe and Ito (2008): told apart by colour-blind readers too.
 BLACK = "#000000"
@@ -24,6 +25,9 @@ PURPLE = "#CC79A7"
 SKY = "#56B4E9"
 VERMILION = "#D55E00"
 GREY = "#8C8C8C"
+
+# By the sign of theta: larger load at the trailing edge, uniform, at the leading edge.
+SIGN_COLORS = {-1: VERMILION, 0: BLACK, 1: BLUE}
 
 MM_PER_M = 1e3
 MM_PER_INCH = 25.4
@@ -126,11 +130,20 @@ def read_trace(path: str | Path) -> pd.DataFrame:
     return read_columns(path, TRACE_COLUMNS)
 
 
+def fraction_text(value: float) -> str:
+    """Write a number as a fraction if it has a small denominator (-5/6), else as a decimal number."""
+    fraction = Fraction(value).limit_denominator(12)
+    return str(fraction) if abs(float(fraction) - value) < 1e-12 else f"{value:.4g}"
+
+
 def theta_text(theta: float) -> str:
-    """Write theta as mathematics: a fraction if it has a small denominator (-5/6), else a decimal number."""
-    fraction = Fraction(theta).limit_denominator(12)
-    value = str(fraction) if abs(float(fraction) - theta) < 1e-12 else f"{theta:.4g}"
-    return rf"$\theta = {value}$"
+    """Write theta as mathematics."""
+    return rf"$\theta = {fraction_text(theta)}$"
+
+
+def theta_color(theta: float) -> str:
+    """Colour of a scene by the sign of its theta."""
+    return SIGN_COLORS[int(theta > 0) - int(theta < 0)]
 
 
 def plain(text: str) -> str:
@@ -146,11 +159,4 @@ def read_columns(path: str | Path, columns: Mapping[str, type]) -> pd.DataFrame:
     ValueError
         If a column is missing or holds something else than it should.
     """
-    table = pd.read_csv(open_checked(path))
-    missing = [name for name in columns if name not in table.columns]
-    if missing:
-        raise ValueError(f"{path}: column {missing[0]} is missing: needed are {', '.join(columns)}")
-    try:
-        return table.astype(columns)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{path}: {error}") from None
+    return read_table(path, columns)
