@@ -12,9 +12,9 @@ import pandas as pd
 import pytest
 import yaml
 from golden.regenerate import GOLDEN
-from measure_scaling import as_text
 
 from precursors.scaling import time_of_maps
+from precursors.scaling_text import scaling_text
 
 ROOT = Path(__file__).parents[2]
 COSTS, MAPS = GOLDEN / "scaling.csv", GOLDEN / "scaling_maps.csv"
@@ -23,7 +23,7 @@ COSTS, MAPS = GOLDEN / "scaling.csv", GOLDEN / "scaling_maps.csv"
 @pytest.mark.parametrize("passage", range(4))
 def test_the_text_has_the_numbers_of_the_tables(passage):
     text = (ROOT / "docs/scaling.md").read_text(encoding="utf-8")
-    assert as_text(pd.read_csv(COSTS), pd.read_csv(MAPS))[passage] in text
+    assert scaling_text(pd.read_csv(COSTS), pd.read_csv(MAPS))[passage] in text
 
 
 def test_the_cost_of_large_maps_follows_from_the_measured_times():

@@ -6,12 +6,12 @@ import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from precursors.ledger.rules import NO_RESULT, ROUNDS, ROWS, RULES, SLOPE, TAKES, Margin
+from precursors.ledger.rules import KINDS, NO_RESULT, ROUNDS, ROWS, RULES, SLOPE, TAKES, Margin
+from precursors.plain_yaml import read_yaml
 
 # Table of the spread study: scene, quantity, class (robust, sensitive or fragile).
 ROBUSTNESS = "robustness"
@@ -59,8 +59,8 @@ class Claim:
 
     Attributes
     ----------
-    id, where, statement : str
-        Name; place in the paper; the statement.
+    id, where, kind, statement : str
+        Name; place in the paper; a key of KINDS; the statement.
     rule : str
         A key of RULES.
     evidence, against : tuple of Evidence
@@ -83,6 +83,7 @@ class Claim:
 
     id: str
     where: str
+    kind: str
     statement: str
     rule: str
     evidence: tuple[Evidence, ...] = ()
@@ -104,12 +105,10 @@ def read_claims(path: str | os.PathLike[str]) -> list[Claim]:
     ClaimError
         In one line: which file and claim, what is wrong, and what is allowed.
     """
-    import yaml
-
     try:
-        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-    except yaml.YAMLError as error:
-        raise ClaimError(f"{path}: no YAML: {' '.join(str(error).split())}") from None
+        content = read_yaml(path)
+    except ValueError as error:
+        raise ClaimError(str(error)) from None
     if not isinstance(content, list) or not all(isinstance(entry, dict) for entry in content):
         raise ClaimError(f"{path}: allowed is a list of claims, each a table of keys and values")
     claims = []
@@ -138,17 +137,18 @@ def scenes_needed(claims: Iterable[Claim]) -> list[str]:
     return list(dict.fromkeys(name[1] for name in names if name))
 
 
-_TEXTS = ("id", "where", "statement", "rule", "unit")
+_TEXTS = ("id", "where", "kind", "statement", "rule", "unit")
 _MARGIN = ("tolerance", "relative", "digits")
 _KEYS = (*_TEXTS, *_MARGIN, "evidence", "against", "paper", "limit", "varies", "words", "fragile")
 
 
 def _claim(entry: Mapping[str, Any]) -> Claim:
-    _check_keys(entry, _KEYS, needed=("id", "where", "statement", "rule"))
+    _check_keys(entry, _KEYS, needed=("id", "where", "kind", "statement", "rule"))
     texts = {key: entry[key] for key in _TEXTS if key in entry}
     for key, text in texts.items():
         if not isinstance(text, str) or not text:
             raise ClaimError(f"{key} = {text!r}: allowed is a text")
+    _one_of("kind", entry["kind"], KINDS)
     rule = _one_of("rule", entry["rule"], RULES)
     if "limit" in entry and not _is_number(entry["limit"]):
         raise ClaimError(f"limit = {entry['limit']!r}: allowed is a number")

@@ -24,7 +24,7 @@ from precursors.ledger.rules import (
     RULES,
     TAKES,
 )
-from precursors.storage import open_checked
+from precursors.table_files import read_table
 
 # More values than this are told by their number, the smallest and the largest.
 MOST_VALUES_SHOWN = 6
@@ -36,6 +36,7 @@ class Judgement:
 
     id: str
     where: str
+    kind: str
     statement: str
     unit: str
     paper: str
@@ -123,11 +124,11 @@ class _Library:
 
 def _read(path: Path, **how: Any) -> pd.DataFrame:
     try:
-        return pd.read_csv(open_checked(path), **how)
+        return read_table(path, **how)
     except FileNotFoundError:
         raise ClaimError(f"{path} is missing: the workflow writes it") from None
     except (ValueError, OSError) as error:
-        raise ClaimError(f"{path} is no table: {' '.join(str(error).split())}") from None
+        raise ClaimError(str(error)) from None
 
 
 def _judge(claim: Claim, library: _Library) -> Judgement:
@@ -139,7 +140,7 @@ def _judge(claim: Claim, library: _Library) -> Judgement:
         found = library.speaks_of(claim.words)
         if found:
             raise ClaimError(f"there is a result now ({found}): it needs a rule that tests it")
-        ours = f"no table speaks of {', '.join(claim.words)}"
+        ours = "not in the model"
         verdict = rule.otherwise
     elif len(values) == 0 or np.isnan([*values, *reference]).any():
         verdict = NOT_REPRODUCED
@@ -154,6 +155,7 @@ def _judge(claim: Claim, library: _Library) -> Judgement:
     return Judgement(
         id=claim.id,
         where=claim.where,
+        kind=claim.kind,
         statement=claim.statement,
         unit=claim.unit,
         paper="; ".join(value if isinstance(value, str) else f"{value:.6g}" for value in claim.paper),
@@ -224,12 +226,16 @@ def _is_fragile(claim: Claim, library: _Library) -> bool:
 
 
 def shown(values: FloatArray) -> str:
-    """Write values with four digits; many values by their number and range."""
+    """Write values with four digits: equal ones once, and many by their number and range."""
     if len(values) == 0:
         return "none"
-    if len(values) > MOST_VALUES_SHOWN:
+    texts = [f"{value:.4g}" for value in values]
+    is_one, is_many = len(set(texts)) == 1, len(values) > MOST_VALUES_SHOWN
+    if is_one:
+        return f"{len(values)} values of {texts[0]}" if is_many else texts[0]
+    if is_many:
         return f"{len(values)} values from {values.min():.4g} to {values.max():.4g}"
-    return "; ".join(f"{value:.4g}" for value in values)
+    return "; ".join(texts)
 
 
 def _rule_text(claim: Claim, reference: FloatArray) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from precursors.chain import FloatArray
+from precursors.slip_rows import first_global, up_to_first_global
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -19,6 +20,14 @@ NOT_REPRODUCED = "not reproduced"
 MISPRINT = "misprint"
 NOT_TESTABLE = "not testable by the model"
 VERDICTS = (REPRODUCED, FRAGILE, NOT_REPRODUCED, MISPRINT, NOT_TESTABLE)
+
+# What a claim is about; verdicts are counted for each kind, as inputs would swell the number of results.
+KINDS = {
+    "input": "that the chain computed here is the one described",
+    "result": "what the model or the theory gives",
+    "reading": "how it is printed, or what another reading of it gives",
+    "experiment": "what is said of the experiment, or of model and experiment together",
+}
 
 
 def _rank_correlation(values: FloatArray) -> float:
@@ -50,14 +59,10 @@ TAKES: dict[str, Callable[[FloatArray], Any]] = {
 SLOPE = "slope"
 
 
-def _first_global(table: pd.DataFrame) -> int:
-    return int(table["is_global"].argmax()) if table["is_global"].any() else len(table)
-
-
 ROWS: dict[str, Callable[[pd.DataFrame], pd.DataFrame]] = {
     "all": lambda table: table,
-    "up to the global slip": lambda table: table.iloc[: _first_global(table) + 1],
-    "before the global slip": lambda table: table.iloc[: _first_global(table)],
+    "up to the global slip": up_to_first_global,
+    "before the global slip": lambda table: table.iloc[: first_global(table)],
 }
 
 

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from precursors.ledger.rules import ROWS, TAKES
-from precursors.storage import write_atomically
+from precursors.plain_yaml import read_yaml
+from precursors.storage import write_checked
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -99,9 +100,10 @@ def read_sources(path: str | os.PathLike[str]) -> list[Source]:
     PaperError
         In one line: which entry, what is wrong with it, and what is allowed.
     """
-    import yaml
-
-    content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    try:
+        content = read_yaml(path)
+    except ValueError as error:
+        raise PaperError(str(error)) from None
     if not isinstance(content, dict) or set(content) != {"lists", "numbers"}:
         raise PaperError(f"{path}: allowed are two tables, lists and numbers")
     sources: dict[str, Source] = {}
@@ -150,7 +152,7 @@ def collect_numbers(
     Raises
     ------
     PaperError
-        In one line: a number whose table, column or row is missing, or of which there is more than one.
+        In one line: a number whose table is missing or damaged, or has no column or row for it, or too many.
     """
     read: dict[str, pd.DataFrame] = {}
     numbers = {}
@@ -168,7 +170,7 @@ def collect_numbers(
 def write_numbers(numbers: Mapping[str, Number], path: str | os.PathLike[str]) -> None:
     """Write the numbers as JSON: name -> value, unit and source."""
     content = {name: vars(number) for name, number in sorted(numbers.items())}
-    with write_atomically(path) as temporary:
+    with write_checked(path) as temporary:
         temporary.write_text(
             json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n", "utf-8"
         )
@@ -219,13 +221,16 @@ def _looked_up(source: Source, config: Mapping[str, Any]) -> Value:
 
 
 def _tabled(source: Source, directory: Path, read: dict[str, pd.DataFrame]) -> Value | None:
-    import pandas as pd
+    from precursors.table_files import read_table
 
     path = directory / f"{source.table}.csv"
     if source.table not in read:
         if not path.is_file():
             raise PaperError(f"{path} is missing: the workflow writes it")
-        read[source.table] = pd.read_csv(path)
+        try:
+            read[source.table] = read_table(path)
+        except (ValueError, OSError) as error:
+            raise PaperError(str(error)) from None
     table = ROWS[source.rows](read[source.table])
     for column, value in source.where:
         table = table[_column(path, table, column).isin(value if isinstance(value, list) else [value])]

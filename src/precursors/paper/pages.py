@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from precursors.paper.numbers import PaperError
-from precursors.storage import write_atomically
+from precursors.storage import open_checked, write_atomically
 
 # No page says when it was made.
 EPOCH = 0
@@ -66,12 +66,7 @@ def set_pages(
     with tempfile.TemporaryDirectory() as directory:
         root = Path(directory)
         shutil.copytree(source, root / "paper")
-        for name, file in files.items():
-            (root / name).parent.mkdir(parents=True, exist_ok=True)
-            try:
-                shutil.copyfile(file, root / name)
-            except FileNotFoundError:
-                raise PaperError(f"{file} is missing: the paper shows it") from None
+        take_along(files, root)
         try:
             pages, warnings = typst.compile_with_warnings(
                 root / "paper" / main, root=root, ignore_system_fonts=True, timestamp=EPOCH
@@ -82,6 +77,25 @@ def set_pages(
         raise PaperError("; ".join(_line(warning, root) for warning in warnings))
     with write_atomically(output) as temporary:
         temporary.write_bytes(pages)
+
+
+def take_along(files: Mapping[str, str | os.PathLike[str]], root: str | os.PathLike[str]) -> None:
+    """Copy the files that the text may read below `root`, each to its path in the text.
+
+    Raises
+    ------
+    PaperError
+        In one line: a file that is missing, or not what was written there.
+    """
+    for name, file in files.items():
+        target = Path(root) / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            target.write_bytes(open_checked(file).read())
+        except FileNotFoundError:
+            raise PaperError(f"{file} is missing: the paper shows it") from None
+        except (ValueError, OSError) as error:
+            raise PaperError(str(error)) from None
 
 
 def _line(problem: Any, root: Path) -> str:
