@@ -25,14 +25,17 @@ from dataclasses import astuple, dataclass, fields
 from fractions import Fraction
 from functools import cache, partial
 from importlib.util import find_spec
+from io import TextIOWrapper
 from pathlib import Path
 from typing import Literal
 
 from precursors import Chain, Run, simulate, simulate_many, timing
 from precursors.accuracy import TrueTransition, Truth, compare
+from precursors.exact import available_cores
 from precursors.growth import BASE_SIZE, LEAST_TRANSITIONS, SIZES, TRANSITIONS_PER_BLOCK, measure_growth
 from precursors.integrators.heyoka_events import solve_heyoka
 from precursors.integrators.scipy_events import solve_scipy
+from precursors.storage import open_checked, write_checked
 
 ROOT = Path(__file__).resolve().parent.parent
 REFERENCE = ROOT / "tests" / "golden" / "reference_fig10.csv"
@@ -85,8 +88,7 @@ def main() -> None:
                 f"{row.benchmark:12} {row.case:36} {row.quantity:46} {row.value:10.4g} {row.unit}", flush=True
             )
             rows.append(row)
-    arguments.output.parent.mkdir(parents=True, exist_ok=True)
-    with arguments.output.open("w", newline="") as file:
+    with write_checked(arguments.output) as temporary, temporary.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(field.name for field in fields(Row))
         writer.writerows(map(astuple, rows))
@@ -156,8 +158,7 @@ def growth(size: Size) -> Iterable[Row]:
 def ensemble(size: Size) -> Iterable[Row]:
     """First-slip runs of theta = 0 per second, by `simulate_many` on one thread and more."""
     chains = [Chain.from_slider()] * size.ensemble
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    threads = sorted({1, 2, cores})
+    threads = sorted({1, 2, available_cores()})
     tasks = {str(n): partial(simulate_many, chains, DURATION, "global slip", threads=n) for n in threads}
     timings = timing.measure(tasks, size.rounds, size.shortest)
     for n in threads:
@@ -170,7 +171,7 @@ def ensemble(size: Size) -> Iterable[Row]:
 @cache
 def reference() -> Truth:
     """The transitions of theta = 0 with 40 digits."""
-    with REFERENCE.open(newline="") as file:
+    with TextIOWrapper(open_checked(REFERENCE), encoding="utf-8", newline="") as file:
         rows = [
             TrueTransition(
                 Fraction(row["time_s"]),
@@ -184,4 +185,8 @@ def reference() -> Truth:
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    # A method that diverged or gave up raises a RuntimeError.
+    except (RuntimeError, ValueError, OSError) as error:
+        sys.exit(f"bench: {' '.join(str(error).split())}")

@@ -13,9 +13,9 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from precursors.chain import Chain, FloatArray
-from precursors.integrators.common import run_from
 from precursors.run import Run
-from precursors.slips import find_slips, first_global
+from precursors.slip_rows import first_global
+from precursors.slips import find_slips
 
 if TYPE_CHECKING:
     from precursors.proof import Certificate
@@ -63,7 +63,7 @@ class Truth:
         time, time_rest = _rounded([row.time for row in rows])
         load, load_rest = _rounded([row.tangential_load for row in rows])
         block, mode = [row.block for row in rows], [row.mode for row in rows]
-        return cls(run_from(chain, duration, time, block, mode, load), time_rest, load_rest)
+        return cls(Run.from_transitions(chain, duration, time, block, mode, load), time_rest, load_rest)
 
     @classmethod
     def proved(cls, certificate: Certificate) -> Truth:
@@ -97,15 +97,16 @@ class Truth:
 
         Without one, or if it does not end, nothing is cut.
         """
-        if not self.slips["is_global"].any():
-            return self
-        end = float(self.slips["end"].iloc[first_global(self.slips)])
+        first = first_global(self.slips)
+        end = np.nan if first is None else float(self.slips["end"].iloc[first])
         if np.isnan(end):
             return self
         transitions = self.run.transitions
         n = int(np.searchsorted(transitions["time"], end, side="right"))
         columns = [transitions[name][:n] for name in ("time", "block", "mode", "tangential_load")]
-        return Truth(run_from(self.run.chain, end, *columns), self.time_rest[:n], self.load_rest[:n])
+        return Truth(
+            Run.from_transitions(self.run.chain, end, *columns), self.time_rest[:n], self.load_rest[:n]
+        )
 
 
 @dataclass(frozen=True)
@@ -134,16 +135,6 @@ class Comparison:
     slips_true: int
     time_error: float
     load_error: float
-
-    @property
-    def has_all_transitions(self) -> bool:
-        """Whether the run has the transitions of the truth in their order, and no other."""
-        return self.transitions_right == self.transitions_found == self.transitions_true
-
-    @property
-    def has_all_slips(self) -> bool:
-        """Whether the run has the slip events of the truth in their order, and no other."""
-        return self.slips_right == self.slips_found == self.slips_true
 
 
 def compare(run: Run, truth: Truth) -> Comparison:

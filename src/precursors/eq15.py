@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,8 +20,10 @@ from precursors.bound import (
 )
 from precursors.chain import Chain, FloatArray
 from precursors.exact import TransitionLimitError, simulate
+from precursors.reduced.rigid import as_rigid
 from precursors.run import Run
-from precursors.slips import find_slips, first_global
+from precursors.slip_rows import first_global
+from precursors.slips import find_slips
 
 SYMBOLIC_BLOCKS = range(1, 13)
 RANDOM_BLOCKS = (1, 2, 3, 5, 10, 20, 50, 200, 500)
@@ -182,7 +184,7 @@ def check_eq15(scenes: Mapping[str, Chain], duration: float) -> Eq15:
     """
     if not scenes:
         raise ValueError("scenes are empty: allowed is at least one scene")
-    rigid = one_block(next(iter(scenes.values())))
+    rigid = as_rigid(next(iter(scenes.values())))
     rng = np.random.default_rng(RANDOM_SEED)
     random = {f"N = {n}, random": random_chain(n, rng) for n in RANDOM_BLOCKS}
     return Eq15(
@@ -292,8 +294,8 @@ def check_motion(
     """Push a chain from rest at some positions [m] and compare mu_sapp with what is expected."""
     slips = find_slips(_run_to_global_slip(chain, positions, duration))
     load = onset = None
-    if slips["is_global"].any():
-        first = first_global(slips)
+    first = first_global(slips)
+    if first is not None:
         load = float(slips["load_before"].iloc[: first + 1].max())
         onset = float(slips["onset"].iloc[first])
     return MotionCheck(
@@ -324,11 +326,6 @@ def friction_below_maximal_strain(chain: Chain, fraction: float) -> float:
     follow it, if mu_k is well below mu_s.
     """
     return chain.mu_s * (fraction + (1 - fraction) * float(chain.weights[0]) / chain.normal_load)
-
-
-def one_block(chain: Chain) -> Chain:
-    """Return the chain as a rigid slider: one block with the whole mass and normal load."""
-    return replace(chain, weights=np.array([chain.normal_load]), mass=chain.mass * chain.n_blocks)
 
 
 def random_chain(n_blocks: int, rng: np.random.Generator) -> Chain:

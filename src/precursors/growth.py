@@ -6,14 +6,13 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
 
 import numpy as np
 import pandas as pd
 
 from precursors import timing
 from precursors.bound import maximal_strain_positions
-from precursors.chain import Chain, FloatArray
+from precursors.chain import Chain, FloatArray, Until
 from precursors.exact import TransitionLimitError, simulate
 from precursors.run import Run
 
@@ -22,8 +21,6 @@ BASE_SIZE = 10
 SLOW_DRIVE, FAST_DRIVE = 1e-4, 0.02  # m/s
 STRAIN = 0.9  # of the maximal one
 LEAST_TRANSITIONS, TRANSITIONS_PER_BLOCK = 4000, 30
-# A task is repeated within a round until it takes so long [s].
-SHORTEST = 0.01
 LONG = 1e6  # s, never reached: the number of transitions ends a run
 
 
@@ -34,7 +31,7 @@ class Kind:
     definition: str
     is_strained: bool
     drive_velocity: float
-    until: Literal["global slip"] | None
+    until: Until
     least_size: int
 
 
@@ -72,7 +69,7 @@ def measure_growth(
     rounds: int = timing.ROUNDS,
     least_transitions: int = LEAST_TRANSITIONS,
     transitions_per_block: int = TRANSITIONS_PER_BLOCK,
-    shortest: float = SHORTEST,
+    shortest: float = timing.SHORTEST,
 ) -> pd.DataFrame:
     """Time the first transitions of chains of the paper's slider, cut into more and more blocks.
 
@@ -136,9 +133,7 @@ def _chain_and_start(kind: Kind, n_blocks: int) -> tuple[Chain, FloatArray | Non
     return chain, STRAIN * maximal_strain_positions(chain) if kind.is_strained else None
 
 
-def _first_transitions(
-    chain: Chain, start: FloatArray | None, until: Literal["global slip"] | None, wanted: int
-) -> Run:
+def _first_transitions(chain: Chain, start: FloatArray | None, until: Until, wanted: int) -> Run:
     try:
         return simulate(chain, LONG, until, start_positions=start, max_transitions=wanted)
     except TransitionLimitError as limit:

@@ -16,7 +16,7 @@ from precursors import kernel
 from precursors.chain import FloatArray, positive
 from precursors.kernel import System
 from precursors.run import Run
-from precursors.tangent import IntArray, Path, Tangent, path_of, rates, states_at
+from precursors.tangent import IntArray, Tangent, Trajectory, rates, states_at, trajectory_of
 
 EPS = float(np.finfo(float).eps)
 # The spread of so many neighbours is within 40 % of that of very many, nineteen times in twenty.
@@ -95,7 +95,7 @@ def error_growth(run: Run) -> ErrorGrowth:
         If the run has no stored states.
     """
     system = kernel.scale(run.chain)
-    path = path_of(run, system)
+    path = trajectory_of(run, system)
     time = run.transitions["time"].astype(np.float64)
     error = np.full(len(time), np.inf)
     error[: path.n_started] = 0.0
@@ -116,7 +116,7 @@ def error_growth(run: Run) -> ErrorGrowth:
 class _Neighbours:
     """Runs rounded otherwise, as differences from the run itself at its own transitions."""
 
-    def __init__(self, run: Run, system: System, path: Path) -> None:
+    def __init__(self, run: Run, system: System, path: Trajectory) -> None:
         chain, n = run.chain, run.chain.n_blocks
         self.run, self.system, self.path, self.tangent = run, system, path, Tangent(system, path)
         self.random = np.random.default_rng(SEED)
@@ -199,7 +199,7 @@ def _spread(differences: FloatArray) -> float:
     return float(np.sqrt(differences @ differences / len(differences)))
 
 
-def _grain(system: System, path: Path, row: int, block: int) -> float:
+def _grain(system: System, path: Trajectory, row: int, block: int) -> float:
     """Value below which the solver may take a gauge of a block for zero, next to a row (`kernel.grain`)."""
     n = path.mode.shape[1]
     force = abs(path.state[row, block : block + 2])
@@ -210,7 +210,7 @@ def _grain(system: System, path: Path, row: int, block: int) -> float:
     return float(2.0 * kernel.ROUNDINGS * (2.0 * still + moving))
 
 
-def _roundings(system: System, path: Path) -> FloatArray:
+def _roundings(system: System, path: Trajectory) -> FloatArray:
     """Size of what is rounded before each transition, (n, 2 N + 4): forces [N], velocities [N/tau].
 
     Each window of one tau rounds the forces in springs that move, and velocities that are sums over forces.
@@ -242,7 +242,7 @@ class _NearMiss(NamedTuple):
     strength: float
 
 
-def _near_misses(run: Run, system: System, path: Path) -> dict[int, _NearMiss]:
+def _near_misses(run: Run, system: System, path: Trajectory) -> dict[int, _NearMiss]:
     """Closest miss in each interval, by the row of the path before it.
 
     Looks at the least value, between transitions, of the velocity of each sliding block and of the margin of

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from time import perf_counter
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from precursors import timing
 from precursors.chain import Chain, FloatArray
 from precursors.reduced import MODELS, QUANTITIES, Model
 from precursors.scene_models import (
@@ -19,16 +20,13 @@ from precursors.scene_models import (
     FIRST_LOAD,
     FRONT_LOADS,
     MU_SAPP,
+    NO_ADDITION,
     PAPERS_MODEL,
     SLIP_DURATION,
     UNITS,
     WAVEFORM,
 )
 
-REPEATS = 3
-# Answers that take longer [s] are timed once, after a warm-up.
-LONG = 0.02
-NOTHING = "none"
 NO_ADDITIONS: Mapping[str, float] = MappingProxyType({})
 WAVEFORM_SAMPLES = 2001
 
@@ -118,7 +116,7 @@ def climb(
     chains: Mapping[str, Chain],
     tolerances: Mapping[str, float],
     models: Mapping[str, Model] = MODELS,
-    repeats: int = REPEATS,
+    rounds: int = timing.ROUNDS,
     additions: Mapping[str, float] = NO_ADDITIONS,
 ) -> pd.DataFrame:
     """Ask every model every question it answers, for the chains of some scenes.
@@ -131,8 +129,8 @@ def climb(
         Largest error that counts as an answer, by quantity, in the unit of the question's error.
     models : mapping
         The rungs, from the smallest to the largest; the paper's chain among them.
-    repeats : int
-        How often each answer is timed; the least time counts.
+    rounds : int
+        How often each answer is timed: see `timing.measure`.
     additions : mapping
         What the models beyond the paper's chain add to it, in the units of `Chain.from_slider`: viscosity
         [N s/m], interface_stiffness of the whole interface [N/m], head_mass [kg]. A model whose addition has
@@ -143,9 +141,9 @@ def climb(
     DataFrame
         One row for each scene, question and model that answers it: rung (1, 2, ...), name and label of the
         model, value and its unit, error against the paper's chain, tolerance, is_answer (the error is within
-        it), is_smallest (the first model that answers in every scene), cost_s (time from the chain to the
-        answer [s]), addition (what the model adds to the paper's chain, with value and unit). The error of a
-        model with an addition is what the addition makes of the paper's chain.
+        it), is_smallest (the first model that answers in every scene), cost_s (median time from the chain
+        to the answer [s]), addition (what the model adds to the paper's chain, with value and unit). The
+        error of a model with an addition is what the addition makes of the paper's chain.
 
     Raises
     ------
@@ -158,12 +156,33 @@ def climb(
         if question.quantity not in tolerances:
             raise ValueError(f"no tolerance for {question.quantity!r}: needed is one for each question")
         tolerance = tolerances[question.quantity]
-        exact = {scene: ask(models[PAPERS_MODEL], chain, question, 1)[0] for scene, chain in chains.items()}
-        found = [
-            {"rung": rung, **_row(scene, chain, model, additions, question, exact[scene], tolerance, repeats)}
-            for rung, model in enumerate(models.values(), 1)
+        exact = {scene: ask(models[PAPERS_MODEL], chain, question) for scene, chain in chains.items()}
+        tasks = {
+            (name, scene): partial(ask, model, extended(chain, model, additions), question)
+            for name, model in models.items()
             if question.quantity in model.answers
             for scene, chain in chains.items()
+        }
+        answers = {key: timing.second_call(task) for key, task in tasks.items()}
+        costs = timing.measure(tasks, rounds, seconds={key: seconds for key, (_, seconds) in answers.items()})
+        rungs = {name: rung for rung, name in enumerate(models, 1)}
+        found = [
+            {
+                "scene": scene,
+                "question": question.quantity,
+                "rung": rungs[name],
+                "model": name,
+                "label": models[name].label,
+                "value": question.shown(answer),
+                "unit": QUANTITIES[question.quantity].unit,
+                "error": (error := question.error(answer, exact[scene], chains[scene])),
+                "error_unit": question.error_unit,
+                "tolerance": tolerance,
+                "is_answer": error <= tolerance,
+                "cost_s": costs[name, scene].seconds,
+                "addition": _addition_text(name, additions),
+            }
+            for (name, scene), (answer, _) in answers.items()
         ]
         smallest = next(
             (name for name in models if _answers_everywhere([row for row in found if row["model"] == name])),
@@ -182,49 +201,14 @@ def extended(chain: Chain, model: Model, additions: Mapping[str, float]) -> Chai
     return replace(chain, **added)
 
 
-def ask(model: Model, chain: Chain, question: Question, repeats: int) -> tuple[Any, float]:
-    """Answer of a model, and the least time it took [s]; a long one is given twice at most."""
-    cost = np.inf
-    for repeat in range(repeats):
-        start = perf_counter()
-        answer = model.answer(chain, [question.quantity])[question.quantity]
-        cost = min(cost, perf_counter() - start)
-        if repeat and cost > LONG:
-            break
-    return answer, cost
-
-
-def _row(
-    scene: str,
-    chain: Chain,
-    model: Model,
-    additions: Mapping[str, float],
-    question: Question,
-    exact: Any,
-    tolerance: float,
-    repeats: int,
-) -> dict[str, Any]:
-    answer, cost = ask(model, extended(chain, model, additions), question, repeats)
-    error = question.error(answer, exact, chain)
-    return {
-        "scene": scene,
-        "question": question.quantity,
-        "model": model.name,
-        "label": model.label,
-        "value": question.shown(answer),
-        "unit": QUANTITIES[question.quantity].unit,
-        "error": error,
-        "error_unit": question.error_unit,
-        "tolerance": tolerance,
-        "is_answer": error <= tolerance,
-        "cost_s": cost,
-        "addition": _addition_text(model.name, additions),
-    }
+def ask(model: Model, chain: Chain, question: Question) -> Any:
+    """Answer of a model to a question."""
+    return model.answer(chain, [question.quantity])[question.quantity]
 
 
 def _addition_text(model: str, additions: Mapping[str, float]) -> str:
     """What a model adds to the paper's chain, with its unit."""
-    return f"{additions[ADDED[model]]:g} {UNITS[ADDED[model]]}" if model in ADDED else NOTHING
+    return f"{additions[ADDED[model]]:g} {UNITS[ADDED[model]]}" if model in ADDED else NO_ADDITION
 
 
 def _answers_everywhere(rows: list[dict[str, Any]]) -> bool:

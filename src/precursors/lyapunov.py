@@ -15,7 +15,7 @@ from scipy.stats import t as student_t
 from precursors import kernel
 from precursors.chain import whole
 from precursors.run import Run
-from precursors.tangent import Tangent, path_of
+from precursors.tangent import Tangent, trajectory_of
 
 # Uncertainties come from means over so many stretches of the run.
 N_STRETCHES = 20
@@ -103,7 +103,7 @@ def lyapunov_exponent(
 def _growth(run: Run) -> tuple[np.ndarray, np.ndarray]:
     """Indices of the transitions that begin an event, and the logarithm of a difference there."""
     system = kernel.scale(run.chain)
-    path = path_of(run, system)
+    path = trajectory_of(run, system)
     tangent, n = Tangent(system, path), run.chain.n_blocks
     state = np.zeros((2 * n + 4, 1))
     state[1 : n + 1, 0] = np.random.default_rng(SEED).standard_normal(n)

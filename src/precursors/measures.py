@@ -11,7 +11,8 @@ import pandas as pd
 from precursors.bound import maximal_compressions
 from precursors.chain import Chain
 from precursors.run import Run
-from precursors.slips import find_precursors, find_slips, first_global
+from precursors.slip_rows import first_global
+from precursors.slips import find_precursors, find_slips
 
 # Where the growth of the propagation length in the experiment changes (Sect. 6.1).
 KINK = 0.7
@@ -60,20 +61,21 @@ def up_to_global_slip(run: Run) -> Iterator[Measure]:
     share = float(np.mean(begins_at == 1)) if len(slips) else np.nan
     yield Measure("events that begin at block 1, of all", "1", share)
     backward = strain = below = beyond = np.nan
-    if slips["is_global"].any():
-        onset = float(slips["onset"].iloc[first_global(slips)])
+    first = first_global(slips)
+    if first is not None:
+        onset = float(slips["onset"].iloc[first])
         earlier = run.transitions[run.transitions["time"] < onset]
         backward = float(np.count_nonzero(earlier["mode"] == -1))
         strain = residual_strain(run, onset)
         below, beyond = growth(find_precursors(slips), run.chain.n_blocks)
     yield Measure("times that a block begins to slide backward before the first global slip", "1", backward)
     yield Measure("residual strain at the first global slip, of the largest", "1", strain)
-    yield Measure("growth of L_p/L with the load up to 0.7", "1/N", below)
-    yield Measure("growth of L_p/L with the load beyond 0.7", "1/N", beyond)
+    yield Measure(f"growth of L_p/L with the load up to {KINK:g}", "1/N", below)
+    yield Measure(f"growth of L_p/L with the load beyond {KINK:g}", "1/N", beyond)
 
 
 def growth(kept: pd.DataFrame, n_blocks: int) -> tuple[float, float]:
-    """Growth of L_p/L with the load [1/N] before and after the last event kept that has L_p/L <= 0.7.
+    """Growth of L_p/L with the load [1/N] before and after the last event kept that has L_p/L <= KINK.
 
     NaN where no two events lie on that side.
     """

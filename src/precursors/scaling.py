@@ -9,12 +9,12 @@ import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from time import process_time
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from precursors import timing
 from precursors.chain import Chain
 from precursors.config import Config, scene_slider
 from precursors.ensembles.maps import AXES, map_study
@@ -35,7 +35,6 @@ STARTS = {
 # A chunk shorter than this is spoiled by what a job costs beside; a longer one by what a failed job loses.
 SHORTEST_CHUNK, LONGEST_CHUNK = 60.0, 600.0  # s
 CHUNKS_PER_CORE = 4
-SHORTEST = 0.02  # s, of a measurement
 COLUMNS = [
     "kind",
     "case",
@@ -74,10 +73,10 @@ def measure_costs(config: Config) -> pd.DataFrame:
     """
     settings = config["scaling"]
     cases = [*_first_slips(config), *_durations(config), *_maps(config)]
-    simulate(Chain.from_slider(), until="global slip")  # loads the compiled code
-    rounds = [[_seconds_of(case.call) for case in cases] for _ in range(settings["repetitions"])]
+    timings = timing.measure({case.case: case.call for case in cases}, settings["repetitions"])
     rows = []
-    for case, total in zip(cases, np.median(rounds, axis=0), strict=True):
+    for case in cases:
+        total = float(np.median(timings[case.case].cpu))
         seconds, transitions = total / case.runs, case.transitions() / case.runs
         what = (case.kind, case.case, case.n_blocks, case.duration, case.runs)
         each = seconds / transitions if transitions else math.nan
@@ -88,17 +87,11 @@ def measure_costs(config: Config) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
-def _seconds_of(call: Callable[[], object]) -> float:
-    """Processor time of a call [s], of all its threads, repeated until the clock's steps do not matter."""
-    repeats, start = 0, process_time()
-    while repeats == 0 or process_time() - start < SHORTEST:
-        call()
-        repeats += 1
-    return (process_time() - start) / repeats
-
-
 def _seconds_of_process(code: str) -> float:
-    """Processor time [s] that a new Python takes for some lines."""
+    """Processor time [s] that a new Python takes for some lines, its start and end included.
+
+    `timing.measure` has the time of this process only, and would repeat and warm up what is to be cold.
+    """
     before = _children()
     subprocess.run([sys.executable, "-c", code], check=True)
     return _children() - before

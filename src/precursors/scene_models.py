@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from precursors.chain import ADDITIONS
+
 LOAD_BOUND, FIRST_LOAD = "load_bound", "first_load"
 EVENTS_KEPT, MU_SAPP, FRONT_LOADS = "events_kept", "mu_sapp", "front_loads"
 SLIP_DURATION, WAVEFORM = "slip_duration", "waveform"
@@ -26,4 +28,6 @@ ANSWERED = {
 ADDED = {"viscous": "viscosity", "interface": "interface_stiffness", "head": "head_mass"}
 # Models that are followed through time, for as long as a scene lasts.
 SIMULATED = (PAPERS_MODEL, *ADDED)
-UNITS = {"viscosity": "N s/m", "interface_stiffness": "N/m", "head_mass": "kg"}
+# What stands for the addition of a model that has none.
+NO_ADDITION = "none"
+UNITS = ADDITIONS

@@ -1,4 +1,4 @@
-"""What the step of a fixed-step method does to the numbers that the paper prints."""
+"""What the step of Runge and Kutta's method does to the numbers that the paper prints."""
 
 from __future__ import annotations
 
@@ -11,11 +11,14 @@ import numpy as np
 from precursors.accuracy import Truth, compare
 from precursors.chain import Chain, FloatArray
 from precursors.exact import simulate
-from precursors.integrators import METHODS, DivergedError
+from precursors.integrators import rk4
+from precursors.integrators.common import DivergedError
 from precursors.run import Run
+from precursors.slip_rows import first_global
 from precursors.slips import apparent_friction, find_precursors, find_slips
 
 EXACT = "exact"
+METHODS = {method.name: method for method in rk4.METHODS}
 
 
 @dataclass(frozen=True)
@@ -83,6 +86,7 @@ def sweep(chain: Chain, duration: float, steps: Mapping[str, Iterable[float]]) -
 def outcome(method: str, step: float, run: Run, truth: Truth) -> Outcome:
     """What a run that stopped after its first global slip gives."""
     slips = find_slips(run)
+    first = first_global(slips)
     friction = apparent_friction(run, slips)
     compared = compare(run, truth)
     return Outcome(
@@ -90,7 +94,7 @@ def outcome(method: str, step: float, run: Run, truth: Truth) -> Outcome:
         step,
         len(find_precursors(slips)),
         friction.mu_sapp if friction else math.nan,
-        float(slips.loc[slips["is_global"], "onset"].min()),
+        math.nan if first is None else float(slips["onset"].iloc[first]),
         compared.transitions_right,
         compared.transitions_true,
     )

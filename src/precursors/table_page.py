@@ -9,7 +9,7 @@ import io
 import os
 from pathlib import Path
 
-from precursors.storage import write_atomically
+from precursors.storage import open_checked, write_atomically
 
 DIGITS = 6  # shown of a number; the file inside the page has them all
 
@@ -45,10 +45,13 @@ def write_table_page(table: str | os.PathLike[str], output: str | os.PathLike[st
     Raises
     ------
     ValueError
-        If the table has no header, or a row has another number of cells than it.
+        If the table is damaged, has no header, or a row has another number of cells than it.
     """
     source = Path(table)
-    page = table_page(source.stem, source.read_text(encoding="utf-8"))
+    try:
+        page = table_page(source.stem, open_checked(source).read().decode())
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise ValueError(f"{source} is no table: {error}") from None
     with write_atomically(output) as temporary:
         temporary.write_text(page, encoding="utf-8")
 

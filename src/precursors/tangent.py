@@ -23,7 +23,7 @@ from precursors.run import Run
 IntArray = NDArray[np.int64]
 
 
-class Path(NamedTuple):
+class Trajectory(NamedTuple):
     """What a run passed through.
 
     Attributes
@@ -57,7 +57,7 @@ class Path(NamedTuple):
     bend: FloatArray
 
 
-def path_of(run: Run, system: System) -> Path:
+def trajectory_of(run: Run, system: System) -> Trajectory:
     """Collect modes, states and rates at the transitions of a run.
 
     Raises
@@ -84,7 +84,9 @@ def path_of(run: Run, system: System) -> Path:
 
     moving = np.count_nonzero((transitions["time"] == 0.0) & (run.intervals[:-1] == 0.0))
     span = run.intervals[:-1] / system.tau
-    return Path(int(moving), span, block, old, new, mode, state, rate, derivative(rate), derivative(bend))
+    return Trajectory(
+        int(moving), span, block, old, new, mode, state, rate, derivative(rate), derivative(bend)
+    )
 
 
 def states_at(run: Run, system: System, times: FloatArray) -> FloatArray:
@@ -125,7 +127,7 @@ class Modes(NamedTuple):
 class Tangent:
     """The linearised motion about a path."""
 
-    def __init__(self, system: System, path: Path) -> None:
+    def __init__(self, system: System, path: Trajectory) -> None:
         self.system, self.path = system, path
         self.n_blocks = path.mode.shape[1]
         self._modes: dict[tuple[int, int], Modes] = {}

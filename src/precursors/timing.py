@@ -10,17 +10,22 @@ from __future__ import annotations
 import gc
 import statistics
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
+
+Key = TypeVar("Key", bound=Hashable)
+T = TypeVar("T")
 
 ROUNDS = 11
-# A task is repeated within a round until it takes so long, well above the clock's resolution.
-SHORTEST = 0.02  # s
+# A task is repeated within a round until it takes so long: what the task before it left in the processor's
+# caches, and the clock's steps, are then a small part of it.
+SHORTEST = 0.01  # s
 
 
 @dataclass(frozen=True)
 class Timing:
-    """Seconds per call in each round: on the clock, and of processor time of the calling thread."""
+    """Seconds per call in each round: on the clock, and of processor time of all threads."""
 
     wall: tuple[float, ...]
     cpu: tuple[float, ...]
@@ -39,11 +44,11 @@ class Timing:
 
 
 def measure(
-    tasks: Mapping[str, Callable[[], object]],
+    tasks: Mapping[Key, Callable[[], object]],
     rounds: int = ROUNDS,
     shortest: float = SHORTEST,
-    seconds: Mapping[str, float] | None = None,
-) -> dict[str, Timing]:
+    seconds: Mapping[Key, float] | None = None,
+) -> dict[Key, Timing]:
     """Time tasks in turn, round after round, after warming each up.
 
     Parameters
@@ -55,13 +60,13 @@ def measure(
     shortest : float
         Time [s] that a task is repeated for within a round; the round counts the mean.
     seconds : mapping, optional
-        Roughly how long each task takes [s], if they are warm already.
+        Roughly how long each task takes [s], if they are warm already: see `second_call`.
     """
     if seconds is None:
-        seconds = {name: seconds_when_warm(task) for name, task in tasks.items()}
+        seconds = {name: second_call(task)[1] for name, task in tasks.items()}
     repeats = {name: max(1, round(shortest / max(seconds[name], 1e-9))) for name in tasks}
-    wall: dict[str, list[float]] = {name: [] for name in tasks}
-    cpu: dict[str, list[float]] = {name: [] for name in tasks}
+    wall: dict[Key, list[float]] = {name: [] for name in tasks}
+    cpu: dict[Key, list[float]] = {name: [] for name in tasks}
     collecting = gc.isenabled()
     gc.collect()
     gc.freeze()  # what the libraries hold for good need not be looked through before every task
@@ -70,11 +75,11 @@ def measure(
             for name, task in tasks.items():
                 gc.collect()
                 gc.disable()
-                clock, processor = time.perf_counter(), time.thread_time()
+                clock, processor = time.perf_counter(), time.process_time()
                 for _ in range(repeats[name]):
                     task()
                 wall[name].append((time.perf_counter() - clock) / repeats[name])
-                cpu[name].append((time.thread_time() - processor) / repeats[name])
+                cpu[name].append((time.process_time() - processor) / repeats[name])
                 if collecting:
                     gc.enable()
     finally:
@@ -84,9 +89,12 @@ def measure(
     return {name: Timing(tuple(wall[name]), tuple(cpu[name])) for name in tasks}
 
 
-def seconds_when_warm(task: Callable[[], object]) -> float:
-    """Time of the second of two calls [s]."""
+def second_call(task: Callable[[], T]) -> tuple[T, float]:
+    """Result of the second of two calls, and its time on the clock [s].
+
+    What the first one compiles, loads or imports is no part of it, however long the first one takes.
+    """
     task()
     start = time.perf_counter()
-    task()
-    return time.perf_counter() - start
+    result = task()
+    return result, time.perf_counter() - start

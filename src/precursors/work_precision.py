@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -44,9 +43,6 @@ COLUMNS = [
     "slips_found",
     "slips_true",
 ]
-# A task is repeated within a round until it takes so long [s].
-SHORTEST = 0.006
-SHORT = 0.1  # s, a call that may be made twice before it is timed
 END = "end"
 
 
@@ -109,23 +105,18 @@ def measure_methods(case: Case, sweeps: Sweeps, repetitions: int, longest: float
     """
     check_methods(sweeps)
     tried = {
-        f"{name} {value!r}": (METHODS[name], value, attempt)
+        f"{name} {attempt.value!r}": attempt
         for name, values in sweeps.items()
         if name in METHODS
-        for value, attempt in _sweep(METHODS[name], values, case, longest)
-    }
-    tasks: dict[str, Callable[[], object]] = {
-        key: partial(outcome, method, value, case) for key, (method, value, _) in tried.items()
+        for attempt in _sweep(METHODS[name], values, case, longest)
     }
     timings = timing.measure(
-        tasks, repetitions, SHORTEST, {key: attempt.seconds for key, (_, _, attempt) in tried.items()}
+        {key: attempt.call for key, attempt in tried.items()},
+        repetitions,
+        seconds={key: attempt.seconds for key, attempt in tried.items()},
     )
     return pd.DataFrame(
-        [
-            _row(case, method, value, attempt.result, timings[key].seconds)
-            for key, (method, value, attempt) in tried.items()
-        ],
-        columns=COLUMNS,
+        [_row(case, attempt, timings[key].seconds) for key, attempt in tried.items()], columns=COLUMNS
     )
 
 
@@ -185,32 +176,26 @@ def outcome(method: Method, value: float, case: Case) -> Result:
 
 @dataclass(frozen=True)
 class _Attempt:
-    """A first result, and about how long it takes to have it [s]."""
+    """A method with a value of its knob, its result, and about how long a call takes [s]."""
 
+    method: Method
+    value: float
+    call: Callable[[], Result]
     result: Result
     seconds: float
 
 
-def _sweep(
-    method: Method, values: Sequence[float], case: Case, longest: float
-) -> Iterator[tuple[float, _Attempt]]:
+def _sweep(method: Method, values: Sequence[float], case: Case, longest: float) -> Iterator[_Attempt]:
     for value in values:
-        attempt = _attempt(method, value, case)
-        # What is compiled or imported at first is no part of it; a long call is spared a second one.
-        if not SHORT < attempt.seconds <= longest:
-            attempt = _attempt(method, value, case)
-        if attempt.seconds > longest:
+        call = partial(outcome, method, value, case)
+        result, seconds = timing.second_call(call)
+        if seconds > longest:
             return
-        yield value, attempt
+        yield _Attempt(method, value, call, result, seconds)
 
 
-def _attempt(method: Method, value: float, case: Case) -> _Attempt:
-    start = time.perf_counter()
-    result = outcome(method, value, case)
-    return _Attempt(result, time.perf_counter() - start)
-
-
-def _row(case: Case, method: Method, value: float, result: Result, seconds: float) -> dict[str, object]:
+def _row(case: Case, attempt: _Attempt, seconds: float) -> dict[str, object]:
+    method, result = attempt.method, attempt.result
     found = compare(result.run, case.truth)
     # The exact solver's distance from itself is no error.
     is_the_truth = method.name == "exact" and not case.is_proved
@@ -222,7 +207,7 @@ def _row(case: Case, method: Method, value: float, result: Result, seconds: floa
         "method": method.name,
         "label": method.label,
         "knob": method.knob,
-        "value": value,
+        "value": attempt.value,
         "evaluations": result.evaluations or math.nan,
         "seconds": seconds,
         "error_load_N": math.nan if is_the_truth else found.load_error,

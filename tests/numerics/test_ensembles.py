@@ -1,6 +1,5 @@
 """A study gives the same however it is cut, keeps its files honest, and is judged by the stated rule."""
 
-import io
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -13,7 +12,6 @@ import yaml
 from precursors import Chain, simulate
 from precursors.ensembles import chunks, long_runs, resolution, resolution_models, spread
 from precursors.ensembles.catalogue import chunk_names, make_study
-from precursors.ensembles.progress import progress_bar
 from precursors.ensembles.study import Study, run_members
 from precursors.summary import summarise
 
@@ -256,19 +254,6 @@ def test_chunks_are_named_after_their_members(study):
     assert chunk_names(config, "spread_members") == [f"0-{len(study) - 1}"]
 
 
-def test_progress_is_shown_by_work_and_not_by_number(monkeypatch):
-    clock = iter(range(0, 1000, 100))
-    monkeypatch.setattr("precursors.ensembles.progress.perf_counter", lambda: next(clock))
-    stream = io.StringIO()
-    show = progress_bar("maps", np.array([1.0, 1.0, 2.0, 6.0]), stream)
-    for n_done in (1, 2, 3, 4):
-        show(n_done)
-    lines = stream.getvalue().splitlines()
-    assert " 20%, 2 of 4 runs, 800 s left" in lines[1]
-    assert " 40%, 3 of 4 runs, 400 s left" in lines[2]
-    assert lines[3].endswith("100%, 4 of 4 runs")
-
-
 @pytest.mark.parametrize(
     ("name", "axis", "attribute"),
     [
@@ -405,7 +390,8 @@ def test_the_table_of_models_has_each_model_once_for_every_n_with_its_values(mod
     members = pd.DataFrame(dict(models_study.columns))
     results = pd.DataFrame(run_members(models_study, 0, len(models_study)))
     results = results.rename(columns={name: f"{name}_s" for name in ("time", "end", "crossing_time")})
-    table = resolution_models.resolution_models_table(pd.concat([members, results], axis=1), models_study)
+    gathered = pd.concat([members, results], axis=1)
+    table = resolution_models.resolution_models_table(gathered, models_study)
     rows = table[table["quantity"] == "mu_sapp"].set_index(["model", "n_blocks"])
     assert list(rows.index) == [
         *((model, n) for model in ("plain", "material") for n in (4, 10, 20)),
@@ -418,3 +404,34 @@ def test_the_table_of_models_has_each_model_once_for_every_n_with_its_values(mod
     assert set(rows.loc["material", "viscosity_N_s_per_m"]) == {0.0}
     assert set(rows.loc["both", "interface_stiffness_N_per_m"]) == {25e6}
     assert (rows["n"] == 2).all()
+    runs = resolution_models.resolution_models_runs(gathered, models_study)
+    cells = runs[runs["quantity"] == "mu_sapp"].groupby(["model", "n_blocks"], sort=False)["value"]
+    assert cells.median().to_dict() == pytest.approx(rows["q50"].to_dict())
+    assert set(runs.columns) & set(table.columns) >= {"theta", *resolution_models.WITH_UNITS.values()}
+
+
+def test_each_median_of_models_has_an_interval_and_the_full_study_more_runs_and_blocks():
+    small, full = (make_study(CONFIG, f"resolution_models{size}_members") for size in ("", "_full"))
+    of = {"model": "both_25", "n_blocks": 50}
+    few, many = rows(small, **of), rows(full, **of)
+    assert len(many) >= 40 > len(few) >= 6
+    assert len(rows(full, model="both_25", n_blocks=100)) >= 20
+    _, sizes = np.unique(small.columns["group"], return_counts=True)
+    assert np.isfinite(resolution.median_interval(np.arange(sizes.min()))).all()
+
+
+@pytest.mark.parametrize(
+    ("n", "ends"),
+    [(0, None), (5, None), (6, (1, 6)), (7, (1, 7)), (9, (2, 8)), (20, (6, 15)), (40, (14, 27))],
+)
+def test_the_interval_of_a_median_ends_at_the_values_that_tables_of_order_statistics_have(n, ends):
+    interval = resolution.median_interval(np.random.default_rng(n).permutation(np.arange(1.0, n + 1)))
+    assert interval == ends if ends else np.isnan(interval).all()
+
+
+def test_the_interval_of_a_median_holds_it_as_often_as_it_says_whatever_the_distribution():
+    n_draws = 2000
+    draws = np.random.default_rng(2013).exponential(size=(n_draws, 12))
+    held = [low <= np.log(2) <= high for low, high in map(resolution.median_interval, draws)]
+    # By the binomial distribution, to three standard errors of so many draws.
+    assert np.mean(held) == pytest.approx(0.9614, abs=3 * np.sqrt(0.04 * 0.96 / n_draws))

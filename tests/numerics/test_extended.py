@@ -376,8 +376,6 @@ def test_an_addition_is_a_number_that_is_not_negative(name):
         with pytest.raises(ValueError, match=f"^{name} = "):
             SLIDER(**{name: value})
     assert SLIDER(**{name: 1.0}) != SLIDER()
-    assert not SLIDER(**{name: 1.0}).is_plain
-    assert SLIDER().is_plain
 
 
 def test_the_stiffness_of_the_interface_is_shared_among_the_blocks():

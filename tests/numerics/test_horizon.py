@@ -18,7 +18,7 @@ from precursors.kernel import scale
 from precursors.lyapunov import lyapunov_exponent
 from precursors.proof import Certificate
 from precursors.proof.validation import Validation, error_table, summary, validate
-from precursors.tangent import Tangent, path_of
+from precursors.tangent import Tangent, trajectory_of
 
 ROOT = Path(__file__).parents[2]
 CHAINS = list(yaml.safe_load((ROOT / "config.yaml").read_text())["horizon"]["chains"])
@@ -202,7 +202,7 @@ def test_differences_grow_as_the_tangent_says(theta: str) -> None:
     chain = Chain.from_slider(theta=theta)
     run = first_transitions(chain, 150)
     system = scale(chain)
-    path = path_of(run, system)
+    path = trajectory_of(run, system)
     tangent = Tangent(system, path)
     ends = np.flatnonzero(~path.mode[1:].any(axis=1))
     first, last = int(ends[1]), int(ends[-1])
@@ -225,7 +225,7 @@ def test_differences_of_friction_grow_as_the_tangent_says(coefficient: str) -> N
     chain = Chain.from_slider(theta="1/2")
     run = first_transitions(chain, 60)
     system = scale(chain)
-    tangent = Tangent(system, path_of(run, system))
+    tangent = Tangent(system, trajectory_of(run, system))
     strength, friction, state = (np.zeros((rows, 1)) for rows in (11, 11, 24))
     changed = strength if coefficient == "mu_s" else friction
     changed[1:, 0] = chain.weights

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from precursors import Chain
-from precursors.chain import linear_weights, parse_theta, theta_from_load_cells
+from precursors.chain import checked_span, linear_weights, parse_theta, theta_from_load_cells
 
 ROUNDING = 4e-16  # a few roundings of doubles, relative
 
@@ -112,3 +112,32 @@ def test_bad_weights_are_refused(weights, words):
 def test_load_cells_that_the_line_cannot_pass_through_are_refused(a, b, words):
     with pytest.raises(ValueError, match=words):
         theta_from_load_cells(a, b, spacing=0.06, length=0.1)
+
+
+@pytest.mark.parametrize("ratio", [1e-3, 1.0, 2.0, 1e3])
+@pytest.mark.parametrize("interface_stiffness", [0.0, 1e6])
+@pytest.mark.parametrize("n_blocks", [1, 2, 3, 40])
+def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, interface_stiffness, ratio):
+    chain = Chain(np.ones(n_blocks), 2e-3, 1e6, ratio * 1e6, 1e-4, 0.7, 0.45, 0.1, 0.0, interface_stiffness)
+    behind, ahead = chain.springs, np.append(chain.springs[1:], 0.0)
+    stiffness = np.diag(behind + ahead + interface_stiffness)
+    stiffness -= np.diag(ahead[:-1], 1) + np.diag(ahead[:-1], -1)
+    highest = math.sqrt(np.linalg.eigvalsh(stiffness)[-1] / chain.mass)
+    assert highest <= chain.fastest_frequency_bound
+    if n_blocks > 2:
+        assert chain.fastest_frequency_bound < 1.6 * highest
+
+
+@pytest.mark.parametrize(
+    ("duration", "until", "words"),
+    [
+        (1.0, "global", "until = 'global' is unknown: allowed is None or \"global slip\""),
+        (1.0, "", "until = '' is unknown"),
+        (0.0, None, "duration > 0"),
+        (math.nan, "global slip", "not finite"),
+    ],
+)
+def test_a_wrong_end_of_a_run_is_named(duration, until, words):
+    with pytest.raises(ValueError, match=words):
+        checked_span(duration, until)
+    assert checked_span(2, "global slip") == 2.0

@@ -21,9 +21,9 @@ from precursors import Chain, Run, find_precursors, find_slips, simulate
 from precursors.command_line import COMMANDS, main
 from precursors.command_line.arguments import CHAIN_NUMBERS
 from precursors.command_line.exit_codes import EXIT_CODES, ExitCode
-from precursors.command_line.progress import Progress
 from precursors.ledger.claims import read_claims
 from precursors.ledger.judge import judge, to_table
+from precursors.progress import SECONDS_BETWEEN, Progress
 from precursors.proof import ExactChain, certify
 
 # A budget for the interpreter and argparse; with NumPy and pandas it is exceeded.
@@ -154,6 +154,14 @@ def test_an_ensemble_has_a_row_a_chain_and_its_seed_decides_it(cli, tmp_path):
     path = tmp_path / "rows.csv"
     assert members("--noise", 0, "--output", path)["mu_sapp"].unique().size == 1
     assert len(pd.read_csv(path)) == 20
+
+
+def test_an_ensemble_whose_runs_meet_the_cap_shows_how_far_they_came_and_is_refused(cli, monkeypatch):
+    monkeypatch.setattr("precursors.exact.MAX_TRANSITIONS", 150)
+    code, out, err = cli("simulate", "--ensemble", 3, "--noise", 0, "--json")
+    assert code == ExitCode.REFUSED
+    assert [row["transitions"] for row in json.loads(out)["members"]] == [150, 150, 150]
+    assert re.fullmatch(r".*3 of 3 rows are of runs .* member 1: max_transitions = 150 reached .*\n", err)
 
 
 # slips
@@ -308,7 +316,7 @@ def test_bench_names_the_methods_there_are(cli):
 def results(tmp_path, monkeypatch):
     """A directory with one claim, a table that it is judged by, and the verdict that is expected."""
     (tmp_path / "claims.yaml").write_text(
-        "- {id: order, where: Sect. 5, statement: They grow., rule: increasing,"
+        "- {id: order, where: Sect. 5, kind: result, statement: They grow., rule: increasing,"
         " evidence: {table: lengths, column: length}}\n"
     )
     (tmp_path / "lengths.csv").write_text("length\n1\n2\n")
@@ -353,6 +361,8 @@ def test_the_version_is_told(cli):
         (("simulate", "--drive-velocity", "nan"), ExitCode.WRONG_USE, "not finite"),
         (("simulate", "--seed", "1"), ExitCode.WRONG_USE, "--ensemble"),
         (("simulate", "--ensemble", "0"), ExitCode.WRONG_USE, "ensemble = 0"),
+        (("simulate", "--ensemble", "2", "--blocks", "0"), ExitCode.WRONG_USE, "n_blocks = 0"),
+        (("simulate", "--ensemble", "2", "--duration", "0"), ExitCode.WRONG_USE, "duration > 0"),
         (("simulate", "--max-transitions", "9"), ExitCode.REFUSED, "max_transitions = 9 reached"),
         (("simulate", "--output", "/dev/null/run.h5"), ExitCode.FILE, "/dev/null/run.h5"),
         (("slips", "missing.h5"), ExitCode.FILE, "missing.h5: no such file"),
@@ -420,13 +430,14 @@ class Terminal(io.StringIO):
 
 def test_a_bar_shows_what_is_done_and_is_gone_at_the_end():
     terminal = Terminal()
-    with Progress("working", total=4, stream=terminal, delay=0.0) as progress:
+    with Progress("working", [1.0] * 4, stream=terminal, delay=0.0) as progress:
         progress(1)
         time.sleep(0.15)
         progress(3)
         time.sleep(0.15)
     written = terminal.getvalue()
-    assert "3/4" in written
+    assert "] 100%" not in written
+    assert "]  75%, 3 of 4 runs" in written
     assert written.endswith("\r\x1b[K")
 
 
@@ -439,18 +450,39 @@ def test_what_is_over_within_two_seconds_and_what_is_no_terminal_stay_clean():
     assert terminal.getvalue() == file.getvalue() == ""
 
 
-@pytest.mark.parametrize(
-    ("done", "elapsed", "line"),
-    [
-        (0, 3.0, "x [..............................] 0/8"),
-        (2, 3.0, "x [########......................] 2/8, 9 s left"),
-        (8, 3.0, "x [##############################] 8/8, 0 s left"),
-    ],
-)
-def test_the_bar_estimates_what_is_left(done, elapsed, line):
-    progress = Progress("x", total=8)
-    progress(done)
-    assert progress.line(elapsed) == line
+def test_a_file_that_asks_for_it_has_a_line_now_and_then_and_one_at_the_end(monkeypatch):
+    monkeypatch.setitem(SECONDS_BETWEEN, False, 0.05)
+    file = io.StringIO()
+    with Progress("maps", [1.0, 3.0], stream=file, delay=0.0, in_file=True) as progress:
+        progress(1)
+        time.sleep(0.12)
+        progress(2)
+    lines = file.getvalue().splitlines()
+    assert len(lines) > 2
+    assert lines[-2].startswith("maps [########......................]  25%, 1 of 2 runs")
+    assert lines[-1].startswith("maps [##############################] 100%, 2 of 2 runs")
+    assert "\r" not in file.getvalue()
+
+
+def test_the_bar_counts_work_and_not_members_and_estimates_what_is_left(monkeypatch):
+    progress = Progress("x", [1.0, 1.0, 2.0, 6.0])
+    clock = iter([100.0, 200.0, 300.0])
+    monkeypatch.setattr("precursors.progress.time.monotonic", lambda: next(clock))
+    told = []
+    for n_done, now in ((1, 150.0), (2, 200.0), (3, 300.0), (4, 400.0)):
+        progress(n_done)
+        told.append(progress.line(now).partition("] ")[2])
+    assert told == [
+        " 10%, 1 of 4 runs",
+        " 20%, 2 of 4 runs, 800 s left",
+        " 40%, 3 of 4 runs, 400 s left",
+        "100%, 4 of 4 runs",
+    ]
+
+
+def test_without_work_the_bar_tells_the_time_taken():
+    with Progress("reading", stream=io.StringIO()) as progress:
+        assert progress.line(time.monotonic() + 3.0) == "reading 3 s"
 
 
 def test_an_ensemble_draws_a_bar(cli, monkeypatch, tmp_path):
@@ -458,7 +490,7 @@ def test_an_ensemble_draws_a_bar(cli, monkeypatch, tmp_path):
     monkeypatch.setattr(
         "precursors.command_line.simulate.Progress", partial(Progress, stream=terminal, delay=0.0)
     )
-    monkeypatch.setattr("precursors.command_line.simulate.BATCH", 5)
+    monkeypatch.setattr("precursors.ensembles.study.BLOCKS_PER_BATCH", 50)
     code, *_ = cli("simulate", "--ensemble", 200, "--until-global-slip", "--output", tmp_path)
     assert code == ExitCode.FILE  # a directory; the bar was drawn before
-    assert re.search(r"\rsimulating \[[#.]{30}\] \d+/200", terminal.getvalue())
+    assert re.search(r"\rsimulating \[[#.]{30}\] +\d+%, \d+ of 200 runs", terminal.getvalue())

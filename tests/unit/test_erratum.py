@@ -7,7 +7,7 @@ import pytest
 
 from precursors import Chain, simulate
 from precursors.bound import maximal_strain_positions
-from precursors.erratum import find_errors
+from precursors.erratum import MISPRINT, OPEN, find_errors
 from precursors.measures import growth, measures, residual_strain
 from precursors.slips import find_precursors, find_slips
 
@@ -35,8 +35,16 @@ def test_every_point_has_a_number_and_none_is_left_out(errors):
     assert sorted({entry.number for entry in errors}) == list(range(1, 19))
     assert all(entry.where and entry.printed and entry.meant and entry.unit for entry in errors)
     assert not any(math.isnan(entry.as_meant) for entry in errors)
-    # What the paper does not define, or does not tell, has no printed number.
-    assert {entry.number for entry in errors if math.isnan(entry.as_printed)} == {6, 10}
+    # What the paper does not define, does not tell, or calls by a second name has no printed number.
+    assert {entry.number for entry in errors if math.isnan(entry.as_printed)} == {6, 9, 10}
+
+
+def test_misprints_come_first_and_what_is_not_an_error_is_none_of_them(errors):
+    kinds = [entry.kind for entry in errors]
+    assert kinds == sorted(kinds)
+    misprints = {entry.number for entry in errors if entry.kind == MISPRINT}
+    assert misprints == {1, 2, 3, 4, 9, 12}
+    assert {entry.kind for entry in errors if entry.number in {8, 10, 14, 15}} == {OPEN}
 
 
 def test_eq_12_as_printed_gives_1127_n_instead_of_280_n(errors):
@@ -63,6 +71,11 @@ def test_friction_as_printed_never_lets_the_load_exceed_28_n(errors):
     [entry] = [entry for entry in errors if entry.number == 11]
     assert entry.as_printed == pytest.approx(28, abs=LITERAL)
     assert entry.as_meant == pytest.approx(194.31, abs=0.005)
+
+
+def test_in_finer_steps_friction_as_printed_lets_it_exceed_28_n_and_still_never_sticks(errors):
+    [entry] = [entry for entry in errors if entry.number == 11]
+    assert entry.printed.endswith("; 33.4 N at 1e-08 s by 0.45 s, still without a stick")
 
 
 def test_theta_rounded_to_three_digits_gives_other_numbers(errors):

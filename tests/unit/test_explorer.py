@@ -13,7 +13,8 @@ from precursors import Chain, find_slips, simulate
 pytest.importorskip("bokeh", reason="Bokeh (the extra explorer) is not installed")
 
 from precursors.explorer import Scene, write_explorer
-from precursors.explorer.detail import TOLERANCE_N, find_slides, load_curve
+from precursors.explorer.detail import find_slides
+from precursors.load_curve import TOLERANCE_N
 
 MOST_BYTES = 6e6
 # Next to the tolerance of the points: what interpolation between doubles at 3 s may add to 200 N.
@@ -94,25 +95,6 @@ def drawn_deviation(page, run):
     assert times[0] <= start < end <= times[-1]
     inside = np.linspace(start, end, 2001)
     return np.abs(np.interp(inside, times, loads) - run.tangential_load(inside)).max()
-
-
-@pytest.mark.parametrize("theta", [-5 / 6, 0.0, 5 / 6])
-def test_straight_lines_between_the_points_draw_every_slip_to_the_tolerance(theta):
-    run = simulate(Chain.from_slider(theta=theta), 3.0)
-    times, loads = load_curve(run)
-    for slip in find_slips(run).itertuples():
-        inside = np.linspace(slip.onset, slip.end, 5000)
-        exact = run.tangential_load(inside)
-        assert np.abs(np.interp(inside, times, loads) - exact).max() <= 1.5 * TOLERANCE_N
-
-
-def test_points_stand_where_something_happens(scenes):
-    run = scenes[0].run
-    times, _ = load_curve(run)
-    slips = find_slips(run)
-    event = np.searchsorted(slips["onset"], times, side="right") - 1
-    in_slip = (event >= 0) & (times <= slips["end"].to_numpy()[event])
-    assert (~in_slip).sum() == 2  # the start and the end
 
 
 def test_slides_are_what_lies_between_the_transitions_of_a_block(scenes):

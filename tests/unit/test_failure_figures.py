@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -15,24 +16,19 @@ from precursors.figures import style
 from precursors.figures.failure_gallery import PANELS, draw_failure_gallery, pretty, read_numbers
 from precursors.figures.step_sweep import draw_step_sweep, read_step_sweep
 
-N_NUMBERS = 6
 THETAS = {"fig11": -5 / 6, "fig10": 0.0, "fig12": 5 / 6}
 
 
 def numbers() -> pd.DataFrame:
-    """Numbers that can be told apart: 1.25, 2.25 ... and exact values 2.75, 3.75 ..."""
-    row = np.arange(len(PANELS) * N_NUMBERS)
-    return pd.DataFrame(
-        {
-            "way": np.repeat(list(PANELS), N_NUMBERS),
-            "method": "a method",
-            "knob": "dt = 1e-07 s",
-            "quantity": "something",
-            "unit": "1",
-            "value": row + 1.25,
-            "exact": row + 2.75,
-        }
-    )
+    """Numbers that can be told apart, one for each address: 1.25, 2.25 ... and exact values 2.75, 3.75 ..."""
+    addresses = [
+        (way, line.method or "a method", line.knob or "dt = 1e-07 s", line.quantity)
+        for way, panel in PANELS.items()
+        for line in panel.sentences
+    ]
+    table = pd.DataFrame(list(dict.fromkeys(addresses)), columns=["way", "method", "knob", "quantity"])
+    row = np.arange(len(table))
+    return table.assign(unit="1", value=row + 1.25, exact=row + 2.75)
 
 
 def curves() -> dict[str, pd.DataFrame]:
@@ -95,8 +91,41 @@ class TestGallery:
     def test_numbers_stand_as_they_are_in_the_table(self, gallery: Figure) -> None:
         assert "1.250; theory" in words(gallery.axes[0])
         assert "2.750" in words(gallery.axes[0])
-        first = list(PANELS).index("merged_transitions") * N_NUMBERS
-        assert f"{first + 2.25:.0f} of {first + 3.75:.0f} transitions right" in words(gallery.axes[10])
+        table = numbers()
+        [row] = table.index[
+            (table["way"] == "merged_transitions") & (table["quantity"] == "transitions right")
+        ]
+        assert f"{row + 1.25:.0f} of {row + 2.75:.0f} transitions right" in words(gallery.axes[10])
+
+    def test_every_axis_has_two_labels_at_least(self, gallery: Figure) -> None:
+        gallery.draw_without_rendering()
+        for way, axes in zip(PANELS, gallery.axes, strict=True):
+            for axis in (axes.xaxis, axes.yaxis):
+                low, high = sorted(axis.get_view_interval())
+                read = [
+                    t for t in axis.get_major_ticks() if t.label1.get_text() and low <= t.get_loc() <= high
+                ]
+                assert len(read) >= 2, (way, axis.axis_name)
+
+    def test_titles_of_a_row_stand_at_the_same_height(self, gallery: Figure) -> None:
+        heights = {axes.texts[-1].xyann[1] for axes in gallery.axes}
+        assert len(heights) == 1
+
+    def test_numbers_are_found_whatever_the_order_of_the_rows(self, gallery: Figure) -> None:
+        others = draw_failure_gallery(numbers()[::-1], curves())
+        assert [words(axes) for axes in others.axes] == [words(axes) for axes in gallery.axes]
+
+    def test_a_number_that_is_there_twice_is_refused(self) -> None:
+        table = numbers()
+        twice = pd.concat([table, table[table["way"] == "stiffness"].assign(knob="another")])
+        with pytest.raises(ValueError, match=r"stiffness: 2 numbers are 'fastest rate': needed is one"):
+            draw_failure_gallery(twice, curves())
+
+    def test_every_sentence_finds_its_number_in_the_numbers_of_its_way(self) -> None:
+        way = next(way for way in WAYS if way.name == "stiffness")
+        table = pd.DataFrame(map(asdict, way.measure().numbers))
+        for line in PANELS[way.name].sentences:
+            assert line.find(table)["quantity"] == line.quantity
 
     def test_curves_are_those_of_the_tables_in_the_units_of_the_axes(self, gallery: Figure) -> None:
         for axes, (way, panel) in zip(gallery.axes, PANELS.items(), strict=True):
@@ -129,7 +158,7 @@ class TestGallery:
 
     def test_a_missing_number_or_curve_is_named(self) -> None:
         table, some = numbers(), curves()
-        with pytest.raises(ValueError, match="creep: 0 numbers"):
+        with pytest.raises(ValueError, match="creep: 0 numbers are"):
             draw_failure_gallery(table[table["way"] != "creep"], some)
         del some["stiffness"]
         with pytest.raises(ValueError, match="stiffness: "):

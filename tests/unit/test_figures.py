@@ -17,7 +17,7 @@ from matplotlib.text import Annotation
 from precursors import figures
 from precursors.figures import style
 from precursors.figures.chain_schematic import draw_chain_schematic
-from precursors.figures.precursor_lengths import Scene, draw_precursor_lengths
+from precursors.figures.precursor_lengths import PrecursorLengths, draw_precursor_lengths
 from precursors.figures.scene import GLOBAL, MOST_ARROWS, PARTIAL, draw_scene
 
 N_BLOCKS = 10
@@ -85,11 +85,15 @@ def lengths_figure() -> Figure:
     return draw_precursor_lengths(three_scenes())
 
 
-def three_scenes() -> list[Scene]:
+def three_scenes() -> list[PrecursorLengths]:
     return [
-        Scene(slip_table([1, 3, 2, 10], [51.3, 86.7, 120.0, 193.8]), -5 / 6, N_BLOCKS, NORMAL_LOAD_N),
-        Scene(uniform_loading(), 0.0, N_BLOCKS, NORMAL_LOAD_N),
-        Scene(slip_table([1, 1, 2, 1, 10], [4.7, 8.0, 12.0, 30.0, 195.3]), 5 / 6, N_BLOCKS, NORMAL_LOAD_N),
+        PrecursorLengths(
+            slip_table([1, 3, 2, 10], [51.3, 86.7, 120.0, 193.8]), -5 / 6, N_BLOCKS, NORMAL_LOAD_N
+        ),
+        PrecursorLengths(uniform_loading(), 0.0, N_BLOCKS, NORMAL_LOAD_N),
+        PrecursorLengths(
+            slip_table([1, 1, 2, 1, 10], [4.7, 8.0, 12.0, 30.0, 195.3]), 5 / 6, N_BLOCKS, NORMAL_LOAD_N
+        ),
     ]
 
 
@@ -254,7 +258,7 @@ class TestPrecursorLengths:
         self, slips: pd.DataFrame
     ) -> None:
         after = slips.iloc[[0]].assign(onset_s=9.0, kept=False)
-        scene = Scene(pd.concat([slips, after], ignore_index=True), 0.0, N_BLOCKS, NORMAL_LOAD_N)
+        scene = PrecursorLengths(pd.concat([slips, after], ignore_index=True), 0.0, N_BLOCKS, NORMAL_LOAD_N)
         (crosses,) = self.markers(draw_precursor_lengths([scene]), "x")
         assert len(crosses) == len(FRONTS) - N_KEPT
         assert self.markers(draw_precursor_lengths([scene], with_short_events=False), "x") == []
@@ -282,7 +286,9 @@ class TestPrecursorLengths:
         assert f"{expected / NORMAL_LOAD_N:.3f}" in axes.texts[0].get_text()
 
     def test_different_normal_loads_have_no_common_friction_coefficient(self, slips: pd.DataFrame) -> None:
-        figure = draw_precursor_lengths([Scene(slips, 0.0, 10, 400.0), Scene(slips, 0.0, 10, 800.0)])
+        figure = draw_precursor_lengths(
+            [PrecursorLengths(slips, 0.0, 10, 400.0), PrecursorLengths(slips, 0.0, 10, 800.0)]
+        )
         assert not figure.axes[0].child_axes
         first, second = (text.get_text() for text in figure.axes[0].get_legend().get_texts()[:2])
         assert "400" in first
@@ -291,14 +297,14 @@ class TestPrecursorLengths:
     def test_two_scenes_with_the_same_sign_of_theta_have_different_outlines(
         self, slips: pd.DataFrame
     ) -> None:
-        figure = draw_precursor_lengths([Scene(slips, theta, 10, 400.0) for theta in (0.2, 0.4)])
+        figure = draw_precursor_lengths([PrecursorLengths(slips, theta, 10, 400.0) for theta in (0.2, 0.4)])
         assert [len(self.markers(figure, outline)) for outline in "os"] == [1, 1]
 
     def test_scenes_without_global_slip_or_any_slip_are_drawn(
         self, slips: pd.DataFrame, tmp_path: Path
     ) -> None:
-        unfinished = Scene(slips[~slips["is_global"]], 0.0, N_BLOCKS, NORMAL_LOAD_N)
-        at_rest = Scene(slip_table([], []), 0.5, N_BLOCKS, NORMAL_LOAD_N)
+        unfinished = PrecursorLengths(slips[~slips["is_global"]], 0.0, N_BLOCKS, NORMAL_LOAD_N)
+        at_rest = PrecursorLengths(slip_table([], []), 0.5, N_BLOCKS, NORMAL_LOAD_N)
         figure = draw_precursor_lengths([unfinished, at_rest])
         labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
         assert labels[0].endswith(": 8 events, no global slip")

@@ -20,6 +20,8 @@ MOST_BYTES = 3e6
 SECONDS = 0.4  # of each event: 6 frames
 # A force near 30 N is a difference of two spring forces near 200 N.
 ROUNDING = 1e-12
+# What friction over strength may change by in 1e-12 s: a force of 30 N turns within some microseconds.
+ONE_PICOSECOND = 1e-5
 BACKGROUND = 250  # the brightness of paper
 
 
@@ -59,6 +61,26 @@ def test_friction_never_exceeds_strength_and_is_kinetic_where_a_block_slides(cli
         np.testing.assert_allclose(
             clip.friction[sliding], np.sign(clip.velocities[sliding]) * 0.45 / 0.70, rtol=ROUNDING
         )
+
+
+def test_dashpots_pull_at_a_stuck_block_too():
+    """Just before it is released, a block between neighbours has friction equal to its strength."""
+    run = simulate(Chain.from_slider(viscosity=54.77), 3.0)
+    releases = run.transitions[(run.transitions["mode"] != 0) & (run.transitions["block"] > 1)]
+    times = releases["time"] - 1e-12
+    friction = friction_over_strength(run.chain, *run.forces_and_velocities(times))
+    at_release = friction[np.arange(len(releases)), releases["block"] - 1]
+    stuck = run.at(times)[1][np.arange(len(releases)), releases["block"] - 1] == 0
+    assert stuck.sum() > 10
+    np.testing.assert_allclose(np.abs(at_release[stuck]), 1.0, atol=ONE_PICOSECOND)
+
+
+def test_a_chain_whose_stuck_blocks_move_is_refused():
+    run = simulate(Chain.from_slider(interface_stiffness=25e6), 1.0)
+    with pytest.raises(
+        ValueError, match=r"\Ainterface_stiffness = 2500000\.0 \[N/m\]: allowed is 0 in a film[^\n]*\Z"
+    ):
+        film_clips(run)
 
 
 def test_block_1_lets_go_at_its_strength(run):

@@ -1,11 +1,11 @@
 """A claim gets the verdict that its rule gives on the tables as they lie; a wrong claim gets a clear line."""
 
-import check_claims
 import numpy as np
 import pandas as pd
 import pytest
 import yaml
 
+from precursors.command_line import main
 from precursors.ledger.claims import ClaimError, read_claims, scenes_needed, tables_needed
 from precursors.ledger.judge import differences, judge, to_table
 from precursors.ledger.rules import RULES, VERDICTS
@@ -45,7 +45,7 @@ def tables(tmp_path):
 
 
 def claim(**keys):
-    return {"id": "it", "where": "Sect. 5", "statement": "So it is.", **keys}
+    return {"id": "it", "where": "Sect. 5", "kind": "result", "statement": "So it is.", **keys}
 
 
 def write(directory, *claims):
@@ -81,8 +81,12 @@ def judged(directory, **keys):
         ({"take": "rank correlation"}, "0.6667"),
         ({"take": "variation of steps", "column": "onset_s", "rows": "up to the global slip"}, "0.3333"),
         ({"table": "{scene}_slips", "scenes": ["mine", "yours"], "take": "first"}, "40; 80"),
+        ({"table": "{scene}_slips", "scenes": ["mine", "yours"], "column": "onset_s", "take": "last"}, "3"),
+        ({"table": "{scene}_slips", "scenes": ["mine", "yours"]}, "8 values from 40 to 200"),
+        ({"column": "front", "minus": "front", "table": "{scene}_slips", "scenes": ["mine", "yours"]},
+         "8 values of 0"),
     ],
-)
+)  # fmt: skip
 def test_evidence_is_taken_from_rows_and_columns_as_it_says(tables, evidence, ours):
     assert judged(tables, rule="holds", evidence={**COLUMN, **evidence}).ours == ours
 
@@ -162,7 +166,8 @@ def test_what_has_no_row_is_not_reproduced(tables, take, ours):
 
 def test_a_claim_is_not_testable_only_as_long_as_no_table_speaks_of_it(tables):
     keys = {"rule": "no result", "words": ["intensity"]}
-    assert judged(tables, **keys).verdict == "not testable by the model"
+    judgement = judged(tables, **keys)
+    assert (judgement.verdict, judgement.ours) == ("not testable by the model", "not in the model")
     (tables / "camera.csv").write_text("time_s,total_intensity\n", encoding="utf-8")
     with pytest.raises(ClaimError, match=r"claim it: there is a result now \(camera.csv: total_intensity\)"):
         judged(tables, **keys)
@@ -179,6 +184,7 @@ GOOD = {"rule": "above", "limit": 0, "evidence": COLUMN}
     [
         ({"rule": "__import__('os')"}, "rule = .* allowed are equal, "),
         ({"rule": ["equal"]}, "rule = .* allowed is a text"),
+        ({"kind": "opinion"}, "kind = 'opinion': allowed are input, result, reading, experiment"),
         ({"verdict": "reproduced"}, "'verdict' is an unknown key: allowed are id, "),
         ({"limit": "0"}, "limit = '0': allowed is a number"),
         ({"limit": True}, "limit = True: allowed is a number"),
@@ -220,13 +226,26 @@ def test_a_rule_without_anything_to_compare_with_is_refused(tables):
         judged(tables, rule="equal", evidence=COLUMN, paper="a lot")
 
 
-@pytest.mark.parametrize("text", ["{", "claim: 1", "- 7", "[[1]]"])
+@pytest.mark.parametrize("text", ["{", "claim: 1", "- 7", "[[1]]", "- {id: a, id: b}", "\0"])
 def test_a_file_that_is_no_list_of_claims_is_refused_in_one_line(tmp_path, text):
     path = tmp_path / "claims.yaml"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(ClaimError, match=r"claims.yaml: (no YAML|allowed is a list)") as error:
+    with pytest.raises(
+        ClaimError, match=r"claims.yaml: (not valid YAML|the key 'id' stands twice|allowed is a list)"
+    ) as error:
         read_claims(path)
     assert "\n" not in str(error.value)
+
+
+def test_claims_are_read_the_same_without_the_compiled_loader(tmp_path, tables, monkeypatch):
+    path = write(tables, claim(**GOOD))
+    compiled = read_claims(path)
+    monkeypatch.delattr(yaml, "CSafeLoader", raising=False)
+    assert read_claims(path) == compiled
+    for text in ("{", "\0", "- {id: a, id: b}", "[" * 20):
+        (tmp_path / "odd.yaml").write_text(text, encoding="utf-8")
+        with pytest.raises(ClaimError, match=r"odd.yaml: "):
+            read_claims(tmp_path / "odd.yaml")
 
 
 def test_an_id_stands_once(tables):
@@ -271,14 +290,18 @@ def test_the_ledger_is_printed_and_compared_with_two_files(tables, capsys):
     to_table(judge(read_claims(path), tables)).to_csv(tables / "claims.csv", index=False)
     golden = tables / "golden"
     golden.write_bytes((tables / "claims.csv").read_bytes())
-    assert check_claims.main(path, tables, golden) == 0
+    check = ["check", "--full", "--claims", str(path), "--tables", str(tables), "--expected", str(golden)]
+    assert main(check) == 0
     printed = capsys.readouterr().out
     assert "1  REPRODUCED  [it]  Sect. 5\n    So it is.\n" in printed
     assert "paper: some load   ours: 40; 60; 100; 90 N   (above 0)" in printed
-    assert "1 claims: 1 reproduced, 0 reproduced but fragile" in printed
+    assert "1 claims: 1 reproduced\n" in printed
+    assert "1 of kind result (what the model or the theory gives): 1 reproduced\n" in printed
+    assert "0 of kind input (that the chain computed here is the one described): none\n" in printed
 
     SLIPS.assign(load_before_N=-1.0).to_csv(tables / "mine_slips.csv", index=False)
-    assert check_claims.main(path, tables, golden) == 1
-    printed = capsys.readouterr().out
+    assert main(check) == 1
+    printed, complaints = capsys.readouterr()
     assert "NOT REPRODUCED  [it]" in printed
-    assert "DIFFERS  it: verdict is 'not reproduced', expected 'reproduced'" in printed
+    for file in (golden, tables / "claims.csv"):
+        assert f"it: verdict is 'not reproduced', expected 'reproduced' ({file})" in complaints

@@ -46,6 +46,15 @@ def collected(directory: Path, entry: str, config=()):
     return collect_numbers(sources(directory, f"  it: {entry}"), directory, dict(config))["it"]
 
 
+@pytest.mark.parametrize("entry", ["{", "{unit: N, unit: m}", "\0"])
+def test_a_file_that_is_not_plain_yaml_is_refused_in_one_line(tables, entry):
+    with pytest.raises(
+        PaperError, match=r"numbers.yaml: (not valid YAML|the key 'unit' stands twice)"
+    ) as error:
+        sources(tables, f"  it: {entry}")
+    assert "\n" not in str(error.value)
+
+
 def test_a_number_is_read_from_its_row_and_says_where(tables):
     entry = "{table: found, column: value, where: {scene: fig10, quantity: mu_sapp}, unit: N}"
     number = collected(tables, entry)

@@ -57,7 +57,7 @@ def test_every_source_is_an_input_and_every_result_an_output(results):
         "config.yaml",
         "requirements.lock",
         "paper/claims.yaml",
-        "src/precursors/kernel.py",
+        "src/precursors/kernel/events.py",
     }
     assert needed <= set(found["inputs"])
     assert not [name for name in found["inputs"] if "__pycache__" in name or name.startswith("results/")]

@@ -7,10 +7,10 @@ import pytest
 
 from precursors import Chain, find_slips, simulate
 from precursors.bound import balance_matrix
-from precursors.reduced import MODELS, QUANTITIES
+from precursors.reduced import MODELS, QUANTITIES, quasistatic
 from precursors.reduced.answers import answers_table
 from precursors.reduced.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
-from precursors.reduced.rigid import rigid_run, rigid_slip_duration, slip_load
+from precursors.reduced.rigid import as_rigid, load_drop, onset_load, rigid_slip_duration, slip_load
 from precursors.reduced.statics import first_precursor_load, front_load_law
 from precursors.scene_models import ADDED, ANSWERED
 
@@ -93,36 +93,26 @@ def test_the_load_of_the_first_precursor_is_the_exact_chains(theta) -> None:
 @pytest.mark.parametrize("velocity", [1e-4, 0.3])
 def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> None:
     chain = SLIDER(n_blocks=1, drive_velocity=velocity)
-    duration = 12.5 * 200.0 / chain.loading_rate
-    exact, closed = simulate(chain, duration), rigid_run(chain, duration)
-    assert len(closed.transitions) == len(exact.transitions) > 10
-    assert closed.chain == exact.chain
-    np.testing.assert_array_equal(closed.transitions["mode"], exact.transitions["mode"])
-    for field in ("time", "tangential_load"):
-        np.testing.assert_allclose(closed.transitions[field], exact.transitions[field], rtol=RUN_ROUNDING)
-    np.testing.assert_allclose(closed.intervals, exact.intervals, rtol=RUN_ROUNDING, atol=1e-14)
-    onset = exact.transitions["time"][0]
-    since = np.linspace(0.0, rigid_slip_duration(chain), 7)
-    np.testing.assert_allclose(slip_load(chain, since), exact.tangential_load(onset + since), rtol=1e-6)
-
-
-def test_the_rigid_slider_before_its_first_slip_has_no_transition() -> None:
-    run = rigid_run(SLIDER(), 1.0)
-    assert len(run.transitions) == 0
-    np.testing.assert_array_equal(run.intervals, [1.0])
-
-
-def test_a_rigid_run_may_end_within_a_slip() -> None:
-    run = rigid_run(SLIDER(), 3.5001)
-    assert run.transitions["mode"].tolist() == [1]
-    np.testing.assert_allclose(run.intervals, [3.5, 1e-4], rtol=1e-9)
-    assert np.isnan(find_slips(run)["end"].iloc[0])
+    run = simulate(chain, 12.5 * 200.0 / chain.loading_rate)
+    n, intervals = len(run.transitions), run.intervals[:-1]
+    assert n > 10
+    assert run.transitions["mode"].tolist() == [1, 0] * (n // 2) + [1] * (n % 2)
+    load = {1: onset_load(chain), 0: onset_load(chain) - load_drop(chain)}
+    expected = [load[mode] for mode in run.transitions["mode"].tolist()]
+    np.testing.assert_allclose(run.transitions["tangential_load"], expected, rtol=RUN_ROUNDING)
+    slip, stick = rigid_slip_duration(chain), load_drop(chain) / chain.loading_rate
+    assert intervals[0] == pytest.approx(onset_load(chain) / chain.loading_rate, rel=RUN_ROUNDING)
+    np.testing.assert_allclose(intervals[1::2], slip, rtol=RUN_ROUNDING, atol=1e-14)
+    np.testing.assert_allclose(intervals[2::2], stick, rtol=RUN_ROUNDING)
+    np.testing.assert_allclose(np.cumsum(intervals), run.transitions["time"], rtol=RUN_ROUNDING)
+    since = np.linspace(0.0, slip, 7)
+    onset = run.transitions["time"][0]
+    np.testing.assert_allclose(slip_load(chain, since), run.tangential_load(onset + since), rtol=1e-6)
 
 
 def test_the_rigid_slider_has_the_whole_mass_and_the_closed_form_duration() -> None:
     chain = SLIDER(theta="5/6")
-    run = rigid_run(chain, 10.0)
-    assert run.chain.mass == pytest.approx(0.012)
+    assert as_rigid(chain).mass == pytest.approx(0.012)
     assert rigid_slip_duration(chain) == pytest.approx(np.pi * np.sqrt(0.012 / 0.8e6), rel=1e-3)
     assert MODELS["rigid"].answer(chain)["mu_sapp"] == chain.mu_s
 
@@ -203,7 +193,6 @@ def test_every_answer_is_a_quantity_of_the_table() -> None:
         (lambda: quasistatic_slips(SLIDER(), 1.5), "allowed is 0 <= overshoot <= 1"),
         (lambda: quasistatic_slips(SLIDER(theta=1.0)), "block 1 has 0 N"),
         (lambda: quasistatic_slips(SLIDER(mu_k=0.7)), "allowed for the quasi-static chain is mu_k < mu_s"),
-        (lambda: rigid_run(SLIDER(mu_k=0.7)), "allowed for the rigid slider is mu_k < mu_s"),
     ],
 )
 def test_bad_questions_get_one_clear_line(call, message: str) -> None:
@@ -212,8 +201,14 @@ def test_bad_questions_get_one_clear_line(call, message: str) -> None:
 
 
 def test_a_cap_on_events_that_is_met_is_said() -> None:
-    with pytest.raises(RuntimeError, match="no global slip within 3 events"):
+    with pytest.raises(RuntimeError, match="no global slip within 3 events: raise max_events = 3"):
         quasistatic_slips(SLIDER(), max_events=3)
+
+
+def test_an_event_that_does_not_come_to_rest_is_said_and_no_other_advice_given(monkeypatch) -> None:
+    monkeypatch.setattr(quasistatic, "MAX_STAGES", 0)
+    with pytest.raises(RuntimeError, match=r"\Aevent 1 does not come to rest (?!.*max_events)"):
+        quasistatic_slips(SLIDER())
 
 
 @pytest.mark.parametrize(

@@ -59,6 +59,19 @@ def test_a_run_without_stored_states_says_that_it_cannot_be_evaluated(run):
             evaluate([1.0])
 
 
+def test_a_run_made_from_transitions_has_them_and_knows_no_states(run, tmp_path):
+    columns = [run.transitions[name] for name in ("time", "block", "mode", "tangential_load")]
+    made = Run.from_transitions(run.chain, run.duration, *columns, run.intervals)
+    made.save(tmp_path / "made.h5")
+    for same in (made, Run.load(tmp_path / "made.h5")):
+        np.testing.assert_array_equal(same.transitions, run.transitions)
+        np.testing.assert_array_equal(same.intervals, run.intervals)
+        with pytest.raises(ValueError, match="no stored states"):
+            same.at([0.0])
+    by_difference = Run.from_transitions(run.chain, run.duration, *columns).intervals
+    np.testing.assert_allclose(by_difference, run.intervals, atol=1e-14)
+
+
 def test_nothing_moves_while_all_blocks_stick(run):
     positions, velocities = run.at([0.0, 0.3])
     assert np.abs(positions).max() < POSITION_ROUNDING

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from measure_scaling import in_words
 
 from precursors.chain import Chain
 from precursors.config import scene_slider
@@ -23,6 +22,7 @@ from precursors.scaling import (
     members_of,
     time_of_maps,
 )
+from precursors.scaling_text import in_words
 
 CONFIG = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8"))
 SMALL = {"n_blocks": [2, 3], "seconds_per_point": 1e-4, "durations": [0.1, 3.0]}

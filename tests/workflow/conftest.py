@@ -8,33 +8,31 @@ import os
 import re
 import shutil
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 import snakemake.cli
+from snakemake.script import PythonScript
 
-# Imported once here instead of in every run of Snakemake, which is a fork of this process.
+# Imports and the search for plugins, once instead of in every run of Snakemake, which is a fork of this one.
 for module in (
     "jsonschema",
     "nbformat",
-    "smart_open",
     "precursors.config",
+    "precursors.ensembles.catalogue",
+    "precursors.ledger.claims",
+    "precursors.paper.numbers",
+    "precursors.proof",
+    "smart_open",
     "snakemake.report",
     "snakemake.storage",
 ):
     importlib.import_module(module)
+snakemake.cli.get_argument_parser()
 
 ROOT = Path(__file__).parents[2]
-
-# In place of every script: makes the outputs and computes nothing, for tests of which jobs are run.
-STAND_IN = """
-from pathlib import Path
-
-for output in snakemake.output:
-    Path(output).write_text(snakemake.rule)
-Path(snakemake.log[0]).touch()
-"""
 
 
 @dataclass(frozen=True)
@@ -45,15 +43,26 @@ class Outcome:
     text: str
 
     @property
-    def jobs(self) -> set[str]:
-        """Rules with their wildcards, such as "draw_scene fig10", of the jobs that were run or would be."""
-        found = set()
+    def reasons(self) -> dict[str, set[str]]:
+        """Newer inputs of each job that was run or would be, a rule with its scene as "draw_scene fig10".
+
+        Inputs are newer because they were edited or because another job makes them anew.
+        """
+        found: dict[str, set[str]] = {}
         for block in re.split(r"\n(?=(?:local)?(?:rule|checkpoint) \w+:)", self.text):
             rule = re.match(r"(?:local)?rule (\w+):", block)
             scene = re.search(r"wildcards: scene=(\S+)", block)
             if rule:
-                found.add(f"{rule[1]} {scene[1]}" if scene else rule[1])
-        return found - {"all", "write_provenance"}  # these two come after whatever is run
+                job = f"{rule[1]} {scene[1]}" if scene else rule[1]
+                inputs = re.findall(r"(?:Updated input files|updated by another job): ([^;\n]+)", block)
+                found.setdefault(job, set()).update(*(files.split(", ") for files in inputs))
+        # These two come after whatever is run.
+        return {job: inputs for job, inputs in found.items() if job not in ("all", "write_provenance")}
+
+    @property
+    def jobs(self) -> set[str]:
+        """The jobs alone."""
+        return set(self.reasons)
 
 
 @dataclass(frozen=True)
@@ -64,9 +73,16 @@ class Workspace:
 
     def run(self, *arguments: str) -> Outcome:
         """Run Snakemake in the directory."""
+        return self._in_a_fork(_run_snakemake, arguments)
+
+    def pretend(self, *arguments: str) -> Outcome:
+        """Run Snakemake, every script of which makes its outputs and computes nothing."""
+        return self._in_a_fork(_pretend, arguments)
+
+    def _in_a_fork(self, target: Callable[..., None], arguments: tuple[str, ...]) -> Outcome:
         output = self.path.with_name(f"{self.path.name}.txt")
         process = multiprocessing.get_context("fork").Process(
-            target=_run_snakemake, args=(self.path, output, list(arguments))
+            target=target, args=(self.path, output, arguments)
         )
         process.start()
         process.join()
@@ -99,43 +115,73 @@ class Workspace:
         }
 
 
-def _run_snakemake(directory: Path, output: Path, arguments: list[str]) -> None:
+def _run_snakemake(directory: Path, output: Path, arguments: tuple[str, ...]) -> None:
     os.chdir(directory)
     os.environ["PYTHONPATH"] = str(directory / "src")
     with output.open("w", encoding="utf-8") as file:
         os.dup2(file.fileno(), 1)
         os.dup2(file.fileno(), 2)
         sys.stdout = sys.stderr = os.fdopen(1, "w", buffering=1, encoding="utf-8")
-        snakemake.cli.main(arguments)
+        snakemake.cli.main(list(arguments))
 
 
-def _copy_workflow(path: Path) -> Workspace:
+def _pretend(directory: Path, output: Path, arguments: tuple[str, ...]) -> None:
+    PythonScript.execute_script = _make_outputs  # type: ignore[method-assign]
+    _run_snakemake(directory, output, arguments)
+
+
+def _make_outputs(script: PythonScript, _file: str, edit: bool = False) -> None:
+    """In place of a script; a shell starts in a hundredth of the time of Python."""
+    script._execute_cmd(
+        "printf %s {rule:q} | tee {output:q} > {log:q}",
+        rule=script.rulename,
+        output=script.output,
+        log=script.log,
+    )
+
+
+def _copy_workflow(path: Path, compiled: bool) -> Workspace:
     path.mkdir()
     for name in ("Snakefile", "config.yaml"):
         shutil.copy2(ROOT / name, path)
     for name in ("workflow", "src", "paper"):
-        shutil.copytree(ROOT / name, path / name)
+        shutil.copytree(ROOT / name, path / name, ignore=shutil.ignore_patterns("__pycache__"))
+    if compiled:
+        # Links: Python and Numba put a new file in the place of an old one and never write into it.
+        for cache in (ROOT / "src").rglob("__pycache__"):
+            shutil.copytree(cache, path / cache.relative_to(ROOT), copy_function=os.symlink)
     return Workspace(path)
 
 
 @pytest.fixture
 def workspace(tmp_path: Path) -> Workspace:
     """A copy of the workflow that has not been run."""
-    return _copy_workflow(tmp_path / "copy")
+    return _copy_workflow(tmp_path / "copy", compiled=False)
+
+
+@pytest.fixture
+def compiled_workspace(tmp_path: Path) -> Workspace:
+    """A copy of the workflow that has not been run, with the compiled code, to compute something in."""
+    return _copy_workflow(tmp_path / "copy", compiled=True)
 
 
 @pytest.fixture(scope="session")
 def _finished(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
-    workspace = _copy_workflow(tmp_path_factory.mktemp("finished") / "copy")
-    for script in (workspace.path / "workflow/scripts").glob("*.py"):
-        script.write_text(STAND_IN, encoding="utf-8")
-    outcome = workspace.run("-c2", "all")
+    workspace = _copy_workflow(tmp_path_factory.mktemp("finished") / "copy", compiled=False)
+    outcome = workspace.pretend("-c2", "all")
     assert outcome.code == 0, outcome.text
     return workspace
 
 
+@pytest.fixture(scope="session")
+def untouched(tmp_path_factory: pytest.TempPathFactory) -> tuple[Workspace, Outcome]:
+    """A copy of the workflow that has not been run, and what `snakemake -n all` says; shared by tests."""
+    workspace = _copy_workflow(tmp_path_factory.mktemp("untouched") / "copy", compiled=False)
+    return workspace, workspace.run("-n", "all")
+
+
 @pytest.fixture
 def finished(_finished: Workspace, tmp_path: Path) -> Workspace:
-    """A copy of the workflow that has been run to the end, with stand-ins for the scripts."""
+    """A copy of the workflow that has been run to the end, with stand-ins for what the scripts compute."""
     shutil.copytree(_finished.path, tmp_path / "copy")
     return Workspace(tmp_path / "copy")

@@ -9,10 +9,10 @@ import measure_methods
 import pytest
 import yaml
 from conftest import ROOT
-from tables import read_table
 
 from precursors.config import check_config
 from precursors.proof import ExactChain, certify
+from precursors.table_files import read_table
 from precursors.work_precision import COLUMNS, check_methods
 
 CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))

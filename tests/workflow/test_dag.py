@@ -1,10 +1,12 @@
 """What is run: every job once, and after an edit only what the edit touches."""
 
 import re
+import shutil
+from pathlib import Path
 
 import pandas as pd
 import pytest
-from conftest import ROOT
+from conftest import ROOT, Workspace
 
 from precursors import Chain, Run
 from precursors.reduced import MODELS
@@ -43,26 +45,62 @@ NEW_SCENE = """\
     theta: "9/10"
     duration: 1.0
 """
+ASKED_SCENE = """\
+  quick:
+    title: what a smaller model says
+    theta: "9/10"
+    model: {model}
+    quantities: [mu_sapp, events_kept]
+"""
+SOFT_SCENE = """\
+  soft:
+    title: an interface with springs and viscosity
+    theta: "9/10"
+    duration: 1.0
+    model: interface
+    interface_stiffness: 25.0e+6
+    viscosity: 54.77
+"""
 
 
 def of(scene):
     return {f"{job} {scene}" for job in SCENE_JOBS}
 
 
-def add_scene(workspace):
-    workspace.edit("config.yaml", "\nfig13: [", f"{NEW_SCENE}\nfig13: [")
+@pytest.fixture(scope="module")
+def _more_scenes(_finished, tmp_path_factory):
+    workspace = Workspace(tmp_path_factory.mktemp("more_scenes") / "copy")
+    shutil.copytree(_finished.path, workspace.path)
+    add(workspace, NEW_SCENE + SOFT_SCENE + ASKED_SCENE.format(model="chain"))
+    outcome = workspace.pretend("-c2", "all")
+    assert outcome.code == 0, outcome.text
+    return workspace
 
 
-def test_a_dry_run_lists_every_job_of_the_paper(workspace):
-    assert workspace.would_run() == of("fig10") | of("fig11") | of("fig12") | SHARED_JOBS
+@pytest.fixture
+def more_scenes(_more_scenes, tmp_path):
+    """As `finished`, with a scene more of every kind that was run to the end as well."""
+    shutil.copytree(_more_scenes.path, tmp_path / "copy")
+    return Workspace(tmp_path / "copy")
 
 
-def test_a_dry_run_writes_nothing(workspace):
-    workspace.would_run()
+def add(workspace, scene):
+    workspace.edit("config.yaml", "\nfig13: [", f"{scene}\nfig13: [")
+
+
+def test_a_dry_run_lists_every_job_of_the_paper(untouched):
+    _, outcome = untouched
+    assert outcome.code == 0, outcome.text
+    assert outcome.jobs == of("fig10") | of("fig11") | of("fig12") | SHARED_JOBS
+
+
+def test_a_dry_run_writes_nothing(untouched):
+    workspace, _ = untouched
     assert not (workspace.path / "results").exists()
 
 
-def test_a_single_figure_needs_its_own_jobs_only(workspace):
+def test_a_single_figure_needs_its_own_jobs_only(untouched):
+    workspace, _ = untouched
     outcome = workspace.run("-n", "results/figures/fig13.svg")
     assert outcome.jobs == {f"{job} {s}" for job in ("simulate_scene", "tabulate_slips") for s in PAPERS} | {
         "draw_fig13"
@@ -78,29 +116,34 @@ def test_a_second_run_has_nothing_to_do(finished):
 
 
 def test_four_lines_make_a_new_scene(finished):
-    add_scene(finished)
+    add(finished, NEW_SCENE)
     assert finished.would_run() == of("steep") | LISTS_OF_SCENES
 
 
 def test_a_scene_may_have_any_name_that_is_a_word(finished):
-    finished.edit("config.yaml", "\nfig13: [", f"{NEW_SCENE.replace('steep', 'fig10_slips')}\nfig13: [")
+    add(finished, NEW_SCENE.replace("steep", "fig10_slips"))
     assert finished.would_run() == of("fig10_slips") | LISTS_OF_SCENES
 
 
-@pytest.mark.parametrize(
-    ("module", "redrawn"),
-    [
-        ("chain_schematic", {"draw_chain"} | PAPER),
-        ("scene", {"draw_scene fig10", "draw_scene fig11", "draw_scene fig12"} | PAPER),
-        ("precursor_lengths", {"draw_fig13"} | PAPER),
-        ("definitions", {"draw_definitions"}),
-        ("spread", {"draw_spread"} | PAPER),
-        ("maps", {"draw_maps"} | PAPER),
-    ],
-)
-def test_an_edit_of_a_figure_module_redraws_its_figures_only(finished, module, redrawn):
-    finished.append(f"src/precursors/figures/{module}.py", "\nCOLOR = 'red'\n")
-    assert finished.would_run() == redrawn
+def test_an_edit_of_a_figure_module_redraws_its_figures_only(finished):
+    """All are edited at once, and each job must name the modules for which it is run."""
+    redrawn = {
+        "chain_schematic": {"draw_chain"},
+        "scene": {"draw_scene fig10", "draw_scene fig11", "draw_scene fig12"},
+        "precursor_lengths": {"draw_fig13"},
+        "definitions": {"draw_definitions"},
+        "spread": {"draw_spread"},
+        "maps": {"draw_maps"},
+    }
+    for module in redrawn:
+        finished.append(f"src/precursors/figures/{module}.py", "\nCOLOR = 'red'\n")
+    reasons = finished.run("-n", "all").reasons
+    assert reasons == {
+        job: {f"src/precursors/figures/{module}.py"} for module, jobs in redrawn.items() for job in jobs
+    } | {"write_paper": reasons["write_paper"]}
+    # Not the figure of definitions, which the paper does not show.
+    shown = {Path(figure).stem.split("_")[0] for figure in reasons["write_paper"]}
+    assert shown == {"fig09", *PAPERS, "fig13", "map", "spread"}
 
 
 def test_an_edit_of_the_style_redraws_all_figures_and_simulates_nothing(finished):
@@ -110,10 +153,39 @@ def test_an_edit_of_the_style_redraws_all_figures_and_simulates_nothing(finished
     assert finished.would_run() == drawings | scenes | {"write_explorer"} | PAPER
 
 
-@pytest.mark.parametrize("module", ["chain", "exact", "kernel", "lanes", "run"])
-def test_an_edit_of_the_solver_simulates_again(finished, module):
-    finished.append(f"src/precursors/{module}.py", "\nCHANGED = True\n")
-    assert {f"simulate_scene {scene}" for scene in PAPERS} <= finished.would_run()
+def test_an_edit_of_the_solver_simulates_again(finished):
+    """All are edited at once, and each job must name every module."""
+    modules = {
+        f"src/precursors/{module}.py" for module in ("chain", "exact", "kernel/watch", "kernel/lanes", "run")
+    }
+    for module in modules:
+        finished.append(module, "\nCHANGED = True\n")
+    reasons = finished.run("-n", "all").reasons
+    assert all(reasons[f"simulate_scene {scene}"] == modules for scene in PAPERS)
+
+
+def test_an_edit_of_the_estimate_of_errors_simulates_and_proves_nothing(finished):
+    finished.append("src/precursors/horizon.py", "\nCHANGED = True\n")
+    assert finished.would_run() == {"tabulate_horizon", "draw_horizon"} | PAPER
+
+
+def test_an_edit_of_how_proof_and_run_are_compared_proves_and_simulates_nothing(finished):
+    finished.append("src/precursors/proof/agreement.py", "\nCHANGED = True\n")
+    assert finished.would_run() == {"tabulate_horizon", "draw_horizon"} | PAPER
+
+
+def test_an_edit_of_how_tables_are_written_makes_all_of_them_again(finished):
+    finished.append("src/precursors/table_files.py", "\nCHANGED = True\n")
+    jobs = finished.would_run()
+    assert {job for job in SHARED_JOBS if job.startswith("tabulate_")} <= jobs
+    assert not {f"simulate_scene {scene}" for scene in PAPERS} & jobs
+    assert not {"run_chunk", "take_certificates"} & jobs
+
+
+def test_an_edit_of_how_jobs_are_logged_runs_nothing(finished):
+    finished.append("workflow/scripts/job.py", "\nCHANGED = True\n")
+    finished.append("src/precursors/progress.py", "\nCHANGED = True\n")
+    assert finished.would_run() == set()
 
 
 def test_an_edit_of_a_script_runs_its_rule_again(finished):
@@ -121,11 +193,9 @@ def test_an_edit_of_a_script_runs_its_rule_again(finished):
     assert finished.would_run() == {"draw_fig13"} | PAPER
 
 
-def test_an_edit_of_a_scene_runs_that_scene_only(finished):
-    add_scene(finished)
-    finished.run("-c2", "all")
-    finished.edit("config.yaml", 'theta: "9/10"', 'theta: "8/10"')
-    assert finished.would_run() == of("steep") | LISTS_OF_SCENES
+def test_an_edit_of_a_scene_runs_that_scene_only(more_scenes):
+    more_scenes.edit("config.yaml", 'leading edge\n    theta: "9/10"', 'leading edge\n    theta: "8/10"')
+    assert more_scenes.would_run() == of("steep") | LISTS_OF_SCENES
 
 
 def test_a_new_title_simulates_nothing(finished):
@@ -148,6 +218,11 @@ def test_the_full_comparison_of_methods_is_a_target_of_its_own(workspace):
         "draw_step_sweep",
         "accuracy_full",
     }
+
+
+def test_the_full_study_of_models_is_a_target_of_its_own(workspace):
+    jobs = workspace.run("-n", "results/figures/resolution_models_full.svg").jobs
+    assert jobs == {"run_chunk", "gather_members", "tabulate_resolution_models", "draw_resolution_models"}
 
 
 def test_an_edit_of_a_method_measures_again_and_proves_nothing(finished):
@@ -213,28 +288,6 @@ def test_an_entry_of_the_papers_numbers_that_is_wrong_stops_the_workflow_in_one_
     assert "Traceback" not in outcome.text
 
 
-ASKED_SCENE = """\
-  quick:
-    title: what a smaller model says
-    theta: "9/10"
-    model: {model}
-    quantities: [mu_sapp, events_kept]
-"""
-SOFT_SCENE = """\
-  steep:
-    title: an interface with springs and viscosity
-    theta: "9/10"
-    duration: 1.0
-    model: interface
-    interface_stiffness: 25.0e+6
-    viscosity: 54.77
-"""
-
-
-def add(workspace, scene):
-    workspace.edit("config.yaml", "\nfig13: [", f"{scene}\nfig13: [")
-
-
 @pytest.mark.parametrize("model", ["quasistatic", "chain"])
 def test_a_scene_that_asks_for_quantities_is_answered_and_nothing_else(finished, model):
     add(finished, ASKED_SCENE.format(model=model))
@@ -255,34 +308,31 @@ def test_a_scene_that_only_answers_has_no_run(finished):
 
 def test_a_scene_with_an_addition_has_the_jobs_of_any_scene(finished):
     add(finished, SOFT_SCENE)
-    assert finished.would_run() == of("steep") | LISTS_OF_SCENES
+    assert finished.would_run() == of("soft") | LISTS_OF_SCENES
 
 
-def test_a_new_value_of_an_addition_runs_that_scene_only(finished):
-    add(finished, SOFT_SCENE)
-    finished.run("-c2", "all")
-    finished.edit("config.yaml", "    viscosity: 54.77\n", "    viscosity: 50.0\n")
-    assert finished.would_run() == of("steep") | LISTS_OF_SCENES
+def test_a_new_value_of_an_addition_runs_that_scene_only(more_scenes):
+    more_scenes.edit("config.yaml", "    viscosity: 54.77\n", "    viscosity: 50.0\n")
+    assert more_scenes.would_run() == of("soft") | LISTS_OF_SCENES
 
 
-def test_another_quantity_asks_that_scene_again_and_nothing_else(finished):
-    add(finished, ASKED_SCENE.format(model="chain"))
-    finished.run("-c2", "all")
-    finished.edit("config.yaml", "[mu_sapp, events_kept]", "[mu_sapp]")
-    assert finished.would_run() == {"answer_scene quick"}
+def test_another_quantity_asks_that_scene_again_and_nothing_else(more_scenes):
+    more_scenes.edit("config.yaml", "[mu_sapp, events_kept]", "[mu_sapp]")
+    assert more_scenes.would_run() == {"answer_scene quick"}
 
 
-def test_scenes_with_models_are_computed(workspace):
+def test_scenes_with_models_are_computed(compiled_workspace):
+    workspace = compiled_workspace
     add(workspace, ASKED_SCENE.format(model="chain") + SOFT_SCENE)
-    outcome = workspace.run("-c1", "results/tables/quick_answers.csv", "results/runs/steep.h5")
+    outcome = workspace.run("-c1", "results/tables/quick_answers.csv", "results/runs/soft.h5")
     assert outcome.code == 0, outcome.text
     results = workspace.path / "results"
     answers = pd.read_csv(open_checked(results / "tables/quick_answers.csv"))
     assert list(answers["quantity"]) == ["mu_sapp", "events_kept"]
     expected = MODELS["chain"].answer(Chain.from_slider(theta="9/10"), answers["quantity"])
     assert list(answers["value"]) == list(expected.values())
-    assert [path.name for path in (results / "runs").iterdir()] == ["steep.h5"]
-    run = Run.load(results / "runs/steep.h5")
+    assert [path.name for path in (results / "runs").iterdir()] == ["soft.h5"]
+    run = Run.load(results / "runs/soft.h5")
     assert run.chain == Chain.from_slider(theta="9/10", interface_stiffness=25e6, viscosity=54.77)
     # From the first transition on the interface's springs carry the load before the block does.
     assert run.transitions["tangential_load"][0] > run.chain.strength[0]

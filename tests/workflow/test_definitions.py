@@ -4,9 +4,9 @@ import draw_definitions
 import pytest
 import tabulate_definitions
 from matplotlib.figure import Figure
-from tables import read_table
 
 from precursors.figures.definitions import draw_definitions as draw
+from precursors.table_files import read_table
 
 SLIDER = {
     "n_blocks": 10,

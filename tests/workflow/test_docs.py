@@ -50,7 +50,8 @@ def run_python(workspace, section):
     return done.stdout + done.stderr, shown
 
 
-def test_the_scene_and_the_figure_shown_are_made(workspace):
+def test_the_scene_and_the_figure_shown_are_made(compiled_workspace):
+    workspace = compiled_workspace
     for section in ("A scene", "A figure"):
         write_files(workspace, section)
     (scene,), (figure,) = commands("A scene"), commands("A figure")
@@ -61,13 +62,15 @@ def test_the_scene_and_the_figure_shown_are_made(workspace):
 
 
 @pytest.mark.parametrize("section", ["A model", "A method"])
-def test_the_model_and_the_method_shown_give_what_is_shown(workspace, section):
+def test_the_model_and_the_method_shown_give_what_is_shown(compiled_workspace, section):
+    workspace = compiled_workspace
     write_files(workspace, section)
     printed, shown = run_python(workspace, section)
     assert printed == shown
 
 
-def test_the_workflow_shown_uses_this_one_as_a_module(workspace):
+def test_the_workflow_shown_uses_this_one_as_a_module(compiled_workspace):
+    workspace = compiled_workspace
     write_files(workspace, "Within another workflow")
     outer = type(workspace)(workspace.path / "elsewhere")
     outcome = outer.run("-n", "precursors_all")

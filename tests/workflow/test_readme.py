@@ -1,6 +1,7 @@
-"""What the README shows is true: its code runs, its scene is a scene, its numbers are those computed."""
+"""What the READMEs show is true: code runs, the scene is a scene, numbers and files are those computed."""
 
 import re
+import tomllib
 from pathlib import Path
 
 import pandas as pd
@@ -14,9 +15,60 @@ ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
+RESULTS = (ROOT / "results/README.md").read_text(encoding="utf-8")
+# What the workflow makes on demand, by rule or by file.
+ON_DEMAND = (
+    "accuracy_full",
+    "prove_scenes",
+    "table_pages",
+    "results/films/fig10.gif",
+    "results/certificates/fig10.json.gz",
+    "results/tables/scaling.csv",
+    "results/figures/resolution_models_full.svg",
+    "results/ro-crate-metadata.json",
+)
+OF_MAKE = ("tables/bench.csv", "report.html")
+ASKED_SCENE = """\
+  quick:
+    title: what a smaller model says
+    theta: 0
+    model: quasistatic
+    quantities: [mu_sapp]
+"""
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", README, flags=re.DOTALL)
+
+
 def block(language: str) -> str:
-    (text,) = re.findall(rf"```{language}\n(.*?)```", README, flags=re.DOTALL)
+    (text,) = blocks(language)
     return text
+
+
+def listed(scenes: list[str]) -> dict[str, re.Pattern[str]]:
+    """Paths in results/README.md, each with what it stands for; names in braces are wildcards."""
+    paths = [
+        path
+        for line in RESULTS.splitlines()
+        if line.startswith("| `")
+        for path in re.findall(r"`([^`]+)`", line.split(" | ")[0])
+        if not path.endswith("/")
+    ]
+
+    def stands_for(path: str) -> str:
+        parts = re.split(r"(\{[^}]+\})", path)
+        names = {"{scene}": f"({'|'.join(scenes)})"}
+        return "".join(
+            re.escape(part)
+            if not part.startswith("{")
+            else f"({part[1:-1].replace(',', '|')})"
+            if "," in part
+            else names.get(part, r"[\w-]+")
+            for part in parts
+        )
+
+    return {path: re.compile(stands_for(path)) for path in paths}
 
 
 def rows(header: str) -> list[list[str]]:
@@ -27,10 +79,30 @@ def rows(header: str) -> list[list[str]]:
 
 def test_the_code_runs_and_prints_what_is_shown(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    assert len(block("python").splitlines()) <= 11
-    exec(block("python"), {})
+    one, many = blocks("python")
+    assert len(one.splitlines()) <= 11
+    exec(one, {})
     assert capsys.readouterr().out == block("text")
     assert (tmp_path / "results/runs/mine.h5").is_file()
+    exec(many, {})
+    assert re.fullmatch(r"median mu_sapp = 0\.\d\d\n", capsys.readouterr().out)
+
+
+def test_the_list_of_results_is_that_of_the_workflow(workspace):
+    workspace.edit("config.yaml", "\nfig13: [", f"{ASKED_SCENE}\nfig13: [")
+    config = yaml.safe_load((workspace.path / "config.yaml").read_text(encoding="utf-8"))
+    patterns = listed(list(config["scenes"]))
+    dry_run = workspace.run("-n", "-F", "all", *ON_DEMAND)
+    assert dry_run.code == 0, dry_run.text
+    outputs = [
+        path.removeprefix("results/")
+        for line in re.findall(r"^    output: (.+)$", dry_run.text, flags=re.MULTILINE)
+        for path in line.split(", ")
+    ]
+    assert len(outputs) > 100
+    assert [path for path in outputs if not any(p.fullmatch(path) for p in patterns.values())] == []
+    made = {name for name, pattern in patterns.items() if any(map(pattern.fullmatch, outputs))}
+    assert sorted(patterns.keys() - made) == sorted(OF_MAKE)
 
 
 def test_the_scene_to_add_is_four_lines_that_make_a_figure(workspace):
@@ -74,3 +146,12 @@ def test_the_paper_is_cited_with_its_doi():
     (paper,) = citation["references"]
     assert [author["family-names"] for author in paper["authors"]] == ["Maegawa", "Suzuki", "Nakano"]
     assert f"doi:{paper['doi']}" in README
+
+
+def test_the_version_to_cite_is_that_of_the_package_and_of_the_changelog():
+    changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    (latest, *_) = re.findall(r"^## \[([^\]]+)\]", changelog, flags=re.MULTILINE)
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))["version"]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert latest == cited == project["version"]
+    assert f"version {cited}, commit" in " ".join(README.split())

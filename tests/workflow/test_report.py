@@ -7,7 +7,7 @@ from collections import Counter
 
 import pytest
 from browser import browser, find_browser
-from conftest import Workspace
+from conftest import ROOT, Workspace
 
 from precursors.table_page import table_page
 
@@ -19,7 +19,8 @@ CATEGORIES = {
     "Models",
     "Tables",
 }
-FEW = ["results/figures/fig09.svg", "results/figures/fig10.svg", "results/pages/fig10_slips.html"]
+FIGURES = ["results/figures/fig09.svg", "results/figures/fig10.svg"]
+TABLE, PAGE = "results/tables/fig10_slips.csv", "results/pages/fig10_slips.html"
 # Versions of the JavaScript inside Snakemake's report, of no consequence to a reader.
 KNOWN_COMPLAINTS = (
     "cdn.tailwindcss.com should not be used in production",
@@ -101,11 +102,15 @@ def open_page():
 
 
 @pytest.fixture
-def page(open_page, workspace):
-    outcome = workspace.run("-c2", *FEW)
+def page(open_page, finished):
+    """The report on two figures and a table that `make results` has made."""
+    for name in (*FIGURES, TABLE):
+        shutil.copy(ROOT / name, finished.path / name)
+    outcome = finished.run("-c1", PAGE)
     assert outcome.code == 0, outcome.text
+    assert outcome.jobs == {"write_table_page"}
     page = open_page()
-    page.open(write_report(workspace, *FEW).as_uri())
+    page.open(write_report(finished, *FIGURES, PAGE).as_uri())
     return page
 
 

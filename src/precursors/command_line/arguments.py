@@ -7,12 +7,13 @@ import re
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from precursors.command_line.exit_codes import Refused
-from precursors.command_line.progress import Progress
+from precursors.progress import Progress
 
 if TYPE_CHECKING:
+    from precursors.chain import Until
     from precursors.run import Run
 
 # Option, argument of `Chain.from_slider`, its default there, and what it is.
@@ -157,6 +158,6 @@ def duration_of(arguments: argparse.Namespace) -> float:
     return DURATION if arguments.duration is None else arguments.duration
 
 
-def until_of(arguments: argparse.Namespace) -> Literal["global slip"] | None:
+def until_of(arguments: argparse.Namespace) -> Until:
     """Where to stop before the duration is over."""
     return "global slip" if arguments.until_global_slip else None

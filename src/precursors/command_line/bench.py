@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from precursors.command_line.arguments import whole
 from precursors.command_line.exit_codes import ExitCode
 from precursors.command_line.output import print_json, print_table
-from precursors.command_line.progress import Progress
+from precursors.progress import Progress
 
 if TYPE_CHECKING:
     from precursors.chain import Chain
@@ -54,6 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
 
         from precursors import chain as parameters
         from precursors import timing
+        from precursors.accuracy import Truth, compare
         from precursors.integrators import METHODS
     if arguments.methods == ["list"]:
         print_json(list(METHODS)) if arguments.json else print(*METHODS, sep="\n")
@@ -65,13 +66,14 @@ def run(arguments: argparse.Namespace) -> int:
         tasks = {name: partial(_solve, method, chain) for name, method in methods.items()}
         timings = timing.measure(tasks, rounds)
         runs = {name: task() for name, task in tasks.items()}
+    truth = Truth.of_run(runs["exact"])
     rows = [
         {
             "method": name,
             "time_ms": 1e3 * timings[name].seconds,
             "times_slower": timings["exact"].times_faster_than(timings[name])[0],
             "transitions": len(run.transitions),
-            "same_as_exact": _same(run, runs["exact"]),
+            "same_as_exact": compare(run, truth).transitions_right,
         }
         for name, run in runs.items()
     ]
@@ -93,13 +95,3 @@ def _chosen(methods: dict[str, Method], names: list[str] | None) -> dict[str, Me
 
 def _solve(method: Method, chain: Chain) -> Run:
     return method.solve(chain, DURATION, method.sweep[-1], "global slip").run
-
-
-def _same(run: Run, exact: Run) -> int:
-    """Number of transitions before the first whose block or mode is not that of the exact solver."""
-    count = 0
-    for mine, right in zip(run.transitions, exact.transitions, strict=False):
-        if (mine["block"], mine["mode"]) != (right["block"], right["mode"]):
-            break
-        count += 1
-    return count

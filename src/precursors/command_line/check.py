@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections import Counter
 from pathlib import Path
 
 from precursors.command_line.exit_codes import ExitCode
@@ -15,9 +14,10 @@ HELP = "print the ledger: the paper's statements, each with its verdict"
 DESCRIPTION = """\
 Judge every checkable statement of the paper by the tables that `make all` wrote, and print the verdicts. Run
 it in the repository, or say where the files are. The exit code is 1 if a verdict or number is not the one
-expected. `make check` prints the same with the statements in full."""
+expected, or not the one in the ledger that lies among the tables, claims.csv. `make check` is this command
+with --full."""
 EXAMPLES = """\
-  precursors check
+  precursors check --full
   precursors check --tables /data/results/tables --json"""
 
 CLAIMS = Path("paper/claims.yaml")
@@ -34,24 +34,36 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     for option, default, meaning in files:
         parser.add_argument(option, type=Path, default=default, metavar="PATH", help=f"{meaning} ({default})")
+    parser.add_argument("--full", action="store_true", help="print statements and rules in full")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Judge the claims, print them, and compare them with what is expected."""
-    import pandas as pd
-
     from precursors.ledger.claims import read_claims
     from precursors.ledger.judge import differences, judge, to_table
+    from precursors.ledger.text import counted, ledger_text
+    from precursors.table_files import read_table
 
-    expected = pd.read_csv(arguments.expected, dtype=str, keep_default_na=False)
+    # The ledger among the tables is of the same processor as they are; a user's tables may have none.
+    expected = {arguments.expected: False}
+    written = arguments.tables / "claims.csv"
+    if written.is_file():
+        expected[written] = True
+    ledgers = {path: read_table(path, dtype=str, keep_default_na=False) for path in expected}
     found = to_table(judge(read_claims(arguments.claims), arguments.tables))
-    unexpected = differences(found, expected)
+    unexpected = [
+        f"{line} ({path})"
+        for path, same_processor in expected.items()
+        for line in differences(found, ledgers[path], same_processor)
+    ]
     if arguments.json:
         print_json({"claims": records(found), "unexpected": unexpected})
     else:
-        print_table(found[["verdict", "id", "where", "paper", "ours", "unit"]])
-        counts = Counter(found["verdict"])
-        print(f"{len(found)} claims: " + ", ".join(f"{n} {verdict}" for verdict, n in counts.items()))
+        if arguments.full:
+            print(ledger_text(found))
+        else:
+            print_table(found[["verdict", "id", "where", "paper", "ours", "unit"]])
+        print(f"{len(found)} claims: {counted(found)}")
     for line in unexpected:
         print(f"precursors check: {line}", file=sys.stderr)
     return ExitCode.REFUSED if unexpected else ExitCode.DONE

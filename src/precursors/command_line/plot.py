@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from precursors.command_line.arguments import add_run, run_of
 from precursors.command_line.exit_codes import ExitCode
 from precursors.command_line.output import print_json
-from precursors.command_line.progress import Progress
+from precursors.progress import Progress
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -70,7 +70,8 @@ def run(arguments: argparse.Namespace) -> int:
 def draw_load(run: Run) -> Figure:
     """F_X(t) and the fronts of all slips, as Figs. 10 to 12."""
     from precursors.figures.scene import draw_scene
-    from precursors.tables import load_trace, slip_table
+    from precursors.load_curve import load_trace
+    from precursors.tables import slip_table
 
     chain = run.chain
     return draw_scene(slip_table(run), load_trace(run), chain.n_blocks, chain.length, label=_label(run))
@@ -78,11 +79,13 @@ def draw_load(run: Run) -> Figure:
 
 def draw_lengths(run: Run) -> Figure:
     """Propagation lengths against the load, as Fig. 13."""
-    from precursors.figures.precursor_lengths import Scene, draw_precursor_lengths
+    from precursors.figures.precursor_lengths import PrecursorLengths, draw_precursor_lengths
     from precursors.tables import slip_table
 
     chain = run.chain
-    return draw_precursor_lengths([Scene(slip_table(run), theta_of(run), chain.n_blocks, chain.normal_load)])
+    return draw_precursor_lengths(
+        [PrecursorLengths(slip_table(run), theta_of(run), chain.n_blocks, chain.normal_load)]
+    )
 
 
 def theta_of(run: Run) -> float:

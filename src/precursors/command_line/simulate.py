@@ -16,9 +16,9 @@ from precursors.command_line.arguments import (
     until_of,
     whole,
 )
-from precursors.command_line.exit_codes import ExitCode
+from precursors.command_line.exit_codes import ExitCode, Refused
 from precursors.command_line.output import print_json, print_table, print_values, records
-from precursors.command_line.progress import Progress
+from precursors.progress import Progress
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -36,7 +36,6 @@ EXAMPLES = """\
   precursors simulate --mu-k 0.3 --json"""
 
 NOISE = 1e-3
-BATCH = 500  # members at a time, so that the runs take little memory
 FIELDS = {
     "transitions": "transitions",
     "n_events": "events",
@@ -102,28 +101,25 @@ def _ensemble(arguments: argparse.Namespace) -> int:
     import pandas as pd
 
     from precursors import chain as parameters
-    from precursors.ensembles.study import Study
-    from precursors.exact import simulate_many
+    from precursors.ensembles.study import Study, run_members
     from precursors.storage import write_atomically
-    from precursors.summary import summarise
 
     count = parameters.whole("ensemble", arguments.ensemble, at_least=1)
     noise = parameters.not_negative("noise", NOISE if arguments.noise is None else arguments.noise, "1")
     seed = parameters.whole("seed", arguments.seed or 0, at_least=0)
+    slider = slider_of(arguments)
+    parameters.Chain.from_slider(**slider)  # refuses a wrong value before members are made of it
     members = {
         "load_noise": np.full(count, noise),
         "group": np.zeros(count, dtype=int),
         "draw": np.arange(count),
     }
-    study = Study("ensemble", slider_of(arguments), members, seed=seed)
-    summaries = []
-    with Progress("simulating", total=count) as progress:
-        for first in range(0, count, BATCH):
-            chains = [study.member(i)[0] for i in range(first, min(first + BATCH, count))]
-            runs = simulate_many(chains, duration_of(arguments), until_of(arguments))
-            summaries.append(summarise(runs))
-            progress(first + len(runs))
-    summary = np.concatenate(summaries)
+    study = Study("ensemble", slider, members, duration_of(arguments), until_of(arguments), seed)
+    capped: list[str] = []
+    with Progress("simulating", np.ones(count)) as progress:
+        summary = run_members(
+            study, 0, count, progress, None, lambda i, limit: capped.append(f"member {i + 1}: {limit}")
+        )
     table = pd.DataFrame({label: summary[name] for name, label in FIELDS.items()})
     table.insert(0, "member", np.arange(1, count + 1))
     if arguments.output:
@@ -135,6 +131,8 @@ def _ensemble(arguments: argparse.Namespace) -> int:
         print_values(_in_short(table) | {"output": str(arguments.output)})
     else:
         print_table(table)
+    if capped:
+        raise Refused(f"{len(capped)} of {count} rows are of runs that were cut short, {capped[0]}")
     return ExitCode.DONE
 
 

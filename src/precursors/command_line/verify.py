@@ -9,7 +9,7 @@ from pathlib import Path
 from precursors.command_line.arguments import load
 from precursors.command_line.exit_codes import ExitCode, Refused
 from precursors.command_line.output import print_json
-from precursors.command_line.progress import Progress
+from precursors.progress import Progress
 
 NAME = "verify"
 HELP = "refuse run files and certificates that are altered or do not hold"

@@ -18,6 +18,7 @@ STUDIES: dict[str, Callable[[Config], Study]] = {
     "spread_members": spread_study,
     "resolution_members": resolution_study,
     "resolution_models_members": resolution_models_study,
+    "resolution_models_full_members": partial(resolution_models_study, size="full"),
     **{name: partial(map_study, name=name) for name in AXES},
 }
 

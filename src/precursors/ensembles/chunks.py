@@ -11,52 +11,18 @@ from os import PathLike
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from precursors.chain import FloatArray, positive
-from precursors.ensembles.study import SLIDER, Study, loading_time
+from precursors.cost import seconds_of_long_run, seconds_of_ringing, seconds_to_first_slip
+from precursors.ensembles.study import Study
+from precursors.slider import SLIDER, loading_time
 from precursors.storage import SEAL_SIZE, read_sealed, write_sealed
 
 if TYPE_CHECKING:
     import pandas as pd
 
 FORMAT = "precursors chunk 1"
-# Measured times [s], for N = 2..200 at three theta. Single runs are off by a factor 2 either way, which the
-# many runs of a chunk average out. This is what a run takes beside its motion:
-SECONDS_PER_RUN = 3.5e-4
-
-
-def seconds_to_first_slip(
-    n_blocks: ArrayLike, interface_stiffness: ArrayLike = 0.0, viscosity: ArrayLike = 0.0
-) -> FloatArray:
-    """Time that a run to its first global slip takes on one core [s]: 0.7 ms at N = 10, 1 s at N = 200.
-
-    On interface springs the chain rings all the time, and longer where no viscosity damps it: with it 0.02 s
-    at N = 10 and 4 s at N = 100, without it 0.1 s at N = 10 and 2 s at N = 40.
-    """
-    n_blocks = np.asarray(n_blocks, float)
-    of_blocks = SECONDS_PER_RUN + 1.0e-6 * n_blocks**2.6
-    return of_blocks + seconds_of_ringing(n_blocks, interface_stiffness, viscosity)
-
-
-def seconds_of_ringing(
-    n_blocks: ArrayLike, interface_stiffness: ArrayLike, viscosity: ArrayLike
-) -> FloatArray:
-    """Time that the ringing of a chain on interface springs takes for one loading to mu_s F_Z [s]."""
-    damped = np.where(np.asarray(viscosity) > 0.0, 1.0e-4, 5.0e-4)
-    return np.where(np.asarray(interface_stiffness) > 0.0, damped * np.asarray(n_blocks, float) ** 2.3, 0.0)
-
-
-def seconds_of_long_run(n_blocks: ArrayLike, loadings: ArrayLike, friction_ratio: ArrayLike) -> FloatArray:
-    """Time that a run beyond its first global slip takes on one core [s].
-
-    It is in proportion to the load that the drive brings in, in units of the chain's strength mu_s F_Z, and
-    to the number of slips, which grows where mu_k/mu_s comes close to 1.
-    """
-    slips = np.asarray(loadings, float) * np.maximum(
-        1.0, 0.36 / np.maximum(1e-3, 1.0 - np.asarray(friction_ratio))
-    )
-    return SECONDS_PER_RUN + 1.4e-6 * np.asarray(n_blocks, float) ** 2.9 * slips
 
 
 def estimated_seconds(study: Study) -> FloatArray:

@@ -9,7 +9,8 @@ import numpy as np
 
 from precursors.chain import FloatArray
 from precursors.config import Config
-from precursors.ensembles.study import Slider, Study, loading_time, spring_stiffness
+from precursors.ensembles.study import Study
+from precursors.slider import Slider, loading_time, spring_stiffness
 
 # What the values of the second axis make of the arguments of `Chain.from_slider`, map by map.
 AXES: dict[str, tuple[str, Callable[[Slider, FloatArray], Slider]]] = {

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from precursors.chain import FloatArray
 from precursors.config import Config, scene_slider
-from precursors.ensembles.chunks import seconds_to_first_slip
+from precursors.cost import seconds_to_first_slip
 from precursors.ensembles.study import Study
 
 if TYPE_CHECKING:
@@ -80,17 +81,17 @@ def resolution_table(
     -------
     DataFrame
         One row per chain, n_blocks and quantity: the value without noise; mean, standard deviation and
-        quantiles over all members; the number of members n.
+        quantiles over all members; q50_low and q50_high, see `median_interval`; the number of members n.
     """
     import pandas as pd
 
-    speed = front_speed(members["n_blocks"].to_numpy(), length, members["crossing_time_s"].to_numpy())
-    members = members.assign(front_speed_m_per_s=speed)
     rows = []
+    members = with_front_speed(members, length)
     for keys, runs in members.groupby([*chains, "n_blocks"], sort=False):
         [(_, without_noise)] = runs[runs["load_noise"] == 0.0].iterrows()
         for quantity in QUANTITIES:
             values = runs[quantity].dropna()
+            low, high = median_interval(values)
             rows.append(
                 {
                     **dict(zip([*chains, "n_blocks"], keys, strict=True)),
@@ -99,10 +100,47 @@ def resolution_table(
                     "mean": values.mean(),
                     "deviation": values.std(),
                     **{name: values.quantile(share) for name, share in QUANTILES.items()},
+                    "q50_low": low,
+                    "q50_high": high,
                     "n": len(values),
                 }
             )
     return pd.DataFrame(rows)
+
+
+def with_front_speed(members: pd.DataFrame, length: float) -> pd.DataFrame:
+    """A gathered study with a column front_speed_m_per_s, for a contact of length [m]."""
+    speed = front_speed(members["n_blocks"].to_numpy(), length, members["crossing_time_s"].to_numpy())
+    return members.assign(front_speed_m_per_s=speed)
+
+
+def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, float]:
+    """Interval that holds the median of what the values were drawn from, in at least this share of cases.
+
+    Its ends are two of the values, for a value lies below the median as often as a coin falls: whatever the
+    distribution is, the j smallest of n all lie below it with a probability that is binomial. NaN where not
+    even the smallest and the largest value will do: for 95 %, below six.
+    """
+    from scipy.stats import binom  # a plan of chunks waits for no statistics
+
+    values = np.sort(np.asarray(values, float))
+    left_out = int(binom.ppf((1.0 - share) / 2.0, len(values), 0.5)) if len(values) else 0
+    if not left_out:
+        return math.nan, math.nan
+    return float(values[left_out - 1]), float(values[-left_out])
+
+
+def with_estimates(table: pd.DataFrame, slider: Mapping[str, Any]) -> pd.DataFrame:
+    """A table of `resolution_table` with a column estimate: of mu_sapp, and of the front's speed [m/s].
+
+    The front of a global slip is about as fast as long waves in the chain, sqrt(E S L/M); NaN for numbers
+    that nothing is expected of.
+    """
+    friction = estimated_mu_sapp(table["n_blocks"], slider["mu_s"], slider["mu_k"])
+    modulus, section = slider["youngs_modulus"], slider["cross_section"]
+    wave_speed = np.sqrt(modulus * section * slider["length"] / slider["slider_mass"])
+    is_friction, is_speed = (table["quantity"] == name for name in ("mu_sapp", "front_speed_m_per_s"))
+    return table.assign(estimate=np.where(is_friction, friction, np.where(is_speed, wave_speed, np.nan)))
 
 
 def extrapolation_table(resolution: pd.DataFrame, from_n_blocks: int) -> pd.DataFrame:

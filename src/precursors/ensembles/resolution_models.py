@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from precursors.chain import parse_theta
 from precursors.config import Config
-from precursors.ensembles.chunks import seconds_to_first_slip
-from precursors.ensembles.resolution import resolution_table
-from precursors.ensembles.study import Study, spring_stiffness
+from precursors.cost import seconds_to_first_slip
+from precursors.ensembles.resolution import QUANTITIES, resolution_table, with_front_speed
+from precursors.ensembles.study import Study
+from precursors.slider import spring_stiffness
 
 if TYPE_CHECKING:
     import pandas as pd
 
 ADDITIONS = ("viscosity", "interface_stiffness")
+CHAINS = ("model", "theta", "viscous_time", *ADDITIONS)
 WITH_UNITS = {
     "viscous_time": "viscous_time_s",
     "viscosity": "viscosity_N_s_per_m",
@@ -24,13 +26,16 @@ WITH_UNITS = {
 }
 
 
-def resolution_models_study(config: Config) -> Study:
+def resolution_models_study(config: Config, size: Literal["default", "full"] = "default") -> Study:
     """Chains of more and more blocks with the additions that `resolution_models.models` names.
 
     As in `resolution_study`, but a number of blocks of which one run would take longer than `longest_run` is
-    left out.
+    left out. The full study has the runs that `resolution_models.full` allows.
     """
     settings = config["resolution_models"]
+    name = "resolution_models_members"
+    if size == "full":
+        settings, name = settings | settings["full"], "resolution_models_full_members"
     blocks: list[dict[str, Any]] = []
     for model, values in settings["models"].items():
         for theta in settings["theta"]:
@@ -48,9 +53,7 @@ def resolution_models_study(config: Config) -> Study:
                 blocks.append(slider | additions | labels | {"load_noise": noise, "draw": draw})
     for group, block in enumerate(blocks):
         block["group"] = group
-    return Study.of_blocks(
-        "resolution_models_members", blocks, duration=config["duration"], seed=settings["seed"]
-    )
+    return Study.of_blocks(name, blocks, duration=config["duration"], seed=settings["seed"])
 
 
 def slider_additions(slider: Mapping[str, Any], values: Mapping[str, float]) -> dict[str, float]:
@@ -78,8 +81,31 @@ def resolution_models_table(members: pd.DataFrame, study: Study) -> pd.DataFrame
     DataFrame
         As `resolution_table`, one row per model, theta, n_blocks and quantity, with the values of the model.
     """
+    runs = labelled(members, study)
+    return resolution_table(runs, study.slider["length"], CHAINS).rename(columns=WITH_UNITS)
+
+
+def resolution_models_runs(members: pd.DataFrame, study: Study) -> pd.DataFrame:
+    """The numbers of every run, which quantiles of a few runs do not show.
+
+    Parameters
+    ----------
+    members, study
+        See `resolution_models_table`.
+
+    Returns
+    -------
+    DataFrame
+        One row per run and quantity that the run has: model, theta, the values of the model, n_blocks, draw,
+        quantity, value.
+    """
+    runs = with_front_speed(labelled(members, study), study.slider["length"])
+    values = runs.melt([*CHAINS, "n_blocks", "draw"], QUANTITIES, "quantity", "value")
+    return values.dropna(subset="value").rename(columns=WITH_UNITS)
+
+
+def labelled(members: pd.DataFrame, study: Study) -> pd.DataFrame:
+    """The gathered study with the columns `CHAINS`."""
     members = members.assign(**{name: study.column(name) for name in ("theta", *ADDITIONS)})
     # The dashpots of a material differ from N to N: its relaxation time stands for them.
-    members["viscosity"] = members["viscosity"].where(members["viscous_time"] == 0.0, 0.0)
-    chains = ["model", "theta", "viscous_time", *ADDITIONS]
-    return resolution_table(members, study.slider["length"], chains).rename(columns=WITH_UNITS)
+    return members.assign(viscosity=members["viscosity"].where(members["viscous_time"] == 0.0, 0.0))

@@ -3,46 +3,28 @@
 from __future__ import annotations
 
 import hashlib
-import inspect
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.chain import Chain, FloatArray
+from precursors.chain import Chain, FloatArray, Until
+from precursors.slider import SLIDER, Slider
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from precursors.exact import TransitionLimitError
     from precursors.run import Run
 
 # Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
 BLOCKS_PER_BATCH = 2000
-SLIDER = {name: p.default for name, p in inspect.signature(Chain.from_slider).parameters.items()}
 NOISE = ("load_noise", "start_noise")
-
-
-Slider = Mapping[str, Any]
-
-
-def spring_stiffness(slider: Slider) -> Any:
-    """Stiffness k [N/m] between neighbours (Eq. 10)."""
-    return slider["n_blocks"] * slider["youngs_modulus"] * slider["cross_section"] / slider["length"]
-
-
-def loading_time(slider: Slider) -> Any:
-    """Time [s] in which the drive travels mu_s F_Z (1/K + (N - 1)/(2 k)).
-
-    That compresses the drive's spring by mu_s F_Z and the others by what a load carried evenly by all blocks
-    leaves for each of them, half of it on average.
-    """
-    compliance = 1.0 / slider["drive_stiffness"] + (slider["n_blocks"] - 1) / (2.0 * spring_stiffness(slider))
-    return slider["mu_s"] * slider["normal_load"] * compliance / slider["drive_velocity"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +58,7 @@ class Study:
     slider: Slider
     columns: Mapping[str, NDArray]
     duration: float = 10.0
-    until: Literal["global slip"] | None = "global slip"
+    until: Until = "global slip"
     seed: int = 0
 
     def __post_init__(self) -> None:
@@ -149,9 +131,12 @@ def run_members(
     first: int,
     end: int,
     progress: Callable[[int], None] | None = None,
-    threads: int = 1,
+    threads: int | None = 1,
+    at_cap: Callable[[int, TransitionLimitError], object] | None = None,
 ) -> NDArray[np.void]:
     """Summaries of members `first` .. `end` - 1 of a study, one row each (see `summary.SUMMARY`).
+
+    A member that meets its cap on transitions is summarised as far as it came.
 
     Parameters
     ----------
@@ -161,14 +146,16 @@ def run_members(
         Range of members.
     progress : callable, optional
         Called now and then with the number of members done.
-    threads : int
-        Threads to use.
+    threads : int or None
+        Threads to use; None for as many as there are cores.
+    at_cap : callable, optional
+        Called with each member that met its cap on transitions, and what the solver said of it.
     """
     from precursors.summary import SUMMARY, summarise  # a plan of chunks waits for no compiler
 
     summaries = [np.empty(0, SUMMARY)]
     for batch in _batches(study, first, end):
-        summaries.append(summarise(_runs(study, batch, threads)))
+        summaries.append(summarise(_runs(study, batch, threads, at_cap)))
         if progress:
             progress(batch.stop - first)
     return np.concatenate(summaries)
@@ -185,7 +172,12 @@ def _batches(study: Study, first: int, end: int) -> Iterator[range]:
             yield range(begin, min(begin + size, stop))
 
 
-def _runs(study: Study, batch: range, threads: int) -> list[Run]:
+def _runs(
+    study: Study,
+    batch: range,
+    threads: int | None,
+    at_cap: Callable[[int, TransitionLimitError], object] | None,
+) -> list[Run]:
     """The runs of some members; one that meets its cap on transitions is kept as far as it came."""
     from precursors.exact import TransitionLimitError, simulate_many
 
@@ -196,6 +188,8 @@ def _runs(study: Study, batch: range, threads: int) -> list[Run]:
     try:
         return simulate_many(chains, duration, study.until, threads, starts)
     except TransitionLimitError as limit:
-        if len(batch) == 1:
-            return [limit.run]
-        return [run for i in batch for run in _runs(study, range(i, i + 1), threads)]
+        if len(batch) > 1:
+            return [run for i in batch for run in _runs(study, range(i, i + 1), threads, at_cap)]
+        if at_cap:
+            at_cap(batch[0], limit)
+        return [limit.run]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from precursors.chain import Chain
 from precursors.exact import simulate
 from precursors.failures.common import Failure, Number, curves, transitions_right
 from precursors.failures.locating import next_root, overdue
-from precursors.integrators.events import MODE, PUSH, SLIDES, STICKS, Motion, march_events
+from precursors.integrators.events import MODE, PUSH, SLIDES, STICKS, Motion, march_restarting
 from precursors.run import Run
 from precursors.slips import apparent_friction, find_slips
 
@@ -34,17 +36,10 @@ class ForwardMotion(Motion):
         return self.n_sliding > 0
 
 
-def forward_slip(motion: Motion) -> None:
-    """Go through a slip without backward sliding."""
-    time, sliding = 0.0, True
-    while sliding and time < motion.remaining:
-        time, event = next_root(motion, time, forward_only=True)
-        sliding = motion.switch(event, time)
-
-
 def solve_forward_only(chain: Chain, duration: float, until: str | None = None) -> Run:
     """Run a chain whose blocks slide forward only: transitions located by DOP853."""
-    return march_events(ForwardMotion(chain, duration, until), forward_slip).run
+    motion = ForwardMotion(chain, duration, until)
+    return march_restarting(motion, partial(next_root, motion, forward_only=True)).run
 
 
 def forward_only() -> Failure:

@@ -72,7 +72,7 @@ def _unstable(
 
 
 def numerical_damping() -> Failure:
-    """Moreau-Jean time stepping at theta = 1 slows down what moves freely."""
+    """Implicit Moreau-Jean time stepping slows down what moves freely."""
     chain = without_friction(Chain.from_slider())
     omega, mode = highest_frequency(chain), highest_mode(chain)
     lines: dict[str, tuple[FloatArray, list[float]]] = {}
@@ -88,6 +88,6 @@ def numerical_damping() -> Failure:
         times = np.linspace(0.0, SLIP, POINTS)
         factor = moreau_jean_growth(omega * step, IMPLICIT)
         lines[f"theory, dt = {step:.0e} s"] = (times, [math.pow(factor, t / step) for t in times])
-        lines[f"dt = {step:.0e} s"] = (times, add("Moreau-Jean, theta = 1", SLIDES["moreau_jean_one"], step))
-    add("Moreau-Jean, theta = 1/2", SLIDES["moreau_jean_half"], DAMPING_STEPS[0])
+        lines[f"dt = {step:.0e} s"] = (times, add("Moreau-Jean, implicit", SLIDES["moreau_jean_one"], step))
+    add("Moreau-Jean, trapezoidal", SLIDES["moreau_jean_half"], DAMPING_STEPS[0])
     return Failure(tuple(numbers), curves("time_s", "energy_left", **lines))

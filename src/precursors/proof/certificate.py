@@ -18,14 +18,10 @@ from dataclasses import dataclass, replace
 from decimal import Context, Decimal, Inexact
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from precursors.chain import Chain, whole
+from precursors.chain import Chain, Until, checked_until, whole
 from precursors.proof.exact_chain import ExactChain, Number, exact, exact_positions
-from precursors.run import TRANSITION
 from precursors.storage import write_atomically
 
 if TYPE_CHECKING:
@@ -138,7 +134,7 @@ class Certificate:
 
     chain: ExactChain
     duration: Fraction
-    until: Literal["global slip"] | None
+    until: Until
     start_positions: tuple[Fraction, ...]
     transitions: tuple[CertifiedTransition, ...]
     tie: Tie | None
@@ -158,14 +154,6 @@ class Certificate:
         times = [t.time.radius for t in self.transitions]
         loads = [t.tangential_load.radius for t in self.transitions]
         return max(times, default=Fraction(0)), max(loads, default=Fraction(0))
-
-    def as_array(self) -> NDArray[np.void]:
-        """Return the transitions rounded to doubles, with the fields of `Run.transitions`."""
-        rows = [
-            (float(t.time.midpoint), t.block, t.mode, float(t.tangential_load.midpoint))
-            for t in self.transitions
-        ]
-        return np.array(rows, dtype=TRANSITION)
 
     def sealed(self) -> Certificate:
         """Return the certificate with the checksum of its content."""
@@ -247,12 +235,10 @@ class Certificate:
     def _from_content(cls, text: Mapping[str, Any]) -> Certificate:
         tie = text["tie"]
         chain = ExactChain.from_text(text["chain"])
-        if text["until"] not in (None, "global slip"):
-            raise ValueError(f"until = {text['until']!r}")
         return cls(
             chain=chain,
             duration=Fraction(text["duration_s"]),
-            until=text["until"],
+            until=checked_until(text["until"]),
             start_positions=exact_positions(chain, text["start_positions_m"]),
             transitions=tuple(
                 CertifiedTransition(_enclosure(*row[:2]), int(row[2]), int(row[3]), _enclosure(*row[4:]))
@@ -275,7 +261,7 @@ class Certificate:
 def certify(
     chain: ExactChain | Chain,
     duration: Number = 10,
-    until: Literal["global slip"] | None = None,
+    until: Until = None,
     start_positions: Sequence[Number] | None = None,
     width: Number = WIDTH,
     max_bits: int = MAX_BITS,
@@ -313,11 +299,8 @@ def certify(
     for name, value in (("duration", limit), ("width", widest)):
         if value <= 0:
             raise ValueError(f"{name} = {value} [s] is out of range: allowed is {name} > 0")
-    if until not in (None, "global slip"):
-        raise ValueError(f'until = {until!r} is unknown: allowed is None or "global slip"')
-    certificate = Certificate(
-        exact_chain, limit, until, exact_positions(exact_chain, start_positions), (), None, 0, widest
-    )
+    positions = exact_positions(exact_chain, start_positions)
+    certificate = Certificate(exact_chain, limit, checked_until(until), positions, (), None, 0, widest)
     bits = min(FIRST_BITS, whole("max_bits", max_bits, at_least=FIRST_BITS))
     restarts = 0
     while True:

@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from precursors.chain import Chain, require_plain, whole
+from precursors.config import scene_as_written, scene_model
+from precursors.scene_models import PAPERS_MODEL
 
 Number = Fraction | int | float | str
 
@@ -177,15 +179,10 @@ def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
     ValueError
         If the scene's model is another than the paper's chain.
     """
-    scene = config["scenes"][name]
-    if scene.get("model", "chain") != "chain":
-        raise ValueError(f"scenes.{name}.model = {scene['model']!r}: proofs are of the model 'chain' alone")
-    slider: dict[str, Any] = {key: scene.get(key, value) for key, value in config["chain"].items()}
-    if "theta" in scene:
-        return ExactChain.from_slider(**slider, theta=scene["theta"])
-    a, b = exact("load_cell_a", scene["load_cell_a"], "N"), exact("load_cell_b", scene["load_cell_b"], "N")
-    span = exact("length", slider["length"], "m") / exact("spacing", config["load_cells"]["spacing"], "m")
-    return ExactChain.from_slider(**slider | {"theta": (b - a) / (a + b) * span, "normal_load": a + b})
+    model = scene_model(config, name)
+    if model != PAPERS_MODEL:
+        raise ValueError(f"scenes.{name}.model = {model!r}: proofs are of the model {PAPERS_MODEL!r} alone")
+    return ExactChain.from_slider(**scene_as_written(config, name))
 
 
 def exact_positions(chain: ExactChain, positions: Sequence[Number] | None) -> tuple[Fraction, ...]:

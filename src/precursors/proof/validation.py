@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from fractions import Fraction
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -13,29 +10,12 @@ import pandas as pd
 from precursors.horizon import ErrorGrowth, error_growth
 from precursors.proof.agreement import Agreement, compare
 from precursors.proof.certificate import Certificate
-from precursors.proof.exact_chain import ExactChain
 from precursors.run import Run
+from precursors.slip_rows import first_global
 from precursors.slips import find_slips
 
-DURATION = 10.0
 # Rows of a chain's error table, at most.
 ROWS = 400
-
-
-def exact_chain(values: Mapping[str, Any]) -> ExactChain:
-    """The chain of the configuration's `horizon.chains` that has some values of its own."""
-    return ExactChain.from_slider(**{name: x for name, x in values.items() if name != "duration"})
-
-
-def chain_duration(values: Mapping[str, Any]) -> float:
-    """How long a chain of `horizon.chains` is run [s]."""
-    return float(values.get("duration", DURATION))
-
-
-def certificate_path(directory: str | Path, name: str) -> list[str]:
-    """The certificate of a chain in a directory, if it is there."""
-    path = Path(directory) / f"{name}.json.gz"
-    return [str(path)] if path.is_file() else []
 
 
 class Validation(NamedTuple):
@@ -93,8 +73,8 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
     wrong = time[agreement.time_error > tolerance]
     known = np.isfinite(growth.time_error[:n])
     slips = find_slips(run)
-    is_global = slips["is_global"].to_numpy()
-    first_end = float(slips["end"].to_numpy()[is_global][0]) if is_global.any() else np.nan
+    first = first_global(slips)
+    first_end = np.nan if first is None else float(slips["end"].iloc[first])
     until = time <= first_end
     return {
         "duration_s": run.duration,
@@ -111,29 +91,6 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
         "order_doubtful_s": growth.lost.time,
         "largest_ratio": _largest(_ratio(agreement.time_error, growth.time_error[:n], known)),
     }
-
-
-def certificate_row(certificate: Certificate) -> dict[str, float]:
-    """What is proved, in one row of certificates.csv."""
-    widest_time, widest_load = certificate.widest
-    return {
-        "proved_until_s": float(certificate.proved_until),
-        "transitions": len(certificate.transitions),
-        "largest_time_width_s": float(2 * widest_time),
-        "largest_load_width_N": float(2 * widest_load),
-        "bits": certificate.bits,
-        "restarts": certificate.restarts,
-    }
-
-
-def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bool:
-    """Whether a certificate is about all of the run of a chain from rest, for `duration` [s]."""
-    return (
-        certificate.chain == chain
-        and certificate.duration == Fraction(repr(duration))
-        and certificate.until is None
-        and not any(certificate.start_positions)
-    )
 
 
 def _largest(values: np.ndarray) -> float:

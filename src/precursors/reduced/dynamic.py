@@ -27,7 +27,7 @@ from precursors.scene_models import (
 )
 from precursors.slips import apparent_friction, find_slips
 
-# In units of the time in which the drive reaches mu_s F_Z against a slider that does not give way.
+# In units of the time in which the drive reaches mu_s F_Z against all springs in a row.
 LIMIT = 10.0
 
 

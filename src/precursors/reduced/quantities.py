@@ -19,7 +19,8 @@ from precursors.scene_models import (
     SLIP_DURATION,
     WAVEFORM,
 )
-from precursors.slips import find_precursors, first_global
+from precursors.slip_rows import first_global
+from precursors.slips import find_precursors
 
 
 @dataclass(frozen=True)
@@ -106,7 +107,7 @@ def first_load(slips: pd.DataFrame) -> float:
 
 def events_kept(slips: pd.DataFrame) -> float:
     """Number of events of Fig. 13; NaN without a global slip."""
-    return float(len(find_precursors(slips))) if slips["is_global"].any() else np.nan
+    return float(len(find_precursors(slips))) if first_global(slips) is not None else np.nan
 
 
 def front_loads(slips: pd.DataFrame, n_blocks: int) -> FloatArray:
@@ -119,7 +120,8 @@ def front_loads(slips: pd.DataFrame, n_blocks: int) -> FloatArray:
 
 def slip_duration(slips: pd.DataFrame) -> float:
     """Duration of the first global slip [s]; NaN without one."""
-    if not slips["is_global"].any():
+    first = first_global(slips)
+    if first is None:
         return np.nan
-    event = slips.iloc[first_global(slips)]
+    event = slips.iloc[first]
     return float(event["end"] - event["onset"])

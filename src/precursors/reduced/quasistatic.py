@@ -73,7 +73,8 @@ def quasistatic_slips(
         If the overshoot is not within 0..1, a block has no weight, mu_s = mu_k, or the chain is more than the
         paper's.
     RuntimeError
-        If the first global slip is not reached within the cap, or an event does not come to rest.
+        If the first global slip is not reached within the cap, or an event does not come to rest within
+        MAX_STAGES stages.
     """
     require_plain(chain)
     overshoot = not_negative("overshoot", overshoot, "1")
@@ -85,18 +86,22 @@ def quasistatic_slips(
     if not chain.weights.all():
         block = int(np.argmin(chain.weights)) + 1
         raise ValueError(f"weights: block {block} has 0 N: allowed for the quasi-static chain is w > 0 N")
-    events = run_cascades(
+    events, rests = run_cascades(
         np.append(chain.springs, 0.0),
         chain.strength,
         chain.kinetic_friction,
         overshoot,
         ROUNDING * chain.normal_load,
         max_events,
+        MAX_STAGES,
     )
-    if len(events) == 0 or events[-1, SLID] < chain.n_blocks:
+    if not rests:
         raise RuntimeError(
-            f"no global slip within {len(events)} events of at most {MAX_STAGES} stages: raise max_events"
+            f"event {len(events) + 1} does not come to rest within {MAX_STAGES} stages: "
+            "allowed are chains whose cascades end, as with a larger mu_s - mu_k"
         )
+    if events[-1, SLID] < chain.n_blocks:
+        raise RuntimeError(f"no global slip within {len(events)} events: raise max_events = {max_events}")
     time = (events[:, ONSET] / chain.drive_stiffness + events[:, MOVED_BEFORE]) / chain.drive_velocity
     whole_numbers = dict.fromkeys(["front", "n_slid", "n_simultaneous"], int)
     columns = [
@@ -114,8 +119,11 @@ def quasistatic_slips(
 
 
 @compiled
-def run_cascades(springs, strength, friction, overshoot, doubt, max_events):
-    """Events to the first global slip, a row each of ONSET .. AT_ONCE; the spring beyond block N is 0 N/m."""
+def run_cascades(springs, strength, friction, overshoot, doubt, max_events, max_stages):
+    """Events to the first global slip, a row each of ONSET .. AT_ONCE, and whether the last came to rest.
+
+    The spring beyond block N is 0 N/m.
+    """
     n = strength.shape[0]
     events = np.empty((FIRST_ROOM, 6))
     net, step, slip = np.zeros(n), np.zeros(n), np.zeros(n)
@@ -132,7 +140,7 @@ def run_cascades(springs, strength, friction, overshoot, doubt, max_events):
         direction[:] = 0.0
         direction[0] = 1.0
         at_once = 0
-        for _ in range(MAX_STAGES):
+        for _ in range(max_stages):
             find_stage(
                 springs, strength, friction, overshoot, doubt, net, direction, batch, step, ratio, solved
             )
@@ -149,15 +157,15 @@ def run_cascades(springs, strength, friction, overshoot, doubt, max_events):
             if rests:
                 break
         else:
-            return events[:k]
+            return events[:k], False
         load -= springs[0] * slip[0]
         moved += slip[0]
         slid = np.flatnonzero(slip)
         events[k, LOAD_AFTER], events[k, FRONT] = load, slid[-1] + 1
         events[k, SLID], events[k, AT_ONCE] = len(slid), at_once
         if len(slid) == n:
-            return events[: k + 1]
-    return events[:max_events]
+            return events[: k + 1], True
+    return events[:max_events], True
 
 
 @compiled

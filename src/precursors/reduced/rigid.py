@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from precursors.chain import Chain, FloatArray, positive, require_plain
+from precursors.chain import Chain, FloatArray, require_plain
 from precursors.reduced.quantities import Model, plain
-from precursors.run import TRANSITION, Run, States
 from precursors.scene_models import EVENTS_KEPT, FIRST_LOAD, FRONT_LOADS, MU_SAPP, SLIP_DURATION, WAVEFORM
 
 # Corners of the half wave that draws a slip; straight lines between them are within 0.3 % of its height.
@@ -25,16 +25,7 @@ def as_rigid(chain: Chain) -> Chain:
         If the chain is more than the paper's.
     """
     require_plain(chain)
-    return Chain(
-        weights=np.array([chain.normal_load]),
-        mass=chain.n_blocks * chain.mass,
-        stiffness=chain.stiffness,
-        drive_stiffness=chain.drive_stiffness,
-        drive_velocity=chain.drive_velocity,
-        mu_s=chain.mu_s,
-        mu_k=chain.mu_k,
-        length=chain.length,
-    )
+    return replace(chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass)
 
 
 def onset_load(chain: Chain) -> float:
@@ -62,11 +53,6 @@ def rigid_slip_duration(chain: Chain) -> float:
     return (math.pi + 2.0 * math.atan2(2.0 * chain.loading_rate, omega * load_drop(chain))) / omega
 
 
-def rigid_stick_duration(chain: Chain) -> float:
-    """Time between two slips [s]: the load lost is made up at the rate K V."""
-    return load_drop(chain) / chain.loading_rate
-
-
 def slip_load(chain: Chain, since: FloatArray) -> FloatArray:
     """Tangential load F_X at times `since` the release [s] within a slip [N], shape (len(since),)."""
     omega = frequency(chain)
@@ -74,48 +60,6 @@ def slip_load(chain: Chain, since: FloatArray) -> FloatArray:
     swing = 0.5 * load_drop(chain) * np.cos(omega * since)
     drive = chain.loading_rate / omega * np.sin(omega * since)
     return kinetic + swing + drive
-
-
-def rigid_run(chain: Chain, duration: float = 10.0) -> Run:
-    """The transitions of the rigid slider up to `duration` [s]; the run has no stored states.
-
-    Raises
-    ------
-    ValueError
-        If the duration is not positive, or mu_s = mu_k, where a slip follows the other without rest.
-    """
-    duration = positive("duration", duration, "s")
-    if chain.mu_s == chain.mu_k:
-        raise ValueError(f"mu_k = {chain.mu_k!r} = mu_s: allowed for the rigid slider is mu_k < mu_s")
-    first = onset_load(chain) / chain.loading_rate
-    slip, stick = rigid_slip_duration(chain), rigid_stick_duration(chain)
-    n_onsets = max(math.floor((duration - first) / (slip + stick)) + 1, 0)
-    onsets = first + np.arange(n_onsets) * (slip + stick)
-    times = np.column_stack([onsets, onsets + slip]).ravel()
-    n = int(np.searchsorted(times, duration, side="right"))
-    transitions = np.empty(n, TRANSITION)
-    transitions["time"] = times[:n]
-    transitions["block"] = 1
-    transitions["mode"] = np.arange(1, n + 1) % 2
-    transitions["tangential_load"] = onset_load(chain) - load_drop(chain) * (np.arange(n) % 2)
-    intervals = np.where(np.arange(n + 1) % 2 == 1, slip, stick)
-    intervals[0] = min(first, duration)
-    if n:
-        intervals[-1] = duration - times[n - 1]
-    return Run(
-        chain=as_rigid(chain),
-        duration=duration,
-        transitions=transitions,
-        intervals=intervals,
-        start_positions=np.zeros(1),
-        start_velocities=np.zeros(1),
-        states=_no_states(),
-    )
-
-
-def _no_states() -> States:
-    none = np.empty((0, 0))
-    return States(none, none, none.astype(np.int64), np.empty(0, np.int64), np.empty(0))
 
 
 def _waveform(chain: Chain) -> FloatArray:
