@@ -111,7 +111,6 @@ def test_blocks_that_are_stronger_than_a_rounding_let_go_in_time_beside_others_t
         assert a[0] == pytest.approx(b[0], abs=RADIANS / fastest(run.chain))
 
 
-@pytest.mark.xfail(strict=True, reason="a release without wait sets the drive's force anew from that ahead")
 def test_a_soft_drive_keeps_its_load_where_block_1_starts_at_its_limit():
     """K/k = 1e-7: a rounding of k x_1 that is put into K (V t - x_1) is 4e-11 of it."""
     chain = Chain.from_slider(n_blocks=5, drive_stiffness=25.0)

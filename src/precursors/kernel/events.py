@@ -340,7 +340,8 @@ def run_events(
                 start_clock(clock, remaining, tau)
                 status = FINISHED
                 break
-            tension[1] = tension[2] + strength[1]
+            if wait > 0.0:
+                tension[1] = tension[2] + strength[1]
             start_clock(clock, wait, tau)
             first = 1
             set_mode(first, first, chain, additions, state, motion)
