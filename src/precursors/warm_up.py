@@ -1,4 +1,4 @@
-"""Compile all compiled code into its cache, a part on each core: python -m precursors.warm_up."""
+"""Compile solver and fixed-step methods into the cache, a part on each core: python -m precursors.warm_up."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 
-# Long enough for a first slip (0.35 s), so that every branch is typed.
+# Long enough for a first slip (0.35 s), so that what is called in slips only is met.
 DURATION = 0.4  # s
 STEP = 1e-6  # s
 COMPILED_METHODS = ("rk4", "rk4_skip", "rk4_located", "leapfrog", "moreau_jean_one", "karnopp", "literal")

@@ -10,10 +10,11 @@ from pathlib import Path
 import pytest
 
 from precursors import kernel
-from precursors.kernel.compiled import stamp
+from precursors.compile_cache import stamp
 
 KERNEL = Path(kernel.__file__).parent
 MODULES = sorted(file.name for file in KERNEL.glob("*.py"))
+PATIENCE = 300.0  # s: a start takes some seconds, far more only if it hangs
 # A kernel in small, compiled as the large one is: an entry point, and what it calls in another file.
 ENTRY = """
 from small.compiled import outer
@@ -35,6 +36,13 @@ import json
 from small.entry import entry
 values = [entry(2), entry(0.5)]
 print(json.dumps([values, sum(entry.stats.cache_hits.values())]))
+"""
+# A disk with room for the index of the cache, but not for the code.
+FULL = """
+from numba.core import caching
+def full(self, name, data):
+    raise OSError(28, "No space left on device")
+caching.IndexDataCacheFile._save_data = full
 """
 
 
@@ -65,7 +73,7 @@ class Small:
 
     def use(self, **environment: str) -> tuple[list[float], int, str]:
         """What the entry point returns for 2 and 0.5, how many came from the cache, and the warnings."""
-        out, err = (process := self.start(**environment)).communicate()
+        out, err = (process := self.start(**environment)).communicate(timeout=PATIENCE)
         assert process.returncode == 0, err
         values, hits = json.loads(out)
         return values, hits, err
@@ -89,6 +97,13 @@ def test_what_was_compiled_is_used_again_and_an_edit_of_what_it_calls_is_seen(sm
     assert small.use()[:2] == ([11, 3.5], 2)
 
 
+def test_code_of_the_version_before_is_not_used_where_the_new_could_not_be_written(small):
+    small.use()
+    small.write("part.py", PART.replace("3 * x", "5 * x"))
+    small.start(FULL + USE).communicate(timeout=PATIENCE)
+    assert small.use()[0] == [11, 3.5]
+
+
 def test_only_entry_points_are_kept(small):
     small.use()
     assert {file.name.split("-")[0] for file in small.kept} == {"entry.entry"}
@@ -96,7 +111,7 @@ def test_only_entry_points_are_kept(small):
 
 @pytest.mark.parametrize("module", MODULES)
 def test_an_edit_of_any_module_makes_the_kernel_compile_anew(module, tmp_path):
-    copy = shutil.copytree(KERNEL, tmp_path / "kernel")
+    copy = shutil.copytree(KERNEL, tmp_path / "kernel", ignore=shutil.ignore_patterns("__pycache__"))
     before = stamp(copy)
     assert before == stamp(KERNEL)
     with (copy / module).open("a") as file:
@@ -105,7 +120,7 @@ def test_an_edit_of_any_module_makes_the_kernel_compile_anew(module, tmp_path):
 
 
 def test_a_module_that_is_added_or_renamed_makes_the_kernel_compile_anew(tmp_path):
-    copy = shutil.copytree(KERNEL, tmp_path / "kernel")
+    copy = shutil.copytree(KERNEL, tmp_path / "kernel", ignore=shutil.ignore_patterns("__pycache__"))
     before = stamp(copy)
     (copy / "watch.py").rename(copy / "watched.py")
     renamed = stamp(copy)
@@ -155,7 +170,7 @@ def test_code_for_other_arguments_under_the_name_of_ours_is_not_used(small):
 def test_two_processes_may_compile_at_once(small):
     processes = [small.start() for _ in range(2)]
     for process in processes:
-        out, err = process.communicate()
+        out, err = process.communicate(timeout=PATIENCE)
         assert process.returncode == 0, err
         assert json.loads(out)[0] == [7, 2.5]
     assert small.use()[0] == [7, 2.5]
@@ -163,5 +178,5 @@ def test_two_processes_may_compile_at_once(small):
 
 def test_a_part_called_from_python_is_an_error_and_no_crash(small):
     process = small.start("from small.part import times\ntimes(2)")
-    assert "TypeError" in process.communicate()[1]
+    assert "TypeError" in process.communicate(timeout=PATIENCE)[1]
     assert process.returncode == 1

@@ -7,21 +7,21 @@ The state is the force T_i in the spring behind each block and the block's veloc
 with c = K, k, k, ... and v_0 = V. That is Eqs. 2-6 in other variables: each of these methods gives the same
 numbers as in positions, without the rounding of positions that grow with the drive. Column 0 of every array
 is the drive, columns 1..N the blocks, column N + 1 the free end.
-
-Numba's compile cache does not see an edit in an imported file: after editing this one, delete the __pycache__
-of this folder.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
 from precursors.chain import Chain, FloatArray, require_plain
+from precursors.compile_cache import kept, stamp
 
 FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, MOVING = range(5)
 
@@ -38,9 +38,15 @@ STEPS_IN_LEG, LEGS_PER_CALL = 1000, 5000
 
 # A call counts references to all arrays of its tuples, which costs more than a step. What is called in every
 # step is inlined, and a leg's steps call nothing else.
-outer = njit(cache=True, error_model="numpy", fastmath={"contract"}, nogil=True)
-apart = njit(cache=True, error_model="numpy", fastmath={"contract"})
-inner = njit(cache=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
+apart = njit(error_model="numpy", fastmath={"contract"})
+inner = njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
+_entry = njit(error_model="numpy", fastmath={"contract"}, nogil=True)
+STAMP = stamp(Path(__file__).parent)
+
+
+def outer(function: Callable[..., Any]) -> Any:
+    """Compile what Python calls, and keep it until a file of this package is edited."""
+    return kept(_entry(function), STAMP)
 
 
 class System(NamedTuple):

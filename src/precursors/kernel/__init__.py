@@ -10,7 +10,7 @@ proves that the window holds none. A cubic with the rest of the series as its er
 Inside, forces are in N, displacements are multiplied by m/tau^2 into N, time is in tau and velocity in N/tau,
 with tau such that the highest frequency of the chain times tau is at most `REACH`. The state is the force
 T_i in the spring behind each block and its velocity v_i, not its position: slips of a micrometre after a
-millimetre of drive keep all their digits. In these units the motion is
+millimetre of drive keep all their digits. In these units the motion (Eqs. 2-6) is
 
     dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = r_i (G_i - f_i),    G_i = T_i - T_{i+1} + dashpots
 
@@ -38,7 +38,6 @@ time, and `ringing` hurries through rest on interface springs.
 """
 
 from precursors.kernel.arrays import (
-    Additions,
     Record,
     Room,
     States,
@@ -95,7 +94,6 @@ __all__ = [
     "STORED",
     "TRANSITIONS",
     "WINDOWS",
-    "Additions",
     "Record",
     "Room",
     "States",

@@ -1,18 +1,18 @@
 """How the kernel's functions are compiled and kept: the decorators, and a cache that sees every edit.
 
-Numba stamps what it keeps on disk with the one file that a function stands in. Here only the entry points
-(`outer`) are kept, and stamped with all files of this package: what they call is part of them.
+Only the entry points (`outer`) are kept on disk, stamped with all files of this package: what they call is
+part of them.
 
 What they call is typed and lowered by itself, but becomes machine code in its callers only: optimising it,
-and making machine code of it, for each function anew would take as long again.
+and making machine code of it, for each function anew would take as long again. `_Part`, `_OfferToCallers`,
+`_PartCompiler` and the option `_nrt` use what Numba keeps to itself, and may have to follow it: they were run
+with Numba 0.61.2 and 0.68.1.
 """
 
 from __future__ import annotations
 
 import ctypes
 import gc
-import hashlib
-import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,11 +21,12 @@ from typing import Any
 import numba
 import numpy as np
 from numba import int64
-from numba.core.caching import FunctionCache
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.compiler_machinery import LoweringPass, register_pass
 from numba.core.typed_passes import NativeLowering
+
+from precursors.compile_cache import kept, stamp
 
 # Numba guards every index that may be negative; unsigned ones, and constants of their kind, save that time.
 index = np.uint64
@@ -79,7 +80,6 @@ class _PartCompiler(Compiler):
         state.flags.no_compile = True
         state.library = _Part(state.targetctx.codegen(), state.func_id.func_qualname)
         [passes] = super().define_pipelines()
-        passes._finalized = False
         passes.add_pass_after(_OfferToCallers, NativeLowering)
         passes.finalize()
         return [passes]
@@ -104,64 +104,11 @@ def _no_garbage_collection() -> Iterator[None]:
             gc.enable()
 
 
-def stamp(directory: Path) -> str:
-    """Checksum of all modules in a directory."""
-    digest = hashlib.sha256()
-    for file in sorted(directory.glob("*.py")):
-        digest.update(f"{file.name} {file.stat().st_size} ".encode())
-        digest.update(file.read_bytes())
-    return digest.hexdigest()
-
-
 STAMP = stamp(Path(__file__).parent)
 
-
-class _Cache(FunctionCache):
-    """Numba's cache, in its usual places, of functions that all files of this package are part of."""
-
-    def __init__(self, function: Function) -> None:
-        super().__init__(function)
-        self._cache_file._source_stamp = STAMP
-
-    def load_overload(self, signature: Any, target: Any) -> Any:
-        """What is kept for a signature, or None; what cannot be read is thrown away."""
-        try:
-            found = super().load_overload(signature, target)
-        except Exception:
-            self._flush()
-            return None
-        # Two processes may have written different signatures under one name at the same time.
-        return found if found is None or tuple(found.signature.args) == tuple(signature) else None
-
-    def save_overload(self, signature: Any, data: Any) -> None:
-        """Keep what was compiled, if there is room."""
-        try:
-            super().save_overload(signature, data)
-        except OSError as error:
-            warnings.warn(f"compiled code is not kept: {error}", stacklevel=2)
-
-    def _flush(self) -> None:
-        try:
-            self.flush()
-        except OSError:
-            self.disable()
-
-
-def _kept(function: Any) -> Any:
-    """Keep a compiled function on disk, or say that there is nowhere to keep it."""
-    try:
-        function._cache = _Cache(function.py_func)
-    except RuntimeError:
-        warnings.warn(
-            "compiled code can be kept nowhere, and is made anew in each process: set NUMBA_CACHE_DIR to a "
-            "directory that can be written",
-            stacklevel=3,
-        )
-    return function
-
-
 # No code counts references (`_nrt`) or allocates, as that takes longer than the arithmetic; so does passing
-# arrays to a function: hence what is inlined. Products may be fused with sums, but for clocks and units.
+# arrays to a function: hence what is inlined. Products may be fused with sums, but in the event loop, starts
+# and units.
 _part: dict[str, Any] = {
     "error_model": "numpy",
     "locals": INDEX,
@@ -185,4 +132,4 @@ _entry: Any = untyped.njit(
 
 def outer(function: Function) -> Any:
     """Compile an entry point, which Python calls, and keep it."""
-    return _kept(_entry(function))
+    return kept(_entry(function), STAMP)

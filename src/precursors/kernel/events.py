@@ -176,7 +176,7 @@ def rest_of_states(states, stored):
 
 @seldom
 def note_start(state, count, record, states, additions):
-    """Record the blocks that move at time 0 as transitions, and the start, at rest, as the first state."""
+    """Record the blocks that move at time 0 as transitions; the first state is the start with all modes 0."""
     mode = state.mode
     if additions is not None:
         for i in range(mode.shape[0]):
@@ -209,21 +209,7 @@ def start_clock(clock, wait, tau):
 @inner
 def with_rate(m, rate):
     """The same motion with the Taylor rows in another array."""
-    return Motion(
-        rate,
-        m.mobile,
-        m.sense,
-        m.push,
-        m.slip,
-        m.origins,
-        m.tension_before,
-        m.fastest,
-        m.suspects,
-        m.weight,
-        m.spare,
-        m.behind,
-        m.ahead,
-    )
+    return Motion(rate, *m[1:])
 
 
 @inner

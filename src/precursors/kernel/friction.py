@@ -1,4 +1,4 @@
-"""Coulomb's law: modes of blocks, what follows from them, and which one a block at rest takes."""
+"""Coulomb's law (Eqs. 4-6): modes of blocks, what follows from them, and which one a block at rest takes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Margins mu_s w_i -+ F_i of blocks that stick: which may vanish in a window, and when at the earliest."""
+"""Margins mu_s w_i -+ F_i (Eq. 5) of blocks that stick: which may vanish in a window, and when."""
 
 from __future__ import annotations
 

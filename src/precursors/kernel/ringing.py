@@ -98,8 +98,8 @@ def leap(remaining, chain, additions, ringing, tension, motion):
         pivot[n_blocks + i] = slip[i]
     relax(n_blocks, coupling, pivot, slip)
     for i in range(1, n_blocks + 1):
-        ringing = rate[0, i] - creep[i]
-        energy += abs(pivot[n_blocks + i] * slip[i]) + ringing * ringing / lightness[i]
+        swinging = rate[0, i] - creep[i]
+        energy += abs(pivot[n_blocks + i] * slip[i]) + swinging * swinging / lightness[i]
     longest = remaining
     for i in range(1, n_blocks + 1):
         chi = additions.anchor[i]

@@ -1,4 +1,4 @@
-"""The chain's linear operator: Taylor series of the velocities, and moving along them."""
+"""The chain's linear operator (Eq. 2): Taylor series of the velocities, and moving along them."""
 
 from __future__ import annotations
 

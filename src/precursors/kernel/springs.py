@@ -1,4 +1,4 @@
-"""Forces of springs and dashpots, and what the slips of a window do to them."""
+"""Forces of springs (Eqs. 2 and 3) and dashpots, and what the slips of a window do to them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A chain in the kernel's units."""
+"""A chain in the kernel's units: spring constants (Eqs. 2 and 3), friction (Eqs. 5 and 6), tau."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from precursors.kernel.layout import REACH
 
 
 class System(NamedTuple):
-    """A chain in the kernel's units; columns as in the module's docstring."""
+    """A chain in the kernel's units; columns as in the package's docstring."""
 
     tau: float
     drive_velocity: float
