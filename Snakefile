@@ -7,19 +7,22 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from precursors.config import check_config, check_directory, scenes_with
+from precursors.config import scenes_with
+from precursors.config_check import check_config, check_directory
 from precursors.config_file import check_config_file
 
 min_version("9.20")
 
 # Snakemake writes it into shell commands as it is, and a path may hold spaces (snakemake/snakemake#2645).
-sys.executable = shlex.quote(sys.executable)
+if Path(sys.executable).exists():
+    sys.executable = shlex.quote(sys.executable)
 
 GO_ON = "What is finished is kept: the same command goes on from there."
 
 # asyncio takes Ctrl-C over from Python's own handler, and Snakemake may lose it there or take it for an error.
 if (
-    threading.current_thread() is threading.main_thread()
+    not workflow.modifier.is_module
+    and threading.current_thread() is threading.main_thread()
     and signal.getsignal(signal.SIGINT) is signal.default_int_handler
 ):
     signal.signal(signal.SIGINT, lambda *_: sys.exit(f"Interrupted. {GO_ON}"))

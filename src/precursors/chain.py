@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from numbers import Integral, Real
@@ -235,6 +236,13 @@ def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> Flo
     return load / n * (1 + (2 * i - n - 1) / (n - 1) * degree)
 
 
+def written_fraction(text: str) -> Fraction:
+    """Return a decimal or a fraction as it is written, or raise a ValueError or ZeroDivisionError."""
+    if re.search(r"[eE][-+]?[\d_]{4}", text):
+        raise ValueError(f"{text!r} has an exponent of four digits")  # 10**exponent would be written out
+    return Fraction(text)
+
+
 def parse_theta(theta: float | str) -> float:
     """Read theta from a number or a fraction written as "5/6".
 
@@ -245,7 +253,7 @@ def parse_theta(theta: float | str) -> float:
     """
     if isinstance(theta, str):
         try:
-            value = Fraction(theta)
+            value = written_fraction(theta)
         except (ValueError, ZeroDivisionError, OverflowError):
             raise ValueError(
                 f'theta = {theta!r} is not a number: allowed is -1 <= theta <= 1, a fraction as "5/6"'

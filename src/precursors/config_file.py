@@ -9,8 +9,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from precursors.config import one_line, too_many
-from precursors.plain_yaml import parse_yaml
+from precursors.plain_yaml import one_line, parse_yaml, too_many
 
 # Snakemake evaluates Python in a configuration file that has this key.
 EVALUATED = "__use_yte__"

@@ -8,14 +8,12 @@ from typing import Any
 import numpy as np
 
 from precursors.chain import Chain, parse_theta
-from precursors.config import Config, scene_slider, too_long
-from precursors.cost import PROOF_PER_RUN, seconds_of_run, seconds_to_first_slip
+from precursors.config import Config, scene_slider
+from precursors.cost import PROOF_PER_RUN, seconds_of_run, seconds_to_first_slip, too_long
 from precursors.ensembles.maps import AXES, map_study
 from precursors.ensembles.resolution_models import slider_additions
-from precursors.slider import SLIDER, Slider, loading_time
+from precursors.slider import PROVED_FOR, SLIDER, Slider, loading_time
 
-# `proof.proved.DURATION` [s], without what it imports.
-PROVED_FOR = 10.0
 # Names that a table would give back as something else than text.
 NO_TEXT = ("na", "nan", "null", "none", "true", "false", "inf", "infinity")
 
@@ -51,10 +49,17 @@ def _wrong_names(config: Config) -> Iterator[str]:
         "resolution_models.models": config["resolution_models"]["models"],
     }
     for where, table in tables.items():
+        met: dict[str, str] = {}
         for name in table:
             if name.lower() in NO_TEXT:
                 others = ", ".join(NO_TEXT)
                 yield f"{where}.{name}: a table would not give this name back: allowed is any but {others}"
+            if name.lower() in met:
+                yield (
+                    f"{where}.{name} differs from {met[name.lower()]} in capitals alone, "
+                    "and would share its files on some machines: allowed is one of the two"
+                )
+            met[name.lower()] = name
 
 
 def _wrong_degrees(config: Config) -> Iterator[str]:

@@ -7,6 +7,7 @@ of motion as long as a third of the fastest period, of which a slip takes as man
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from numpy.typing import ArrayLike
 from precursors.chain import FloatArray
 from precursors.slider import Slider, loading_time, spring_stiffness
 
+# Computing time [s] above which a scene is refused, unless the configuration has a `longest_run` of its own.
+LONGEST_RUN = 3600.0
 # Measured times [s], for N = 2..200 at three theta. Single runs are off by a factor 2 either way, which the
 # many runs of a chunk average out. This is what a run takes beside its motion:
 SECONDS_PER_RUN = 3.5e-4
@@ -85,6 +88,16 @@ def seconds_of_run(slider: Slider, duration: float) -> float:
             _seconds({key: np.float64(value) for key, value in slider.items()}, np.float64(duration))
         )
     return math.inf if math.isnan(seconds) else seconds
+
+
+def too_long(config: Mapping[str, Any], where: str, seconds: float) -> Iterator[str]:
+    """Refuse what is expected to take longer than `longest_run`."""
+    longest = float(config.get("longest_run", LONGEST_RUN))
+    if seconds > longest:
+        yield (
+            f"{where} would take about {seconds:.1g} s: allowed is longest_run = {longest:g} s "
+            "(fewer blocks, a shorter duration, or a larger longest_run)"
+        )
 
 
 def _seconds(slider: Slider, duration: Any) -> Any:

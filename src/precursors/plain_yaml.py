@@ -1,14 +1,19 @@
-"""YAML that holds plain values, with each key once, and comes to an end."""
+"""YAML that holds plain values, with each key once, and comes to an end; what is not so, in one line."""
 
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 # Levels of values inside values that no file of this project needs.
 DEEPEST = 12
+# Values of a configuration, each as often as YAML's aliases repeat it; the paper's has 500.
+MOST_VALUES = 100_000
+# Characters of a complaint.
+LONGEST_LINE = 500
 
 
 def read_yaml(path: str | os.PathLike[str]) -> Any:
@@ -59,6 +64,24 @@ def parse_yaml(text: str) -> Any:
         raise ValueError(f"not valid YAML: a value that is none of its type ({error})") from None
 
 
+def too_many(table: Mapping[str, Any]) -> Iterator[str]:
+    """Values inside values without end, and more than can be looked at: ten lines of YAML hold a billion."""
+    for key, value in table.items():
+        number = _count(value, {})
+        if number == math.inf:
+            yield f"{key} holds values inside values without end: allowed are {DEEPEST} levels"
+        if number > MOST_VALUES:
+            yield f"{key} holds {number} values, by aliases of aliases: allowed are {MOST_VALUES}"
+
+
+def one_line(text: str) -> str:
+    """A complaint whatever is in the names that it quotes: one line, without its middle if it is long."""
+    line = "".join(c if c.isprintable() else " " for c in text)
+    return (
+        line if len(line) <= LONGEST_LINE else f"{line[: LONGEST_LINE // 2]} ... {line[-LONGEST_LINE // 2 :]}"
+    )
+
+
 def _not_too_deep(events: Iterable[Any]) -> None:
     """Refuse values inside values without end: the compiled loader takes the interpreter with it at them."""
     import yaml
@@ -91,3 +114,16 @@ def _keys_once(root: Any) -> None:
                     place = f"in line {key.start_mark.line + 1}, column {key.start_mark.column + 1}"
                     raise ValueError(f"the key {key.value!r} stands twice, {place}: allowed is each key once")
                 keys.add(key.value if isinstance(key, yaml.ScalarNode) else id(key))
+
+
+def _count(value: object, known: dict[int, float], depth: int = 1) -> float:
+    """Number of values in a value, each as often as an alias repeats it; infinite if they are too deep."""
+    if depth > DEEPEST:
+        return math.inf
+    if not isinstance(value, Mapping | list):
+        return 1
+    if id(value) not in known:
+        known[id(value)] = math.inf  # for a value that holds itself
+        inner = value.values() if isinstance(value, Mapping) else value
+        known[id(value)] = 1 + sum(_count(item, known, depth + 1) for item in inner)
+    return known[id(value)]

@@ -172,7 +172,7 @@ def _create(temporary: Path) -> IO[str]:
             return file
         with suppress(OSError):  # not every file system has locks
             fcntl.flock(file, fcntl.LOCK_EX)
-        if os.fstat(file.fileno()).st_nlink:
+        if temporary.exists():
             return file
         # Another writer took it for a leftover in the instant before it was locked.
         file.close()

@@ -34,16 +34,15 @@ from numpy.random import default_rng
 from faults.hostile import NAMES, ODDITIES, ROOT, SEED, a_copy, configuration, drawn, of_another_size, papers
 from faults.outcome import Outcome
 from precursors.config import (
-    check_config,
     scene_chain,
     scene_duration,
     scene_model,
     scene_names,
     scene_outputs,
     scene_quantities,
-    scene_seconds,
     scene_slider,
 )
+from precursors.config_check import check_config, scene_seconds
 from precursors.config_file import check_config_file
 from precursors.exact import TransitionLimitError, simulate
 

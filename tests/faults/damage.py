@@ -35,10 +35,10 @@ from precursors.paper import Number, Source, collect_numbers, write_numbers
 from precursors.paper.pages import take_along
 from precursors.proof.certificate import Certificate
 from precursors.run import FORMAT as RUN
+from precursors.slip_table import slip_table
 from precursors.storage import CHECKSUMS, read_json
 from precursors.table_files import read_table, write_table
 from precursors.table_page import write_table_page
-from precursors.tables import slip_table
 
 ROOT = Path(__file__).parents[2]
 SEED = 1962

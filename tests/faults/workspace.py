@@ -31,8 +31,6 @@ TARGETS = (
     "results/explorer.html",
     "results/paper.pdf",
 )
-# Runs, and tables made of them: eight jobs.
-FEW_TARGETS = TARGETS[:1]
 # A paper of one page, as the real one waits for every table.
 PAPER = """\
 #let numbers = json("/results/numbers.json")

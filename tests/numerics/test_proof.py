@@ -479,6 +479,7 @@ def test_theta_of_a_scene_is_not_rounded() -> None:
         ({"theta": "7/6"}, r"theta = '7/6' \[1\] is out of range: allowed is -1 <= theta <= 1"),
         ({"mu_s": "0.4"}, "mu_k = 9/20 is larger than mu_s = 2/5"),
         ({"slider_mass": 0}, r"mass = 0 \[kg\] is out of range: allowed is mass > 0"),
+        ({"theta": "1e999999999"}, r"theta = '1e999999999' .* is not a number"),
         ({"normal_load": float("nan")}, r"normal_load = nan \[N\] is not a number"),
         ({"n_blocks": 0}, "n_blocks = 0 is out of range"),
     ],

@@ -71,6 +71,8 @@ def test_a_chain_cannot_be_changed():
         ("n_blocks", True, "n_blocks = True"),
         ("theta", 1.01, "theta = 1.01"),
         ("theta", "5/0", "theta = '5/0' is not a number"),
+        ("theta", "1e999999999", "theta = '1e999999999' is not a number"),
+        ("theta", "1E-9_999_999_999", "theta = '1E-9_999_999_999' is not a number"),
         ("theta", "__import__('os')", "is not a number"),
         ("theta", math.nan, "theta = nan"),
         ("normal_load", 0.0, "normal_load = 0.0 [N] is out of range: allowed is normal_load > 0"),

@@ -20,7 +20,7 @@ from snakemake.script import PythonScript
 for module in (
     "jsonschema",
     "nbformat",
-    "precursors.config",
+    "precursors.config_check",
     "precursors.ensembles.catalogue",
     "precursors.ledger.claims",
     "precursors.paper.numbers",
@@ -144,7 +144,7 @@ def _copy_workflow(path: Path, compiled: bool) -> Workspace:
     path.mkdir()
     for name in ("Snakefile", "config.yaml"):
         shutil.copy2(ROOT / name, path)
-    for name in ("workflow", "src", "paper"):
+    for name in ("workflow", "src", "paper", "profiles"):
         shutil.copytree(ROOT / name, path / name, ignore=shutil.ignore_patterns("__pycache__"))
     if compiled:
         # Links: Python and Numba put a new file in the place of an old one and never write into it.

@@ -10,7 +10,7 @@ import pytest
 import yaml
 from conftest import ROOT
 
-from precursors.config import check_config
+from precursors.config_check import check_config
 from precursors.proof import ExactChain, certify
 from precursors.table_files import read_table
 from precursors.work_precision import COLUMNS, check_methods

@@ -10,17 +10,11 @@ import yaml
 from conftest import ROOT, Workspace
 
 from precursors import Run, integrators
-from precursors.config import (
-    LONGEST_RUN,
-    check_config,
-    scene_chain,
-    scene_names,
-    scene_seconds,
-    trace_seconds,
-)
+from precursors.config import scene_chain, scene_names
+from precursors.config_check import check_config, scene_seconds, trace_seconds
 from precursors.config_schema import allowed
-from precursors.config_studies import PROVED_FOR
-from precursors.proof import proved, scene_exact_chain
+from precursors.cost import LONGEST_RUN
+from precursors.proof import scene_exact_chain
 from precursors.scaling_text import GROWS_FROM
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
@@ -125,6 +119,9 @@ BAD = [
     ("horizon.chains.null", {"theta": 0}, ["horizon.chains.null", "give this name back"]),
     ("horizon.chains.two words", {"theta": 0}, ["horizon.chains.two words", "a letter, then"]),
     ("resolution_models.models.nan", {}, ["resolution_models.models.nan", "give this name back"]),
+    ("scenes.Fig10", STEEP, ["scenes.Fig10 differs from fig10 in capitals alone", "one of the two"]),
+    ("horizon.chains.Uniform", {"theta": 0}, ["horizon.chains.Uniform differs from uniform in capitals"]),
+    ("resolution_models.models.Plain", {}, ["models.Plain differs from plain in capitals"]),
     ("scenes.None", STEEP, ["scenes.None", "give this name back"]),
     ("definitions.theta", ["7"], ["definitions.theta[0]: theta = '7'", "-1 <= theta <= 1"]),
     ("definitions.theta", ["5/6", "0/3"], ["definitions.theta[1] = '0/3'", "0 < theta <= 1"]),
@@ -228,10 +225,6 @@ def test_a_scene_whose_trace_would_take_too_long_is_refused():
         check_config(config, SCHEMA)
     only_answers = changed("scenes.steep", STEEP | {"quantities": ["mu_sapp"]})
     assert trace_seconds(only_answers, "steep") == 0.0
-
-
-def test_the_duration_of_a_chain_that_gives_none_is_the_one_it_is_proved_for():
-    assert PROVED_FOR == proved.DURATION
 
 
 def test_the_schema_knows_all_methods_and_no_others():

@@ -21,7 +21,6 @@ ASIDE = {
     "scripts/run_chunk": ["ensembles/catalogue", "progress"],
     "scripts/gather_members": ["ensembles/catalogue"],
     "scripts/tabulate_resolution_models": ["ensembles/catalogue"],
-    "config": ["config_schema", "config_studies", "cost"],  # what is refused
     "proof/exact_chain": ["config"],  # the chain of a scene, a parameter of certify_scene
     "run": ["horizon"],  # what a run tells its user when asked
 }

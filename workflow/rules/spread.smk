@@ -1,4 +1,4 @@
-from precursors.ensembles.spread import QUESTIONS
+from precursors.ensembles.questions import QUESTIONS
 
 
 rule tabulate_spread:

@@ -5,8 +5,8 @@ from pathlib import Path
 from job import job
 
 from precursors.run import Run
+from precursors.slip_table import slip_table
 from precursors.table_files import write_table
-from precursors.tables import slip_table
 
 
 def main(run: str | Path, output: str | Path) -> None:

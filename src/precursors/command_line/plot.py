@@ -71,7 +71,7 @@ def draw_load(run: Run) -> Figure:
     """F_X(t) and the fronts of all slips, as Figs. 10 to 12."""
     from precursors.figures.scene import draw_scene
     from precursors.load_curve import load_trace
-    from precursors.tables import slip_table
+    from precursors.slip_table import slip_table
 
     chain = run.chain
     return draw_scene(slip_table(run), load_trace(run), chain.n_blocks, chain.length, label=_label(run))
@@ -80,7 +80,7 @@ def draw_load(run: Run) -> Figure:
 def draw_lengths(run: Run) -> Figure:
     """Propagation lengths against the load, as Fig. 13."""
     from precursors.figures.precursor_lengths import PrecursorLengths, draw_precursor_lengths
-    from precursors.tables import slip_table
+    from precursors.slip_table import slip_table
 
     chain = run.chain
     return draw_precursor_lengths(

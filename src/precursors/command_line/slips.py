@@ -31,8 +31,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Find the slips and write them."""
+    from precursors.slip_table import slip_table
     from precursors.storage import write_atomically
-    from precursors.tables import slip_table
 
     table = slip_table(run_of(arguments))
     if arguments.kept:

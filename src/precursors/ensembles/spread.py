@@ -13,13 +13,12 @@ import numpy as np
 
 from precursors.chain import FloatArray
 from precursors.config import Config, scene_slider
+from precursors.ensembles.questions import QUESTIONS, SWEEP, UNPERTURBED
 from precursors.ensembles.study import Study
 
 if TYPE_CHECKING:
     import pandas as pd
 
-QUESTIONS = ("loads", "theta", "start", "parameters")
-UNPERTURBED, SWEEP = "none", "theta, evenly spaced"
 # What is changed for each parameter of the model; k enters through E alone (Eq. 10).
 PARAMETERS = {
     "mu_s": "mu_s",

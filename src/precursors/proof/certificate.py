@@ -20,7 +20,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from precursors.chain import Chain, Until, checked_until, whole
+from precursors.chain import Chain, Until, checked_until, whole, written_fraction
 from precursors.proof.exact_chain import ExactChain, Number, exact, exact_positions
 from precursors.storage import write_atomically
 
@@ -237,7 +237,7 @@ class Certificate:
         chain = ExactChain.from_text(text["chain"])
         return cls(
             chain=chain,
-            duration=Fraction(text["duration_s"]),
+            duration=written_fraction(text["duration_s"]),
             until=checked_until(text["until"]),
             start_positions=exact_positions(chain, text["start_positions_m"]),
             transitions=tuple(
@@ -249,10 +249,10 @@ class Certificate:
                 _enclosure(*tie["time_s"]),
                 tuple(tie["blocks"]),
                 tie["question"],
-                Fraction(tie["closeness_s"]),
+                written_fraction(tie["closeness_s"]),
             ),
             bits=int(text["bits"]),
-            width=Fraction(text["width_s"]),
+            width=written_fraction(text["width_s"]),
             restarts=int(text["restarts"]),
             sha256=str(text["sha256"]),
         )
@@ -495,7 +495,7 @@ def _enclosure_text(enclosure: Enclosure) -> tuple[str, str]:
 
 
 def _enclosure(midpoint: str, radius: str) -> Enclosure:
-    return Enclosure(Fraction(midpoint), Fraction(radius))
+    return Enclosure(written_fraction(midpoint), written_fraction(radius))
 
 
 def _checksum(content: Mapping[str, Any]) -> str:

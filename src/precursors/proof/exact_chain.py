@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from precursors.chain import Chain, require_plain, whole
+from precursors.chain import Chain, require_plain, whole, written_fraction
 from precursors.config import scene_as_written, scene_model
 from precursors.scene_models import PAPERS_MODEL
 
@@ -162,7 +162,9 @@ def exact(name: str, value: object, unit: str) -> Fraction:
     try:
         if isinstance(value, bool):
             raise ValueError
-        if isinstance(value, Fraction | int | str):
+        if isinstance(value, str):
+            return written_fraction(value)
+        if isinstance(value, Fraction | int):
             return Fraction(value)
         if isinstance(value, Real):
             return Fraction(repr(float(value)))

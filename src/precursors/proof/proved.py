@@ -9,8 +9,7 @@ from typing import Any
 
 from precursors.proof.certificate import Certificate
 from precursors.proof.exact_chain import ExactChain
-
-DURATION = 10.0
+from precursors.slider import PROVED_FOR
 
 
 def exact_chain(values: Mapping[str, Any]) -> ExactChain:
@@ -20,7 +19,7 @@ def exact_chain(values: Mapping[str, Any]) -> ExactChain:
 
 def chain_duration(values: Mapping[str, Any]) -> float:
     """How long a chain of `horizon.chains` is run [s]."""
-    return float(values.get("duration", DURATION))
+    return float(values.get("duration", PROVED_FOR))
 
 
 def certificate_path(directory: str | Path, name: str) -> list[str]:
