@@ -38,7 +38,6 @@ TRUE = [
     (3.625, 3, 0, 101.5),
 ]
 ONSETS = [0, 2, 6]
-FIRST_OF_SECOND_SLIP = 2
 # What doubles reach up to the first global slip [s], ten times what the exact solver's error is.
 ROUNDING = 1e-14
 # A fake method sleeps so long [s]; sleep never ends early.

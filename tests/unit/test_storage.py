@@ -151,10 +151,10 @@ def test_no_room_is_an_error_that_names_the_file(tmp_path):
 
 
 ROOT = Path(__file__).parents[2]
-WRITERS = {"savefig", "to_csv", "write_bytes", "write_text"}
+WRITERS = {"copyfile", "copytree", "savefig", "to_csv", "write_bytes", "write_text"}
 WHOLE = {"write_atomically", "write_checked", "write_sealed"}
 # Logs, a page of docs/, and what is copied for Typst into a directory that is thrown away.
-NO_RESULTS = {"job.py", "list_figures.py", "pages.py: target"}
+NO_RESULTS = {"job.py", "list_figures.py", "pages.py: shutil.copytree", "pages.py: target.write_bytes"}
 
 
 def written_in_place(path):
@@ -164,11 +164,15 @@ def written_in_place(path):
         if isinstance(node, ast.With):
             calls = [item.context_expr for item in node.items]
             inside = inside or any(isinstance(c, ast.Call) and ast.unparse(c.func) in WHOLE for c in calls)
-        if not inside and isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
-            if node.func.attr in WRITERS:
-                yield f"{path.name}: {ast.unparse(node.func.value)}"
-            mode = [a.value for a in node.args if isinstance(a, ast.Constant) and isinstance(a.value, str)]
-            if node.func.attr == "open" and set("wax") & set("".join(mode)):
+        if not inside and isinstance(node, ast.Call):
+            name = getattr(node.func, "attr", getattr(node.func, "id", ""))
+            if name in WRITERS:
+                yield f"{path.name}: {ast.unparse(node.func)}"
+            values = [*node.args, *(keyword.value for keyword in node.keywords)]
+            modes = {v.value for v in values if isinstance(v, ast.Constant) and isinstance(v.value, str)}
+            if name in ("open", "File") and any(
+                set("wxa") & set(m) and set(m) <= set("wxa+bt") for m in modes
+            ):
                 yield f"{path.name}: {ast.unparse(node)}"
         for child in ast.iter_child_nodes(node):
             yield from visit(child, inside)
@@ -184,5 +188,13 @@ def test_no_result_is_written_in_place():
 
 
 def test_a_result_that_is_written_in_place_is_seen(tmp_path):
-    (tmp_path / "a.py").write_text("def f(table, path):\n    table.to_csv(path)\n    path.open('w')\n")
-    assert list(written_in_place(tmp_path / "a.py")) == ["a.py: table", "a.py: path.open('w')"]
+    calls = [
+        "table.to_csv(path)",
+        "path.open('w')",
+        "path.open(mode='wb')",
+        "open(path, 'x', encoding='utf-8')",
+        "h5py.File(path, 'w')",
+        "shutil.copyfile('a', path)",
+    ]
+    (tmp_path / "a.py").write_text("\n".join([*calls, "open(path)", "path.open('rb')"]))
+    assert len(list(written_in_place(tmp_path / "a.py"))) == len(calls)
