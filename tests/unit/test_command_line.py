@@ -392,8 +392,10 @@ def test_a_package_that_is_missing_is_named(cli, certificate, monkeypatch):
 
 
 def test_an_interrupt_is_one_line():
+    # A shell without job control starts what is in the background with SIGINT ignored, and tests inherit that.
     program = (
-        "import sys; from precursors.command_line import main\n"
+        "import signal, sys; from precursors.command_line import main\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "main(['simulate', '--duration', '1', '--json'])\n"
         "print('ready', flush=True)\n"
         "sys.exit(main(['simulate', '--duration', '1e6']))"
