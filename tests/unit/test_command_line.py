@@ -392,7 +392,7 @@ def test_a_package_that_is_missing_is_named(cli, certificate, monkeypatch):
 
 
 def test_an_interrupt_is_one_line():
-    # A shell without job control starts what is in the background with SIGINT ignored, and tests inherit that.
+    # A shell without job control has SIGINT ignored in what it starts in the background; tests inherit that.
     program = (
         "import signal, sys; from precursors.command_line import main\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
