@@ -69,17 +69,11 @@ def kills(work: Workspace, right: dict[str, bytes], times: int) -> Outcome:
                 answer = "Snakemake ended by itself and left its lock"
             outcome.count(f"{victim} at {moment:.2f} s: {answer}" if answer else "survived")
             continue
-        if process.returncode == 0:
-            _end(outcome, work, right)
-        else:
-            outcome.count(f"does not go on: {work.text()[-400:]!r}")
+        _end(outcome, work, right, process.returncode, work.text())
         work.clean()
         finished.clear()
     _unlock(work, by_words=False)
-    code, text = work.run()
-    if code != 0:
-        outcome.count(f"does not go on: {text[-400:]!r}")
-    _end(outcome, work, right)
+    _end(outcome, work, right, *work.run())
     return outcome
 
 
@@ -127,8 +121,10 @@ def _wrong(witness: Witness) -> str:
     return f"not right under a final name: {sorted(witness.wrong)}" if witness.wrong else ""
 
 
-def _end(outcome: Outcome, work: Workspace, right: dict[str, bytes]) -> None:
-    """Judge what is there when all is done."""
+def _end(outcome: Outcome, work: Workspace, right: dict[str, bytes], code: int, text: str) -> None:
+    """Judge a run that nobody stopped, and what is there when all is done."""
+    if code != 0:
+        outcome.count(f"the same command does not go on: {text[-400:]!r}")
     work.wait_for_orphans()
     found, left = work.contents(), work.leftovers()
     wrong = sorted(name for name in right.keys() | found.keys() if found.get(name) != right.get(name))
@@ -158,15 +154,9 @@ def interrupts(work: Workspace, right: dict[str, bytes], times: int) -> Outcome:
             answer = _interrupt(process, work) or _wrong(witness)
             outcome.count(f"after {len(jobs(work.text())[0])} jobs: {answer}" if answer else "survived")
             continue
-        if process.returncode == 0:
-            _end(outcome, work, right)
-        else:
-            outcome.count(f"the same command does not go on: {work.text()[-300:]!r}")
+        _end(outcome, work, right, process.returncode, work.text())
         work.clean()
-    code, text = work.run()
-    if code != 0:
-        outcome.count(f"the same command does not go on: {text[-300:]!r}")
-    _end(outcome, work, right)
+    _end(outcome, work, right, *work.run())
     outcome.count(_interrupt_compiled_code(work) or "survived")
     return outcome
 

@@ -1,7 +1,7 @@
-"""How the kernel's functions are compiled and kept: the decorators, and a cache that sees every edit.
+"""How the kernel's functions are compiled and kept: the decorators.
 
-Only the entry points (`outer`) are kept on disk, stamped with all files of this package: what they call is
-part of them.
+Only the entry points (`outer`) are kept on disk (`precursors.compile_cache`), stamped with all files of this
+package: what they call is part of them.
 
 What they call is typed and lowered by itself, but becomes machine code in its callers only: optimising it,
 and making machine code of it, for each function anew would take as long again. `_Part`, `_OfferToCallers`,
