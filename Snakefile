@@ -7,9 +7,9 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from precursors.config import scenes_with
-from precursors.config_check import check_config, check_directory
-from precursors.config_file import check_config_file
+from precursors.model.scenes import scenes_with
+from precursors.model.config_check import check_config, check_directory
+from precursors.model.config_file import check_config_file
 
 min_version("9.20")
 

@@ -4,7 +4,7 @@
     .venv/bin/python benchmarks/bench.py --quick          a reduced size, to see that it runs
 
 Ratios are what counts: all that is compared runs in turn in one process on one thread (see
-`precursors.timing`).
+`precursors.support.timing`).
 """
 
 from __future__ import annotations
@@ -29,13 +29,20 @@ from io import TextIOWrapper
 from pathlib import Path
 from typing import Literal
 
-from precursors import Chain, Run, simulate, simulate_many, timing
-from precursors.accuracy import TrueTransition, Truth, compare
-from precursors.exact import available_cores
-from precursors.growth import BASE_SIZE, LEAST_TRANSITIONS, SIZES, TRANSITIONS_PER_BLOCK, measure_growth
-from precursors.integrators.heyoka_events import solve_heyoka
-from precursors.integrators.scipy_events import solve_scipy
-from precursors.storage import open_checked, write_checked
+from precursors import Chain, Run, simulate, simulate_many
+from precursors.accuracy.compare import TrueTransition, Truth, compare
+from precursors.accuracy.cost_per_event import (
+    BASE_SIZE,
+    LEAST_TRANSITIONS,
+    SIZES,
+    TRANSITIONS_PER_BLOCK,
+    measure_growth,
+)
+from precursors.methods.heyoka_events import solve_heyoka
+from precursors.methods.scipy_events import solve_scipy
+from precursors.solver.simulate import available_cores
+from precursors.support import timing
+from precursors.support.files import open_checked, write_checked
 
 ROOT = Path(__file__).resolve().parent.parent
 REFERENCE = ROOT / "tests" / "golden" / "reference_fig10.csv"

@@ -6,17 +6,19 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from precursors.chain import Chain
-    from precursors.exact import TransitionLimitError, simulate, simulate_many
-    from precursors.proof import certify
-    from precursors.run import Run, RunFileError
-    from precursors.slips import find_precursors, find_slips
+    from precursors.accuracy.audit import audit
+    from precursors.accuracy.proof import certify
+    from precursors.analysis.slips import find_precursors, find_slips
+    from precursors.model.chain import Chain
+    from precursors.solver.run import Run, RunFileError
+    from precursors.solver.simulate import TransitionLimitError, simulate, simulate_many
 
 __all__ = [
     "Chain",
     "Run",
     "RunFileError",
     "TransitionLimitError",
+    "audit",
     "certify",
     "find_precursors",
     "find_slips",
@@ -26,15 +28,16 @@ __all__ = [
 
 # Imported when first asked for (PEP 562): who checks a configuration or draws a table waits for no compiler.
 _MODULES = {
-    "Chain": "chain",
-    "Run": "run",
-    "RunFileError": "run",
-    "TransitionLimitError": "exact",
-    "certify": "proof",
-    "find_precursors": "slips",
-    "find_slips": "slips",
-    "simulate": "exact",
-    "simulate_many": "exact",
+    "Chain": "model.chain",
+    "Run": "solver.run",
+    "RunFileError": "solver.run",
+    "TransitionLimitError": "solver.simulate",
+    "audit": "accuracy.audit",
+    "certify": "accuracy.proof",
+    "find_precursors": "analysis.slips",
+    "find_slips": "analysis.slips",
+    "simulate": "solver.simulate",
+    "simulate_many": "solver.simulate",
 }
 
 if not TYPE_CHECKING:  # a type checker that saw it would take every name for one of this package

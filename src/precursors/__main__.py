@@ -2,6 +2,6 @@
 
 import sys
 
-from precursors.command_line import main
+from precursors.cli import main
 
 sys.exit(main())

@@ -28,12 +28,14 @@ import simulate_scene
 import tabulate_slips
 import tabulate_trace
 import yaml
-from numerics.chains import first_transitions
+from chains import first_transitions
 from numpy.random import default_rng
 
 from faults.hostile import NAMES, ODDITIES, ROOT, SEED, a_copy, configuration, drawn, of_another_size, papers
 from faults.outcome import Outcome
-from precursors.config import (
+from precursors.model.config_check import check_config, scene_seconds
+from precursors.model.config_file import check_config_file
+from precursors.model.scenes import (
     scene_chain,
     scene_duration,
     scene_model,
@@ -42,9 +44,7 @@ from precursors.config import (
     scene_quantities,
     scene_slider,
 )
-from precursors.config_check import check_config, scene_seconds
-from precursors.config_file import check_config_file
-from precursors.exact import TransitionLimitError, simulate
+from precursors.solver.simulate import TransitionLimitError, simulate
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 # 10,000 in all: from a grammar of what YAML can hold, and drawn by hypothesis.

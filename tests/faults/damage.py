@@ -23,22 +23,22 @@ import print_reproduction
 import write_provenance
 import yaml
 
-import precursors.ledger.judge as judge
+import precursors.reproduction.ledger.judge as judge
 from faults.outcome import Outcome
 from precursors import Chain, Run, simulate
+from precursors.accuracy.proof.certificate import Certificate
+from precursors.analysis.slip_table import slip_table
 from precursors.ensembles.catalogue import make_study
 from precursors.ensembles.chunks import FORMAT as CHUNK
 from precursors.ensembles.chunks import load_chunk, save_chunk
 from precursors.ensembles.study import Study, run_members
 from precursors.figures.style import read_columns
-from precursors.paper import Number, Source, collect_numbers, write_numbers
-from precursors.paper.pages import take_along
-from precursors.proof.certificate import Certificate
-from precursors.run import FORMAT as RUN
-from precursors.slip_table import slip_table
-from precursors.storage import CHECKSUMS, read_json
-from precursors.table_files import read_table, write_table
-from precursors.table_page import write_table_page
+from precursors.figures.table_page import write_table_page
+from precursors.reproduction.paper import Number, Source, collect_numbers, write_numbers
+from precursors.reproduction.paper.pages import take_along
+from precursors.solver.run import FORMAT as RUN
+from precursors.support.files import CHECKSUMS, read_json
+from precursors.support.tables import read_table, write_table
 
 ROOT = Path(__file__).parents[2]
 SEED = 1962

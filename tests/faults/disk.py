@@ -30,9 +30,9 @@ import resource, sys
 from pathlib import Path
 import pandas as pd
 from matplotlib.figure import Figure
-from precursors.table_files import write_table
+from precursors.support.tables import write_table
 from precursors import Chain, simulate
-from precursors.explorer import Scene, write_explorer
+from precursors.figures.explorer import Scene, write_explorer
 from precursors.figures import style
 
 path = Path(sys.argv[1])

@@ -14,12 +14,12 @@ from multiprocessing.connection import Connection, wait
 from typing import Any
 
 import numpy as np
-from numerics.chains import first_transitions, positions_under
+from chains import first_transitions, positions_under
 from numpy.random import Generator
 
 from faults.outcome import Outcome
 from precursors import Chain
-from precursors.audit import Tolerances, audit
+from precursors.accuracy.audit import Tolerances, audit
 
 SEED = 1961
 CHAINS = 20_000

@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
-from numerics.chains import first_transitions
+from chains import first_transitions
 from numpy.random import Generator
 
 from faults import physics
 from precursors import Run
-from precursors.audit import audit
+from precursors.accuracy.audit import audit
 
 # Of an interval, and of mu_k.
 WRONG = 1e-6

@@ -15,14 +15,16 @@ import yaml
 from faults import configuration, damage, hostile, physics
 from faults.outcome import Outcome, table
 from faults.workspace import Witness, Workspace, jobs
-from precursors import Chain, simulate, storage, table_files
-from precursors.config_check import check_config, scene_seconds
-from precursors.config_file import check_config_file
-from precursors.paper import pages
-from precursors.proof.certificate import Certificate, CertificateError
-from precursors.slip_table import slip_table
-from precursors.storage import CHECKSUMS, open_checked, write_sealed
-from precursors.table_files import read_table, write_table
+from precursors import Chain, simulate
+from precursors.accuracy.proof.certificate import Certificate, CertificateError
+from precursors.analysis.slip_table import slip_table
+from precursors.model.config_check import check_config, scene_seconds
+from precursors.model.config_file import check_config_file
+from precursors.reproduction.paper import pages
+from precursors.support import files as storage
+from precursors.support import tables as table_files
+from precursors.support.files import CHECKSUMS, open_checked, write_sealed
+from precursors.support.tables import read_table, write_table
 
 ROOT = Path(__file__).parents[2]
 GOOD = {"survived", "refused"}

@@ -9,11 +9,11 @@ import pandas as pd
 import pytest
 from golden.regenerate import GOLDEN
 
-from precursors.command_line import main
-from precursors.ledger.claims import read_claims
-from precursors.ledger.judge import differences, judge, to_table
-from precursors.ledger.rules import VERDICTS
-from precursors.storage import CHECKSUMS
+from precursors.cli import main
+from precursors.reproduction.ledger.claims import read_claims
+from precursors.reproduction.ledger.judge import differences, judge, to_table
+from precursors.reproduction.ledger.rules import VERDICTS
+from precursors.support.files import CHECKSUMS
 
 ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "results/tables"

@@ -13,8 +13,8 @@ import pytest
 import yaml
 from golden.regenerate import GOLDEN
 
-from precursors.scaling import time_of_maps
-from precursors.scaling_text import scaling_text
+from precursors.ensembles.scaling import time_of_maps
+from precursors.ensembles.scaling_text import scaling_text
 
 ROOT = Path(__file__).parents[2]
 COSTS, MAPS = GOLDEN / "scaling.csv", GOLDEN / "scaling_maps.csv"

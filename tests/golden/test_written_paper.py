@@ -12,7 +12,7 @@ import yaml
 from pdf_text import pages_of
 from pypdf import PdfReader
 
-from precursors.paper import PaperError, configured, files_shown, read_sources, tables_needed
+from precursors.reproduction.paper import PaperError, configured, files_shown, read_sources, tables_needed
 
 ROOT = Path(__file__).parents[2]
 PAPER = ROOT / "paper"

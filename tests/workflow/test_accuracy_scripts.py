@@ -10,10 +10,10 @@ import pytest
 import yaml
 from conftest import ROOT
 
-from precursors.config_check import check_config
-from precursors.proof import ExactChain, certify
-from precursors.table_files import read_table
-from precursors.work_precision import COLUMNS, check_methods
+from precursors.accuracy.proof import ExactChain, certify
+from precursors.accuracy.work_precision import COLUMNS, check_methods
+from precursors.model.config_check import check_config
+from precursors.support.tables import read_table
 
 CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"

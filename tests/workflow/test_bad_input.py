@@ -9,13 +9,14 @@ import pytest
 import yaml
 from conftest import ROOT, Workspace
 
-from precursors import Run, integrators
-from precursors.config import scene_chain, scene_names
-from precursors.config_check import check_config, scene_seconds, trace_seconds
-from precursors.config_schema import allowed
-from precursors.cost import LONGEST_RUN
-from precursors.proof import scene_exact_chain
-from precursors.scaling_text import GROWS_FROM
+from precursors import Run
+from precursors import methods as integrators
+from precursors.accuracy.proof import scene_exact_chain
+from precursors.ensembles.cost import LONGEST_RUN
+from precursors.ensembles.scaling_text import GROWS_FROM
+from precursors.model.config_check import check_config, scene_seconds, trace_seconds
+from precursors.model.config_schema import allowed
+from precursors.model.scenes import scene_chain, scene_names
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 SCHEMA_ITSELF = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))
@@ -228,7 +229,7 @@ def test_a_scene_whose_trace_would_take_too_long_is_refused():
 
 
 def test_the_schema_knows_all_methods_and_no_others():
-    modules = [import_module(f"precursors.integrators.{name}") for name in integrators.MODULES]
+    modules = [import_module(f"precursors.methods.{name}") for name in integrators.MODULES]
     names = SCHEMA_ITSELF["$defs"]["sweeps"]["propertyNames"]["enum"]
     assert sorted(names) == sorted(method.name for module in modules for method in module.METHODS)
 

@@ -9,8 +9,8 @@ import pytest
 from conftest import ROOT, Workspace
 
 from precursors import Chain, Run
-from precursors.reduced import MODELS
-from precursors.storage import open_checked
+from precursors.hierarchy import MODELS
+from precursors.support.files import open_checked
 
 SCENE_JOBS = {"simulate_scene", "tabulate_slips", "tabulate_trace", "draw_scene"}
 # Rules that `all` leaves out.

@@ -14,8 +14,8 @@ import tabulate_horizon
 import tabulate_lyapunov
 import take_certificates
 
+from precursors.accuracy.proof import Certificate, CertificateError, ExactChain, certify, verify
 from precursors.figures.horizon import draw_horizon
-from precursors.proof import Certificate, CertificateError, ExactChain, certify, verify
 
 CHAIN = ExactChain.from_slider(n_blocks=2, theta="1/2", drive_velocity="1e-3")
 DURATION = 0.5

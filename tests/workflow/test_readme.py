@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from precursors import Chain, find_precursors, find_slips, simulate
-from precursors.slips import apparent_friction
+from precursors.analysis.slips import apparent_friction
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

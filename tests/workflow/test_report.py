@@ -9,7 +9,7 @@ import pytest
 from browser import browser, find_browser
 from conftest import ROOT, Workspace
 
-from precursors.table_page import table_page
+from precursors.figures.table_page import table_page
 
 CATEGORIES = {
     "Reproduction",

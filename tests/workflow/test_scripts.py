@@ -12,8 +12,8 @@ import tabulate_slips
 import tabulate_trace
 
 from precursors import Chain, find_slips, simulate
-from precursors.load_curve import TOLERANCE_N
-from precursors.table_files import read_table
+from precursors.analysis.load_curve import TOLERANCE_N
+from precursors.support.tables import read_table
 
 STEEP = """\
   steep:

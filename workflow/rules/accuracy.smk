@@ -1,4 +1,4 @@
-from precursors.chain import parse_theta
+from precursors.model.chain import parse_theta
 
 COMPARED = config["accuracy"]["chains"]
 THETAS = {name: parse_theta(config["horizon"]["chains"][name].get("theta", 0)) for name in COMPARED}

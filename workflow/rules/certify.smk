@@ -1,4 +1,4 @@
-from precursors.proof import scene_exact_chain
+from precursors.accuracy.proof import scene_exact_chain
 
 
 rule certify_scene:

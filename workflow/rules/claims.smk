@@ -1,4 +1,4 @@
-from precursors.ledger.claims import read_claims, scenes_needed, tables_needed
+from precursors.reproduction.ledger.claims import read_claims, scenes_needed, tables_needed
 
 PAPERS_SCENES = config["fig13"]
 CLAIMS_FILE = os.path.normpath(f"{ROOT}/paper/claims.yaml")

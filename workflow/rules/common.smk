@@ -1,6 +1,6 @@
 import os
 
-from precursors.config import (
+from precursors.model.scenes import (
     scene_chain,
     scene_duration,
     scene_model,
@@ -8,7 +8,7 @@ from precursors.config import (
     scene_slider,
     scenes_with,
 )
-from precursors.imports import files_used
+from precursors.support.imports import files_used
 
 SCENES = scenes_with(config, "run")
 ASKED = scenes_with(config, "answers")
@@ -18,11 +18,11 @@ LIBRARY = os.path.normpath(f"{ROOT}/src/precursors")
 # Imports whose edit changes no result, so that nothing is run again for it.
 ASIDE = {
     # Members come in by the fingerprint of their study, a parameter of run_chunk.
-    "scripts/run_chunk": ["ensembles/catalogue", "progress"],
+    "scripts/run_chunk": ["ensembles/catalogue", "support/progress"],
     "scripts/gather_members": ["ensembles/catalogue"],
     "scripts/tabulate_resolution_models": ["ensembles/catalogue"],
-    "proof/exact_chain": ["config"],  # the chain of a scene, a parameter of certify_scene
-    "run": ["horizon"],  # what a run tells its user when asked
+    "accuracy/proof/exact_chain": ["model/scenes"],  # the chain of a scene, a parameter of certify_scene
+    "solver/run": ["analysis/horizon"],  # what a run tells its user when asked
 }
 
 

@@ -3,7 +3,7 @@ rule write_explorer:
         runs=collect("results/runs/{scene}.h5", scene=SCENES),
         code=code_of("write_explorer"),
         page=collect(
-            "{library}/explorer/{file}",
+            "{library}/figures/explorer/{file}",
             library=LIBRARY,
             file=["explorer.css", "explorer.js", "page.html"],
         ),

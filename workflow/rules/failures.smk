@@ -1,4 +1,4 @@
-# As in precursors.failures.WAYS, which takes seconds to import.
+# As in precursors.accuracy.failures.WAYS, which takes seconds to import.
 WAYS_TO_FAIL = [
     "rk4_unstable",
     "leapfrog_unstable",

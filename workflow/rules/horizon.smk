@@ -1,4 +1,4 @@
-from precursors.proof.proved import certificate_path, chain_duration, exact_chain
+from precursors.accuracy.proof.proved import certificate_path, chain_duration, exact_chain
 
 CHAINS = config["horizon"]["chains"]
 COMMITTED = os.path.normpath(f"{ROOT}/workflow/certificates")

@@ -1,4 +1,4 @@
-from precursors.paper import configured, files_shown, is_configured, read_sources, tables_needed
+from precursors.reproduction.paper import configured, files_shown, is_configured, read_sources, tables_needed
 
 PAPER_SOURCE = Path(ROOT) / "paper"
 

@@ -6,9 +6,9 @@ from typing import Any
 
 from job import job
 
-from precursors.chain import Chain
-from precursors.reduced.answers import answers_table
-from precursors.table_files import write_table
+from precursors.hierarchy.answers import answers_table
+from precursors.model.chain import Chain
+from precursors.support.tables import write_table
 
 
 def main(slider: dict[str, Any], model: str, quantities: Sequence[str], output: str | Path) -> None:

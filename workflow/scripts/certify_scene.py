@@ -6,7 +6,7 @@ from typing import Any
 
 from job import job
 
-from precursors.proof import ExactChain, certify
+from precursors.accuracy.proof import ExactChain, certify
 
 
 def main(chain: Mapping[str, Any], duration: float, output: str | Path) -> None:

@@ -8,10 +8,10 @@ from pathlib import Path
 import pandas as pd
 from job import job
 
-from precursors.chain import Chain
-from precursors.eq15 import check_eq15, table
-from precursors.storage import write_checked
-from precursors.table_files import write_table
+from precursors.model.chain import Chain
+from precursors.reproduction.eq15 import check_eq15, table
+from precursors.support.files import write_checked
+from precursors.support.tables import write_table
 
 
 def main(scenes: Mapping[str, Chain], duration: float, json_path: str | Path, csv_path: str | Path) -> None:

@@ -5,9 +5,9 @@ from pathlib import Path
 
 from job import job
 
-from precursors.chain import Chain
-from precursors.ladder import climb
-from precursors.table_files import write_table
+from precursors.hierarchy.compare_models import climb
+from precursors.model.chain import Chain
+from precursors.support.tables import write_table
 
 
 def main(

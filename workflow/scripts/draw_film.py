@@ -5,7 +5,7 @@ from pathlib import Path
 from job import job
 
 from precursors.figures.film import film_clips, write_film
-from precursors.run import Run
+from precursors.solver.run import Run
 
 
 def main(run: str | Path, output: str | Path) -> None:

@@ -5,9 +5,9 @@ from pathlib import Path
 
 from job import job
 
-from precursors.ledger.claims import read_claims
-from precursors.ledger.judge import judge, to_table
-from precursors.table_files import write_table
+from precursors.reproduction.ledger.claims import read_claims
+from precursors.reproduction.ledger.judge import judge, to_table
+from precursors.support.tables import write_table
 
 
 def main(claims: str | Path, tables: Sequence[str | Path], output: str | Path) -> None:

@@ -8,8 +8,8 @@ from job import job  # before NumPy: it sets the number of threads
 
 # isort: split
 
-from precursors.growth import measure_growth
-from precursors.table_files import write_table
+from precursors.accuracy.cost_per_event import measure_growth
+from precursors.support.tables import write_table
 
 
 def main(size: Mapping[str, Any], output: str | Path) -> None:

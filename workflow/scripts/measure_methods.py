@@ -9,9 +9,9 @@ from job import job  # before NumPy: it sets the number of threads
 # isort: split
 import pandas as pd
 
-from precursors.proof import Certificate
-from precursors.table_files import write_table
-from precursors.work_precision import measure_methods, proved_cases, sweeps_of
+from precursors.accuracy.proof import Certificate
+from precursors.accuracy.work_precision import measure_methods, proved_cases, sweeps_of
+from precursors.support.tables import write_table
 
 
 def main(

@@ -8,10 +8,10 @@ from job import job  # before NumPy: it sets the number of threads
 
 # isort: split
 
-from precursors.scaling import measure_costs, time_of_maps
-from precursors.scaling_text import scaling_text
-from precursors.storage import write_atomically
-from precursors.table_files import write_table
+from precursors.ensembles.scaling import measure_costs, time_of_maps
+from precursors.ensembles.scaling_text import scaling_text
+from precursors.support.files import write_atomically
+from precursors.support.tables import write_table
 
 
 def main(config: Mapping[str, Any], costs: str | Path, maps: str | Path, text: str | Path) -> None:

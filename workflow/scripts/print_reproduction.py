@@ -7,7 +7,7 @@ import io
 import sys
 from pathlib import Path
 
-from precursors.storage import open_checked
+from precursors.support.files import open_checked
 
 
 def main(table: str | Path, figures: str | Path) -> None:

@@ -6,9 +6,9 @@ from time import process_time
 import pandas as pd
 from job import job
 
-from precursors.proof import verify
-from precursors.proof.proved import certificate_row
-from precursors.table_files import write_table
+from precursors.accuracy.proof import verify
+from precursors.accuracy.proof.proved import certificate_row
+from precursors.support.tables import write_table
 
 
 def main(certificate: str | Path, output: str | Path) -> None:

@@ -9,7 +9,7 @@ from job import job
 from precursors.ensembles.catalogue import make_study
 from precursors.ensembles.chunks import estimated_seconds, save_chunk
 from precursors.ensembles.study import run_members
-from precursors.progress import Progress
+from precursors.support.progress import Progress
 
 
 def main(config: Mapping[str, Any], name: str, chunk: str, output: str | Path) -> None:

@@ -5,8 +5,8 @@ from typing import Any
 
 from job import job
 
-from precursors.chain import Chain
-from precursors.exact import TransitionLimitError, simulate
+from precursors.model.chain import Chain
+from precursors.solver.simulate import TransitionLimitError, simulate
 
 
 def main(slider: dict[str, Any], duration: float, output: str | Path) -> None:

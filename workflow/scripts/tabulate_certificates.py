@@ -6,9 +6,9 @@ from pathlib import Path
 import pandas as pd
 from job import job
 
-from precursors.proof import verify
-from precursors.proof.proved import certificate_row
-from precursors.table_files import read_table, write_table
+from precursors.accuracy.proof import verify
+from precursors.accuracy.proof.proved import certificate_row
+from precursors.support.tables import read_table, write_table
 
 
 def main(certificates: Mapping[str, str | Path], effort: str | Path, output: str | Path) -> None:

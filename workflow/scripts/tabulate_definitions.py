@@ -6,8 +6,8 @@ from typing import Any
 
 from job import job
 
-from precursors.definitions import definitions_table
-from precursors.table_files import write_table
+from precursors.reproduction.definitions import definitions_table
+from precursors.support.tables import write_table
 
 
 def main(

@@ -7,8 +7,8 @@ from pathlib import Path
 import pandas as pd
 from job import job
 
-from precursors.failures import WAYS
-from precursors.table_files import write_table
+from precursors.accuracy.failures import WAYS
+from precursors.support.tables import write_table
 
 
 def main(output: str | Path, curves: Mapping[str, str | Path]) -> None:

@@ -6,9 +6,9 @@ from pathlib import Path
 import pandas as pd
 from job import job
 
-from precursors.proof import Certificate
-from precursors.proof.validation import error_table, summary, validate
-from precursors.table_files import write_table
+from precursors.accuracy.proof import Certificate
+from precursors.accuracy.proof.validation import error_table, summary, validate
+from precursors.support.tables import write_table
 
 
 def main(

@@ -7,10 +7,10 @@ from typing import Any
 import pandas as pd
 from job import job
 
-from precursors.chain import Chain
 from precursors.ensembles.long_runs import global_slips, long_run_statistics
-from precursors.exact import simulate
-from precursors.table_files import write_table
+from precursors.model.chain import Chain
+from precursors.solver.simulate import simulate
+from precursors.support.tables import write_table
 
 
 def main(

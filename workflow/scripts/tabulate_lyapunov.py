@@ -7,10 +7,10 @@ from typing import Any
 import pandas as pd
 from job import job
 
-from precursors.chain import Chain
-from precursors.exact import simulate
-from precursors.lyapunov import lyapunov_exponent
-from precursors.table_files import write_table
+from precursors.analysis.lyapunov import lyapunov_exponent
+from precursors.model.chain import Chain
+from precursors.solver.simulate import simulate
+from precursors.support.tables import write_table
 
 
 def main(sliders: Mapping[str, Mapping[str, Any]], duration: float, output: str | Path) -> None:

@@ -7,9 +7,9 @@ from pathlib import Path
 import pandas as pd
 from job import job
 
-from precursors.measures import measures
-from precursors.run import Run
-from precursors.table_files import write_table
+from precursors.reproduction.measures import measures
+from precursors.solver.run import Run
+from precursors.support.tables import write_table
 
 COLUMNS = ["scene", "quantity", "block", "unit", "value"]
 

@@ -8,9 +8,9 @@ from typing import Any
 import pandas as pd
 from job import job
 
-from precursors.run import Run
-from precursors.slips import DEFINITIONS, apparent_friction, find_slips
-from precursors.table_files import write_table
+from precursors.analysis.slips import DEFINITIONS, apparent_friction, find_slips
+from precursors.solver.run import Run
+from precursors.support.tables import write_table
 
 COLUMNS = ["scene", "definition", "mu_sapp", "load_N", "time_s", "event", "events_kept", "is_papers"]
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from job import job
 
-from precursors.reproduction import reproduction_table
-from precursors.table_files import read_table, write_table
+from precursors.reproduction.summary_table import reproduction_table
+from precursors.support.tables import read_table, write_table
 
 
 def main(

@@ -4,9 +4,9 @@ from pathlib import Path
 
 from job import job
 
-from precursors.run import Run
-from precursors.slip_table import slip_table
-from precursors.table_files import write_table
+from precursors.analysis.slip_table import slip_table
+from precursors.solver.run import Run
+from precursors.support.tables import write_table
 
 
 def main(run: str | Path, output: str | Path) -> None:

@@ -8,9 +8,9 @@ from typing import Any
 import pandas as pd
 from job import job
 
-from precursors.chain import Chain
-from precursors.step_sweep import steps_between, sweep
-from precursors.table_files import write_table
+from precursors.accuracy.step_sweep import steps_between, sweep
+from precursors.model.chain import Chain
+from precursors.support.tables import write_table
 
 UNITS = {"step": "step_s", "global_slip_time": "global_slip_time_s"}
 

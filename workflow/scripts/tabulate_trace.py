@@ -4,9 +4,9 @@ from pathlib import Path
 
 from job import job
 
-from precursors.load_curve import load_trace
-from precursors.run import Run
-from precursors.table_files import write_table
+from precursors.analysis.load_curve import load_trace
+from precursors.solver.run import Run
+from precursors.support.tables import write_table
 
 
 def main(run: str | Path, output: str | Path) -> None:

@@ -7,9 +7,9 @@ from typing import Any
 
 from job import job
 
-from precursors.proof import ExactChain, certify, verify
-from precursors.proof.proved import is_about
-from precursors.storage import write_atomically
+from precursors.accuracy.proof import ExactChain, certify, verify
+from precursors.accuracy.proof.proved import is_about
+from precursors.support.files import write_atomically
 
 
 def main(

@@ -4,8 +4,8 @@ from pathlib import Path
 
 from job import job
 
-from precursors.crate import write_crate
-from precursors.storage import read_json
+from precursors.support.crate import write_crate
+from precursors.support.files import read_json
 
 
 def main(provenance: str | Path, output: str | Path) -> None:

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from job import job
 
-from precursors.explorer import Scene, write_explorer
-from precursors.run import Run
+from precursors.figures.explorer import Scene, write_explorer
+from precursors.solver.run import Run
 
 
 def main(

@@ -7,8 +7,8 @@ from typing import Any
 
 from job import job
 
-from precursors.paper import collect_numbers, read_sources, set_pages, write_numbers
-from precursors.storage import write_atomically
+from precursors.reproduction.paper import collect_numbers, read_sources, set_pages, write_numbers
+from precursors.support.files import write_atomically
 
 
 def main(

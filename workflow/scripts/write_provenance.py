@@ -7,8 +7,8 @@ from typing import Any
 
 from job import job
 
-from precursors.provenance import provenance
-from precursors.storage import write_checked
+from precursors.support.files import write_checked
+from precursors.support.provenance import provenance
 
 
 def main(config: Mapping[str, Any], root: str, output: str | Path) -> None:

@@ -2,7 +2,7 @@
 
 from job import job
 
-from precursors.table_page import write_table_page
+from precursors.figures.table_page import write_table_page
 
 if __name__ == "__main__":
     with job() as snakemake:

@@ -6,13 +6,13 @@ import json
 from collections.abc import Callable
 from functools import lru_cache, partial
 
-from precursors.config import Config
 from precursors.ensembles.chunks import plan_chunks
 from precursors.ensembles.maps import AXES, map_study
 from precursors.ensembles.resolution import resolution_study
 from precursors.ensembles.resolution_models import resolution_models_study
 from precursors.ensembles.spread import spread_study
 from precursors.ensembles.study import Study
+from precursors.model.scenes import Config
 
 STUDIES: dict[str, Callable[[Config], Study]] = {
     "spread_members": spread_study,

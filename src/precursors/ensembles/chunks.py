@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.chain import FloatArray, positive
-from precursors.cost import seconds_of_long_run, seconds_of_ringing, seconds_to_first_slip
+from precursors.ensembles.cost import seconds_of_long_run, seconds_of_ringing, seconds_to_first_slip
 from precursors.ensembles.study import Study
-from precursors.slider import SLIDER, loading_time
-from precursors.storage import SEAL_SIZE, read_sealed, write_sealed
+from precursors.model.chain import FloatArray, positive
+from precursors.model.slider import SLIDER, loading_time
+from precursors.support.files import SEAL_SIZE, read_sealed, write_sealed
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -63,7 +63,7 @@ def save_chunk(path: str | PathLike[str], study: Study, first: int, results: NDA
     """
     import h5py
 
-    from precursors.summary import SUMMARY_UNITS  # a plan of chunks waits for no compiler
+    from precursors.analysis.summary import SUMMARY_UNITS  # a plan of chunks waits for no compiler
 
     with (
         write_sealed(path, FORMAT) as memory,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pandas as pd
 
-from precursors.run import Run
-from precursors.slips import find_slips
+from precursors.analysis.slips import find_slips
+from precursors.solver.run import Run
 
 QUANTILES = {"q05": 0.05, "q25": 0.25, "q50": 0.5, "q75": 0.75, "q95": 0.95}
 

@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from precursors.chain import FloatArray
-from precursors.config import Config
 from precursors.ensembles.study import Study
-from precursors.slider import Slider, loading_time, spring_stiffness
+from precursors.model.chain import FloatArray
+from precursors.model.scenes import Config
+from precursors.model.slider import Slider, loading_time, spring_stiffness
 
 # What the values of the second axis make of the arguments of `Chain.from_slider`, map by map.
 AXES: dict[str, tuple[str, Callable[[Slider, FloatArray], Slider]]] = {

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from precursors.chain import FloatArray
-from precursors.config import Config, scene_slider
-from precursors.cost import seconds_to_first_slip
+from precursors.ensembles.cost import seconds_to_first_slip
 from precursors.ensembles.study import Study
+from precursors.model.chain import FloatArray
+from precursors.model.scenes import Config, scene_slider
 
 if TYPE_CHECKING:
     import pandas as pd

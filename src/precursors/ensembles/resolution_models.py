@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from precursors.chain import parse_theta
-from precursors.config import Config
-from precursors.cost import seconds_to_first_slip
+from precursors.ensembles.cost import seconds_to_first_slip
 from precursors.ensembles.resolution import QUANTITIES, resolution_table, with_front_speed
 from precursors.ensembles.study import Study
-from precursors.slider import spring_stiffness
+from precursors.model.chain import parse_theta
+from precursors.model.scenes import Config
+from precursors.model.slider import spring_stiffness
 
 if TYPE_CHECKING:
     import pandas as pd

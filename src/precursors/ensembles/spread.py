@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from precursors.chain import FloatArray
-from precursors.config import Config, scene_slider
 from precursors.ensembles.questions import QUESTIONS, SWEEP, UNPERTURBED
 from precursors.ensembles.study import Study
+from precursors.model.chain import FloatArray
+from precursors.model.scenes import Config, scene_slider
 
 if TYPE_CHECKING:
     import pandas as pd

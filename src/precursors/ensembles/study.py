@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.chain import Chain, FloatArray, Until
-from precursors.slider import SLIDER, Slider
+from precursors.model.chain import Chain, FloatArray, Until
+from precursors.model.slider import SLIDER, Slider
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from precursors.exact import TransitionLimitError
-    from precursors.run import Run
+    from precursors.solver.run import Run
+    from precursors.solver.simulate import TransitionLimitError
 
 # Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
 BLOCKS_PER_BATCH = 2000
@@ -151,7 +151,7 @@ def run_members(
     at_cap : callable, optional
         Called with each member that met its cap on transitions, and what the solver said of it.
     """
-    from precursors.summary import SUMMARY, summarise  # a plan of chunks waits for no compiler
+    from precursors.analysis.summary import SUMMARY, summarise  # a plan of chunks waits for no compiler
 
     summaries = [np.empty(0, SUMMARY)]
     for batch in _batches(study, first, end):
@@ -179,7 +179,7 @@ def _runs(
     at_cap: Callable[[int, TransitionLimitError], object] | None,
 ) -> list[Run]:
     """The runs of some members; one that meets its cap on transitions is kept as far as it came."""
-    from precursors.exact import TransitionLimitError, simulate_many
+    from precursors.solver.simulate import TransitionLimitError, simulate_many
 
     duration = float(study.column("duration")[batch[0]])
     members = [study.member(i) for i in batch]

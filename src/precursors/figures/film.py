@@ -17,12 +17,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from PIL import Image
 
-from precursors.chain import Chain, FloatArray, positive
+from precursors.analysis.slip_rows import require_first_global
+from precursors.analysis.slips import find_precursors, find_slips
 from precursors.figures import style
-from precursors.run import Run
-from precursors.slip_rows import require_first_global
-from precursors.slips import find_precursors, find_slips
-from precursors.storage import write_atomically
+from precursors.model.chain import Chain, FloatArray, positive
+from precursors.solver.run import Run
+from precursors.support.files import write_atomically
 
 WIDTH_MM, HEIGHT_MM, DPI = 165.0, 118.0, 100
 FRAMES_PER_SECOND = 12.5  # GIF counts time in hundredths of a second

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from precursors.figures import style
-from precursors.scene_models import NO_ADDITION
+from precursors.model.scene_models import NO_ADDITION
 
 WIDTH_MM = 175.0
 ROW_MM, HEAD_MM = 14.0, 26.0

@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 
-from precursors.chain import FloatArray
 from precursors.figures import style
+from precursors.model.chain import FloatArray
 
 HEIGHT_MM = 62.0
 

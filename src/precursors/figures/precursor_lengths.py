@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 
+from precursors.analysis.slip_rows import up_to_first_global
 from precursors.figures import style
-from precursors.slip_rows import up_to_first_global
 
 HEIGHT_MM = 76.0
 # The fill tells the sign of theta, as in the paper; a second scene of the same sign has another outline.

@@ -8,8 +8,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from precursors import printed
 from precursors.figures import style
+from precursors.support import printed
 
 HEIGHT_MM = 112.0
 COLUMNS = {

@@ -13,8 +13,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+from precursors.analysis.slip_rows import first_global
 from precursors.figures import style
-from precursors.slip_rows import first_global
 
 HEIGHT_MM = 112.0
 PARTIAL = style.BLUE

@@ -13,8 +13,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from precursors.storage import write_atomically
-from precursors.table_files import read_table
+from precursors.support.files import write_atomically
+from precursors.support.tables import read_table
 
 # Okabe and Ito (2008): told apart by colour-blind readers too.
 BLACK = "#000000"

@@ -1,0 +1,1 @@
+"""What is proved, how methods compare with it, and how they fail."""

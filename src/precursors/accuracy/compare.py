@@ -1,0 +1,190 @@
+"""How far the run of any method is from the truth: transitions and slips in order, their times and loads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from precursors.analysis.slip_rows import first_global
+from precursors.analysis.slips import find_slips
+from precursors.model.chain import Chain, FloatArray
+from precursors.solver.run import Run
+
+if TYPE_CHECKING:
+    from precursors.accuracy.proof import Certificate
+
+# What Figs. 10-13 show of a slip event, apart from when and under which load.
+OUTCOME = ["front", "is_global"]
+
+
+class TrueTransition(NamedTuple):
+    """A transition in exact numbers: time [s], block 1..N, mode, tangential load [N]."""
+
+    time: Fraction
+    block: int
+    mode: int
+    tangential_load: Fraction
+
+
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """What runs are compared with: a run in doubles, and what rounding to doubles took from it.
+
+    Attributes
+    ----------
+    run : Run
+        The true transitions, rounded.
+    time_rest : array, shape (n_transitions,)
+        True times less the rounded ones [s].
+    load_rest : array, shape (n_transitions,)
+        True tangential loads less the rounded ones [N].
+    """
+
+    run: Run
+    time_rest: FloatArray
+    load_rest: FloatArray
+
+    @classmethod
+    def of_run(cls, run: Run) -> Truth:
+        """Take a run, of the exact solver say, as it is."""
+        return cls(run, np.zeros(len(run.transitions)), np.zeros(len(run.transitions)))
+
+    @classmethod
+    def exact(cls, chain: Chain, duration: float, transitions: Iterable[TrueTransition]) -> Truth:
+        """Take transitions in exact numbers, all there are up to `duration` [s]."""
+        rows = list(transitions)
+        time, time_rest = _rounded([row.time for row in rows])
+        load, load_rest = _rounded([row.tangential_load for row in rows])
+        block, mode = [row.block for row in rows], [row.mode for row in rows]
+        return cls(Run.from_transitions(chain, duration, time, block, mode, load), time_rest, load_rest)
+
+    @classmethod
+    def proved(cls, certificate: Certificate) -> Truth:
+        """Take what a certificate proves, the midpoints of its enclosures.
+
+        Raises
+        ------
+        ValueError
+            If the proof ends with a tie, before the end of what it is about.
+        """
+        if certificate.tie:
+            raise ValueError(
+                f"the proof ends with a tie at t = {float(certificate.tie.time.midpoint):.9g} s: "
+                "allowed is a certificate of the whole run"
+            )
+        transitions = [
+            TrueTransition(t.time.midpoint, t.block, t.mode, t.tangential_load.midpoint)
+            for t in certificate.transitions
+        ]
+        to_the_end = certificate.until is None or not transitions
+        duration = float(certificate.duration if to_the_end else transitions[-1].time)
+        return cls.exact(certificate.chain.to_chain(), duration, transitions)
+
+    @cached_property
+    def slips(self) -> pd.DataFrame:
+        """The slip events, see `find_slips`."""
+        return find_slips(self.run)
+
+    def until_global_slip(self) -> Truth:
+        """Cut to the end of the first global slip, as `simulate(..., until="global slip")` does.
+
+        Without one, or if it does not end, nothing is cut.
+        """
+        first = first_global(self.slips)
+        end = np.nan if first is None else float(self.slips["end"].iloc[first])
+        if np.isnan(end):
+            return self
+        transitions = self.run.transitions
+        n = int(np.searchsorted(transitions["time"], end, side="right"))
+        columns = [transitions[name][:n] for name in ("time", "block", "mode", "tangential_load")]
+        return Truth(
+            Run.from_transitions(self.run.chain, end, *columns), self.time_rest[:n], self.load_rest[:n]
+        )
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """How far a run agrees with the truth, and how closely as far as it does.
+
+    Attributes
+    ----------
+    transitions_right : int
+        Transitions with the right block and mode before the first wrong or missing one.
+    transitions_found, transitions_true : int
+        All transitions of the run, and of the truth.
+    slips_right, slips_found, slips_true : int
+        The same of slip events; one is right if its front is, and whether all blocks slid at once.
+    time_error : float
+        Largest error of the times of the transitions that are right [s]; NaN if none is.
+    load_error : float
+        Largest error of F_X at the onsets of the slips that are right [N]; NaN if none is.
+    """
+
+    transitions_right: int
+    transitions_found: int
+    transitions_true: int
+    slips_right: int
+    slips_found: int
+    slips_true: int
+    time_error: float
+    load_error: float
+
+
+def compare(run: Run, truth: Truth) -> Comparison:
+    """Compare a run with the truth over the same time, both to the end or both to the first global slip.
+
+    After the first difference, and soon after the first global slip, motions are as different as those of two
+    chains: chaotic. So only what comes before the first difference has an error.
+
+    Raises
+    ------
+    ValueError
+        If the chains do not have equally many blocks.
+    """
+    true_run = truth.run
+    if run.chain.n_blocks != true_run.chain.n_blocks:
+        raise ValueError(
+            f"the run has {run.chain.n_blocks} blocks and the truth {true_run.chain.n_blocks}: "
+            "allowed are runs of the same chain"
+        )
+    found, true = run.transitions, true_run.transitions
+    n = _agreeing(found[["block", "mode"]], true[["block", "mode"]])
+    slips = find_slips(run)
+    n_slips = _agreeing(slips[OUTCOME].to_records(index=False), truth.slips[OUTCOME].to_records(index=False))
+    onsets = np.searchsorted(true["time"], truth.slips["onset"][:n_slips])
+    load_error = (slips["load_before"] - truth.slips["load_before"])[:n_slips] - truth.load_rest[onsets]
+    return Comparison(
+        transitions_right=n,
+        transitions_found=len(found),
+        transitions_true=len(true),
+        slips_right=n_slips,
+        slips_found=len(slips),
+        slips_true=len(truth.slips),
+        time_error=_largest(found["time"][:n] - true["time"][:n] - truth.time_rest[:n]),
+        load_error=_largest(load_error.to_numpy()),
+    )
+
+
+def _rounded(numbers: list[Fraction]) -> tuple[FloatArray, FloatArray]:
+    """Doubles, and what is left of the numbers, as doubles too."""
+    nearest = [float(x) for x in numbers]
+    rest = [float(x - Fraction(y)) for x, y in zip(numbers, nearest, strict=True)]
+    return np.array(nearest, dtype=np.float64), np.array(rest, dtype=np.float64)
+
+
+def _agreeing(found: NDArray, true: NDArray) -> int:
+    """How many rows agree before the first that does not, or the end of one of them."""
+    n = min(len(found), len(true))
+    differs = found[:n] != true[:n]
+    return int(np.argmax(differs)) if differs.any() else n
+
+
+def _largest(errors: FloatArray) -> float:
+    return float(np.abs(errors).max()) if len(errors) else float("nan")

@@ -1,0 +1,140 @@
+"""How the time that the exact solver takes for a transition grows with the number of blocks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+import pandas as pd
+
+from precursors.model.chain import Chain, FloatArray, Until
+from precursors.model.statics import maximal_strain_positions
+from precursors.solver.run import Run
+from precursors.solver.simulate import TransitionLimitError, simulate
+from precursors.support import timing
+
+SIZES = (5, 10, 20, 50, 100, 200, 500)
+BASE_SIZE = 10
+SLOW_DRIVE, FAST_DRIVE = 1e-4, 0.02  # m/s
+STRAIN = 0.9  # of the maximal one
+LEAST_TRANSITIONS, TRANSITIONS_PER_BLOCK = 4000, 30
+LONG = 1e6  # s, never reached: the number of transitions ends a run
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A way to set a chain in motion: what it is in words, and its arguments."""
+
+    definition: str
+    is_strained: bool
+    drive_velocity: float
+    until: Until
+    least_size: int
+
+
+KINDS = {
+    "natural": Kind("from rest, springs at natural length, the paper's drive", False, SLOW_DRIVE, None, 1),
+    "driven": Kind(
+        f"from {STRAIN:g} of the largest strain, driven at {1e3 * FAST_DRIVE:g} mm/s",
+        True,
+        FAST_DRIVE,
+        None,
+        1,
+    ),
+    # In a short chain it has too few transitions to be measured beside the call itself.
+    "front": Kind(
+        f"the first slip from {STRAIN:g} of the largest strain, through all blocks",
+        True,
+        SLOW_DRIVE,
+        "global slip",
+        50,
+    ),
+}
+COLUMNS = [
+    "kind",
+    "definition",
+    "n_blocks",
+    "transitions",
+    "mean_front",
+    "seconds_per_transition",
+    "relative",
+]
+
+
+def measure_growth(
+    sizes: Sequence[int] = SIZES,
+    rounds: int = timing.ROUNDS,
+    least_transitions: int = LEAST_TRANSITIONS,
+    transitions_per_block: int = TRANSITIONS_PER_BLOCK,
+    shortest: float = timing.SHORTEST,
+) -> pd.DataFrame:
+    """Time the first transitions of chains of the paper's slider, cut into more and more blocks.
+
+    "natural": from rest with springs at natural length, under the paper's drive; few blocks near the drive
+    move. "driven": from a state near the largest strain (Eq. 12), with a drive so fast that the slider goes
+    on slipping over its whole length. "front": the first slip from that state under the paper's drive, in
+    which hundreds of blocks come to slide at once.
+
+    Parameters
+    ----------
+    sizes : sequence of int
+        Numbers N of blocks.
+    rounds : int
+        Number of rounds that the median is taken of.
+    least_transitions, transitions_per_block : int
+        A run has the larger of `least_transitions` and `transitions_per_block` N transitions; a front about
+        2.5 N.
+    shortest : float
+        See `timing.measure`.
+
+    Returns
+    -------
+    DataFrame
+        A row per kind and size, with `COLUMNS`: n_blocks, transitions, mean_front (farthest sliding block
+        over N, mean over the transitions), seconds_per_transition [s] of processor time, and that relative
+        to the same kind's with `BASE_SIZE` blocks, for fronts to the driven one's (NaN without that size).
+    """
+    runs: dict[tuple[str, int], Run] = {}
+    tasks: dict[str, Callable[[], object]] = {}
+    for n in sizes:
+        wanted = max(least_transitions, transitions_per_block * n)
+        for name, kind in KINDS.items():
+            if n >= kind.least_size:
+                run = partial(_first_transitions, *_chain_and_start(kind, n), kind.until, wanted)
+                runs[name, n], tasks[f"{name} {n}"] = run(), run
+    timings = timing.measure(tasks, rounds, shortest)
+    rows = []
+    for name, kind in KINDS.items():
+        for n in [n for of, n in runs if of == name]:
+            n_transitions = len(runs[name, n].transitions)
+            seconds = float(np.median(timings[f"{name} {n}"].cpu)) / n_transitions
+            rows.append((name, kind.definition, n, n_transitions, mean_front(runs[name, n]) / n, seconds))
+    table = pd.DataFrame(rows, columns=COLUMNS[:-1])
+    base = table[table["n_blocks"] == BASE_SIZE].set_index("kind")["seconds_per_transition"].to_dict()
+    bases = table["kind"].map(lambda kind: base.get(kind, base.get("driven", math.nan)))
+    return table.assign(relative=table["seconds_per_transition"] / bases)
+
+
+def mean_front(run: Run) -> float:
+    """Farthest sliding block, 0 for none, averaged over the transitions of a run."""
+    slides = np.zeros(run.chain.n_blocks, bool)
+    fronts = []
+    for block, mode in zip(run.transitions["block"], run.transitions["mode"], strict=True):
+        slides[block - 1] = mode != 0
+        fronts.append(int(np.flatnonzero(slides)[-1]) + 1 if slides.any() else 0)
+    return float(np.mean(fronts))
+
+
+def _chain_and_start(kind: Kind, n_blocks: int) -> tuple[Chain, FloatArray | None]:
+    chain = Chain.from_slider(n_blocks=n_blocks, drive_velocity=kind.drive_velocity)
+    return chain, STRAIN * maximal_strain_positions(chain) if kind.is_strained else None
+
+
+def _first_transitions(chain: Chain, start: FloatArray | None, until: Until, wanted: int) -> Run:
+    try:
+        return simulate(chain, LONG, until, start_positions=start, max_transitions=wanted)
+    except TransitionLimitError as limit:
+        return limit.run

@@ -1,0 +1,232 @@
+"""The motion between transitions in ball arithmetic, and how far apart runs of the model can be.
+
+Units: force in N, time in T (a power of two of seconds, and no frequency of the chain is above 2 / T),
+u = m v / T in N. With c_i = k_i T^2 / m and k_1 = K, Eqs. 2-4 are
+
+    dT_i/dt = c_i (u_{i-1} - u_i),
+    du_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides, else u_i = 0,
+
+with T_i the force of the spring behind block i, T_{N+1} = 0 and u_0 the drive. The distance between two runs,
+
+    |e|^2 = sum e_{T_i}^2 / c_i + sum e_{u_i}^2,
+
+is the energy of their difference. While both have the same modes it does not change; see `tube` for what a
+transition does to it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
+
+from flint import arb, arb_poly, ctx, fmpq
+
+from precursors.accuracy.proof.exact_chain import ExactChain
+
+# Bits of the radii and of all that only bounds something.
+BOUND_BITS = 64
+# Square of the largest frequency times T, at most (Gershgorin).
+LARGEST_FREQUENCY_SQUARED = 4
+
+Series = dict[int, list[arb]]
+
+
+def ball(x: Fraction) -> arb:
+    """Enclose a rational number."""
+    return arb(fmpq(x.numerator, x.denominator))
+
+
+def log2(x: arb) -> int:
+    """Return an integer at or just above log2 of |x|, for x != 0 of any size."""
+    mantissa, exponent = x.abs_upper().man_exp()
+    return int(exponent) + int(mantissa).bit_length()
+
+
+def time_unit(chain: ExactChain) -> Fraction:
+    """Return T [s], the largest power of two for which no frequency of the chain exceeds 2 / T."""
+    behind = chain.springs
+    ahead = (*behind[1:], Fraction(0))
+    fastest = max(2 * (k + k_ahead) for k, k_ahead in zip(behind, ahead, strict=True)) / chain.mass
+    exponent = math.floor(math.log2(LARGEST_FREQUENCY_SQUARED / fastest) / 2) + 1
+    while fastest * Fraction(4) ** exponent > LARGEST_FREQUENCY_SQUARED:
+        exponent -= 1
+    return Fraction(2) ** exponent
+
+
+@dataclass(frozen=True)
+class Constants:
+    """A chain in the units above, in balls; index 0 is the drive, N + 1 the free end.
+
+    Attributes
+    ----------
+    coupling, strength, friction : list of arb
+        c_i [1], mu_s w_i [N], mu_k w_i [N].
+    drive : arb
+        u_0 [N].
+    frequency_squared : arb
+        Bound of the squares of all frequencies [1/T^2].
+    force_reach, force_rate_reach : list of arb
+        Largest change of the net force on a block, and of its rate, at unit distance.
+    """
+
+    coupling: list[arb]
+    strength: list[arb]
+    friction: list[arb]
+    drive: arb
+    frequency_squared: arb
+    force_reach: list[arb]
+    force_rate_reach: list[arb]
+
+    @classmethod
+    def of(cls, chain: ExactChain, unit: Fraction) -> Constants:
+        """Enclose the numbers of a chain at the working precision."""
+        c = [Fraction(0), *(k * unit**2 / chain.mass for k in chain.springs), Fraction(0)]
+        pairs = [(c[i], c[i + 1] if i <= chain.n_blocks else Fraction(0)) for i in range(len(c))]
+        return cls(
+            coupling=[ball(x) for x in c],
+            strength=[arb(0), *(ball(chain.mu_s * w) for w in chain.weights), arb(0)],
+            friction=[arb(0), *(ball(chain.mu_k * w) for w in chain.weights), arb(0)],
+            drive=ball(chain.drive_velocity * chain.mass / unit),
+            frequency_squared=ball(max(2 * (a + b) for a, b in pairs)).abs_upper(),
+            force_reach=[ball(a + b).sqrt().abs_upper() for a, b in pairs],
+            force_rate_reach=[ball(a * a + (a + b) ** 2 + b * b).sqrt().abs_upper() for a, b in pairs],
+        )
+
+
+@dataclass
+class State:
+    """A centre, exact, and the distance within which every run of the model is from it.
+
+    Attributes
+    ----------
+    force, rate : list of arb
+        T_i and u_i [N], exact; index 0 and N + 1 are the drive and the free end, kept at zero.
+    mode : list of int
+        +1, 0 or -1 for each block.
+    distance : arb
+        Bound of the distance [N] to every run of the model.
+    """
+
+    force: list[arb]
+    rate: list[arb]
+    mode: list[int]
+    distance: arb
+
+    def net_force(self, i: int) -> arb:
+        """Net force of the springs on block i [N]."""
+        return self.force[i] - self.force[i + 1]
+
+    def sliding_rows(self) -> Iterator[tuple[int, int]]:
+        """First and last block of each row of neighbours that slide."""
+        first = None
+        for i in range(1, len(self.mode)):
+            if self.mode[i] and first is None:
+                first = i
+            elif not self.mode[i] and first is not None:
+                yield first, i - 1
+                first = None
+
+    def absorb(self, constants: Constants, force: list[arb], rate: list[arb]) -> None:
+        """Take the midpoints of balls as the new centre and count the radii as distance."""
+        with ctx.workprec(BOUND_BITS):
+            square = arb(0)
+            for i in range(1, len(self.mode) - 1):
+                square += force[i].rad() ** 2 / constants.coupling[i] + rate[i].rad() ** 2
+            self.distance = (self.distance + square.sqrt()).abs_upper()
+        self.force, self.rate = [x.mid() for x in force], [x.mid() for x in rate]
+
+    def norm(self, constants: Constants) -> arb:
+        """Bound the distance of any run within reach from the state at rest without forces [N]."""
+        square = arb(0)
+        for i in range(1, len(self.mode) - 1):
+            square += self.force[i] ** 2 / constants.coupling[i] + self.rate[i] ** 2
+        return (square.sqrt() + self.distance).abs_upper()
+
+
+def expand(constants: Constants, state: State, order: int) -> Series:
+    """Taylor coefficients 0..order of u_i of the sliding blocks, from the second-order form of Eq. 2,
+
+    (n+1) (n+2) u_{i,n+2} = c_i (u_{i-1,n} - u_{i,n}) - c_{i+1} (u_{i,n} - u_{i+1,n}).
+    """
+    series: Series = {}
+    zeros = [arb(0)] * (order + 1)
+    for first, last in state.sliding_rows():
+        rows = [
+            [state.rate[i], state.net_force(i) - state.mode[i] * constants.friction[i]]
+            for i in range(first, last + 1)
+        ]
+        behind = [constants.drive, *zeros] if first == 1 else zeros
+        coupling = constants.coupling[first + 1 : last + 2]
+        for n in range(order - 1):
+            scale = (n + 1) * (n + 2)
+            here = rows[0][n]
+            pull = constants.coupling[first] * (behind[n] - here)
+            for j, c in enumerate(coupling):
+                ahead = rows[j + 1][n] if first + j < last else zeros[n]
+                next_pull = c * (here - ahead)
+                rows[j].append((pull - next_pull) / scale)
+                pull, here = next_pull, ahead
+        series.update(zip(range(first, last + 1), rows, strict=True))
+    return series
+
+
+def tail(constants: Constants, series: Series, span: arb, derivative: int = 0) -> arb:
+    """Bound what lies beyond the last order of all u_i, or of a derivative, for times up to +-`span` [T].
+
+    With a_n the largest coefficient, a_{n+2} <= omega^2 a_n / ((n+1)(n+2)); derivatives obey the same.
+    """
+    last = len(next(iter(series.values()))) - 1
+    bounds = []
+    for n in (last - 1, last):
+        largest = reduce(arb.max, (row[n].abs_upper() for row in series.values()))
+        bounds.append(largest * math.perm(n, derivative) * span ** (n - derivative))
+    n = last - derivative
+    ratio = constants.frequency_squared * span**2 / (n * (n + 1))
+    if not ratio < 1:
+        raise ValueError(f"order {last} is too low for a span of {span}")
+    return ((bounds[0] + bounds[1]) * ratio / (1 - ratio)).abs_upper()
+
+
+def order_for(span: float, bits: int) -> int:
+    """Order whose remainder over `span` [T] is about 2^-bits of the largest term; `tail` has the bound."""
+    reach = max(math.sqrt(LARGEST_FREQUENCY_SQUARED) * span, 1e-9)
+    order = 6
+    while math.lgamma(order + 1) - order * math.log(reach) < bits * math.log(2):
+        order += 2
+    return order
+
+
+def force_rate_series(constants: Constants, series: Series, i: int) -> list[arb]:
+    """Taylor coefficients of the rate of the net force on a stuck block i."""
+    behind, ahead = series.get(i - 1), series.get(i + 1)
+    c, c_ahead = constants.coupling[i], constants.coupling[i + 1]
+    if behind and ahead:
+        rate = [c * a + c_ahead * b for a, b in zip(behind, ahead, strict=True)]
+    elif behind or ahead:
+        rate = [c * a for a in behind] if behind else [c_ahead * b for b in ahead or ()]
+    else:
+        rate = [arb(0)]
+    if i == 1:
+        rate[0] = rate[0] + c * constants.drive
+    return rate
+
+
+def advance(
+    constants: Constants, state: State, polynomials: dict[int, arb_poly], rest: arb, step: arb
+) -> None:
+    """Move the state by `step` [T], exact, with `rest` bounding the remainder of each u_i."""
+    around = arb(0, rest)
+    slip = [arb(0)] * len(state.mode)
+    rate = list(state.rate)
+    slip[0] = constants.drive * step
+    for i, u in polynomials.items():
+        rate[i] = u(step) + around
+        slip[i] = u.integral()(step) + around * step
+    force = list(state.force)
+    for i in range(1, len(force) - 1):
+        if i == 1 or i in polynomials or i - 1 in polynomials:
+            force[i] = force[i] + constants.coupling[i] * (slip[i - 1] - slip[i])
+    state.absorb(constants, force, rate)

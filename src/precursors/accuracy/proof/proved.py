@@ -1,0 +1,51 @@
+"""The chains of the configuration that are proved, and what their certificates say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from precursors.accuracy.proof.certificate import Certificate
+from precursors.accuracy.proof.exact_chain import ExactChain
+from precursors.model.slider import PROVED_FOR
+
+
+def exact_chain(values: Mapping[str, Any]) -> ExactChain:
+    """The chain of the configuration's `horizon.chains` that has some values of its own."""
+    return ExactChain.from_slider(**{name: x for name, x in values.items() if name != "duration"})
+
+
+def chain_duration(values: Mapping[str, Any]) -> float:
+    """How long a chain of `horizon.chains` is run [s]."""
+    return float(values.get("duration", PROVED_FOR))
+
+
+def certificate_path(directory: str | Path, name: str) -> list[str]:
+    """The certificate of a chain in a directory, if it is there."""
+    path = Path(directory) / f"{name}.json.gz"
+    return [str(path)] if path.is_file() else []
+
+
+def certificate_row(certificate: Certificate) -> dict[str, float]:
+    """What is proved, in one row of certificates.csv."""
+    widest_time, widest_load = certificate.widest
+    return {
+        "proved_until_s": float(certificate.proved_until),
+        "transitions": len(certificate.transitions),
+        "largest_time_width_s": float(2 * widest_time),
+        "largest_load_width_N": float(2 * widest_load),
+        "bits": certificate.bits,
+        "restarts": certificate.restarts,
+    }
+
+
+def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bool:
+    """Whether a certificate is about all of the run of a chain from rest, for `duration` [s]."""
+    return (
+        certificate.chain == chain
+        and certificate.duration == Fraction(repr(duration))
+        and certificate.until is None
+        and not any(certificate.start_positions)
+    )

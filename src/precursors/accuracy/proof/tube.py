@@ -1,0 +1,363 @@
+"""The proof: a run of balls that every run of the model stays in, transition by transition.
+
+The state is a centre, exact, and a distance (see `motion`). With e the difference of two runs and f their
+friction, d|e|^2/dt = -2 sum e_{u_i} e_{f_i}. So the distance is constant while both have the same modes; a
+transition, which the two have at different instants, changes it as follows.
+
+- A block stops: one run holds it at u = 0 with friction equal to its net force F, the other still slides with
+  mode * u > 0 under mu_k w. As mode * F < mu_k w (it was slowing down) the distance does not grow.
+- A block turns round: friction opposes the difference of the velocities; the distance does not grow.
+- A block is released: for the time `gap` between the two releases one slides, under mu_k w, and the other is
+  held by at most mu_s w. |e|^2 grows by at most ((mu_s - mu_k) w gap)^2. Only releases drive runs apart.
+- While all blocks rest, the next release is a matter of the forces alone: runs are compared each at its own
+  onset, where T_1 = T_2 + mu_s w_1, and the distance grows at most by sqrt(1 + c_2 / c_1).
+
+At a transition the centre is given its exact condition (u = 0, or F = +-mu_s w); the other runs have theirs
+within +-gap of it. Afterwards a run that is late is continued backwards, in its new modes, to the instant of
+the centre; a run that is early has its new modes before that instant. So gauges are proved from -gap on.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import NamedTuple
+
+from flint import arb, arb_poly, ctx
+
+from precursors.accuracy.proof.exact_chain import ExactChain
+from precursors.accuracy.proof.first_root import Gauge, Undecided, first_root
+from precursors.accuracy.proof.motion import (
+    BOUND_BITS,
+    Constants,
+    State,
+    advance,
+    ball,
+    expand,
+    force_rate_series,
+    log2,
+    order_for,
+    tail,
+    time_unit,
+)
+
+# Rounding is kept so many bits below the distance that the runs have come to.
+GUARD_BITS = 40
+# Constants are kept for precisions that are a multiple of this.
+PRECISION_STEP = 32
+# A window without a transition, and how far beyond its end the polynomials hold [T].
+WINDOW, VALID = 1.0, 1.125
+ISOLATION_BITS = 64
+
+
+class Proved(NamedTuple):
+    """A transition: ball of its time [s], block, mode, ball of the tangential load [N]."""
+
+    time: arb
+    block: int
+    mode: int
+    tangential_load: arb
+
+
+class Unproved(Exception):
+    """The proof stops: more bits are needed, or there is a tie.
+
+    Attributes
+    ----------
+    question : str
+        What could not be decided.
+    blocks : tuple of int
+        The blocks it is about.
+    time : arb
+        When [s]; the ball is the time within which it is undecided.
+    """
+
+    def __init__(self, question: str, blocks: tuple[int, ...], time: arb) -> None:
+        super().__init__(question)
+        self.question, self.blocks, self.time = question, blocks, time
+
+
+class Proof:
+    """The motion of a chain from rest at given positions, in balls, and the transitions proved so far."""
+
+    def __init__(
+        self,
+        chain: ExactChain,
+        duration: Fraction,
+        until_global_slip: bool,
+        start_positions: tuple[Fraction, ...],
+        bits: int,
+        width: Fraction,
+    ) -> None:
+        self.chain, self.n, self.bits = chain, chain.n_blocks, bits
+        self.until_global_slip = until_global_slip
+        self.unit_seconds = time_unit(chain)
+        self.transitions: list[Proved] = []
+        self._constants: dict[int, Constants] = {}
+        with ctx.workprec(bits + GUARD_BITS):
+            self.unit = ball(self.unit_seconds)
+            self.duration, self.width = ball(duration), ball(width)
+            self.clock = arb(0)
+            self.state = self.at_start(start_positions)
+        with ctx.workprec(BOUND_BITS):
+            self.bounds = Constants.of(chain, self.unit_seconds)
+        # how far the runs may be ahead or behind at the last transition [T], and who has just begun to slide
+        self.gap = arb(0)
+        self.fresh = {i for i in range(1, self.n + 1) if self.state.mode[i]}
+        self.all_slid = False
+
+    def at_start(self, positions: tuple[Fraction, ...]) -> State:
+        """Rest at given positions, where blocks beyond their strength are released (an exact comparison)."""
+        chain, n = self.chain, self.n
+        x = (Fraction(0), *positions)
+        exact = [Fraction(0), *(k * (x[i] - x[i + 1]) for i, k in enumerate(chain.springs)), Fraction(0)]
+        state = State([arb(0)] * (n + 2), [arb(0)] * (n + 2), [0] * (n + 2), arb(0))
+        constants = self.constants(ctx.prec)
+        state.absorb(constants, [ball(f) for f in exact], state.rate)
+        self.least_distance = arb(2) ** (log2(max(constants.strength, key=float)) - self.bits)
+        state.distance += self.least_distance
+        for i in range(1, n + 1):
+            force = exact[i] - exact[i + 1]
+            if abs(force) > chain.mu_s * chain.weights[i - 1]:
+                state.mode[i] = 1 if force > 0 else -1
+                self.transitions.append(Proved(arb(0), i, state.mode[i], ball(exact[1])))
+        return state
+
+    def constants(self, bits: int) -> Constants:
+        """The chain in balls of at least so many bits."""
+        bits += -bits % PRECISION_STEP
+        if bits not in self._constants:
+            with ctx.workprec(bits):
+                self._constants[bits] = Constants.of(self.chain, self.unit_seconds)
+        return self._constants[bits]
+
+    def run(self) -> list[Proved]:
+        """Prove all transitions up to the duration.
+
+        Raises
+        ------
+        Unproved
+            Where the precision does not suffice or there is a tie; `transitions` holds what is proved.
+        """
+        while True:
+            self.all_slid = self.all_slid or all(self.state.mode[1:-1])
+            sliding = any(self.state.mode)
+            if not sliding and self.until_global_slip and self.all_slid:
+                return self.transitions
+            try:
+                go_on = self.slide() if sliding else self.load()
+            except Undecided as undecided:
+                with ctx.workprec(self.bits + GUARD_BITS):
+                    time = self.clock + self.unit * undecided.between
+                raise Unproved(undecided.question, undecided.blocks, time) from None
+            if not go_on:
+                return self.transitions
+
+    def load(self) -> bool:
+        """Load the resting chain until block 1 is released: no other block feels the drive."""
+        state, self.all_slid = self.state, False
+        with ctx.workprec(self.precision()):
+            constants = self.constants(ctx.prec)
+            loading_rate = constants.coupling[1] * constants.drive
+            lacking = constants.strength[1] - state.net_force(1)
+            step = (lacking + arb(0, state.distance * self.bounds.force_reach[1])) / loading_rate
+            if self.transitions and not step > self.gap:
+                raise Undecided("whether block 1 is released at once", step, (1,))
+            force = list(state.force)
+            force[1] = constants.strength[1] + force[2]
+            if self.n > 1:
+                growth = 1 + self.bounds.coupling[2] / self.bounds.coupling[1]
+                with ctx.workprec(BOUND_BITS):
+                    state.distance = (state.distance * growth.sqrt()).abs_upper()
+            else:
+                state.distance = self.least_distance
+            state.absorb(constants, force, state.rate)
+            self.clock += self.unit * step
+            self.gap = arb(0)
+        state.mode[1], self.fresh = 1, {1}
+        return self.record(1)
+
+    def slide(self) -> bool:
+        """Advance to the first transition, but by one window at most."""
+        first = self.first_transition()
+        if first is None:
+            return self.advance_window(WINDOW)
+        gauge, root = first
+        if root.upper() > WINDOW:
+            # The others are proved up to the end of the window only: stop short of the root.
+            return self.advance_window(float(root.lower()) * 0.75)
+        self.change(gauge, root)
+        return self.record(gauge.block)
+
+    def first_transition(self) -> tuple[Gauge, arb] | None:
+        """Find the first root of all gauges at a low precision, raised as long as it cannot be decided."""
+        bits = ISOLATION_BITS
+        while True:
+            with ctx.workprec(bits):
+                try:
+                    return first_root(self.gauges(bits), WINDOW, VALID, self.gap, bits)
+                except Undecided:
+                    if bits >= self.precision():
+                        raise
+            bits *= 2
+
+    def gauges(self, bits: int) -> list[Gauge]:
+        """Velocities of the sliding blocks and margins of the stuck ones that feel a change."""
+        state, span = self.state, arb(VALID)
+        constants = self.constants(max(bits, BOUND_BITS))
+        series = expand(constants, state, order_for(VALID, bits))
+        rests = [tail(constants, series, span, derivative) for derivative in (0, 1, 2)]
+        omega2 = constants.frequency_squared
+        # The centre is given the exact condition of a transition, and room for that.
+        distance = 2 * state.distance
+        gauges = []
+        for i in range(1, self.n + 1):
+            reach, rate_reach = constants.force_reach[i] * distance, constants.force_rate_reach[i] * distance
+            mode = state.mode[i]
+            if mode:
+                u = arb_poly([mode * a for a in series[i]])
+                slope = u.derivative()
+                gauges.append(
+                    Gauge(
+                        i,
+                        0,
+                        u + arb(0, distance + rests[0]),
+                        slope + arb(0, reach + rests[1]),
+                        slope.derivative() + arb(0, rate_reach + rests[2]),
+                        fresh=i in self.fresh,
+                    )
+                )
+            elif i == 1 or state.mode[i - 1] or state.mode[i + 1]:
+                rate = arb_poly(force_rate_series(constants, series, i))
+                force = rate.integral() + (state.net_force(i) + arb(0, reach + omega2 * span * rests[0]))
+                rate += arb(0, rate_reach + omega2 * rests[0])
+                gauges += [
+                    Gauge(i, way, constants.strength[i] - way * force, -way * rate, arb_poly([]), fresh=False)
+                    for way in (1, -1)
+                ]
+        return gauges
+
+    def advance_window(self, step: float | arb) -> bool:
+        """Advance without a transition."""
+        with ctx.workprec(self.precision()):
+            constants, exact_step = self.constants(ctx.prec), arb(step)
+            series = expand(constants, self.state, order_for(float(exact_step), ctx.prec))
+            rest = tail(constants, series, exact_step)
+            advance(constants, self.state, {i: arb_poly(row) for i, row in series.items()}, rest, exact_step)
+            self.clock += self.unit * exact_step
+            self.gap = arb(0)
+            self.fresh = set()
+            return not self.clock > self.duration
+
+    def change(self, gauge: Gauge, root: arb) -> None:
+        """Advance to the root of a gauge and let its block change its state."""
+        state, i = self.state, gauge.block
+        before = state.distance
+        with ctx.workprec(self.precision()):
+            constants = self.constants(ctx.prec)
+            span = root.upper()
+            series = expand(constants, state, order_for(float(span), ctx.prec))
+            rest = tail(constants, series, span)
+            polynomials = {j: arb_poly(row) for j, row in series.items()}
+            if gauge.direction:
+                rate = arb_poly(force_rate_series(constants, series, i))
+                function = constants.strength[i] - gauge.direction * (rate.integral() + state.net_force(i))
+                slope = -gauge.direction * rate
+            else:
+                function = state.mode[i] * polynomials[i]
+                slope = function.derivative()
+            step = _newton(function, slope, root, ctx.prec)
+            advance(constants, state, polynomials, rest, step)
+            force, velocity = list(state.force), list(state.rate)
+            if gauge.direction:
+                # F = +-mu_s w: the spring behind takes up what is missing.
+                required = gauge.direction * constants.strength[i] + force[i + 1]
+                state.distance += (required - force[i]).abs_upper() / self.bounds.coupling[i].sqrt()
+                force[i] = required
+            else:
+                state.distance += velocity[i].abs_upper()
+                velocity[i] = arb(0)
+            state.absorb(constants, force, velocity)
+            self.clock += self.unit * step
+        with ctx.workprec(BOUND_BITS):
+            undecided = Undecided(f"whether {gauge.event}", root, (i,))
+            if not state.distance < 2 * before or not root.contains(step):
+                raise undecided
+            steepness = gauge.slope(root).abs_lower()
+            reach = self.bounds.force_reach[i] if gauge.direction else arb(1)
+            self.gap = (state.distance * reach / steepness).abs_upper()
+            if not self.gap < 1:
+                raise undecided
+            if gauge.direction:
+                self.release(i, gauge.direction)
+            else:
+                self.stop(gauge, root)
+
+    def largest_force_change(self) -> arb:
+        """Bound how much a net force changes in any run during twice the gap [N].
+
+        |(T, u)| grows at most at the rate sqrt(c_1) u_0 + |mu_k w|, forwards or backwards in time.
+        """
+        bounds = self.bounds
+        friction = sum((f**2 for f in bounds.friction), arb(0)).sqrt()
+        gain = (bounds.coupling[1].sqrt() * bounds.drive + friction) * 2 * self.gap
+        fastest = self.state.norm(bounds) + gain + bounds.drive
+        return (bounds.frequency_squared * fastest * 2 * self.gap).abs_upper()
+
+    def release(self, i: int, way: int) -> None:
+        """Let the stuck block i slide: the only transition that drives runs apart."""
+        excess = self.bounds.strength[i] - self.bounds.friction[i] + self.largest_force_change()
+        state = self.state
+        state.distance = (state.distance**2 + (excess * self.gap) ** 2).sqrt().abs_upper()
+        state.mode[i] = way
+        self.fresh = {i}
+
+    def stop(self, gauge: Gauge, root: arb) -> None:
+        """Let block i, whose velocity has reached zero, stick if friction holds it, or else turn round."""
+        i, state, bounds = gauge.block, self.state, self.bounds
+        spread = state.distance * bounds.force_reach[i] + self.largest_force_change()
+        force = state.net_force(i) + arb(0, spread)
+        slows_down = state.mode[i] * force < bounds.friction[i]
+        if slows_down and abs(force) < bounds.strength[i]:
+            state.mode[i], self.fresh = 0, set()
+        elif -state.mode[i] * force > bounds.strength[i]:
+            state.mode[i], self.fresh = -state.mode[i], {i}
+        else:
+            raise Undecided(f"whether block {i} sticks or turns round", root, (i,))
+
+    def record(self, i: int) -> bool:
+        """Note the transition of block i, just made; return whether it lies within the duration."""
+        state = self.state
+        with ctx.workprec(self.bits + GUARD_BITS):
+            time = self.clock + self.unit * arb(0, self.gap)
+            if time > self.duration:
+                return False
+            if not time <= self.duration:
+                raise Unproved(f"whether block {i} changes its state before the run ends", (i,), time)
+            if not time.rad() < self.width:
+                raise Unproved("enclosures have become wider than asked for", (i,), time)
+            reach = state.distance * self.bounds.coupling[1].sqrt() + self.largest_force_change()
+            self.transitions.append(Proved(time, i, state.mode[i], state.force[1] + arb(0, reach)))
+        return True
+
+    def precision(self) -> int:
+        """Bits that keep rounding well below the distance, which grows as the run goes on."""
+        largest = max(
+            log2(x) for x in (*self.bounds.strength, *self.state.force, *self.state.rate, arb(1)) if x != 0
+        )
+        wanted = self.bits if self.state.distance == 0 else largest - log2(self.state.distance)
+        bits = max(ISOLATION_BITS, min(wanted, self.bits) + GUARD_BITS)
+        return bits + -bits % PRECISION_STEP
+
+    def lost_bits(self) -> int:
+        """How much the distance has grown, in bits."""
+        return log2(self.state.distance) - log2(self.least_distance)
+
+
+def _newton(function: arb_poly, slope: arb_poly, root: arb, bits: int) -> arb:
+    """Return an exact number near the root, to about `bits` bits; what is left of it is counted later."""
+    x, good = root.mid(), 24
+    while good < bits:
+        good = min(2 * good, bits)
+        with ctx.workprec(good + 16):
+            x = (x - function(x) / slope(x)).mid()
+    return x

@@ -1,0 +1,1 @@
+"""From a run to its slips, its load curve and the growth of its errors."""

@@ -1,0 +1,127 @@
+"""heyoka.py: Taylor series of adaptive order and step, with polynomial root isolation for events.
+
+F. Biscani and D. Izzo, MNRAS 504 (2021) 2614 and 513 (2022) 4833. One integrator is compiled for each chain
+and tolerance: what the blocks do are its runtime parameters, so that a transition compiles nothing. The
+switching is done in the events' callbacks, so that a slip event is one call.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from precursors.methods.common import Method, Result
+from precursors.methods.events import MODE, NUDGE, PUSH, SLIDES, STICKS, Motion, march_events, scaled
+from precursors.model.chain import Chain
+
+# The tightest is rounding, heyoka's own default.
+TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12, 1e-14, float(np.finfo(float).eps))
+# Beyond it the code is compiled in compact mode, which heyoka's documentation recommends for large systems.
+LARGE = 20
+
+
+class _Integrator:
+    """heyoka's integrator of one chain and the motion that it carries at present."""
+
+    def __init__(self, chain: Chain, tolerance: float, high_accuracy: bool) -> None:
+        import heyoka as hy
+
+        n = chain.n_blocks
+        _, drive_velocity, coupling = scaled(chain)
+        strength = chain.strength
+        tension = [hy.expression(f"T{i}") for i in range(n)]
+        velocity = [hy.expression(f"v{i}") for i in range(n)]
+        setting = [[hy.par[row * n + i] for i in range(n)] for row in range(4)]
+        net = [tension[i] - tension[i + 1] for i in range(n - 1)] + [tension[-1]]
+        behind = [drive_velocity, *velocity[:-1]]
+        falling = {"direction": hy.event_direction.negative}
+        events = []
+        for i in range(n):
+            forward = setting[MODE][i] * velocity[i] + setting[STICKS][i] * (strength[i] - net[i])
+            backward = setting[SLIDES][i] + setting[STICKS][i] * (strength[i] + net[i])
+            events += [
+                hy.t_event(function, callback=self._callback(2 * i + side), **falling)
+                for side, function in enumerate((forward, backward))
+            ]
+        self.motion: Motion | None = None
+        self.solver: Any = hy.taylor_adaptive(
+            [(tension[i], coupling[i] * (behind[i] - velocity[i])) for i in range(n)]
+            + [(velocity[i], setting[SLIDES][i] * net[i] - setting[PUSH][i]) for i in range(n)],
+            np.zeros(2 * n),
+            t_events=events,
+            pars=np.zeros(4 * n),
+            tol=tolerance,
+            high_accuracy=high_accuracy,
+            compact_mode=n > LARGE,
+        )
+        self.outcome_end = hy.taylor_outcome.time_limit
+
+    def _callback(self, event: int) -> Any:
+        def callback(solver: Any, _direction: int) -> bool:
+            # The function that fired means something else from now on: its cooldown must not hide a root.
+            solver.reset_cooldowns()
+            return self.motion.switch(event, solver.time)  # type: ignore[union-attr]
+
+        return callback
+
+    def run(self, chain: Chain, duration: float, until: str | None, nudge: float) -> Result:
+        solver = self.solver
+        state, settings = solver.state, solver.pars.reshape(4, -1)
+        self.motion = Motion(chain, duration, until, state, settings, nudge)
+        try:
+            return march_events(self.motion, self._slip)
+        finally:
+            self.motion = None
+
+    def _slip(self, motion: Motion) -> None:
+        solver = self.solver
+        solver.time = 0.0
+        solver.reset_cooldowns()
+        outcome, _, _, steps, *_ = solver.propagate_until(motion.remaining)
+        motion.evaluations += steps * solver.order
+        if motion.n_sliding and outcome != self.outcome_end:
+            raise RuntimeError(f"heyoka stopped at t = {motion.onset:.9g} s: {outcome}")
+
+
+@lru_cache(maxsize=32)
+def _integrator(chain: Chain, tolerance: float, high_accuracy: bool) -> _Integrator:
+    return _Integrator(chain, tolerance, high_accuracy)
+
+
+def solve_heyoka(
+    chain: Chain,
+    duration: float,
+    tolerance: float,
+    until: str | None = None,
+    high_accuracy: bool = False,
+    nudge: float = NUDGE,
+) -> Result:
+    """Run a chain by heyoka.py.
+
+    Parameters
+    ----------
+    chain, duration, until
+        As in `precursors.simulate`.
+    tolerance : float
+        heyoka's tolerance; it sets the order of the series too. 0 is its default, rounding.
+    high_accuracy : bool
+        Whether the series are summed with compensation.
+    nudge : float
+        Velocity with which a block starts, see `events.NUDGE`.
+
+    Returns
+    -------
+    Result
+        A step of a series of order p counts as p evaluations: each derivative applies the equations once.
+
+    Raises
+    ------
+    ImportError
+        Without heyoka.
+    """
+    return _integrator(chain, float(tolerance), high_accuracy).run(chain, duration, until, nudge)
+
+
+METHODS = (Method("heyoka", "heyoka.py, Taylor series", "relative tolerance", TOLERANCES, solve_heyoka),)

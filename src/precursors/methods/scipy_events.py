@@ -1,0 +1,143 @@
+"""SciPy's solve_ivp with terminal events, restarted at each transition: RK45, DOP853, LSODA and Radau.
+
+Events are the velocities of the blocks that slide and the margins of the stuck blocks beside them; elsewhere
+no force changes. SciPy looks for an event where its function has changed sign over a step, so a velocity that
+falls below zero and rises again within one step is missed without a word: `max_step` is the cure.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any, Literal
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from precursors.methods.common import Method, Result
+from precursors.methods.events import MODE, NUDGE, Motion, jacobian, march_restarting, rates
+from precursors.model.chain import Chain, FloatArray
+
+Solver = Literal["RK45", "DOP853", "LSODA", "Radau"]
+IMPLICIT = ("LSODA", "Radau")
+# Tightest: below it the solver refuses, warns, or gains nothing.
+TOLERANCES: dict[Solver, tuple[float, ...]] = {
+    "RK45": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11),
+    "DOP853": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13),
+    "LSODA": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12),
+    "Radau": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10),
+}
+FALLING = -1.0
+
+EventFunction = Callable[[float, FloatArray], float]
+
+
+def solve_scipy(
+    chain: Chain,
+    duration: float,
+    tolerance: float,
+    until: str | None = None,
+    solver: Solver = "DOP853",
+    max_step: float = math.inf,
+    nudge: float = NUDGE,
+    direction: float = FALLING,
+) -> Result:
+    """Run a chain by `scipy.integrate.solve_ivp`.
+
+    Parameters
+    ----------
+    chain, duration, until
+        As in `precursors.simulate`.
+    tolerance : float
+        rtol; atol is the same number in N and N/tau (see `events`).
+    solver : {"RK45", "DOP853", "LSODA", "Radau"}
+        SciPy's method.
+    max_step : float
+        Longest step [s].
+    nudge : float
+        Velocity with which a block starts, see `events.NUDGE`.
+    direction : float
+        SciPy's direction of the events. Its default, 0, takes any root, also one that a restart lies on.
+
+    Raises
+    ------
+    TransitionLimitError
+        If the solver makes transition after transition without time going on.
+    RuntimeError
+        If SciPy reports a failure.
+    """
+    motion = Motion(chain, duration, until, nudge=nudge)
+    n = chain.n_blocks
+
+    def right_hand_side(_time: float, state: FloatArray) -> FloatArray:
+        result = np.empty(2 * n)
+        rates(state, motion.settings, motion.coupling, motion.drive_velocity, result)
+        return result
+
+    def go_on(time: float) -> tuple[float, int]:
+        events = dict(watched(motion, direction))
+        options: dict[str, Any] = {}
+        if solver in IMPLICIT:
+            matrix = jacobian(motion.settings, motion.coupling, np.zeros((2 * n, 2 * n)))
+            options["jac"] = matrix if solver == "Radau" else lambda _t, _y: matrix
+        solution = solve_ivp(
+            right_hand_side,
+            (time, motion.remaining),
+            motion.state,
+            method=solver,
+            events=list(events.values()),
+            rtol=tolerance,
+            atol=tolerance,
+            max_step=max_step / motion.tau,
+            **options,
+        )
+        motion.evaluations += solution.nfev
+        if not solution.success:
+            raise RuntimeError(f"{solver} at t = {motion.onset:.9g} s: {solution.message}")
+        motion.state[:] = solution.y[:, -1]
+        fired = [number for number, times in zip(events, solution.t_events or (), strict=True) if len(times)]
+        return float(solution.t[-1]), fired[0] if fired else -1
+
+    return march_restarting(motion, go_on)
+
+
+def watched(motion: Motion, direction: float = FALLING) -> Iterator[tuple[int, EventFunction]]:
+    """Numbers and functions of the events that can come next."""
+    n = motion.chain.n_blocks
+    mode = motion.settings[MODE]
+    for i in range(n):
+        if mode[i] != 0.0:
+            yield 2 * i, _terminal(_velocity(n + i, float(mode[i])), direction)
+        elif mode[max(i - 1, 0) : i + 2].any():
+            for side in (0, 1):
+                margin = _margin(i, n, float(motion.strength[i]), 1.0 - 2.0 * side)
+                yield 2 * i + side, _terminal(margin, direction)
+
+
+def _velocity(column: int, direction: float) -> EventFunction:
+    return lambda _time, state: direction * state[column]
+
+
+def _margin(block: int, n_blocks: int, strength: float, direction: float) -> EventFunction:
+    if block + 1 == n_blocks:
+        return lambda _time, state: strength - direction * state[block]
+    return lambda _time, state: strength - direction * (state[block] - state[block + 1])
+
+
+def _terminal(function: EventFunction, direction: float) -> EventFunction:
+    function.terminal = True  # type: ignore[attr-defined]
+    function.direction = direction  # type: ignore[attr-defined]
+    return function
+
+
+METHODS = tuple(
+    Method(
+        f"scipy_{solver.lower()}",
+        f"SciPy {solver} with events",
+        "relative tolerance",
+        TOLERANCES[solver],
+        partial(solve_scipy, solver=solver),
+    )
+    for solver in TOLERANCES
+)

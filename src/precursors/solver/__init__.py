@@ -1,0 +1,1 @@
+"""From a chain to its run: every transition, exact to rounding."""

@@ -1,0 +1,246 @@
+"""The next transition: bounds for all blocks, and the earliest root of all."""
+
+from __future__ import annotations
+
+from numba import int64
+
+from precursors.solver.kernel import lanes
+from precursors.solver.kernel.bounds import cubic_bound, downward, grain, safe_step, surely_positive, turning
+from precursors.solver.kernel.compiled import (
+    EIGHT,
+    FIVE,
+    FOUR,
+    ONE,
+    SEVEN,
+    SIX,
+    THREE,
+    TWO,
+    ZERO,
+    index,
+    inner,
+)
+from precursors.solver.kernel.layout import (
+    BEND,
+    BUILT,
+    C0,
+    C1,
+    C2,
+    C3,
+    CUBIC,
+    DOUBT,
+    FINAL,
+    INVERSE_FACTORIAL,
+    ORIGIN,
+    POWER,
+    REACH,
+    REACH_SQUARED,
+    REST,
+    RESTART,
+    ROOT_STEPS,
+    ROUGH,
+    SPAN,
+    STEPS,
+    TAIL,
+    TURN,
+    WHOLE,
+)
+from precursors.solver.kernel.margins import margin_series, may_let_go, watch_margins
+from precursors.solver.kernel.roots import divide_out, examine, examine_from, keep, refine
+from precursors.solver.kernel.series import powers
+from precursors.solver.kernel.springs import on_springs
+
+
+@inner
+def watch(window, chain, additions, state, motion, search):
+    """Bound the next transition of blocks first..last from below, as times in the window.
+
+    Slot 2 i watches the velocity of block i while it slides, or its margin against letting go forward while
+    it sticks; slot 2 i + 1 its margin against letting go backward. active[1:active[0] + 1] are the slots that
+    may have a root, `fastest` bounds the speeds in the window, and a value counts as zero below the relative
+    size `doubt`.
+    """
+    first, final, active, mode, tension = window.first, window.final, search.active, state.mode, state.tension
+    kept = 0
+    for k in range(1, active[0] + 1):
+        if active[k] < 2 * first or active[k] > 2 * final + 1:
+            kept += 1
+            active[kept] = active[k]
+    active[0] = kept
+    tail, tail_bend = tail_bound(window, additions, motion.rate)
+    start, stop = index(first), index(final) + ONE
+    for group in range(start, stop, FOUR):
+        motion.suspects[group] = may_stop(group, tail, motion)
+        if additions is not None and on_springs(additions):
+            speed_bound(group, tail, motion)
+    for group in range(start, stop, FOUR):
+        bits = motion.suspects[group] | may_let_go(group, window.span, chain, additions, tension, motion)
+        i = group
+        while bits != ZERO and i <= index(window.last):
+            if bits & ONE:
+                zero = grain(i, window.doubt, chain, additions, tension, motion.fastest)
+                if mode[i] != 0:
+                    watch_velocity(i, window, mode[i], zero, tail, tail_bend, motion, search)
+                else:
+                    watch_margins(i, window, zero, tail, tail_bend, chain, additions, tension, motion, search)
+            bits >>= ONE
+            i += ONE
+
+
+@inner
+def may_stop(i, tail, motion):
+    """Bits of those of blocks i..i + 3 that slide and may stop in the window; `fastest` is set for all four.
+
+    The test is that of `surely_positive`, with the size of each term from the fourth on and the tail as rest.
+    """
+    sense, rate, weight, fastest = motion.sense, motion.rate, motion.weight, motion.fastest
+    sign = lanes.load(sense, i)
+    slides = sign * sign
+    c0 = sign * lanes.load_row(rate, ZERO, i)
+    c1 = sign * (lanes.load_row(rate, ONE, i) * weight[ONE])
+    c2 = sign * (lanes.load_row(rate, TWO, i) * weight[TWO])
+    c3 = sign * (lanes.load_row(rate, THREE, i) * weight[THREE])
+    rest = (size(FOUR, i, rate, weight) + size(FIVE, i, rate, weight)) + (
+        size(SIX, i, rate, weight) + size(SEVEN, i, rate, weight)
+    )
+    rest = rest + tail
+    total = (lanes.magnitude(c0) + lanes.magnitude(c1)) + (lanes.magnitude(c2) + lanes.magnitude(c3)) + rest
+    lanes.store(fastest, i, total * slides)
+    zero = lanes.spread(0.0)
+    least = (c0 + lanes.smaller(c1, zero)) + (lanes.smaller(c2, zero) + lanes.smaller(c3, zero))
+    return lanes.where_not_above(least, slides * rest - (1.0 - slides))
+
+
+@inner
+def size(n, i, rate, weight):
+    """Largest value of term n of the series of blocks i..i + 3 in the window."""
+    return lanes.magnitude(lanes.load_row(rate, n, i)) * weight[n]
+
+
+@inner
+def speed_bound(i, tail, motion):
+    """Set `fastest` of blocks i..i + 3 whether they slide or not."""
+    total = lanes.spread(tail)
+    for n in range(ZERO, EIGHT):
+        total = total + size(n, i, motion.rate, motion.weight)
+    lanes.store(motion.fastest, i, total)
+
+
+@inner
+def watch_velocity(i, window, sign, zero, tail, tail_bend, motion, search):
+    """Bound the time at which sliding block i stops from below."""
+    rate, weight, origin, span = motion.rate, motion.weight, window.origin, window.span
+    series, level, stage, bound = search.series, search.level, search.stage, search.bound
+    slot = TWO * i
+    w1, w2, w3, w4 = weight[1], weight[2], weight[3], weight[4]
+    c0, c1 = sign * rate[ZERO, i], sign * rate[ONE, i] * w1
+    c2, c3 = sign * rate[TWO, i] * w2, sign * rate[THREE, i] * w3
+    r4, r5 = abs(rate[FOUR, i]) * w4, abs(rate[FIVE, i]) * weight[5]
+    r6, r7 = abs(rate[SIX, i]) * weight[6], abs(rate[SEVEN, i]) * weight[7]
+    rest = (r4 + r5) + (r6 + r7) + tail
+    level[slot, ORIGIN], level[slot, SPAN], level[slot, DOUBT] = origin, span, zero
+    if c0 > zero:
+        level[slot, POWER] = 0.0
+        bend = 12.0 * r4 + 20.0 * r5 + 30.0 * r6 + 42.0 * r7 + tail_bend
+    elif c0 >= -zero and c1 > zero:
+        # It has just begun to move: the root at the start is divided out.
+        c0, c1, c2, c3 = c1, c2, c3, sign * rate[FOUR, i] * w4
+        rest = r5 + r6 + r7 + tail
+        if surely_positive(c0, c1, c2, c3, rest):
+            return
+        level[slot, POWER] = 1.0
+        bend = 12.0 * r5 + 20.0 * r6 + 30.0 * r7 + tail_bend
+    else:
+        for n in range(index(window.order) + ONE):
+            series[slot, n] = sign * rate[n, i] * weight[n]
+        stage[slot], bound[slot] = BUILT, origin
+        keep(slot, search)
+        return
+    level[slot, BEND], level[slot, TURN] = downward(c2, c3) + bend, turning(c2, c3) + bend
+    level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3] = c0, c1, c2, c3
+    level[slot, REST] = rest
+    stage[slot] = ROUGH
+    bound[slot] = origin + safe_step(c0, c1, downward(c2, c3) + 12.0 * rest) * span
+    if bound[slot] < origin + span:
+        keep(slot, search)
+
+
+@inner
+def next_transition(limit, origin, order, chain, additions, state, motion, search, count):
+    """Earliest root of all watched functions: (time in the window, slot); (limit, -1) where there is none.
+
+    `weight` holds the powers of limit - origin; `spare` is for those of other origins.
+    """
+    mode, rate, weight, spare = state.mode, motion.rate, motion.weight, motion.spare
+    series, level, terms, stage, bound, active = search
+    while True:
+        slot, t = -1, limit
+        for k in range(1, active[0] + 1):
+            if bound[active[k]] < t:
+                slot, t = active[k], bound[active[k]]
+        if slot < 0 or stage[slot] == FINAL:
+            return t, slot
+        if stage[slot] == BUILT:
+            bound[slot] = examine(slot, order + 1, search)
+            continue
+        if stage[slot] == ROUGH:
+            s = cubic_bound(
+                level[slot, C0], level[slot, C1], level[slot, C2], level[slot, C3], level[slot, REST]
+            )
+            bound[slot] = level[slot, ORIGIN] + s * level[slot, SPAN]
+            stage[slot] = CUBIC
+            continue
+        if stage[slot] == CUBIC:
+            i = index(slot // 2)
+            if mode[i] == 0:
+                margin_series(slot, i, order, chain, additions, state.tension, motion, search)
+            elif level[slot, ORIGIN] == origin:
+                for n in range(index(order) + ONE):
+                    series[slot, n] = mode[i] * rate[n, i] * weight[n]
+            else:
+                powers(level[slot, SPAN], order, spare)
+                for n in range(index(order) + ONE):
+                    series[slot, n] = mode[i] * rate[n, i] * spare[n]
+            p = index(level[slot, POWER])
+            divide_out(index(slot), p, index(order) + ONE, series)
+            terms[slot] = order + 1 - int64(p)
+            level[slot, STEPS] = 0.0
+            stage[slot] = WHOLE
+        count[ROOT_STEPS] += 1
+        level[slot, STEPS] += 1.0
+        if level[slot, STEPS] > RESTART:
+            bound[slot] = examine_from(slot, t, search)
+        else:
+            bound[slot] = refine(slot, t, search)
+
+
+@inner
+def tail_bound(window, additions, rate):
+    """Bounds of the terms from the eighth on of the velocity series of blocks first..final: sum, curvature.
+
+    Row n + 2 of a block is at most REACH^2 times the largest of row n (Gershgorin); moving neighbours
+    outside, in columns first - 1 and final + 1, enter with all their rows, which follow from others.
+    """
+    first, final, order, span = window.first, window.final, window.order, window.span
+    sixth_row = seventh_row = lanes.spread(0.0)
+    for i in range(index(first), index(final) + ONE, FOUR):
+        sixth_row = lanes.larger(sixth_row, lanes.magnitude(lanes.load_row(rate, SIX, i)))
+        seventh_row = lanes.larger(seventh_row, lanes.magnitude(lanes.load_row(rate, SEVEN, i)))
+    even = max(lanes.largest(sixth_row), abs(rate[SIX, first - 1]), abs(rate[SIX, final + 1]))
+    odd = max(lanes.largest(seventh_row), abs(rate[SEVEN, first - 1]), abs(rate[SEVEN, final + 1]))
+    if first > 1 or final < window.end:
+        shrink = 1.0
+        for n in range(8, order + 1):
+            if n % 2 == 0:
+                shrink /= REACH_SQUARED
+                even = max(even, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, final + 1]))
+            else:
+                odd = max(odd, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, final + 1]))
+    if additions is not None:
+        # Dashpots mix even and odd rows: what grows by REACH at most is the larger of two rows on end.
+        even = max(even, odd / REACH)
+        odd = even * REACH
+    # Each of the two sums is geometric at worst.
+    square = span * span
+    sixth = REACH_SQUARED * TAIL * square * square * square
+    value = sixth * square * (even * INVERSE_FACTORIAL[8] + odd * span * INVERSE_FACTORIAL[9])
+    return value, sixth * square * (even * INVERSE_FACTORIAL[6] + odd * span * INVERSE_FACTORIAL[7])

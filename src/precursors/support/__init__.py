@@ -1,0 +1,1 @@
+"""Files written whole, timing and provenance; no physics."""

@@ -1,0 +1,502 @@
+"""Certificates hold: against the 40-digit reference and the double solver, and broken ones are refused."""
+
+from __future__ import annotations
+
+import copy
+import csv
+import dataclasses
+import gzip
+import math
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from flint import arb, arb_poly, ctx
+from reference import HeldOut, Transition, read_golden, read_held_out
+from reference.goldens import GOLDEN, SCENE_DIGITS, SCENES, csv_rows
+
+from precursors import simulate
+from precursors.accuracy.proof import (
+    Certificate,
+    CertificateError,
+    CertifiedTransition,
+    Enclosure,
+    ExactChain,
+    certify,
+    compare,
+    scene_exact_chain,
+    verify,
+)
+from precursors.accuracy.proof.motion import expand, tail, time_unit
+from precursors.accuracy.proof.proved import chain_duration, is_about
+from precursors.accuracy.proof.proved import exact_chain as exact_chain_of
+from precursors.accuracy.proof.tube import Proof
+
+# Half a unit of the last of the golden digits, relative.
+SCENE_ROUNDING = Fraction(5, 10**40)
+HELD_OUT_ROUNDING = Fraction(5, 10**25)
+# An enclosure is at least so good [s], [N].
+TIME_RADIUS, LOAD_RADIUS = Fraction(1, 10**40), Fraction(1, 10**35)
+# What is asked of the double solver up to the first global slip [s], [N]; it comes within 1e-12 and 1e-10.
+DOUBLE_TIME, DOUBLE_LOAD = 1e-9, 1e-8
+# So few that the enclosures are wide, and a start so close to the edge of what they hold at time 0.
+COARSE_BITS, CLOSE_TO_REACH = 128, Fraction(99, 100)
+CHAINS = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text())["horizon"]["chains"]
+# A committed certificate is smaller [bytes].
+LARGEST_FILE = 300_000
+# Rounding of clocks of 300 bits [s].
+CLOCK_ROUNDING = Fraction(1, 2**280)
+AT_ZERO = (Fraction(0),) * 10
+# Two runs 2^-60 N apart differ from the linear theory by a like part of their distance.
+LINEAR = Fraction(1, 2**30)
+# Seven blocks, the middle one pushed aside: blocks 2 and 6 are released at the same instant, by symmetry.
+SYMMETRIC_START = ["0", "0", "0", "1e-5", "0", "0", "0"]
+
+
+@pytest.fixture(scope="module", params=SCENES)
+def scene(request: pytest.FixtureRequest) -> tuple[str, Certificate]:
+    chain = ExactChain.from_slider(theta=SCENES[request.param])
+    return request.param, certify(chain, 10, until="global slip")
+
+
+@pytest.fixture(scope="module")
+def small() -> Certificate:
+    return certify(ExactChain.from_slider(n_blocks=3, theta="1/2"), 4)
+
+
+def assert_holds(certificate: Certificate, golden: list[Transition], rounding: Fraction) -> None:
+    assert len(certificate.transitions) == len(golden)
+    for proved, expected in zip(certificate.transitions, golden, strict=True):
+        assert (proved.block, proved.mode) == (expected.block, expected.mode)
+        for enclosure, value in (
+            (proved.time, expected.time),
+            (proved.tangential_load, expected.tangential_load),
+        ):
+            assert abs(enclosure.midpoint - value) <= enclosure.radius + rounding * abs(value)
+
+
+def replace(
+    certificate: Certificate, number: int, change: Callable[[CertifiedTransition], CertifiedTransition]
+) -> Certificate:
+    """Change one transition and give the certificate the checksum of what it now holds."""
+    transitions = list(certificate.transitions)
+    transitions[number] = change(transitions[number])
+    return dataclasses.replace(certificate, transitions=tuple(transitions)).sealed()
+
+
+def test_enclosures_up_to_the_first_global_slip_hold_the_40_digit_reference(
+    scene: tuple[str, Certificate],
+) -> None:
+    name, certificate = scene
+    golden = read_golden(name)[: len(certificate.transitions)]
+    assert len(golden) > 100
+    assert_holds(certificate, golden, SCENE_ROUNDING)
+    assert certificate.tie is None
+    widest_time, widest_load = certificate.widest
+    assert widest_time <= TIME_RADIUS
+    assert widest_load <= LOAD_RADIUS
+
+
+COMMITTED = Path(__file__).parents[2] / "workflow" / "certificates"
+# The chains of the three scenes in horizon.chains of the configuration.
+PROVED_SCENES = {"fig10": "uniform", "fig11": "trailing", "fig12": "leading"}
+
+
+@pytest.mark.parametrize(("scene", "chain"), PROVED_SCENES.items())
+def test_the_golden_tables_are_the_proof_rounded_digit_for_digit(scene: str, chain: str) -> None:
+    certificate = verify(COMMITTED / f"{chain}.json.gz")
+    assert certificate.chain == ExactChain.from_slider(theta=SCENES[scene])
+    assert certificate.proved_until == 10
+    with (GOLDEN / f"reference_{scene}.csv").open(newline="") as file:
+        _, *golden = csv.reader(file)
+    # Both ends of every enclosure round to the digits of the golden table.
+    for end in ("lower", "upper"):
+        ends = [
+            Transition(getattr(t.time, end), t.block, t.mode, getattr(t.tangential_load, end))
+            for t in certificate.transitions
+        ]
+        assert csv_rows(ends, SCENE_DIGITS) == golden
+
+
+@pytest.mark.parametrize("name", CHAINS)
+def test_the_committed_certificates_are_about_the_chains_of_the_configuration(name: str) -> None:
+    certificate = verify(COMMITTED / f"{name}.json.gz")
+    assert is_about(certificate, exact_chain_of(CHAINS[name]), chain_duration(CHAINS[name]))
+    assert not is_about(certificate, exact_chain_of(CHAINS[name]), 2 * chain_duration(CHAINS[name]))
+    assert (COMMITTED / f"{name}.json.gz").stat().st_size < LARGEST_FILE
+
+
+def test_a_run_is_compared_up_to_where_it_goes_another_way(small: Certificate) -> None:
+    run = simulate(small.chain.to_chain(), 4.0)
+    whole = compare(run, small)
+    assert whole.n_agreeing == len(small.transitions)
+    assert whole.lost == math.inf
+    assert whole.time_error.max() < DOUBLE_TIME
+    assert whole.load_error.max() < DOUBLE_LOAD
+    # A transition too many, one too few, and one of another block.
+    missing = dataclasses.replace(run, transitions=np.delete(run.transitions, 10))
+    swapped = run.transitions.copy()
+    swapped["block"][10] = 3 - swapped["block"][10] % 3
+    for other in (missing, dataclasses.replace(run, transitions=swapped)):
+        part = compare(other, small)
+        assert part.n_agreeing == len(part.time_error) == 10
+        assert part.lost == pytest.approx(float(small.transitions[10].time.midpoint), abs=DOUBLE_TIME)
+    ended = compare(dataclasses.replace(run, transitions=run.transitions[:-1]), small)
+    assert ended.n_agreeing == len(small.transitions) - 1
+    assert ended.lost == float(small.transitions[-1].time.midpoint)
+
+
+def test_the_double_solver_agrees_with_the_proof_transition_by_transition(
+    scene: tuple[str, Certificate],
+) -> None:
+    _, certificate = scene
+    times, blocks, modes, loads = zip(*certificate.transitions, strict=True)
+    found = simulate(certificate.chain.to_chain(), until="global slip").transitions
+    assert found["block"].tolist() == list(blocks)
+    assert found["mode"].tolist() == list(modes)
+    for values, proved, error in (
+        (found["time"], times, DOUBLE_TIME),
+        (found["tangential_load"], loads, DOUBLE_LOAD),
+    ):
+        midpoints = [float(enclosure.midpoint) for enclosure in proved]
+        np.testing.assert_allclose(values, midpoints, rtol=0, atol=error)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["one_block", "two_blocks", "three_blocks", "many_blocks", "frictionless_slip", "uneven_prestressed"],
+)
+def test_held_out_chains_are_proved(name: str) -> None:
+    case, golden = read_held_out()[name]
+    certificate = certify(exact_chain(case), case.duration, start_positions=case.start_positions)
+    assert certificate.tie is None
+    assert_holds(certificate, golden, HELD_OUT_ROUNDING)
+    verify(certificate)
+
+
+def exact_chain(case: HeldOut) -> ExactChain:
+    reference = case.chain
+    numbers = {f.name: getattr(reference, f.name) for f in dataclasses.fields(reference)}
+    return ExactChain(**numbers, length="1/10")
+
+
+def test_a_release_is_known_exactly() -> None:
+    (release,) = certify(ExactChain.from_slider(theta="5/6"), "0.0584").transitions[:1]
+    # mu_s w_1 = 14/3 N at K V = 80 N/s
+    assert release.time.contains(Fraction(14, 3) / 80)
+    assert release.tangential_load.contains(Fraction(14, 3))
+
+
+def test_the_doubles_of_a_chain_are_taken_for_what_they_are(small: Certificate) -> None:
+    chain = small.chain.to_chain()
+    certificate = certify(chain, 4)
+    assert certificate.chain.mu_s == Fraction(0.7) != Fraction(7, 10)
+    pairs = list(zip(certificate.transitions, small.transitions, strict=True))
+    assert all((a.block, a.mode) == (b.block, b.mode) for a, b in pairs)
+    # Rounded parameters are another chain, whose transitions are elsewhere.
+    assert not any(a.time.contains(b.time) for a, b in pairs)
+
+
+def test_a_mirror_symmetric_start_is_a_tie() -> None:
+    chain = ExactChain.from_slider(n_blocks=7)
+    certificate = certify(chain, "0.3", start_positions=SYMMETRIC_START, max_bits=1024)
+    assert [(t.time, t.block, t.mode) for t in certificate.transitions] == [
+        (Enclosure(Fraction(0), Fraction(0)), i, mode) for i, mode in ((3, 1), (4, -1), (5, 1))
+    ]
+    tie = certificate.tie
+    assert tie is not None
+    assert tie.blocks == (2, 6)
+    assert tie.closeness < Fraction(1, 2**512)
+    assert certificate.proved_until < certificate.duration
+    verify(certificate, recompute=True)
+
+
+def test_a_tie_all_but_true_is_decided_with_more_bits() -> None:
+    # Block 2 carries less than block 6, by one part in 1e100, and lets go first.
+    chain = ExactChain.from_slider(n_blocks=7, theta="1e-100")
+    certificate = certify(chain, "1e-5", start_positions=SYMMETRIC_START)
+    assert certificate.tie is None
+    assert certificate.bits > 256
+    assert [(t.block, t.mode) for t in certificate.transitions[3:5]] == [(2, 1), (6, 1)]
+    verify(certificate, recompute=True)
+
+
+@pytest.mark.parametrize("displaced", [1, 2])
+def test_a_run_that_starts_within_the_distance_stays_in_the_enclosures(displaced: int) -> None:
+    chain = ExactChain.from_slider()
+    reach = fraction(Proof(chain, Fraction(1), False, AT_ZERO, COARSE_BITS, Fraction(1)).least_distance)
+    positions = start_at_distance(chain, displaced, CLOSE_TO_REACH * reach)
+    closest = Fraction(0)
+    pairs = zip(proofs(chain, AT_ZERO, 60, COARSE_BITS), proofs(chain, positions, 60, 300), strict=True)
+    for (coarse, onset), (fine, fine_onset) in pairs:
+        one, other = coarse.transitions[-1], fine.transitions[-1]
+        assert (one.block, one.mode) == (other.block, other.mode)
+        with ctx.workprec(300):
+            shift = (coarse.clock - onset - fine.clock + fine_onset).mid()
+        assert abs(fraction(shift)) <= fraction((coarse.unit * coarse.gap).upper()) + CLOCK_ROUNDING
+        for ball, exact in ((one.time, other.time), (one.tangential_load, other.tangential_load)):
+            distance = abs(fraction(ball.mid()) - fraction(exact.mid()))
+            assert distance <= fraction(ball.rad())
+            closest = max(closest, distance / fraction(ball.rad()))
+    # The enclosures are no wider than they must be, so the test would see narrower ones.
+    assert closest > Fraction(2, 3)
+
+
+@pytest.mark.parametrize("derivative", [0, 1, 2])
+def test_the_taylor_remainder_is_within_its_bound(derivative: int) -> None:
+    *_, (proof, _) = proofs(ExactChain.from_slider(theta="-5/6"), AT_ZERO, 45, 256)
+    assert sum(map(bool, proof.state.mode)) > 2
+    with ctx.workprec(256):
+        constants = proof.constants(256)
+        short, long = (expand(constants, proof.state, order) for order in (20, 80))
+        bound = tail(constants, short, arb(1), derivative)
+        largest = Fraction(0)
+        for i, row in short.items():
+            rest = arb_poly([0] * len(row) + long[i][len(row) :])
+            for _ in range(derivative):
+                rest = rest.derivative()
+            largest = max(largest, *(abs(fraction(rest(arb(t)).mid())) for t in (-1, 1)))
+    assert largest <= fraction(bound) < 20 * largest
+
+
+def test_two_runs_are_driven_apart_by_releases_only_and_by_as_much_as_is_allowed_for() -> None:
+    chain = ExactChain.from_slider()
+    positions = start_at_distance(chain, 2, Fraction(1, 2**60))
+    n_releases = n_stops = 0
+    pairs = zip(proofs(chain, AT_ZERO, 60, 256), proofs(chain, positions, 60, 256), strict=True)
+    for ((before, _), (other_before, _)), ((one, onset), (other, other_onset)) in pairwise(pairs):
+        if not any(before.state.mode) or not any(one.state.mode):
+            continue
+        before, other_before, one, other = (snapshot(x) for x in (before, other_before, one, other))
+        block = one.transitions[-1].block
+        drop = (chain.mu_s - chain.mu_k) * chain.weights[block - 1]
+        was_apart, _ = difference(before, onset, other_before, other_onset)
+        apart, gap = difference(one, onset, other, other_onset)
+        if before.state.mode[block] == 0:
+            n_releases += 1
+            assert abs(apart - was_apart - (drop * gap) ** 2) < LINEAR * was_apart
+            allowed = (drop * fraction(one.gap)) ** 2
+        else:
+            n_stops += 1
+            assert apart < (1 + LINEAR) * was_apart
+            allowed = Fraction(0)
+        assert fraction(one.state.distance) ** 2 >= fraction(before.state.distance) ** 2 + allowed
+    assert n_releases > 5
+    assert n_stops > 5
+
+
+def proofs(
+    chain: ExactChain, positions: Sequence[Fraction], n: int, bits: int
+) -> Iterator[tuple[Proof, arb]]:
+    """Yield a proof after each of n transitions, and the onset of the event [s]."""
+    proof = Proof(chain, Fraction(10), False, tuple(positions), bits, Fraction(1))
+    onset = proof.clock
+    for i in range(n):
+        while len(proof.transitions) <= i:
+            if any(proof.state.mode):
+                proof.slide()
+            else:
+                proof.load()
+                onset = proof.clock
+        yield snapshot(proof), onset
+
+
+def snapshot(proof: Proof) -> Proof:
+    """A proof that goes on by itself."""
+    other = copy.copy(proof)
+    other.state = dataclasses.replace(proof.state, mode=list(proof.state.mode))
+    other.transitions = list(proof.transitions)
+    return other
+
+
+def difference(one: Proof, onset: arb, other: Proof, other_onset: arb) -> tuple[Fraction, Fraction]:
+    """Square of the distance of two runs, when the later has had its transition, and how much later [T]."""
+    with ctx.workprec(256):
+        ahead = ((one.clock - onset - other.clock + other_onset) / one.unit).mid()
+        if ahead > 0:
+            other.advance_window(ahead)
+        elif ahead < 0:
+            one.advance_window(-ahead)
+        a, b, c = one.state, other.state, one.bounds.coupling
+        square = arb(0)
+        for i in range(1, one.n + 1):
+            square += (a.force[i] - b.force[i]) ** 2 / c[i] + (a.rate[i] - b.rate[i]) ** 2
+        return fraction(square.mid()), fraction(ahead)
+
+
+def start_at_distance(chain: ExactChain, displaced: int, distance: Fraction) -> list[Fraction]:
+    """Positions with one block displaced, so that the spring forces are at a distance [N] from zero."""
+    behind, ahead = (*chain.springs, Fraction(0))[displaced - 1 : displaced + 1]
+    stiffness = Fraction(math.sqrt((behind + ahead) * chain.mass / time_unit(chain) ** 2))
+    return [distance / stiffness * (i == displaced) for i in range(1, chain.n_blocks + 1)]
+
+
+def fraction(x: arb) -> Fraction:
+    mantissa, exponent = x.man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def test_a_transition_at_the_very_end_of_the_run_is_not_decided_by_luck() -> None:
+    certificate = certify(ExactChain.from_slider(), "0.35", max_bits=512)
+    assert certificate.transitions == ()
+    assert certificate.tie is not None
+    assert certificate.tie.time.contains("0.35")
+
+
+def test_a_block_that_only_touches_standstill_is_a_tie() -> None:
+    case = read_held_out()["grazing"][0]
+    certificate = certify(exact_chain(case), case.duration, max_bits=512)
+    assert [(t.block, t.mode) for t in certificate.transitions] == [(1, 1)]
+    assert certificate.tie is not None
+    assert certificate.tie.question == "whether block 1 stops"
+
+
+def test_too_few_bits_are_an_error_and_no_tie() -> None:
+    with pytest.raises(CertificateError, match="max_bits = 256 do not suffice beyond t = "):
+        certify(ExactChain.from_slider(), 10, max_bits=256)
+
+
+def test_a_certificate_comes_back_from_its_file(small: Certificate, tmp_path: Path) -> None:
+    path = tmp_path / "small.json.gz"
+    small.save(path)
+    assert verify(path) == small
+    assert verify(small, recompute=True) is small
+    first = path.read_bytes()
+    small.save(path)
+    assert path.read_bytes() == first
+
+
+def test_one_digit_altered_is_refused(small: Certificate, tmp_path: Path) -> None:
+    path = tmp_path / "small.json.gz"
+    small.save(path)
+    text = gzip.decompress(path.read_bytes()).decode()
+    start = text.index('"transitions"')
+    digits = [i for i, character in enumerate(text) if character.isdigit()]
+    for i in [*digits[:60:7], *[d for d in digits if d > start][::400]]:
+        altered = text[:i] + str((int(text[i]) + 1) % 10) + text[i + 1 :]
+        path.write_bytes(gzip.compress(altered.encode()))
+        with pytest.raises(CertificateError, match=r"altered|not a whole certificate"):
+            Certificate.load(path)
+
+
+FOREIGN = {"empty": b"", "text": b"no gzip", "object": gzip.compress(b"{}"), "list": gzip.compress(b"[1, 2]")}
+
+
+@pytest.mark.parametrize("content", FOREIGN.values(), ids=FOREIGN)
+def test_a_foreign_file_is_refused(content: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "foreign.json.gz"
+    path.write_bytes(content)
+    with pytest.raises(CertificateError, match="not a whole certificate"):
+        verify(path)
+
+
+def test_an_altered_certificate_in_memory_is_refused(small: Certificate) -> None:
+    with pytest.raises(CertificateError, match="SHA-256"):
+        verify(dataclasses.replace(small, transitions=small.transitions[:-1]))
+
+
+def test_an_enclosure_narrower_than_proved_is_refused(small: Certificate) -> None:
+    shrunk = replace(small, -1, lambda t: t._replace(time=Enclosure(t.time.midpoint, t.time.radius / 1000)))
+    verify(shrunk)
+    with pytest.raises(CertificateError, match="its time is not proved within"):
+        verify(shrunk, recompute=True)
+
+
+def test_a_shifted_load_is_refused(small: Certificate) -> None:
+    shifted = replace(
+        small,
+        5,
+        lambda t: t._replace(
+            tangential_load=Enclosure(
+                t.tangential_load.midpoint + 2 * t.tangential_load.radius, t.tangential_load.radius
+            )
+        ),
+    )
+    with pytest.raises(CertificateError, match="its load is not proved within"):
+        verify(shifted, recompute=True)
+
+
+@pytest.mark.parametrize("digit", [2, 9, 20, 35, 43])
+def test_an_altered_digit_is_refused_when_proved_again_whatever_the_checksum(
+    small: Certificate, digit: int
+) -> None:
+    step = Fraction(1, 10**digit)
+    altered = replace(small, 7, lambda t: t._replace(time=Enclosure(t.time.midpoint + step, t.time.radius)))
+    assert altered.sha256 == altered.sealed().sha256 != small.sha256
+    with pytest.raises(CertificateError, match=r"its time is not proved within|does not hold"):
+        verify(altered, recompute=True)
+
+
+def test_swapped_transitions_are_refused(small: Certificate) -> None:
+    transitions = list(small.transitions)
+    transitions[7], transitions[8] = transitions[8], transitions[7]
+    with pytest.raises(CertificateError, match="not in order of time"):
+        verify(dataclasses.replace(small, transitions=tuple(transitions)).sealed())
+    blocks = [
+        t._replace(block=other.block, mode=other.mode)
+        for t, other in zip(small.transitions, transitions, strict=True)
+    ]
+    with pytest.raises(CertificateError, match=r"does not hold|goes to mode"):
+        verify(dataclasses.replace(small, transitions=tuple(blocks)).sealed(), recompute=True)
+
+
+def test_a_missing_event_is_refused(small: Certificate) -> None:
+    with pytest.raises(CertificateError, match="the load has not grown at the rate K V"):
+        verify(dataclasses.replace(small, transitions=without_an_event(small)).sealed())
+
+
+def without_an_event(certificate: Certificate) -> tuple[CertifiedTransition, ...]:
+    """Leave out the second event, which is a slip of block 1 alone or begins with one."""
+    sliding: set[int] = set()
+    ends = []
+    for number, t in enumerate(certificate.transitions):
+        (sliding.add if t.mode else sliding.discard)(t.block)
+        if not sliding:
+            ends.append(number + 1)
+    return certificate.transitions[: ends[0]] + certificate.transitions[ends[1] :]
+
+
+def test_theta_of_a_scene_is_not_rounded() -> None:
+    slider = {"n_blocks": 10, "normal_load": 400.0, "length": 0.1}
+    scenes = {
+        "cells": {"load_cell_a": 100.0, "load_cell_b": 300.0},
+        "fraction": {"theta": "5/6"},
+        "number": {"theta": 0.5},
+    }
+    config = {"chain": slider, "load_cells": {"spacing": 0.06}, "scenes": scenes}
+    assert scene_exact_chain(config, "cells") == ExactChain.from_slider(theta=Fraction(5, 6))
+    assert scene_exact_chain(config, "fraction") == ExactChain.from_slider(theta="5/6")
+    assert scene_exact_chain(config, "number") == ExactChain.from_slider(theta=Fraction(1, 2))
+
+
+@pytest.mark.parametrize(
+    ("argument", "message"),
+    [
+        ({"theta": "7/6"}, r"theta = '7/6' \[1\] is out of range: allowed is -1 <= theta <= 1"),
+        ({"mu_s": "0.4"}, "mu_k = 9/20 is larger than mu_s = 2/5"),
+        ({"slider_mass": 0}, r"mass = 0 \[kg\] is out of range: allowed is mass > 0"),
+        ({"theta": "1e999999999"}, r"theta = '1e999999999' .* is not a number"),
+        ({"normal_load": float("nan")}, r"normal_load = nan \[N\] is not a number"),
+        ({"n_blocks": 0}, "n_blocks = 0 is out of range"),
+    ],
+)
+def test_a_bad_parameter_is_named(argument: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        ExactChain.from_slider(**argument)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("argument", "message"),
+    [
+        ({"duration": 0}, r"duration = 0 \[s\] is out of range: allowed is duration > 0"),
+        ({"until": "slip"}, "until = 'slip' is unknown"),
+        ({"start_positions": ["0"]}, "start_positions hold 1 values: allowed is one"),
+    ],
+)
+def test_a_bad_argument_is_named(argument: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        certify(ExactChain.from_slider(), **argument)  # type: ignore[arg-type]

@@ -1,0 +1,138 @@
+"""Events, precursors, global slip and mu_sapp follow from the transitions by the stated definitions."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from precursors import Chain, find_precursors, find_slips, simulate
+from precursors.analysis.slips import (
+    DEFINITIONS,
+    Definition,
+    apparent_friction,
+    every_definition,
+    first_global,
+)
+from precursors.solver.run import TRANSITION, Run, States
+
+
+def run_of(n_blocks, transitions, duration):
+    """A run with the given (time, block, mode, load), at rest at the start, without stored states."""
+    table = np.array(transitions, dtype=TRANSITION)
+    nothing = States(*(np.empty(0) for _ in States._fields))
+    times = np.concatenate([[0.0], table["time"], [duration]])
+    zero = np.zeros(n_blocks)
+    return Run(Chain.from_slider(n_blocks), duration, table, np.diff(times), zero, zero, nothing)
+
+
+def test_an_event_lasts_from_the_first_release_to_the_last_stick():
+    slips = find_slips(run_of(3, [(1, 1, 1, 9.0), (2, 2, 1, 8.0), (3, 1, 0, 7.0), (4, 2, 0, 6.0)], 9.0))
+    assert len(slips) == 1
+    event = slips.iloc[0]
+    assert (event.onset, event.end, event.load_before, event.load_after) == (1, 4, 9, 6)
+    assert (event.front, event.n_slid, event.n_simultaneous, event.is_global) == (2, 2, 2, False)
+
+
+def test_a_block_that_turns_slides_on():
+    slips = find_slips(run_of(2, [(1, 1, 1, 9.0), (2, 1, -1, 8.0), (3, 1, 0, 7.0)], 9.0))
+    assert (len(slips), slips.end[0], slips.n_simultaneous[0]) == (1, 3, 1)
+
+
+def test_all_blocks_one_after_the_other_are_no_global_slip():
+    one_by_one = [(1, 1, 1, 9.0), (2, 2, 1, 8.0), (3, 1, 0, 7.0), (4, 2, 0, 6.0)]
+    at_once = [(5, 1, 1, 9.0), (6, 2, 1, 8.0), (7, 2, 0, 7.0), (8, 1, 0, 6.0)]
+    first = find_slips(run_of(3, [*one_by_one[:3], (3.5, 3, 1, 0.0), *one_by_one[3:], (4.5, 3, 0, 0.0)], 9.0))
+    assert (first.n_slid[0], first.n_simultaneous[0], first.is_global[0]) == (3, 2, False)
+    assert find_slips(run_of(2, at_once, 9.0)).is_global[0]
+
+
+def test_a_release_at_the_instant_of_the_last_stick_belongs_to_the_same_event():
+    slips = find_slips(run_of(2, [(1, 1, 1, 9.0), (2, 1, 0, 8.0), (2, 1, 1, 8.0), (3, 1, 0, 7.0)], 9.0))
+    assert (len(slips), slips.end[0]) == (1, 3)
+
+
+def test_an_event_cut_off_by_the_end_of_the_run_has_no_end():
+    slips = find_slips(run_of(2, [(1, 1, 1, 9.0), (2, 1, 0, 8.0), (3, 1, 1, 9.0)], 4.0))
+    assert slips.end[0] == 2
+    assert math.isnan(slips.end[1])
+    assert math.isnan(slips.load_after[1])
+
+
+def test_a_run_without_transitions_has_no_event():
+    slips = find_slips(run_of(2, [], 4.0))
+    assert len(slips) == 0
+    assert len(find_precursors(slips)) == 0
+
+
+def test_short_events_are_dropped_equal_ones_kept_and_nothing_after_the_global_slip():
+    run = simulate(Chain.from_slider())
+    slips = find_slips(run)
+    fronts = [1, 2, 3, 4, 5, 2, 6, 4, 3, 8, 3, 9, 8, 3, 1, 10]
+    assert slips.front[:16].tolist() == fronts
+    assert find_precursors(slips).front.tolist() == [1, 2, 3, 4, 5, 6, 8, 9, 10]
+    equal = slips.assign(front=[2, 2, 1, *slips.front[3:]])
+    assert find_precursors(equal).index[:3].tolist() == [0, 1, 3]
+
+
+def test_without_a_global_slip_mu_sapp_is_not_defined():
+    run = simulate(Chain.from_slider(), duration=1.0)
+    assert apparent_friction(run, find_slips(run)) is None
+
+
+def test_mu_sapp_under_every_definition_is_that_of_the_stated_event():
+    run = simulate(Chain.from_slider(theta="-5/6"), duration=3.0)
+    found = [apparent_friction(run, find_slips(run), definition) for definition in DEFINITIONS]
+    assert [(f.event, f.events_kept) for f in found] == [(7, 6), (7, 6), (6, 5), (6, 5)]
+    assert [round(f.mu_sapp, 4) for f in found] == [0.4845, 0.4845, 0.4336, 0.4336]
+    assert found[0].load == pytest.approx(found[0].mu_sapp * 400.0, rel=1e-15)
+
+
+# Front, blocks that slid, most at once, load before and after, of five events of a chain of three blocks.
+EVENTS = pd.DataFrame(
+    [
+        (2, 2, 1, 9.0, 8.0),
+        (1, 1, 1, 10.0, 9.5),
+        (2, 2, 2, 11.0, 8.0),
+        (3, 3, 2, 12.0, 10.0),
+        (3, 3, 3, 11.0, 5.0),
+    ],
+    columns=["front", "n_slid", "n_simultaneous", "load_before", "load_after"],
+)
+
+
+@pytest.mark.parametrize(
+    ("definition", "global_slip", "kept"),
+    [
+        (Definition(), 4, [0, 2, 3, 4]),
+        (Definition("each"), 3, [0, 2, 3]),
+        (Definition(2.5), 2, [0, 2]),
+        (Definition(short="not longer"), 4, [0, 3]),
+        (Definition(short="shorter than the last"), 4, [0, 2, 3, 4]),
+        (Definition(front="n_simultaneous"), 4, [0, 1, 2, 3, 4]),
+        (Definition("each", "n_simultaneous", "not longer"), 3, [0, 2]),
+    ],
+)
+def test_a_reading_decides_which_event_is_global_and_which_are_short(definition, global_slip, kept):
+    slips = definition.read(EVENTS, n_blocks=3)
+    assert first_global(slips) == global_slip
+    assert find_precursors(slips, definition.short).index.tolist() == kept
+
+
+def test_the_first_definition_reads_slips_as_find_slips_does():
+    slips = find_slips(simulate(Chain.from_slider(), duration=3.0))
+    pd.testing.assert_frame_equal(DEFINITIONS[0].read(slips, 10), slips)
+
+
+def test_every_definition_is_tried_once():
+    found = list(every_definition([5.0]))
+    assert len(found) == len(set(found)) == 3 * 3 * 3
+    assert DEFINITIONS[0] in found
+
+
+@pytest.mark.parametrize("word", ["global_slip", "front", "short"])
+def test_an_unknown_reading_is_refused_with_those_that_are_known(word):
+    with pytest.raises(ValueError, match=f"{word} = 'none': allowed are '"):
+        Definition(**{word: "none"})
+    with pytest.raises(ValueError, match="short = 'none': allowed are 'shorter'"):
+        find_precursors(EVENTS.assign(is_global=False), "none")

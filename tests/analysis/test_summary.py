@@ -1,0 +1,119 @@
+"""The compiled summary of a run says what the slip table says."""
+
+import numpy as np
+import pytest
+
+from precursors import Chain, Run, find_precursors, find_slips, simulate
+from precursors.analysis.slips import apparent_friction, first_global
+from precursors.analysis.summary import summarise
+from precursors.solver.run import TRANSITION, States
+
+PAPERS = {"-5/6": (6, 0.4845, 2.632), 0: (9, 0.4858, 2.739), "5/6": (14, 0.4883, 2.890)}
+
+
+def table_path(run: Run) -> dict[str, float]:
+    """The summary by way of the slip table."""
+    slips = find_slips(run)
+    friction = apparent_friction(run, slips)
+    reached = friction is not None
+    up_to = slips.iloc[: first_global(slips) + 1] if reached else slips
+    start, end = (up_to.onset.iloc[-1], up_to.end.iloc[-1]) if reached else (np.nan, np.nan)
+    later = slips.onset.iloc[len(up_to)] if len(up_to) < len(slips) else np.inf
+    return {
+        "n_events": len(up_to),
+        "events_kept": len(find_precursors(slips)),
+        "mu_sapp": friction.mu_sapp if friction else np.nan,
+        "load": friction.load if friction else np.nan,
+        "time": start,
+        "end": end,
+        "crossing_time": crossing_time(run, start),
+        "transitions": int((run.transitions["time"] < later).sum()),
+        "reached": reached,
+        "n_global": int(slips.is_global.sum()),
+        "n_all_events": len(slips),
+    }
+
+
+def crossing_time(run: Run, start: float) -> float:
+    """From the onset of an event to the first slide of block N in it."""
+    if np.isnan(start):
+        return np.nan
+    t = run.transitions
+    first, *_ = np.flatnonzero(t["time"] >= start)
+    slides = (t["block"] == run.chain.n_blocks) & (t["mode"] != 0)
+    arrival, *_ = first + np.flatnonzero(slides[first:])
+    return float(run.intervals[first + 1 : arrival + 1].sum())
+
+
+def assert_same(run: Run) -> None:
+    found, expected = summarise([run])[0], table_path(run)
+    assert set(found.dtype.names) == set(expected)
+    for name, value in expected.items():
+        if name == "crossing_time":  # the only sum, added up in another order here
+            assert found[name] == pytest.approx(value, rel=1e-12, nan_ok=True)
+        else:
+            np.testing.assert_equal(found[name], value, err_msg=name)
+
+
+def random_chain(rng: np.random.Generator) -> Chain:
+    chain = Chain.from_slider(
+        n_blocks=int(rng.integers(1, 13)),
+        theta=rng.uniform(-1, 1),
+        mu_k=rng.uniform(0.2, 0.65),
+        drive_stiffness=10 ** rng.uniform(4.5, 7.5),
+    )
+    return Chain(**{**vars(chain), "weights": chain.weights * rng.uniform(0.5, 1.5, chain.n_blocks)})
+
+
+def random_transitions(rng: np.random.Generator) -> Run:
+    """A list of transitions that obeys no mechanics: rests without duration, turns, an unfinished event."""
+    n_blocks, n = int(rng.integers(1, 5)), int(rng.integers(1, 40))
+    intervals = rng.uniform(0.1, 1.0, n + 1) * (rng.random(n + 1) < 0.7)
+    mode = np.zeros(n_blocks + 1, int)
+    rows = []
+    for time in np.cumsum(intervals[:-1]):
+        block = int(rng.integers(1, n_blocks + 1))
+        mode[block] = rng.choice([m for m in (-1, 0, 1) if m != mode[block]])
+        rows.append((time, block, mode[block], rng.uniform(0, 300)))
+    zero = np.zeros(n_blocks)
+    nothing = States(*(np.empty(0) for _ in States._fields))
+    table = np.array(rows, dtype=TRANSITION)
+    return Run(Chain.from_slider(n_blocks), float(intervals.sum()), table, intervals, zero, zero, nothing)
+
+
+@pytest.mark.parametrize("theta", PAPERS)
+def test_the_papers_three_runs_have_the_known_summary(theta):
+    chain = Chain.from_slider(theta=theta)
+    row = summarise([simulate(chain, until="global slip")])[0]
+    kept, mu_sapp, time = PAPERS[theta]
+    assert (row["events_kept"], round(row["mu_sapp"], 4), round(row["time"], 3)) == (kept, mu_sapp, time)
+
+
+def test_random_chains_have_the_summary_of_their_slip_table():
+    rng = np.random.default_rng(4)
+    runs = [simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(150)]
+    reached = summarise(runs)["reached"]
+    assert 20 < reached.sum() < 130  # both kinds are tried
+    for run in runs:
+        assert_same(run)
+
+
+def test_any_list_of_transitions_has_the_summary_of_its_slip_table():
+    rng = np.random.default_rng(5)
+    runs = [random_transitions(rng) for _ in range(300)]
+    summaries = summarise(runs)
+    assert 30 < summaries["reached"].sum() < 270
+    assert np.isnan(summaries["end"][summaries["reached"]]).any()  # cut off by the end of the run
+    for run in runs:
+        assert_same(run)
+
+
+def test_blocks_that_move_at_the_start_belong_to_the_first_event():
+    assert_same(simulate(Chain.from_slider(), duration=0.5, start_velocities=np.full(10, 0.01)))
+
+
+def test_a_run_without_transitions_has_no_event_and_no_run_no_row():
+    row = summarise([simulate(Chain.from_slider(), duration=0.1)])[0]
+    assert (row["n_events"], row["transitions"], row["reached"]) == (0, 0, False)
+    assert np.isnan(row["mu_sapp"])
+    assert len(summarise([])) == 0

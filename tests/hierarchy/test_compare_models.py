@@ -1,0 +1,144 @@
+"""The ladder says what each model answers, how well, and which is the smallest that will do."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from precursors import Chain, find_precursors, find_slips, simulate
+from precursors.figures import style
+from precursors.figures.ladder import draw_ladder, read_ladder
+from precursors.hierarchy import MODELS
+from precursors.hierarchy.compare_models import climb, waveforms_apart
+from precursors.model.scene_models import ADDED
+from precursors.support import timing
+
+SCENES = {name: Chain.from_slider(theta=theta) for name, theta in (("lead", "5/6"), ("even", 0.0))}
+TOLERANCES = {
+    "first_load": 1e-6,
+    "events_kept": 1,
+    "mu_sapp": 0.05,
+    "front_loads": 0.02,
+    "slip_duration": 0.1,
+    "waveform": 0.02,
+}
+ADDITIONS = {"viscosity": 54.77, "interface_stiffness": 25e6, "head_mass": 0.3122}
+
+
+@pytest.fixture(scope="module")
+def ladder() -> pd.DataFrame:
+    return climb(SCENES, TOLERANCES, rounds=1, additions=ADDITIONS)
+
+
+def smallest(ladder: pd.DataFrame) -> dict[str, str]:
+    found = ladder[ladder["is_smallest"]].drop_duplicates(["question", "model"])
+    return dict(zip(found["question"], found["model"], strict=True))
+
+
+def test_the_smallest_model_for_each_question_is_named(ladder: pd.DataFrame) -> None:
+    assert smallest(ladder) == {
+        "first_load": "statics",
+        "events_kept": "quasistatic",
+        "mu_sapp": "chain",
+        "front_loads": "quasistatic",
+        "slip_duration": "chain",
+        "waveform": "chain",
+    }
+
+
+def test_a_wider_tolerance_lets_a_smaller_model_answer() -> None:
+    wide = climb(SCENES, TOLERANCES | {"mu_sapp": 0.08, "slip_duration": 0.4}, rounds=1)
+    assert smallest(wide)["mu_sapp"] == "law"
+    assert smallest(wide)["slip_duration"] == "rigid"
+
+
+def test_a_model_that_fails_in_one_scene_is_not_the_smallest_for_any(ladder: pd.DataFrame) -> None:
+    damped = ladder[(ladder["question"] == "mu_sapp") & (ladder["model"] == "overdamped")]
+    assert damped.set_index("scene")["is_answer"].to_dict() == {"lead": False, "even": True}
+    assert not damped["is_smallest"].any()
+
+
+def test_each_model_is_asked_what_it_answers_and_nothing_else(ladder: pd.DataFrame) -> None:
+    for name, rows in ladder.groupby("model"):
+        assert set(rows["question"]) == set(MODELS[str(name)].quantities) & set(TOLERANCES)
+
+
+def test_the_papers_chain_has_no_error_and_every_answer_a_cost(ladder: pd.DataFrame) -> None:
+    assert (ladder.loc[ladder["model"] == "chain", "error"] == 0).all()
+    assert (ladder["cost_s"] > 0).all()
+
+
+def test_a_cost_is_that_of_a_warm_answer_repeated_until_it_can_be_measured(monkeypatch) -> None:
+    clock, calls, warm, rounds = SimpleNamespace(now=0.0), [], 0.0005, 3
+    now = SimpleNamespace(perf_counter=lambda: clock.now, process_time=lambda: clock.now)
+    monkeypatch.setattr(timing, "time", now)
+    exact = MODELS["chain"]
+
+    def prepare(chain: Chain):
+        # The exact answer that others are held against comes first, and then the first of two calls.
+        clock.now += warm if len(calls) >= 2 else 10.0
+        calls.append(chain)
+        return exact.prepare(chain)
+
+    models = {"chain": replace(exact, prepare=prepare)}
+    table = climb({"even": SCENES["even"]}, TOLERANCES, models, rounds)
+    assert table["cost_s"].tolist() == pytest.approx([warm] * len(TOLERANCES))
+    assert len(calls) == len(TOLERANCES) * (1 + 2 + rounds * round(timing.SHORTEST / warm))
+
+
+def test_waveforms_are_compared_over_the_same_time() -> None:
+    exact = np.array([[0.0, 0.0], [2.0, 200.0], [2.0, 100.0], [4.0, 100.0]])
+    short = np.array([[0.0, 0.0], [2.0, 200.0]])
+    # Twice 100 N apart for half of the time.
+    assert waveforms_apart(short, exact, SCENES["even"]) == pytest.approx(np.sqrt(0.5) * 100 / 400, rel=1e-3)
+
+
+def test_a_question_without_a_tolerance_is_refused() -> None:
+    with pytest.raises(ValueError, match="no tolerance for 'mu_sapp'"):
+        climb(SCENES, {"first_load": 1.0, "events_kept": 1.0}, rounds=1)
+
+
+def test_a_model_whose_addition_has_no_value_is_left_out() -> None:
+    found = climb(SCENES, TOLERANCES, rounds=1, additions={"head_mass": 0.3122})
+    assert set(MODELS) - set(found["model"]) == {"viscous", "interface"}
+
+
+@pytest.mark.parametrize(
+    ("model", "addition", "text"),
+    [
+        ("viscous", {"viscosity": 54.77}, "54.77 N s/m"),
+        ("interface", {"interface_stiffness": 25e6}, "2.5e+07 N/m"),
+        ("head", {"head_mass": 0.3122}, "0.3122 kg"),
+    ],
+)
+def test_an_addition_has_its_value_for_the_whole_slider(ladder, model, addition, text) -> None:
+    run = simulate(Chain.from_slider(theta="5/6", **addition), 10.0, until="global slip")
+    rows = ladder[(ladder["model"] == model) & (ladder["scene"] == "lead")].set_index("question")
+    assert rows.loc["events_kept", "value"] == len(find_precursors(find_slips(run)))
+    assert set(rows["addition"]) == {text}
+
+
+def test_an_addition_is_never_the_smallest_model(ladder: pd.DataFrame) -> None:
+    added = ladder[ladder["model"].isin(ADDED)]
+    assert set(added["model"]) == set(ADDED)
+    assert not added["is_smallest"].any()
+    assert (ladder.loc[~ladder["model"].isin(ADDED), "addition"] == "none").all()
+
+
+def test_the_figure_frames_the_smallest_models(ladder: pd.DataFrame, tmp_path) -> None:
+    ladder.to_csv(tmp_path / "ladder.csv", index=False)
+    figure = draw_ladder(read_ladder(tmp_path / "ladder.csv"))
+    frames = [p for p in figure.axes[0].patches if not p.get_fill()]
+    assert len(frames) == len(TOLERANCES)
+    heads = [label.get_text() for label in figure.axes[0].get_xticklabels()]
+    assert heads[-3:] == [
+        "with\nviscosity\n54.8 N s/m",
+        "with\ninterface\nsprings\n25 MN/m",
+        "with\nhead mass\n0.312 kg",
+    ]
+    style.save(figure, tmp_path / "ladder.png")
+    assert (tmp_path / "ladder.png").stat().st_size > 10_000

@@ -1,0 +1,145 @@
+"""A chain holds the paper's equations 7 to 10, and refuses what they cannot mean."""
+
+import math
+import re
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from precursors import Chain
+from precursors.model.chain import checked_span, linear_weights, parse_theta, theta_from_load_cells
+
+ROUNDING = 4e-16  # a few roundings of doubles, relative
+
+
+def test_the_default_slider_is_the_papers():
+    chain = Chain.from_slider()
+    assert chain.n_blocks == 10
+    assert chain.mass == pytest.approx(0.0012, rel=ROUNDING)  # Eq. 9
+    assert chain.stiffness == pytest.approx(25e6, rel=ROUNDING)  # Eq. 10
+    assert chain.loading_rate == pytest.approx(80.0, rel=ROUNDING)
+    assert chain.normal_load == pytest.approx(400.0, rel=ROUNDING)
+
+
+@pytest.mark.parametrize(("theta", "first"), [("-5/6", 220 / 3), (0.0, 40.0), ("5/6", 20 / 3)])
+def test_block_1_carries_the_load_of_eq_7(theta, first):
+    assert Chain.from_slider(theta=theta).weights[0] == pytest.approx(first, rel=1e-14)
+
+
+@pytest.mark.parametrize("n_blocks", [1, 2, 3, 10, 500])
+@pytest.mark.parametrize("theta", [-1.0, -0.3, 0.0, 0.7, 1.0])
+def test_weights_add_up_to_the_total_load_and_are_linear(n_blocks, theta):
+    weights = linear_weights(n_blocks, 400.0, theta)
+    assert math.fsum(weights) == pytest.approx(400.0, rel=1e-14)
+    if n_blocks > 2:
+        assert np.ptp(np.diff(weights)) < 1e-12
+    if n_blocks > 1:
+        assert weights[-1] - weights[0] == pytest.approx(2 * theta * 400.0 / n_blocks, abs=1e-12)
+
+
+def test_load_cells_of_1_to_3_give_five_sixths_to_the_last_bit():
+    assert theta_from_load_cells(100.0, 300.0, spacing=0.06, length=0.1) == float(Fraction(5, 6))
+    assert theta_from_load_cells(300.0, 100.0, spacing=0.06, length=0.1) == -float(Fraction(5, 6))
+    assert theta_from_load_cells(200.0, 200.0, spacing=0.06, length=0.1) == 0.0
+
+
+def test_a_fraction_is_read_as_theta():
+    assert parse_theta("5/6") == 5 / 6
+    assert parse_theta(" -1/4 ") == -0.25
+
+
+def test_chains_with_equal_parameters_are_equal_and_hash_alike():
+    assert Chain.from_slider(theta="5/6") == Chain.from_slider(theta=5 / 6)
+    assert hash(Chain.from_slider()) == hash(Chain.from_slider())
+    assert Chain.from_slider() != Chain.from_slider(mu_k=0.44)
+
+
+def test_a_chain_cannot_be_changed():
+    chain = Chain.from_slider()
+    with pytest.raises(ValueError, match="read-only"):
+        chain.weights[0] = 1.0
+    with pytest.raises(AttributeError):
+        chain.mu_s = 0.1
+
+
+@pytest.mark.parametrize(
+    ("argument", "value", "words"),
+    [
+        ("n_blocks", 0, "n_blocks = 0 is out of range: allowed is a whole number >= 1"),
+        ("n_blocks", 2.5, "n_blocks = 2.5"),
+        ("n_blocks", True, "n_blocks = True"),
+        ("theta", 1.01, "theta = 1.01"),
+        ("theta", "5/0", "theta = '5/0' is not a number"),
+        ("theta", "1e999999999", "theta = '1e999999999' is not a number"),
+        ("theta", "1E-9_999_999_999", "theta = '1E-9_999_999_999' is not a number"),
+        ("theta", "__import__('os')", "is not a number"),
+        ("theta", math.nan, "theta = nan"),
+        ("normal_load", 0.0, "normal_load = 0.0 [N] is out of range: allowed is normal_load > 0"),
+        ("mu_s", -0.1, "mu_s = -0.1"),
+        ("mu_k", 0.71, "mu_k = 0.71 is larger than mu_s = 0.7"),
+        ("drive_stiffness", math.inf, "drive_stiffness = inf [N/m] is not finite"),
+        ("drive_stiffness", "0.8e6", "write 2.5e+9"),
+        ("drive_velocity", 0.0, "drive_velocity = 0.0 [m/s]"),
+        ("slider_mass", -1.0, "slider_mass = -1.0 [kg]"),
+        ("youngs_modulus", None, "youngs_modulus = None [Pa] is not a number"),
+        ("cross_section", 10**400, "cross_section"),
+        ("length", 0, "length = 0 [m]"),
+    ],
+)
+def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):
+    with pytest.raises(ValueError, match=re.escape(words)) as error:
+        Chain.from_slider(**{argument: value})
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("weights", "words"),
+    [
+        ([], "shape"),
+        ([1.0, -1.0], "block 2"),
+        ([math.nan], "block 1"),
+        ([0.0, 0.0], "all zero"),
+        (["a"], "not numbers"),
+    ],
+)
+def test_bad_weights_are_refused(weights, words):
+    with pytest.raises(ValueError, match=words):
+        Chain(weights, 1e-3, 1e6, 1e6, 1e-4, 0.7, 0.45)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "words"), [(-1.0, 2.0, "load_a"), (0.0, 0.0, "total normal load"), (400.0, 1.0, "theta")]
+)
+def test_load_cells_that_the_line_cannot_pass_through_are_refused(a, b, words):
+    with pytest.raises(ValueError, match=words):
+        theta_from_load_cells(a, b, spacing=0.06, length=0.1)
+
+
+@pytest.mark.parametrize("ratio", [1e-3, 1.0, 2.0, 1e3])
+@pytest.mark.parametrize("interface_stiffness", [0.0, 1e6])
+@pytest.mark.parametrize("n_blocks", [1, 2, 3, 40])
+def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, interface_stiffness, ratio):
+    chain = Chain(np.ones(n_blocks), 2e-3, 1e6, ratio * 1e6, 1e-4, 0.7, 0.45, 0.1, 0.0, interface_stiffness)
+    behind, ahead = chain.springs, np.append(chain.springs[1:], 0.0)
+    stiffness = np.diag(behind + ahead + interface_stiffness)
+    stiffness -= np.diag(ahead[:-1], 1) + np.diag(ahead[:-1], -1)
+    highest = math.sqrt(np.linalg.eigvalsh(stiffness)[-1] / chain.mass)
+    assert highest <= chain.fastest_frequency_bound
+    if n_blocks > 2:
+        assert chain.fastest_frequency_bound < 1.6 * highest
+
+
+@pytest.mark.parametrize(
+    ("duration", "until", "words"),
+    [
+        (1.0, "global", "until = 'global' is unknown: allowed is None or \"global slip\""),
+        (1.0, "", "until = '' is unknown"),
+        (0.0, None, "duration > 0"),
+        (math.nan, "global slip", "not finite"),
+    ],
+)
+def test_a_wrong_end_of_a_run_is_named(duration, until, words):
+    with pytest.raises(ValueError, match=words):
+        checked_span(duration, until)
+    assert checked_span(2, "global slip") == 2.0

@@ -1,0 +1,171 @@
+"""A run knows the motion at every time, and its file gives back every bit or is refused."""
+
+from dataclasses import replace
+
+import h5py
+import numpy as np
+import pytest
+
+from precursors import Chain, Run, RunFileError, simulate
+from precursors.solver.run import States
+
+POSITION_ROUNDING = 1e-19  # m; roundings of V t, which is 3e-5 m here
+FORCE_ROUNDING = (
+    1e-11  # N; a transition's own time is known to 4e-16 s only, and F_X changes by up to 1e6 N/s
+)
+
+
+@pytest.fixture(scope="module")
+def run():
+    return simulate(Chain.from_slider(theta="-5/6"), duration=3.0)
+
+
+def test_the_load_at_a_transition_is_the_one_recorded(run):
+    times, loads = run.transitions["time"], run.transitions["tangential_load"]
+    np.testing.assert_allclose(run.tangential_load(times), loads, rtol=0, atol=1e-8)
+
+
+def test_load_and_positions_obey_eq_3(run):
+    times = np.linspace(0.0, run.duration, 1001)
+    positions, _ = run.at(times)
+    expected = run.chain.drive_stiffness * (run.chain.drive_velocity * times - positions[:, 0])
+    np.testing.assert_allclose(run.tangential_load(times), expected, rtol=0, atol=FORCE_ROUNDING)
+
+
+def test_velocities_are_the_slope_of_the_positions(run):
+    onset, after = run.transitions["time"][-20], 1e-9
+    times = onset + np.array([0.0, after, 2 * after])
+    positions, velocities = run.at(times)
+    slope = (positions[2] - positions[0]) / (times[2] - times[0])
+    np.testing.assert_allclose(velocities[1], slope, rtol=1e-5, atol=1e-9)
+
+
+def test_times_may_come_in_any_order_and_more_than_once(run):
+    times = np.array([2.9, 0.1, 2.632, 0.1, 1.0])
+    forward = run.tangential_load(np.sort(times))
+    np.testing.assert_array_equal(run.tangential_load(times), forward[[4, 0, 3, 1, 2]])
+
+
+@pytest.mark.parametrize("time", [-1e-9, 3.1, np.nan])
+def test_a_time_outside_the_run_is_refused(run, time):
+    with pytest.raises(ValueError, match=r"allowed is 0 <= t <= 3 s"):
+        run.at([time])
+
+
+def test_a_run_without_stored_states_says_that_it_cannot_be_evaluated(run):
+    bare = replace(run, states=States(*(column[:0] for column in run.states)))
+    for evaluate in (bare.at, bare.tangential_load, bare.spring_forces):
+        with pytest.raises(ValueError, match=r"^the run has no stored states: [^\n]*$"):
+            evaluate([1.0])
+
+
+def test_a_run_made_from_transitions_has_them_and_knows_no_states(run, tmp_path):
+    columns = [run.transitions[name] for name in ("time", "block", "mode", "tangential_load")]
+    made = Run.from_transitions(run.chain, run.duration, *columns, run.intervals)
+    made.save(tmp_path / "made.h5")
+    for same in (made, Run.load(tmp_path / "made.h5")):
+        np.testing.assert_array_equal(same.transitions, run.transitions)
+        np.testing.assert_array_equal(same.intervals, run.intervals)
+        with pytest.raises(ValueError, match="no stored states"):
+            same.at([0.0])
+    by_difference = Run.from_transitions(run.chain, run.duration, *columns).intervals
+    np.testing.assert_allclose(by_difference, run.intervals, atol=1e-14)
+
+
+def test_nothing_moves_while_all_blocks_stick(run):
+    positions, velocities = run.at([0.0, 0.3])
+    assert np.abs(positions).max() < POSITION_ROUNDING
+    assert not velocities.any()
+
+
+def test_a_saved_run_comes_back_bit_for_bit(run, tmp_path):
+    path = tmp_path / "new" / "run.h5"
+    run.save(path, configuration={"scene": "x"})
+    back = Run.load(path)
+    assert back.chain == run.chain
+    assert back.duration == run.duration
+    np.testing.assert_array_equal(back.transitions, run.transitions)
+    np.testing.assert_array_equal(back.intervals, run.intervals)
+    times = np.linspace(0, 3, 77)
+    np.testing.assert_array_equal(back.at(times)[0], run.at(times)[0])
+    assert [p.name for p in path.parent.iterdir()] == ["run.h5"]
+
+
+def test_the_file_says_what_its_numbers_are(run, tmp_path):
+    run.save(tmp_path / "run.h5", configuration={"theta": "-5/6"})
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert file["transitions/time"].attrs["unit"] == "s"
+        assert file["transitions/tangential_load"].attrs["unit"] == "N"
+        assert file.attrs["configuration"] == '{"theta": "-5/6"}'
+        assert {"precursors", "numpy", "numba", "mu_s", "drive_velocity", "duration"} <= set(file.attrs)
+
+
+def test_two_saves_give_the_same_bytes(run, tmp_path):
+    run.save(tmp_path / "a.h5")
+    run.save(tmp_path / "b.h5")
+    assert (tmp_path / "a.h5").read_bytes() == (tmp_path / "b.h5").read_bytes()
+
+
+def damaged(kind, whole):
+    match kind:
+        case "empty":
+            return b""
+        case "text":
+            return b"time,load\n1,2\n"
+        case "truncated":
+            return whole[: len(whole) // 2]
+        case "cut at the end":
+            return whole[:-100]
+        case "one bit":
+            middle = len(whole) // 2
+            return whole[:middle] + bytes([whole[middle] ^ 1]) + whole[middle + 1 :]
+    raise AssertionError(kind)
+
+
+@pytest.mark.parametrize("kind", ["empty", "text", "truncated", "cut at the end", "one bit"])
+def test_a_damaged_file_is_refused_in_one_line_that_names_it(run, tmp_path, kind):
+    run.save(tmp_path / "run.h5")
+    path = tmp_path / "bad.h5"
+    path.write_bytes(damaged(kind, (tmp_path / "run.h5").read_bytes()))
+    with pytest.raises(RunFileError) as error:
+        Run.load(path)
+    assert "bad.h5" in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_a_foreign_file_and_another_version_are_refused(run, tmp_path):
+    path = tmp_path / "other.h5"
+    with h5py.File(path, "w") as file:
+        file["x"] = 1.0
+    with pytest.raises(RunFileError, match="not a run file"):
+        Run.load(path)
+    run.save(path)
+    path.write_bytes(path.read_bytes().replace(b"precursors run 2", b"precursors run 9", 1))
+    with pytest.raises(RunFileError, match="not a run file"):
+        Run.load(path)
+
+
+def test_a_changed_number_is_noticed(run, tmp_path):
+    path = tmp_path / "run.h5"
+    run.save(path)
+    with h5py.File(path, "r+") as file:
+        file["transitions/time"][3] += 1e-12
+    with pytest.raises(RunFileError, match="checksum"):
+        Run.load(path)
+
+
+def test_a_missing_file_and_an_unwritable_place_are_named(run, tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"none\.h5: no such file"):
+        Run.load(tmp_path / "none.h5")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OSError, match="file"):
+        run.save(tmp_path / "file" / "run.h5")
+
+
+def test_a_long_run_keeps_few_states_and_still_evaluates_everywhere():
+    long = simulate(Chain.from_slider(n_blocks=40), duration=3.0)
+    assert sum(s.nbytes for s in long.states) < 64e6
+    rng = np.random.default_rng(1)
+    pick = np.sort(rng.choice(len(long.transitions), 200, replace=False))
+    times, loads = long.transitions["time"][pick], long.transitions["tangential_load"][pick]
+    np.testing.assert_allclose(long.tangential_load(times), loads, rtol=0, atol=1e-8)

@@ -1,0 +1,78 @@
+"""Ensembles: every run of `simulate_many` is that of `simulate`."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from precursors import Chain, Run, simulate, simulate_many
+from precursors.solver.simulate import FIRST_ROOM, SHARED_ROOM
+
+SLIDER = Chain.from_slider
+
+
+def same(one: Run, other: Run) -> bool:
+    """Whether two runs agree in every bit."""
+    columns = [(run.transitions, run.intervals, *run.states) for run in (one, other)]
+    return (
+        one.chain == other.chain
+        and one.duration == other.duration
+        and one.evaluations == other.evaluations
+        and all(a.shape == b.shape and (a == b).all() for a, b in zip(*columns, strict=True))
+    )
+
+
+def mixed() -> list[Chain]:
+    """Chains of several lengths and loads, more than one batch."""
+    return [SLIDER(n_blocks=n, theta=theta / 40) for theta in range(40) for n in (1, 10, 30, 3)]
+
+
+@pytest.mark.parametrize("threads", [1, 4, None])
+def test_an_ensemble_is_what_its_chains_are_one_by_one(threads):
+    chains = mixed()
+    runs = simulate_many(chains, until="global slip", threads=threads)
+    alone = [simulate(chain, until="global slip") for chain in chains]
+    assert all(map(same, runs, alone))
+
+
+def test_runs_longer_than_the_shared_record_are_whole():
+    chains = [SLIDER(drive_velocity=v) for v in (1e-2, 1e-4, 2e-2)]
+    runs = simulate_many(chains, duration=1.0, threads=2)
+    assert max(len(run.transitions) for run in runs) > SHARED_ROOM > FIRST_ROOM
+    assert all(same(run, simulate(run.chain, duration=1.0)) for run in runs)
+
+
+def test_each_chain_starts_from_its_own_start():
+    chains = [SLIDER(3), SLIDER(2)]
+    positions = [np.array([1e-6, 0.0, -1e-6]), np.array([0.0, 2e-6])]
+    velocities = [[1e-3, 0.0, 0.0], [0.0, 0.0]]
+    runs = simulate_many(chains, 0.5, start_positions=positions, start_velocities=velocities)
+    for run, chain, x, v in zip(runs, chains, positions, velocities, strict=True):
+        assert same(run, simulate(chain, 0.5, start_positions=x, start_velocities=v))
+        np.testing.assert_array_equal(run.start_positions, x)
+
+
+def test_progress_counts_up_to_the_number_of_chains():
+    done: list[int] = []
+    simulate_many(mixed(), duration=0.4, threads=2, progress=done.append)
+    assert done == sorted(set(done))
+    assert done[-1] == len(mixed())
+
+
+def test_an_empty_ensemble_has_no_runs():
+    assert simulate_many([]) == []
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"threads": 0}, "threads = 0 is out of range"),
+        ({"duration": -1.0}, "duration = -1.0 [s] is out of range"),
+        ({"start_positions": []}, "start_positions are 0: allowed is one for each of the 2 chains"),
+        ({"start_velocities": [[0.0] * 10, [0.0]]}, "start_velocities[1] have shape (1,): allowed is (10,)"),
+    ],
+)
+def test_a_bad_argument_is_named_in_one_line(options, words):
+    with pytest.raises(ValueError, match=r"^[^\n]+$") as error:
+        simulate_many([SLIDER(), SLIDER()], **options)
+    assert words in str(error.value)
