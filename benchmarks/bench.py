@@ -25,7 +25,6 @@ from dataclasses import astuple, dataclass, fields
 from fractions import Fraction
 from functools import cache, partial
 from importlib.util import find_spec
-from io import TextIOWrapper
 from pathlib import Path
 from typing import Literal
 
@@ -42,7 +41,7 @@ from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy
 from precursors.solver.simulate import available_cores
 from precursors.support import timing
-from precursors.support.files import open_checked, write_checked
+from precursors.support.files import write_whole
 
 ROOT = Path(__file__).resolve().parent.parent
 REFERENCE = ROOT / "tests" / "golden" / "reference_fig10.csv"
@@ -95,7 +94,7 @@ def main() -> None:
                 f"{row.benchmark:12} {row.case:36} {row.quantity:46} {row.value:10.4g} {row.unit}", flush=True
             )
             rows.append(row)
-    with write_checked(arguments.output) as temporary, temporary.open("w", newline="") as file:
+    with write_whole(arguments.output) as temporary, temporary.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(field.name for field in fields(Row))
         writer.writerows(map(astuple, rows))
@@ -178,7 +177,7 @@ def ensemble(size: Size) -> Iterable[Row]:
 @cache
 def reference() -> Truth:
     """The transitions of theta = 0 with 40 digits."""
-    with TextIOWrapper(open_checked(REFERENCE), encoding="utf-8", newline="") as file:
+    with REFERENCE.open(encoding="utf-8", newline="") as file:
         rows = [
             TrueTransition(
                 Fraction(row["time_s"]),

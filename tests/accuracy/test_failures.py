@@ -19,7 +19,7 @@ from precursors.accuracy.step_sweep import steps_between, sweep
 from precursors.figures.failure_gallery import read_numbers
 from precursors.figures.step_sweep import draw_step_sweep, read_step_sweep
 from precursors.methods import events
-from precursors.support.tables import read_table
+from precursors.support.files import read_table
 
 SCENES = {"fig10": 0.0, "fig11": "-5/6", "fig12": "5/6"}
 # DOP853 at a relative tolerance of 1e-10, grown over some hundred transitions.

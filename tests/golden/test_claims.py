@@ -13,7 +13,6 @@ from precursors.cli import main
 from precursors.reproduction.ledger.claims import read_claims
 from precursors.reproduction.ledger.judge import differences, judge, to_table
 from precursors.reproduction.ledger.rules import VERDICTS
-from precursors.support.files import CHECKSUMS
 
 ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "results/tables"
@@ -29,7 +28,7 @@ for claim in CLAIMS_READ:
 @pytest.fixture
 def tables(tmp_path: Path) -> Path:
     """A copy of the tables without their checksums, to be falsified."""
-    return Path(shutil.copytree(RESULTS, tmp_path / "tables", ignore=shutil.ignore_patterns(CHECKSUMS)))
+    return Path(shutil.copytree(RESULTS, tmp_path / "tables"))
 
 
 def check(tables: Path) -> int:

@@ -6,7 +6,7 @@ import tabulate_definitions
 from matplotlib.figure import Figure
 
 from precursors.figures.definitions import draw_definitions as draw
-from precursors.support.tables import read_table
+from precursors.support.files import read_table
 
 SLIDER = {
     "n_blocks": 10,

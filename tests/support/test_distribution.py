@@ -99,7 +99,8 @@ def test_the_package_works_from_the_wheel_alone(unpacked, tmp_path):
         "from precursors.figures.explorer import page\n"
         "from precursors.cli import main\n"
         "print(precursors.__file__, Chain.from_slider().n_blocks, importlib.metadata.version('precursors'))\n"
-        "print(r.files('precursors.figures.explorer').joinpath('page.html').is_file(), main(['plot', '-h']))\n"
+        "page = r.files('precursors.figures.explorer').joinpath('page.html')\n"
+        "print(page.is_file(), main(['plot', '-h']))\n"
     )
     environment = {**os.environ, "PYTHONPATH": str(unpacked), "HOME": str(tmp_path)}
     done = subprocess.run(

@@ -1,3 +1,4 @@
+# ruff: noqa: E501
 """The modules that a script uses are what Python's parser finds that it imports, and no others."""
 
 from __future__ import annotations

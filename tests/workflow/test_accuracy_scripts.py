@@ -13,7 +13,7 @@ from conftest import ROOT
 from precursors.accuracy.proof import ExactChain, certify
 from precursors.accuracy.work_precision import COLUMNS, check_methods
 from precursors.model.config_check import check_config
-from precursors.support.tables import read_table
+from precursors.support.files import read_table
 
 CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"

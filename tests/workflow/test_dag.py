@@ -10,7 +10,6 @@ from conftest import ROOT, Workspace
 
 from precursors import Chain, Run
 from precursors.hierarchy import MODELS
-from precursors.support.files import open_checked
 
 SCENE_JOBS = {"simulate_scene", "tabulate_slips", "tabulate_trace", "draw_scene"}
 # Rules that `all` leaves out.
@@ -25,7 +24,6 @@ ON_DEMAND = {
     "prove_again",
     "prove_scenes",
     "table_pages",
-    "write_crate",
     "write_provenance",  # part of `all`, but in no list of jobs here
     "write_table_page",
 }
@@ -327,7 +325,7 @@ def test_scenes_with_models_are_computed(compiled_workspace):
     outcome = workspace.run("-c1", "results/tables/quick_answers.csv", "results/runs/soft.h5")
     assert outcome.code == 0, outcome.text
     results = workspace.path / "results"
-    answers = pd.read_csv(open_checked(results / "tables/quick_answers.csv"))
+    answers = pd.read_csv(results / "tables/quick_answers.csv")
     assert list(answers["quantity"]) == ["mu_sapp", "events_kept"]
     expected = MODELS["chain"].answer(Chain.from_slider(theta="9/10"), answers["quantity"])
     assert list(answers["value"]) == list(expected.values())

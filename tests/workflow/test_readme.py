@@ -25,7 +25,6 @@ ON_DEMAND = (
     "results/certificates/fig10.json.gz",
     "results/tables/scaling.csv",
     "results/figures/resolution_models_full.svg",
-    "results/ro-crate-metadata.json",
 )
 OF_MAKE = ("tables/bench.csv", "report.html")
 ASKED_SCENE = """\

@@ -13,7 +13,7 @@ import tabulate_trace
 
 from precursors import Chain, find_slips, simulate
 from precursors.analysis.load_curve import TOLERANCE_N
-from precursors.support.tables import read_table
+from precursors.support.files import read_table
 
 STEEP = """\
   steep:

@@ -37,7 +37,6 @@ localrules:
     tabulate_spread,
     tabulate_trace,
     take_certificates,
-    write_crate,
     write_explorer,
     write_paper,
     write_provenance,

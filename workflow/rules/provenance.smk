@@ -16,17 +16,3 @@ rule write_provenance:
     script:
         "../scripts/write_provenance.py"
 
-
-rule write_crate:
-    input:
-        provenance="results/provenance.json",
-        code=code_of("write_crate"),
-    output:
-        metadata="results/ro-crate-metadata.json",
-    log:
-        "results/logs/write_crate.log",
-    benchmark:
-        "results/benchmarks/write_crate.tsv"
-    threads: 1
-    script:
-        "../scripts/write_crate.py"

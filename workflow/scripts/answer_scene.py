@@ -8,7 +8,7 @@ from job import job
 
 from precursors.hierarchy.answers import answers_table
 from precursors.model.chain import Chain
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(slider: dict[str, Any], model: str, quantities: Sequence[str], output: str | Path) -> None:

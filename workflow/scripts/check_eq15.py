@@ -10,8 +10,7 @@ from job import job
 
 from precursors.model.chain import Chain
 from precursors.reproduction.eq15 import check_eq15, table
-from precursors.support.files import write_checked
-from precursors.support.tables import write_table
+from precursors.support.files import write_table, write_whole
 
 
 def main(scenes: Mapping[str, Chain], duration: float, json_path: str | Path, csv_path: str | Path) -> None:
@@ -19,7 +18,7 @@ def main(scenes: Mapping[str, Chain], duration: float, json_path: str | Path, cs
     checks = check_eq15(scenes, duration)
     claims = [dataclasses.asdict(row) for row in table(checks)]
     text = json.dumps({"claims": claims, **dataclasses.asdict(checks)}, indent=1, allow_nan=False)
-    with write_checked(json_path) as temporary:
+    with write_whole(json_path) as temporary:
         temporary.write_text(text + "\n", encoding="utf-8")
     write_table(pd.DataFrame(claims), csv_path)
 

@@ -7,7 +7,7 @@ from job import job
 
 from precursors.hierarchy.compare_models import climb
 from precursors.model.chain import Chain
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(

@@ -7,7 +7,7 @@ from job import job
 
 from precursors.figures import style
 from precursors.figures.definitions import draw_definitions
-from precursors.support.tables import read_table
+from precursors.support.files import read_table
 
 
 def main(table: str | Path, outputs: Sequence[str | Path]) -> None:

@@ -7,7 +7,7 @@ from job import job
 
 from precursors.figures import style
 from precursors.figures.failure_gallery import PANELS, draw_failure_gallery, read_numbers
-from precursors.support.tables import read_table
+from precursors.support.files import read_table
 
 
 def main(numbers: str | Path, curves: Mapping[str, str | Path], outputs: Sequence[str | Path]) -> None:

@@ -8,7 +8,7 @@ from job import job
 
 from precursors.ensembles.catalogue import make_study
 from precursors.ensembles.chunks import gather
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(config: Mapping[str, Any], name: str, chunks: Sequence[str | Path], output: str | Path) -> None:

@@ -7,7 +7,7 @@ from job import job
 
 from precursors.reproduction.ledger.claims import read_claims
 from precursors.reproduction.ledger.judge import judge, to_table
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(claims: str | Path, tables: Sequence[str | Path], output: str | Path) -> None:

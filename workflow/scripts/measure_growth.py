@@ -9,7 +9,7 @@ from job import job  # before NumPy: it sets the number of threads
 # isort: split
 
 from precursors.accuracy.cost_per_event import measure_growth
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(size: Mapping[str, Any], output: str | Path) -> None:

@@ -11,7 +11,7 @@ import pandas as pd
 
 from precursors.accuracy.proof import Certificate
 from precursors.accuracy.work_precision import measure_methods, proved_cases, sweeps_of
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(

@@ -10,8 +10,7 @@ from job import job  # before NumPy: it sets the number of threads
 
 from precursors.ensembles.scaling import measure_costs, time_of_maps
 from precursors.ensembles.scaling_text import scaling_text
-from precursors.support.files import write_atomically
-from precursors.support.tables import write_table
+from precursors.support.files import write_table, write_whole
 
 
 def main(config: Mapping[str, Any], costs: str | Path, maps: str | Path, text: str | Path) -> None:
@@ -23,7 +22,7 @@ def main(config: Mapping[str, Any], costs: str | Path, maps: str | Path, text: s
     write_table(table, costs)
     large = time_of_maps(measured, settings["points"], settings["cores"], settings["seconds_per_job"])
     write_table(large, maps)
-    with write_atomically(text) as temporary:
+    with write_whole(text) as temporary:
         temporary.write_text("\n".join(scaling_text(table, large)), encoding="utf-8")
 
 

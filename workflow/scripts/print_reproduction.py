@@ -7,12 +7,10 @@ import io
 import sys
 from pathlib import Path
 
-from precursors.support.files import open_checked
-
 
 def main(table: str | Path, figures: str | Path) -> None:
     """Print the table of the reproduction for reading, four digits a number."""
-    header, *rows = csv.reader(io.StringIO(open_checked(table).read().decode(), newline=""))
+    header, *rows = csv.reader(io.StringIO(Path(table).read_text(encoding="utf-8"), newline=""))
     cells = [header]
     for scene, theta, quantity, unit, paper, reproduced in rows:
         cells.append([scene, digits(theta), quantity, unit, digits(paper), digits(reproduced)])

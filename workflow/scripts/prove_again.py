@@ -8,7 +8,7 @@ from job import job
 
 from precursors.accuracy.proof import verify
 from precursors.accuracy.proof.proved import certificate_row
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(certificate: str | Path, output: str | Path) -> None:

@@ -8,7 +8,7 @@ from job import job
 
 from precursors.accuracy.proof import verify
 from precursors.accuracy.proof.proved import certificate_row
-from precursors.support.tables import read_table, write_table
+from precursors.support.files import read_table, write_table
 
 
 def main(certificates: Mapping[str, str | Path], effort: str | Path, output: str | Path) -> None:

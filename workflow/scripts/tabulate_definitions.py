@@ -7,7 +7,7 @@ from typing import Any
 from job import job
 
 from precursors.reproduction.definitions import definitions_table
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(

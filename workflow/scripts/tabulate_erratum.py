@@ -9,7 +9,7 @@ from job import job
 
 from precursors.reproduction.erratum import find_errors
 from precursors.solver.run import Run
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(scenes: Sequence[str], runs: Sequence[str | Path], output: str | Path) -> None:

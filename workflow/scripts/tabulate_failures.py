@@ -8,7 +8,7 @@ import pandas as pd
 from job import job
 
 from precursors.accuracy.failures import WAYS
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(output: str | Path, curves: Mapping[str, str | Path]) -> None:

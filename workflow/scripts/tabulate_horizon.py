@@ -8,7 +8,7 @@ from job import job
 
 from precursors.accuracy.proof import Certificate
 from precursors.accuracy.proof.validation import error_table, summary, validate
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(

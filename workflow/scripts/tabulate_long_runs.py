@@ -10,7 +10,7 @@ from job import job
 from precursors.ensembles.long_runs import global_slips, long_run_statistics
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(

@@ -10,7 +10,7 @@ from job import job
 from precursors.analysis.lyapunov import lyapunov_exponent
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(sliders: Mapping[str, Mapping[str, Any]], duration: float, output: str | Path) -> None:

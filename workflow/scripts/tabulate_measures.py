@@ -9,7 +9,7 @@ from job import job
 
 from precursors.reproduction.measures import measures
 from precursors.solver.run import Run
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 COLUMNS = ["scene", "quantity", "block", "unit", "value"]
 

@@ -10,7 +10,7 @@ from job import job
 
 from precursors.analysis.slips import DEFINITIONS, apparent_friction, find_slips
 from precursors.solver.run import Run
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 COLUMNS = ["scene", "definition", "mu_sapp", "load_N", "time_s", "event", "events_kept", "is_papers"]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from job import job
 
 from precursors.reproduction.summary_table import reproduction_table
-from precursors.support.tables import read_table, write_table
+from precursors.support.files import read_table, write_table
 
 
 def main(

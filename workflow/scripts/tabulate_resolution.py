@@ -7,7 +7,7 @@ from typing import Any
 from job import job
 
 from precursors.ensembles.resolution import extrapolation_table, resolution_table, with_estimates
-from precursors.support.tables import read_table, write_table
+from precursors.support.files import read_table, write_table
 
 
 def main(

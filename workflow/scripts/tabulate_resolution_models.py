@@ -8,7 +8,7 @@ from job import job
 
 from precursors.ensembles.catalogue import make_study
 from precursors.ensembles.resolution_models import resolution_models_runs, resolution_models_table
-from precursors.support.tables import read_table, write_table
+from precursors.support.files import read_table, write_table
 
 
 def main(

@@ -6,7 +6,7 @@ from job import job
 
 from precursors.analysis.slip_table import slip_table
 from precursors.solver.run import Run
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(run: str | Path, output: str | Path) -> None:

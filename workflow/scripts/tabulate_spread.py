@@ -5,7 +5,7 @@ from pathlib import Path
 from job import job
 
 from precursors.ensembles.spread import robustness_table, spread_table
-from precursors.support.tables import read_table, write_table
+from precursors.support.files import read_table, write_table
 
 
 def main(members: str | Path, spread: str | Path, robustness: str | Path) -> None:

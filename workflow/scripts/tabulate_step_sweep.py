@@ -10,7 +10,7 @@ from job import job
 
 from precursors.accuracy.step_sweep import steps_between, sweep
 from precursors.model.chain import Chain
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 UNITS = {"step": "step_s", "global_slip_time": "global_slip_time_s"}
 

@@ -6,7 +6,7 @@ from job import job
 
 from precursors.analysis.load_curve import load_trace
 from precursors.solver.run import Run
-from precursors.support.tables import write_table
+from precursors.support.files import write_table
 
 
 def main(run: str | Path, output: str | Path) -> None:

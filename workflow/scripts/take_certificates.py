@@ -9,7 +9,7 @@ from job import job
 
 from precursors.accuracy.proof import ExactChain, certify, verify
 from precursors.accuracy.proof.proved import is_about
-from precursors.support.files import write_atomically
+from precursors.support.files import write_whole
 
 
 def main(
@@ -24,7 +24,7 @@ def main(
         chain = ExactChain.from_text(text)
         fitting = [path for path, certificate in known.items() if is_about(certificate, chain, duration)]
         if fitting:
-            with write_atomically(output) as temporary:
+            with write_whole(output) as temporary:
                 shutil.copyfile(fitting[0], temporary)
         else:
             certify(chain, duration).save(output)

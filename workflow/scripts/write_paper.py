@@ -8,7 +8,7 @@ from typing import Any
 from job import job
 
 from precursors.reproduction.paper import collect_numbers, read_sources, set_pages, write_numbers
-from precursors.support.files import write_atomically
+from precursors.support.files import write_whole
 
 
 def main(
@@ -27,7 +27,7 @@ def main(
     write_numbers(collect_numbers(read_sources(Path(source) / "numbers.yaml"), tables, config), numbers)
     made = Path(numbers).with_name(".makers.json")
     try:
-        with write_atomically(made) as temporary:
+        with write_whole(made) as temporary:
             temporary.write_text(json.dumps(makers), encoding="utf-8")
         files = {str(path): path for path in shown}
         set_pages(source, {**files, "results/numbers.json": numbers, "results/makers.json": made}, output)

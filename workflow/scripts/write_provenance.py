@@ -7,13 +7,13 @@ from typing import Any
 
 from job import job
 
-from precursors.support.files import write_checked
+from precursors.support.files import write_whole
 from precursors.support.provenance import provenance
 
 
 def main(config: Mapping[str, Any], root: str, output: str | Path) -> None:
     """Write versions, machine, configuration and checksums as JSON."""
-    with write_checked(output) as temporary:
+    with write_whole(output) as temporary:
         text = json.dumps(provenance(config, root, Path(output).parent), indent=1, ensure_ascii=False)
         temporary.write_text(f"{text}\n", encoding="utf-8")
 

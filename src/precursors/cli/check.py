@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     from precursors.reproduction.ledger.claims import read_claims
     from precursors.reproduction.ledger.judge import differences, judge, to_table
     from precursors.reproduction.ledger.text import counted, ledger_text
-    from precursors.support.tables import read_table
+    from precursors.support.files import read_table
 
     # The ledger among the tables is of the same processor as they are; a user's tables may have none.
     expected = {arguments.expected: False}

@@ -102,7 +102,7 @@ def _ensemble(arguments: argparse.Namespace) -> int:
 
     from precursors.ensembles.study import Study, run_members
     from precursors.model import chain as parameters
-    from precursors.support.files import write_atomically
+    from precursors.support.files import write_whole
 
     count = parameters.whole("ensemble", arguments.ensemble, at_least=1)
     noise = parameters.not_negative("noise", NOISE if arguments.noise is None else arguments.noise, "1")
@@ -123,7 +123,7 @@ def _ensemble(arguments: argparse.Namespace) -> int:
     table = pd.DataFrame({label: summary[name] for name, label in FIELDS.items()})
     table.insert(0, "member", np.arange(1, count + 1))
     if arguments.output:
-        with write_atomically(arguments.output) as temporary:
+        with write_whole(arguments.output) as temporary:
             table.to_csv(temporary, index=False, lineterminator="\n")
     if arguments.json:
         print_json({"noise": noise, "seed": seed, "members": records(table)})

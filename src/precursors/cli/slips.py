@@ -32,13 +32,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Find the slips and write them."""
     from precursors.analysis.slip_table import slip_table
-    from precursors.support.files import write_atomically
+    from precursors.support.files import write_whole
 
     table = slip_table(run_of(arguments))
     if arguments.kept:
         table = table[table["kept"]]
     if arguments.output:
-        with write_atomically(arguments.output) as temporary:
+        with write_whole(arguments.output) as temporary:
             table.to_csv(temporary, index=False, lineterminator="\n")
     if arguments.json:
         print_json(records(table))

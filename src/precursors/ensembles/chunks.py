@@ -17,7 +17,7 @@ from precursors.ensembles.cost import seconds_of_long_run, seconds_of_ringing, s
 from precursors.ensembles.study import Study
 from precursors.model.chain import FloatArray, positive
 from precursors.model.slider import SLIDER, loading_time
-from precursors.support.files import SEAL_SIZE, read_sealed, write_sealed
+from precursors.support.files import write_whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -65,18 +65,20 @@ def save_chunk(path: str | PathLike[str], study: Study, first: int, results: NDA
 
     from precursors.analysis.summary import SUMMARY_UNITS  # a plan of chunks waits for no compiler
 
-    with (
-        write_sealed(path, FORMAT) as memory,
-        h5py.File(memory, "w", userblock_size=SEAL_SIZE) as file,
-    ):
+    memory = BytesIO()  # HDF5 does not survive a full disk
+    with h5py.File(memory, "w") as file:
         file.attrs["format"] = FORMAT
         file.attrs["study"], file.attrs["fingerprint"] = study.name, study.fingerprint
         file.attrs["first"] = first
         for package in ("precursors", "numpy", "numba"):
             file.attrs[package] = version(package)
         for name in results.dtype.names or ():
-            data = file.create_dataset(name, data=results[name], compression="gzip", shuffle=True)
+            data = file.create_dataset(
+                name, data=results[name], compression="gzip", shuffle=True, fletcher32=True
+            )
             data.attrs["unit"] = SUMMARY_UNITS.get(name, "1")
+    with write_whole(path) as temporary:
+        temporary.write_bytes(memory.getvalue())
 
 
 def load_chunk(path: str | PathLike[str], study: Study) -> tuple[int, dict[str, NDArray]]:
@@ -91,7 +93,7 @@ def load_chunk(path: str | PathLike[str], study: Study) -> tuple[int, dict[str, 
     """
     import h5py
 
-    with h5py.File(BytesIO(read_sealed(path, FORMAT)), "r") as file:
+    with h5py.File(path, "r") as file:
         if file.attrs["fingerprint"] != study.fingerprint:
             raise ValueError(
                 f"{path}: a chunk of {file.attrs['study']!r}, not of {study.name!r} as it is now: remove it"

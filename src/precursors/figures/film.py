@@ -22,7 +22,7 @@ from precursors.analysis.slips import find_precursors, find_slips
 from precursors.figures import style
 from precursors.model.chain import Chain, FloatArray, positive
 from precursors.solver.run import Run
-from precursors.support.files import write_atomically
+from precursors.support.files import write_whole
 
 WIDTH_MM, HEIGHT_MM, DPI = 165.0, 118.0, 100
 FRAMES_PER_SECOND = 12.5  # GIF counts time in hundredths of a second
@@ -116,7 +116,7 @@ def write_film(clips: Sequence[Clip], path: str | Path) -> None:
     pictures = [picture for clip in clips for picture in _pictures(clip)]
     palette = _palette(pictures)
     frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
-    with write_atomically(path) as temporary:
+    with write_whole(path) as temporary:
         frames[0].save(
             temporary,
             format="GIF",

@@ -13,8 +13,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from precursors.support.files import write_atomically
-from precursors.support.tables import read_table
+from precursors.support.files import read_table, write_whole
 
 # Okabe and Ito (2008): told apart by colour-blind readers too.
 BLACK = "#000000"
@@ -104,7 +103,7 @@ def save(figure: Figure, path: str | Path) -> None:
     kind = path.suffix.removeprefix(".").lower()
     if kind not in _METADATA:
         raise ValueError(f"figure {path} has the ending {path.suffix!r}: allowed are .png and .svg")
-    with styled(), write_atomically(path) as temporary:
+    with styled(), write_whole(path) as temporary:
         figure.savefig(temporary, format=kind, dpi=PNG_DPI, metadata=_METADATA[kind])
 
 

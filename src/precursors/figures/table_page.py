@@ -9,7 +9,7 @@ import io
 import os
 from pathlib import Path
 
-from precursors.support.files import open_checked, write_atomically
+from precursors.support.files import write_whole
 
 DIGITS = 6  # shown of a number; the file inside the page has them all
 
@@ -49,10 +49,10 @@ def write_table_page(table: str | os.PathLike[str], output: str | os.PathLike[st
     """
     source = Path(table)
     try:
-        page = table_page(source.stem, open_checked(source).read().decode())
+        page = table_page(source.stem, source.read_text(encoding="utf-8"))
     except (UnicodeDecodeError, csv.Error) as error:
         raise ValueError(f"{source} is no table: {error}") from None
-    with write_atomically(output) as temporary:
+    with write_whole(output) as temporary:
         temporary.write_text(page, encoding="utf-8")
 
 

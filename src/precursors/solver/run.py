@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from importlib.metadata import version
 from io import BytesIO
 from os import PathLike
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -15,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver import kernel
 from precursors.solver.kernel import States
-from precursors.support.files import SEAL_SIZE, read_sealed, write_sealed
+from precursors.support.files import write_whole
 
 TRANSITION = np.dtype([("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")])
 UNITS = {
@@ -192,10 +193,8 @@ class Run:
             If the file cannot be written.
         """
         content = self._content()
-        with (
-            write_sealed(path, FORMAT) as memory,
-            h5py.File(memory, "w", userblock_size=SEAL_SIZE) as file,
-        ):
+        memory = BytesIO()  # HDF5 does not survive a full disk
+        with h5py.File(memory, "w", libver="v110") as file:
             file.attrs["format"] = FORMAT
             file.attrs["precursors"] = version("precursors")
             file.attrs["numpy"], file.attrs["numba"] = np.__version__, version("numba")
@@ -204,8 +203,12 @@ class Run:
             for field in fields(Chain)[1:]:
                 file.attrs[field.name] = getattr(self.chain, field.name)
             for name, values in content.items():
-                data = file.create_dataset(name, data=values, compression="gzip", shuffle=True)
+                data = file.create_dataset(
+                    name, data=values, compression="gzip", shuffle=True, fletcher32=True
+                )
                 data.attrs["unit"] = UNITS[name.split("/")[-1]]
+        with write_whole(path) as temporary:
+            temporary.write_bytes(memory.getvalue())
 
     def _content(self) -> dict[str, NDArray]:
         columns = {f"transitions/{name}": self.transitions[name] for name in TRANSITION.names or ()}
@@ -229,12 +232,15 @@ class Run:
         RunFileError
             If the file is not a whole run of this format.
         """
+        if not Path(path).is_file():
+            raise FileNotFoundError(f"{path}: no such file")
         try:
-            content = read_sealed(path, FORMAT)
-        except ValueError as error:
-            raise RunFileError(str(error)) from None
-        with h5py.File(BytesIO(content), "r") as file:
-            return cls._read(file)
+            with h5py.File(path, "r") as file:
+                if file.attrs.get("format") != FORMAT:
+                    raise RunFileError(f'{path} is not a run file of format "{FORMAT}"')
+                return cls._read(file)
+        except (OSError, KeyError) as error:
+            raise RunFileError(f"{path} is not a whole run file: {error}") from None
 
     @classmethod
     def _read(cls, file: h5py.File) -> Run:

@@ -29,10 +29,8 @@ NO_RESULTS = (
     "README.md",
     "benchmarks",
     "logs",
-    "pages",
     "provenance.json",
     "report.html",
-    "ro-crate-metadata.json",
 )
 
 Files = dict[str, dict[str, str | int]]

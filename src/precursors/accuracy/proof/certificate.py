@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from precursors.accuracy.proof.exact_chain import ExactChain, Number, exact, exact_positions
 from precursors.model.chain import Chain, Until, checked_until, whole, written_fraction
-from precursors.support.files import write_atomically
+from precursors.support.files import write_whole
 
 if TYPE_CHECKING:
     from flint import arb
@@ -168,7 +168,7 @@ class Certificate:
             If the file cannot be written.
         """
         text = json.dumps({**self._content(), "sha256": self.sha256}, indent=0)
-        with write_atomically(path) as temporary:
+        with write_whole(path) as temporary:
             temporary.write_bytes(gzip.compress(text.encode(), mtime=0))
 
     @classmethod

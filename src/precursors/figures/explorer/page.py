@@ -42,7 +42,7 @@ from precursors.analysis.slips import find_precursors, find_slips
 from precursors.figures import style
 from precursors.figures.explorer.detail import find_slides
 from precursors.solver.run import Run
-from precursors.support.files import write_atomically
+from precursors.support.files import write_whole
 
 NARROWEST = 10e-6  # s, the narrowest window: half of the shortest slip
 COLORS = {"partial": style.BLUE, "global": style.VERMILION, "backward": style.ORANGE, "grey": style.GREY}
@@ -89,7 +89,7 @@ def write_explorer(scenes: Sequence[Scene], path: str | PathLike[str]) -> None:
         scenes="\n".join(_choice(scene) for scene in scenes),
         script=place.joinpath("explorer.js").read_text(encoding="utf-8"),
     )
-    with write_atomically(path) as temporary:
+    with write_whole(path) as temporary:
         Path(temporary).write_text(page, encoding="utf-8")
 
 

@@ -24,7 +24,7 @@ from precursors.reproduction.ledger.rules import (
     RULES,
     TAKES,
 )
-from precursors.support.tables import read_table
+from precursors.support.files import read_table
 
 # More values than this are told by their number, the smallest and the largest.
 MOST_VALUES_SHOWN = 6

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from precursors.model.plain_yaml import read_yaml
 from precursors.reproduction.ledger.rules import ROWS, TAKES
-from precursors.support.files import write_checked
+from precursors.support.files import write_whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -170,7 +170,7 @@ def collect_numbers(
 def write_numbers(numbers: Mapping[str, Number], path: str | os.PathLike[str]) -> None:
     """Write the numbers as JSON: name -> value, unit and source."""
     content = {name: vars(number) for name, number in sorted(numbers.items())}
-    with write_checked(path) as temporary:
+    with write_whole(path) as temporary:
         temporary.write_text(
             json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n", "utf-8"
         )
@@ -221,7 +221,7 @@ def _looked_up(source: Source, config: Mapping[str, Any]) -> Value:
 
 
 def _tabled(source: Source, directory: Path, read: dict[str, pd.DataFrame]) -> Value | None:
-    from precursors.support.tables import read_table
+    from precursors.support.files import read_table
 
     path = directory / f"{source.table}.csv"
     if source.table not in read:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from precursors.reproduction.paper.numbers import PaperError
-from precursors.support.files import open_checked, write_atomically
+from precursors.support.files import write_whole
 
 # No page says when it was made.
 EPOCH = 0
@@ -75,7 +75,7 @@ def set_pages(
             raise PaperError(_line(error, root)) from None
     if warnings:
         raise PaperError("; ".join(_line(warning, root) for warning in warnings))
-    with write_atomically(output) as temporary:
+    with write_whole(output) as temporary:
         temporary.write_bytes(pages)
 
 
@@ -91,7 +91,7 @@ def take_along(files: Mapping[str, str | os.PathLike[str]], root: str | os.PathL
         target = Path(root) / name
         target.parent.mkdir(parents=True, exist_ok=True)
         try:
-            target.write_bytes(open_checked(file).read())
+            target.write_bytes(file.read_bytes())
         except FileNotFoundError:
             raise PaperError(f"{file} is missing: the paper shows it") from None
         except (ValueError, OSError) as error:
