@@ -5,9 +5,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+import random_chains
+from accuracy.spoiling import shares
 from chains import first_transitions, positions_under
-from faults import physics
-from faults.spoiling import shares
 from reference import ReferenceChain, reference
 
 from precursors import Chain
@@ -23,8 +23,8 @@ BELOW_ROUNDING = {1668: [3], 3798: []}
 # Of each kind some with much rounding, and some as they come.
 SPOILED = {
     "any chain": (154, 112, 1034, 3787, 7035, 12177, *range(40, 80)),
-    "slider": tuple(n for n in range(250) if physics.trial_kind(n) == "slider"),
-    "whole numbers": tuple(n for n in range(200) if physics.trial_kind(n) == "whole numbers"),
+    "slider": tuple(n for n in range(250) if random_chains.trial_kind(n) == "slider"),
+    "whole numbers": tuple(n for n in range(200) if random_chains.trial_kind(n) == "whole numbers"),
 }
 
 
@@ -33,7 +33,7 @@ def fastest(chain: Chain) -> float:
     return 2 * math.sqrt(max(chain.stiffness, chain.drive_stiffness) / chain.mass)
 
 
-def exact_transitions(case: physics.Trial, most: int) -> list[tuple[float, int, int]]:
+def exact_transitions(case: random_chains.Trial, most: int) -> list[tuple[float, int, int]]:
     """Time [s], block and mode of the first transitions, in units in which forces and times are about one.
 
     The units are powers of two: no number is rounded.
@@ -81,7 +81,7 @@ def in_groups(transitions, apart: float) -> list[tuple[int, int]]:
 
 def run_and_exact(number: int):
     """The chain of a trial, its transitions, and as many of the reference, as (time, block, mode)."""
-    case = physics.trial(number)[1]
+    case = random_chains.trial(number)[1]
     run = first_transitions(case.chain, case.most, duration=case.duration, **case.start)
     exact = exact_transitions(case, len(run.transitions) + 1)
     return run, run.transitions[["time", "block", "mode"]].tolist(), exact
@@ -90,7 +90,7 @@ def run_and_exact(number: int):
 @pytest.mark.parametrize("number", ONCE_IN_DOUBT)
 def test_a_run_that_was_once_in_doubt_is_that_of_the_reference(number):
     run, mine, exact = run_and_exact(number)
-    assert run.duration < physics.trial(number)[1].duration or len(exact) <= len(mine)
+    assert run.duration < random_chains.trial(number)[1].duration or len(exact) <= len(mine)
     exact = exact[: len(mine)]
     apart = RADIANS / fastest(run.chain)
     assert in_groups(mine, apart) == in_groups(exact, apart)
@@ -101,9 +101,9 @@ def test_a_run_that_was_once_in_doubt_is_that_of_the_reference(number):
 @pytest.mark.parametrize(("number", "blocks"), BELOW_ROUNDING.items())
 def test_blocks_that_are_stronger_than_a_rounding_let_go_in_time_beside_others_that_are_not(number, blocks):
     run, mine, exact = run_and_exact(number)
-    auditor = _Auditor(run, physics.TOLERANCES)
+    auditor = _Auditor(run, random_chains.TOLERANCES)
     assert auditor.audit().ok
-    resolved = np.flatnonzero(auditor.strength > physics.ROUNDINGS * auditor.rounding.force) + 1
+    resolved = np.flatnonzero(auditor.strength > random_chains.ROUNDINGS * auditor.rounding.force) + 1
     assert resolved.tolist() == blocks
     of_these = [[t for t in transitions if t[1] in blocks] for transitions in (mine, exact)]
     assert [t[1:] for t in of_these[0]] == [t[1:] for t in of_these[1]]
@@ -125,8 +125,16 @@ def test_a_soft_drive_keeps_its_load_where_block_1_starts_at_its_limit():
 @pytest.mark.parametrize("kind", SPOILED)
 def test_the_auditor_sees_nearly_every_run_that_was_spoiled(kind):
     """Of any kind; docs/reliability.md says which it cannot see."""
-    counts = shares(n for n in SPOILED[kind] if physics.trial_kind(n) == kind)
+    counts = shares(n for n in SPOILED[kind] if random_chains.trial_kind(n) == kind)
     assert {way for _, way in counts} == {"shifted", "dropped", "swapped", "turned", "mu_k"}
     for (_, way), (seen, spoiled) in counts.items():
         assert spoiled >= 6
         assert seen >= 0.75 * spoiled, way
+
+
+@pytest.mark.parametrize("first", range(0, 200, 20))
+def test_random_chains_move_as_the_model_says(first):
+    """The auditor, which shares no code with the solver, finds nothing wrong."""
+    verdicts = {number: random_chains.judged(number)[1] for number in range(first, first + 20)}
+    assert {n: v for n, v in verdicts.items() if v not in ("survived", "refused")} == {}
+    assert list(verdicts.values()).count("survived") >= 15

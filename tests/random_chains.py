@@ -1,0 +1,167 @@
+"""Random chains far from the paper's, by number: `trial(7)` is always the same chain and start."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from chains import first_transitions, positions_under
+from numpy.random import Generator
+
+from precursors import Chain
+from precursors.accuracy.audit import Tolerances, audit
+
+SEED = 1961
+# What the solver counts as zero, 8 eps, as roundings of 2^-53 that a step may add: deviations come to 12.
+ROUNDINGS = 16.0
+# Of the work of the drive, the friction heat and the energy at the start: rounding adds up to 3e-13.
+ENERGY = 2e-12
+TOLERANCES = Tolerances(energy=ENERGY, roundings=ROUNDINGS)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A chain, its start and how far it is run."""
+
+    chain: Chain
+    duration: float
+    start: dict[str, np.ndarray]
+    most: int
+
+
+def decades(rng: Generator, low: float, high: float) -> float:
+    return float(10.0 ** rng.uniform(low, high))
+
+
+def any_chain(rng: Generator) -> Trial:
+    """All parameters over many decades, in any units; weights with zeros; prestressed and moving starts."""
+    n = int(rng.integers(1, 61))
+    force, stiffness, mass = decades(rng, -9, 9), decades(rng, -6, 12), decades(rng, -12, 6)
+    spread = rng.choice([0.0, 1.0, 3.0])
+    weights = force * 10.0 ** rng.uniform(-spread, spread, n)
+    if rng.random() < 0.4:
+        weights[rng.random(n) < rng.choice([0.1, 0.5, 0.9])] = 0.0
+    weights[rng.integers(n)] = force
+    mu_s = float(rng.choice([0.7, 0.0, rng.uniform(0.05, 1.5), decades(rng, -6, 2)], p=[0.5, 0.1, 0.3, 0.1]))
+    mu_k = mu_s * float(rng.choice([1.0, 0.0, rng.uniform()], p=[0.15, 0.15, 0.7]))
+    ratio = decades(rng, -6, 6) if rng.random() < 0.7 else 1.0
+    stiffest = stiffness * max(1.0, ratio)
+    duration = decades(rng, 0.5, 3.0) / (2 * math.sqrt(stiffest / mass))
+    loading = decades(rng, -3, 1) * max(mu_s, 0.1) * float(weights.sum()) / duration
+    chain = Chain(weights, mass, stiffness, stiffness * ratio, loading / (stiffness * ratio), mu_s, mu_k)
+    return Trial(chain, duration, any_start(rng, chain, stiffest), 60)
+
+
+def any_start(rng: Generator, chain: Chain, stiffest: float) -> dict[str, np.ndarray]:
+    """Now and then springs that push with up to 1.5 times the friction, or blocks that move."""
+    start: dict[str, np.ndarray] = {}
+    friction = max(chain.mu_s, 0.1)
+    if rng.random() < 0.4:
+        pushes = rng.integers(-24, 25, chain.n_blocks) / 16 * chain.weights * friction
+        start["start_positions"] = positions_under(chain, pushes)
+    if rng.random() < 0.4:
+        impacts = rng.integers(-24, 25, chain.n_blocks) / 16 * chain.weights.max() * friction
+        start["start_velocities"] = impacts / math.sqrt(stiffest * chain.mass)
+    return start
+
+
+def any_slider(rng: Generator) -> Trial:
+    """The paper's slider with other loading, length and drive, until some hundred transitions are made."""
+    chain = Chain.from_slider(
+        n_blocks=int(rng.integers(1, 61)),
+        theta=float(rng.choice([-1.0, -5 / 6, 0.0, 5 / 6, 1.0, rng.uniform(-1, 1)])),
+        mu_k=float(rng.choice([0.45, 0.7, 0.0, rng.uniform(0, 0.7)])),
+        drive_stiffness=decades(rng, 3, 9),
+        drive_velocity=decades(rng, -8, 1),
+    )
+    return Trial(chain, 5 * chain.normal_load / chain.loading_rate, {}, 120)
+
+
+def even_chain(rng: Generator) -> Trial:
+    """Small whole numbers everywhere: blocks meet their limits at the same instant, or touch them."""
+    n = int(rng.integers(1, 13))
+    weights = rng.integers(0, 4, n).astype(float)
+    weights[rng.integers(n)] = 2.0
+    mu_s = float(rng.choice([1.0, 0.5, 0.0]))
+    stiffness, drive_stiffness, mass = (float(x) for x in rng.choice([1.0, 2.0, 4.0], 3))
+    velocity = float(rng.choice([1.0, 0.125, 1e-3, 1e-9]))
+    chain = Chain(
+        weights, mass, stiffness, drive_stiffness, velocity, mu_s, mu_s * float(rng.choice([0.0, 0.5, 1.0]))
+    )
+    start: dict[str, np.ndarray] = {}
+    if rng.random() < 0.6:
+        start["start_positions"] = positions_under(chain, rng.integers(-2, 3, n) * mu_s * weights / 2)
+    if rng.random() < 0.6:
+        start["start_velocities"] = rng.integers(-1, 2, n).astype(float)
+    return Trial(chain, float(rng.choice([1.0, 30.0, 300.0])), start, 80)
+
+
+def absurd_chain(rng: Generator) -> Trial:
+    """Any doubles at all: nothing that exists, but nothing that may hang or lie either."""
+    n = int(rng.integers(1, 9))
+    size = float(rng.choice([15.0, 50.0, 300.0]))
+    mass, stiffness, drive_stiffness, velocity = (decades(rng, -size, size) for _ in range(4))
+    chain = Chain(10.0 ** rng.uniform(-size, size, n), mass, stiffness, drive_stiffness, velocity, 0.7, 0.45)
+    longest = 300 * math.sqrt(mass / max(stiffness, drive_stiffness))
+    return Trial(chain, min(decades(rng, -size, size), longest), {}, 80)
+
+
+KINDS: dict[str, tuple[float, Callable[[Generator], Trial]]] = {
+    "any chain": (0.7, any_chain),
+    "slider": (0.1, any_slider),
+    "whole numbers": (0.15, even_chain),
+    "absurd": (0.05, absurd_chain),
+}
+
+
+def trial_kind(number: int) -> str:
+    """The kind of the trial with a number."""
+    return str(
+        np.random.default_rng([SEED, number]).choice(list(KINDS), p=[share for share, _ in KINDS.values()])
+    )
+
+
+def trial(number: int) -> tuple[str, Trial]:
+    """The trial with a number: always the same."""
+    rng = np.random.default_rng([SEED, number])
+    kind = str(rng.choice(list(KINDS), p=[share for share, _ in KINDS.values()]))
+    return kind, KINDS[kind][1](rng)
+
+
+def verdict(case: Trial) -> str:
+    """Run a chain and audit it: "survived", "refused", or what is wrong."""
+    try:
+        run = first_transitions(case.chain, case.most, duration=case.duration, **case.start)
+    except ValueError as error:
+        return (
+            "refused" if str(error) and "\n" not in str(error) else f"refused without a sentence: {error!r}"
+        )
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+    transitions = run.transitions
+    if not (np.isfinite(transitions["time"]).all() and np.isfinite(transitions["tangential_load"]).all()):
+        return "a transition is not finite"
+    if not (run.duration == case.duration or len(transitions) >= case.most):
+        return f"ended at {run.duration} s of {case.duration} s after {len(transitions)} transitions"
+    positions, velocities = run.at([0.0, run.duration])
+    if not (np.isfinite(positions).all() and np.isfinite(velocities).all()):
+        return "the state at the end is not finite"
+    try:
+        report = audit(run, TOLERANCES)
+    except ArithmeticError as error:
+        return f"cannot be audited: {type(error).__name__}: {error}"
+    if report.ok:
+        return "survived"
+    return f"{len(report.problems)} problems after {report.n_intervals} intervals: {report.problems[0]}"
+
+
+def judged(number: int) -> tuple[str, str]:
+    """Kind and verdict of the trial with a number; a chain may be refused before it is run."""
+    kind = trial_kind(number)
+    try:
+        _, case = trial(number)
+    except ValueError as error:
+        return kind, "refused" if str(error) else "refused without a sentence"
+    return kind, verdict(case)
