@@ -80,8 +80,9 @@ def test_nothing_moves_while_all_blocks_stick(run):
 
 def test_a_saved_run_comes_back_bit_for_bit(run, tmp_path):
     path = tmp_path / "new" / "run.h5"
-    run.save(path, configuration={"scene": "x"})
+    run.save(path, slider={"n_blocks": 10, "theta": -5 / 6})
     back = Run.load(path)
+    assert back.slider == {"n_blocks": 10, "theta": -5 / 6}
     assert back.chain == run.chain
     assert back.duration == run.duration
     np.testing.assert_array_equal(back.transitions, run.transitions)
@@ -92,11 +93,11 @@ def test_a_saved_run_comes_back_bit_for_bit(run, tmp_path):
 
 
 def test_the_file_says_what_its_numbers_are(run, tmp_path):
-    run.save(tmp_path / "run.h5", configuration={"theta": "-5/6"})
+    run.save(tmp_path / "run.h5", slider={"theta": 0.25})
     with h5py.File(tmp_path / "run.h5") as file:
         assert file["transitions/time"].attrs["unit"] == "s"
         assert file["transitions/tangential_load"].attrs["unit"] == "N"
-        assert file.attrs["configuration"] == '{"theta": "-5/6"}'
+        assert file.attrs["slider"] == '{"theta": 0.25}'
         assert {"precursors", "numpy", "numba", "mu_s", "drive_velocity", "duration"} <= set(file.attrs)
 
 

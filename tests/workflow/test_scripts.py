@@ -31,7 +31,7 @@ def run():
 @pytest.fixture(scope="module")
 def files(run, tmp_path_factory):
     directory = tmp_path_factory.mktemp("files")
-    run.save(directory / "run.h5")
+    run.save(directory / "run.h5", slider={"theta": 0.0, "normal_load": 400.0})
     tabulate_slips.main(directory / "run.h5", directory / "slips.csv")
     tabulate_trace.main(directory / "run.h5", directory / "trace.csv")
     tabulate_mu_sapp.main({"fig10": directory / "run.h5"}, directory / "mu_sapp.csv")
@@ -51,6 +51,12 @@ def test_the_slip_table_holds_every_event_with_every_digit(run, files):
         "n_simultaneous",
         "is_global",
         "kept",
+        "theta",
+        "n_blocks",
+        "normal_load_N",
+    ]
+    assert table[["theta", "n_blocks", "normal_load_N"]].drop_duplicates().to_numpy().tolist() == [
+        [0, 10, 400]
     ]
     np.testing.assert_array_equal(table["onset_s"], slips["onset"])
     np.testing.assert_array_equal(table["load_after_N"], slips["load_after"])
@@ -94,7 +100,6 @@ def test_a_run_without_a_slip_gives_tables_without_rows(tmp_path):
     tabulate_reproduction.main(
         {"calm": tmp_path / "slips.csv"},
         tmp_path / "mu_sapp.csv",
-        {"calm": 0.0},
         {"calm": {}},
         tmp_path / "r.csv",
     )
@@ -108,7 +113,6 @@ def test_the_reproduction_stands_beside_the_paper(files, tmp_path, capsys):
     tabulate_reproduction.main(
         {"fig10": files / "slips.csv"},
         files / "mu_sapp.csv",
-        {"fig10": 0.0},
         {"fig10": {"events_kept": 9, "mu_sapp": 0.49}},
         tmp_path / "reproduction.csv",
     )
@@ -124,7 +128,7 @@ def test_the_reproduction_stands_beside_the_paper(files, tmp_path, capsys):
 
 def test_a_number_that_the_paper_does_not_give_stays_empty(files, tmp_path):
     tabulate_reproduction.main(
-        {"mine": files / "slips.csv"}, files / "mu_sapp.csv", {"mine": 0.0}, {"mine": {}}, tmp_path / "r.csv"
+        {"mine": files / "slips.csv"}, files / "mu_sapp.csv", {"mine": {}}, tmp_path / "r.csv"
     )
     with (tmp_path / "r.csv").open(encoding="utf-8") as file:
         assert {row["paper"] for row in csv.DictReader(file)} == {""}

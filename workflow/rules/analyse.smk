@@ -58,7 +58,6 @@ rule tabulate_reproduction:
         "results/benchmarks/tabulate_reproduction.tsv"
     threads: 1
     params:
-        theta={scene: scene_slider(config, scene)["theta"] for scene in SCENES},
         paper={scene: config["scenes"][scene].get("paper", {}) for scene in SCENES},
     script:
         "../scripts/tabulate_reproduction.py"

@@ -11,11 +11,10 @@ from precursors.solver.simulate import TransitionLimitError, simulate
 
 def main(slider: dict[str, Any], duration: float, output: str | Path) -> None:
     """Run the chain of a scene for `duration` [s]; a run that meets its cap on transitions is kept too."""
-    configuration = {**slider, "duration": duration}
     try:
-        simulate(Chain.from_slider(**slider), duration=duration).save(output, configuration)
+        simulate(Chain.from_slider(**slider), duration=duration).save(output, slider)
     except TransitionLimitError as error:
-        error.run.save(Path(output).with_suffix(".unfinished.h5"), configuration)
+        error.run.save(Path(output).with_suffix(".unfinished.h5"), slider)
         raise
 
 

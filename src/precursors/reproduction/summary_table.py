@@ -14,7 +14,6 @@ COLUMNS = ["scene", "theta", "quantity", "unit", "paper", "reproduced"]
 def reproduction_table(
     slips: Mapping[str, pd.DataFrame],
     mu_sapp: pd.DataFrame,
-    theta: Mapping[str, float],
     paper: Mapping[str, Mapping[str, float]],
 ) -> pd.DataFrame:
     """One row per scene and quantity; `paper` stays empty where the paper gives no number.
@@ -22,17 +21,15 @@ def reproduction_table(
     Parameters
     ----------
     slips : mapping
-        Scene to slip table (tables/{scene}_slips.csv).
+        Scene to slip table (tables/{scene}_slips.csv), which has theta too.
     mu_sapp : DataFrame
         tables/mu_sapp.csv, of all scenes.
-    theta : mapping
-        Scene to theta.
     paper : mapping
         Scene to what the paper prints of it: events_kept and mu_sapp, or nothing.
     """
     papers = mu_sapp[mu_sapp["is_papers"].astype(bool)].set_index("scene")["mu_sapp"]
     rows = [
-        (scene, theta[scene], quantity, unit, paper[scene].get(key), value)
+        (scene, next(iter(table["theta"]), None), quantity, unit, paper[scene].get(key), value)
         for scene, table in slips.items()
         for quantity, unit, key, value in quantities(table, papers.get(scene))
     ]

@@ -8,6 +8,7 @@ from importlib.metadata import version
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -63,6 +64,8 @@ class Run:
     evaluations : float
         Evaluations of the forces of the whole chain that the solver made, each derivative counted as one; 0
         where it is not known.
+    slider : dict or None
+        Arguments of `Chain.from_slider` that the chain was made from, theta as a float; None if not known.
     """
 
     chain: Chain
@@ -73,6 +76,7 @@ class Run:
     start_velocities: FloatArray
     states: States
     evaluations: float = 0.0
+    slider: dict[str, Any] | None = None
 
     @classmethod
     def from_transitions(
@@ -177,15 +181,16 @@ class Run:
         back = np.argsort(order, kind="stable")
         return force[back], velocity[back]
 
-    def save(self, path: str | PathLike[str], configuration: dict[str, object] | None = None) -> None:
+    def save(self, path: str | PathLike[str], slider: dict[str, Any] | None = None) -> None:
         """Write the run to an HDF5 file, under a temporary name until it is whole.
 
         Parameters
         ----------
         path : path-like
             The file; its directory is made if it is missing.
-        configuration : dict, optional
-            What the run was made from, kept as JSON in the attributes.
+        slider : dict, optional
+            Arguments of `Chain.from_slider` that the chain was made from, theta as a float; by default those
+            of the run. They are kept as JSON in the attributes, and `load` gives them back.
 
         Raises
         ------
@@ -198,7 +203,7 @@ class Run:
             file.attrs["format"] = FORMAT
             file.attrs["precursors"] = version("precursors")
             file.attrs["numpy"], file.attrs["numba"] = np.__version__, version("numba")
-            file.attrs["configuration"] = json.dumps(configuration or {}, sort_keys=True)
+            file.attrs["slider"] = json.dumps(slider or self.slider, sort_keys=True)
             file.attrs["duration"], file.attrs["duration_unit"] = self.duration, "s"
             for field in fields(Chain)[1:]:
                 file.attrs[field.name] = getattr(self.chain, field.name)
@@ -256,4 +261,5 @@ class Run:
             start_positions=file["start_positions"][()],
             start_velocities=file["start_velocities"][()],
             states=States(*(file[f"states/{name}"][()] for name in States._fields)),
+            slider=json.loads(file.attrs.get("slider", "null")),
         )
