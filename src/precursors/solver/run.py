@@ -2,44 +2,19 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import dataclass, fields
-from importlib.metadata import version
-from io import BytesIO
+from dataclasses import dataclass, replace
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
-import h5py
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver import kernel
 from precursors.solver.kernel import States
-from precursors.support.files import write_whole
+from precursors.solver.run_file import TRANSITION, RunFileError, read_run, write_run
 
-TRANSITION = np.dtype([("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")])
-UNITS = {
-    "time": "s",
-    "block": "1",
-    "mode": "1",
-    "tangential_load": "N",
-    "intervals": "s",
-    "start_positions": "m",
-    "start_velocities": "m/s",
-    "force": "N",
-    "velocity": "N/tau",
-    "after": "1",
-    "offset": "s",
-    "grip": "N",
-    "weights": "N",
-}
-FORMAT = "precursors run 2"
-
-
-class RunFileError(ValueError):
-    """A file that is not a whole run of this format."""
+__all__ = ["TRANSITION", "Run", "RunFileError", "States"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,32 +118,18 @@ class Run:
         """Spring forces [N] and velocities [m/s], each (len(times), N): the state, apart from the drive's."""
         return self._evaluate(self._times(times))
 
-    def horizon(self, tolerance: float) -> float:
-        """Time [s] up to which the transitions hold: their order is right, their times to `tolerance` [s].
-
-        What is counted is rounding, that of the parameters too; `horizon.error_growth` has all about it.
-
-        Raises
-        ------
-        ValueError
-            If the tolerance is not positive, or the run has no stored states to start from.
-        """
-        from precursors.analysis.horizon import error_growth
-
-        return error_growth(self).horizon(tolerance)
-
     def _times(self, times: ArrayLike) -> FloatArray:
         when = np.atleast_1d(np.asarray(times, dtype=np.float64))
         outside = ~((when >= 0.0) & (when <= self.duration))
         if outside.any():
             raise ValueError(
-                f"times: {when[outside][0]} s lies outside the run: allowed is 0 <= t <= {self.duration:g} s"
+                f"times must be between 0 and {self.duration:g} s, but one is {when[outside][0]} s"
             )
         return when
 
     def _evaluate(self, when: FloatArray) -> tuple[FloatArray, FloatArray]:
         if len(self.states.after) == 0:
-            raise ValueError("the run has no stored states: allowed is one from simulate or Run.load")
+            raise ValueError("the run has no stored states: only a run that simulate made can be evaluated")
         order = np.argsort(when, kind="stable")
         record = kernel.Record(
             np.ascontiguousarray(self.transitions["time"]),
@@ -182,49 +143,21 @@ class Run:
         return force[back], velocity[back]
 
     def save(self, path: str | PathLike[str], slider: dict[str, Any] | None = None) -> None:
-        """Write the run to an HDF5 file, under a temporary name until it is whole.
+        """Write the run to an HDF5 file, whole or not at all.
 
         Parameters
         ----------
         path : path-like
             The file; its directory is made if it is missing.
         slider : dict, optional
-            Arguments of `Chain.from_slider` that the chain was made from, theta as a float; by default those
-            of the run. They are kept as JSON in the attributes, and `load` gives them back.
+            Arguments of `Chain.from_slider` to keep in the file; by default those of the run.
 
         Raises
         ------
         OSError
             If the file cannot be written.
         """
-        content = self._content()
-        memory = BytesIO()  # HDF5 does not survive a full disk
-        with h5py.File(memory, "w", libver="v110") as file:
-            file.attrs["format"] = FORMAT
-            file.attrs["precursors"] = version("precursors")
-            file.attrs["numpy"], file.attrs["numba"] = np.__version__, version("numba")
-            file.attrs["slider"] = json.dumps(slider or self.slider, sort_keys=True)
-            file.attrs["duration"], file.attrs["duration_unit"] = self.duration, "s"
-            for field in fields(Chain)[1:]:
-                file.attrs[field.name] = getattr(self.chain, field.name)
-            for name, values in content.items():
-                data = file.create_dataset(
-                    name, data=values, compression="gzip", shuffle=True, fletcher32=True
-                )
-                data.attrs["unit"] = UNITS[name.split("/")[-1]]
-        with write_whole(path) as temporary:
-            temporary.write_bytes(memory.getvalue())
-
-    def _content(self) -> dict[str, NDArray]:
-        columns = {f"transitions/{name}": self.transitions[name] for name in TRANSITION.names or ()}
-        return {
-            "weights": self.chain.weights,
-            "start_positions": self.start_positions,
-            "start_velocities": self.start_velocities,
-            "intervals": self.intervals,
-            **columns,
-            **{f"states/{name}": values for name, values in self.states._asdict().items()},
-        }
+        write_run(self if slider is None else replace(self, slider=slider), path)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Run:
@@ -237,29 +170,4 @@ class Run:
         RunFileError
             If the file is not a whole run of this format.
         """
-        if not Path(path).is_file():
-            raise FileNotFoundError(f"{path}: no such file")
-        try:
-            with h5py.File(path, "r") as file:
-                if file.attrs.get("format") != FORMAT:
-                    raise RunFileError(f'{path} is not a run file of format "{FORMAT}"')
-                return cls._read(file)
-        except (OSError, KeyError) as error:
-            raise RunFileError(f"{path} is not a whole run file: {error}") from None
-
-    @classmethod
-    def _read(cls, file: h5py.File) -> Run:
-        transitions = np.empty(len(file["transitions/time"]), dtype=TRANSITION)
-        for name in TRANSITION.names or ():
-            transitions[name] = file[f"transitions/{name}"][()]
-        scalars = {field.name: float(file.attrs[field.name]) for field in fields(Chain)[1:]}
-        return cls(
-            chain=Chain(weights=file["weights"][()], **scalars),
-            duration=float(file.attrs["duration"]),
-            transitions=transitions,
-            intervals=file["intervals"][()],
-            start_positions=file["start_positions"][()],
-            start_velocities=file["start_velocities"][()],
-            states=States(*(file[f"states/{name}"][()] for name in States._fields)),
-            slider=json.loads(file.attrs.get("slider", "null")),
-        )
+        return cls(**read_run(path))

@@ -1,0 +1,140 @@
+"""The HDF5 file of a run: what is written, and what is checked when it is read."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import fields
+from importlib.metadata import version
+from io import BytesIO
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from precursors.model.chain import Chain
+from precursors.solver.kernel import States, width
+from precursors.support.files import write_whole
+
+if TYPE_CHECKING:
+    from precursors.solver.run import Run
+
+FORMAT = "precursors run 3"
+TRANSITION = np.dtype([("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")])
+UNITS = {
+    "time": "s",
+    "block": "1",
+    "mode": "1",
+    "tangential_load": "N",
+    "intervals": "s",
+    "start_positions": "m",
+    "start_velocities": "m/s",
+    "force": "N",
+    "velocity": "N/tau",
+    "after": "1",
+    "offset": "s",
+    "grip": "N",
+    "weights": "N",
+}
+
+
+class RunFileError(ValueError):
+    """A file that is not a whole run of this format."""
+
+
+def write_run(run: Run, path: str | PathLike[str]) -> None:
+    """Write a run to an HDF5 file, whole or not at all."""
+    # HDF5 may end the interpreter when the disk is full, so the file is made in memory first.
+    memory = BytesIO()
+    with h5py.File(memory, "w", libver="v110") as file:
+        file.attrs["format"] = FORMAT
+        file.attrs["precursors"], file.attrs["numpy"] = version("precursors"), np.__version__
+        file.attrs["slider"] = json.dumps(run.slider, sort_keys=True)
+        file.attrs["duration"], file.attrs["duration_unit"] = run.duration, "s"
+        file.attrs["evaluations"] = run.evaluations
+        for field in fields(Chain)[1:]:
+            file.attrs[field.name] = getattr(run.chain, field.name)
+        for name, values in _datasets(run).items():
+            data = file.create_dataset(name, data=values, compression="gzip", shuffle=True, fletcher32=True)
+            data.attrs["unit"] = UNITS[name.split("/")[-1]]
+    with write_whole(path) as temporary:
+        temporary.write_bytes(memory.getvalue())
+
+
+def _datasets(run: Run) -> dict[str, NDArray[Any]]:
+    return {
+        "weights": run.chain.weights,
+        "start_positions": run.start_positions,
+        "start_velocities": run.start_velocities,
+        "intervals": run.intervals,
+        **{f"transitions/{name}": run.transitions[name] for name in TRANSITION.names or ()},
+        **{f"states/{name}": values for name, values in run.states._asdict().items()},
+    }
+
+
+def read_run(path: str | PathLike[str]) -> dict[str, Any]:
+    """Read the fields of a `Run` from a file.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    RunFileError
+        In one line that names the file, if it is not a whole run of this format.
+    """
+    if not Path(path).is_file():
+        raise FileNotFoundError(f"{path}: no such file")
+    try:
+        with h5py.File(path, "r") as file:
+            if file.attrs.get("format") != FORMAT:
+                raise RunFileError(f'it does not say that its format is "{FORMAT}"')
+            content = _content(file)
+        _check(content)
+    except (OSError, KeyError, ValueError, TypeError) as error:
+        reason = " ".join(str(error).split()).strip("'\"")
+        raise RunFileError(f"{path} is not a run file, or is damaged: {reason}") from None
+    return content
+
+
+def _content(file: h5py.File) -> dict[str, Any]:
+    columns = {name: file[f"transitions/{name}"][()] for name in TRANSITION.names or ()}
+    transitions = np.empty(len(columns["time"]), dtype=TRANSITION)
+    for name, values in columns.items():
+        _require(values.shape == transitions.shape, f"transitions/{name} has shape {values.shape}")
+        transitions[name] = values
+    scalars = {field.name: float(file.attrs[field.name]) for field in fields(Chain)[1:]}
+    return {
+        "chain": Chain(weights=file["weights"][()], **scalars),
+        "duration": float(file.attrs["duration"]),
+        "transitions": transitions,
+        **{name: file[name][()] for name in ("intervals", "start_positions", "start_velocities")},
+        "states": States(*(file[f"states/{name}"][()] for name in States._fields)),
+        "evaluations": float(file.attrs["evaluations"]),
+        "slider": json.loads(file.attrs["slider"]),
+    }
+
+
+def _check(content: dict[str, Any]) -> None:
+    """Refuse what the compiled code could not run on: wrong shapes, and indices out of range."""
+    transitions, states = content["transitions"], content["states"]
+    n_blocks, n = content["chain"].n_blocks, len(transitions)
+    _require(content["intervals"].shape == (n + 1,), f"intervals do not fit to {n} transitions")
+    for name in ("start_positions", "start_velocities"):
+        _require(content[name].shape == (n_blocks,), f"{name} do not fit to {n_blocks} blocks")
+    block, mode, after = transitions["block"], transitions["mode"], states.after
+    _require(((block >= 1) & (block <= n_blocks)).all(), f"a block is not one of 1 to {n_blocks}")
+    _require(np.isin(mode, (-1, 0, 1)).all() and np.isin(states.mode, (-1, 0, 1)).all(), "a mode is unknown")
+    _require(np.isfinite(content["intervals"]).all(), "an interval is not finite")
+    _require(((after >= 0) & (after <= n)).all(), "a state comes after a transition that is not there")
+    shape = (len(after), width(n_blocks))
+    for name in ("force", "velocity", "mode"):
+        found = getattr(states, name).shape
+        _require(found == shape, f"states/{name} has shape {found} and not {shape}")
+    _require(states.offset.shape == after.shape, "states/offset does not fit to states/after")
+
+
+def _require(holds: bool | np.bool_, otherwise: str) -> None:
+    if not holds:
+        raise RunFileError(otherwise)
