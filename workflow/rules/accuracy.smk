@@ -1,141 +1,217 @@
+from precursors.accuracy.proof import scene_exact_chain
+from precursors.accuracy.proof.proved import certificate_path, chain_duration, exact_chain
 from precursors.model.chain import parse_theta
 
+CHAINS = config["horizon"]["chains"]
 COMPARED = config["accuracy"]["chains"]
-THETAS = {name: parse_theta(config["horizon"]["chains"][name].get("theta", 0)) for name in COMPARED}
+COMMITTED = ROOT / "workflow/certificates"
+# As in precursors.accuracy.failures.WAYS, which takes seconds to import.
+WAYS_TO_FAIL = [
+    "rk4_unstable",
+    "leapfrog_unstable",
+    "numerical_damping",
+    "literal_friction",
+    "dead_zone_too_small",
+    "dead_zone_too_large",
+    "creep",
+    "stiffness",
+    "missed_roots",
+    "restart_on_root",
+    "merged_transitions",
+    "forward_only",
+]
+
+
+wildcard_constraints:
+    chain="|".join(CHAINS),
+    full="(_full)?",
+
+
+rule accuracy:
+    input:
+        collect(
+            "results/figures/{figure}.{kind}",
+            figure=[
+                "work_precision",
+                "work_precision_evaluations",
+                "growth",
+                "step_sweep",
+                "failure_gallery",
+                "horizon",
+            ],
+            kind=["png", "svg"],
+        ),
+        collect("results/tables/{table}.csv", table=["certificates", "solver_vs_proof", "lyapunov"]),
+    localrule: True
+
+
+# More methods and steps, on demand: some minutes.
+rule accuracy_full:
+    input:
+        collect(
+            "results/figures/{figure}_full.svg",
+            figure=["work_precision", "work_precision_evaluations", "step_sweep"],
+        ),
+    localrule: True
+
+
+rule take_certificates:
+    input:
+        committed=[path for chain in CHAINS for path in certificate_path(COMMITTED, chain)],
+        code=package("model/chain", "accuracy/proof"),
+    output:
+        certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
+    log:
+        "results/logs/take_certificates.log",
+    localrule: True
+    params:
+        chains=[exact_chain(values).as_text() for values in CHAINS.values()],
+        durations=[chain_duration(values) for values in CHAINS.values()],
+    script:
+        "../scripts/take_certificates.py"
+
+
+# On demand: `prove_scenes` makes every proof again.
+rule prove_scenes:
+    input:
+        collect("results/tables/proved/{chain}.csv", chain=CHAINS),
+    localrule: True
+
+
+rule prove_again:
+    input:
+        certificate="results/certificates/chains/{chain}.json.gz",
+        code=package("model/chain", "accuracy/proof"),
+    output:
+        table="results/tables/proved/{chain}.csv",
+    log:
+        "results/logs/prove_again/{chain}.log",
+    script:
+        "../scripts/prove_again.py"
+
+
+# On demand: the proof of one scene of the configuration.
+rule certify_scene:
+    input:
+        code=package("model/chain", "accuracy/proof"),
+    output:
+        certificate="results/certificates/{scene}.json.gz",
+    log:
+        "results/logs/certify_scene/{scene}.log",
+    params:
+        chain=lambda wildcards: scene_exact_chain(config, wildcards.scene).as_text(),
+        duration=lambda wildcards: scene_duration(config, wildcards.scene),
+    script:
+        "../scripts/certify_scene.py"
+
+
+rule tabulate_certificates:
+    input:
+        certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
+        effort=COMMITTED / "effort.csv",
+        code=package("model/chain", "accuracy/proof"),
+    output:
+        table=report("results/tables/certificates.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_certificates.log",
+    localrule: True
+    params:
+        chains=list(CHAINS),
+    script:
+        "../scripts/tabulate_certificates.py"
+
+
+rule tabulate_horizon:
+    input:
+        certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
+        code=package("model/chain", "solver", "analysis", "accuracy/proof"),
+    output:
+        horizon="results/tables/horizon.csv",
+        summary=report("results/tables/solver_vs_proof.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_horizon.log",
+    localrule: True
+    params:
+        chains=list(CHAINS),
+        tolerance=config["horizon"]["tolerance"],
+    script:
+        "../scripts/tabulate_horizon.py"
+
+
+rule tabulate_lyapunov:
+    input:
+        code=package("model/chain", "solver", "analysis"),
+    output:
+        table=report("results/tables/lyapunov.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_lyapunov.log",
+    params:
+        sliders=SLIDERS,
+        duration=config["horizon"]["lyapunov_duration"],
+    script:
+        "../scripts/tabulate_lyapunov.py"
 
 
 rule measure_methods:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=COMPARED),
-        code=code_of("measure_methods"),
+        code=package(
+            "model/chain",
+            "solver",
+            "analysis",
+            "methods",
+            "accuracy/compare",
+            "accuracy/proof",
+            "accuracy/work_precision",
+        ),
     output:
-        table="results/tables/work_precision.csv",
+        table=report("results/tables/work_precision{full}.csv", category="Tables"),
     log:
-        "results/logs/measure_methods.log",
-    benchmark:
-        "results/benchmarks/measure_methods.tsv"
-    threads: 1
+        "results/logs/measure_methods{full}.log",
     params:
-        thetas=THETAS,
-        size=config["accuracy"]["default"],
+        thetas={name: parse_theta(CHAINS[name].get("theta", 0)) for name in COMPARED},
+        size=lambda wildcards: config["accuracy"]["full" if wildcards.full else "default"],
     script:
         "../scripts/measure_methods.py"
-
-
-rule measure_methods_fully:
-    input:
-        certificates=collect("results/certificates/chains/{chain}.json.gz", chain=COMPARED),
-        code=code_of("measure_methods"),
-    output:
-        table="results/tables/work_precision_full.csv",
-    log:
-        "results/logs/measure_methods_fully.log",
-    benchmark:
-        "results/benchmarks/measure_methods_fully.tsv"
-    threads: 1
-    params:
-        thetas=THETAS,
-        size=config["accuracy"]["full"],
-    script:
-        "../scripts/measure_methods.py"
-
-
-rule draw_work_precision:
-    input:
-        table="results/tables/work_precision.csv",
-        code=code_of("draw_work_precision"),
-    output:
-        time_png="results/figures/work_precision.png",
-        time_svg=report(
-            "results/figures/work_precision.svg",
-            caption="../report/work_precision.rst",
-            category="Speed and accuracy",
-            labels={"figure": "work_precision: errors against time"},
-        ),
-        evaluations_png="results/figures/work_precision_evaluations.png",
-        evaluations_svg=report(
-            "results/figures/work_precision_evaluations.svg",
-            caption="../report/work_precision_evaluations.rst",
-            category="Speed and accuracy",
-            labels={"figure": "work_precision_evaluations: errors against evaluations"},
-        ),
-    log:
-        "results/logs/draw_work_precision.log",
-    benchmark:
-        "results/benchmarks/draw_work_precision.tsv"
-    threads: 1
-    script:
-        "../scripts/draw_work_precision.py"
-
-
-rule accuracy_full:
-    input:
-        collect(
-            "results/figures/{figure}.svg",
-            figure=["work_precision_full", "work_precision_evaluations_full", "step_sweep_full"],
-        ),
-
-
-rule draw_work_precision_full:
-    input:
-        table="results/tables/work_precision_full.csv",
-        code=code_of("draw_work_precision"),
-    output:
-        time_png="results/figures/work_precision_full.png",
-        time_svg=report(
-            "results/figures/work_precision_full.svg",
-            caption="../report/work_precision.rst",
-            category="Speed and accuracy",
-            labels={"figure": "work_precision_full: errors against time, all methods"},
-        ),
-        evaluations_png="results/figures/work_precision_evaluations_full.png",
-        evaluations_svg=report(
-            "results/figures/work_precision_evaluations_full.svg",
-            caption="../report/work_precision_evaluations.rst",
-            category="Speed and accuracy",
-            labels={"figure": "work_precision_evaluations_full: errors against evaluations, all methods"},
-        ),
-    log:
-        "results/logs/draw_work_precision_full.log",
-    benchmark:
-        "results/benchmarks/draw_work_precision_full.tsv"
-    threads: 1
-    script:
-        "../scripts/draw_work_precision.py"
 
 
 rule measure_growth:
     input:
-        code=code_of("measure_growth"),
+        code=package("model/chain", "model/statics", "solver", "accuracy/cost_per_event"),
     output:
         table="results/tables/growth.csv",
     log:
         "results/logs/measure_growth.log",
-    benchmark:
-        "results/benchmarks/measure_growth.tsv"
-    threads: 1
     params:
         size=config["accuracy"]["growth"],
     script:
         "../scripts/measure_growth.py"
 
 
-rule draw_growth:
+rule tabulate_step_sweep:
     input:
-        table="results/tables/growth.csv",
-        code=code_of("draw_growth"),
-    output:
-        png="results/figures/growth.png",
-        svg=report(
-            "results/figures/growth.svg",
-            caption="../report/growth.rst",
-            category="Speed and accuracy",
-            labels={"figure": "growth: time per transition against N"},
+        code=package(
+            "model/chain", "solver", "analysis", "methods", "accuracy/compare", "accuracy/step_sweep"
         ),
+    output:
+        table=report("results/tables/step_sweep{full}.csv", category="Tables"),
     log:
-        "results/logs/draw_growth.log",
-    benchmark:
-        "results/benchmarks/draw_growth.tsv"
-    threads: 1
+        "results/logs/tabulate_step_sweep{full}.log",
+    params:
+        sliders=SLIDERS,
+        durations={scene: scene_duration(config, scene) for scene in config["fig13"]},
+        ranges=lambda wildcards: config["step_sweep"]["full" if wildcards.full else "default"],
     script:
-        "../scripts/draw_growth.py"
+        "../scripts/tabulate_step_sweep.py"
+
+
+rule tabulate_failures:
+    input:
+        code=package("model/chain", "solver", "analysis", "methods", "accuracy/compare", "accuracy/failures"),
+    output:
+        table=report("results/tables/failures.csv", category="Tables"),
+        curves=collect("results/tables/failures/{way}.csv", way=WAYS_TO_FAIL),
+    log:
+        "results/logs/tabulate_failures.log",
+    script:
+        "../scripts/tabulate_failures.py"

@@ -1,14 +1,20 @@
+rule mu_sapp:
+    input:
+        "results/tables/mu_sapp.csv",
+        "results/tables/reproduction.csv",
+        collect("results/figures/definitions.{kind}", kind=["png", "svg"]),
+    localrule: True
+
+
 rule tabulate_slips:
     input:
         run="results/runs/{scene}.h5",
-        code=code_of("tabulate_slips"),
+        code=package("model/chain", "solver", "analysis"),
     output:
-        table="results/tables/{scene}_slips.csv",
+        table=report("results/tables/{scene}_slips.csv", category="Tables"),
     log:
         "results/logs/tabulate_slips/{scene}.log",
-    benchmark:
-        "results/benchmarks/tabulate_slips/{scene}.tsv"
-    threads: 1
+    localrule: True
     script:
         "../scripts/tabulate_slips.py"
 
@@ -16,14 +22,12 @@ rule tabulate_slips:
 rule tabulate_trace:
     input:
         run="results/runs/{scene}.h5",
-        code=code_of("tabulate_trace"),
+        code=package("model/chain", "solver", "analysis"),
     output:
         table="results/tables/{scene}_trace.csv",
     log:
         "results/logs/tabulate_trace/{scene}.log",
-    benchmark:
-        "results/benchmarks/tabulate_trace/{scene}.tsv"
-    threads: 1
+    localrule: True
     script:
         "../scripts/tabulate_trace.py"
 
@@ -31,14 +35,12 @@ rule tabulate_trace:
 rule tabulate_mu_sapp:
     input:
         runs=collect("results/runs/{scene}.h5", scene=SCENES),
-        code=code_of("tabulate_mu_sapp"),
+        code=package("model/chain", "solver", "analysis"),
     output:
-        table="results/tables/mu_sapp.csv",
+        table=report("results/tables/mu_sapp.csv", category="Tables"),
     log:
         "results/logs/tabulate_mu_sapp.log",
-    benchmark:
-        "results/benchmarks/tabulate_mu_sapp.tsv"
-    threads: 1
+    localrule: True
     params:
         scenes=SCENES,
     script:
@@ -49,14 +51,12 @@ rule tabulate_reproduction:
     input:
         slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
         mu_sapp="results/tables/mu_sapp.csv",
-        code=code_of("tabulate_reproduction"),
+        code=package("analysis/slip_rows", "reproduction/summary_table"),
     output:
-        table="results/tables/reproduction.csv",
+        table=report("results/tables/reproduction.csv", category="Tables"),
     log:
         "results/logs/tabulate_reproduction.log",
-    benchmark:
-        "results/benchmarks/tabulate_reproduction.tsv"
-    threads: 1
+    localrule: True
     params:
         paper={scene: config["scenes"][scene].get("paper", {}) for scene in SCENES},
     script:

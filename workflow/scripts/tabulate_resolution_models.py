@@ -24,7 +24,7 @@ if __name__ == "__main__":
     with job() as snakemake:
         main(
             snakemake.config,
-            f"{snakemake.wildcards.models}_members",
+            f"resolution_models{snakemake.wildcards.full}_members",
             snakemake.input.members,
             snakemake.output.table,
             snakemake.output.runs,

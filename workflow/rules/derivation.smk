@@ -1,0 +1,45 @@
+rule eq15:
+    input:
+        "results/tables/eq15.csv",
+    localrule: True
+
+
+rule check_eq15:
+    input:
+        code=package(
+            "model",
+            "solver",
+            "analysis",
+            "hierarchy/quantities",
+            "hierarchy/rigid",
+            "reproduction/derivation",
+            "reproduction/eq15",
+        ),
+    output:
+        json="results/tables/eq15.json",
+        csv=report("results/tables/eq15.csv", category="Tables"),
+    log:
+        "results/logs/check_eq15.log",
+    params:
+        sliders=SLIDERS,
+        duration=config["duration"],
+    script:
+        "../scripts/check_eq15.py"
+
+
+rule tabulate_definitions:
+    input:
+        code=package("model/chain", "solver", "analysis", "reproduction/definitions"),
+    output:
+        table=report("results/tables/definitions.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_definitions.log",
+    localrule: True
+    params:
+        slider=config["chain"],
+        duration=config["duration"],
+        degrees=config["definitions"]["theta"],
+        load_drops=config["definitions"]["load_drop"],
+        paper=[config["scenes"][scene].get("paper", {}) for scene in config["fig13"]],
+    script:
+        "../scripts/tabulate_definitions.py"

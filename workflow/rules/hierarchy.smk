@@ -1,0 +1,39 @@
+rule hierarchy:
+    input:
+        collect("results/figures/ladder.{kind}", kind=["png", "svg"]),
+        collect("results/tables/{scene}_answers.csv", scene=ASKED),
+    localrule: True
+
+
+rule climb_ladder:
+    input:
+        code=package("model", "solver", "analysis", "hierarchy"),
+    output:
+        table=report("results/tables/ladder.csv", category="Tables"),
+    log:
+        "results/logs/climb_ladder.log",
+    params:
+        sliders=SLIDERS,
+        tolerances=config["ladder"]["tolerances"],
+        additions=config["ladder"]["additions"],
+        repetitions=config["ladder"]["repetitions"],
+    script:
+        "../scripts/climb_ladder.py"
+
+
+rule answer_scene:
+    input:
+        code=package("model", "solver", "analysis", "hierarchy"),
+    output:
+        table=report("results/tables/{scene}_answers.csv", category="Tables"),
+    log:
+        "results/logs/answer_scene/{scene}.log",
+    wildcard_constraints:
+        scene="|".join(ASKED) or "(?!)",
+    localrule: True
+    params:
+        slider=lambda wildcards: scene_slider(config, wildcards.scene),
+        model=lambda wildcards: scene_model(config, wildcards.scene),
+        quantities=lambda wildcards: scene_quantities(config, wildcards.scene),
+    script:
+        "../scripts/answer_scene.py"
