@@ -8,7 +8,7 @@ ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
 
-.PHONY: all test test-faults test-cluster results check report golden docs bench lock lint clean
+.PHONY: all test test-faults test-cluster results check report golden bench lock lint clean
 
 all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
@@ -31,16 +31,12 @@ results: $(READY)
 check: $(READY)
 	@$(BIN)/python -m precursors check --full
 
-# Every figure and table with its caption, the rule that made it and its time, in one file for a browser.
+# Every figure with its caption, the rule that made it and its time, in one file for a browser.
 report: results
-	$(BIN)/snakemake --quiet rules host -c$(CORES) table_pages
-	$(BIN)/snakemake --report results/report.html -- all table_pages
+	$(BIN)/snakemake --report results/report.html -- all
 
 golden: results
 	$(BIN)/python tests/golden/regenerate.py
-
-docs: $(READY)
-	$(BIN)/python workflow/scripts/list_figures.py
 
 bench: $(READY)
 	$(BIN)/python benchmarks/bench.py

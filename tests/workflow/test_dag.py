@@ -17,15 +17,9 @@ ON_DEMAND = {
     "accuracy_full",
     "answer_scene",
     "certify_scene",
-    "draw_film",
-    "draw_work_precision_full",
-    "measure_methods_fully",
-    "measure_scaling",
     "prove_again",
     "prove_scenes",
-    "table_pages",
     "write_provenance",  # part of `all`, but in no list of jobs here
-    "write_table_page",
 }
 RULES = {
     rule

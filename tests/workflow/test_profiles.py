@@ -13,8 +13,6 @@ QUEUED = {
     "climb_ladder",
     "measure_growth",
     "measure_methods",
-    "measure_methods_fully",
-    "measure_scaling",
     "prove_again",
     "run_chunk",
     "simulate_scene",
@@ -25,26 +23,10 @@ QUEUED = {
 }
 
 
-def rules() -> set[str]:
-    files = [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]
-    return {
-        name
-        for file in files
-        for name in re.findall(r"^(?:rule|checkpoint) (\w+):", file.read_text(encoding="utf-8"), re.MULTILINE)
-    }
-
-
-def local_rules() -> set[str]:
-    text = (ROOT / "workflow/rules/cluster.smk").read_text(encoding="utf-8")
-    return set(re.findall(r"^    (\w+),$", text, re.MULTILINE))
-
-
-def test_every_rule_either_goes_to_the_queue_or_is_named_as_one_that_does_not():
-    local = local_rules()
-    assert not local & QUEUED
-    new, gone = rules() - local - QUEUED, (local | QUEUED) - rules()
-    assert not new, f"name these in workflow/rules/cluster.smk if they take seconds, or else above: {new}"
-    assert not gone, f"there is no such rule: {gone}"
+def test_every_rule_either_goes_to_the_queue_or_says_that_it_does_not():
+    for file in (ROOT / "workflow/rules").glob("*.smk"):
+        for rule in re.split(r"^ *rule ", file.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]:
+            assert ("localrule: True" in rule) != (rule.partition(":")[0] in QUEUED), rule.partition(":")[0]
 
 
 def test_nothing_but_the_queue_is_different_on_a_cluster():

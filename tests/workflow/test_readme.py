@@ -20,10 +20,7 @@ RESULTS = (ROOT / "results/README.md").read_text(encoding="utf-8")
 ON_DEMAND = (
     "accuracy_full",
     "prove_scenes",
-    "table_pages",
-    "results/films/fig10.gif",
     "results/certificates/fig10.json.gz",
-    "results/tables/scaling.csv",
     "results/figures/resolution_models_full.svg",
 )
 OF_MAKE = ("tables/bench.csv", "report.html")
