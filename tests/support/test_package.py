@@ -1,14 +1,19 @@
-"""What is imported from the package is there, and nothing is loaded before it is needed."""
+"""The package: its public names, what it loads, its wheel and its citation."""
 
+import os
 import subprocess
 import sys
-from importlib.resources import files
+import tomllib
+import zipfile
+from pathlib import Path
 
 import pytest
+import yaml
 
 import precursors
 
-# The compiler and what only simulations and tables need.
+ROOT = Path(__file__).parents[2]
+# The compiler, and what only simulations and tables need.
 HEAVY = {"numba", "h5py", "pandas"}
 
 
@@ -43,5 +48,41 @@ def test_nothing_is_loaded_before_it_is_needed(program, missing):
     assert not loaded(program) & missing
 
 
-def test_the_types_of_the_package_are_offered_to_type_checkers():
-    assert files("precursors").joinpath("py.typed").is_file()
+@pytest.fixture(scope="module")
+def unpacked(tmp_path_factory):
+    """A directory with the content of the wheel, which is built without a network."""
+    directory = tmp_path_factory.mktemp("wheel")
+    program = f"from hatchling.build import build_wheel; print(build_wheel({str(directory)!r}))"
+    done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    with zipfile.ZipFile(directory / done.stdout.split()[-1]) as wheel:
+        wheel.extractall(directory / "site")
+    return directory / "site"
+
+
+def test_the_wheel_has_every_file_of_the_package_and_nothing_else(unpacked):
+    files = {path.relative_to(unpacked).as_posix() for path in unpacked.rglob("*") if path.is_file()}
+    source = ROOT / "src"
+    wanted = {p.relative_to(source).as_posix() for p in (source / "precursors").rglob("*") if p.is_file()}
+    wanted = {name for name in wanted if "__pycache__" not in name}
+    assert "precursors/py.typed" in wanted
+    assert {name for name in files if ".dist-info/" not in name} == wanted
+
+
+def test_the_package_works_from_the_wheel_alone(unpacked, tmp_path):
+    program = (
+        "import precursors, precursors.cli; print(precursors.__file__, precursors.cli.main(['plot', '-h']))"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(unpacked), "HOME": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, env=environment, capture_output=True, text=True
+    )
+    assert done.stderr == ""
+    assert "usage: precursors plot" in done.stdout
+
+
+def test_version_and_license_are_the_same_everywhere():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert (project["version"], project["license"]) == (citation["version"], citation["license"])
+    assert (ROOT / "LICENSE").read_text(encoding="utf-8").startswith("MIT License")

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from precursors.figures import style
-from precursors.support import printed
+from precursors.model import printed
 
 HEIGHT_MM = 112.0
 COLUMNS = {

@@ -13,11 +13,11 @@ import pandas as pd
 from precursors.analysis.slip_rows import first_global, up_to_first_global
 from precursors.analysis.slips import Definition, apparent_friction, find_precursors, find_slips
 from precursors.methods import DivergedError, literal
+from precursors.model import printed
 from precursors.model.chain import Chain, linear_weights, theta_from_load_cells
 from precursors.model.statics import compressions_as_printed, load_bound
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate
-from precursors.support import printed
 
 MISPRINT, OPEN = "misprint", "open point"
 # Fine enough that F_X stays below mu_s w_1 by less than 1e-4 of it, coarse enough for half a second.
