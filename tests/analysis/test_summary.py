@@ -1,12 +1,12 @@
-"""The compiled summary of a run says what the slip table says."""
+"""The summary of many runs says what the slip table of each says."""
 
 import numpy as np
 import pytest
+from analysis.random_runs import random_chain, random_transitions
 
 from precursors import Chain, Run, find_precursors, find_slips, simulate
 from precursors.analysis.slips import apparent_friction, first_global
 from precursors.analysis.summary import summarise
-from precursors.solver.run import TRANSITION, States
 
 PAPERS = {"-5/6": (6, 0.4845, 2.632), 0: (9, 0.4858, 2.739), "5/6": (14, 0.4883, 2.890)}
 
@@ -45,40 +45,16 @@ def crossing_time(run: Run, start: float) -> float:
     return float(run.intervals[first + 1 : arrival + 1].sum())
 
 
-def assert_same(run: Run) -> None:
-    found, expected = summarise([run])[0], table_path(run)
-    assert set(found.dtype.names) == set(expected)
-    for name, value in expected.items():
-        if name == "crossing_time":  # the only sum, added up in another order here
-            assert found[name] == pytest.approx(value, rel=1e-12, nan_ok=True)
-        else:
-            np.testing.assert_equal(found[name], value, err_msg=name)
-
-
-def random_chain(rng: np.random.Generator) -> Chain:
-    chain = Chain.from_slider(
-        n_blocks=int(rng.integers(1, 13)),
-        theta=rng.uniform(-1, 1),
-        mu_k=rng.uniform(0.2, 0.65),
-        drive_stiffness=10 ** rng.uniform(4.5, 7.5),
-    )
-    return Chain(**{**vars(chain), "weights": chain.weights * rng.uniform(0.5, 1.5, chain.n_blocks)})
-
-
-def random_transitions(rng: np.random.Generator) -> Run:
-    """A list of transitions that obeys no mechanics: rests without duration, turns, an unfinished event."""
-    n_blocks, n = int(rng.integers(1, 5)), int(rng.integers(1, 40))
-    intervals = rng.uniform(0.1, 1.0, n + 1) * (rng.random(n + 1) < 0.7)
-    mode = np.zeros(n_blocks + 1, int)
-    rows = []
-    for time in np.cumsum(intervals[:-1]):
-        block = int(rng.integers(1, n_blocks + 1))
-        mode[block] = rng.choice([m for m in (-1, 0, 1) if m != mode[block]])
-        rows.append((time, block, mode[block], rng.uniform(0, 300)))
-    zero = np.zeros(n_blocks)
-    nothing = States(*(np.empty(0) for _ in States._fields))
-    table = np.array(rows, dtype=TRANSITION)
-    return Run(Chain.from_slider(n_blocks), float(intervals.sum()), table, intervals, zero, zero, nothing)
+def assert_same(runs: list[Run]) -> None:
+    """Summarise all runs together, and compare each row with the tables of its run."""
+    for found, run in zip(summarise(runs), runs, strict=True):
+        expected = table_path(run)
+        assert set(found.dtype.names) == set(expected)
+        for name, value in expected.items():
+            if name == "crossing_time":  # the only sum, added up in another order here
+                assert found[name] == pytest.approx(value, rel=1e-12, nan_ok=True)
+            else:
+                np.testing.assert_equal(found[name], value, err_msg=name)
 
 
 @pytest.mark.parametrize("theta", PAPERS)
@@ -94,8 +70,7 @@ def test_random_chains_have_the_summary_of_their_slip_table():
     runs = [simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(150)]
     reached = summarise(runs)["reached"]
     assert 20 < reached.sum() < 130  # both kinds are tried
-    for run in runs:
-        assert_same(run)
+    assert_same(runs)
 
 
 def test_any_list_of_transitions_has_the_summary_of_its_slip_table():
@@ -104,16 +79,17 @@ def test_any_list_of_transitions_has_the_summary_of_its_slip_table():
     summaries = summarise(runs)
     assert 30 < summaries["reached"].sum() < 270
     assert np.isnan(summaries["end"][summaries["reached"]]).any()  # cut off by the end of the run
-    for run in runs:
-        assert_same(run)
+    assert_same(runs)
 
 
 def test_blocks_that_move_at_the_start_belong_to_the_first_event():
-    assert_same(simulate(Chain.from_slider(), duration=0.5, start_velocities=np.full(10, 0.01)))
+    assert_same([simulate(Chain.from_slider(), duration=0.5, start_velocities=np.full(10, 0.01))])
 
 
 def test_a_run_without_transitions_has_no_event_and_no_run_no_row():
-    row = summarise([simulate(Chain.from_slider(), duration=0.1)])[0]
+    calm = simulate(Chain.from_slider(), duration=0.1)
+    row = summarise([calm])[0]
     assert (row["n_events"], row["transitions"], row["reached"]) == (0, 0, False)
     assert np.isnan(row["mu_sapp"])
     assert len(summarise([])) == 0
+    assert_same([calm, simulate(Chain.from_slider(), duration=3.0), calm])

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from job import job
 
-from precursors.analysis.slip_table import slip_table
+from precursors.analysis.slips import slip_table
 from precursors.solver.run import Run
 from precursors.support.files import write_table
 

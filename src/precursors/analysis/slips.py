@@ -1,4 +1,4 @@
-"""Slip events, precursors, the first global slip and mu_sapp (Eq. 1), under any reading of these words."""
+"""Slip events, precursors, the first global slip and mu_sapp (Eq. 1), under every reading of these words."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.peak_load import largest_load
+from precursors.analysis.events import slip_events
 from precursors.analysis.slip_rows import first_global, up_to_first_global
 from precursors.solver.run import Run
 
@@ -23,12 +23,26 @@ COLUMNS = [
     "n_simultaneous",
     "is_global",
 ]
-
+WITH_UNITS = {
+    "onset": "onset_s",
+    "end": "end_s",
+    "load_before": "load_before_N",
+    "load_after": "load_after_N",
+}
 
 SHORT_EVENTS = {
     "shorter": "shorter than one before it",
     "not longer": "not longer than all before it",
     "shorter than the last": "shorter than the one just before it",
+}
+GLOBAL_SLIPS = {
+    "at once": "in which all blocks slide at the same instant",
+    "each": "in which every block slides at some time",
+}
+FRONTS = {
+    "front": "farthest block that slid",
+    "n_slid": "number of blocks that slid",
+    "n_simultaneous": "most blocks that slid at the same instant",
 }
 
 
@@ -43,35 +57,22 @@ def find_slips(run: Run) -> pd.DataFrame:
         blocks that slid at the same instant), is_global (all N at the same instant). The event that the
         end of the run cuts off has end and load_after NaN.
     """
-    transitions = run.transitions
-    n = len(transitions)
-    if n == 0:
-        return _table(np.empty((0, len(COLUMNS))))
-    sliding = transitions["mode"] != 0
-    change = _change_of_state(transitions["block"], sliding, run.chain.n_blocks)
-    number = np.cumsum(change)
-    # An event ends where nothing slides, unless the next one begins at the same instant.
-    rests = (number == 0) & (np.append(run.intervals[1:-1], np.inf) > 0.0)
-    firsts = np.append(0, np.flatnonzero(rests[:-1]) + 1)
-    lasts = np.append(firsts[1:] - 1, n - 1)
-    finished = number[lasts] == 0
-    block = transitions["block"]
-    event = np.cumsum(np.isin(np.arange(n), firsts)) - 1
-    released = np.unique(np.stack([event[sliding], block[sliding]]), axis=1)
-    most = np.maximum.reduceat(number, firsts)
-    return _table(
-        np.column_stack(
-            [
-                transitions["time"][firsts],
-                np.where(finished, transitions["time"][lasts], np.nan),
-                transitions["tangential_load"][firsts],
-                np.where(finished, transitions["tangential_load"][lasts], np.nan),
-                np.maximum.reduceat(np.where(sliding, block, 0), firsts),
-                np.bincount(released[0], minlength=len(firsts)),
-                most,
-                most == run.chain.n_blocks,
-            ]
-        )
+    events = slip_events([run])
+    return pd.DataFrame({name: events[name] for name in COLUMNS})
+
+
+def slip_table(run: Run) -> pd.DataFrame:
+    """Every slip event of a run, with units in the names of the columns.
+
+    `kept` marks the rows of Fig. 13. theta, n_blocks and normal_load_N (F_Z) say which slider it was, the
+    same in every row; theta is NaN where the run does not know its slider.
+    """
+    slips = find_slips(run)
+    return slips.rename(columns=WITH_UNITS).assign(
+        kept=slips.index.isin(find_precursors(slips).index),
+        theta=run.slider["theta"] if run.slider else np.nan,
+        n_blocks=run.chain.n_blocks,
+        normal_load_N=run.slider["normal_load"] if run.slider else run.chain.normal_load,
     )
 
 
@@ -79,35 +80,18 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
     """Events of Fig. 13: short ones left out, up to and including the first global slip.
 
     An event is short if its front is strictly less than the farthest front before it; equal ones are kept.
-    `short` may name another reading of SHORT_EVENTS. Without a global slip all events that are not short are
-    returned.
-
-    Raises
-    ------
-    ValueError
-        If `short` is no key of SHORT_EVENTS.
+    `short` may name another reading, a key of SHORT_EVENTS. Without a global slip all events that are not
+    short are returned.
     """
     until_global = up_to_first_global(slips)
     front = until_global["front"]
-    if short == "shorter than the last":
-        return until_global[front >= front.shift(fill_value=0)]
     farthest_before = front.cummax().shift(fill_value=0)
-    if short == "not longer":
-        return until_global[front > farthest_before]
-    if short == "shorter":
-        return until_global[front >= farthest_before]
-    raise ValueError(f"short = {short!r}: allowed are {', '.join(map(repr, SHORT_EVENTS))}")
-
-
-GLOBAL_SLIPS = {
-    "at once": "in which all blocks slide at the same instant",
-    "each": "in which every block slides at some time",
-}
-FRONTS = {
-    "front": "farthest block that slid",
-    "n_slid": "number of blocks that slid",
-    "n_simultaneous": "most blocks that slid at the same instant",
-}
+    kept = {
+        "shorter": front >= farthest_before,
+        "not longer": front > farthest_before,
+        "shorter than the last": front >= front.shift(fill_value=0),
+    }
+    return until_global[kept[short]]
 
 
 @dataclass(frozen=True)
@@ -124,11 +108,6 @@ class Definition:
         Which events Fig. 13 leaves out, a key of SHORT_EVENTS.
     largest : bool
         Whether mu_sapp (Eq. 1) is the largest load up to the first global slip, or that at its onset.
-
-    Raises
-    ------
-    ValueError
-        If one of them is none of these.
     """
 
     global_slip: str | float = "at once"
@@ -136,26 +115,15 @@ class Definition:
     short: str = "shorter"
     largest: bool = True
 
-    def __post_init__(self) -> None:
-        if isinstance(self.global_slip, str) and self.global_slip not in GLOBAL_SLIPS:
-            allowed = " and ".join(map(repr, GLOBAL_SLIPS))
-            raise ValueError(
-                f"global_slip = {self.global_slip!r}: allowed are {allowed}, or a drop of the load [N]"
-            )
-        if self.front not in FRONTS:
-            raise ValueError(f"front = {self.front!r}: allowed are {', '.join(map(repr, FRONTS))}")
-        if self.short not in SHORT_EVENTS:
-            raise ValueError(f"short = {self.short!r}: allowed are {', '.join(map(repr, SHORT_EVENTS))}")
-
     @property
     def text(self) -> str:
-        """What mu_sapp is, as a sentence."""
+        """What mu_sapp is, in words."""
         load = "largest F_X up to" if self.largest else "F_X at the onset of"
         return f"{load} the first event {self.global_slip_text}"
 
     @property
     def global_slip_text(self) -> str:
-        """What makes an event a global slip."""
+        """What makes an event a global slip, in words."""
         if isinstance(self.global_slip, str):
             return GLOBAL_SLIPS[self.global_slip]
         return f"in which F_X drops by more than {self.global_slip:g} N"
@@ -215,10 +183,13 @@ def apparent_friction(
 ) -> ApparentFriction | None:
     """Apparent static friction coefficient F_Xmax / F_Z of a run (Eq. 1); None without a global slip.
 
+    F_X is largest where block 1 begins to slide, or sticks after it slid backward: dF_X/dt = K (V - v_1).
+    So the largest load is that of a transition, to within V.
+
     Parameters
     ----------
     run : Run
-        The run; with stored states if its interface is elastic, see `largest_load`.
+        The run.
     slips : DataFrame
         Its slip events, see `find_slips`.
     definition : Definition
@@ -230,7 +201,9 @@ def apparent_friction(
         return None
     time, load = slips["onset"].iloc[first], slips["load_before"].iloc[first]
     if definition.largest:
-        time, load = largest_load(run, slips, time)
+        before = run.transitions[run.transitions["time"] <= time]
+        peak = before[np.argmax(before["tangential_load"])]
+        time, load = peak["time"], peak["tangential_load"]
     return ApparentFriction(
         mu_sapp=float(load) / run.chain.normal_load,
         load=float(load),
@@ -238,17 +211,3 @@ def apparent_friction(
         event=int(np.searchsorted(slips["onset"], time, side="right")),
         events_kept=len(find_precursors(slips, definition.short)),
     )
-
-
-def _change_of_state(block: np.ndarray, sliding: np.ndarray, n_blocks: int) -> np.ndarray:
-    """+1 where a block starts to slide, -1 where it sticks, 0 where it only turns."""
-    order = np.lexsort((np.arange(len(block)), block))
-    before = np.zeros(len(block), dtype=bool)
-    same = block[order][1:] == block[order][:-1]
-    before[order[1:]] = np.where(same, sliding[order][:-1], False)
-    return sliding.astype(int) - before.astype(int)
-
-
-def _table(values: np.ndarray) -> pd.DataFrame:
-    whole = dict.fromkeys(["front", "n_slid", "n_simultaneous"], int)
-    return pd.DataFrame(values, columns=COLUMNS).astype({**whole, "is_global": bool})

@@ -1,0 +1,83 @@
+"""The definition of a slip event, for many runs at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from precursors.solver.run import TRANSITION, Run
+
+EVENT = np.dtype(
+    [
+        ("run", "i8"),  # index of the run
+        ("first", "i8"),  # index of its first transition in the run
+        ("last", "i8"),  # and of its last one
+        ("onset", "f8"),  # [s]
+        ("end", "f8"),  # [s]
+        ("load_before", "f8"),  # F_X at the onset [N]
+        ("load_after", "f8"),  # F_X at the end [N]
+        ("front", "i8"),  # farthest block that slid, 1..N
+        ("n_slid", "i8"),  # blocks that slid at some time
+        ("n_simultaneous", "i8"),  # most blocks that slid at the same instant
+        ("is_global", "?"),  # all blocks slid at the same instant
+    ]
+)
+
+
+def slip_events(runs: Sequence[Run]) -> NDArray[np.void]:
+    """Slip events of some runs: maximal time intervals in which at least one block slides.
+
+    An event ends where no block slides, unless the next one releases at the same instant. One that the end of
+    its run cuts off has end and load_after NaN.
+
+    Returns
+    -------
+    structured array of dtype EVENT
+        One row per event, in the order of the runs and of time.
+    """
+    time, of_block, mode, load = (_joined(runs, name) for name in TRANSITION.names or ())
+    pauses = np.concatenate([[], *(run.intervals[1:] for run in runs)])
+    lengths = np.array([len(run.transitions) for run in runs], dtype=int)
+    n_blocks = np.array([run.chain.n_blocks for run in runs], dtype=int)
+    starts = np.cumsum(lengths) - lengths
+    run = np.repeat(np.arange(len(runs)), lengths)
+
+    sliding = mode != 0
+    # Every block of every run has its own number, so that sorting shows what each block did before.
+    block = of_block + np.repeat(np.cumsum(n_blocks) - n_blocks, lengths)
+    order = np.argsort(block.astype(np.min_scalar_type(n_blocks.sum())), kind="stable")
+    same_block = block[order][1:] == block[order][:-1]
+    was_sliding = np.zeros(len(mode), dtype=bool)
+    was_sliding[order[1:]] = same_block & sliding[order][:-1]
+    total = np.append(0, np.cumsum(sliding.astype(int) - was_sliding))
+    n_sliding = total[1:] - np.repeat(total[starts], lengths)
+
+    ends = (n_sliding == 0) & (pauses > 0.0)
+    ends[(starts + lengths - 1)[lengths > 0]] = True
+    lasts = np.flatnonzero(ends)
+    firsts = np.append(0, lasts + 1)[:-1]
+    event = np.repeat(np.arange(len(lasts)), lasts - firsts + 1)
+    # Slides, block by block, and which of them are the first of their block in their event.
+    slides = order[sliding[order]]
+    is_first = np.ones(len(slides), dtype=bool)
+    is_first[1:] = (np.diff(block[slides]) != 0) | (np.diff(event[slides]) != 0)
+
+    events = np.empty(len(lasts), EVENT)
+    events["run"] = run[firsts]
+    events["first"], events["last"] = firsts - starts[events["run"]], lasts - starts[events["run"]]
+    events["onset"], events["load_before"] = time[firsts], load[firsts]
+    finished = n_sliding[lasts] == 0
+    events["end"] = np.where(finished, time[lasts], np.nan)
+    events["load_after"] = np.where(finished, load[lasts], np.nan)
+    events["front"] = np.maximum.reduceat(np.where(sliding, of_block, 0), firsts)
+    events["n_slid"] = np.bincount(event[slides[is_first]], minlength=len(lasts))
+    events["n_simultaneous"] = np.maximum.reduceat(n_sliding, firsts)
+    events["is_global"] = events["n_simultaneous"] == n_blocks[events["run"]]
+    return events
+
+
+def _joined(runs: Sequence[Run], name: str) -> NDArray:
+    """One column of the transitions of all runs."""
+    return np.concatenate([np.empty(0, TRANSITION[name]), *(run.transitions[name] for run in runs)])
