@@ -133,7 +133,7 @@ def simulate_ensemble(arguments: argparse.Namespace) -> None:
 
 def slips(arguments: argparse.Namespace) -> None:
     """List the slip events of a run file, or of a chain that is run."""
-    from precursors.analysis.slip_table import slip_table
+    from precursors.analysis.slips import slip_table
     from precursors.support.files import write_table
 
     table = slip_table(run_of(arguments))
@@ -160,7 +160,7 @@ def plot(arguments: argparse.Namespace) -> None:
 def draw_load(run: Run) -> Figure:
     """Draw F_X(t) and the fronts of all slips, as in Figs. 10 to 12."""
     from precursors.analysis.load_curve import load_trace
-    from precursors.analysis.slip_table import slip_table
+    from precursors.analysis.slips import slip_table
     from precursors.figures.scene import draw_scene
 
     chain = run.chain
@@ -169,7 +169,7 @@ def draw_load(run: Run) -> Figure:
 
 def draw_lengths(run: Run) -> Figure:
     """Draw propagation lengths against the load, as in Fig. 13."""
-    from precursors.analysis.slip_table import slip_table
+    from precursors.analysis.slips import slip_table
     from precursors.figures.precursor_lengths import PrecursorLengths, draw_precursor_lengths
 
     chain = run.chain
