@@ -8,7 +8,7 @@ ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
 
-.PHONY: all test test-faults test-cluster results check report golden bench lock lint clean
+.PHONY: all test test-cluster results check report golden docs bench lock lint clean
 
 all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
@@ -16,18 +16,14 @@ all: results
 test: results
 	$(BIN)/pytest -n $(CORES) --dist worksteal
 
-# Kills, full disks, damaged files, hostile input, other machines: 20 minutes on two cores; FAULTS_SHARE=0.1 tries a tenth.
-test-faults: $(READY)
-	@PYTHONPATH=tests:workflow/scripts $(BIN)/python -m faults
-
-# The maps on a real SLURM, installed where that is allowed; Error 77: it is not, and nothing was tested.
+# The ensembles as jobs of a real SLURM; Error 77: there is none here, and nothing was tested.
 test-cluster: $(READY)
 	@CORES=$(CORES) tests/cluster/run
 
 results: $(READY)
 	$(BIN)/snakemake --quiet rules host -c$(CORES) all
 
-# Judges the results as they lie there: nothing is computed anew.
+# Checks the existing results without recomputing them.
 check: $(READY)
 	@$(BIN)/python -m precursors check --full
 
@@ -37,6 +33,10 @@ report: results
 
 golden: results
 	$(BIN)/python tests/golden/regenerate.py
+
+# Pages of the interface, from the docstrings, in results/docs.
+docs: $(READY)
+	$(BIN)/pdoc --output-directory results/docs --docformat numpy precursors
 
 bench: $(READY)
 	$(BIN)/python benchmarks/bench.py
