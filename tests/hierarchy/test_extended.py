@@ -11,7 +11,6 @@ from scipy.linalg import expm
 from precursors import Chain, Run, find_slips, simulate, simulate_many
 from precursors.accuracy.audit import audit
 from precursors.accuracy.proof import ExactChain
-from precursors.analysis.horizon import error_growth
 from precursors.methods import METHODS
 from precursors.model.statics import loads_at_rest, maximal_compressions
 
@@ -354,7 +353,6 @@ def test_a_run_to_the_global_slip_ends_with_it_on_an_interface_that_never_rests(
     "use",
     [
         lambda chain: audit(simulate(chain, 1e-3)),
-        lambda chain: error_growth(simulate(chain, 1e-3)),
         lambda chain: ExactChain.from_chain(chain),
         loads_at_rest,
         maximal_compressions,

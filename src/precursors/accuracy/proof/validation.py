@@ -9,7 +9,7 @@ import pandas as pd
 
 from precursors.accuracy.proof.agreement import Agreement, compare
 from precursors.accuracy.proof.certificate import Certificate
-from precursors.analysis.horizon import ErrorGrowth, error_growth
+from precursors.analysis.horizon import PredictedErrors, predicted_errors
 from precursors.analysis.slip_rows import first_global
 from precursors.analysis.slips import find_slips
 from precursors.solver.run import Run
@@ -23,7 +23,7 @@ class Validation(NamedTuple):
 
     run: Run
     agreement: Agreement
-    growth: ErrorGrowth
+    growth: PredictedErrors
 
 
 def validate(certificate: Certificate) -> Validation:
@@ -40,7 +40,7 @@ def validate(certificate: Certificate) -> Validation:
         raise ValueError("the certificate ends with a global slip: allowed is one of a given duration")
     start = [float(x) for x in certificate.start_positions]
     run = simulate(certificate.chain.to_chain(), float(certificate.duration), start_positions=start)
-    return Validation(run, compare(run, certificate), error_growth(run))
+    return Validation(run, compare(run, certificate), predicted_errors(run))
 
 
 def error_table(validation: Validation) -> pd.DataFrame:
@@ -88,7 +88,7 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
         "right_until_s": float(min(wrong[0] if wrong.size else np.inf, agreement.lost, run.duration)),
         "horizon_s": growth.horizon(tolerance),
         "order_lost_s": agreement.lost,
-        "order_doubtful_s": growth.lost.time,
+        "order_known_until_s": growth.unknown.time,
         "largest_ratio": _largest(_ratio(agreement.time_error, growth.time_error[:n], known)),
     }
 
