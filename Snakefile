@@ -10,7 +10,7 @@ from precursors.model.config_file import check_config_file
 from precursors.model.scenes import (
     scene_duration,
     scene_model,
-    scene_quantities,
+    scene_additions,
     scene_slider,
     scenes_with,
 )

@@ -11,7 +11,7 @@ import yaml
 
 from precursors import Chain, simulate
 from precursors.analysis.summary import summarise
-from precursors.ensembles import chunks, long_runs, resolution, resolution_models, spread
+from precursors.ensembles import chunks, long_runs, resolution, spread
 from precursors.ensembles.catalogue import chunk_names, make_study
 from precursors.ensembles.study import Study, run_members
 
@@ -344,94 +344,3 @@ def test_global_slips_of_a_long_run_begin_at_the_largest_load_since_the_one_befo
     assert statistics["n"] == len(table) - 1
     assert statistics["mu_first"] == pytest.approx(0.48576, abs=1e-5)
     assert statistics["least"] <= statistics["q05"] <= statistics["mean"] <= statistics["largest"]
-
-
-MODELS_SETTINGS = {
-    "n_blocks": [4, 10, 20],
-    "longest_run": 0.2,
-    "seconds_per_point": 0.0,
-    "least_runs": 2,
-    "models": {
-        "plain": {},
-        "material": {"relaxation_time": 1e-6},
-        "soft": {"interface_stiffness": 25e6},
-        "both": {"interface_stiffness": 25e6, "viscosity": 54.77},
-    },
-}
-
-
-@pytest.fixture(scope="module")
-def models_study():
-    config = {**CONFIG, "resolution_models": {**CONFIG["resolution_models"], **MODELS_SETTINGS}}
-    return make_study(config, "resolution_models_members")
-
-
-def test_a_material_has_the_same_relaxation_time_and_an_interface_the_same_stiffness_at_every_n(models_study):
-    for i in range(len(models_study)):
-        chain, _ = models_study.member(i)
-        model = models_study.columns["model"][i]
-        if model == "material":
-            assert chain.viscosity == pytest.approx(1e-6 * chain.stiffness)
-        else:
-            assert chain.viscosity == (54.77 if model == "both" else 0.0)
-        whole = chain.n_blocks * chain.interface_stiffness
-        assert whole == pytest.approx(25e6 if model in ("soft", "both") else 0.0)
-
-
-def test_numbers_of_blocks_that_would_take_too_long_are_left_out_model_by_model(models_study):
-    longest = {
-        model: models_study.column("n_blocks")[models_study.columns["model"] == model].max()
-        for model in MODELS_SETTINGS["models"]
-    }
-    assert longest == {"plain": 20, "material": 20, "soft": 10, "both": 20}
-
-
-def test_the_table_of_models_has_each_model_once_for_every_n_with_its_values(models_study):
-    members = pd.DataFrame(dict(models_study.columns))
-    results = pd.DataFrame(run_members(models_study, 0, len(models_study)))
-    results = results.rename(columns={name: f"{name}_s" for name in ("time", "end", "crossing_time")})
-    gathered = pd.concat([members, results], axis=1)
-    table = resolution_models.resolution_models_table(gathered, models_study)
-    rows = table[table["quantity"] == "mu_sapp"].set_index(["model", "n_blocks"])
-    assert list(rows.index) == [
-        *((model, n) for model in ("plain", "material") for n in (4, 10, 20)),
-        ("soft", 4),
-        ("soft", 10),
-        *(("both", n) for n in (4, 10, 20)),
-    ]
-    assert rows.loc[("plain", 10), "without_noise"] == pytest.approx(0.485763, abs=1e-6)
-    assert set(rows.loc["material", "viscous_time_s"]) == {1e-6}
-    assert set(rows.loc["material", "viscosity_N_s_per_m"]) == {0.0}
-    assert set(rows.loc["both", "interface_stiffness_N_per_m"]) == {25e6}
-    assert (rows["n"] == 2).all()
-    runs = resolution_models.resolution_models_runs(gathered, models_study)
-    cells = runs[runs["quantity"] == "mu_sapp"].groupby(["model", "n_blocks"], sort=False)["value"]
-    assert cells.median().to_dict() == pytest.approx(rows["q50"].to_dict())
-    assert set(runs.columns) & set(table.columns) >= {"theta", *resolution_models.WITH_UNITS.values()}
-
-
-def test_each_median_of_models_has_an_interval_and_the_full_study_more_runs_and_blocks():
-    small, full = (make_study(CONFIG, f"resolution_models{size}_members") for size in ("", "_full"))
-    of = {"model": "both_25", "n_blocks": 50}
-    few, many = rows(small, **of), rows(full, **of)
-    assert len(many) >= 40 > len(few) >= 6
-    assert len(rows(full, model="both_25", n_blocks=100)) >= 20
-    _, sizes = np.unique(small.columns["group"], return_counts=True)
-    assert np.isfinite(resolution.median_interval(np.arange(sizes.min()))).all()
-
-
-@pytest.mark.parametrize(
-    ("n", "ends"),
-    [(0, None), (5, None), (6, (1, 6)), (7, (1, 7)), (9, (2, 8)), (20, (6, 15)), (40, (14, 27))],
-)
-def test_the_interval_of_a_median_ends_at_the_values_that_tables_of_order_statistics_have(n, ends):
-    interval = resolution.median_interval(np.random.default_rng(n).permutation(np.arange(1.0, n + 1)))
-    assert interval == ends if ends else np.isnan(interval).all()
-
-
-def test_the_interval_of_a_median_holds_it_as_often_as_it_says_whatever_the_distribution():
-    n_draws = 2000
-    draws = np.random.default_rng(2013).exponential(size=(n_draws, 12))
-    held = [low <= np.log(2) <= high for low, high in map(resolution.median_interval, draws)]
-    # By the binomial distribution, to three standard errors of so many draws.
-    assert np.mean(held) == pytest.approx(0.9614, abs=3 * np.sqrt(0.04 * 0.96 / n_draws))

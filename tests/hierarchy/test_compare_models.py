@@ -1,4 +1,4 @@
-"""The ladder says what each model answers, how well, and which is the smallest that will do."""
+"""The comparison says what each model answers, how well, and which is the smallest that will do."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from precursors import Chain, find_precursors, find_slips, simulate
+from precursors import Chain, find_precursors, find_slips
 from precursors.figures import style
 from precursors.figures.ladder import draw_ladder, read_ladder
-from precursors.hierarchy import MODELS
-from precursors.hierarchy.compare_models import climb, waveforms_apart
+from precursors.hierarchy.compare_models import compare_models, waveform_error
+from precursors.hierarchy.larger import LargerChain, simulate_larger
+from precursors.hierarchy.models import MODELS
 from precursors.model.scene_models import ADDED
 from precursors.support import timing
 
@@ -30,17 +31,17 @@ ADDITIONS = {"viscosity": 54.77, "interface_stiffness": 25e6, "head_mass": 0.312
 
 
 @pytest.fixture(scope="module")
-def ladder() -> pd.DataFrame:
-    return climb(SCENES, TOLERANCES, rounds=1, additions=ADDITIONS)
+def comparison() -> pd.DataFrame:
+    return compare_models(SCENES, TOLERANCES, ADDITIONS, rounds=1)
 
 
-def smallest(ladder: pd.DataFrame) -> dict[str, str]:
-    found = ladder[ladder["is_smallest"]].drop_duplicates(["question", "model"])
+def smallest(comparison: pd.DataFrame) -> dict[str, str]:
+    found = comparison[comparison["is_smallest"]].drop_duplicates(["question", "model"])
     return dict(zip(found["question"], found["model"], strict=True))
 
 
-def test_the_smallest_model_for_each_question_is_named(ladder: pd.DataFrame) -> None:
-    assert smallest(ladder) == {
+def test_the_smallest_model_for_each_question_is_named(comparison: pd.DataFrame) -> None:
+    assert smallest(comparison) == {
         "first_load": "statics",
         "events_kept": "quasistatic",
         "mu_sapp": "chain",
@@ -51,25 +52,25 @@ def test_the_smallest_model_for_each_question_is_named(ladder: pd.DataFrame) -> 
 
 
 def test_a_wider_tolerance_lets_a_smaller_model_answer() -> None:
-    wide = climb(SCENES, TOLERANCES | {"mu_sapp": 0.08, "slip_duration": 0.4}, rounds=1)
+    wide = compare_models(SCENES, TOLERANCES | {"mu_sapp": 0.08, "slip_duration": 0.4}, ADDITIONS, rounds=1)
     assert smallest(wide)["mu_sapp"] == "law"
     assert smallest(wide)["slip_duration"] == "rigid"
 
 
-def test_a_model_that_fails_in_one_scene_is_not_the_smallest_for_any(ladder: pd.DataFrame) -> None:
-    damped = ladder[(ladder["question"] == "mu_sapp") & (ladder["model"] == "overdamped")]
+def test_a_model_that_fails_in_one_scene_is_not_the_smallest_for_any(comparison: pd.DataFrame) -> None:
+    damped = comparison[(comparison["question"] == "mu_sapp") & (comparison["model"] == "overdamped")]
     assert damped.set_index("scene")["is_answer"].to_dict() == {"lead": False, "even": True}
     assert not damped["is_smallest"].any()
 
 
-def test_each_model_is_asked_what_it_answers_and_nothing_else(ladder: pd.DataFrame) -> None:
-    for name, rows in ladder.groupby("model"):
-        assert set(rows["question"]) == set(MODELS[str(name)].quantities) & set(TOLERANCES)
+def test_each_model_is_asked_what_it_answers_and_nothing_else(comparison: pd.DataFrame) -> None:
+    for name, rows in comparison.groupby("model"):
+        assert set(rows["question"]) == set(MODELS[str(name)].answers) & set(TOLERANCES)
 
 
-def test_the_papers_chain_has_no_error_and_every_answer_a_cost(ladder: pd.DataFrame) -> None:
-    assert (ladder.loc[ladder["model"] == "chain", "error"] == 0).all()
-    assert (ladder["cost_s"] > 0).all()
+def test_the_papers_chain_has_no_error_and_every_answer_a_cost(comparison: pd.DataFrame) -> None:
+    assert (comparison.loc[comparison["model"] == "chain", "error"] == 0).all()
+    assert (comparison["cost_s"] > 0).all()
 
 
 def test_a_cost_is_that_of_a_warm_answer_repeated_until_it_can_be_measured(monkeypatch) -> None:
@@ -85,7 +86,7 @@ def test_a_cost_is_that_of_a_warm_answer_repeated_until_it_can_be_measured(monke
         return exact.prepare(chain)
 
     models = {"chain": replace(exact, prepare=prepare)}
-    table = climb({"even": SCENES["even"]}, TOLERANCES, models, rounds)
+    table = compare_models({"even": SCENES["even"]}, TOLERANCES, ADDITIONS, models, rounds)
     assert table["cost_s"].tolist() == pytest.approx([warm] * len(TOLERANCES))
     assert len(calls) == len(TOLERANCES) * (1 + 2 + rounds * round(timing.SHORTEST / warm))
 
@@ -94,17 +95,7 @@ def test_waveforms_are_compared_over_the_same_time() -> None:
     exact = np.array([[0.0, 0.0], [2.0, 200.0], [2.0, 100.0], [4.0, 100.0]])
     short = np.array([[0.0, 0.0], [2.0, 200.0]])
     # Twice 100 N apart for half of the time.
-    assert waveforms_apart(short, exact, SCENES["even"]) == pytest.approx(np.sqrt(0.5) * 100 / 400, rel=1e-3)
-
-
-def test_a_question_without_a_tolerance_is_refused() -> None:
-    with pytest.raises(ValueError, match="no tolerance for 'mu_sapp'"):
-        climb(SCENES, {"first_load": 1.0, "events_kept": 1.0}, rounds=1)
-
-
-def test_a_model_whose_addition_has_no_value_is_left_out() -> None:
-    found = climb(SCENES, TOLERANCES, rounds=1, additions={"head_mass": 0.3122})
-    assert set(MODELS) - set(found["model"]) == {"viscous", "interface"}
+    assert waveform_error(short, exact, SCENES["even"]) == pytest.approx(np.sqrt(0.5) * 100 / 400, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -115,23 +106,23 @@ def test_a_model_whose_addition_has_no_value_is_left_out() -> None:
         ("head", {"head_mass": 0.3122}, "0.3122 kg"),
     ],
 )
-def test_an_addition_has_its_value_for_the_whole_slider(ladder, model, addition, text) -> None:
-    run = simulate(Chain.from_slider(theta="5/6", **addition), 10.0, until="global slip")
-    rows = ladder[(ladder["model"] == model) & (ladder["scene"] == "lead")].set_index("question")
+def test_an_addition_has_its_value_for_the_whole_slider(comparison, model, addition, text) -> None:
+    run = simulate_larger(LargerChain(SCENES["lead"], **addition), 10.0, until="global slip").run
+    rows = comparison[(comparison["model"] == model) & (comparison["scene"] == "lead")].set_index("question")
     assert rows.loc["events_kept", "value"] == len(find_precursors(find_slips(run)))
     assert set(rows["addition"]) == {text}
 
 
-def test_an_addition_is_never_the_smallest_model(ladder: pd.DataFrame) -> None:
-    added = ladder[ladder["model"].isin(ADDED)]
+def test_an_addition_is_never_the_smallest_model(comparison: pd.DataFrame) -> None:
+    added = comparison[comparison["model"].isin(ADDED)]
     assert set(added["model"]) == set(ADDED)
     assert not added["is_smallest"].any()
-    assert (ladder.loc[~ladder["model"].isin(ADDED), "addition"] == "none").all()
+    assert (comparison.loc[~comparison["model"].isin(ADDED), "addition"] == "none").all()
 
 
-def test_the_figure_frames_the_smallest_models(ladder: pd.DataFrame, tmp_path) -> None:
-    ladder.to_csv(tmp_path / "ladder.csv", index=False)
-    figure = draw_ladder(read_ladder(tmp_path / "ladder.csv"))
+def test_the_figure_frames_the_smallest_models(comparison: pd.DataFrame, tmp_path) -> None:
+    comparison.to_csv(tmp_path / "comparison.csv", index=False)
+    figure = draw_ladder(read_ladder(tmp_path / "comparison.csv"))
     frames = [p for p in figure.axes[0].patches if not p.get_fill()]
     assert len(frames) == len(TOLERANCES)
     heads = [label.get_text() for label in figure.axes[0].get_xticklabels()]
@@ -140,5 +131,5 @@ def test_the_figure_frames_the_smallest_models(ladder: pd.DataFrame, tmp_path) -
         "with\ninterface\nsprings\n25 MN/m",
         "with\nhead mass\n0.312 kg",
     ]
-    style.save(figure, tmp_path / "ladder.png")
-    assert (tmp_path / "ladder.png").stat().st_size > 10_000
+    style.save(figure, tmp_path / "comparison.png")
+    assert (tmp_path / "comparison.png").stat().st_size > 10_000

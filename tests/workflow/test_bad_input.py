@@ -74,39 +74,32 @@ BAD = [
     ("scenes.steep", STEEP | {"model": 3}, ["scenes.steep.model = 3", "a text"]),
     (
         "scenes.steep",
-        STEEP | {"model": "law", "quantities": ["mu_sapp", "waveform"]},
-        ["scenes.steep.quantities", "'waveform'", "the model 'law'", "front_loads, mu_sapp"],
-    ),
-    ("scenes.steep", STEEP | {"quantities": []}, ["scenes.steep.quantities = []"]),
-    ("scenes.steep", STEEP | {"quantities": ["load"]}, ["'load'", "the model 'chain'", "first_load"]),
-    (
-        "scenes.steep",
         STEEP | {"viscosity": 54.77},
-        ["scenes.steep.viscosity = 54.77 [N s/m]", "the model 'chain'", "viscous, interface, head"],
+        ["scenes.steep.viscosity = 54.77", "the model 'chain'", "viscous, interface, head"],
     ),
-    ("scenes.steep", STEEP | {"model": "viscous"}, ["scenes.steep.viscosity is missing", "> 0 [N s/m]"]),
+    ("scenes.steep", STEEP | {"model": "viscous"}, ["scenes.steep.viscosity is missing", "a number > 0"]),
     (
         "scenes.steep",
         STEEP | {"model": "head", "viscosity": 1.0},
-        ["scenes.steep.head_mass is missing", "'head'", "[kg]"],
+        ["scenes.steep.head_mass is missing", "'head'"],
     ),
     (
         "scenes.steep",
         STEEP | {"model": "interface", "interface_stiffness": 0},
         ["scenes.steep.interface_stiffness = 0", "> 0", "[N/m]"],
     ),
-    (
-        "scenes.steep",
-        STEEP | {"quantities": ["mu_sapp"], "duration": 1.0},
-        ["scenes.steep.duration", "only answers quantities", "first global slip"],
-    ),
-    ("scenes.fig10.quantities", ["mu_sapp"], ["scenes.fig10.paper", "only answers quantities"]),
     ("scenes.fig12.model", "quasistatic", ["scenes.fig12.paper", "only answers quantities"]),
     (
         "scenes.fig10",
         STEEP | {"model": "viscous", "viscosity": 54.77},
-        ["fig13 names 'fig10'", "the model 'chain' without quantities"],
+        ["fig13 names 'fig10'", "scenes without `model:`"],
     ),
+    (
+        "scenes.steep",
+        STEEP | {"model": "chain", "duration": 1.0},
+        ["scenes.steep.duration", "only answers quantities", "first global slip"],
+    ),
+    ("resolution_models.theta", "-3/2", ["resolution_models.theta: theta = '-3/2'"]),
     ("resolution_models.models.soft", {"friction": 1.0}, ["models.soft.friction", "relaxation_time"]),
     ("ladder.additions.head_mass", -1.0, ["ladder.additions.head_mass = -1.0", "> 0", "[kg]"]),
     ("scenes.resolution_models", STEEP, ["scenes.resolution_models", "resolution_models"]),
@@ -127,8 +120,6 @@ BAD = [
     ("definitions.theta", ["7"], ["definitions.theta[0]: theta = '7'", "-1 <= theta <= 1"]),
     ("definitions.theta", ["5/6", "0/3"], ["definitions.theta[1] = '0/3'", "0 < theta <= 1"]),
     ("definitions.theta", [0.5, "1/2"], ["definitions.theta[1] = '1/2'", "0.5 too", "once"]),
-    ("resolution_models.theta", ["-3/2"], ["resolution_models.theta[0]: theta = '-3/2'"]),
-    ("resolution_models.theta", [0, "0/1"], ["resolution_models.theta[1] = '0/1'", "once"]),
     (
         "accuracy.default.first_slip.rk45",
         "sweep",
@@ -150,15 +141,6 @@ BAD = [
     ("maps.loadings", 1e9, ["maps.", "would take", "longest_run"]),
     ("maps.friction_ratio", [0.1], ["maps.friction_ratio = [0.1]", "a list of 2 entries"]),
     ("resolution.least_runs", 41, ["resolution.least_runs = 41", "most_runs = 40"]),
-    ("resolution_models.most_runs", 5, ["resolution_models.least_runs = 6", "most_runs = 5"]),
-    ("resolution_models.full.most_runs", 2, ["resolution_models.full.least_runs = 20", "most_runs = 2"]),
-    (
-        "resolution_models.longest_run",
-        1e-4,
-        ["resolution_models.longest_run = 0.0001", "nothing", "at least"],
-    ),
-    ("resolution_models.models.hard", {"interface_stiffness": 1e70}, ["models.hard", "interface_stiffness"]),
-    ("ladder.additions.head_mass", 1e70, ["ladder.additions.head_mass"]),
     ("spread.parameters", [1e-3, 0.4], ["spread.parameters[1] = 0.4", "mu_k", "up to 0.357"]),
     ("spread.loads", [], ["spread.loads = []", "a list of at least 1 different entry"]),
     ("scaling.n_blocks", [2, 5], ["scaling.n_blocks = [2, 5]", "at least 2 of them >= 20"]),
@@ -224,7 +206,7 @@ def test_a_scene_whose_trace_would_take_too_long_is_refused():
     )
     with pytest.raises(ValueError, match=r"\Aconfiguration: scenes.steep would take about"):
         check_config(config, SCHEMA)
-    only_answers = changed("scenes.steep", STEEP | {"quantities": ["mu_sapp"]})
+    only_answers = changed("scenes.steep", STEEP | {"model": "chain"})
     assert trace_seconds(only_answers, "steep") == 0.0
 
 

@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 from conftest import ROOT, Workspace
 
-from precursors import Chain, Run
-from precursors.hierarchy import MODELS
+from precursors import Chain
+from precursors.hierarchy.models import answers_table
 
 SCENE_JOBS = {"simulate_scene", "tabulate_slips", "tabulate_trace", "draw_scene"}
 # Rules that `all` leaves out.
@@ -42,13 +42,11 @@ ASKED_SCENE = """\
     title: what a smaller model says
     theta: "9/10"
     model: {model}
-    quantities: [mu_sapp, events_kept]
 """
 SOFT_SCENE = """\
   soft:
     title: an interface with springs and viscosity
     theta: "9/10"
-    duration: 1.0
     model: interface
     interface_stiffness: 25.0e+6
     viscosity: 54.77
@@ -212,11 +210,6 @@ def test_the_full_comparison_of_methods_is_a_target_of_its_own(workspace):
     }
 
 
-def test_the_full_study_of_models_is_a_target_of_its_own(workspace):
-    jobs = workspace.run("-n", "results/figures/resolution_models_full.svg").jobs
-    assert jobs == {"run_chunk", "gather_members", "tabulate_resolution_models", "draw_resolution_models"}
-
-
 def test_an_edit_of_a_method_measures_again_and_proves_nothing(finished):
     finished.append("src/precursors/integrators/moreau_jean.py", "\nCHANGED = True\n")
     jobs = finished.would_run()
@@ -281,50 +274,28 @@ def test_an_entry_of_the_papers_numbers_that_is_wrong_stops_the_workflow_in_one_
 
 
 @pytest.mark.parametrize("model", ["quasistatic", "chain"])
-def test_a_scene_that_asks_for_quantities_is_answered_and_nothing_else(finished, model):
+def test_a_scene_that_names_a_model_is_answered_and_has_no_run(finished, model):
     add(finished, ASKED_SCENE.format(model=model))
     assert finished.would_run() == {"answer_scene quick"}
-
-
-def test_a_scene_of_a_smaller_model_is_answered_without_naming_its_quantities(finished):
-    add(finished, ASKED_SCENE.format(model="law").replace("    quantities: [mu_sapp, events_kept]\n", ""))
-    assert finished.would_run() == {"answer_scene quick"}
-
-
-def test_a_scene_that_only_answers_has_no_run(finished):
-    add(finished, ASKED_SCENE.format(model="law").replace("mu_sapp, events_kept", "mu_sapp"))
     outcome = finished.run("-n", "results/runs/quick.h5")
     assert outcome.code != 0
     assert "MissingRuleException" in outcome.text
 
 
-def test_a_scene_with_an_addition_has_the_jobs_of_any_scene(finished):
-    add(finished, SOFT_SCENE)
-    assert finished.would_run() == of("soft") | LISTS_OF_SCENES
-
-
-def test_a_new_value_of_an_addition_runs_that_scene_only(more_scenes):
-    more_scenes.edit("config.yaml", "    viscosity: 54.77\n", "    viscosity: 50.0\n")
-    assert more_scenes.would_run() == of("soft") | LISTS_OF_SCENES
-
-
-def test_another_quantity_asks_that_scene_again_and_nothing_else(more_scenes):
-    more_scenes.edit("config.yaml", "[mu_sapp, events_kept]", "[mu_sapp]")
-    assert more_scenes.would_run() == {"answer_scene quick"}
+def test_a_new_value_of_an_addition_asks_that_scene_only(finished):
+    add(finished, ASKED_SCENE.format(model="law") + SOFT_SCENE)
+    assert finished.would_run() == {"answer_scene quick", "answer_scene soft"}
 
 
 def test_scenes_with_models_are_computed(compiled_workspace):
     workspace = compiled_workspace
     add(workspace, ASKED_SCENE.format(model="chain") + SOFT_SCENE)
-    outcome = workspace.run("-c1", "results/tables/quick_answers.csv", "results/runs/soft.h5")
+    outcome = workspace.run("-c1", "results/tables/quick_answers.csv", "results/tables/soft_answers.csv")
     assert outcome.code == 0, outcome.text
     results = workspace.path / "results"
-    answers = pd.read_csv(results / "tables/quick_answers.csv")
-    assert list(answers["quantity"]) == ["mu_sapp", "events_kept"]
-    expected = MODELS["chain"].answer(Chain.from_slider(theta="9/10"), answers["quantity"])
-    assert list(answers["value"]) == list(expected.values())
-    assert [path.name for path in (results / "runs").iterdir()] == ["soft.h5"]
-    run = Run.load(results / "runs/soft.h5")
-    assert run.chain == Chain.from_slider(theta="9/10", interface_stiffness=25e6, viscosity=54.77)
-    # From the first transition on the interface's springs carry the load before the block does.
-    assert run.transitions["tangential_load"][0] > run.chain.strength[0]
+    quick, soft = (pd.read_csv(results / f"tables/{scene}_answers.csv") for scene in ("quick", "soft"))
+    chain = Chain.from_slider(theta="9/10")
+    pd.testing.assert_frame_equal(quick, answers_table(chain, "chain"), check_dtype=False)
+    additions = {"interface_stiffness": 25e6, "viscosity": 54.77}
+    pd.testing.assert_frame_equal(soft, answers_table(chain, "interface", additions), check_dtype=False)
+    assert not (results / "runs").exists()

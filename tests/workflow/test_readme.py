@@ -21,7 +21,6 @@ ON_DEMAND = (
     "accuracy_full",
     "prove_scenes",
     "results/certificates/fig10.json.gz",
-    "results/figures/resolution_models_full.svg",
 )
 OF_MAKE = ("tables/bench.csv", "report.html")
 ASKED_SCENE = """\
@@ -29,7 +28,6 @@ ASKED_SCENE = """\
     title: what a smaller model says
     theta: 0
     model: quasistatic
-    quantities: [mu_sapp]
 """
 
 

@@ -10,7 +10,6 @@ rule check_eq15:
             "model",
             "solver",
             "analysis",
-            "hierarchy/quantities",
             "hierarchy/rigid",
             "reproduction/derivation",
             "reproduction/eq15",

@@ -15,7 +15,7 @@ rule ensembles:
     input:
         collect("results/figures/spread_{question}.svg", question=QUESTIONS),
         collect("results/figures/{map}.svg", map=MAPS),
-        collect("results/figures/{figure}.svg", figure=["resolution", "resolution_models", "long_runs"]),
+        collect("results/figures/{figure}.svg", figure=["resolution", "long_runs"]),
         collect("results/tables/{table}.csv", table=["spread", "robustness", "resolution_limits"]),
     localrule: True
 
@@ -78,20 +78,6 @@ rule tabulate_resolution:
         fit_from=config["resolution"]["fit_from"],
     script:
         "../scripts/tabulate_resolution.py"
-
-
-rule tabulate_resolution_models:
-    input:
-        members="results/tables/resolution_models{full}_members.csv",
-        code=package("model", "analysis", "ensembles/resolution_models", "ensembles/study"),
-    output:
-        table=report("results/tables/resolution_models{full}.csv", category="Tables"),
-        runs="results/tables/resolution_models{full}_runs.csv",
-    log:
-        "results/logs/tabulate_resolution_models{full}.log",
-    localrule: True
-    script:
-        "../scripts/tabulate_resolution_models.py"
 
 
 rule tabulate_long_runs:

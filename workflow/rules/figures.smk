@@ -59,20 +59,15 @@ FIGURES = {
         },
         "params": {"papers_n": config["chain"]["n_blocks"]},
     },
-    "resolution_models{full}": {
+    "resolution_models": {
         "shows": "the same with viscosity and interface springs",
         "category": "Sensitivity",
         "modules": ["resolution", "resolution_models"],
         "tables": {
-            "table": "results/tables/resolution_models{full}.csv",
-            "runs": "results/tables/resolution_models{full}_runs.csv",
+            "table": "results/tables/resolution_models.csv",
+            "runs": "results/tables/resolution_models_runs.csv",
         },
-        "params": {
-            "papers_n": config["chain"]["n_blocks"],
-            "longest_run": lambda wildcards: (
-                config["resolution_models"]["full"] if wildcards.full else config["resolution_models"]
-            )["longest_run"],
-        },
+        "params": {"papers_n": config["chain"]["n_blocks"]},
     },
     "long_runs": {
         "shows": "peak loads of hundreds of global slips",

@@ -1,6 +1,7 @@
 rule hierarchy:
     input:
         collect("results/figures/ladder.{kind}", kind=["png", "svg"]),
+        "results/figures/resolution_models.svg",
         collect("results/tables/{scene}_answers.csv", scene=ASKED),
     localrule: True
 
@@ -21,6 +22,21 @@ rule climb_ladder:
         "../scripts/climb_ladder.py"
 
 
+rule run_larger_models:
+    input:
+        code=package("model", "solver", "analysis", "hierarchy"),
+    output:
+        table=report("results/tables/resolution_models.csv", category="Tables"),
+        runs="results/tables/resolution_models_runs.csv",
+    log:
+        "results/logs/run_larger_models.log",
+    params:
+        slider=config["chain"],
+        settings=config["resolution_models"],
+    script:
+        "../scripts/run_larger_models.py"
+
+
 rule answer_scene:
     input:
         code=package("model", "solver", "analysis", "hierarchy"),
@@ -34,6 +50,6 @@ rule answer_scene:
     params:
         slider=lambda wildcards: scene_slider(config, wildcards.scene),
         model=lambda wildcards: scene_model(config, wildcards.scene),
-        quantities=lambda wildcards: scene_quantities(config, wildcards.scene),
+        additions=lambda wildcards: scene_additions(config, wildcards.scene),
     script:
         "../scripts/answer_scene.py"

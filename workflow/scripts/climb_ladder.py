@@ -5,7 +5,7 @@ from pathlib import Path
 
 from job import job
 
-from precursors.hierarchy.compare_models import climb
+from precursors.hierarchy.compare_models import compare_models
 from precursors.model.chain import Chain
 from precursors.support.files import write_table
 
@@ -18,7 +18,7 @@ def main(
     output: str | Path,
 ) -> None:
     """Write one row for each scene, question and model that answers it."""
-    write_table(climb(scenes, tolerances, rounds=repetitions, additions=additions), output)
+    write_table(compare_models(scenes, tolerances, additions, rounds=repetitions), output)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ from functools import lru_cache, partial
 from precursors.ensembles.chunks import plan_chunks
 from precursors.ensembles.maps import AXES, map_study
 from precursors.ensembles.resolution import resolution_study
-from precursors.ensembles.resolution_models import resolution_models_study
 from precursors.ensembles.spread import spread_study
 from precursors.ensembles.study import Study
 from precursors.model.scenes import Config
@@ -17,8 +16,6 @@ from precursors.model.scenes import Config
 STUDIES: dict[str, Callable[[Config], Study]] = {
     "spread_members": spread_study,
     "resolution_members": resolution_study,
-    "resolution_models_members": resolution_models_study,
-    "resolution_models_full_members": partial(resolution_models_study, size="full"),
     **{name: partial(map_study, name=name) for name in AXES},
 }
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
 QUANTITIES = ("events_kept", "mu_sapp", "time_s", "front_speed_m_per_s")
-QUANTILES = {"q05": 0.05, "q25": 0.25, "q50": 0.5, "q75": 0.75, "q95": 0.95}
 
 
 # The law that each number is carried on by, from the smallest N that the configuration names.
@@ -81,28 +79,23 @@ def resolution_table(
     -------
     DataFrame
         One row per chain, n_blocks and quantity: the value without noise; mean, standard deviation and
-        quantiles over all members; q50_low and q50_high, see `median_interval`; the number of members n.
+        quantiles over all members; q50_low and q50_high, see `run_statistics`; the number of members n.
     """
     import pandas as pd
+
+    from precursors.analysis.run_statistics import statistics  # a plan of chunks waits for no statistics
 
     rows = []
     members = with_front_speed(members, length)
     for keys, runs in members.groupby([*chains, "n_blocks"], sort=False):
         [(_, without_noise)] = runs[runs["load_noise"] == 0.0].iterrows()
         for quantity in QUANTITIES:
-            values = runs[quantity].dropna()
-            low, high = median_interval(values)
             rows.append(
                 {
                     **dict(zip([*chains, "n_blocks"], keys, strict=True)),
                     "quantity": quantity,
                     "without_noise": without_noise[quantity],
-                    "mean": values.mean(),
-                    "deviation": values.std(),
-                    **{name: values.quantile(share) for name, share in QUANTILES.items()},
-                    "q50_low": low,
-                    "q50_high": high,
-                    "n": len(values),
+                    **statistics(runs[quantity]),
                 }
             )
     return pd.DataFrame(rows)
@@ -112,22 +105,6 @@ def with_front_speed(members: pd.DataFrame, length: float) -> pd.DataFrame:
     """A gathered study with a column front_speed_m_per_s, for a contact of length [m]."""
     speed = front_speed(members["n_blocks"].to_numpy(), length, members["crossing_time_s"].to_numpy())
     return members.assign(front_speed_m_per_s=speed)
-
-
-def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, float]:
-    """Interval that holds the median of what the values were drawn from, in at least this share of cases.
-
-    Its ends are two of the values, for a value lies below the median as often as a coin falls: whatever the
-    distribution is, the j smallest of n all lie below it with a probability that is binomial. NaN where not
-    even the smallest and the largest value will do: for 95 %, below six.
-    """
-    from scipy.stats import binom  # a plan of chunks waits for no statistics
-
-    values = np.sort(np.asarray(values, float))
-    left_out = int(binom.ppf((1.0 - share) / 2.0, len(values), 0.5)) if len(values) else 0
-    if not left_out:
-        return math.nan, math.nan
-    return float(values[left_out - 1]), float(values[-left_out])
 
 
 def with_estimates(table: pd.DataFrame, slider: Mapping[str, Any]) -> pd.DataFrame:

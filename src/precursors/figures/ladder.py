@@ -21,7 +21,7 @@ GAP = 0.2
 LADDER_COLUMNS = {
     "scene": str,
     "question": str,
-    "rung": int,
+    "model_number": int,
     "label": str,
     "value": float,
     "unit": str,
@@ -81,7 +81,7 @@ def draw_ladder(ladder: pd.DataFrame) -> Figure:
         See `read_ladder`.
     """
     questions = list(dict.fromkeys(ladder["question"]))
-    models = ladder.sort_values("rung").drop_duplicates("label")
+    models = ladder.sort_values("model_number").drop_duplicates("label")
     added = models["addition"] != NO_ADDITION
     places = np.arange(len(models)) + GAP * added.to_numpy()
     with style.styled():

@@ -1,61 +1,31 @@
-"""The ladder of models: what each rung answers, how far from the paper's chain, and at what cost."""
+"""Compare the models: what each answers, how far from the paper's chain, and at what cost."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from precursors.hierarchy import MODELS, QUANTITIES, Model
+from precursors.hierarchy.larger import UNITS as ADDITION_UNITS
+from precursors.hierarchy.larger import LargerChain
+from precursors.hierarchy.models import MODELS, UNITS, Model
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.scene_models import (
-    ADDED,
-    EVENTS_KEPT,
-    FIRST_LOAD,
-    FRONT_LOADS,
-    MU_SAPP,
-    NO_ADDITION,
-    PAPERS_MODEL,
-    SLIP_DURATION,
-    UNITS,
-    WAVEFORM,
-)
+from precursors.model.scene_models import ADDED, NO_ADDITION, PAPERS_MODEL
 from precursors.support import timing
 
-NO_ADDITIONS: Mapping[str, float] = MappingProxyType({})
 WAVEFORM_SAMPLES = 2001
-
-COLUMNS = [
-    "scene",
-    "question",
-    "rung",
-    "model",
-    "label",
-    "value",
-    "unit",
-    "error",
-    "error_unit",
-    "tolerance",
-    "is_answer",
-    "is_smallest",
-    "cost_s",
-    "addition",
-]
 
 
 @dataclass(frozen=True)
 class Question:
-    """A row of the ladder.
+    """One question to all models.
 
     Attributes
     ----------
-    quantity : str
-        Key of `QUANTITIES`.
     shown : callable
         One number that stands for the answer in the table.
     error : callable
@@ -64,10 +34,9 @@ class Question:
         Unit of the error: "1" where it is relative, to the answer or to F_Z.
     """
 
-    quantity: str
     shown: Callable[[Any], float]
     error: Callable[[Any, Any, Chain], float]
-    error_unit: str
+    error_unit: str = "1"
 
 
 def relative(answer: float, exact: float, chain: Chain) -> float:
@@ -80,12 +49,12 @@ def difference(answer: float, exact: float, chain: Chain) -> float:
     return abs(answer - exact)
 
 
-def loads_apart(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
+def front_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
     """Root mean square over the blocks of the error in the load that brings the front there, over F_Z."""
     return root_mean_square(answer - exact) / chain.normal_load
 
 
-def waveforms_apart(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
+def waveform_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
     """Root mean square over time of the error in F_X, over F_Z, up to the end of the exact first global slip.
 
     An answer that ends earlier keeps its last load.
@@ -100,24 +69,24 @@ def root_mean_square(values: FloatArray) -> float:
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-QUESTIONS = (
-    Question(FIRST_LOAD, float, relative, "1"),
-    Question(EVENTS_KEPT, float, difference, "events"),
-    Question(MU_SAPP, float, relative, "1"),
+QUESTIONS = {
+    "first_load": Question(float, relative),
+    "events_kept": Question(float, difference, "events"),
+    "mu_sapp": Question(float, relative),
     # The load at which the front reaches the middle stands for all.
-    Question(FRONT_LOADS, lambda loads: float(loads[(len(loads) - 1) // 2]), loads_apart, "1"),
-    Question(SLIP_DURATION, float, relative, "1"),
+    "front_loads": Question(lambda loads: float(loads[(len(loads) - 1) // 2]), front_error),
+    "slip_duration": Question(float, relative),
     # The largest load stands for the waveform.
-    Question(WAVEFORM, lambda wave: float(wave[:, 1].max()), waveforms_apart, "1"),
-)
+    "waveform": Question(lambda wave: float(wave[:, 1].max()), waveform_error),
+}
 
 
-def climb(
+def compare_models(
     chains: Mapping[str, Chain],
     tolerances: Mapping[str, float],
+    additions: Mapping[str, float],
     models: Mapping[str, Model] = MODELS,
     rounds: int = timing.ROUNDS,
-    additions: Mapping[str, float] = NO_ADDITIONS,
 ) -> pd.DataFrame:
     """Ask every model every question it answers, for the chains of some scenes.
 
@@ -126,90 +95,70 @@ def climb(
     chains : mapping
         Scene to chain.
     tolerances : mapping
-        Largest error that counts as an answer, by quantity, in the unit of the question's error.
+        Largest error that counts as an answer, for each of `QUESTIONS`, in the unit of the question's error.
+    additions : mapping
+        What the larger models add to the paper's chain: all fields of `LargerChain` but the chain.
     models : mapping
-        The rungs, from the smallest to the largest; the paper's chain among them.
+        The models, from the smallest to the largest; the paper's chain is among them.
     rounds : int
         How often each answer is timed: see `timing.measure`.
-    additions : mapping
-        What the models beyond the paper's chain add to it, in the units of `Chain.from_slider`: viscosity
-        [N s/m], interface_stiffness of the whole interface [N/m], head_mass [kg]. A model whose addition has
-        no value is left out.
 
     Returns
     -------
     DataFrame
-        One row for each scene, question and model that answers it: rung (1, 2, ...), name and label of the
-        model, value and its unit, error against the paper's chain, tolerance, is_answer (the error is within
-        it), is_smallest (the first model that answers in every scene), cost_s (median time from the chain
-        to the answer [s]), addition (what the model adds to the paper's chain, with value and unit). The
-        error of a model with an addition is what the addition makes of the paper's chain.
-
-    Raises
-    ------
-    ValueError
-        If a question has no tolerance, or a model does not apply to one of the chains.
+        One row for each scene, question and model that answers it: model_number (1, 2, ...), name and label
+        of the model, value and its unit, error against the paper's chain, tolerance, is_answer (the error is
+        within it), is_smallest (the first model that answers in every scene), cost_s (median time from the
+        chain to the answer [s]), addition (what the model adds to the paper's chain, with value and unit).
+        The error of a model with an addition is what the addition makes of the paper's chain.
     """
-    models = {name: model for name, model in models.items() if ADDED.get(name, "") in {"", *additions}}
     rows = []
-    for question in QUESTIONS:
-        if question.quantity not in tolerances:
-            raise ValueError(f"no tolerance for {question.quantity!r}: needed is one for each question")
-        tolerance = tolerances[question.quantity]
-        exact = {scene: ask(models[PAPERS_MODEL], chain, question) for scene, chain in chains.items()}
+    for quantity, question in QUESTIONS.items():
+        exact = {scene: models[PAPERS_MODEL].ask(chain, quantity) for scene, chain in chains.items()}
         tasks = {
-            (name, scene): partial(ask, model, extended(chain, model, additions), question)
+            (name, scene): partial(model.ask, with_addition(chain, name, additions), quantity)
             for name, model in models.items()
-            if question.quantity in model.answers
+            if quantity in model.answers
             for scene, chain in chains.items()
         }
         answers = {key: timing.second_call(task) for key, task in tasks.items()}
         costs = timing.measure(tasks, rounds, seconds={key: seconds for key, (_, seconds) in answers.items()})
-        rungs = {name: rung for rung, name in enumerate(models, 1)}
-        found = [
-            {
-                "scene": scene,
-                "question": question.quantity,
-                "rung": rungs[name],
-                "model": name,
-                "label": models[name].label,
-                "value": question.shown(answer),
-                "unit": QUANTITIES[question.quantity].unit,
-                "error": (error := question.error(answer, exact[scene], chains[scene])),
-                "error_unit": question.error_unit,
-                "tolerance": tolerance,
-                "is_answer": error <= tolerance,
-                "cost_s": costs[name, scene].seconds,
-                "addition": _addition_text(name, additions),
-            }
-            for (name, scene), (answer, _) in answers.items()
-        ]
-        smallest = next(
-            (name for name in models if _answers_everywhere([row for row in found if row["model"] == name])),
-            None,
-        )
-        rows += [{**row, "is_smallest": row["model"] == smallest} for row in found]
-    return pd.DataFrame(rows, columns=COLUMNS)
+        for (name, scene), (answer, _) in answers.items():
+            error = question.error(answer, exact[scene], chains[scene])
+            rows.append(
+                {
+                    "scene": scene,
+                    "question": quantity,
+                    "model_number": list(models).index(name) + 1,
+                    "model": name,
+                    "label": models[name].label,
+                    "value": question.shown(answer),
+                    "unit": UNITS[quantity],
+                    "error": error,
+                    "error_unit": question.error_unit,
+                    "tolerance": tolerances[quantity],
+                    "is_answer": error <= tolerances[quantity],
+                    "cost_s": costs[name, scene].seconds,
+                    "addition": addition_text(name, additions),
+                }
+            )
+    return with_smallest(pd.DataFrame(rows))
 
 
-def extended(chain: Chain, model: Model, additions: Mapping[str, float]) -> Chain:
-    """The chain with what the model adds to it; the interface's stiffness is shared equally by the blocks."""
-    if model.name not in ADDED:
-        return chain
-    name, value = ADDED[model.name], additions[ADDED[model.name]]
-    added: dict[str, Any] = {name: value / chain.n_blocks if name == "interface_stiffness" else value}
-    return replace(chain, **added)
+def with_addition(chain: Chain, model: str, additions: Mapping[str, float]) -> Chain | LargerChain:
+    """The chain with the one addition that the model is named after, or as it is."""
+    return LargerChain(chain, **{ADDED[model]: additions[ADDED[model]]}) if model in ADDED else chain
 
 
-def ask(model: Model, chain: Chain, question: Question) -> Any:
-    """Answer of a model to a question."""
-    return model.answer(chain, [question.quantity])[question.quantity]
-
-
-def _addition_text(model: str, additions: Mapping[str, float]) -> str:
+def addition_text(model: str, additions: Mapping[str, float]) -> str:
     """What a model adds to the paper's chain, with its unit."""
-    return f"{additions[ADDED[model]]:g} {UNITS[ADDED[model]]}" if model in ADDED else NO_ADDITION
+    if model not in ADDED:
+        return NO_ADDITION
+    return f"{additions[ADDED[model]]:g} {ADDITION_UNITS[ADDED[model]]}"
 
 
-def _answers_everywhere(rows: list[dict[str, Any]]) -> bool:
-    return bool(rows) and all(row["is_answer"] for row in rows)
+def with_smallest(table: pd.DataFrame) -> pd.DataFrame:
+    """Mark for each question the smallest model that answers it in every scene."""
+    answers = table.groupby(["question", "model_number"])["is_answer"].all()
+    smallest = answers[answers].reset_index().groupby("question")["model_number"].min()
+    return table.assign(is_smallest=table["model_number"] == table["question"].map(smallest))

@@ -26,16 +26,12 @@ All compiled code is in this file, because a compile cache does not see an edit 
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 import pandas as pd
 from numba import njit
 
 from precursors.analysis.slips import COLUMNS
-from precursors.hierarchy.quantities import Model, events_kept, first_load, front_loads
-from precursors.model.chain import Chain, not_negative, require_plain, whole
-from precursors.model.scene_models import EVENTS_KEPT, FIRST_LOAD, FRONT_LOADS, MU_SAPP
+from precursors.model.chain import Chain, not_negative, whole
 
 ENERGY_CONSERVED, OVERDAMPED = 1.0, 0.0
 MAX_EVENTS = 1_000_000
@@ -70,22 +66,20 @@ def quasistatic_slips(
     Raises
     ------
     ValueError
-        If the overshoot is not within 0..1, a block has no weight, mu_s = mu_k, or the chain is more than the
-        paper's.
+        If the overshoot is not within 0..1, a block has no weight, or mu_s = mu_k.
     RuntimeError
         If the first global slip is not reached within the cap, or an event does not come to rest within
         MAX_STAGES stages.
     """
-    require_plain(chain)
     overshoot = not_negative("overshoot", overshoot, "1")
     max_events = whole("max_events", max_events, at_least=1)
     if overshoot > 1.0:
-        raise ValueError(f"overshoot = {overshoot!r} [1] is out of range: allowed is 0 <= overshoot <= 1")
+        raise ValueError(f"overshoot must be between 0 and 1, but is {overshoot:g}")
     if chain.mu_s == chain.mu_k:
-        raise ValueError(f"mu_k = {chain.mu_k!r} = mu_s: allowed for the quasi-static chain is mu_k < mu_s")
+        raise ValueError(f"mu_k of a quasi-static chain must be below mu_s = {chain.mu_s:g}, but is equal")
     if not chain.weights.all():
         block = int(np.argmin(chain.weights)) + 1
-        raise ValueError(f"weights: block {block} has 0 N: allowed for the quasi-static chain is w > 0 N")
+        raise ValueError(f"every block of a quasi-static chain must have weight, but block {block} has 0 N")
     events, rests = run_cascades(
         np.append(chain.springs, 0.0),
         chain.strength,
@@ -97,8 +91,8 @@ def quasistatic_slips(
     )
     if not rests:
         raise RuntimeError(
-            f"event {len(events) + 1} does not come to rest within {MAX_STAGES} stages: "
-            "allowed are chains whose cascades end, as with a larger mu_s - mu_k"
+            f"event {len(events) + 1} does not come to rest within {MAX_STAGES} stages; "
+            "a larger mu_s - mu_k helps"
         )
     if events[-1, SLID] < chain.n_blocks:
         raise RuntimeError(f"no global slip within {len(events)} events: raise max_events = {max_events}")
@@ -119,7 +113,7 @@ def quasistatic_slips(
 
 
 @compiled
-def run_cascades(springs, strength, friction, overshoot, doubt, max_events, max_stages):
+def run_cascades(springs, strength, friction, overshoot, rounding, max_events, max_stages):
     """Events to the first global slip, a row each of ONSET .. AT_ONCE, and whether the last came to rest.
 
     The spring beyond block N is 0 N/m.
@@ -142,7 +136,7 @@ def run_cascades(springs, strength, friction, overshoot, doubt, max_events, max_
         at_once = 0
         for _ in range(max_stages):
             find_stage(
-                springs, strength, friction, overshoot, doubt, net, direction, batch, step, ratio, solved
+                springs, strength, friction, overshoot, rounding, net, direction, batch, step, ratio, solved
             )
             members = 0
             rests = True
@@ -151,7 +145,7 @@ def run_cascades(springs, strength, friction, overshoot, doubt, max_events, max_
                 net[i] -= lost_force(springs, step, i)
                 members += direction[i] != 0.0
             for i in range(n):
-                direction[i] = np.sign(net[i]) if abs(net[i]) > strength[i] + doubt else 0.0
+                direction[i] = np.sign(net[i]) if abs(net[i]) > strength[i] + rounding else 0.0
                 rests = rests and direction[i] == 0.0
             at_once = max(at_once, members)
             if rests:
@@ -169,8 +163,8 @@ def run_cascades(springs, strength, friction, overshoot, doubt, max_events, max_
 
 
 @compiled
-def find_stage(springs, strength, friction, overshoot, doubt, net, direction, batch, step, ratio, solved):
-    """Displacements `step` [m] of the set that `direction` begins, once nobody joins or leaves it.
+def find_stage(springs, strength, friction, overshoot, rounding, net, direction, batch, step, ratio, solved):
+    """Displacements `step` [m] of the set that `direction` begins, once no block joins or leaves it.
 
     `batch` is 0 for the blocks that begin, 1, 2, ... for those that join, and PUT_OUT for those that left.
     """
@@ -197,7 +191,7 @@ def find_stage(springs, strength, friction, overshoot, doubt, net, direction, ba
         joined = False
         for i in range(n):
             after = net[i] - lost_force(springs, step, i)
-            if direction[i] == 0.0 and batch[i] != PUT_OUT and abs(after) > strength[i] + doubt:
+            if direction[i] == 0.0 and batch[i] != PUT_OUT and abs(after) > strength[i] + rounding:
                 direction[i], batch[i] = np.sign(after), last
                 joined = True
         if not joined:
@@ -228,21 +222,3 @@ def lost_force(springs, step, i):
     behind = step[i] - (step[i - 1] if i > 0 else 0.0)
     ahead = (step[i + 1] if i + 1 < step.shape[0] else 0.0) - step[i]
     return springs[i] * behind - springs[i + 1] * ahead
-
-
-_ANSWERS = {
-    FIRST_LOAD: lambda basis: first_load(basis[1]),
-    EVENTS_KEPT: lambda basis: events_kept(basis[1]),
-    MU_SAPP: lambda basis: float(basis[1]["load_before"].max()) / basis[0].normal_load,
-    FRONT_LOADS: lambda basis: front_loads(basis[1], basis[0].n_blocks),
-}
-
-
-def _prepare(chain: Chain, overshoot: float) -> tuple[Chain, pd.DataFrame]:
-    return chain, quasistatic_slips(chain, overshoot)
-
-
-QUASISTATIC = Model(
-    "quasistatic", "quasi-static chain", _ANSWERS, partial(_prepare, overshoot=ENERGY_CONSERVED)
-)
-DAMPED = Model("overdamped", "overdamped chain", _ANSWERS, partial(_prepare, overshoot=OVERDAMPED))

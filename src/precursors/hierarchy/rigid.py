@@ -3,35 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from precursors.hierarchy.quantities import Model, plain
-from precursors.model.chain import Chain, FloatArray, require_plain
-from precursors.model.scene_models import (
-    EVENTS_KEPT,
-    FIRST_LOAD,
-    FRONT_LOADS,
-    MU_SAPP,
-    SLIP_DURATION,
-    WAVEFORM,
-)
+from precursors.model.chain import Chain, FloatArray
 
 # Corners of the half wave that draws a slip; straight lines between them are within 0.3 % of its height.
 WAVE_POINTS = 33
 
 
 def as_rigid(chain: Chain) -> Chain:
-    """One block with the weight and the mass of the whole chain.
-
-    Raises
-    ------
-    ValueError
-        If the chain is more than the paper's.
-    """
-    require_plain(chain)
+    """One block with the weight and the mass of the whole chain."""
     return replace(chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass)
 
 
@@ -69,19 +54,18 @@ def slip_load(chain: Chain, since: FloatArray) -> FloatArray:
     return kinetic + swing + drive
 
 
-def _waveform(chain: Chain) -> FloatArray:
+def waveform(chain: Chain) -> FloatArray:
     """Time [s] and load [N] from the start to the end of the first slip, shape (WAVE_POINTS + 1, 2)."""
     since = np.linspace(0.0, rigid_slip_duration(chain), WAVE_POINTS)
     onset = onset_load(chain) / chain.loading_rate
     return np.concatenate([[[0.0, 0.0]], np.column_stack([onset + since, slip_load(chain, since)])])
 
 
-_ANSWERS: dict[str, Any] = {
-    FIRST_LOAD: onset_load,
-    EVENTS_KEPT: lambda chain: 1.0,
-    MU_SAPP: lambda chain: chain.mu_s,
-    FRONT_LOADS: lambda chain: np.full(chain.n_blocks, onset_load(chain)),
-    SLIP_DURATION: rigid_slip_duration,
-    WAVEFORM: _waveform,
+ANSWERS: dict[str, Callable[[Chain], Any]] = {
+    "first_load": onset_load,
+    "events_kept": lambda chain: 1.0,
+    "mu_sapp": lambda chain: chain.mu_s,
+    "front_loads": lambda chain: np.full(chain.n_blocks, onset_load(chain)),
+    "slip_duration": rigid_slip_duration,
+    "waveform": waveform,
 }
-RIGID = Model("rigid", "rigid slider", _ANSWERS, plain)

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from precursors.hierarchy.quantities import Model, plain
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.scene_models import FIRST_LOAD, FRONT_LOADS, LOAD_BOUND, MU_SAPP
-from precursors.model.statics import load_bound
 
 
 def first_precursor_load(chain: Chain) -> float:
@@ -19,8 +16,8 @@ def front_load_law(chain: Chain) -> FloatArray:
     """Load mu_k W(L_p) at which the front reaches each block [N], shape (N,), W the cumulative normal load.
 
     After a slip up to block n every block behind the front is pushed with about mu_k w_i and nothing is
-    beyond it, so that F_X = mu_k (w_1 + ... + w_n): the leading order of the quasi-static chain as N grows
-    (Amundsen et al., Tribol. Lett. 45 (2012) 357, derive the length of precursors in this way).
+    beyond it, so that F_X = mu_k (w_1 + ... + w_n). This is the leading order of the quasi-static chain as N
+    grows (Amundsen et al., Tribol. Lett. 45 (2012) 357, derive the length of precursors in this way).
     """
     return chain.mu_k * np.cumsum(chain.weights)
 
@@ -28,17 +25,3 @@ def front_load_law(chain: Chain) -> FloatArray:
 def apparent_friction_law(chain: Chain) -> float:
     """mu_sapp where the law has the front reach the leading edge: mu_k, whatever the normal loading [1]."""
     return chain.mu_k
-
-
-STATICS = Model(
-    "statics",
-    "statics",
-    {LOAD_BOUND: load_bound, FIRST_LOAD: first_precursor_load},
-    plain,
-)
-LAW = Model(
-    "law",
-    "front law",
-    {FRONT_LOADS: front_load_law, MU_SAPP: apparent_friction_law},
-    plain,
-)

@@ -13,7 +13,7 @@ from precursors.ensembles.cost import TRACE_PER_RUN, seconds_of_run, too_long
 from precursors.model.config_schema import against_schema, joined, shown
 from precursors.model.config_studies import wrong_studies
 from precursors.model.plain_yaml import one_line, too_many
-from precursors.model.scene_models import ADDED, ANSWERED, PAPERS_MODEL, UNITS
+from precursors.model.scene_models import ADDED, MODEL_NAMES
 from precursors.model.scenes import (
     Config,
     scene_chain,
@@ -38,7 +38,6 @@ RESERVED_NAMES = (
     "long_runs",
     "resolution",
     "resolution_models",
-    "resolution_models_full",
 )
 RESERVED_BEGINNINGS = ("map_", "spread_", "step_sweep", "work_precision")
 
@@ -99,8 +98,8 @@ def _complaints(config: Config, schema_path: str | os.PathLike[str]) -> Iterator
     for name in config["fig13"]:
         if name not in config["scenes"]:
             yield f"fig13 names {name!r}, which is no scene: allowed are {', '.join(config['scenes'])}"
-        elif scene_model(config, name) != PAPERS_MODEL or "run" not in scene_outputs(config, name):
-            yield f"fig13 names {name!r}: allowed are scenes of the model {PAPERS_MODEL!r} without quantities"
+        elif "run" not in scene_outputs(config, name):
+            yield f"fig13 names {name!r}: allowed are scenes without `model:`, which have a run"
     yield from wrong_studies(config)
 
 
@@ -155,28 +154,18 @@ def _wrong_scene(config: Config, name: str, scene: Mapping[str, Any]) -> Iterato
 
 def _wrong_model(config: Config, name: str, scene: Mapping[str, Any]) -> Iterator[str]:
     where, model = f"scenes.{name}", scene_model(config, name)
-    if model not in ANSWERED:
-        yield f"{where}.model = {shown(model)} is no model: allowed are {', '.join(ANSWERED)}"
-        return  # nothing is known of what it answers
-    for quantity in scene.get("quantities", ()):
-        if quantity not in ANSWERED[model]:
-            answered = ", ".join(ANSWERED[model])
-            yield (
-                f"{where}.quantities: {shown(quantity)} is none that the model {model!r} answers: "
-                f"allowed are {answered}"
-            )
+    if model not in MODEL_NAMES:
+        yield f"{where}.model = {shown(model)} is no model: allowed are {', '.join(MODEL_NAMES)}"
+        return
     for addition in ADDED.values():
         if addition in scene and model not in ADDED:
             yield (
-                f"{where}.{addition} = {scene[addition]!r} [{UNITS[addition]}]: not allowed for the model "
-                f"{model!r}, only for {', '.join(ADDED)}"
+                f"{where}.{addition} = {scene[addition]!r}: not allowed for the model {model!r}, "
+                f"only for {', '.join(ADDED)}"
             )
     if model in ADDED and ADDED[model] not in scene:
         addition = ADDED[model]
-        yield (
-            f"{where}.{addition} is missing: needed for the model {model!r} is a number > 0 "
-            f"[{UNITS[addition]}]"
-        )
+        yield f"{where}.{addition} is missing: the model {model!r} needs a number > 0"
     if scene_outputs(config, name) == ("answers",):
         for key in ("duration", "paper"):
             if key in scene:

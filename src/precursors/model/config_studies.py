@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from precursors.ensembles.cost import PROOF_PER_RUN, seconds_of_run, seconds_to_first_slip, too_long
+from precursors.ensembles.cost import PROOF_PER_RUN, seconds_of_run, too_long
 from precursors.ensembles.maps import AXES, map_study
-from precursors.ensembles.resolution_models import slider_additions
 from precursors.model.chain import Chain, parse_theta
 from precursors.model.scenes import Config, scene_slider
 from precursors.model.slider import PROVED_FOR, SLIDER, Slider, loading_time
@@ -63,21 +62,25 @@ def _wrong_names(config: Config) -> Iterator[str]:
 
 
 def _wrong_degrees(config: Config) -> Iterator[str]:
-    """Lists of theta, whose fractions are text to the schema."""
-    for section, least in (("definitions", 0.0), ("resolution_models", -1.0)):
-        met: dict[float, object] = {}
-        for i, written in enumerate(config[section]["theta"]):
-            where = f"{section}.theta[{i}]"
-            try:
-                theta = parse_theta(written)
-            except ValueError as error:
-                yield f"{where}: {error}"
-                continue
-            if theta < least or (theta == 0 and section == "definitions"):
-                yield f"{where} = {written!r} is a size of theta: allowed is 0 < theta <= 1"
-            if theta in met:
-                yield f"{where} = {written!r} stands there as {met[theta]!r} too: allowed is each theta once"
-            met[theta] = written
+    """Values of theta, whose fractions are text to the schema."""
+    met: dict[float, object] = {}
+    degrees = {f"definitions.theta[{i}]": theta for i, theta in enumerate(config["definitions"]["theta"])}
+    for where, written in {
+        "resolution_models.theta": config["resolution_models"]["theta"],
+        **degrees,
+    }.items():
+        try:
+            theta = parse_theta(written)
+        except ValueError as error:
+            yield f"{where}: {error}"
+            continue
+        if where not in degrees:
+            continue
+        if theta <= 0:
+            yield f"{where} = {written!r} is a size of theta: allowed is 0 < theta <= 1"
+        if theta in met:
+            yield f"{where} = {written!r} stands there as {met[theta]!r} too: allowed is each theta once"
+        met[theta] = written
 
 
 def _wrong_orders(config: Config) -> Iterator[str]:
@@ -94,40 +97,12 @@ def _wrong_orders(config: Config) -> Iterator[str]:
                     f"step_sweep.{section}.{finest} = {steps[finest]!r} [s] is longer than "
                     f"coarsest = {steps['coarsest']!r} s: allowed is {finest} <= coarsest"
                 )
-    models = config["resolution_models"]
-    for where, runs in (
-        ("resolution", config["resolution"]),
-        ("resolution_models", models),
-        ("resolution_models.full", models["full"]),
-    ):
-        if runs["least_runs"] > runs["most_runs"]:
-            yield (
-                f"{where}.least_runs = {runs['least_runs']!r} is more than "
-                f"most_runs = {runs['most_runs']!r}: allowed is least_runs <= most_runs"
-            )
-    for where, longest in (
-        ("resolution_models", models["longest_run"]),
-        ("resolution_models.full", models["full"]["longest_run"]),
-    ):
-        shortest = min(
-            float(
-                seconds_to_first_slip(slider["n_blocks"], slider["interface_stiffness"], slider["viscosity"])
-            )
-            for _, slider in _smallest(config)
+    runs = config["resolution"]
+    if runs["least_runs"] > runs["most_runs"]:
+        yield (
+            f"resolution.least_runs = {runs['least_runs']!r} is more than "
+            f"most_runs = {runs['most_runs']!r}: allowed is least_runs <= most_runs"
         )
-        if shortest > longest:
-            yield (
-                f"{where}.longest_run = {longest!r} [s] leaves nothing of all models: "
-                f"allowed is at least {shortest:.2g} s"
-            )
-
-
-def _smallest(config: Config) -> Iterator[tuple[str, Slider]]:
-    """Each model of `resolution_models` with the fewest blocks."""
-    fewest = min(config["resolution_models"]["n_blocks"])
-    slider = {**config["chain"], "theta": 0.0, "n_blocks": fewest}
-    for name, values in config["resolution_models"]["models"].items():
-        yield name, slider | slider_additions(slider, values)
 
 
 def _wrong_changes(config: Config) -> Iterator[str]:
@@ -210,7 +185,3 @@ def _up_to_a_global_slip(config: Config) -> Iterator[tuple[str, Slider]]:
     for slider in (scene_slider(config, name) for name in config["fig13"]):
         for section in ("resolution", "scaling"):
             yield f"{section}.n_blocks", slider | {"n_blocks": max(config[section]["n_blocks"])}
-        for addition, value in config["ladder"]["additions"].items():
-            yield f"ladder.additions.{addition}", slider | {addition: value}
-    for name, smallest in _smallest(config):
-        yield f"resolution_models.models.{name}", smallest

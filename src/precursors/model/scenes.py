@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from precursors.model.chain import Chain, exact_theta_from_load_cells, parse_theta
-from precursors.model.scene_models import ADDED, ANSWERED, PAPERS_MODEL, SIMULATED
+from precursors.model.scene_models import ADDED, PAPERS_MODEL
 
 Config = Mapping[str, Any]
 
@@ -18,23 +18,19 @@ def scene_names(config: Config) -> list[str]:
 
 
 def scene_model(config: Config, name: str) -> str:
-    """The model of a scene, a key of `reduced.MODELS`."""
+    """The model of a scene, one of `MODEL_NAMES`."""
     return str(config["scenes"][name].get("model", PAPERS_MODEL))
 
 
-def scene_quantities(config: Config, name: str) -> tuple[str, ...]:
-    """Quantities that a scene asks its model for, by default all that the model answers."""
-    return tuple(config["scenes"][name].get("quantities", ANSWERED[scene_model(config, name)]))
+def scene_additions(config: Config, name: str) -> dict[str, float]:
+    """What a larger model adds to the paper's chain: fields of `hierarchy.larger.LargerChain`."""
+    scene = config["scenes"][name]
+    return {key: float(scene[key]) for key in ADDED.values() if key in scene}
 
 
 def scene_outputs(config: Config, name: str) -> tuple[str, ...]:
-    """What is made of a scene: "run", "slips", "trace" and "figure", or nothing but "answers".
-
-    Only models that are followed through time have a run; a scene that names its quantities asks for no more.
-    """
-    if scene_model(config, name) in SIMULATED and "quantities" not in config["scenes"][name]:
-        return ("run", "slips", "trace", "figure")
-    return ("answers",)
+    """What is made of a scene: a run, slips, a trace and a figure, or only answers if it names a model."""
+    return ("answers",) if "model" in config["scenes"][name] else ("run", "slips", "trace", "figure")
 
 
 def scenes_with(config: Config, output: str) -> list[str]:
@@ -60,12 +56,10 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:
     """The same before any rounding: numbers and theta as they are written, those of load cells as fractions.
 
-    What its model adds to the paper's chain is among its own values. Two load cells give theta and the
-    total normal load F_Z = F_ZA + F_ZB.
+    Two load cells give theta and the total normal load F_Z = F_ZA + F_ZB.
     """
     scene = config["scenes"][name]
     slider = {key: scene.get(key, value) for key, value in config["chain"].items()}
-    slider |= {key: scene[key] for key in ADDED.values() if key in scene}
     if "theta" in scene:
         return slider | {"theta": scene["theta"]}
     a, b = scene["load_cell_a"], scene["load_cell_b"]

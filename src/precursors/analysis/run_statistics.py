@@ -1,0 +1,40 @@
+"""Statistics of one number over several runs: moments, quantiles, and an interval that holds the median."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike
+from scipy.stats import binom
+
+QUANTILES = {"q05": 0.05, "q25": 0.25, "q50": 0.5, "q75": 0.75, "q95": 0.95}
+
+
+def statistics(values: pd.Series) -> dict[str, float]:
+    """Mean, deviation, quantiles, ends q50_low and q50_high of `median_interval`, and how many values."""
+    values = values.dropna()
+    low, high = median_interval(values)
+    return {
+        "mean": values.mean(),
+        "deviation": values.std(),
+        **{name: float(values.quantile(share)) for name, share in QUANTILES.items()},
+        "q50_low": low,
+        "q50_high": high,
+        "n": len(values),
+    }
+
+
+def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, float]:
+    """Interval that holds the median of what the values were drawn from, in at least this share of cases.
+
+    Its ends are two of the values. Each value lies below the median with probability one half, so that the
+    number of those that do is binomial, whatever the distribution. NaN where not even the smallest and the
+    largest value will do: for 95 %, below six values.
+    """
+    values = np.sort(np.asarray(values, float))
+    left_out = int(binom.ppf((1.0 - share) / 2.0, len(values), 0.5)) if len(values) else 0
+    if not left_out:
+        return math.nan, math.nan
+    return float(values[left_out - 1]), float(values[-left_out])

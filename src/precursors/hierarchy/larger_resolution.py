@@ -1,0 +1,104 @@
+"""Convergence with N of the larger models: which numbers still depend on how finely the slider is cut?"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from precursors.analysis.run_statistics import statistics
+from precursors.hierarchy.larger import LargerChain
+from precursors.hierarchy.models import Motion, events_kept, first_global_slip, move
+from precursors.model.chain import Chain, parse_theta
+
+# What makes a model, and how the tables call it.
+VALUES = {
+    "relaxation_time": "viscous_time_s",
+    "viscosity": "viscosity_N_s_per_m",
+    "interface_stiffness": "interface_stiffness_N_per_m",
+}
+POINT = ["model", "theta", *VALUES.values(), "n_blocks"]
+
+
+def run_models(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> pd.DataFrame:
+    """Run chains of more and more blocks, with the additions of each model, up to the first global slip.
+
+    The first run of each point (draw 0) has the normal loads of Eq. 7. In the others each of them is changed
+    by up to the relative size `noise`, at random, and by the same amounts in every model.
+
+    Parameters
+    ----------
+    slider : mapping
+        Arguments of `Chain.from_slider`.
+    settings : mapping
+        Section `resolution_models` of the configuration: theta, n_blocks, noise, runs (of each point), seed,
+        and models. A model has any of relaxation_time t_v [s] (dashpots eta = k t_v, the stiffer the more
+        blocks), viscosity eta [N s/m], interface_stiffness K_t [N/m], and n_blocks where it differs.
+
+    Returns
+    -------
+    DataFrame
+        One row per run and quantity that the run has: `POINT`, draw, quantity, value. The quantities are
+        events_kept, mu_sapp, time_s (onset of the first global slip [s]) and front_speed_m_per_s (its mean
+        speed from block 1 to block N [m/s]).
+    """
+    rows = []
+    for name, values in settings["models"].items():
+        point = {"model": name, "theta": parse_theta(settings["theta"])}
+        point |= {column: values.get(key, 0.0) for key, column in VALUES.items()}
+        for n in values.get("n_blocks", settings["n_blocks"]):
+            chain = Chain.from_slider(**{**slider, "theta": settings["theta"], "n_blocks": n})
+            for draw in range(settings["runs"]):
+                motion = move(with_additions(with_noise(chain, draw, settings), values))
+                for quantity, value in numbers(motion, chain.length).items():
+                    rows.append(point | {"n_blocks": n, "draw": draw, "quantity": quantity, "value": value})
+    return pd.DataFrame(rows).dropna(subset="value")
+
+
+def with_noise(chain: Chain, draw: int, settings: Mapping[str, Any]) -> Chain:
+    """The chain with noise in its normal loads; draw 0 has none."""
+    if draw == 0:
+        return chain
+    random = np.random.default_rng([settings["seed"], chain.n_blocks, draw])
+    change = settings["noise"] * random.uniform(-1.0, 1.0, chain.n_blocks)
+    return replace(chain, weights=chain.weights * (1.0 + change))
+
+
+def with_additions(chain: Chain, values: Mapping[str, Any]) -> Chain | LargerChain:
+    """The chain with the additions of a model; one without any is the paper's."""
+    viscosity = values.get("viscosity", 0.0) + values.get("relaxation_time", 0.0) * chain.stiffness
+    stiffness = values.get("interface_stiffness", 0.0)
+    return LargerChain(chain, viscosity, stiffness) if viscosity or stiffness else chain
+
+
+def numbers(motion: Motion, length: float) -> dict[str, float]:
+    """What is kept of a run; `length` [m] is that of the contact."""
+    onset = first_global_slip(motion)["onset"]
+    distance = length * (motion.n_blocks - 1) / motion.n_blocks
+    return {
+        "events_kept": events_kept(motion),
+        "mu_sapp": motion.mu_sapp,
+        "time_s": onset,
+        "front_speed_m_per_s": distance / (motion.front_arrival - onset),
+    }
+
+
+def resolution_models_table(runs: pd.DataFrame) -> pd.DataFrame:
+    """Statistics over the runs.
+
+    Returns
+    -------
+    DataFrame
+        One row per model, theta, n_blocks and quantity, with the values of the model: the number
+        without_noise, and what `statistics` has of all runs.
+    """
+    rows = []
+    for (*point, quantity), of_point in runs.groupby([*POINT, "quantity"], sort=False):
+        without_noise = of_point.loc[of_point["draw"] == 0, "value"]
+        row = {**dict(zip(POINT, point, strict=True)), "quantity": quantity}
+        row["without_noise"] = without_noise.iloc[0] if len(without_noise) else np.nan
+        rows.append(row | statistics(of_point["value"]))
+    return pd.DataFrame(rows)

@@ -1,0 +1,197 @@
+"""The models, from the smallest to the largest, and the quantities that each of them answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from precursors.analysis.slip_rows import first_global
+from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
+from precursors.hierarchy import rigid, statics
+from precursors.hierarchy.larger import LargerChain, simulate_larger
+from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.scene_models import ADDED, PAPERS_MODEL
+from precursors.model.statics import load_bound
+from precursors.solver.simulate import simulate
+
+# Longest run, in units of the time in which the drive reaches mu_s F_Z against all springs in a row.
+LIMIT = 10.0
+
+# What one may ask of a chain, up to and including its first global slip, and its unit.
+UNITS = {
+    "load_bound": "N",  # largest load of any state of rest (Eq. 13)
+    "first_load": "N",  # load at the onset of the first event
+    "events_kept": "1",  # number of events counted in Fig. 13
+    "mu_sapp": "1",  # apparent static friction coefficient (Eq. 1)
+    "front_loads": "N",  # load at which the front first reaches each block 1..N
+    "slip_duration": "s",  # of the first global slip
+    "waveform": "N",  # rows of time [s] and load [N], with straight lines between them
+}
+
+
+@dataclass(frozen=True)
+class Model:
+    """A model of the table.
+
+    Attributes
+    ----------
+    label : str
+        Name in tables and figures.
+    answers : mapping
+        From a quantity, a key of `UNITS`, to the function that computes it from what `prepare` returns.
+    prepare : callable
+        From a chain to what the answers need; a model of `ADDED` takes a `LargerChain`.
+    """
+
+    label: str
+    answers: Mapping[str, Callable[[Any], Any]]
+    prepare: Callable[[Any], Any] = field(default=lambda chain: chain)
+
+    def ask(self, chain: Chain | LargerChain, quantity: str) -> Any:
+        """Answer one question about a chain."""
+        return self.answers[quantity](self.prepare(chain))
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A run up to the end of its first global slip.
+
+    Attributes
+    ----------
+    n_blocks : int
+        Number N of blocks.
+    slips : DataFrame
+        Its slip events, see `find_slips`.
+    mu_sapp : float
+        Apparent static friction coefficient (Eq. 1); NaN without a global slip.
+    front_arrival : float
+        Time at which block N first slides in the first global slip [s]; NaN where it is not known.
+    waveform : array, shape (n_transitions + 1, 2)
+        Time [s] and load [N] at the start and at each transition.
+    """
+
+    n_blocks: int
+    slips: pd.DataFrame
+    mu_sapp: float
+    front_arrival: float = np.nan
+    waveform: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
+
+
+def move(chain: Chain | LargerChain) -> Motion:
+    """Follow a chain through time to the end of its first global slip."""
+    if isinstance(chain, LargerChain):
+        larger = simulate_larger(chain, longest_run(chain.chain), until="global slip")
+        run = larger.run
+    else:
+        run = simulate(chain, longest_run(chain), until="global slip")
+    slips, transitions = find_slips(run), run.transitions
+    mu_sapp = front_arrival = np.nan
+    first, friction = first_global(slips), apparent_friction(run, slips)
+    if first is not None and friction is not None:
+        onset = slips["onset"].iloc[first]
+        mu_sapp = friction.mu_sapp
+        if isinstance(chain, LargerChain):  # its load may be largest between two transitions
+            mu_sapp = larger.largest_load_until(onset) / run.chain.normal_load
+        arrives = (transitions["block"] == run.chain.n_blocks) & (transitions["mode"] != 0)
+        front_arrival = float(transitions["time"][arrives & (transitions["time"] >= onset)][0])
+    times, loads = transitions["time"], transitions["tangential_load"]
+    waveform = np.column_stack([np.append(0.0, times), np.append(0.0, loads)])
+    return Motion(run.chain.n_blocks, slips, mu_sapp, front_arrival, waveform)
+
+
+def longest_run(chain: Chain) -> float:
+    """Time [s] after which a run is given up that has had no global slip."""
+    compliance = 1.0 / chain.drive_stiffness + (chain.n_blocks - 1) / chain.stiffness
+    return LIMIT * chain.mu_s * chain.normal_load * compliance / chain.drive_velocity
+
+
+def _cascade(overshoot: float) -> Callable[[Chain], Motion]:
+    def move_without_inertia(chain: Chain) -> Motion:
+        slips = quasistatic_slips(chain, overshoot)
+        return Motion(chain.n_blocks, slips, float(slips["load_before"].max()) / chain.normal_load)
+
+    return move_without_inertia
+
+
+def front_loads(motion: Motion) -> FloatArray:
+    """F_X at the onset of the first event whose front reaches block 1..N or beyond [N]; NaN if none."""
+    farthest = motion.slips["front"].cummax().to_numpy()
+    event = np.searchsorted(farthest, np.arange(1, motion.n_blocks + 1))
+    return np.append(motion.slips["load_before"].to_numpy(), np.nan)[event]
+
+
+def first_global_slip(motion: Motion) -> Mapping[str, float]:
+    """Onset and end of the first global slip [s]; NaN without one."""
+    first = first_global(motion.slips)
+    return {name: np.nan if first is None else motion.slips[name].iloc[first] for name in ("onset", "end")}
+
+
+def slip_duration(motion: Motion) -> float:
+    """Duration of the first global slip [s]."""
+    slip = first_global_slip(motion)
+    return float(slip["end"] - slip["onset"])
+
+
+def events_kept(motion: Motion) -> float:
+    """Number of events counted in Fig. 13; NaN without a global slip."""
+    return np.nan if first_global(motion.slips) is None else float(len(find_precursors(motion.slips)))
+
+
+_EVENTS: dict[str, Callable[[Motion], Any]] = {
+    "first_load": lambda motion: float(motion.slips["load_before"].iloc[0]),
+    "events_kept": events_kept,
+    "mu_sapp": lambda motion: motion.mu_sapp,
+    "front_loads": front_loads,
+}
+_MOTION = _EVENTS | {"slip_duration": slip_duration, "waveform": lambda motion: motion.waveform}
+
+# From the smallest to the largest; the key is the word after `model:` in a scene.
+MODELS: dict[str, Model] = {
+    "statics": Model("statics", {"load_bound": load_bound, "first_load": statics.first_precursor_load}),
+    "law": Model(
+        "front law", {"front_loads": statics.front_load_law, "mu_sapp": statics.apparent_friction_law}
+    ),
+    "rigid": Model("rigid slider", rigid.ANSWERS),
+    "overdamped": Model("overdamped chain", _EVENTS, _cascade(OVERDAMPED)),
+    "quasistatic": Model("quasi-static chain", _EVENTS, _cascade(ENERGY_CONSERVED)),
+    PAPERS_MODEL: Model("paper's chain", _MOTION, move),
+    "viscous": Model("with viscosity", _MOTION, move),
+    "interface": Model("with interface springs", _MOTION, move),
+    "head": Model("with head mass", _MOTION, move),
+}
+
+
+def answers_table(chain: Chain, model: str, additions: Mapping[str, float] | None = None) -> pd.DataFrame:
+    """Ask a model all that it answers about a chain, up to the end of the first global slip.
+
+    Parameters
+    ----------
+    chain : Chain
+        The paper's chain.
+    model : str
+        A key of `MODELS`.
+    additions : mapping, optional
+        What a model of `ADDED` adds to the chain, fields of `LargerChain`.
+
+    Returns
+    -------
+    DataFrame
+        One row per number: model, quantity, value and its unit; block (1..N) for the load at which the front
+        first reaches each block; time_s [s] for the tangential load over time.
+    """
+    prepared = MODELS[model].prepare(LargerChain(chain, **(additions or {})) if model in ADDED else chain)
+    tables = []
+    for quantity, answer in MODELS[model].answers.items():
+        value = np.asarray(answer(prepared))
+        table = pd.DataFrame({"value": np.atleast_1d(value if value.ndim < 2 else value[:, 1])})
+        table["block"] = pd.array(
+            range(1, len(table) + 1) if value.ndim == 1 else [None] * len(table), "Int64"
+        )
+        table["time_s"] = value[:, 0] if value.ndim == 2 else np.nan
+        tables.append(table.assign(model=model, quantity=quantity, unit=UNITS[quantity]))
+    return pd.concat(tables)[["model", "quantity", "block", "time_s", "value", "unit"]]
