@@ -3,7 +3,7 @@
 import numpy as np
 
 from precursors import Chain, Run, TransitionLimitError, simulate
-from precursors.accuracy.audit import Audit, Tolerances, audit
+from precursors.accuracy.audit import Audit, audit
 from precursors.model.statics import balance_matrix, positions_from_compressions
 
 SLIDER = Chain.from_slider
@@ -17,9 +17,9 @@ def first_transitions(chain: Chain, most: int, **options) -> Run:
         return limit.run
 
 
-def audited(run: Run, tolerance: Tolerances | None = None) -> Audit:
+def audited(run: Run) -> Audit:
     """Demand that the run is a motion of the model."""
-    report = audit(run, tolerance)
+    report = audit(run)
     report.raise_if_failed()
     return report
 

@@ -11,14 +11,9 @@ from chains import first_transitions, positions_under
 from numpy.random import Generator
 
 from precursors import Chain
-from precursors.accuracy.audit import Tolerances, audit
+from precursors.accuracy.audit import audit
 
 SEED = 1961
-# What the solver counts as zero, 8 eps, as roundings of 2^-53 that a step may add: deviations come to 12.
-ROUNDINGS = 16.0
-# Of the work of the drive, the friction heat and the energy at the start: rounding adds up to 3e-13.
-ENERGY = 2e-12
-TOLERANCES = Tolerances(energy=ENERGY, roundings=ROUNDINGS)
 
 
 @dataclass(frozen=True)
@@ -149,7 +144,7 @@ def verdict(case: Trial) -> str:
     if not (np.isfinite(positions).all() and np.isfinite(velocities).all()):
         return "the state at the end is not finite"
     try:
-        report = audit(run, TOLERANCES)
+        report = audit(run)
     except ArithmeticError as error:
         return f"cannot be audited: {type(error).__name__}: {error}"
     if report.ok:

@@ -96,7 +96,7 @@ def seen(number: int, way: str) -> bool | None:
     _, case = random_chains.trial(number)
     run = first_transitions(case.chain, case.most, duration=case.duration, **case.start)
     wrong = WAYS[way](run, np.random.default_rng([random_chains.SEED, number, list(WAYS).index(way)]))
-    return None if wrong is None else not audit(wrong, random_chains.TOLERANCES).ok
+    return None if wrong is None else not audit(wrong).ok
 
 
 def shares(numbers: Iterable[int]) -> dict[tuple[str, str], tuple[int, int]]:

@@ -11,7 +11,7 @@ from chains import first_transitions, positions_under
 from reference import ReferenceChain, reference
 
 from precursors import Chain
-from precursors.accuracy.audit import _Auditor
+from precursors.accuracy.audit.checks import ROUNDINGS, Auditor
 
 # In radians of the fastest motion: measured are 1e-9 where the drive is 1e7 times as stiff as the chain, and
 # 2e-10 elsewhere. A force at its limit is known to a rounding, its instant to less where it hardly grows.
@@ -101,9 +101,10 @@ def test_a_run_that_was_once_in_doubt_is_that_of_the_reference(number):
 @pytest.mark.parametrize(("number", "blocks"), BELOW_ROUNDING.items())
 def test_blocks_that_are_stronger_than_a_rounding_let_go_in_time_beside_others_that_are_not(number, blocks):
     run, mine, exact = run_and_exact(number)
-    auditor = _Auditor(run, random_chains.TOLERANCES)
-    assert auditor.audit().ok
-    resolved = np.flatnonzero(auditor.strength > random_chains.ROUNDINGS * auditor.rounding.force) + 1
+    auditor = Auditor(run, ROUNDINGS)
+    auditor.walk()
+    assert not auditor.problems
+    resolved = np.flatnonzero(auditor.strength > ROUNDINGS * auditor.one * auditor.per_force) + 1
     assert resolved.tolist() == blocks
     of_these = [[t for t in transitions if t[1] in blocks] for transitions in (mine, exact)]
     assert [t[1:] for t in of_these[0]] == [t[1:] for t in of_these[1]]

@@ -1,0 +1,133 @@
+"""An independent check that a run is a motion of the model: equation of motion, Coulomb's law, energy.
+
+Nothing of the solver is used. Every interval between two transitions is propagated by the normal modes of
+the sliding blocks. What must hold inside it is proved with a bound on the fourth derivative.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from precursors.accuracy.audit.checks import ROUNDINGS, Auditor
+from precursors.model.chain import positive
+from precursors.solver.run import Run
+
+__all__ = ["Audit", "audit"]
+
+
+@dataclass(frozen=True)
+class Audit:
+    """Outcome of an audit.
+
+    Attributes
+    ----------
+    velocity_violation : float
+        Largest speed of a sliding block against its mode [m/s].
+    stick_violation : float
+        Largest excess of a stuck block's force over mu_s w [N].
+    time_residual : float
+        Largest difference of a recorded time and the sum of the intervals [s].
+    energy_residual : float
+        Work of the drive minus change of energy minus friction heat, relative to what was turned over.
+    roundings : float
+        Largest deviation of a force, a velocity or the energy, in roundings.
+    n_intervals : int
+        Number of intervals that were propagated.
+    problems : tuple of str
+        What exceeds its tolerance, one short sentence each, at most `checks.MAX_PROBLEMS`.
+    """
+
+    velocity_violation: float = math.nan
+    stick_violation: float = math.nan
+    time_residual: float = math.nan
+    energy_residual: float = math.nan
+    roundings: float = math.nan
+    n_intervals: int = 0
+    problems: tuple[str, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        """Whether the run is a motion of the model within the tolerances."""
+        return not self.problems
+
+    def raise_if_failed(self) -> None:
+        """Raise an ArithmeticError that lists the problems, if there are any."""
+        if self.problems:
+            raise ArithmeticError(str(self))
+
+    def __str__(self) -> str:
+        verdict = "a motion" if self.ok else f"no motion ({len(self.problems)} problems)"
+        return "\n".join(
+            [
+                f"The run is {verdict} of the model: {self.n_intervals} intervals audited.",
+                f"  velocity against its mode  {self.velocity_violation:.1e} m/s",
+                f"  force beyond mu_s w        {self.stick_violation:.1e} N",
+                f"  recorded times             {self.time_residual:.1e} s",
+                f"  energy                     {self.energy_residual:.1e} relative",
+                f"  in all                     {self.roundings:.1f} roundings",
+                *self.problems,
+            ]
+        )
+
+
+def audit(run: Run, roundings: float = ROUNDINGS) -> Audit:
+    """Check that a run is a motion of the chain, without the solver's code.
+
+    From the start state, the transitions are applied in order and every interval is propagated by the modes
+    of the sliding blocks. Inside each interval sliding blocks must keep the direction of their mode and
+    stuck blocks must stay within +-mu_s w: excesses beyond the tolerance are reported where they are found,
+    and a bound proves that there is none of more than twice the tolerance. At each transition the switching
+    rule, the recorded load and the recorded time are checked; at the end the energy.
+
+    Parameters
+    ----------
+    run : Run
+        Of any method: only chain, start state, transitions, intervals and duration are read.
+    roundings : float
+        What forces, velocities and the energy may be off by, in roundings; the default is for an exact run.
+
+    Raises
+    ------
+    ValueError
+        If `roundings` is not a number above zero.
+    """
+    positive("roundings", roundings, "1")
+    malformed = _malformed(run)
+    if malformed:
+        return Audit(problems=(malformed,))
+    auditor = Auditor(run, roundings)
+    auditor.walk()
+    return Audit(
+        velocity_violation=auditor.velocity_violation,
+        stick_violation=auditor.stick_violation,
+        time_residual=auditor.time_residual,
+        energy_residual=auditor.energy_residual,
+        roundings=auditor.most,
+        n_intervals=auditor.n_audited,
+        problems=tuple(auditor.problems),
+    )
+
+
+def _malformed(run: Run) -> str:
+    """Say why the arrays of a run cannot be audited at all, or nothing."""
+    n, n_transitions = run.chain.n_blocks, len(run.transitions)
+    for name in ("start_positions", "start_velocities"):
+        start = np.asarray(getattr(run, name))
+        if start.shape != (n,) or not np.all(np.isfinite(start)):
+            return f"{name} does not hold one finite value for each of the {n} blocks"
+    intervals = np.asarray(run.intervals)
+    if intervals.shape != (n_transitions + 1,):
+        return (
+            f"{n_transitions} transitions need {n_transitions + 1} intervals, the run has {intervals.shape}"
+        )
+    if not (np.all(np.isfinite(intervals)) and np.all(intervals >= 0)):
+        return "an interval is negative or not finite"
+    block, mode = run.transitions["block"], run.transitions["mode"]
+    wrong = np.flatnonzero((block < 1) | (block > n) | (mode < -1) | (mode > 1))
+    if wrong.size:
+        k = wrong[0]
+        return f"transition {k} has block {block[k]}, mode {mode[k]}: there is no such block or mode"
+    return ""

@@ -1,0 +1,98 @@
+"""What must hold inside an interval between two transitions, and the proof that it does."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from precursors.accuracy.audit.motion import Motion
+from precursors.model.chain import FloatArray
+
+_PHASE_PER_CELL = 1.0  # rad of the fastest mode: what a first cell can usually be proved for
+_FEWEST_CELLS = 2
+_PARTS = 8  # of a cell for which that does not suffice
+_NUMBERS_AT_ONCE = 200_000  # in an array: bounds the memory on long intervals and long chains
+
+
+class Conditions:
+    """What must not be negative in an interval, as functions of the time s since its start.
+
+    One column for each sliding block (its velocity [m/s] in the direction of its mode), then two for each
+    stuck block whose force can change (mu_s w - force and mu_s w + force [N]).
+
+    Attributes
+    ----------
+    sliding, stuck : array
+        The blocks, counted from 0.
+    fourth : array
+        Bounds of the fourth derivative of each column.
+    """
+
+    def __init__(
+        self, motion: Motion, mode: np.ndarray, force: FloatArray, strength: FloatArray, loading_rate: float
+    ) -> None:
+        self.motion = motion
+        moves = mode != 0
+        near = moves.copy()
+        near[0] = True
+        near[1:] |= moves[:-1]
+        near[:-1] |= moves[1:]
+        self.sliding = np.flatnonzero(moves)
+        self.stuck = np.flatnonzero(near & ~moves)
+        springs = motion.modes.spring_shapes
+        self.to_speed = motion.modes.shapes.T * mode[self.sliding]
+        self.to_force = (springs[self.stuck + 1] - springs[self.stuck]).T
+        self.force, self.strength = force[self.stuck], strength[self.stuck]
+        self.rate = np.where(self.stuck == 0, loading_rate, 0.0)
+        displacement, velocity = motion.fourth_derivatives()
+        bend = displacement @ np.abs(self.to_force)
+        self.fourth = np.concatenate([velocity @ np.abs(self.to_speed), bend, bend])
+
+    def __call__(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Values and slopes at the times s, each of shape (len(s), number of columns)."""
+        displacement, velocity, acceleration = self.motion.at(s)
+        force = displacement @ self.to_force + self.force + s[:, None] * self.rate
+        rate = velocity @ self.to_force + self.rate
+        values = [velocity @ self.to_speed, self.strength - force, self.strength + force]
+        slopes = [acceleration @ self.to_speed, -rate, rate]
+        return np.concatenate(values, axis=1), np.concatenate(slopes, axis=1)
+
+    def lowest(self, duration: float, tolerance: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Lowest values that were found and their times, each of shape (number of columns,).
+
+        Where none is below -tolerance, none is below -2 tolerance anywhere in the interval. The proof: with
+        a fourth derivative of at most M, g is off by at most M d^4/384 on a cell of width d from the cubic
+        that has its values and slopes at both ends, and a cubic is above the least of its Bernstein
+        coefficients. A cell for which that does not suffice is cut. The search ends where something is
+        below -tolerance.
+        """
+        columns = len(self.fourth)
+        fastest = self.motion.modes.frequencies.max(initial=0.0)
+        n_cells = max(_FEWEST_CELLS, math.ceil(duration * fastest / _PHASE_PER_CELL)) if fastest else 1
+        at_once = max(_FEWEST_CELLS, _NUMBERS_AT_ONCE // columns)
+        lowest, when = np.full(columns, np.inf), np.zeros(columns)
+        for k in range(0, n_cells, at_once):
+            # A row holds one edge of all cells, the next row the other.
+            edges = duration / n_cells * np.arange(k, min(k + at_once, n_cells) + 1, dtype=float)[:, None]
+            while edges.size and not np.any(lowest < -tolerance):
+                values, slopes = (x.reshape(*edges.shape, columns) for x in self(edges.ravel()))
+                _note(values.reshape(-1, columns), edges.ravel(), lowest, when)
+                is_open = np.any(self._bound(edges, values, slopes) < -2 * tolerance, axis=-1)
+                edges = np.linspace(edges[:-1][is_open], edges[1:][is_open], _PARTS + 1)
+        return lowest, when
+
+    def _bound(self, edges: FloatArray, values: FloatArray, slopes: FloatArray) -> FloatArray:
+        """Bound the functions from below in each cell."""
+        width = np.diff(edges, axis=0)[..., None]
+        low, high = values[:-1], values[1:]
+        inner = np.minimum(low + slopes[:-1] * (width / 3), high - slopes[1:] * (width / 3))
+        return np.minimum(np.minimum(low, high), inner) - self.fourth * (width**4 / 384)
+
+
+def _note(values: FloatArray, times: FloatArray, lowest: FloatArray, when: FloatArray) -> None:
+    """Keep the lowest value of each column and its time."""
+    row = np.argmin(values, axis=0)
+    value = values[row, np.arange(values.shape[1])]
+    deeper = value < lowest
+    lowest[deeper], when[deeper] = value[deeper], times[row[deeper]]
