@@ -235,11 +235,11 @@ rule draw_maps:
 
 rule write_explorer:
     input:
-        runs=collect("results/runs/{scene}.h5", scene=SCENES),
         page=collect(
-            f"{LIBRARY}/figures/explorer/{{file}}", file=["explorer.css", "explorer.js", "page.html"]
+            f"{LIBRARY}/figures/explorer/{{file}}",
+            file=["explorer.css", "explorer.js", "page.html", "solver.js"],
         ),
-        code=package("model/chain", "solver", "analysis", "figures/style", "figures/explorer"),
+        code=package("figures/style", "figures/explorer", "support/files"),
     output:
         page="results/explorer.html",
     log:
@@ -247,6 +247,7 @@ rule write_explorer:
     localrule: True
     params:
         titles={scene: config["scenes"][scene]["title"] for scene in SCENES},
-        thetas={scene: scene_slider(config, scene)["theta"] for scene in SCENES},
+        sliders={scene: scene_slider(config, scene) for scene in SCENES},
+        duration=config["duration"],
     script:
         "../scripts/write_explorer.py"

@@ -1,293 +1,374 @@
-// Links the panels: decides what of a scene is in view, hands it to the figures, and jumps to events.
 "use strict";
+// Links sliders, solver and figures: what is simulated, what of it is in view, and which event is chosen.
 
 (async () => {
   const PIXELS_OF_A_BAR = 2; // what is narrower is drawn so wide
   const REACH = 14; // pixels around an event in which a click means it
-  const ROOM = 0.35; // of an event's duration, left free before and after it after a jump
-  const RELATIVE_BELOW = 0.02; // s, windows narrower than this count time from an event's onset
+  const ROOM = 0.35; // of an event's duration, free before and after it
+  const RELATIVE_BELOW = 0.02; // s, narrower windows count time from an event's onset
+  const FINE = 0.1; // Taylor window of the drawn motion [tau]
+  const PLAY = 4000; // ms that an event is played for
 
-  const read = (id) => JSON.parse(document.getElementById(id).textContent);
-  const unpack = (text) =>
-    new Float64Array(Uint8Array.from(atob(text), (character) => character.charCodeAt(0)).buffer);
-  const unpackAll = (columns) =>
-    Object.fromEntries(Object.entries(columns).map(([name, text]) => [name, unpack(text)]));
-
-  const { colors, scenes } = read("data");
-  for (const scene of scenes) {
-    for (const part of ["curve", "slides", "events"]) scene[part] = unpackAll(scene[part]);
-  }
-  const figures = read("figures");
+  const element = (id) => document.getElementById(id);
+  const { colors, scenes, duration, narrowest } = JSON.parse(element("data").textContent);
+  const figures = JSON.parse(element("figures").textContent);
   await Bokeh.embed.embed_items(figures.documents, figures.items);
   const model = (name) => Bokeh.documents[0].get_model_by_name(name);
-  const [load, raster, lengths] = ["load", "raster", "lengths"].map(model);
+  const [load, raster, lengths, profile] = ["load", "raster", "lengths", "profile"].map(model);
   const range = load.x_range;
-  const ticker = model("ticks");
-  const sources = Object.fromEntries(
-    ["curve", "onsets", "slides", "short", "kept", "chosen"].map((name) => [name, model(name)]),
-  );
+  const source = (name) => model(name === "profile" ? "profile source" : name);
+  const sliders = [...document.querySelectorAll("#parameters input")];
 
-  let scene = scenes[0];
-  let chosen = null; // number of the event last jumped to, from 0
+  let parameters = { ...Object.values(scenes)[0] };
+  let run = null, slides = [], counted = [], chosen = null, motion = null, playing = 0;
 
-  // First index of a sorted array whose value is not less than x.
-  function lowerBound(values, x) {
-    let [low, high] = [0, values.length];
+  // The first index of a sorted array at which key(value) is not less than x.
+  function lowerBound(values, x, key = (value) => value) {
+    let low = 0, high = values.length;
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (values[middle] < x) low = middle + 1;
+      if (key(values[middle]) < x) low = middle + 1;
       else high = middle;
     }
     return low;
   }
+  const columnsOf = (rows, names) => Object.fromEntries(names.map((name) => [name, rows.map((row) => row[name])]));
+  const numberOf = (event) => run.events.indexOf(event) + 1;
+  const lengthOf = (event) => (event.front / parameters.n_blocks) * parameters.length * 1e3;
+  const kindOf = (event) =>
+    event.isGlobal ? "global slip" : counted.includes(event) ? "precursor" : event.front < longestBefore(event) ? "short slip" : "partial slip";
+  const longestBefore = (event) => Math.max(0, ...run.events.slice(0, numberOf(event) - 1).map((other) => other.front));
+  const colorOf = (event) => (event.isGlobal ? colors.global : colors.partial);
+  const firstGlobal = () => run.events.find((event) => event.isGlobal);
 
-  function loadAt(time) {
-    const { time: t, load: f } = scene.curve;
-    const i = Math.min(Math.max(lowerBound(t, time), 1), t.length - 1);
-    return f[i - 1] + ((f[i] - f[i - 1]) * (time - t[i - 1])) / (t[i] - t[i - 1]);
+  // Simulate, and show everything.
+  function solve() {
+    const started = performance.now();
+    run = simulate(
+      chainOf({
+        blocks: parameters.n_blocks, theta: parameters.theta, normalLoad: parameters.normal_load,
+        muS: parameters.mu_s, muK: Math.min(parameters.mu_k, parameters.mu_s), driveStiffness: parameters.drive_stiffness,
+        driveVelocity: parameters.drive_velocity, mass: parameters.slider_mass,
+        stiffness: (parameters.youngs_modulus * parameters.cross_section) / parameters.length,
+      }),
+      duration,
+    );
+    counted = precursors(run.events);
+    findSlides();
+    document.body.dataset.milliseconds = (performance.now() - started).toFixed(1);
+    range.setv({ bounds: [0, duration], max_interval: duration });
+    raster.y_range.setv({ start: 0.4, end: parameters.n_blocks + 0.6 });
+    const step = Math.ceil(parameters.n_blocks / 12);
+    model("blocks").ticks = Array.from({ length: parameters.n_blocks }, (_, i) => i + 1).filter((i) => (i - 1) % step === 0);
+    showParameters();
+    showLengths();
+    choose(chosen === null ? null : Math.min(chosen, run.events.length - 1), false);
+    showWindow();
   }
 
-  // Points of F_X(t) from one time to another, with the ends between points.
-  function curveBetween(start, end) {
-    const { time, load: force } = scene.curve;
-    const [first, last] = [lowerBound(time, start), lowerBound(time, end)];
-    return {
-      time: Float64Array.of(start, ...time.subarray(first, last), end),
-      load: Float64Array.of(loadAt(start), ...force.subarray(first, last), loadAt(end)),
+  // Every slide of a block: from the transition that starts it to the block's next one.
+  function findSlides() {
+    slides = [];
+    const open = new Map();
+    run.events.forEach((event, number) => {
+      for (let j = event.first; j < event.last; j++) {
+        const before = open.get(run.block[j]);
+        if (before) before.end = run.time[j];
+        open.delete(run.block[j]);
+        if (run.mode[j] === 0) continue;
+        const slide = { event: number, block: run.block[j], mode: run.mode[j], start: run.time[j], end: event.end, load: run.load[j] };
+        open.set(run.block[j], slide);
+        slides.push(slide);
+      }
+      open.clear();
+    });
+  }
+
+  function showParameters() {
+    for (const slider of sliders) {
+      const value = parameters[slider.id];
+      slider.value = "logarithmic" in slider.dataset ? Math.log10(value) : value;
+      element(`${slider.id}-value`).textContent = "logarithmic" in slider.dataset ? value.toPrecision(3) : value.toPrecision(4) * 1;
+    }
+    for (const button of document.querySelectorAll("[data-scene]")) {
+      const scene = scenes[button.dataset.scene];
+      button.setAttribute("aria-pressed", String(Object.keys(scene).every((name) => scene[name] === parameters[name])));
+    }
+    const slip = firstGlobal();
+    const ratio = (Math.max(0, ...counted.map((event) => event.before)) / parameters.normal_load).toFixed(4);
+    element("answers").innerHTML = slip
+      ? `${counted.length} events counted in Fig. 13, &mu;<sub>sapp</sub> = ${ratio}, first global slip at ${slip.onset.toFixed(3)} s`
+      : `no global slip in ${duration} s; largest load at an onset ${ratio} F<sub>Z</sub>`;
+    element("first").disabled = !slip;
+  }
+
+  function showLengths() {
+    const slip = firstGlobal();
+    const rows = run.events.slice(0, slip ? numberOf(slip) : undefined).map((event) => ({
+      load: event.before, reached: event.front / parameters.n_blocks, event: numberOf(event), kind: kindOf(event),
+      onset: event.onset, length: lengthOf(event), isCounted: counted.includes(event),
+    }));
+    const names = ["load", "reached", "event", "kind", "onset", "length"];
+    source("counted").data = columnsOf(rows.filter((row) => row.isCounted), names);
+    source("short").data = columnsOf(rows.filter((row) => !row.isCounted), names);
+    lengths.x_range.setv({ start: 0, end: 1.08 * Math.max(1, ...rows.map((row) => row.load)) });
+  }
+
+  // Points of F_X(t) in the window: within slips every transition, in a narrow window the motion between them.
+  function curve(start, end) {
+    const time = [], force = [];
+    const add = (t, f) => (time.push(t), force.push(f));
+    const rate = parameters.drive_stiffness * parameters.drive_velocity;
+    let first = Math.max(lowerBound(run.events, start, (event) => event.end) - 1, 0);
+    if (first === 0) add(0, 0);
+    for (const event of run.events.slice(first)) {
+      if (event.onset > end && time[time.length - 1] > end) break;
+      add(event.onset, event.before);
+      if (end - start < RELATIVE_BELOW && event.end > start && event.onset < end) {
+        follow(event).forEach((state) => add(state.time, state.load));
+      } else {
+        for (let j = event.first; j < event.last; j++) add(run.time[j], run.load[j]);
+      }
+      add(event.end, event.after);
+    }
+    const last = run.events[run.events.length - 1];
+    if (!(time[time.length - 1] > end)) add(duration, last ? last.after + rate * (duration - last.end) : rate * duration);
+    return { time, load: force };
+  }
+
+  // The motion in an event: time, load, velocities and modes at the ends of small steps.
+  function follow(event) {
+    if (event.motion) return event.motion;
+    const { chain } = run, states = [];
+    slipEvent(chain, event.force.slice(), (duration - event.onset) / chain.tau, (t, i, m, force, velocity) => {
+      const v = Array.from(velocity.subarray(1, chain.n + 1), (value) => value * chain.velocityUnit);
+      states.push({ time: event.onset + t * chain.tau, load: force[1], velocity: v });
+    }, FINE);
+    return (event.motion = states);
+  }
+
+  function showWindow() {
+    const { start, end } = range;
+    const drawn = curve(start, end);
+    source("curve").data = drawn;
+    let low = Infinity, high = -Infinity;
+    const see = (f) => ((low = Math.min(low, f)), (high = Math.max(high, f)));
+    const at = (t) => {
+      const i = Math.min(Math.max(lowerBound(drawn.time, t), 1), drawn.time.length - 1);
+      const [t0, t1, f0, f1] = [drawn.time[i - 1], drawn.time[i], drawn.load[i - 1], drawn.load[i]];
+      return t1 > t0 ? f0 + ((f1 - f0) * (t - t0)) / (t1 - t0) : f1;
     };
-  }
-
-  const lengthOf = (event) => (scene.events.front[event] / scene.blocks) * scene.length_mm;
-  const kindOf = (s, event) =>
-    s.events.is_global[event] ? "global slip" : s.events.kept[event] ? "precursor" : "partial slip";
-  const colorOf = (event) => (scene.events.is_global[event] ? colors.global : colors.partial);
-  const upTo = (n) => Array.from({ length: n }, (_, i) => i);
-  const pick = (columns, rows) =>
-    Object.fromEntries(Object.entries(columns).map(([name, values]) => [name, rows.map((i) => values[i])]));
-
-  function showCurve(start, end, margin) {
-    const curve = curveBetween(Math.max(start - margin, 0), Math.min(end + margin, scene.duration));
-    sources.curve.data = curve;
-    const seen = curveBetween(start, end).load;
-    let [low, high] = [Infinity, -Infinity];
-    for (const force of seen) [low, high] = [Math.min(low, force), Math.max(high, force)];
+    [start, end].forEach((t) => see(at(t)));
+    drawn.time.forEach((t, i) => { if (t >= start && t <= end) see(drawn.load[i]); });
     const room = 0.08 * (high - low) || 1;
     load.y_range.setv({ start: low - room, end: high + room });
-  }
-
-  function showOnsets(start, end) {
-    const { events } = scene;
-    const inside = upTo(events.onset.length).filter((i) => events.onset[i] >= start && events.onset[i] <= end);
-    sources.onsets.data = {
-      ...pick({ onset: events.onset, before: events.before }, inside),
-      event: inside.map((i) => i + 1),
-      length: inside.map(lengthOf),
-      what: inside.map((i) => kindOf(scene, i)),
-      color: inside.map(colorOf),
+    const inside = run.events.filter((event) => event.onset >= start && event.onset <= end);
+    source("onsets").data = {
+      ...columnsOf(inside, ["onset", "before"]), event: inside.map(numberOf), length: inside.map(lengthOf),
+      kind: inside.map(kindOf), color: inside.map(colorOf),
     };
-  }
-
-  function showSlides(start, end, narrowest) {
-    const { slides } = scene;
-    const inside = upTo(slides.start.length).filter((i) => slides.end[i] >= start && slides.start[i] <= end);
-    sources.slides.data = {
-      ...pick({ start: slides.start, end: slides.end, load: slides.load, event: slides.event, block: slides.block }, inside),
-      left: inside.map((i) => Math.max(slides.start[i], start)),
-      right: inside.map((i) => Math.min(Math.max(slides.end[i], slides.start[i] + narrowest), end)),
-      bottom: inside.map((i) => slides.block[i] - 0.42),
-      top: inside.map((i) => slides.block[i] + 0.42),
-      mode: inside.map((i) => (slides.mode[i] > 0 ? "forward" : "backward")),
-      lasts: inside.map((i) => 1e6 * (slides.end[i] - slides.start[i])),
-      length: inside.map((i) => lengthOf(slides.event[i] - 1)),
-      color: inside.map((i) => (slides.mode[i] < 0 ? colors.backward : colorOf(slides.event[i] - 1))),
+    const bar = (PIXELS_OF_A_BAR * (end - start)) / (raster.inner_width || 800);
+    const seen = slides.filter((slide) => slide.end >= start && slide.start <= end);
+    source("slides").data = {
+      ...columnsOf(seen, ["start", "block", "load"]), event: seen.map((slide) => slide.event + 1),
+      left: seen.map((slide) => Math.max(slide.start, start)),
+      right: seen.map((slide) => Math.min(Math.max(slide.end, slide.start + bar), end)),
+      bottom: seen.map((slide) => slide.block - 0.42), top: seen.map((slide) => slide.block + 0.42),
+      way: seen.map((slide) => (slide.mode > 0 ? "forward" : "backward")),
+      lasts: seen.map((slide) => 1e6 * (slide.end - slide.start)),
+      color: seen.map((slide) => (slide.mode < 0 ? colors.backward : colorOf(run.events[slide.event]))),
     };
+    showTicks(start, end);
+    showReadout();
+    keepState();
   }
 
-  // The event nearest to a time: 0 inside it, else how far its onset or end is.
-  function nearestEvent(time) {
-    const { onset, end } = scene.events;
-    const after = lowerBound(onset, time);
-    let best = [Infinity, null];
-    for (const i of [after - 1, after]) {
-      if (i < 0 || i >= onset.length) continue;
-      const distance = Math.max(onset[i] - time, time - end[i], 0);
-      if (distance < best[0]) best = [distance, i];
-    }
-    return { distance: best[0], event: best[1] };
-  }
-
-  // Ticks at round numbers of seconds or, in a narrow window, of time since an event's onset.
+  // Ticks at round numbers of seconds or, in a narrow window, of time since the onset of an event.
   function showTicks(start, end) {
     const span = end - start;
-    let [zero, unit, label] = [0, 1, "Time t [s]"];
-    const { event } = nearestEvent((start + end) / 2);
+    let zero = 0, unit = 1, label = "Time t [s]";
+    const event = nearest((start + end) / 2).event;
     if (span < RELATIVE_BELOW && event !== null) {
-      zero = scene.events.onset[event];
+      zero = run.events[event].onset;
       const [factor, name] = span < 2e-3 ? [1e-6, "\u00b5s"] : [1e-3, "ms"];
       unit = factor;
-      label = `Time since the onset of event ${event + 1} at ${zero.toFixed(9)} s [${name}]`;
+      label = `Time since the onset of event ${event + 1} [${name}]`;
     }
     const rough = span / unit / 8;
     const power = 10 ** Math.floor(Math.log10(rough));
     const step = power * [1, 2, 5, 10].find((factor) => factor * power >= rough);
     const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-    const first = Math.ceil((start - zero) / unit / step);
-    const last = Math.floor((end - zero) / unit / step);
-    const numbers = upTo(Math.max(last - first + 1, 0)).map((i) => (first + i) * step);
-    const ticks = numbers.map((number) => zero + number * unit);
-    const labels = new Map(ticks.map((tick, i) => [tick, (numbers[i] || 0).toFixed(decimals)]));
+    const labels = new Map();
+    for (let i = Math.ceil((start - zero) / unit / step); i * step * unit + zero <= end; i++) {
+      labels.set(zero + i * step * unit, (i * step || 0).toFixed(decimals));
+    }
     for (const plot of [load, raster]) plot.below[0].major_label_overrides = labels;
     raster.below[0].axis_label = label;
-    ticker.ticks = ticks;
-  }
-
-  function showWindow() {
-    const { start, end } = range;
-    const span = end - start;
-    showCurve(start, end, span);
-    showOnsets(start, end);
-    showSlides(start, end, (PIXELS_OF_A_BAR * span) / (raster.inner_width || 800));
-    showTicks(start, end);
-    showReadout();
+    model("ticks").ticks = [...labels.keys()];
   }
 
   function showReadout() {
-    const span = range.end - range.start;
-    const width =
-      span < 1e-3 ? `${(1e6 * span).toFixed(1)} \u00b5s` : span < 1 ? `${(1e3 * span).toFixed(3)} ms` : `${span.toFixed(3)} s`;
-    let text = `Window ${width}.`;
-    if (chosen !== null) {
-      const { onset, end, before, after, front } = scene.events;
-      const i = chosen;
-      const unfinished = Number.isNaN(after[i]);
-      text +=
-        ` Event ${i + 1} of ${onset.length}, ${kindOf(scene, i)}: onset ${onset[i].toFixed(9)} s, ` +
-        (unfinished ? "not over when the run ends, " : `lasts ${(1e6 * (end[i] - onset[i])).toFixed(2)} \u00b5s, `) +
-        `F_X ${before[i].toFixed(3)}` + (unfinished ? "" : ` \u2192 ${after[i].toFixed(3)}`) +
-        ` N, L_p ${lengthOf(i).toFixed(1)} mm (${front[i]} of ${scene.blocks} blocks).`;
-    }
-    document.getElementById("readout").textContent = text;
+    if (chosen === null) return (element("readout").textContent = "");
+    const event = run.events[chosen];
+    element("readout").textContent =
+      `Event ${chosen + 1} of ${run.events.length}, ${kindOf(event)}: onset ${event.onset.toFixed(9)} s, lasts ` +
+      `${(1e6 * (event.end - event.onset)).toFixed(2)} \u00b5s, F\u2093 ${event.before.toFixed(3)} \u2192 ` +
+      `${event.after.toFixed(3)} N, L\u209a ${lengthOf(event).toFixed(1)} mm (${event.front} of ${parameters.n_blocks} blocks).`;
   }
 
-  let scheduled = false;
-  function schedule() {
-    if (scheduled) return;
-    scheduled = true;
-    requestAnimationFrame(() => {
-      scheduled = false;
-      showWindow();
-    });
+  // The event nearest to a time, and how far away it is: 0 inside the event.
+  function nearest(time) {
+    const after = lowerBound(run.events, time, (event) => event.onset);
+    let best = { distance: Infinity, event: null };
+    for (const i of [after - 1, after]) {
+      if (i < 0 || i >= run.events.length) continue;
+      const distance = Math.max(run.events[i].onset - time, time - run.events[i].end, 0);
+      if (distance < best.distance) best = { distance, event: i };
+    }
+    return best;
+  }
+
+  // Choose an event (or none): its ring in Fig. 13, its motion, and with `jump` the window around it.
+  function choose(event, jump = true) {
+    chosen = event === null || event < 0 ? null : event;
+    stop();
+    motion = chosen === null ? null : follow(run.events[chosen]);
+    const one = chosen === null ? [] : [run.events[chosen]];
+    source("chosen").data = { load: one.map((e) => e.before), reached: one.map((e) => e.front / parameters.n_blocks) };
+    element("play").disabled = element("moment").disabled = chosen === null;
+    profile.x_range.setv({ start: 0.4, end: parameters.n_blocks + 0.6 });
+    const fastest = motion ? motion.flatMap((state) => state.velocity) : [];
+    const high = fastest.reduce((a, b) => Math.max(a, b), 1e-9), low = fastest.reduce((a, b) => Math.min(a, b), 0);
+    profile.y_range.setv({ start: 1.05 * low, end: 1.05 * high });
+    showMoment(Number(element("moment").value));
+    if (chosen !== null && jump) {
+      const { onset, end } = run.events[chosen];
+      setWindow(onset - ROOM * (end - onset), end + ROOM * (end - onset));
+    }
+  }
+
+  // The velocities of all blocks at a moment of the chosen event, from 0 (onset) to 1 (end).
+  function showMoment(share) {
+    if (!motion) {
+      model("cursor").location = null;
+      source("profile").data = { block: [], velocity: [], color: [] };
+      return;
+    }
+    const { onset, end } = run.events[chosen];
+    const time = onset + share * (end - onset);
+    const state = motion[Math.min(lowerBound(motion, time, (s) => s.time), motion.length - 1)];
+    model("cursor").location = time;
+    source("profile").data = {
+      block: state.velocity.map((_, i) => i + 1), velocity: state.velocity,
+      color: state.velocity.map((v) => (v < 0 ? colors.backward : colorOf(run.events[chosen]))),
+    };
+  }
+
+  function play() {
+    const started = performance.now(), from = Number(element("moment").value) % 1;
+    const frame = (now) => {
+      const share = Math.min(from + Math.max(now - started, 0) / PLAY, 1);
+      element("moment").value = share;
+      showMoment(share);
+      playing = share < 1 ? requestAnimationFrame(frame) : 0;
+    };
+    stop();
+    playing = requestAnimationFrame(frame);
+  }
+  function stop() {
+    if (playing) cancelAnimationFrame(playing);
+    playing = 0;
+  }
+
+  let scheduled = null; // work for the next frame: "window" or "solve"
+  function schedule(what) {
+    if (scheduled === null) {
+      requestAnimationFrame(() => {
+        const task = scheduled;
+        scheduled = null;
+        if (task === "solve") solve();
+        else showWindow();
+      });
+    }
+    scheduled = scheduled === "solve" ? "solve" : what;
   }
 
   function setWindow(start, end) {
-    const missing = Math.max(scene.narrowest - (end - start), 0) / 2;
-    range.setv({ start: Math.max(start - missing, 0), end: Math.min(end + missing, scene.duration) });
-    schedule();
+    const missing = Math.max(narrowest - (end - start), 0) / 2;
+    range.setv({ start: Math.max(start - missing, 0), end: Math.min(end + missing, duration) });
+    schedule("window");
   }
 
-  function jumpTo(event) {
-    const { onset, end, before, front } = scene.events;
-    chosen = event;
-    const room = ROOM * (end[event] - onset[event]);
-    sources.chosen.data = { load: [before[event]], reached: [front[event] / scene.blocks] };
-    setWindow(onset[event] - room, end[event] + room);
+  // The state is in the address: parameters, window, event.
+  function keepState() {
+    const state = new URLSearchParams(sliders.map((slider) => [slider.id, parameters[slider.id]]));
+    state.set("from", range.start);
+    state.set("to", range.end);
+    if (chosen !== null) state.set("event", chosen + 1);
+    history.replaceState(null, "", `#${state}`);
   }
-
-  const firstGlobal = (s) => s.events.is_global.indexOf(1);
-
-  function choose(next) {
-    scene = next;
-    chosen = null;
-    sources.chosen.data = { load: [], reached: [] };
-    for (const button of document.querySelectorAll("[data-scene]")) {
-      button.setAttribute("aria-pressed", String(button.dataset.scene === scene.name));
+  function restoreState() {
+    const state = new URLSearchParams(location.hash.slice(1));
+    for (const slider of sliders) {
+      const value = Number(state.get(slider.id));
+      const actual = "logarithmic" in slider.dataset ? Math.log10(value) : value;
+      if (state.has(slider.id) && actual >= slider.min && actual <= slider.max) parameters[slider.id] = value;
     }
-    const event = firstGlobal(scene);
-    model("first global slip").location = event < 0 ? null : scene.events.onset[event];
-    document.getElementById("growth").disabled = event < 0;
-    range.setv({ bounds: [0, scene.duration], max_interval: scene.duration });
-    raster.y_range.setv({ start: 0.4, end: scene.blocks + 0.6 });
-    model("blocks").ticks = blockTicks();
-    setWindow(0, scene.duration);
+    parameters.n_blocks = Math.round(parameters.n_blocks);
+    const [from, to] = ["from", "to"].map((name) => Number(state.get(name)));
+    range.setv(to > from && from >= 0 && to <= duration ? { start: from, end: to } : { start: 0, end: duration });
+    if (state.has("event")) chosen = Math.max(Number(state.get("event")) - 1, 0) || 0;
   }
 
-  function blockTicks() {
-    const step = Math.ceil(scene.blocks / 12);
-    return upTo(scene.blocks).map((i) => i + 1).filter((block) => (block - 1) % step === 0 || block === scene.blocks);
+  async function showOwn(file) {
+    const rows = (await file.text()).split(/\r?\n/).map((line) => line.split(/[,;\s]+/).map(Number));
+    const points = rows.filter(([t, f]) => Number.isFinite(t) && Number.isFinite(f));
+    source("own").data = { time: points.map((row) => row[0]), load: points.map((row) => row[1]) };
   }
 
-  // Fig. 13: what happened up to and including the first global slip of each scene.
-  function showLengths() {
-    const palette = { "-1": colors.global, 0: "#000000", 1: colors.partial };
-    const rows = scenes.flatMap((s) => {
-      const last = firstGlobal(s) < 0 ? s.events.onset.length - 1 : firstGlobal(s);
-      return upTo(last + 1).map((i) => ({
-        load: s.events.before[i],
-        reached: s.events.front[i] / s.blocks,
-        length: (s.events.front[i] / s.blocks) * s.length_mm,
-        event: i + 1,
-        scene: `${s.name}, ${s.theta}`,
-        name: s.name,
-        what: s.events.kept[i] ? kindOf(s, i) : "short event",
-        onset: s.events.onset[i],
-        color: palette[s.sign],
-        fill: s.sign < 0 ? palette[s.sign] : "rgba(255, 255, 255, 0)",
-        size: 9 + 3 * s.sign,
-        kept: s.events.kept[i],
-      }));
+  for (const slider of sliders) {
+    slider.addEventListener("input", () => {
+      const value = Number(slider.value);
+      parameters[slider.id] = "logarithmic" in slider.dataset ? 10 ** value : value;
+      if (slider.id === "mu_s") parameters.mu_k = Math.min(parameters.mu_k, parameters.mu_s);
+      if (slider.id === "mu_k") parameters.mu_s = Math.max(parameters.mu_k, parameters.mu_s);
+      schedule("solve");
     });
-    const table = (chosenRows) =>
-      Object.fromEntries(Object.keys(rows[0] ?? {}).map((name) => [name, chosenRows.map((row) => row[name])]));
-    sources.kept.data = table(rows.filter((row) => row.kept));
-    sources.short.data = table(rows.filter((row) => !row.kept));
-    const most = rows.reduce((largest, row) => Math.max(largest, row.load), 1);
-    lengths.x_range.setv({ start: 0, end: 1.08 * most, reset_start: 0, reset_end: 1.08 * most });
-    return rows;
   }
-
-  function onLengths(rows, click) {
+  for (const button of document.querySelectorAll("[data-scene]")) {
+    button.addEventListener("click", () => {
+      parameters = { ...scenes[button.dataset.scene] };
+      chosen = null;
+      schedule("solve");
+    });
+  }
+  for (const name of ["start", "end"]) range.properties[name].change.connect(() => schedule("window"));
+  raster.properties.inner_width.change.connect(() => schedule("window"));
+  for (const plot of [load, raster]) {
+    plot.on_event("tap", (click) => {
+      const { distance, event } = nearest(click.x);
+      if ((distance * load.inner_width) / (range.end - range.start) <= REACH) choose(event);
+    });
+  }
+  lengths.on_event("tap", (click) => {
     const across = lengths.inner_width / (lengths.x_range.end - lengths.x_range.start);
     const up = lengths.inner_height / (lengths.y_range.end - lengths.y_range.start);
-    let best = [REACH, null];
-    for (const row of rows) {
-      const distance = Math.hypot((row.load - click.x) * across, (row.reached - click.y) * up);
-      if (distance <= best[0]) best = [distance, row];
-    }
-    const row = best[1];
-    if (row === null) return;
-    if (row.name !== scene.name) choose(scenes.find((s) => s.name === row.name));
-    jumpTo(row.event - 1);
-  }
-
-  function onTime(click) {
-    const { distance, event } = nearestEvent(click.x);
-    if ((distance * load.inner_width) / (range.end - range.start) <= REACH) jumpTo(event);
-  }
-
-  // The next event in a direction: of the one last jumped to, or of the middle of the window.
-  function step(direction) {
-    const { onset } = scene.events;
-    if (onset.length === 0) return;
-    const after = lowerBound(onset, (range.start + range.end) / 2);
-    const next = chosen === null ? (direction > 0 ? after : after - 1) : chosen + direction;
-    jumpTo(Math.min(Math.max(next, 0), onset.length - 1));
-  }
-
-  const rows = showLengths();
-  for (const name of ["start", "end"]) range.properties[name].change.connect(schedule);
-  raster.properties.inner_width.change.connect(schedule);
-  load.on_event("tap", onTime);
-  raster.on_event("tap", onTime);
-  lengths.on_event("tap", (click) => onLengths(rows, click));
-  for (const button of document.querySelectorAll("[data-scene]")) {
-    button.addEventListener("click", () => choose(scenes.find((s) => s.name === button.dataset.scene)));
-  }
-  document.getElementById("whole").addEventListener("click", () => setWindow(0, scene.duration));
-  document.getElementById("growth").addEventListener("click", () =>
-    setWindow(0, 1.03 * scene.events.onset[firstGlobal(scene)]),
-  );
-  document.getElementById("previous").addEventListener("click", () => step(-1));
-  document.getElementById("next").addEventListener("click", () => step(+1));
-  choose(scene);
+    const slip = firstGlobal();
+    let best = REACH, found = null;
+    run.events.slice(0, slip ? numberOf(slip) : undefined).forEach((event, i) => {
+      const distance = Math.hypot((event.before - click.x) * across, (event.front / parameters.n_blocks - click.y) * up);
+      if (distance <= best) [best, found] = [distance, i];
+    });
+    if (found !== null) choose(found);
+  });
+  element("whole").addEventListener("click", () => setWindow(0, duration));
+  element("first").addEventListener("click", () => setWindow(0, 1.03 * firstGlobal().onset));
+  element("next").addEventListener("click", () => run.events.length && choose(chosen === null ? 0 : Math.min(chosen + 1, run.events.length - 1)));
+  element("previous").addEventListener("click", () => run.events.length && choose(Math.max((chosen ?? 1) - 1, 0)));
+  element("play").addEventListener("click", play);
+  element("moment").addEventListener("input", () => (stop(), showMoment(Number(element("moment").value))));
+  element("own").addEventListener("change", () => showOwn(element("own").files[0]));
+  restoreState();
+  solve();
   document.body.dataset.ready = "true";
 })();
