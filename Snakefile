@@ -5,15 +5,8 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from precursors.model.config_check import check_config, check_directory
-from precursors.model.config_file import check_config_file
-from precursors.model.scenes import (
-    scene_duration,
-    scene_model,
-    scene_additions,
-    scene_slider,
-    scenes_with,
-)
+from precursors.model.config import check_config, check_file
+from precursors.model.scenes import scene_additions, scene_duration, scene_model, scene_slider, scenes_with
 from precursors.support.package import files_of
 
 min_version("9.20")
@@ -25,11 +18,10 @@ LIBRARY = ROOT / "src/precursors"
 package = partial(files_of, LIBRARY)
 
 
-# Before Snakemake reads it, and evaluates Python in it if it asks for that. Files of the command line are read by now.
 if not workflow.modifier.skip_configfile:
     try:
         for path in ["config.yaml", *workflow.overwrite_configfiles]:
-            check_config_file(path)
+            check_file(path)
     except ValueError as error:
         raise WorkflowError(str(error)) from None
 
@@ -41,10 +33,11 @@ report: "workflow/report/workflow.rst"
 
 
 try:
-    check_config(config, workflow.source_path("workflow/schemas/config.schema.yaml"))
-    check_directory("results")
+    check_config(config, ROOT / "workflow/schemas/config.schema.yaml")
 except ValueError as error:
     raise WorkflowError(str(error)) from None
+if not os.access("results" if os.path.exists("results") else ".", os.W_OK | os.X_OK):
+    raise WorkflowError("results must be a directory that can be written to")
 
 SCENES = scenes_with(config, "run")
 ASKED = scenes_with(config, "answers")

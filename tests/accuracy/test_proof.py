@@ -45,7 +45,7 @@ TIME_RADIUS, LOAD_RADIUS = Fraction(1, 10**40), Fraction(1, 10**35)
 DOUBLE_TIME, DOUBLE_LOAD = 1e-9, 1e-8
 # So few that the enclosures are wide, and a start so close to the edge of what they hold at time 0.
 COARSE_BITS, CLOSE_TO_REACH = 128, Fraction(99, 100)
-CHAINS = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text())["horizon"]["chains"]
+CHAINS = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text())["accuracy"]["proved"]
 # A committed certificate is smaller [bytes].
 LARGEST_FILE = 300_000
 # Rounding of clocks of 300 bits [s].

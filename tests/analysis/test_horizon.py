@@ -21,7 +21,7 @@ from precursors.analysis.lyapunov import lyapunov_exponent
 from precursors.analysis.tangent import Motion, Tangent
 
 ROOT = Path(__file__).parents[2]
-CHAINS = list(yaml.safe_load((ROOT / "config.yaml").read_text())["horizon"]["chains"])
+CHAINS = list(yaml.safe_load((ROOT / "config.yaml").read_text())["accuracy"]["proved"])
 TOLERANCES = [1e-15, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5]  # s
 # An actual error may be so many times the one predicted: 10 is promised, 0.7 is the largest known.
 OPTIMISM = 3.0

@@ -22,6 +22,7 @@ import numpy as np
 import pytest
 import yaml
 from cluster.single_node import DAEMONS, SlurmNode, daemon_pid, slurm_node
+from snakemake.utils import update_config
 
 from precursors.ensembles.catalogue import chunk_names
 from precursors.ensembles.maps import AXES
@@ -30,7 +31,7 @@ ROOT = Path(__file__).parents[2]
 CORES = int(os.environ.get("CORES", "2"))
 SOURCE = "source"  # the copy of the workflow
 TABLES = [f"results/tables/{name}.csv" for name in AXES]
-SMALL = {"maps": {"points": 400}, "ensembles": {"seconds_per_chunk": 1.5}}
+SMALL = {"ensembles": {"maps": {"points": 400}, "seconds_per_chunk": 1.5}}
 # What a machine of one node need not wait for; and a failed job shall stay failed until the next call.
 IMPATIENT = ["--slurm-init-seconds-before-status-checks=3", "--latency-wait=5", "--retries=0"]
 # A chunk in the middle of its work has loaded its compiler.
@@ -90,7 +91,7 @@ def copy_workflow(source: Path) -> None:
 def planned(source: Path) -> set[str]:
     """Comments of the jobs that the chunks of all maps are."""
     config = yaml.safe_load((source / "config.yaml").read_text(encoding="utf-8"))
-    config |= {key: config[key] | values for key, values in SMALL.items()}
+    update_config(config, SMALL)
     return {comment(name, chunk) for name in AXES for chunk in chunk_names(config, name)}
 
 

@@ -24,7 +24,16 @@ SMALL = {
     "parameters": [1e-2],
     "theta": {"window": 0.0034, "points": 3},
 }
-FEW = {**CONFIG, "spread": SMALL}
+
+
+def with_ensembles(**sections):
+    """The paper's configuration with other values in sections of `ensembles`."""
+    ensembles = CONFIG["ensembles"]
+    changed = {name: {**ensembles[name], **values} for name, values in sections.items()}
+    return {**CONFIG, "ensembles": {**ensembles, **changed}}
+
+
+FEW = with_ensembles(spread=SMALL)
 
 
 @pytest.fixture(scope="module")
@@ -141,7 +150,7 @@ def test_a_missing_and_a_doubled_chunk_are_noticed(study, results, tmp_path):
 
 
 def test_a_larger_ensemble_contains_the_smaller(study):
-    larger = make_study({**FEW, "spread": {**SMALL, "members": 5}}, "spread_members")
+    larger = make_study(with_ensembles(spread={**SMALL, "members": 5}), "spread_members")
     for labels in ({"question": "loads", "size": 1e-2}, {"perturbation": "mu_s", "size": 1e-2}):
         few, many = rows(study, scene="fig10", **labels), rows(larger, scene="fig10", **labels)
         for i, j in zip(few, many[:3], strict=True):
@@ -232,7 +241,7 @@ def test_a_number_is_classed_by_the_smallest_change_that_it_does_not_survive(cha
 
 
 def test_the_scene_with_the_load_at_the_leading_edge_is_fragile():
-    config = {**CONFIG, "spread": {**SMALL, "members": 20, "loads": [1e-4], "parameters": [1e-5]}}
+    config = with_ensembles(spread={**SMALL, "members": 20, "loads": [1e-4], "parameters": [1e-5]})
     study = make_study(config, "spread_members")
     wanted = [i for i in range(len(study)) if study.columns["scene"][i] in ("fig10", "fig12")]
     wanted = [i for i in wanted if study.columns["perturbation"][i] in ("none", "normal loads", "theta")]
@@ -250,7 +259,7 @@ def test_an_unknown_study_is_refused_by_name():
 
 
 def test_chunks_are_named_after_their_members(study):
-    config = {**FEW, "ensembles": {"seconds_per_chunk": 1e9}}
+    config = {**FEW, "ensembles": {**FEW["ensembles"], "seconds_per_chunk": 1e9}}
     assert chunk_names(config, "spread_members") == [f"0-{len(study) - 1}"]
 
 
@@ -264,12 +273,12 @@ def test_chunks_are_named_after_their_members(study):
     ],
 )
 def test_the_chains_of_a_map_are_what_its_axes_say(name, axis, attribute):
-    config = {**CONFIG, "maps": {**CONFIG["maps"], "points": 36}}
+    config = with_ensembles(maps={"points": 36})
     study = make_study(config, name)
     grid = {(study.columns[axis][i], study.columns["theta"][i]) for i in range(len(study))}
     assert len(grid) == len(study) == 36
-    assert study.columns[axis].min() == pytest.approx(CONFIG["maps"][axis][0])
-    assert study.columns[axis].max() == pytest.approx(CONFIG["maps"][axis][1])
+    assert study.columns[axis].min() == pytest.approx(CONFIG["ensembles"]["maps"][axis][0])
+    assert study.columns[axis].max() == pytest.approx(CONFIG["ensembles"]["maps"][axis][1])
     for i in (0, 17, 35):
         chain, start = study.member(i)
         assert start is None
@@ -279,7 +288,7 @@ def test_the_chains_of_a_map_are_what_its_axes_say(name, axis, attribute):
 
 
 def test_runs_of_a_map_go_on_after_the_first_global_slip():
-    config = {**CONFIG, "maps": {**CONFIG["maps"], "points": 9}}
+    config = with_ensembles(maps={"points": 9})
     found = run_members(make_study(config, "map_friction"), 0, 9)
     assert found["reached"].all()
     assert (found["n_global"] > 1).all()
@@ -287,7 +296,7 @@ def test_runs_of_a_map_go_on_after_the_first_global_slip():
 
 def test_the_resolution_study_has_each_chain_once_without_noise_and_as_often_with_it_as_time_allows():
     settings = {"n_blocks": [2, 200], "seconds_per_point": 0.1, "least_runs": 3, "most_runs": 9}
-    config = {**CONFIG, "resolution": {**CONFIG["resolution"], **settings}}
+    config = with_ensembles(resolution=settings)
     study = make_study(config, "resolution_members")
     for scene in CONFIG["fig13"]:
         for n_blocks, n_runs in ((2, 9), (200, 3)):

@@ -62,7 +62,7 @@ def test_the_paper_is_of_the_length_of_a_paper_and_every_page_says_something():
 def test_captions_name_the_rule_and_the_module_that_drew_a_figure():
     text = " ".join(pages_of(PDF.read_bytes()))
     for maker in (
-        "Rule draw_chain, module figures/chain_schematic.py.",
+        "Rule draw_fig09, module figures/chain_schematic.py.",
         "Rule draw_scene, module figures/scene.py.",
         "Rule draw_fig13, module figures/precursor_lengths.py.",
         "Rule draw_spread, module figures/spread.py.",

@@ -20,7 +20,7 @@ from snakemake.script import PythonScript
 for module in (
     "jsonschema",
     "nbformat",
-    "precursors.model.config_check",
+    "precursors.model.config",
     "precursors.ensembles.catalogue",
     "precursors.reproduction.ledger.claims",
     "precursors.reproduction.paper.numbers",

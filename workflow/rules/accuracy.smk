@@ -2,8 +2,8 @@ from precursors.accuracy.proof import scene_exact_chain
 from precursors.accuracy.proof.proved import certificate_path, chain_duration, exact_chain
 from precursors.model.chain import parse_theta
 
-CHAINS = config["horizon"]["chains"]
-COMPARED = config["accuracy"]["chains"]
+CHAINS = config["accuracy"]["proved"]
+COMPARED = config["accuracy"]["work_precision"]["chains"]
 COMMITTED = ROOT / "workflow/certificates"
 # As in precursors.accuracy.failures.WAYS, which takes seconds to import.
 WAYS_TO_FAIL = [
@@ -133,7 +133,7 @@ rule tabulate_horizon:
     localrule: True
     params:
         chains=list(CHAINS),
-        tolerance=config["horizon"]["tolerance"],
+        tolerance=config["accuracy"]["tolerance"],
     script:
         "../scripts/tabulate_horizon.py"
 
@@ -147,7 +147,7 @@ rule tabulate_lyapunov:
         "results/logs/tabulate_lyapunov.log",
     params:
         sliders=SLIDERS,
-        duration=config["horizon"]["lyapunov_duration"],
+        duration=config["accuracy"]["lyapunov_duration"],
     script:
         "../scripts/tabulate_lyapunov.py"
 
@@ -170,7 +170,7 @@ rule measure_methods:
         "results/logs/measure_methods{full}.log",
     params:
         thetas={name: parse_theta(CHAINS[name].get("theta", 0)) for name in COMPARED},
-        size=lambda wildcards: config["accuracy"]["full" if wildcards.full else "default"],
+        size=lambda wildcards: config["accuracy"]["work_precision"]["full" if wildcards.full else "default"],
     script:
         "../scripts/measure_methods.py"
 
@@ -183,7 +183,7 @@ rule measure_growth:
     log:
         "results/logs/measure_growth.log",
     params:
-        size=config["accuracy"]["growth"],
+        size=config["accuracy"]["cost_per_event"],
     script:
         "../scripts/measure_growth.py"
 
@@ -200,7 +200,7 @@ rule tabulate_step_sweep:
     params:
         sliders=SLIDERS,
         durations={scene: scene_duration(config, scene) for scene in config["fig13"]},
-        ranges=lambda wildcards: config["step_sweep"]["full" if wildcards.full else "default"],
+        ranges=lambda wildcards: config["accuracy"]["step_sweep"]["full" if wildcards.full else "default"],
     script:
         "../scripts/tabulate_step_sweep.py"
 

@@ -37,8 +37,8 @@ rule tabulate_definitions:
     params:
         slider=config["chain"],
         duration=config["duration"],
-        degrees=config["definitions"]["theta"],
-        load_drops=config["definitions"]["load_drop"],
+        degrees=config["reproduction"]["theta"],
+        load_drops=config["reproduction"]["load_drop"],
         paper=[config["scenes"][scene].get("paper", {}) for scene in config["fig13"]],
     script:
         "../scripts/tabulate_definitions.py"

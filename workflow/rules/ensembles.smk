@@ -75,7 +75,7 @@ rule tabulate_resolution:
     localrule: True
     params:
         slider=config["chain"],
-        fit_from=config["resolution"]["fit_from"],
+        fit_from=config["ensembles"]["resolution"]["fit_from"],
     script:
         "../scripts/tabulate_resolution.py"
 
@@ -90,6 +90,6 @@ rule tabulate_long_runs:
         "results/logs/tabulate_long_runs.log",
     params:
         sliders=SLIDERS,
-        duration=config["long_runs"]["duration"],
+        duration=config["ensembles"]["long_runs"]["duration"],
     script:
         "../scripts/tabulate_long_runs.py"

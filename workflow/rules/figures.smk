@@ -47,7 +47,7 @@ FIGURES = {
         "params": {
             "chains": CHAINS,
             "thetas": {scene: slider["theta"] for scene, slider in SLIDERS.items()},
-            "tolerance": config["horizon"]["tolerance"],
+            "tolerance": config["accuracy"]["tolerance"],
         },
     },
     "resolution": {

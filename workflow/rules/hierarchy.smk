@@ -15,9 +15,9 @@ rule climb_ladder:
         "results/logs/climb_ladder.log",
     params:
         sliders=SLIDERS,
-        tolerances=config["ladder"]["tolerances"],
-        additions=config["ladder"]["additions"],
-        repetitions=config["ladder"]["repetitions"],
+        tolerances=config["hierarchy"]["tolerances"],
+        additions=config["hierarchy"]["additions"],
+        repetitions=config["hierarchy"]["repetitions"],
     script:
         "../scripts/climb_ladder.py"
 
@@ -32,7 +32,7 @@ rule run_larger_models:
         "results/logs/run_larger_models.log",
     params:
         slider=config["chain"],
-        settings=config["resolution_models"],
+        settings=config["hierarchy"]["resolution"],
     script:
         "../scripts/run_larger_models.py"
 

@@ -31,7 +31,7 @@ def map_study(config: Config, name: str) -> Study:
     Every run is as long as the drive takes for `loadings` times the travel that brings all springs, one
     after the other, to the load mu_s F_Z: runs go on after the first global slip.
     """
-    settings = config["maps"]
+    settings = config["ensembles"]["maps"]
     axis, change = AXES[name]
     side = math.isqrt(settings["points"])
     second = _spaced(axis, settings[axis], side)

@@ -34,7 +34,7 @@ def resolution_study(config: Config) -> Study:
     The first member of each chain has the normal loads of Eq. 7, the others have them with noise. There are
     as many as `seconds_per_point` allows, between `least_runs` and `most_runs`.
     """
-    settings = config["resolution"]
+    settings = config["ensembles"]["resolution"]
     blocks: list[dict[str, Any]] = []
     for scene in config["fig13"]:
         for n_blocks in settings["n_blocks"]:

@@ -58,14 +58,14 @@ def spread_study(config: Config) -> Study:
     the largest relative change, reached with both signs; that of theta is absolute, and that of the initial
     positions relative to mu_s F_Z / (N k). Changes are uniform between the two.
     """
-    settings = config["spread"]
+    settings = config["ensembles"]["spread"]
     blocks = [block for question in QUESTIONS for block in _blocks(config, question)]
     return Study.of_blocks("spread_members", blocks, duration=config["duration"], seed=settings["seed"])
 
 
 def _blocks(config: Config, question: str) -> list[dict[str, Any]]:
     """The unperturbed member and the ensembles of each scene."""
-    settings = config["spread"]
+    settings = config["ensembles"]["spread"]
     nothing = {"perturbation": UNPERTURBED, "size": 0.0, "draw": np.arange(1)}
     blocks: list[dict[str, Any]] = []
     for scene in config["fig13"]:

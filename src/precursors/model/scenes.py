@@ -1,4 +1,4 @@
-"""The configuration of the workflow: its scenes, and the chain that each of them stands for."""
+"""The scenes of a configuration, and the chain that each of them stands for."""
 
 from __future__ import annotations
 
@@ -12,30 +12,14 @@ from precursors.model.scene_models import ADDED, PAPERS_MODEL
 Config = Mapping[str, Any]
 
 
-def scene_names(config: Config) -> list[str]:
-    """Names of the scenes, in the order of the configuration."""
-    return list(config["scenes"])
+def scenes_with(config: Config, output: str) -> list[str]:
+    """Names of the scenes that have a "run", or "answers" because they name a model, in order."""
+    return [name for name, scene in config["scenes"].items() if ("model" in scene) == (output == "answers")]
 
 
 def scene_model(config: Config, name: str) -> str:
     """The model of a scene, one of `MODEL_NAMES`."""
     return str(config["scenes"][name].get("model", PAPERS_MODEL))
-
-
-def scene_additions(config: Config, name: str) -> dict[str, float]:
-    """What a larger model adds to the paper's chain: fields of `hierarchy.larger.LargerChain`."""
-    scene = config["scenes"][name]
-    return {key: float(scene[key]) for key in ADDED.values() if key in scene}
-
-
-def scene_outputs(config: Config, name: str) -> tuple[str, ...]:
-    """What is made of a scene: a run, slips, a trace and a figure, or only answers if it names a model."""
-    return ("answers",) if "model" in config["scenes"][name] else ("run", "slips", "trace", "figure")
-
-
-def scenes_with(config: Config, output: str) -> list[str]:
-    """Names of the scenes that have this output (see `scene_outputs`), in the order of the configuration."""
-    return [name for name in scene_names(config) if output in scene_outputs(config, name)]
 
 
 def scene_duration(config: Config, name: str) -> float:
@@ -44,24 +28,48 @@ def scene_duration(config: Config, name: str) -> float:
 
 
 def scene_slider(config: Config, name: str) -> dict[str, Any]:
-    """Arguments of `Chain.from_slider` for a scene: `chain`, the scene's own values, and its normal loading.
-
-    Theta and the sum of two load cells are rounded once, to the nearest doubles.
-    """
+    """Arguments of `Chain.from_slider` for a scene; theta and F_Z are rounded once."""
     slider = scene_as_written(config, name)
-    rounded = {key: float(value) for key, value in slider.items() if isinstance(value, Fraction)}
-    return slider | rounded | {"theta": parse_theta(slider["theta"])}
+    return slider | {"theta": parse_theta(slider["theta"]), "normal_load": float(slider["normal_load"])}
+
+
+def scene_additions(config: Config, name: str) -> dict[str, float]:
+    """What a larger model adds to the paper's chain, by its key in the scene.
+
+    Raises
+    ------
+    ValueError
+        If the model needs an addition that the scene does not give, or has none and the scene gives one.
+    """
+    model, scene = scene_model(config, name), config["scenes"][name]
+    given = {key: float(scene[key]) for key in ADDED.values() if key in scene}
+    if model in ADDED and ADDED[model] not in given:
+        raise ValueError(f"the model {model!r} needs {ADDED[model]}")
+    if given and model not in ADDED:
+        raise ValueError(
+            f"{', '.join(given)} must not be given for the model {model!r}, only for {', '.join(ADDED)}"
+        )
+    return given
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:
-    """The same before any rounding: numbers and theta as they are written, those of load cells as fractions.
+    """The same before any rounding: theta and F_Z = F_ZA + F_ZB of two load cells are fractions.
 
-    Two load cells give theta and the total normal load F_Z = F_ZA + F_ZB.
+    Raises
+    ------
+    ValueError
+        If the scene gives both theta and load cells, or neither.
     """
     scene = config["scenes"][name]
     slider = {key: scene.get(key, value) for key, value in config["chain"].items()}
+    cells = [key for key in ("load_cell_a", "load_cell_b") if key in scene]
+    if ("theta" in scene) == bool(cells) or len(cells) == 1:
+        given = " and ".join([key for key in ("theta", *cells) if key in scene]) or "neither"
+        raise ValueError(f"needed is either theta or both load_cell_a and load_cell_b, but given is {given}")
     if "theta" in scene:
         return slider | {"theta": scene["theta"]}
+    if "normal_load" in scene:
+        raise ValueError("normal_load must not be given beside load cells, whose sum it is")
     a, b = scene["load_cell_a"], scene["load_cell_b"]
     theta = exact_theta_from_load_cells(
         a, b, spacing=config["load_cells"]["spacing"], length=slider["length"]

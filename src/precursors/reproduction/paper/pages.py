@@ -91,7 +91,7 @@ def take_along(files: Mapping[str, str | os.PathLike[str]], root: str | os.PathL
         target = Path(root) / name
         target.parent.mkdir(parents=True, exist_ok=True)
         try:
-            target.write_bytes(file.read_bytes())
+            target.write_bytes(Path(file).read_bytes())
         except FileNotFoundError:
             raise PaperError(f"{file} is missing: the paper shows it") from None
         except (ValueError, OSError) as error:

@@ -1,0 +1,155 @@
+"""What a configuration must hold: the first thing wrong with it, in one line."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from precursors.model.chain import Chain, parse_theta
+from precursors.model.scenes import Config, scene_additions, scene_chain, scenes_with
+
+if TYPE_CHECKING:
+    from jsonschema import ValidationError
+
+LONGEST = 80  # characters of a value in a message
+
+
+def check_file(path: str | os.PathLike[str]) -> None:
+    """Refuse a YAML file that cannot be read or has a key twice, of which YAML would take the second.
+
+    Raises
+    ------
+    ValueError
+        One line: which file, where in it, and what is wrong.
+    """
+    import yaml
+
+    class Loader(yaml.SafeLoader):
+        """Reads plain values, and each key once."""
+
+        def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+            keys = [key.value for key, _ in node.value]
+            for i, (key, _) in enumerate(node.value):
+                if key.value in keys[:i]:
+                    raise yaml.MarkedYAMLError(
+                        problem=f"the key {key.value!r} stands there twice", problem_mark=key.start_mark
+                    )
+            return super().construct_mapping(node, deep)
+
+    try:
+        config = yaml.load(Path(path).read_text(encoding="utf-8"), Loader)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        place = f" in line {mark.line + 1}, column {mark.column + 1}" if mark else ""
+        raise ValueError(f"{path}: {error.problem or error.context}{place}") from None
+    except (yaml.YAMLError, ValueError, OSError) as error:
+        raise ValueError(f"{path}: {' '.join(str(error).split())}") from None
+    if not isinstance(config, dict):
+        raise ValueError(f"{path} must be a table of keys and values")
+
+
+def check_config(config: Config, schema_path: str | os.PathLike[str]) -> None:
+    """Refuse a configuration that the workflow cannot run.
+
+    Parameters
+    ----------
+    config : mapping
+        The configuration as YAML gives it.
+    schema_path : path
+        The JSON schema, as YAML; its descriptions say what a value must be.
+
+    Raises
+    ------
+    ValueError
+        One line: which value, where, and what it must be.
+    """
+    for complaint in _against_schema(config, schema_path):
+        raise ValueError(f"configuration: {complaint}")
+    try:
+        _check_chains(config)
+        _check_names_and_spans(config)
+    except (ValueError, OverflowError) as error:
+        raise ValueError(f"configuration: {error}") from None
+
+
+def _against_schema(config: Config, schema_path: str | os.PathLike[str]) -> Iterator[str]:
+    import jsonschema
+    import yaml
+
+    draft = jsonschema.Draft202012Validator
+    # A number is finite, and neither True nor 10.0 is a whole number.
+    types = draft.TYPE_CHECKER.redefine(
+        "number", lambda _, x: isinstance(x, int | float) and not isinstance(x, bool) and math.isfinite(x)
+    ).redefine("integer", lambda _, x: isinstance(x, int) and not isinstance(x, bool))
+    schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
+    for error in jsonschema.validators.extend(draft, type_checker=types)(schema).iter_errors(config):
+        yield _in_words(error)
+
+
+def _in_words(error: ValidationError) -> str:
+    """What a value must be, from the description in the schema."""
+    path, schema, value = error.absolute_path, error.schema, error.instance
+    where = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path).lstrip(".")
+    if error.validator == "additionalProperties" and isinstance(value, dict):
+        known = schema["properties"]
+        unknown = next(key for key in value if key not in known)
+        return f"{where or 'top level'}: {unknown!r} is not a known key; known are {', '.join(known)}"
+    if error.validator == "required":
+        missing = next(key for key in error.validator_value if key not in value)
+        return f"{where or 'top level'}: the key {missing!r} is missing"
+    if "propertyNames" in error.schema_path:
+        where = f"{where}: the name {value!r}"
+        return f"{where} must be {schema['description']}"
+    shown = "empty" if value is None else repr(value)
+    shown = shown if len(shown) < LONGEST else f"{shown[:LONGEST]}..."
+    return f"{where} must be {schema['description']}, but is {shown}{_number_in_text(value)}"
+
+
+def _number_in_text(value: object) -> str:
+    """How to write a number that was read as text, as YAML reads 2.5e9 and Snakemake all of --config."""
+    try:
+        mantissa, exponent = f"{float(value):e}".split("e") if isinstance(value, str) else ("", "")
+    except ValueError:
+        return ""
+    if not mantissa:
+        return ""
+    if "e" not in value.lower():
+        return ", which is text: write it without quotes, in config.yaml or a --configfile"
+    return f", which is text: write {mantissa.rstrip('0').ljust(3, '0')}e{exponent}"
+
+
+def _check_chains(config: Config) -> None:
+    """Make every chain of the configuration; its own errors say what is wrong."""
+    where = "chain"
+    try:
+        Chain.from_slider(**config["chain"])
+        for name in config["scenes"]:
+            where = f"scenes.{name}"
+            scene_chain(config, name)
+            scene_additions(config, name)
+        for name, values in config["accuracy"]["proved"].items():
+            where = f"accuracy.proved.{name}"
+            Chain.from_slider(**{key: value for key, value in values.items() if key != "duration"})
+        where = "theta in reproduction or hierarchy"
+        for theta in [*config["reproduction"]["theta"], config["hierarchy"]["resolution"]["theta"]]:
+            parse_theta(theta)
+    except (ValueError, OverflowError) as error:
+        raise ValueError(f"{where}: {error}") from None
+
+
+def _check_names_and_spans(config: Config) -> None:
+    """Refuse names of nothing, and spans without a length."""
+    accuracy = config["accuracy"]
+    for where, names, known in (
+        ("fig13", config["fig13"], scenes_with(config, "run")),
+        ("accuracy.work_precision.chains", accuracy["work_precision"]["chains"], accuracy["proved"]),
+    ):
+        for name in names:
+            if name not in known:
+                raise ValueError(f"{where} holds {name!r}, but must hold names of {', '.join(known)}")
+    for key, span in config["ensembles"]["maps"].items():
+        if isinstance(span, list) and span[0] >= span[1]:
+            raise ValueError(f"ensembles.maps.{key} must be two numbers, the smaller first, but is {span}")

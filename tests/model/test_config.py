@@ -1,0 +1,178 @@
+"""A wrong configuration is refused in one line: which value, where, and what it must be."""
+
+import copy
+import math
+from pathlib import Path
+
+import pytest
+import yaml
+
+from precursors.model.config import check_config, check_file
+from precursors.model.scenes import scene_chain, scene_slider, scenes_with
+
+ROOT = Path(__file__).parents[2]
+SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
+PAPERS = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+MISSING = object()
+STEEP = {"title": "steep", "theta": 0.9}
+
+# Key, value, and words that the line must hold.
+WRONG = [
+    ("chain.youngs_modulus", "2.5e9", ["a number > 0", "[Pa]", "is '2.5e9'", "text: write 2.5e+09"]),
+    ("chain.cross_section", "1e-4", ["[m^2]", "text: write 1.0e-04"]),
+    ("chain.mu_k", "0.46", ["'0.46'", "text: write it without quotes", "--configfile"]),
+    ("chain.mu_s", "high", ["a number >= 0", "is 'high'"]),
+    ("chain.mu_k", 0.8, ["chain: ", "mu_k", "0.8", "mu_s = 0.7"]),
+    ("scenes.fig10.mu_k", 0.9, ["scenes.fig10: ", "mu_k", "0.9", "mu_s = 0.7"]),
+    ("chain.drive_stiffness", -0.8e6, ["a number > 0", "[N/m]", "is -800000.0"]),
+    ("chain.n_blocks", 0, ["a whole number from 1 to 1000", "is 0"]),
+    ("chain.n_blocks", 2.5, ["a whole number", "is 2.5"]),
+    ("chain.n_blocks", 10.0, ["a whole number", "is 10.0"]),
+    ("chain.n_blocks", True, ["a whole number", "is True"]),
+    ("chain.length", None, ["a number > 0", "is empty"]),
+    ("chain.length", 1e70, ["chain: ", "length", "1e+70"]),
+    ("chain.length", MISSING, ["chain: the key 'length' is missing"]),
+    ("chain.mass", 0.0012, ["chain: 'mass' is not a known key", "slider_mass"]),
+    ("speed", 1.0, ["top level: 'speed' is not a known key", "scenes"]),
+    ("ensembles", MISSING, ["top level: the key 'ensembles' is missing"]),
+    ("chain", [1, 2], ["chain must be a table", "is [1, 2]"]),
+    ("duration", 0, ["duration must be a number > 0", "[s]", "is 0"]),
+    ("scenes", {}, ["at least one scene"]),
+    ("scenes.fig10.load_cel_a", 1.0, ["'load_cel_a' is not a known key", "load_cell_a"]),
+    (
+        "scenes.fig10.load_cell_b",
+        MISSING,
+        ["scenes.fig10: ", "both load_cell_a and load_cell_b", "is load_cell_a"],
+    ),
+    ("scenes.fig10.theta", 0.1, ["either theta or both", "is theta and load_cell_a"]),
+    ("scenes.fig10.load_cell_b", 5000.0, ["scenes.fig10: ", "-1"]),
+    ("scenes.fig10.normal_load", 500.0, ["scenes.fig10: normal_load must not be given", "sum"]),
+    (
+        "scenes.fig10.paper.events_kept",
+        "nine",
+        ["scenes.fig10.paper.events_kept", "a whole number >= 1", "'nine'"],
+    ),
+    ("scenes.steep", {"title": "steep"}, ["scenes.steep: ", "is neither"]),
+    ("scenes.steep", STEEP | {"title": ""}, ["scenes.steep.title", "1 to 120 characters"]),
+    ("scenes.steep", STEEP | {"theta": 1.1}, ["scenes.steep.theta", "from -1 to 1", "is 1.1"]),
+    ("scenes.steep", STEEP | {"theta": "7/6"}, ["scenes.steep: ", "'7/6'", "-1"]),
+    ("scenes.steep", STEEP | {"theta": "1/0"}, ["scenes.steep: ", "'1/0'"]),
+    (
+        "scenes.steep",
+        STEEP | {"theta": "__import__('os')"},
+        ["scenes.steep.theta", 'a fraction such as "5/6"'],
+    ),
+    ("scenes.Fig13", STEEP, ["the name 'Fig13'", "not the name of another figure"]),
+    ("scenes.map_mine", STEEP, ["the name 'map_mine'"]),
+    ("scenes.two words", STEEP, ["the name 'two words'", "letters, digits, _ and -"]),
+    ("scenes.a/b", STEEP, ["the name 'a/b'"]),
+    ("scenes." + 65 * "a", STEEP, [65 * "a"]),
+    ("scenes", {12: STEEP}, ["the name 12"]),
+    (
+        "scenes.steep",
+        STEEP | {"model": "dynamic"},
+        ["scenes.steep.model", "one of statics, law, rigid", "'dynamic'"],
+    ),
+    ("scenes.steep", STEEP | {"viscosity": 54.77}, ["scenes.steep: viscosity", "'chain'", "viscous"]),
+    ("scenes.steep", STEEP | {"model": "head", "viscosity": 1.0}, ["the model 'head' needs head_mass"]),
+    (
+        "scenes.steep",
+        STEEP | {"model": "head", "head_mass": 0},
+        ["scenes.steep.head_mass", "a number > 0", "[kg]"],
+    ),
+    ("fig13", ["fig10", "fig11", "fig21"], ["fig13 holds 'fig21'", "fig10, fig11, fig12"]),
+    ("fig13", ["fig10", "fig11", "fig11"], ["three different scenes"]),
+    ("fig13", ["fig10"], ["three different scenes"]),
+    ("scenes.fig12.model", "quasistatic", ["fig13 holds 'fig12'", "fig10, fig11"]),
+    ("reproduction.theta", ["7/6"], ["theta in reproduction", "'7/6'"]),
+    ("reproduction.load_drop", [0.0], ["reproduction.load_drop[0]", "a number > 0"]),
+    ("accuracy.proved.uniform.mu_k", 0.8, ["accuracy.proved.uniform: ", "mu_k", "0.8"]),
+    ("accuracy.proved.two words", {"theta": 0}, ["the name 'two words'"]),
+    ("accuracy.work_precision.chains", ["none"], ["holds 'none'", "trailing"]),
+    ("accuracy.work_precision.full.whole_run.rk4", "swep", ['the word "sweep"', "'swep'"]),
+    ("accuracy.work_precision.full.whole_run.rk4", [0.0], ["whole_run.rk4[0]", "1e-16", "is 0.0"]),
+    ("hierarchy.tolerances.waveforms", 0.1, ["the name 'waveforms'", "waveform"]),
+    ("ensembles.maps.theta", [0.5, -0.5], ["ensembles.maps.theta", "the smaller first", "[0.5, -0.5]"]),
+    ("ensembles.maps.friction_ratio", [0.1, 1.0], ["friction_ratio[1]", "between 0 and 1"]),
+    ("ensembles.maps.friction_ratio", [0.1], ["two numbers between 0 and 1"]),
+    ("ensembles.spread.loads", [], ["a list of different numbers between 0 and 1", "is []"]),
+    ("ensembles.spread.seed", 20.5, ["a whole number >= 0", "is 20.5"]),
+]
+
+
+def changed(key, value):
+    """The paper's configuration with one value changed."""
+    config = copy.deepcopy(PAPERS)
+    table = config
+    *parents, last = key.split(".")
+    for name in parents:
+        table = table[name]
+    if value is MISSING:
+        del table[last]
+    else:
+        table[last] = value
+    return config
+
+
+def leaves(value, where=()):
+    """Places of all numbers, texts and lists of a configuration."""
+    if isinstance(value, dict):
+        return [leaf for key, inner in value.items() for leaf in leaves(inner, (*where, key))]
+    return [".".join(where)]
+
+
+def refused(config):
+    with pytest.raises(ValueError, match=r"\Aconfiguration: [^\n]+\Z") as error:
+        check_config(config, SCHEMA)
+    return str(error.value)
+
+
+def test_the_papers_configuration_is_accepted():
+    check_config(PAPERS, SCHEMA)
+    assert scenes_with(PAPERS, "run") == ["fig10", "fig11", "fig12"]
+    assert [scene_chain(PAPERS, name).normal_load for name in PAPERS["scenes"]] == pytest.approx([400.0] * 3)
+    assert [scene_slider(PAPERS, name)["theta"] for name in PAPERS["scenes"]] == [0.0, -5 / 6, 5 / 6]
+
+
+@pytest.mark.parametrize("theta", [-1, 0, 1.0, "5/6", "-5/6", "0.5"])
+def test_a_scene_may_give_theta_as_a_number_or_a_fraction(theta):
+    check_config(changed("scenes.steep", STEEP | {"theta": theta}), SCHEMA)
+
+
+def test_a_scene_that_names_a_model_is_answered_and_not_run():
+    config = changed("scenes.soft", STEEP | {"model": "viscous", "viscosity": 54.77})
+    config["scenes"]["quick"] = STEEP | {"model": "chain"}
+    check_config(config, SCHEMA)
+    assert scenes_with(config, "answers") == ["soft", "quick"]
+
+
+@pytest.mark.parametrize(("key", "value", "words"), WRONG)
+def test_a_wrong_value_is_named_with_its_place_and_what_it_must_be(key, value, words):
+    line = refused(changed(key, value))
+    assert [word for word in words if word not in line] == [], line
+
+
+@pytest.mark.parametrize("key", [leaf for leaf in leaves(PAPERS) if "title" not in leaf])
+@pytest.mark.parametrize("value", [None, {"a": 1}, math.nan, "much"], ids=["empty", "table", "nan", "text"])
+def test_every_value_of_the_file_is_checked(key, value):
+    assert key.split(".")[-1] in refused(changed(key, value))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a: 1\nb: {c: 2, c: 3}\n", "the key 'c' stands there twice in line 2, column 11"),
+        ("a:\n\tb: 1\n", "found character '\\t' that cannot start any token in line 2, column 1"),
+        ("a: [1\n", "line 2, column 1"),
+        ("a: !!python/tuple [1]\n", "could not determine a constructor"),
+        ("- 1\n", "must be a table of keys and values"),
+        ("", "must be a table of keys and values"),
+        ("a: \x07\n", "special characters are not allowed"),
+    ],
+)
+def test_a_file_that_is_not_plain_yaml_is_refused_with_its_place(tmp_path, text, words):
+    path = tmp_path / "mine.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=r"\A[^\n]+mine.yaml[^\n]+\Z") as error:
+        check_file(path)
+    assert words in str(error.value)
