@@ -120,7 +120,7 @@ def test_the_reproduction_shown_is_the_golden_one():
         assert time == f"{table.loc['time of the first global slip', 'reproduced']:.3f}"
 
 
-@pytest.mark.parametrize(("theta", "events", "mu_sapp", "end"), rows("theta | events kept | mu"))
+@pytest.mark.parametrize(("theta", "events", "mu_sapp", "end"), rows("theta | events counted | mu"))
 def test_the_fragile_scene_is_as_fragile_as_shown(theta, events, mu_sapp, end):
     run = simulate(Chain.from_slider(theta=theta), until="global slip")
     slips = find_slips(run)
