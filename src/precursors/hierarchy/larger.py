@@ -114,7 +114,7 @@ def simulate_larger(model: LargerChain, duration: float, until: Until = None) ->
     """
     duration = checked_span(duration, until)
     system = system_of(model)
-    # Force of the spring behind each block [N], velocity [m/s], force of the block's spring to the plane [N].
+    # Force of the spring behind each block [N], velocity [m/s], force of the plane on it [N].
     state, mode = np.zeros((3, model.chain.n_blocks)), np.zeros(model.chain.n_blocks, np.int64)
     swing = Swing(system) if system.holding_stiffness else None
     rows: list[tuple[float, int, int, float, float, float]] = []
@@ -156,7 +156,7 @@ def system_of(model: LargerChain) -> System:
         model.masses,
         chain.strength,
         chain.kinetic_friction,
-        model.viscosity,
+        np.append(0.0, np.full(chain.n_blocks - 1, model.viscosity)),
         held,
         chain.drive_velocity,
         1.0 / omega,
@@ -166,10 +166,9 @@ def system_of(model: LargerChain) -> System:
 def wait(system: System, state: FloatArray, longest: float) -> float:
     """Load a chain that rests on a rigid interface until block 1 is released; return the time [s]."""
     rate = system.springs[0] * system.drive_velocity
-    missing = system.strength[0] - net_force(system, state[0], state[1], 0)
-    waited = float(min(max(missing / rate, 0.0), longest))
+    waited = min(max((system.strength[0] - net_force(system, state, 0)) / rate, 0.0), longest)
     state[0, 0] += rate * waited
-    return waited
+    return float(waited)
 
 
 def switch(system: System, state: FloatArray, mode: NDArray[np.int64], i: int) -> bool:
@@ -181,13 +180,19 @@ def switch(system: System, state: FloatArray, mode: NDArray[np.int64], i: int) -
     old = mode[i]
     if old:
         state[1, i] = 0.0
-    force = net_force(system, state[0], state[1], i)
-    if old:
-        mode[i] = 0 if abs(force) <= system.strength[i] else np.sign(force)
-        state[2, i] = force
-    else:
-        mode[i] = np.sign(state[2, i] if system.holding_stiffness else force)
+        state[2, i] = net_force(system, state, i)
+    sticks = old and abs(state[2, i]) <= system.strength[i]
+    mode[i] = 0 if sticks else np.sign(state[2, i])
     return bool(mode[i] != old)
+
+
+def net_force(system: System, state: FloatArray, i: int) -> float:
+    """Net force of springs and dashpots on block i [N]."""
+    force, velocity, _ = state
+    net = force[i] - (system.dashpots[i] * (velocity[i] - velocity[i - 1]) if i > 0 else 0.0)
+    if i + 1 < len(force):
+        net -= force[i + 1] + system.dashpots[i + 1] * (velocity[i] - velocity[i + 1])
+    return float(net)
 
 
 @compiled
@@ -202,14 +207,21 @@ def next_transition(system, state, mode, longest, max_steps):
     if system.holding_stiffness == 0.0:
         n = min(n, slides[-1] + 2) if len(slides) > 0 else 1
     series = np.zeros((ORDER + 1, 3, mode.shape[0]))
+    size = np.empty(n)
     elapsed, highest = 0.0, state[0, 0]
     for _ in range(max_steps):
         expand(system, state, mode, n, series)
+        # Bounds of the force on each block that sticks, and of the change of velocity of each that slides.
+        size[:] = 0.0
+        for k in range(ORDER + 1):
+            for i in range(n):
+                size[i] += abs(series[k, 2, i]) if mode[i] == 0 else abs(series[k, 1, i])
         end, block = min((longest - elapsed) / system.step, 1.0), -1
         for i in range(n):
-            zero = first_event(system, series, mode, i)
-            if zero <= end:
-                end, block = zero, i
+            if size[i] >= (system.strength[i] if mode[i] == 0 else 2.0 * abs(series[0, 1, i])):
+                zero = first_event(series, mode[i], system.strength[i], i)
+                if zero <= end:
+                    end, block = zero, i
         evaluate(series, end, n, state)
         elapsed += end * system.step
         highest = max(highest, state[0, 0])
@@ -220,61 +232,42 @@ def next_transition(system, state, mode, longest, max_steps):
 
 @compiled
 def expand(system, state, mode, n, series):
-    """Taylor series over one step of the state of the first n blocks, shape (ORDER + 1, 3, N)."""
+    """Taylor series over one step of the state of the first n blocks, shape (ORDER + 1, 3, N).
+
+    Its rows are those of the state. The force of the plane is friction while a block slides, the force of its
+    spring while it sticks on one, and whatever keeps it at rest on a rigid interface.
+    """
     series[0] = state
-    for k in range(ORDER):
-        part = system.step / (k + 1)
-        for i in range(n):
-            velocity = series[k, 1, i]
-            behind = series[k, 1, i - 1] if i > 0 else (system.drive_velocity if k == 0 else 0.0)
-            series[k + 1, 0, i] = part * system.springs[i] * (behind - velocity)
-            series[k + 1, 1, i] = 0.0
-            series[k + 1, 2, i] = 0.0
-            if mode[i] != 0 or system.holding_stiffness > 0.0:
-                force = net_force(system, series[k, 0], series[k, 1], i)
-                if mode[i] == 0:
-                    force -= series[k, 2, i]
-                    series[k + 1, 2, i] = part * system.holding_stiffness * velocity
-                elif k == 0:
-                    force -= mode[i] * system.friction[i]
-                series[k + 1, 1, i] = part * force / system.masses[i]
-
-
-@compiled
-def net_force(system, force, velocity, i):
-    """Net force G_i of springs and dashpots on block i [N]; linear, so it takes the terms of a series too."""
-    net = force[i]
-    if i > 0:
-        net += system.viscosity * (velocity[i - 1] - velocity[i])
-    if i + 1 < force.shape[0]:
-        net -= force[i + 1] + system.viscosity * (velocity[i] - velocity[i + 1])
-    return net
-
-
-@compiled
-def first_event(system, series, mode, i):
-    """First place in a step at which block i stops or is released; 2 if it keeps its mode."""
-    event = np.empty(ORDER + 1)
-    change = 0.0
     for k in range(ORDER + 1):
-        if mode[i] != 0:
-            event[k] = mode[i] * series[k, 1, i]
-        elif system.holding_stiffness > 0.0:
-            event[k] = series[k, 2, i]
-        else:
-            event[k] = net_force(system, series[k, 0], series[k, 1], i)
-        change += abs(event[k])
-    if mode[i] != 0:
-        return first_zero(event) if event[0] < change - event[0] else 2.0
-    if change < system.strength[i]:
-        return 2.0
-    # The force may reach +mu_s w_i or -mu_s w_i.
-    event = -event
-    event[0] += system.strength[i]
-    forward = first_zero(event)
-    event = -event
-    event[0] += 2.0 * system.strength[i]
-    return min(forward, first_zero(event))
+        part = system.step / (k + 1)
+        force, velocity, plane = series[k]
+        ahead = force[n] if n < mode.shape[0] else 0.0
+        for i in range(n - 1, -1, -1):
+            behind = velocity[i - 1] if i > 0 else (system.drive_velocity if k == 0 else 0.0)
+            push = force[i] + system.dashpots[i] * (behind - velocity[i])
+            net = push - ahead
+            ahead = push
+            if mode[i] != 0:
+                plane[i] = mode[i] * system.friction[i] if k == 0 else 0.0
+            elif system.holding_stiffness == 0.0:
+                plane[i] = net
+            if k < ORDER:
+                series[k + 1, 0, i] = part * system.springs[i] * (behind - velocity[i])
+                series[k + 1, 1, i] = part * (net - plane[i]) / system.masses[i]
+                series[k + 1, 2, i] = part * system.holding_stiffness * velocity[i]
+
+
+@compiled
+def first_event(series, mode, strength, i):
+    """First place in a step at which block i stops, or is released in either direction; 2 if none."""
+    if mode != 0:
+        return first_zero(mode * series[:, 1, i])
+    margin = -series[:, 2, i]
+    margin[0] += strength
+    forward = first_zero(margin)
+    margin = series[:, 2, i].copy()
+    margin[0] += strength
+    return min(forward, first_zero(margin))
 
 
 @compiled

@@ -34,7 +34,7 @@ def run_models(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> pd.Dat
     slider : mapping
         Arguments of `Chain.from_slider`.
     settings : mapping
-        Section `resolution_models` of the configuration: theta, n_blocks, noise, runs (of each point), seed,
+        Settings of the study in the configuration: theta, n_blocks, noise, runs (of each point), seed,
         and models. A model has any of relaxation_time t_v [s] (dashpots eta = k t_v, the stiffer the more
         blocks), viscosity eta [N s/m], interface_stiffness K_t [N/m], and n_blocks where it differs.
 

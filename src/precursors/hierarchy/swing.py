@@ -29,7 +29,7 @@ class System(NamedTuple):
     masses: FloatArray
     strength: FloatArray
     friction: FloatArray
-    viscosity: float
+    dashpots: FloatArray  # viscosity of the one behind each block [N s/m], none at the drive
     holding_stiffness: float  # K_t/N of one block's spring to the plane [N/m]
     drive_velocity: float
     step: float  # [s]
@@ -51,7 +51,7 @@ class Swing:
         stiffness = np.diag(system.springs + ahead + system.holding_stiffness)
         stiffness -= np.diag(ahead[:-1], 1) + np.diag(ahead[:-1], -1)
         links = np.diff(np.eye(n), axis=0)
-        damping = system.viscosity * links.T @ links
+        damping = links.T @ (system.dashpots[1:, None] * links)
         # Velocities are in units of a displacement in one step: all numbers are then of one size.
         step, mass = system.step, system.masses[:, None]
         motion = np.block(
