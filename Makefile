@@ -25,7 +25,7 @@ results: $(READY)
 
 # Checks the existing results without recomputing them.
 check: $(READY)
-	@$(BIN)/python -m precursors check --full
+	@$(BIN)/python workflow/scripts/check_claims.py
 
 # Every figure with its caption, the rule that made it and its time, in one file for a browser.
 report: results

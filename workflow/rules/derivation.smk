@@ -6,17 +6,9 @@ rule eq15:
 
 rule check_eq15:
     input:
-        code=package(
-            "model",
-            "solver",
-            "analysis",
-            "hierarchy/rigid",
-            "reproduction/derivation",
-            "reproduction/eq15",
-        ),
+        code=package("model", "solver", "analysis", "reproduction/derivation", "reproduction/eq15"),
     output:
-        json="results/tables/eq15.json",
-        csv=report("results/tables/eq15.csv", category="Tables"),
+        table=report("results/tables/eq15.csv", category="Tables"),
     log:
         "results/logs/check_eq15.log",
     params:

@@ -1,28 +1,19 @@
-from precursors.reproduction.ledger.claims import read_claims, scenes_needed
-from precursors.reproduction.ledger.claims import tables_needed as tables_claimed
-from precursors.reproduction.paper import configured, files_shown, is_configured, read_sources, tables_needed
+from precursors.reproduction import claims, numbers
+from precursors.reproduction.pages import files_shown
+from precursors.reproduction.tables import SCENES as PAPERS_SCENES
 
 PAPER_SOURCE = ROOT / "paper"
-CLAIMS_FILE = PAPER_SOURCE / "claims.yaml"
 FIG13 = config["fig13"]
-
-try:
-    CLAIMS = read_claims(CLAIMS_FILE)
-    PAPERS_NUMBERS = read_sources(PAPER_SOURCE / "numbers.yaml")
-except ValueError as error:
-    raise WorkflowError(str(error)) from None
-
-# Claims and paper are about the paper's three scenes: a configuration without them has neither.
-LEDGER = ["results/tables/claims.csv"] if set(scenes_needed(CLAIMS)) <= set(FIG13) else []
-PAPER = (
-    ["results/paper.pdf", "results/numbers.json"] if LEDGER and is_configured(PAPERS_NUMBERS, config) else []
-)
+# Claims and paper are about the paper's three scenes, and the paper names their load cells.
+CLAIMS = ["results/tables/claims.csv"] if set(PAPERS_SCENES) <= set(FIG13) else []
+HAVE_CELLS = CLAIMS and all("load_cell_a" in config["scenes"][scene] for scene in PAPERS_SCENES)
+PAPER = ["results/paper.pdf", "results/numbers.json"] if HAVE_CELLS else []
 SHOWN = files_shown(PAPER_SOURCE)
 
 
 rule paper:
     input:
-        LEDGER,
+        CLAIMS,
         PAPER,
     localrule: True
 
@@ -42,44 +33,26 @@ rule tabulate_measures:
         "../scripts/tabulate_measures.py"
 
 
-rule tabulate_erratum:
+rule evaluate_claims:
     input:
-        runs=collect("results/runs/{scene}.h5", scene=FIG13),
-        code=package("model", "solver", "analysis", "methods", "reproduction/erratum"),
-    output:
-        table=report("results/tables/erratum.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_erratum.log",
-    localrule: True
-    params:
-        scenes=FIG13,
-    script:
-        "../scripts/tabulate_erratum.py"
-
-
-rule judge_claims:
-    input:
-        tables=collect("results/tables/{table}.csv", table=tables_claimed(CLAIMS)),
-        claims=CLAIMS_FILE,
-        code=package("reproduction/ledger"),
+        tables=collect("results/tables/{table}.csv", table=claims.TABLES),
+        code=package("model/chain", "reproduction"),
     output:
         table=report("results/tables/claims.csv", category="Tables"),
     log:
-        "results/logs/judge_claims.log",
+        "results/logs/evaluate_claims.log",
     localrule: True
     script:
-        "../scripts/judge_claims.py"
+        "../scripts/evaluate_claims.py"
 
 
 rule write_paper:
     input:
         main=PAPER_SOURCE / "main.typ",
-        source=sorted(
-            [*PAPER_SOURCE.rglob("*.typ"), PAPER_SOURCE / "numbers.yaml", *PAPER_SOURCE.glob("*.bib")]
-        ),
+        source=sorted([*PAPER_SOURCE.rglob("*.typ"), *PAPER_SOURCE.glob("*.bib")]),
         shown=SHOWN,
-        tables=collect("results/tables/{table}.csv", table=tables_needed(PAPERS_NUMBERS)),
-        code=package("reproduction/ledger/rules", "reproduction/paper"),
+        tables=collect("results/tables/{table}.csv", table=numbers.TABLES),
+        code=package("reproduction"),
     output:
         pdf="results/paper.pdf",
         numbers="results/numbers.json",
@@ -87,20 +60,10 @@ rule write_paper:
         "results/logs/write_paper.log",
     localrule: True
     params:
-        config=lambda wildcards: configured(PAPERS_NUMBERS, config),
-        # Captions name the rule that made what they show, and the modules that drew it.
-        makers=lambda wildcards: {
-            file: {
-                "rule": made_by.name,
-                "modules": [
-                    Path(module).relative_to(LIBRARY).as_posix()
-                    for module in map(str, made_by.input)
-                    if Path(module).parent.name == "figures" and Path(module).name != "style.py"
-                ],
-            }
-            for file in SHOWN
-            for made_by in workflow.rules
-            if made_by.is_producer(file)
+        config={key: config[key] for key in numbers.KEYS},
+        # Captions name the rule that made what they show.
+        rules=lambda wildcards: {
+            file: made_by.name for file in SHOWN for made_by in workflow.rules if made_by.is_producer(file)
         },
     script:
         "../scripts/write_paper.py"

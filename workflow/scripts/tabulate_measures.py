@@ -1,27 +1,18 @@
-"""Tabulate what the ledger asks of the scenes and no other table holds."""
+"""Tabulate the parameters of the scenes, and how their first global slips come."""
 
 from collections.abc import Mapping
-from dataclasses import asdict
 from pathlib import Path
 
-import pandas as pd
 from job import job
 
-from precursors.reproduction.measures import measures
+from precursors.reproduction.measures import measures_table
 from precursors.solver.run import Run
 from precursors.support.files import write_table
 
-COLUMNS = ["scene", "quantity", "block", "unit", "value"]
-
 
 def main(runs: Mapping[str, str | Path], output: str | Path) -> None:
-    """Write one row per scene and number; `block` is empty where a number is not one block's."""
-    rows = [
-        {"scene": scene, **asdict(found)}
-        for scene, path in runs.items()
-        for found in measures(Run.load(path))
-    ]
-    write_table(pd.DataFrame(rows, columns=COLUMNS).astype({"block": "Int64"}), output)
+    """Write one row per scene."""
+    write_table(measures_table({scene: Run.load(path) for scene, path in runs.items()}), output)
 
 
 if __name__ == "__main__":

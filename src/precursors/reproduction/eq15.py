@@ -1,410 +1,121 @@
-"""The derivation check of Eq. 15, gathered: symbols, states of rest, motion; and the table of its claims."""
+"""Eq. 15, mu_sapp <= mu_s: checked in symbols, over all states of rest, and in motion."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
+import pandas as pd
+import sympy
 
-from precursors.analysis.slip_rows import first_global
+from precursors.analysis.slip_rows import up_to_first_global
 from precursors.analysis.slips import find_slips
-from precursors.hierarchy.rigid import as_rigid
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import (
     compressions_as_printed,
+    largest_load_at_rest,
     load_bound,
-    loads_at_rest,
     maximal_compressions,
     maximal_strain_positions,
-    net_spring_forces,
-    positions_from_compressions,
 )
-from precursors.reproduction import derivation as symbolic
-from precursors.solver.run import Run
-from precursors.solver.simulate import TransitionLimitError, simulate
+from precursors.reproduction import derivation
+from precursors.solver.simulate import simulate
 
-SYMBOLIC_BLOCKS = range(1, 13)
-RANDOM_BLOCKS = (1, 2, 3, 5, 10, 20, 50, 200, 500)
-RANDOM_SEED = 15
-# Strain of a start slightly below the maximum, as a fraction of the maximal strain.
+SYMBOLIC_BLOCKS = 10
+# A start slightly below the maximal strain, as a fraction of it.
 SLIGHTLY_BELOW = 0.999
-# Far more than a chain needs that rests between its slips (the paper's make 300 before their global slip);
-# it ends the runs of others.
-MAX_TRANSITIONS = 100_000
+# Relative. HiGHS is asked for 1e-10 of F_Z; sums of N terms are rounded to 1e-16 each.
+LP_TOLERANCE, ROUNDING = 1e-9, 1e-12
 
-# Relative: HiGHS is asked for 1e-10, and reaches rounding.
-LP_TOLERANCE = 1e-9
-# Relative (loads) and absolute (mu_sapp): sums of N terms, each rounded to 1e-16 of the whole.
-ROUNDING_TOLERANCE = 1e-12
-
-
-@dataclass(frozen=True)
-class SymbolicCheck:
-    """Eq. 12 solved for N blocks with symbolic weights, mu_s, K and k."""
-
-    n_blocks: int
-    compressions_m: tuple[str, ...]
-    tangential_load_N: str
-    tangential_load_by_normal_load_N: str
-    difference_from_bound_N: str
-    every_weight_has_derivative_mu_s: bool
-    unchanged_by_permutations: bool
-    net_forces_add_up_to_tangential_load: bool
-    tangential_load_as_printed_N: str
-    excess_as_printed_N: str
-    excess_by_formula_N: str
-    difference_of_excess_N: str
-    last_block_force_over_strength_as_printed: str
-
-    @property
-    def holds(self) -> bool:
-        """Whether F_X = mu_s F_Z, whatever the weights."""
-        return (
-            self.difference_from_bound_N == "0"
-            and self.every_weight_has_derivative_mu_s
-            and self.unchanged_by_permutations
-            and self.net_forces_add_up_to_tangential_load
-        )
+AT_LIMIT = "F_X = mu_s F_Z with all blocks at their limit"
+AS_PRINTED = "Eq. 12 as printed gives mu_s F_Z + (k/K - 1) mu_s w_N"
+AT_REST = "largest F_X of all states of rest is mu_s F_Z"
+FULL_STRAIN = "mu_sapp = mu_s, pushed from maximal residual strain"
+LESS_STRAIN = f"mu_sapp < mu_s, pushed from {SLIGHTLY_BELOW:g} of maximal residual strain"
+RIGID = "mu_sapp = mu_s for a rigid slider, N = 1"
 
 
-@dataclass(frozen=True)
-class MisprintCheck:
-    """Eq. 12 with its last line as printed, for the numbers of one scene."""
-
-    scene: str
-    n_blocks: int
-    bound_N: float
-    formula_as_printed_N: float  # mu_s F_Z + (k/K - 1) mu_s w_N
-    tangential_load_as_printed_N: float
-    mu_sapp_as_printed: float
-    last_block_force_as_printed_N: float
-    last_block_strength_N: float
-
-    @property
-    def holds(self) -> bool:
-        """Whether the N equations in numbers give what the formula says."""
-        return math.isclose(
-            self.tangential_load_as_printed_N, self.formula_as_printed_N, rel_tol=ROUNDING_TOLERANCE
-        )
-
-
-@dataclass(frozen=True)
-class RestCheck:
-    """Extremes of F_X over all states of rest of one chain, by linear programming."""
-
-    case: str
-    n_blocks: int
-    weights_N: tuple[float, ...]
-    stiffness_N_per_m: float
-    drive_stiffness_N_per_m: float
-    mu_s: float
-    bound_N: float
-    largest_N: float
-    smallest_N: float
-    largest_relative_difference_of_compressions_from_eq12: float
-    largest_difference_of_sensitivity_from_one: float
-
-    @property
-    def holds(self) -> bool:
-        """Whether F_X spans +-mu_s F_Z, is largest in the state of Eq. 12, and all mu_s w_i count equally."""
-        return (
-            math.isclose(self.largest_N, self.bound_N, rel_tol=LP_TOLERANCE)
-            and math.isclose(self.smallest_N, -self.bound_N, rel_tol=LP_TOLERANCE)
-            and self.largest_relative_difference_of_compressions_from_eq12 <= LP_TOLERANCE
-            and self.largest_difference_of_sensitivity_from_one <= LP_TOLERANCE
-        )
-
-
-@dataclass(frozen=True)
-class MotionCheck:
-    """Apparent static friction coefficient of one chain pushed from one start to its first global slip.
-
-    The last three are None if there is no global slip within the duration or MAX_TRANSITIONS.
-    """
-
-    case: str
-    start: str
-    n_blocks: int
-    mu_s: float
-    expected_mu_sapp: float
-    stays_below: bool
-    mu_sapp: float | None
-    tangential_load_N: float | None
-    global_slip_time_s: float | None
-
-    @property
-    def holds(self) -> bool:
-        """Whether mu_sapp equals what is expected, or stays below it."""
-        if self.mu_sapp is None:
-            return False
-        if self.stays_below:
-            return self.mu_sapp < self.expected_mu_sapp
-        return abs(self.mu_sapp - self.expected_mu_sapp) <= ROUNDING_TOLERANCE
-
-
-@dataclass(frozen=True)
-class Eq15:
-    """All checks of the derivation of Eq. 15."""
-
-    symbolic: tuple[SymbolicCheck, ...]
-    misprint: tuple[MisprintCheck, ...]
-    rest: tuple[RestCheck, ...]
-    motion: tuple[MotionCheck, ...]
-
-
-@dataclass(frozen=True)
-class Row:
-    """One line of the short table."""
-
-    check: str
-    case: str
-    unit: str
-    expected: str | float
-    found: str | float | None
-    difference: str | float | None
-    holds: bool
-
-
-def check_eq15(scenes: Mapping[str, Chain], duration: float) -> Eq15:
-    """Check the derivation of Eq. 15, for the chains of some scenes where it needs numbers.
+def eq15_table(scenes: Mapping[str, Chain], duration: float) -> pd.DataFrame:
+    """Every check on a row: check, case, unit, expected, found, holds.
 
     Parameters
     ----------
     scenes : mapping of str to Chain
-        Chains by name of scene, at least one.
+        Chains by the name of their scene.
     duration : float
         Time within which a global slip is awaited [s].
-
-    Raises
-    ------
-    ValueError
-        If there is no scene.
     """
-    if not scenes:
-        raise ValueError("scenes are empty: allowed is at least one scene")
-    rigid = as_rigid(next(iter(scenes.values())))
-    rng = np.random.default_rng(RANDOM_SEED)
-    random = {f"N = {n}, random": random_chain(n, rng) for n in RANDOM_BLOCKS}
-    return Eq15(
-        symbolic=tuple(check_symbols(n) for n in SYMBOLIC_BLOCKS),
-        misprint=tuple(check_misprint(scene, chain) for scene, chain in scenes.items()),
-        rest=tuple(check_rest(case, chain) for case, chain in {**scenes, **random}.items()),
-        motion=(
-            *(check for scene, chain in scenes.items() for check in check_motions(scene, chain, duration)),
-            check_motion("N = 1", "natural length", rigid, None, duration, expected=rigid.mu_s),
-        ),
-    )
+    rows = [*in_symbols(SYMBOLIC_BLOCKS)]
+    for check in (as_printed, at_rest):
+        rows += [check(scene, chain) for scene, chain in scenes.items()]
+    rows += [row for scene, chain in scenes.items() for row in in_motion(scene, chain, duration)]
+    first = next(iter(scenes.values()))
+    return pd.DataFrame([*rows, rigid(first, duration)])
 
 
-def check_symbols(n_blocks: int) -> SymbolicCheck:
-    """Solve Eq. 12 in symbols and say what its load depends on."""
-    n = n_blocks
-    found = symbolic.derive(n)
-    as_printed = symbolic.difference(found.load_as_printed, symbolic.bound(n))
-    formula = symbolic.excess_formula(n)
-    return SymbolicCheck(
-        n_blocks=n,
-        compressions_m=tuple(map(str, found.compressions)),
-        tangential_load_N=str(found.load),
-        tangential_load_by_normal_load_N=str(symbolic.in_normal_load(found.load, n)),
-        difference_from_bound_N=str(symbolic.difference(found.load, symbolic.bound(n))),
-        every_weight_has_derivative_mu_s=symbolic.depends_on_sum_only(found.load, n),
-        unchanged_by_permutations=symbolic.is_symmetric(found.load, n),
-        net_forces_add_up_to_tangential_load=symbolic.sum_of_forces_is_load(n),
-        tangential_load_as_printed_N=str(found.load_as_printed),
-        excess_as_printed_N=str(as_printed),
-        excess_by_formula_N=str(formula),
-        difference_of_excess_N=str(symbolic.difference(as_printed, formula)),
-        last_block_force_over_strength_as_printed=str(symbolic.overload_as_printed(n)),
-    )
-
-
-def check_misprint(scene: str, chain: Chain) -> MisprintCheck:
-    """Compare the formula for Eq. 12 as printed with the solution of its N equations in numbers."""
-    n = chain.n_blocks
-    compressions = compressions_as_printed(chain)
-    load = float(chain.drive_stiffness * compressions[0])
-    forces = net_spring_forces(chain, positions_from_compressions(compressions))
-    return MisprintCheck(
-        scene=scene,
-        n_blocks=n,
-        bound_N=load_bound(chain),
-        formula_as_printed_N=symbolic.value(symbolic.bound(n) + symbolic.excess_formula(n), chain),
-        tangential_load_as_printed_N=load,
-        mu_sapp_as_printed=load / chain.normal_load,
-        last_block_force_as_printed_N=float(forces[-1]),
-        last_block_strength_N=float(chain.strength[-1]),
-    )
-
-
-def check_rest(case: str, chain: Chain) -> RestCheck:
-    """Find the extremes of F_X over all states of rest, and compare them with Eqs. 12 and 14."""
-    found = loads_at_rest(chain)
-    eq12 = maximal_compressions(chain)
-    difference = np.max(np.abs(found.compressions_at_largest - eq12)) / np.max(eq12)
-    return RestCheck(
-        case=case,
-        n_blocks=chain.n_blocks,
-        weights_N=tuple(chain.weights.tolist()),
-        stiffness_N_per_m=chain.stiffness,
-        drive_stiffness_N_per_m=chain.drive_stiffness,
-        mu_s=chain.mu_s,
-        bound_N=load_bound(chain),
-        largest_N=found.largest,
-        smallest_N=found.smallest,
-        largest_relative_difference_of_compressions_from_eq12=float(difference),
-        largest_difference_of_sensitivity_from_one=float(np.max(np.abs(found.sensitivity - 1))),
-    )
-
-
-def check_motions(scene: str, chain: Chain, duration: float) -> Iterator[MotionCheck]:
-    """Push a chain from rest at natural length, at maximal residual strain, and slightly below that.
-
-    A chain with a weightless block is left out: it never comes to rest, and its slips have no onset.
-    """
-    if not chain.weights.all():
-        return
-    full = maximal_strain_positions(chain)
-    yield check_motion(
-        scene, "natural length", chain, None, duration, expected=chain.mu_s, stays_below=chain.n_blocks > 1
-    )
-    yield check_motion(scene, "maximal residual strain", chain, full, duration, expected=chain.mu_s)
-    yield check_motion(
-        scene,
-        f"{SLIGHTLY_BELOW:g} of maximal residual strain",
-        chain,
-        SLIGHTLY_BELOW * full,
-        duration,
-        expected=friction_below_maximal_strain(chain, SLIGHTLY_BELOW),
-    )
-
-
-def check_motion(
-    case: str,
-    start: str,
-    chain: Chain,
-    positions: FloatArray | None,
-    duration: float,
-    *,
-    expected: float,
-    stays_below: bool = False,
-) -> MotionCheck:
-    """Push a chain from rest at some positions [m] and compare mu_sapp with what is expected."""
-    slips = find_slips(_run_to_global_slip(chain, positions, duration))
-    load = onset = None
-    first = first_global(slips)
-    if first is not None:
-        load = float(slips["load_before"].iloc[: first + 1].max())
-        onset = float(slips["onset"].iloc[first])
-    return MotionCheck(
-        case=case,
-        start=start,
-        n_blocks=chain.n_blocks,
-        mu_s=chain.mu_s,
-        expected_mu_sapp=expected,
-        stays_below=stays_below,
-        mu_sapp=None if load is None else load / chain.normal_load,
-        tangential_load_N=load,
-        global_slip_time_s=onset,
-    )
-
-
-def _run_to_global_slip(chain: Chain, positions: FloatArray | None, duration: float) -> Run:
-    try:
-        return simulate(chain, duration, "global slip", positions, max_transitions=MAX_TRANSITIONS)
-    except TransitionLimitError as error:
-        return error.run
-
-
-def friction_below_maximal_strain(chain: Chain, fraction: float) -> float:
-    """Apparent static friction coefficient of a start at a fraction a of the maximal strain, a near 1.
-
-    Every block is at a mu_s w_i. The drive can only load block 1, which slips first, at
-    F_X = a mu_s F_Z + (1 - a) mu_s w_1; the others are near enough to their limits to
-    follow it, if mu_k is well below mu_s.
-    """
-    return chain.mu_s * (fraction + (1 - fraction) * float(chain.weights[0]) / chain.normal_load)
-
-
-def random_chain(n_blocks: int, rng: np.random.Generator) -> Chain:
-    """Return a chain of random weights [N], mu_s up to 1, and springs random over twelve decades of K/k."""
-    stiffness, drive_stiffness = 1e6 * 10 ** rng.uniform(-3, 3, size=2)
-    return Chain(
-        weights=rng.exponential(40.0, n_blocks),
-        mass=1e-3,
-        stiffness=stiffness,
-        drive_stiffness=drive_stiffness,
-        drive_velocity=1e-4,
-        mu_s=rng.uniform(0.1, 1.0),
-        mu_k=0.0,
-    )
-
-
-def table(checks: Eq15) -> list[Row]:
-    """Put every claim of the derivation on a line: what is expected, what was found, and whether it holds."""
-    return [
-        *(_symbolic_row(check) for check in checks.symbolic),
-        *(_excess_row(check) for check in checks.symbolic),
-        *(_misprint_row(check) for check in checks.misprint),
-        *(row for check in checks.rest for row in _rest_rows(check)),
-        *(_motion_row(check) for check in checks.motion),
-    ]
-
-
-def _symbolic_row(check: SymbolicCheck) -> Row:
-    return Row(
-        check="Eq. 12 gives F_X = mu_s F_Z for any weights",
-        case=f"N = {check.n_blocks}",
-        unit="N",
-        expected=str(symbolic.mu_s * symbolic.F_Z),
-        found=check.tangential_load_by_normal_load_N,
-        difference=check.difference_from_bound_N,
-        holds=check.holds,
-    )
-
-
-def _excess_row(check: SymbolicCheck) -> Row:
-    return Row(
-        check="Eq. 12 as printed adds (k/K - 1) mu_s w_N for N > 1",
-        case=f"N = {check.n_blocks}",
-        unit="N",
-        expected=check.excess_by_formula_N,
-        found=check.excess_as_printed_N,
-        difference=check.difference_of_excess_N,
-        holds=check.difference_of_excess_N == "0",
-    )
-
-
-def _misprint_row(check: MisprintCheck) -> Row:
-    return Row(
-        check="Eq. 12 as printed gives F_X = mu_s F_Z + (k/K - 1) mu_s w_N",
-        case=check.scene,
-        unit="N",
-        expected=check.formula_as_printed_N,
-        found=check.tangential_load_as_printed_N,
-        difference=check.tangential_load_as_printed_N - check.formula_as_printed_N,
-        holds=check.holds,
-    )
-
-
-def _rest_rows(check: RestCheck) -> Iterator[Row]:
-    for name, expected, found in (
-        ("largest F_X of all states of rest is mu_s F_Z", check.bound_N, check.largest_N),
-        ("smallest F_X of all states of rest is -mu_s F_Z", -check.bound_N, check.smallest_N),
+def in_symbols(n: int) -> Iterator[dict[str, Any]]:
+    """The load of Eq. 12 for N blocks with any normal loads, as it follows from Eq. 2 and as printed."""
+    w, bound = derivation.weights(n), derivation.bound(n)
+    excess = (derivation.k / derivation.K - 1) * derivation.mu_s * w[-1]
+    for check, equations, expected in (
+        (AT_LIMIT, derivation.balances(n), bound),
+        (AS_PRINTED, derivation.balances_as_printed(n), bound + excess),
     ):
-        yield Row(name, check.case, "N", expected, found, found - expected, check.holds)
+        found, wanted = derivation.load(equations), sympy.expand(expected)
+        yield _row(check, f"N = {n}, in symbols", "N", str(wanted), str(found), found == wanted)
 
 
-def _motion_row(check: MotionCheck) -> Row:
-    sign = "<" if check.stays_below else "="
-    return Row(
-        check=f"mu_sapp {sign} expected, pushed from {check.start}",
-        case=check.case,
-        unit="1",
-        expected=check.expected_mu_sapp,
-        found=check.mu_sapp,
-        difference=None if check.mu_sapp is None else check.mu_sapp - check.expected_mu_sapp,
-        holds=check.holds,
+def as_printed(scene: str, chain: Chain) -> dict[str, Any]:
+    """The load of Eq. 12 as printed, from its N equations in numbers and by the formula."""
+    stiffer = chain.stiffness / chain.drive_stiffness - 1
+    expected = load_bound(chain) + stiffer * float(chain.strength[-1])
+    found = float(chain.drive_stiffness * compressions_as_printed(chain)[0])
+    return _row(AS_PRINTED, scene, "N", expected, found, math.isclose(found, expected, rel_tol=ROUNDING))
+
+
+def at_rest(case: str, chain: Chain) -> dict[str, Any]:
+    """The largest load over all states of rest, which is reached in the state of Eq. 12 (corrected)."""
+    expected = load_bound(chain)
+    found, compressions = largest_load_at_rest(chain)
+    holds = math.isclose(found, expected, rel_tol=LP_TOLERANCE) and np.allclose(
+        compressions, maximal_compressions(chain), rtol=LP_TOLERANCE, atol=0
     )
+    return _row(AT_REST, case, "N", expected, found, holds)
+
+
+def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[dict[str, Any]]:
+    """mu_sapp of a chain pushed from the state of maximal residual strain, and from slightly below it.
+
+    At a fraction a of that strain every block is at a mu_s w_i. Block 1 slips first, at
+    F_X = a mu_s F_Z + (1 - a) mu_s w_1, and the others are near enough to their limits to follow it.
+    """
+    full = maximal_strain_positions(chain)
+    share = float(chain.weights[0]) / chain.normal_load
+    for check, a in ((FULL_STRAIN, 1.0), (LESS_STRAIN, SLIGHTLY_BELOW)):
+        expected = chain.mu_s * (a + (1 - a) * share)
+        found = apparent_friction(chain, a * full, duration)
+        holds = math.isclose(found, expected, rel_tol=ROUNDING)
+        yield _row(check, scene, "1", expected, found, holds)
+
+
+def rigid(chain: Chain, duration: float) -> dict[str, Any]:
+    """mu_sapp of one block with the weight and the mass of the whole chain, pushed from natural length."""
+    block = replace(chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass)
+    found = apparent_friction(block, None, duration)
+    return _row(RIGID, "N = 1", "1", chain.mu_s, found, math.isclose(found, chain.mu_s, rel_tol=ROUNDING))
+
+
+def apparent_friction(chain: Chain, start: FloatArray | None, duration: float) -> float:
+    """mu_sapp (Eq. 1) of a chain pushed from rest at some positions [m]; NaN without a global slip."""
+    slips = find_slips(simulate(chain, duration, until="global slip", start_positions=start))
+    if not slips["is_global"].any():
+        return math.nan
+    return float(up_to_first_global(slips)["load_before"].max()) / chain.normal_load
+
+
+def _row(check: str, case: str, unit: str, expected: Any, found: Any, holds: bool) -> dict[str, Any]:
+    names = ("check", "case", "unit", "expected", "found", "holds")
+    return dict(zip(names, (check, case, unit, expected, found, bool(holds)), strict=True))

@@ -1,0 +1,243 @@
+"""Numbers in the text of the paper on methods, proof, model hierarchy and ensembles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from precursors.reproduction.tables import LEADING, SCENES, Tables, one, rows
+
+# Name -> value, or value and unit.
+Numbers = dict[str, Any]
+# The chains of the proof that are the paper's scenes, in the order of SCENES.
+CHAINS = ("trailing", "uniform", "leading")
+# results/tables/{name}.csv
+TABLES = (
+    "certificates",
+    "solver_vs_proof",
+    "work_precision",
+    "step_sweep",
+    "growth",
+    "spread",
+    "ladder",
+    "resolution",
+    "resolution_limits",
+    "resolution_models",
+    "long_runs_statistics",
+    "map_friction",
+)
+
+
+def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
+    """Speed against accuracy; heyoka's numbers only where it is installed."""
+    sweep, cost = t["step_sweep"], t["growth"]
+    found: Numbers = {
+        "finest-step": (sweep["step_s"].min(), "s"),
+        "growth-largest-n": cost["n_blocks"].max(),
+    }
+    for start in ("natural", "driven", "front"):
+        found[f"growth-relative-{start}"] = rows(cost, kind=start)["relative"].iloc[-1]
+    names = {"exact": "exact", "heyoka": "heyoka", "dop853": "scipy_dop853", "rk4": "rk4_skip"}
+    for chain in CHAINS:
+        own = rows(t["work_precision"], scene=chain, until="global slip")
+        found[f"slip-transitions-{chain}"] = own["transitions_true"].iloc[0]
+        for name, method in names.items():
+            for tightest in rows(own, method=method).tail(1).to_dict("records"):
+                found[f"{name}-seconds-{chain}"] = (tightest["seconds"], "s")
+                found[f"{name}-time-error-{chain}"] = (tightest["error_time_s"], "s")
+    finest = rows(t["work_precision"], scene="uniform", until="global slip", method="rk4_skip").iloc[-1]
+    found["rk4-step"] = (finest["value"], "s")
+    steps = rows(sweep, scene=LEADING, method="rk4_skip")
+    found["sweep-true"] = one(sweep, "transitions_true", scene=LEADING, method="exact")
+    found["sweep-most-right"] = steps["transitions_right"].max()
+    for name, column in (("mu", "mu_sapp"), ("events", "events_kept")):
+        found |= {f"sweep-least-{name}": steps[column].min(), f"sweep-most-{name}": steps[column].max()}
+    return found
+
+
+def failures(t: Tables, config: Mapping[str, Any]) -> Numbers:
+    """Where methods fail."""
+
+    def of(way: str, quantity: str, column: str = "value") -> pd.Series:
+        return rows(t["failures"], way=way, quantity=quantity)[column]
+
+    return {
+        "rk4-limit": of("rk4_unstable", "largest stable omega dt").iloc[0],
+        "rk4-limit-theory": of("rk4_unstable", "largest stable omega dt", "exact").iloc[0],
+        "rk4-limit-step": (of("rk4_unstable", "largest stable dt").iloc[0], "s"),
+        "leapfrog-limit": of("leapfrog_unstable", "largest stable omega dt").iloc[0],
+        "leapfrog-limit-theory": of("leapfrog_unstable", "largest stable omega dt", "exact").iloc[0],
+        "leapfrog-limit-step": (of("leapfrog_unstable", "largest stable dt").iloc[0], "s"),
+        "damping-left": of("numerical_damping", "energy left after 100 us").min(),
+        "creep-share": of("creep", "velocity in stick, of the drive's").iloc[0],
+        "stiff-step": (of("stiffness", "longest stable step of RK4").iloc[0], "s"),
+        "missed-right": of("missed_roots", "transitions right").min(),
+        "missed-true": of("missed_roots", "transitions right", "exact").iloc[0],
+        "merged-close": of("merged_transitions", "transitions merged").iloc[0],
+        "merged-right": of("merged_transitions", "transitions right").iloc[0],
+        "dead-zone-right": of("dead_zone_too_large", "transitions right").iloc[0],
+        "dead-zone-true": of("dead_zone_too_large", "transitions right", "exact").iloc[0],
+        "forward-mu-leading": of("forward_only", "mu_sapp").iloc[-1],
+        "forward-events-leading": of("forward_only", "events kept").iloc[-1],
+    }
+
+
+def proof(t: Tables, config: Mapping[str, Any]) -> Numbers:
+    """Proof, predictability time, chaos."""
+    proved, compared, study = t["certificates"], t["solver_vs_proof"], config["accuracy"]
+    scenes = rows(proved, chain=list(CHAINS))
+    ours = rows(compared, chain=list(CHAINS))
+    found: Numbers = {
+        "proved-until": (one(proved, "proved_until_s", chain="uniform"), "s"),
+        "proved-chains": len(proved),
+        "proved-in-all": proved["transitions"].sum(),
+        "widest-time": (scenes["largest_time_width_s"].max(), "s"),
+        "widest-load": (scenes["largest_load_width_N"].max(), "N"),
+        "slip-time-error": (ours["time_error_to_first_global_slip_s"].max(), "s"),
+        "run-time-error": (ours["time_error_while_agreeing_s"].max(), "s"),
+        "horizon-tolerance": (study["tolerance"], "s"),
+        "horizon-worst-ratio": compared["largest_ratio"].max(),
+        "fast-drive-lost": (one(compared, "order_lost_s", chain="fast_drive"), "s"),
+        "fast-drive-velocity": (study["proved"]["fast_drive"]["drive_velocity"], "m/s"),
+        "lyapunov-duration": (study["lyapunov_duration"], "s"),
+    }
+    for scene, chain in zip(SCENES, CHAINS, strict=True):
+        found |= {
+            f"transitions-{chain}": one(proved, "transitions", chain=chain),
+            f"agreeing-{chain}": one(compared, "agreeing_transitions", chain=chain),
+            f"horizon-{chain}": (one(compared, "horizon_s", chain=chain), "s"),
+            f"right-until-{chain}": (one(compared, "right_until_s", chain=chain), "s"),
+            f"lyapunov-{scene}": (one(t["lyapunov"], "exponent_per_s", scene=scene), "1/s"),
+            f"lyapunov-error-{scene}": (one(t["lyapunov"], "uncertainty_per_s", scene=scene), "1/s"),
+        }
+    return found
+
+
+def hierarchy(t: Tables, config: Mapping[str, Any]) -> Numbers:
+    """Smaller and larger models beside the paper's chain."""
+    table = t["ladder"]
+    head = rows(table, question="slip_duration", model="head")
+    quasistatic = rows(table, question="events_kept", model="quasistatic").set_index("scene")["value"]
+    return {
+        **{f"quasistatic-events-{scene}": quasistatic[scene] for scene in SCENES},
+        "quasistatic-lengths-worst": rows(table, question="front_loads", model="quasistatic")["error"].max(),
+        "law-worst": rows(table, question="mu_sapp", model="law")["error"].max(),
+        "law-lengths-worst": rows(table, question="front_loads", model="law")["error"].max(),
+        "rigid-mu": rows(table, question="mu_sapp", model="rigid")["value"].mean(),
+        "hierarchy-mu-tolerance": rows(table, question="mu_sapp")["tolerance"].iloc[0],
+        "head-mass": (head["addition"].iloc[0].removesuffix(" kg"), "kg"),
+        "head-slip-shortest": (head["value"].min(), "s"),
+        "head-slip-longest": (head["value"].max(), "s"),
+    }
+
+
+def spread(t: Tables, config: Mapping[str, Any]) -> Numbers:
+    """What small changes of the parameters make of the numbers."""
+    study = config["ensembles"]["spread"]
+    found: Numbers = {
+        "window": study["theta"]["window"],
+        "window-points": study["theta"]["points"],
+        "members": study["members"],
+    }
+    for scene in SCENES:
+        window = rows(t["spread"], scene=scene, question="theta", quantity="mu_sapp").iloc[0]
+        found[f"window-mu-unchanged-{scene}"] = window["share_unchanged"]
+        for name, quantile in (("low", "q05"), ("mid", "q50"), ("high", "q95")):
+            found[f"window-mu-{name}-{scene}"] = window[quantile]
+        for name, quantity in (("events", "events_kept"), ("mu", "mu_sapp")):
+            row = rows(t["robustness"], scene=scene, quantity=quantity).iloc[0]
+            found |= {
+                f"class-{name}-{scene}": row["class"],
+                f"changes-{name}-{scene}": row["changes_at"],
+                f"by-{name}-{scene}": row["perturbation"],
+            }
+    return found
+
+
+def resolution(t: Tables, config: Mapping[str, Any]) -> Numbers:
+    """The numbers with more blocks."""
+    table, limits = t["resolution"], t["resolution_limits"]
+    finest_speed = rows(table, scene=LEADING, quantity="front_speed_m_per_s").iloc[-1]
+    found: Numbers = {
+        "resolution-most": table["n_blocks"].max(),
+        "resolution-least": table["n_blocks"].min(),
+        "resolution-noise": config["ensembles"]["resolution"]["noise"],
+        "resolution-fit-from": config["ensembles"]["resolution"]["fit_from"],
+        "resolution-runs-most": table["n"].max(),
+        "resolution-runs-least": table["n"].min(),
+        "scattered-speed-low": (finest_speed["q05"], "m/s"),
+        "scattered-speed-high": (finest_speed["q95"], "m/s"),
+    }
+    for scene in SCENES:
+        friction, counts, speeds = (
+            rows(limits, scene=scene, quantity=quantity).iloc[0]
+            for quantity in ("mu_sapp", "events_kept", "front_speed_m_per_s")
+        )
+        medians = {q: rows(table, scene=scene, quantity=q) for q in ("mu_sapp", "events_kept")}
+        found |= {
+            f"noisy-mu-{scene}": one(medians["mu_sapp"], "q50", n_blocks=10),
+            f"most-mu-{scene}": medians["mu_sapp"]["q50"].iloc[-1],
+            f"most-events-{scene}": medians["events_kept"]["q50"].iloc[-1],
+            f"limit-mu-{scene}": friction["a"],
+            f"limit-mu-error-{scene}": friction["a_error"],
+            f"slope-mu-{scene}": friction["b"],
+            f"slope-mu-error-{scene}": friction["b_error"],
+            f"power-{scene}": counts["p"],
+            f"power-error-{scene}": counts["p_error"],
+            f"limit-speed-{scene}": (speeds["a"], "m/s"),
+            f"limit-speed-error-{scene}": (speeds["a_error"], "m/s"),
+        }
+    return found
+
+
+def larger_models(t: Tables, config: Mapping[str, Any]) -> Numbers:
+    """Viscosity and interface springs with more blocks, from the paper's ten on."""
+    table = t["resolution_models"]
+    fine = table[table["n_blocks"] >= config["chain"]["n_blocks"]]
+    found: Numbers = {
+        "models-runs-most": fine["n"].max(),
+        "models-runs-least": fine["n"].min(),
+        "viscous-n": rows(table, model=["viscous", "viscous_strong", "material"])["n_blocks"].max(),
+    }
+    friction = rows(fine, quantity="mu_sapp")
+    for name, model_name in (
+        ("plain", "plain"),
+        ("viscous", "viscous"),
+        ("strong", "viscous_strong"),
+        ("material", "material"),
+    ):
+        own = rows(friction, model=model_name)
+        found[f"{name}-mu"] = own["q50"].iloc[-1]
+        found[f"{name}-eta"] = (own["viscosity_N_s_per_m"].iloc[0], "N s/m")
+    for springs in (25, 250, 2500):
+        own = rows(friction, model=f"both_{springs}")
+        found |= {
+            f"springs-stiffness-{springs}": (own["interface_stiffness_N_per_m"].iloc[0], "N/m"),
+            f"springs-n-{springs}": own["n_blocks"].max(),
+            f"springs-low-{springs}": own["q50"].min(),
+            f"springs-high-{springs}": own["q50"].max(),
+            f"springs-mu-{springs}": own["q50"].iloc[-1],
+        }
+    return found
+
+
+def long_runs(t: Tables, config: Mapping[str, Any]) -> Numbers:
+    """Many global slips of a scene, and the map over theta and friction."""
+    found: Numbers = {
+        "long-duration": (config["ensembles"]["long_runs"]["duration"], "s"),
+        "map-points": len(t["map_friction"]),
+    }
+    for scene in SCENES:
+        row = rows(t["long_runs_statistics"], scene=scene).iloc[0]
+        found |= {
+            f"long-n-{scene}": row["n"],
+            f"long-mean-{scene}": row["mean"],
+            f"long-error-{scene}": row["mean_error"],
+            f"long-deviation-{scene}": row["deviation"],
+        }
+    return found
+
+
+PARTS = (speed, failures, proof, hierarchy, spread, resolution, larger_models, long_runs)
