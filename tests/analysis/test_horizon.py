@@ -14,7 +14,7 @@ from reference import HeldOut, Transition, read_held_out
 
 from precursors import Chain, Run, simulate
 from precursors.accuracy.proof import Certificate
-from precursors.accuracy.proof.validation import Validation, error_table, summary, validate
+from precursors.accuracy.solver_vs_proof import Validation, error_table, summary, validate
 from precursors.analysis import neighbours
 from precursors.analysis.horizon import horizon, predicted_errors
 from precursors.analysis.lyapunov import lyapunov_exponent
@@ -44,13 +44,13 @@ def validation(request: pytest.FixtureRequest) -> Validation:
 def test_no_error_is_predicted_too_small_and_order_is_lost_only_where_it_is_doubted(
     validation: Validation,
 ) -> None:
-    _, agreement, growth = validation
-    n = agreement.n_agreeing
-    known = np.isfinite(growth.time_error)
+    _, compared, predictions = validation
+    n = compared.transitions_right
+    known = np.isfinite(predictions.time_error)
     assert not known[n:].any()
-    actual, predicted = agreement.time_error[known[:n]], growth.time_error[known]
+    actual, predicted = compared.time_errors[known[:n]], predictions.time_error[known]
     assert (actual <= OPTIMISM * predicted).all()
-    assert growth.unknown.time < agreement.lost or agreement.lost == np.inf
+    assert predictions.unknown.time < compared.first_difference or compared.first_difference == np.inf
 
 
 def test_the_prediction_is_of_use(validation: Validation) -> None:
@@ -62,15 +62,14 @@ def test_the_prediction_is_of_use(validation: Validation) -> None:
 
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 def test_up_to_the_horizon_all_transitions_hold(validation: Validation, tolerance: float) -> None:
-    run, agreement, growth = validation
-    horizon = growth.horizon(tolerance)
-    before = np.count_nonzero(run.transitions["time"] < horizon)
-    assert before <= agreement.n_agreeing
-    assert (agreement.time_error[:before] <= OPTIMISM * tolerance).all()
+    run, compared, predictions = validation
+    before = np.count_nonzero(run.transitions["time"] < predictions.horizon(tolerance))
+    assert before <= compared.transitions_right
+    assert (compared.time_errors[:before] <= OPTIMISM * tolerance).all()
 
 
 def test_a_larger_tolerance_never_shortens_the_horizon(validation: Validation) -> None:
-    horizons = [validation.growth.horizon(tolerance) for tolerance in np.logspace(-17, 0, 35)]
+    horizons = [validation.predicted.horizon(tolerance) for tolerance in np.logspace(-17, 0, 35)]
     assert horizons == sorted(horizons)
 
 

@@ -160,7 +160,7 @@ def test_an_edit_of_the_estimate_of_errors_simulates_and_proves_nothing(finished
 
 
 def test_an_edit_of_how_proof_and_run_are_compared_proves_and_simulates_nothing(finished):
-    finished.append("src/precursors/proof/agreement.py", "\nCHANGED = True\n")
+    finished.append("src/precursors/accuracy/compare.py", "\nCHANGED = True\n")
     assert finished.would_run() == {"tabulate_horizon", "draw_horizon"} | PAPER
 
 

@@ -1,5 +1,4 @@
-from precursors.accuracy.proof import scene_exact_chain
-from precursors.accuracy.proof.proved import certificate_path, chain_duration, exact_chain
+from precursors.accuracy.proof.chains import certificate_path, chain_duration, exact_chain, scene_exact_chain
 from precursors.model.chain import parse_theta
 
 CHAINS = config["accuracy"]["proved"]
@@ -99,10 +98,10 @@ rule certify_scene:
     log:
         "results/logs/certify_scene/{scene}.log",
     params:
-        chain=lambda wildcards: scene_exact_chain(config, wildcards.scene).as_text(),
-        duration=lambda wildcards: scene_duration(config, wildcards.scene),
+        chains=lambda wildcards: [scene_exact_chain(config, wildcards.scene).as_text()],
+        durations=lambda wildcards: [scene_duration(config, wildcards.scene)],
     script:
-        "../scripts/certify_scene.py"
+        "../scripts/take_certificates.py"
 
 
 rule tabulate_certificates:
@@ -124,7 +123,14 @@ rule tabulate_certificates:
 rule tabulate_horizon:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
-        code=package("model/chain", "solver", "analysis", "accuracy/proof"),
+        code=package(
+            "model/chain",
+            "solver",
+            "analysis",
+            "accuracy/proof",
+            "accuracy/compare",
+            "accuracy/solver_vs_proof",
+        ),
     output:
         horizon="results/tables/horizon.csv",
         summary=report("results/tables/solver_vs_proof.csv", category="Tables"),

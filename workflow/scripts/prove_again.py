@@ -7,12 +7,12 @@ import pandas as pd
 from job import job
 
 from precursors.accuracy.proof import verify
-from precursors.accuracy.proof.proved import certificate_row
+from precursors.accuracy.proof.chains import certificate_row
 from precursors.support.files import write_table
 
 
 def main(certificate: str | Path, output: str | Path) -> None:
-    """Prove every transition of a certificate again; an altered one is refused, whatever its checksum."""
+    """Prove every transition of a certificate again; an altered one is refused."""
     start = process_time()
     proved = verify(certificate, recompute=True)
     row = {"chain": Path(certificate).name.removesuffix(".json.gz"), **certificate_row(proved)}

@@ -7,7 +7,7 @@ import pandas as pd
 from job import job
 
 from precursors.accuracy.proof import verify
-from precursors.accuracy.proof.proved import certificate_row
+from precursors.accuracy.proof.chains import certificate_row
 from precursors.support.files import read_table, write_table
 
 

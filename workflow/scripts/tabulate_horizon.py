@@ -1,4 +1,4 @@
-"""Hold the solver, and its own estimate of its errors, against the proof."""
+"""Compare the solver, and the errors it predicts, with the proof."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -7,7 +7,7 @@ import pandas as pd
 from job import job
 
 from precursors.accuracy.proof import Certificate
-from precursors.accuracy.proof.validation import error_table, summary, validate
+from precursors.accuracy.solver_vs_proof import error_table, summary, validate
 from precursors.support.files import write_table
 
 

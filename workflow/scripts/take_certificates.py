@@ -8,7 +8,7 @@ from typing import Any
 from job import job
 
 from precursors.accuracy.proof import ExactChain, certify, verify
-from precursors.accuracy.proof.proved import is_about
+from precursors.accuracy.proof.chains import is_about
 from precursors.support.files import write_whole
 
 

@@ -12,8 +12,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from precursors.analysis.slip_rows import first_global
-from precursors.analysis.slips import find_slips
+from precursors.analysis.slips import find_slips, first_global
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
 
@@ -41,10 +40,8 @@ class Truth:
     ----------
     run : Run
         The true transitions, rounded.
-    time_rest : array, shape (n_transitions,)
-        True times less the rounded ones [s].
-    load_rest : array, shape (n_transitions,)
-        True tangential loads less the rounded ones [N].
+    time_rest, load_rest : array, shape (n_transitions,)
+        True times [s] and tangential loads [N] less the rounded ones.
     """
 
     run: Run
@@ -67,24 +64,13 @@ class Truth:
 
     @classmethod
     def proved(cls, certificate: Certificate) -> Truth:
-        """Take what a certificate proves, the midpoints of its enclosures.
-
-        Raises
-        ------
-        ValueError
-            If the proof ends with a tie, before the end of what it is about.
-        """
-        if certificate.tie:
-            raise ValueError(
-                f"the proof ends with a tie at t = {float(certificate.tie.time.midpoint):.9g} s: "
-                "allowed is a certificate of the whole run"
-            )
+        """Take what a certificate proves, the midpoints of its enclosures, as far as it goes."""
         transitions = [
             TrueTransition(t.time.midpoint, t.block, t.mode, t.tangential_load.midpoint)
             for t in certificate.transitions
         ]
-        to_the_end = certificate.until is None or not transitions
-        duration = float(certificate.duration if to_the_end else transitions[-1].time)
+        ends_with_slip = certificate.until and transitions and not certificate.tie
+        duration = float(transitions[-1].time if ends_with_slip else certificate.proved_until)
         return cls.exact(certificate.chain.to_chain(), duration, transitions)
 
     @cached_property
@@ -104,12 +90,11 @@ class Truth:
         transitions = self.run.transitions
         n = int(np.searchsorted(transitions["time"], end, side="right"))
         columns = [transitions[name][:n] for name in ("time", "block", "mode", "tangential_load")]
-        return Truth(
-            Run.from_transitions(self.run.chain, end, *columns), self.time_rest[:n], self.load_rest[:n]
-        )
+        run = Run.from_transitions(self.run.chain, end, *columns)
+        return Truth(run, self.time_rest[:n], self.load_rest[:n])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Comparison:
     """How far a run agrees with the truth, and how closely as far as it does.
 
@@ -121,10 +106,12 @@ class Comparison:
         All transitions of the run, and of the truth.
     slips_right, slips_found, slips_true : int
         The same of slip events; one is right if its front is, and whether all blocks slid at once.
-    time_error : float
-        Largest error of the times of the transitions that are right [s]; NaN if none is.
+    time_errors, load_errors : array, shape (transitions_right,)
+        Errors of the times [s] and tangential loads [N] of the transitions that are right.
     load_error : float
         Largest error of F_X at the onsets of the slips that are right [N]; NaN if none is.
+    first_difference : float
+        Time [s] of the first transition that is true or found but not both; infinite if there is none.
     """
 
     transitions_right: int
@@ -133,15 +120,22 @@ class Comparison:
     slips_right: int
     slips_found: int
     slips_true: int
-    time_error: float
+    time_errors: FloatArray
+    load_errors: FloatArray
     load_error: float
+    first_difference: float
+
+    @property
+    def time_error(self) -> float:
+        """Largest error of the times of the transitions that are right [s]; NaN if none is."""
+        return _largest(self.time_errors)
 
 
 def compare(run: Run, truth: Truth) -> Comparison:
     """Compare a run with the truth over the same time, both to the end or both to the first global slip.
 
-    After the first difference, and soon after the first global slip, motions are as different as those of two
-    chains: chaotic. So only what comes before the first difference has an error.
+    After the first difference, and soon after the first global slip, the motions are as different as those of
+    two chains: chaotic. So only what comes before the first difference has an error.
 
     Raises
     ------
@@ -151,15 +145,16 @@ def compare(run: Run, truth: Truth) -> Comparison:
     true_run = truth.run
     if run.chain.n_blocks != true_run.chain.n_blocks:
         raise ValueError(
-            f"the run has {run.chain.n_blocks} blocks and the truth {true_run.chain.n_blocks}: "
-            "allowed are runs of the same chain"
+            f"the run must have as many blocks as the truth, {true_run.chain.n_blocks}, "
+            f"but has {run.chain.n_blocks}"
         )
     found, true = run.transitions, true_run.transitions
     n = _agreeing(found[["block", "mode"]], true[["block", "mode"]])
     slips = find_slips(run)
     n_slips = _agreeing(slips[OUTCOME].to_records(index=False), truth.slips[OUTCOME].to_records(index=False))
     onsets = np.searchsorted(true["time"], truth.slips["onset"][:n_slips])
-    load_error = (slips["load_before"] - truth.slips["load_before"])[:n_slips] - truth.load_rest[onsets]
+    at_onsets = (slips["load_before"] - truth.slips["load_before"])[:n_slips] - truth.load_rest[onsets]
+    loads = found["tangential_load"][:n] - true["tangential_load"][:n]
     return Comparison(
         transitions_right=n,
         transitions_found=len(found),
@@ -167,8 +162,10 @@ def compare(run: Run, truth: Truth) -> Comparison:
         slips_right=n_slips,
         slips_found=len(slips),
         slips_true=len(truth.slips),
-        time_error=_largest(found["time"][:n] - true["time"][:n] - truth.time_rest[:n]),
-        load_error=_largest(load_error.to_numpy()),
+        time_errors=abs(found["time"][:n] - true["time"][:n] - truth.time_rest[:n]),
+        load_errors=abs(loads - truth.load_rest[:n]),
+        load_error=_largest(abs(at_onsets.to_numpy())),
+        first_difference=float(min([*found["time"][n : n + 1], *true["time"][n : n + 1]], default=np.inf)),
     )
 
 
@@ -187,4 +184,4 @@ def _agreeing(found: NDArray, true: NDArray) -> int:
 
 
 def _largest(errors: FloatArray) -> float:
-    return float(np.abs(errors).max()) if len(errors) else float("nan")
+    return float(errors.max()) if len(errors) else float("nan")

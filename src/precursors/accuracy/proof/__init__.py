@@ -3,20 +3,17 @@
 `certify` proves (it needs python-flint, the extra "proof"); certificates are read and checked without it.
 """
 
-from precursors.accuracy.proof.agreement import Agreement, compare
 from precursors.accuracy.proof.certificate import (
     Certificate,
     CertificateError,
     CertifiedTransition,
     Enclosure,
     Tie,
-    certify,
-    verify,
 )
-from precursors.accuracy.proof.exact_chain import ExactChain, scene_exact_chain
+from precursors.accuracy.proof.exact_chain import ExactChain
+from precursors.accuracy.proof.prove import certify, verify
 
 __all__ = [
-    "Agreement",
     "Certificate",
     "CertificateError",
     "CertifiedTransition",
@@ -24,7 +21,5 @@ __all__ = [
     "ExactChain",
     "Tie",
     "certify",
-    "compare",
-    "scene_exact_chain",
     "verify",
 ]

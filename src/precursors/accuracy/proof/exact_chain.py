@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from fractions import Fraction
 from numbers import Real
 from typing import Any
 
 import numpy as np
 
-from precursors.model.chain import Chain, require_plain, whole, written_fraction
-from precursors.model.scene_models import PAPERS_MODEL
-from precursors.model.scenes import scene_as_written, scene_model
+from precursors.model.chain import Chain, written_fraction
 
 Number = Fraction | int | float | str
+
+_NUMBERS = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k", "length")
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class ExactChain:
     Raises
     ------
     ValueError
-        Naming the parameter, its value, its unit and the allowed range.
+        As `Chain`, naming the parameter.
     """
 
     weights: tuple[Fraction, ...]
@@ -37,20 +37,12 @@ class ExactChain:
     length: Fraction
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "weights", tuple(exact("weights", w, "N") for w in self.weights))
-        for i, w in enumerate(self.weights):
-            if w < 0:
-                raise ValueError(f"weights: block {i + 1} has {w} N: allowed is w >= 0 N")
-        if not any(self.weights):
-            raise ValueError("weights are all zero: allowed is a total normal load above 0 N")
-        for name, unit in _UNITS.items():
-            value = exact(name, getattr(self, name), unit)
-            object.__setattr__(self, name, value)
-            if value < 0 or (value == 0 and unit != "1"):
-                allowed = f"{name} >= 0" if unit == "1" else f"{name} > 0"
-                raise ValueError(f"{name} = {value} [{unit}] is out of range: allowed is {allowed}")
+        object.__setattr__(self, "weights", tuple(exact("weights", w) for w in self.weights))
+        for name in _NUMBERS:
+            object.__setattr__(self, name, exact(name, getattr(self, name)))
+        self.to_chain()
         if self.mu_k > self.mu_s:
-            raise ValueError(f"mu_k = {self.mu_k} is larger than mu_s = {self.mu_s}: allowed is mu_k <= mu_s")
+            raise ValueError(f"mu_k must be at most mu_s = {self.mu_s}, but is {self.mu_k}")
 
     @classmethod
     def from_slider(
@@ -71,48 +63,33 @@ class ExactChain:
 
         Numbers are taken as they are written: 0.7 and Fraction(7, 10) are the same, theta may be "5/6".
         """
-        n = whole("n_blocks", n_blocks, at_least=1)
-        slope, load = exact("theta", theta, "1"), exact("normal_load", normal_load, "N")
-        if abs(slope) > 1:
-            raise ValueError(f"theta = {theta!r} [1] is out of range: allowed is -1 <= theta <= 1")
-        extent = exact("length", length, "m")
-        if extent <= 0:
-            raise ValueError(f"length = {length!r} [m] is out of range: allowed is length > 0")
+        slider = {name: exact(name, x) for name, x in locals().items() if name not in ("cls", "n_blocks")}
+        Chain.from_slider(n_blocks, **{name: float(x) for name, x in slider.items()})
+        n, load, extent = n_blocks, slider["normal_load"], slider["length"]
         # At N = 1 Eq. 7 is 0/0; the one block carries the whole load.
         offsets = [Fraction(2 * i - n - 1, n - 1) if n > 1 else Fraction(0) for i in range(1, n + 1)]
-        modulus, area = (
-            exact("youngs_modulus", youngs_modulus, "Pa"),
-            exact("cross_section", cross_section, "m^2"),
-        )
         return cls(
-            weights=tuple(load / n * (1 + offset * slope) for offset in offsets),
-            mass=exact("slider_mass", slider_mass, "kg") / n,
-            stiffness=n * modulus * area / extent,
-            drive_stiffness=exact("drive_stiffness", drive_stiffness, "N/m"),
-            drive_velocity=exact("drive_velocity", drive_velocity, "m/s"),
-            mu_s=exact("mu_s", mu_s, "1"),
-            mu_k=exact("mu_k", mu_k, "1"),
+            weights=tuple(load / n * (1 + offset * slider["theta"]) for offset in offsets),
+            mass=slider["slider_mass"] / n,
+            stiffness=n * slider["youngs_modulus"] * slider["cross_section"] / extent,
+            drive_stiffness=slider["drive_stiffness"],
+            drive_velocity=slider["drive_velocity"],
+            mu_s=slider["mu_s"],
+            mu_k=slider["mu_k"],
             length=extent,
         )
 
     @classmethod
     def from_chain(cls, chain: Chain) -> ExactChain:
-        """Take the doubles of a chain for exactly what they are.
-
-        Raises
-        ------
-        ValueError
-            If the chain has viscosity, interface springs or a head.
-        """
-        require_plain(chain)
-        numbers = {name: Fraction(getattr(chain, name)) for name in _UNITS}
+        """Take the doubles of a chain for exactly what they are."""
+        numbers = {name: Fraction(getattr(chain, name)) for name in _NUMBERS}
         return cls(weights=tuple(Fraction(float(w)) for w in chain.weights), **numbers)
 
     def to_chain(self) -> Chain:
         """Round every number once, to the chain that the solver in double precision is given."""
         return Chain(
             weights=np.array([float(w) for w in self.weights]),
-            **{name: float(getattr(self, name)) for name in _UNITS},
+            **{name: float(getattr(self, name)) for name in _NUMBERS},
         )
 
     @property
@@ -127,31 +104,16 @@ class ExactChain:
 
     def as_text(self) -> dict[str, str | list[str]]:
         """Every number as a fraction in a string."""
-        text: dict[str, str | list[str]] = {name: str(getattr(self, name)) for name in _UNITS}
+        text: dict[str, str | list[str]] = {name: str(getattr(self, name)) for name in _NUMBERS}
         return {"weights": [str(w) for w in self.weights], **text}
 
     @classmethod
     def from_text(cls, text: Mapping[str, Any]) -> ExactChain:
         """Read what `as_text` wrote."""
-        if set(text) != {f.name for f in fields(cls)}:
-            raise ValueError(
-                f"chain has {', '.join(text)}: needed are {', '.join(f.name for f in fields(cls))}"
-            )
-        return cls(tuple(text["weights"]), **{name: text[name] for name in _UNITS})
+        return cls(tuple(text["weights"]), **{name: text[name] for name in _NUMBERS})
 
 
-_UNITS = {
-    "mass": "kg",
-    "stiffness": "N/m",
-    "drive_stiffness": "N/m",
-    "drive_velocity": "m/s",
-    "mu_s": "1",
-    "mu_k": "1",
-    "length": "m",
-}
-
-
-def exact(name: str, value: object, unit: str) -> Fraction:
+def exact(name: str, value: object) -> Fraction:
     """Return a number as it is written: a fraction, a decimal in a string, or a float as Python prints it.
 
     Raises
@@ -160,31 +122,15 @@ def exact(name: str, value: object, unit: str) -> Fraction:
         If it is none of these, or not finite.
     """
     try:
-        if isinstance(value, bool):
-            raise ValueError
         if isinstance(value, str):
             return written_fraction(value)
-        if isinstance(value, Fraction | int):
+        if isinstance(value, Fraction | int) and not isinstance(value, bool):
             return Fraction(value)
-        if isinstance(value, Real):
+        if isinstance(value, Real) and not isinstance(value, bool):
             return Fraction(repr(float(value)))
     except (ValueError, ZeroDivisionError, OverflowError):
         pass
-    raise ValueError(f'{name} = {value!r} [{unit}] is not a number: allowed is a finite one, or one as "5/6"')
-
-
-def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
-    """Return the chain of a scene of the configuration; theta from load cells is not rounded (Sect. 5.2).
-
-    Raises
-    ------
-    ValueError
-        If the scene's model is another than the paper's chain.
-    """
-    model = scene_model(config, name)
-    if model != PAPERS_MODEL:
-        raise ValueError(f"scenes.{name}.model = {model!r}: proofs are of the model {PAPERS_MODEL!r} alone")
-    return ExactChain.from_slider(**scene_as_written(config, name))
+    raise ValueError(f'{name} must be a finite number, or one in quotes as "5/6", but is {value!r}')
 
 
 def exact_positions(chain: ExactChain, positions: Sequence[Number] | None) -> tuple[Fraction, ...]:
@@ -193,6 +139,7 @@ def exact_positions(chain: ExactChain, positions: Sequence[Number] | None) -> tu
         return (Fraction(0),) * chain.n_blocks
     if len(positions) != chain.n_blocks:
         raise ValueError(
-            f"start_positions hold {len(positions)} values: allowed is one [m] a block, N = {chain.n_blocks}"
+            f"start_positions must hold one value [m] for each of the {chain.n_blocks} blocks, "
+            f"but hold {len(positions)}"
         )
-    return tuple(exact("start_positions", x, "m") for x in positions)
+    return tuple(exact("start_positions", x) for x in positions)

@@ -14,7 +14,8 @@ transition, which the two have at different instants, changes it as follows.
 
 At a transition the centre is given its exact condition (u = 0, or F = +-mu_s w); the other runs have theirs
 within +-gap of it. Afterwards a run that is late is continued backwards, in its new modes, to the instant of
-the centre; a run that is early has its new modes before that instant. So gauges are proved from -gap on.
+the centre; a run that is early has its new modes before that instant. So event functions are proved from -gap
+on.
 """
 
 from __future__ import annotations
@@ -24,8 +25,14 @@ from typing import NamedTuple
 
 from flint import arb, arb_poly, ctx
 
+from precursors.accuracy.proof.event_roots import (
+    EventFunction,
+    Undecided,
+    event_functions,
+    first_root,
+    newton,
+)
 from precursors.accuracy.proof.exact_chain import ExactChain
-from precursors.accuracy.proof.first_root import Gauge, Undecided, first_root
 from precursors.accuracy.proof.motion import (
     BOUND_BITS,
     Constants,
@@ -59,16 +66,9 @@ class Proved(NamedTuple):
 
 
 class Unproved(Exception):
-    """The proof stops: more bits are needed, or there is a tie.
+    """The proof stops at a question about some blocks: more bits are needed, or there is a tie.
 
-    Attributes
-    ----------
-    question : str
-        What could not be decided.
-    blocks : tuple of int
-        The blocks it is about.
-    time : arb
-        When [s]; the ball is the time within which it is undecided.
+    The ball `time` [s] is the time within which it is undecided.
     """
 
     def __init__(self, question: str, blocks: tuple[int, ...], time: arb) -> None:
@@ -181,60 +181,26 @@ class Proof:
         first = self.first_transition()
         if first is None:
             return self.advance_window(WINDOW)
-        gauge, root = first
+        event, root = first
         if root.upper() > WINDOW:
             # The others are proved up to the end of the window only: stop short of the root.
             return self.advance_window(float(root.lower()) * 0.75)
-        self.change(gauge, root)
-        return self.record(gauge.block)
+        self.change(event, root)
+        return self.record(event.block)
 
-    def first_transition(self) -> tuple[Gauge, arb] | None:
-        """Find the first root of all gauges at a low precision, raised as long as it cannot be decided."""
+    def first_transition(self) -> tuple[EventFunction, arb] | None:
+        """Find the first root of all event functions, at a low precision that is raised until it suffices."""
         bits = ISOLATION_BITS
         while True:
             with ctx.workprec(bits):
                 try:
-                    return first_root(self.gauges(bits), WINDOW, VALID, self.gap, bits)
+                    constants = self.constants(max(bits, BOUND_BITS))
+                    functions = event_functions(constants, self.state, self.fresh, VALID, bits)
+                    return first_root(functions, WINDOW, VALID, self.gap, bits)
                 except Undecided:
                     if bits >= self.precision():
                         raise
             bits *= 2
-
-    def gauges(self, bits: int) -> list[Gauge]:
-        """Velocities of the sliding blocks and margins of the stuck ones that feel a change."""
-        state, span = self.state, arb(VALID)
-        constants = self.constants(max(bits, BOUND_BITS))
-        series = expand(constants, state, order_for(VALID, bits))
-        rests = [tail(constants, series, span, derivative) for derivative in (0, 1, 2)]
-        omega2 = constants.frequency_squared
-        # The centre is given the exact condition of a transition, and room for that.
-        distance = 2 * state.distance
-        gauges = []
-        for i in range(1, self.n + 1):
-            reach, rate_reach = constants.force_reach[i] * distance, constants.force_rate_reach[i] * distance
-            mode = state.mode[i]
-            if mode:
-                u = arb_poly([mode * a for a in series[i]])
-                slope = u.derivative()
-                gauges.append(
-                    Gauge(
-                        i,
-                        0,
-                        u + arb(0, distance + rests[0]),
-                        slope + arb(0, reach + rests[1]),
-                        slope.derivative() + arb(0, rate_reach + rests[2]),
-                        fresh=i in self.fresh,
-                    )
-                )
-            elif i == 1 or state.mode[i - 1] or state.mode[i + 1]:
-                rate = arb_poly(force_rate_series(constants, series, i))
-                force = rate.integral() + (state.net_force(i) + arb(0, reach + omega2 * span * rests[0]))
-                rate += arb(0, rate_reach + omega2 * rests[0])
-                gauges += [
-                    Gauge(i, way, constants.strength[i] - way * force, -way * rate, arb_poly([]), fresh=False)
-                    for way in (1, -1)
-                ]
-        return gauges
 
     def advance_window(self, step: float | arb) -> bool:
         """Advance without a transition."""
@@ -248,9 +214,9 @@ class Proof:
             self.fresh = set()
             return not self.clock > self.duration
 
-    def change(self, gauge: Gauge, root: arb) -> None:
-        """Advance to the root of a gauge and let its block change its state."""
-        state, i = self.state, gauge.block
+    def change(self, event: EventFunction, root: arb) -> None:
+        """Advance to the root of an event function and let its block change its state."""
+        state, i = self.state, event.block
         before = state.distance
         with ctx.workprec(self.precision()):
             constants = self.constants(ctx.prec)
@@ -258,19 +224,19 @@ class Proof:
             series = expand(constants, state, order_for(float(span), ctx.prec))
             rest = tail(constants, series, span)
             polynomials = {j: arb_poly(row) for j, row in series.items()}
-            if gauge.direction:
+            if event.direction:
                 rate = arb_poly(force_rate_series(constants, series, i))
-                function = constants.strength[i] - gauge.direction * (rate.integral() + state.net_force(i))
-                slope = -gauge.direction * rate
+                function = constants.strength[i] - event.direction * (rate.integral() + state.net_force(i))
+                slope = -event.direction * rate
             else:
                 function = state.mode[i] * polynomials[i]
                 slope = function.derivative()
-            step = _newton(function, slope, root, ctx.prec)
+            step = newton(function, slope, root, ctx.prec)
             advance(constants, state, polynomials, rest, step)
             force, velocity = list(state.force), list(state.rate)
-            if gauge.direction:
+            if event.direction:
                 # F = +-mu_s w: the spring behind takes up what is missing.
-                required = gauge.direction * constants.strength[i] + force[i + 1]
+                required = event.direction * constants.strength[i] + force[i + 1]
                 state.distance += (required - force[i]).abs_upper() / self.bounds.coupling[i].sqrt()
                 force[i] = required
             else:
@@ -279,18 +245,18 @@ class Proof:
             state.absorb(constants, force, velocity)
             self.clock += self.unit * step
         with ctx.workprec(BOUND_BITS):
-            undecided = Undecided(f"whether {gauge.event}", root, (i,))
+            undecided = Undecided(f"whether {event.what}", root, (i,))
             if not state.distance < 2 * before or not root.contains(step):
                 raise undecided
-            steepness = gauge.slope(root).abs_lower()
-            reach = self.bounds.force_reach[i] if gauge.direction else arb(1)
+            steepness = event.slope(root).abs_lower()
+            reach = self.bounds.force_reach[i] if event.direction else arb(1)
             self.gap = (state.distance * reach / steepness).abs_upper()
             if not self.gap < 1:
                 raise undecided
-            if gauge.direction:
-                self.release(i, gauge.direction)
+            if event.direction:
+                self.release(i, event.direction)
             else:
-                self.stop(gauge, root)
+                self.stop(event, root)
 
     def largest_force_change(self) -> arb:
         """Bound how much a net force changes in any run during twice the gap [N].
@@ -311,9 +277,9 @@ class Proof:
         state.mode[i] = way
         self.fresh = {i}
 
-    def stop(self, gauge: Gauge, root: arb) -> None:
+    def stop(self, event: EventFunction, root: arb) -> None:
         """Let block i, whose velocity has reached zero, stick if friction holds it, or else turn round."""
-        i, state, bounds = gauge.block, self.state, self.bounds
+        i, state, bounds = event.block, self.state, self.bounds
         spread = state.distance * bounds.force_reach[i] + self.largest_force_change()
         force = state.net_force(i) + arb(0, spread)
         slows_down = state.mode[i] * force < bounds.friction[i]
@@ -351,13 +317,3 @@ class Proof:
     def lost_bits(self) -> int:
         """How much the distance has grown, in bits."""
         return log2(self.state.distance) - log2(self.least_distance)
-
-
-def _newton(function: arb_poly, slope: arb_poly, root: arb, bits: int) -> arb:
-    """Return an exact number near the root, to about `bits` bits; what is left of it is counted later."""
-    x, good = root.mid(), 24
-    while good < bits:
-        good = min(2 * good, bits)
-        with ctx.workprec(good + 16):
-            x = (x - function(x) / slope(x)).mid()
-    return x

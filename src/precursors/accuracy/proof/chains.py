@@ -9,7 +9,11 @@ from typing import Any
 
 from precursors.accuracy.proof.certificate import Certificate
 from precursors.accuracy.proof.exact_chain import ExactChain
-from precursors.model.slider import PROVED_FOR
+from precursors.model.scene_models import PAPERS_MODEL
+from precursors.model.scenes import scene_as_written, scene_model
+
+# Duration of a proof [s] where the configuration has none.
+PROVED_FOR = 10.0
 
 
 def exact_chain(values: Mapping[str, Any]) -> ExactChain:
@@ -22,10 +26,34 @@ def chain_duration(values: Mapping[str, Any]) -> float:
     return float(values.get("duration", PROVED_FOR))
 
 
+def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
+    """Return the chain of a scene of the configuration; theta from load cells is not rounded (Sect. 5.2).
+
+    Raises
+    ------
+    ValueError
+        If the scene's model is another than the paper's chain.
+    """
+    model = scene_model(config, name)
+    if model != PAPERS_MODEL:
+        raise ValueError(f"scenes.{name}.model must be {PAPERS_MODEL!r} for a proof, but is {model!r}")
+    return ExactChain.from_slider(**scene_as_written(config, name))
+
+
 def certificate_path(directory: str | Path, name: str) -> list[str]:
     """The certificate of a chain in a directory, if it is there."""
     path = Path(directory) / f"{name}.json.gz"
     return [str(path)] if path.is_file() else []
+
+
+def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bool:
+    """Whether a certificate is about all of the run of a chain from rest, for `duration` [s]."""
+    return (
+        certificate.chain == chain
+        and certificate.duration == Fraction(repr(duration))
+        and certificate.until is None
+        and not any(certificate.start_positions)
+    )
 
 
 def certificate_row(certificate: Certificate) -> dict[str, float]:
@@ -39,13 +67,3 @@ def certificate_row(certificate: Certificate) -> dict[str, float]:
         "bits": certificate.bits,
         "restarts": certificate.restarts,
     }
-
-
-def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bool:
-    """Whether a certificate is about all of the run of a chain from rest, for `duration` [s]."""
-    return (
-        certificate.chain == chain
-        and certificate.duration == Fraction(repr(duration))
-        and certificate.until is None
-        and not any(certificate.start_positions)
-    )

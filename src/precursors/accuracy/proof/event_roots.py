@@ -1,0 +1,192 @@
+"""The first root of all event functions, proved for every run within reach.
+
+An event function is positive while its block keeps its state: mode * velocity of a sliding block,
+mu_s w -+ net force of a stuck one. Its polynomials are balls wide enough for every run of the model: a proof
+holds for all.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from flint import arb, arb_poly, ctx
+
+from precursors.accuracy.proof.motion import Constants, State, expand, force_rate_series, order_for, tail
+
+GRID = 40
+
+
+class Undecided(Exception):
+    """A question about some blocks that cannot be decided, between two times [T] as a ball."""
+
+    def __init__(self, question: str, between: arb, blocks: tuple[int, ...]) -> None:
+        super().__init__(question)
+        self.question, self.between, self.blocks = question, between, blocks
+
+
+@dataclass(frozen=True, eq=False)
+class EventFunction:
+    """A function of time [T] that is positive until its block changes its state.
+
+    Attributes
+    ----------
+    block : int
+        Block 1..N.
+    direction : int
+        0 for the velocity of a sliding block; +1 or -1 for a stuck block's margin in that direction.
+    value, slope, bend : arb_poly
+        The function and its first two derivatives, enclosing those of every run.
+    fresh : bool
+        Zero at the transition at the start, with a slope that is not negative.
+    """
+
+    block: int
+    direction: int
+    value: arb_poly
+    slope: arb_poly
+    bend: arb_poly
+    fresh: bool
+
+    @property
+    def what(self) -> str:
+        """What happens at the root."""
+        change = {0: "stops", 1: "is released forward", -1: "is released backward"}
+        return f"block {self.block} {change[self.direction]}"
+
+
+def event_functions(
+    constants: Constants, state: State, fresh: set[int], valid: float, bits: int
+) -> list[EventFunction]:
+    """Velocities of the sliding blocks and margins of the stuck ones that feel a change, up to `valid` [T].
+
+    `fresh` are the blocks that have just begun to slide.
+    """
+    span = arb(valid)
+    series = expand(constants, state, order_for(valid, bits))
+    rests = [tail(constants, series, span, derivative) for derivative in (0, 1, 2)]
+    omega2 = constants.frequency_squared
+    # The centre is given the exact condition of a transition, and room for that.
+    distance = 2 * state.distance
+    functions = []
+    for i in range(1, len(state.mode) - 1):
+        reach, rate_reach = constants.force_reach[i] * distance, constants.force_rate_reach[i] * distance
+        mode = state.mode[i]
+        if mode:
+            u = arb_poly([mode * a for a in series[i]])
+            value = u + arb(0, distance + rests[0])
+            slope = u.derivative() + arb(0, reach + rests[1])
+            bend = u.derivative().derivative() + arb(0, rate_reach + rests[2])
+            functions.append(EventFunction(i, 0, value, slope, bend, fresh=i in fresh))
+        elif i == 1 or state.mode[i - 1] or state.mode[i + 1]:
+            rate = arb_poly(force_rate_series(constants, series, i))
+            force = rate.integral() + (state.net_force(i) + arb(0, reach + omega2 * span * rests[0]))
+            rate += arb(0, rate_reach + omega2 * rests[0])
+            functions += [
+                EventFunction(
+                    i, way, constants.strength[i] - way * force, -way * rate, arb_poly([]), fresh=False
+                )
+                for way in (1, -1)
+            ]
+    return functions
+
+
+def first_root(
+    functions: list[EventFunction], end: float, valid: float, back: arb, bits: int
+) -> tuple[EventFunction, arb] | None:
+    """Return the function that crosses zero first and an enclosure of its root; None if none does by `end`.
+
+    Parameters
+    ----------
+    functions : list of EventFunction
+        All of them.
+    end, valid : float
+        Times [T] to search, and up to which the polynomials hold.
+    back : arb
+        Time [T] before zero at which a run may have had the transition at the start.
+    bits : int
+        Working precision.
+
+    Raises
+    ------
+    Undecided
+        If two roots overlap, or the sign of a function cannot be decided.
+    """
+    found: list[tuple[arb, EventFunction]] = []
+    for function in functions:
+        root = _crossing(function, end, valid, back, bits)
+        if root is not None:
+            found.append((root, function))
+            # rounded up to a short binary number, so that halving stays exact
+            end = min(end, (int(float(root.upper()) * 2**GRID) + 2) / 2**GRID)
+    if not found:
+        return None
+    root, first = found[0]
+    for other, function in found:
+        if other < root:
+            root, first = other, function
+    for other, function in found:
+        if function is not first and not other > root:
+            question = f"whether first {first.what} or {function.what}"
+            raise Undecided(question, root.union(other), (first.block, function.block))
+    return first, root
+
+
+def _crossing(function: EventFunction, end: float, valid: float, back: arb, bits: int) -> arb | None:
+    """First root of a function up to `end`, or None once it is proved positive."""
+    smallest = arb(2) ** -(bits // 2 + 8)
+    pieces = [(arb(0), arb(end), True)]
+    while pieces:
+        a, b, at_start = pieces.pop()
+        half = (b - a) / 2
+        middle = a + half
+        # At the start a run may be ahead or behind by `back`.
+        reach = (half + back).abs_upper() if at_start else half
+        box = arb(middle, reach)
+        slope = function.slope(box)
+        if function.value(middle) - reach * slope.abs_upper() > 0:
+            continue
+        falling = slope < 0
+        if falling and function.value(b) > 0:
+            continue
+        if not at_start and slope > 0 and function.value(a) > 0:
+            continue
+        if function.fresh and at_start and (slope > 0 or function.bend(box) > 0):
+            continue
+        if falling:
+            root = _falling_root(function, a, b, valid)
+            if root is not None:
+                if at_start and not root > back:
+                    raise Undecided(f"whether {function.what}", root, (function.block,))
+                return root
+        if half < smallest:
+            raise Undecided(f"whether {function.what}", box, (function.block,))
+        pieces += [(middle, b, False), (a, middle, at_start)]
+    return None
+
+
+def _falling_root(function: EventFunction, a: arb, b: arb, valid: float) -> arb | None:
+    """Enclose the root of a function that falls on [a, b], where a root next to b may lie a little beyond."""
+    if not function.value(b) < 0:
+        b = b + (b - a)
+        if not (b <= valid and function.slope(a.union(b)) < 0 and function.value(b) < 0):
+            return None
+    root = a.union(b)
+    while True:
+        middle = root.mid()
+        closer = middle - function.value(middle) / function.slope(root)
+        if not closer.overlaps(root):
+            return None
+        closer = closer.intersection(root)
+        if not closer.rad() * 2 < root.rad():
+            return closer
+        root = closer
+
+
+def newton(function: arb_poly, slope: arb_poly, root: arb, bits: int) -> arb:
+    """Return an exact number near the root, to about `bits` bits; what is left of it is counted later."""
+    x, good = root.mid(), 24
+    while good < bits:
+        good = min(2 * good, bits)
+        with ctx.workprec(good + 16):
+            x = (x - function(x) / slope(x)).mid()
+    return x

@@ -1,0 +1,94 @@
+"""The solver compared with the proof: the errors it makes, and the errors it predicts."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from precursors.accuracy.compare import Comparison, Truth, compare
+from precursors.accuracy.proof import Certificate
+from precursors.analysis.horizon import PredictedErrors, predicted_errors
+from precursors.analysis.slips import find_slips, first_global
+from precursors.model.chain import FloatArray
+from precursors.solver.run import Run
+from precursors.solver.simulate import simulate
+
+# Rows of a chain's error table, at most.
+ROWS = 400
+
+
+class Validation(NamedTuple):
+    """A run in double precision with its actual and its predicted errors."""
+
+    run: Run
+    actual: Comparison
+    predicted: PredictedErrors
+
+
+def validate(certificate: Certificate) -> Validation:
+    """Run the chain of a certificate, rounded to double precision, as far as it is proved, and compare."""
+    truth = Truth.proved(certificate)
+    start = [float(x) for x in certificate.start_positions]
+    run = simulate(truth.run.chain, truth.run.duration, start_positions=start)
+    return Validation(run, compare(run, truth), predicted_errors(run))
+
+
+def error_table(validation: Validation) -> pd.DataFrame:
+    """Largest error so far, actual and predicted, at up to `ROWS` transitions; NaN where order is unknown."""
+    run, compared, predictions = validation
+    n = len(run.transitions)
+    actual, predicted = np.full((2, n), np.nan)
+    actual[: compared.transitions_right] = np.maximum.accumulate(compared.time_errors)
+    known = np.isfinite(predictions.time_error)
+    predicted[known] = np.maximum.accumulate(predictions.time_error[known])
+    rows = np.unique(np.linspace(0, n - 1, ROWS).astype(int))
+    return pd.DataFrame(
+        {
+            "time_s": run.transitions["time"][rows],
+            "actual_error_s": actual[rows],
+            "predicted_error_s": predicted[rows],
+        }
+    )
+
+
+def summary(validation: Validation, tolerance: float) -> dict[str, float]:
+    """What the run gets right, in one row of solver_vs_proof.csv.
+
+    `right_until_s` is when the first transition is in error by more than the tolerance, of another block, or
+    to another mode; `horizon_s` is when this is predicted. `largest_ratio` is that of actual to predicted
+    error, both the largest so far.
+    """
+    run, compared, predictions = validation
+    n = compared.transitions_right
+    time = run.transitions["time"][:n]
+    wrong = time[compared.time_errors > tolerance]
+    predicted = predictions.time_error[:n]
+    known = np.isfinite(predicted)
+    ratio = np.maximum.accumulate(compared.time_errors[known]) / np.maximum.accumulate(predicted[known])
+    slips = find_slips(run)
+    first = first_global(slips)
+    first_end = np.nan if first is None else float(slips["end"].iloc[first])
+    until = time <= first_end
+    return {
+        "duration_s": run.duration,
+        "transitions": len(run.transitions),
+        "agreeing_transitions": n,
+        "first_global_slip_end_s": first_end,
+        "time_error_to_first_global_slip_s": _largest(compared.time_errors[until]),
+        "load_error_to_first_global_slip_N": _largest(compared.load_errors[until]),
+        "time_error_while_agreeing_s": _largest(compared.time_errors),
+        "load_error_while_agreeing_N": _largest(compared.load_errors),
+        "right_until_s": float(
+            min(wrong[0] if wrong.size else np.inf, compared.first_difference, run.duration)
+        ),
+        "horizon_s": predictions.horizon(tolerance),
+        "order_lost_s": compared.first_difference,
+        "order_known_until_s": predictions.unknown.time,
+        "largest_ratio": _largest(ratio),
+    }
+
+
+def _largest(values: FloatArray) -> float:
+    return float(np.max(values, initial=0.0))

@@ -1,0 +1,223 @@
+"""Certificates come back from their files, are what is proved, and are refused if they are not."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import gzip
+import sys
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+import yaml
+from reference import Transition
+from reference.goldens import GOLDEN, SCENE_DIGITS, SCENES, csv_rows
+
+from precursors.accuracy.proof import (
+    Certificate,
+    CertificateError,
+    CertifiedTransition,
+    Enclosure,
+    ExactChain,
+    certify,
+    verify,
+)
+from precursors.accuracy.proof.chains import chain_duration, exact_chain, is_about, scene_exact_chain
+
+CHAINS = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text())["accuracy"]["proved"]
+# A committed certificate is smaller [bytes].
+LARGEST_FILE = 300_000
+COMMITTED = Path(__file__).parents[2] / "workflow" / "certificates"
+# The chains of the three scenes in horizon.chains of the configuration.
+PROVED_SCENES = {"fig10": "uniform", "fig11": "trailing", "fig12": "leading"}
+
+
+@pytest.mark.parametrize(("scene", "chain"), PROVED_SCENES.items())
+def test_the_golden_tables_are_the_proof_rounded_digit_for_digit(scene: str, chain: str) -> None:
+    certificate = verify(COMMITTED / f"{chain}.json.gz")
+    assert certificate.chain == ExactChain.from_slider(theta=SCENES[scene])
+    assert certificate.proved_until == 10
+    with (GOLDEN / f"reference_{scene}.csv").open(newline="") as file:
+        _, *golden = csv.reader(file)
+    # Both ends of every enclosure round to the digits of the golden table.
+    for end in ("lower", "upper"):
+        ends = [
+            Transition(getattr(t.time, end), t.block, t.mode, getattr(t.tangential_load, end))
+            for t in certificate.transitions
+        ]
+        assert csv_rows(ends, SCENE_DIGITS) == golden
+
+
+@pytest.mark.parametrize("name", CHAINS)
+def test_the_committed_certificates_are_about_the_chains_of_the_configuration(name: str) -> None:
+    certificate = verify(COMMITTED / f"{name}.json.gz")
+    assert is_about(certificate, exact_chain(CHAINS[name]), chain_duration(CHAINS[name]))
+    assert not is_about(certificate, exact_chain(CHAINS[name]), 2 * chain_duration(CHAINS[name]))
+    assert (COMMITTED / f"{name}.json.gz").stat().st_size < LARGEST_FILE
+
+
+@pytest.fixture(scope="module")
+def small() -> Certificate:
+    return certify(ExactChain.from_slider(n_blocks=3, theta="1/2"), 4)
+
+
+def replace(
+    certificate: Certificate, number: int, change: Callable[[CertifiedTransition], CertifiedTransition]
+) -> Certificate:
+    """Change one transition."""
+    transitions = list(certificate.transitions)
+    transitions[number] = change(transitions[number])
+    return dataclasses.replace(certificate, transitions=tuple(transitions))
+
+
+def test_a_certificate_comes_back_from_its_file(small: Certificate, tmp_path: Path) -> None:
+    path = tmp_path / "small.json.gz"
+    small.save(path)
+    assert verify(path) == small
+    assert verify(small, recompute=True) is small
+    first = path.read_bytes()
+    small.save(path)
+    assert path.read_bytes() == first
+
+
+FOREIGN = {
+    "empty": b"",
+    "text": b"no gzip",
+    "object": gzip.compress(b"{}"),
+    "list": gzip.compress(b"[1, 2]"),
+    "another format": gzip.compress(b'{"format": "else"}'),
+}
+
+
+@pytest.mark.parametrize("content", FOREIGN.values(), ids=FOREIGN)
+def test_a_foreign_file_is_refused_in_one_line(content: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "foreign.json.gz"
+    path.write_bytes(content)
+    with pytest.raises(CertificateError, match=r"foreign\.json\.gz is not a whole certificate: .+") as error:
+        verify(path)
+    assert "\n" not in str(error.value)
+
+
+def test_a_damaged_file_is_refused(small: Certificate, tmp_path: Path) -> None:
+    path = tmp_path / "small.json.gz"
+    small.save(path)
+    whole = path.read_bytes()
+    # The first ten bytes are gzip's header, some of which mean nothing.
+    flipped = [whole[:i] + bytes([whole[i] ^ 1]) + whole[i + 1 :] for i in range(10, len(whole), 97)]
+    for damaged in [whole[:-1], whole[: len(whole) // 2], *flipped]:
+        path.write_bytes(damaged)
+        with pytest.raises(CertificateError, match="is not a whole certificate"):
+            Certificate.load(path)
+
+
+def test_an_enclosure_narrower_than_proved_is_refused(small: Certificate) -> None:
+    shrunk = replace(small, -1, lambda t: t._replace(time=Enclosure(t.time.midpoint, t.time.radius / 1000)))
+    verify(shrunk)
+    with pytest.raises(CertificateError, match="its time is not proved within"):
+        verify(shrunk, recompute=True)
+
+
+def test_a_shifted_load_is_refused(small: Certificate) -> None:
+    shifted = replace(
+        small,
+        5,
+        lambda t: t._replace(
+            tangential_load=Enclosure(
+                t.tangential_load.midpoint + 2 * t.tangential_load.radius, t.tangential_load.radius
+            )
+        ),
+    )
+    with pytest.raises(CertificateError, match="its load is not proved within"):
+        verify(shifted, recompute=True)
+
+
+@pytest.mark.parametrize("digit", [2, 9, 20, 35, 43])
+def test_an_altered_digit_is_refused_when_proved_again(small: Certificate, digit: int) -> None:
+    step = Fraction(1, 10**digit)
+    altered = replace(small, 7, lambda t: t._replace(time=Enclosure(t.time.midpoint + step, t.time.radius)))
+    with pytest.raises(CertificateError, match=r"its time is not proved within|does not hold"):
+        verify(altered, recompute=True)
+
+
+def test_swapped_transitions_are_refused(small: Certificate) -> None:
+    transitions = list(small.transitions)
+    transitions[7], transitions[8] = transitions[8], transitions[7]
+    with pytest.raises(CertificateError, match="not in order of time"):
+        verify(dataclasses.replace(small, transitions=tuple(transitions)))
+    blocks = [
+        t._replace(block=other.block, mode=other.mode)
+        for t, other in zip(small.transitions, transitions, strict=True)
+    ]
+    with pytest.raises(CertificateError, match=r"does not hold|goes to mode"):
+        verify(dataclasses.replace(small, transitions=tuple(blocks)), recompute=True)
+
+
+def test_a_missing_event_is_refused(small: Certificate) -> None:
+    with pytest.raises(CertificateError, match="the load has not grown at the rate K V"):
+        verify(dataclasses.replace(small, transitions=without_an_event(small)))
+
+
+def without_an_event(certificate: Certificate) -> tuple[CertifiedTransition, ...]:
+    """Leave out the second event, which is a slip of block 1 alone or begins with one."""
+    sliding: set[int] = set()
+    ends = []
+    for number, t in enumerate(certificate.transitions):
+        (sliding.add if t.mode else sliding.discard)(t.block)
+        if not sliding:
+            ends.append(number + 1)
+    return certificate.transitions[: ends[0]] + certificate.transitions[ends[1] :]
+
+
+def test_theta_of_a_scene_is_not_rounded() -> None:
+    slider = {"n_blocks": 10, "normal_load": 400.0, "length": 0.1}
+    scenes = {
+        "cells": {"load_cell_a": 100.0, "load_cell_b": 300.0},
+        "fraction": {"theta": "5/6"},
+        "number": {"theta": 0.5},
+    }
+    config = {"chain": slider, "load_cells": {"spacing": 0.06}, "scenes": scenes}
+    assert scene_exact_chain(config, "cells") == ExactChain.from_slider(theta=Fraction(5, 6))
+    assert scene_exact_chain(config, "fraction") == ExactChain.from_slider(theta="5/6")
+    assert scene_exact_chain(config, "number") == ExactChain.from_slider(theta=Fraction(1, 2))
+
+
+@pytest.mark.parametrize(
+    ("argument", "message"),
+    [
+        ({"theta": "7/6"}, "theta"),
+        ({"theta": 1 + Fraction(1, 10**30)}, "weights"),
+        ({"mu_s": "0.4"}, "mu_k"),
+        ({"mu_k": Fraction(7, 10) + Fraction(1, 10**30)}, "mu_k must be at most mu_s = 7/10"),
+        ({"slider_mass": 0}, "mass"),
+        ({"length": "0"}, "length"),
+        ({"theta": "1e999999999"}, "theta must be a finite number"),
+        ({"normal_load": float("nan")}, "normal_load must be a finite number"),
+        ({"n_blocks": 0}, "n_blocks"),
+    ],
+)
+def test_a_bad_parameter_is_named(argument: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        ExactChain.from_slider(**argument)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("argument", "message"),
+    [
+        ({"duration": 0}, "must be above 0 s, but are 0 s"),
+        ({"until": "slip"}, "until"),
+        ({"start_positions": ["0"]}, "start_positions must hold one value"),
+    ],
+)
+def test_a_bad_argument_is_named(argument: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        certify(ExactChain.from_slider(), **argument)  # type: ignore[arg-type]
+
+
+def test_without_python_flint_the_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "flint", None)
+    for name in ("tube", "motion", "event_roots"):
+        monkeypatch.delitem(sys.modules, f"precursors.accuracy.proof.{name}", raising=False)
+    with pytest.raises(ModuleNotFoundError, match=r'pip install "precursors\[proof\]"'):
+        certify(ExactChain.from_slider(), 1)
