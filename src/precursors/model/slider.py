@@ -10,8 +10,6 @@ from precursors.model.chain import Chain, neighbour_stiffness
 
 # Values of the arguments, or an array of them each.
 Slider = Mapping[str, Any]
-# How long a slider that gives no duration of its own is followed by a proof [s].
-PROVED_FOR = 10.0
 SLIDER = {name: p.default for name, p in inspect.signature(Chain.from_slider).parameters.items()}
 
 
