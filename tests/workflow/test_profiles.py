@@ -10,11 +10,12 @@ ROOT = Path(__file__).parents[2]
 QUEUED = {
     "certify_scene",
     "check_eq15",
-    "climb_ladder",
+    "compare_models",
     "measure_growth",
     "measure_methods",
     "prove_again",
     "run_chunk",
+    "run_larger_models",
     "simulate_scene",
     "tabulate_failures",
     "tabulate_long_runs",

@@ -80,7 +80,7 @@ FIGURES = {
     "ladder": {
         "shows": "which model answers which question",
         "category": "Models",
-        "tables": {"ladder": "results/tables/ladder.csv"},
+        "tables": {"ladder": "results/tables/model_comparison.csv"},
     },
 }
 

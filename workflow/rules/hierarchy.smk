@@ -6,20 +6,20 @@ rule hierarchy:
     localrule: True
 
 
-rule climb_ladder:
+rule compare_models:
     input:
         code=package("model", "solver", "analysis", "hierarchy"),
     output:
-        table=report("results/tables/ladder.csv", category="Tables"),
+        table=report("results/tables/model_comparison.csv", category="Tables"),
     log:
-        "results/logs/climb_ladder.log",
+        "results/logs/compare_models.log",
     params:
         sliders=SLIDERS,
         tolerances=config["hierarchy"]["tolerances"],
         additions=config["hierarchy"]["additions"],
         repetitions=config["hierarchy"]["repetitions"],
     script:
-        "../scripts/climb_ladder.py"
+        "../scripts/compare_models.py"
 
 
 rule run_larger_models:

@@ -21,7 +21,7 @@ TABLES = (
     "step_sweep",
     "growth",
     "spread",
-    "ladder",
+    "model_comparison",
     "resolution",
     "resolution_limits",
     "resolution_models",
@@ -117,7 +117,7 @@ def proof(t: Tables, config: Mapping[str, Any]) -> Numbers:
 
 def hierarchy(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Smaller and larger models beside the paper's chain."""
-    table = t["ladder"]
+    table = t["model_comparison"]
     head = rows(table, question="slip_duration", model="head")
     quasistatic = rows(table, question="events_kept", model="quasistatic").set_index("scene")["value"]
     return {

@@ -1,4 +1,4 @@
-"""Ask every model of the ladder what it answers, for the scenes of Fig. 13."""
+"""Ask every model what it answers, for the scenes of Fig. 13."""
 
 from collections.abc import Mapping
 from pathlib import Path
