@@ -1,4 +1,4 @@
-"""What every reading of "global slip", "short", "front" and theta gives beside the paper."""
+"""What every reading of "global slip", "short event", "length" and theta gives, compared with the paper."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
 # The paper prints mu_sapp with two digits and says that it "appears to have" this value for all loadings.
-LAST_DIGIT = 0.01
+DIGITS, LAST_DIGIT = 2, 0.01
 READING = ["degree", "global_slip", "short", "front"]
 
 
@@ -32,7 +32,7 @@ def definitions_table(
     load_drops: Iterable[float],
     paper: Sequence[Mapping[str, float]],
 ) -> pd.DataFrame:
-    """What every reading gives: one row per size of theta, sign of it and reading.
+    """One row for each size of theta, sign of theta and reading.
 
     Parameters
     ----------
@@ -43,15 +43,14 @@ def definitions_table(
     degrees : sequence
         Sizes of theta.
     load_drops : iterable of float
-        Drops of F_X [N] above which an event is a global slip, as readings of it.
+        Drops of F_X [N]; an event with a larger drop is a global slip in this reading.
     paper : sequence of mapping
-        The paper's events_kept and mu_sapp for theta < 0, theta = 0 and theta > 0.
+        The paper's events_kept and mu_sapp for theta < 0, theta = 0 and theta > 0, as far as it has them.
 
     Notes
     -----
-    Of the six numbers of a reading, `numbers_as_printed` counts those that equal the paper's after rounding
-    to the digits that it prints, and `numbers_within_a_digit` those that are off by at most one in its last
-    digit.
+    Of the six numbers of a reading, `numbers_as_printed` counts those that are the paper's when rounded to
+    its digits, and `numbers_within_a_digit` those that differ by at most one unit of its last digit.
     """
     definitions = list(every_definition(load_drops))
     found: dict[float, list[dict[str, Any]]] = {}
@@ -62,23 +61,17 @@ def definitions_table(
             if theta not in found:
                 run = simulate(Chain.from_slider(**{**slider, "theta": theta}), duration)
                 found[theta] = list(readings(run, definitions))
-            rows += [
-                {"degree": degree, "theta": theta, **row, **compare(row, printed)} for row in found[theta]
-            ]
-    table = pd.DataFrame(rows)
-    for kind in ("as_printed", "within_a_digit"):
-        agree = table["events_kept_is_papers"].astype(int) + table[f"mu_sapp_is_papers_{kind}"]
-        table[f"numbers_{kind}"] = agree.groupby([table[key].astype(str) for key in READING]).transform("sum")
-    return table
+            papers = {f"{name}_paper": printed.get(name) for name in ("events_kept", "mu_sapp")}
+            rows += [{"degree": degree, "theta": theta, **row, **papers} for row in found[theta]]
+    return compared(pd.DataFrame(rows))
 
 
 def readings(run: Run, definitions: Iterable[Definition]) -> Iterator[dict[str, Any]]:
-    """What each reading gives for a run; numbers are empty without a global slip in its sense."""
+    """What each reading gives for a run; empty where it has no global slip in this sense."""
     slips = find_slips(run)
     for definition in definitions:
-        largest, onset = (
-            apparent_friction(run, slips, replace(definition, largest=largest)) for largest in (True, False)
-        )
+        largest = apparent_friction(run, slips, definition)
+        onset = apparent_friction(run, slips, replace(definition, largest=False))
         yield {
             "global_slip": definition.global_slip_text,
             "short": SHORT_EVENTS[definition.short],
@@ -90,14 +83,14 @@ def readings(run: Run, definitions: Iterable[Definition]) -> Iterator[dict[str, 
         }
 
 
-def compare(row: Mapping[str, Any], printed: Mapping[str, float]) -> dict[str, Any]:
-    """Set the paper's numbers beside those of a reading, and tell which agree."""
-    kept, friction = printed.get("events_kept"), printed.get("mu_sapp")
-    known = row["mu_sapp"] is not None and friction is not None
-    return {
-        "events_kept_paper": kept,
-        "mu_sapp_paper": friction,
-        "events_kept_is_papers": kept is not None and row["events_kept"] == kept,
-        "mu_sapp_is_papers_as_printed": known and round(row["mu_sapp"], 2) == friction,
-        "mu_sapp_is_papers_within_a_digit": known and abs(row["mu_sapp"] - friction) <= LAST_DIGIT,
-    }
+def compared(table: pd.DataFrame) -> pd.DataFrame:
+    """The table with columns that say which numbers are the paper's, and how many of the six of a reading."""
+    friction, papers = (table[name].astype(float) for name in ("mu_sapp", "mu_sapp_paper"))
+    table["events_kept_is_papers"] = table["events_kept"].astype(float) == table["events_kept_paper"]
+    table["mu_sapp_is_papers_as_printed"] = friction.round(DIGITS) == papers
+    table["mu_sapp_is_papers_within_a_digit"] = (friction - papers).abs() <= LAST_DIGIT
+    reading = [table[name].astype(str) for name in READING]
+    for kind in ("as_printed", "within_a_digit"):
+        agree = table["events_kept_is_papers"].astype(int) + table[f"mu_sapp_is_papers_{kind}"]
+        table[f"numbers_{kind}"] = agree.groupby(reading).transform("sum")
+    return table
