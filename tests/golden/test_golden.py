@@ -79,7 +79,7 @@ def test_the_reproduction_has_the_numbers_of_the_paper():
     """6, 9 and 14 events; mu_sapp 0.49 for all, as the paper rounds 0.4845, 0.4858 and 0.4883 up or down."""
     found, _ = tables("reproduction.csv")
     compared = found.dropna(subset="paper")
-    counts = compared[compared["quantity"].str.startswith("events kept")]
+    counts = compared[compared["quantity"].str.startswith("events counted")]
     np.testing.assert_array_equal(counts["reproduced"], counts["paper"])
     assert dict(zip(counts["scene"], counts["paper"], strict=True)) == {"fig10": 9, "fig11": 6, "fig12": 14}
     friction = compared[compared["unit"].eq("1") & ~compared.index.isin(counts.index)].set_index("scene")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from precursors.reproduction import summary_table
 from precursors.reproduction.claim import (
     FOLLOWS,
     Finding,
@@ -60,18 +61,16 @@ def counted(t: Tables, *scenes: str) -> list[int]:
 
 def counted_everywhere(t: Tables, scene: str) -> list[float]:
     """The same number from each table that has it."""
-    quantity = "events kept, the first global slip included"
     return [
         *counted(t, scene),
-        one(t["reproduction"], "reproduced", scene=scene, quantity=quantity),
+        one(t["reproduction"], "reproduced", scene=scene, quantity=summary_table.COUNTED),
         one(t["mu_sapp"], "events_kept", scene=scene, is_papers=True),
     ]
 
 
 def mu_sapp_everywhere(t: Tables, scene: str) -> list[float]:
     """The same number from each table that has it."""
-    quantity = "apparent static friction coefficient mu_sapp"
-    found = one(t["reproduction"], "reproduced", scene=scene, quantity=quantity)
+    found = one(t["reproduction"], "reproduced", scene=scene, quantity=summary_table.FRICTION)
     return [*mu_sapp(t, scene), found]
 
 

@@ -1,4 +1,4 @@
-"""What the paper prints beside what was reproduced."""
+"""The numbers of the paper's figures: what it prints, and what was reproduced."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ import pandas as pd
 from precursors.analysis.slip_rows import first_global
 
 COLUMNS = ["scene", "theta", "quantity", "unit", "paper", "reproduced"]
+COUNTED = "events counted in Fig. 13, the first global slip included"
+FRICTION = "apparent static friction coefficient mu_sapp"
 
 
 def reproduction_table(
-    slips: Mapping[str, pd.DataFrame],
-    mu_sapp: pd.DataFrame,
-    paper: Mapping[str, Mapping[str, float]],
+    slips: Mapping[str, pd.DataFrame], mu_sapp: pd.DataFrame, paper: Mapping[str, Mapping[str, float]]
 ) -> pd.DataFrame:
-    """One row per scene and quantity; `paper` stays empty where the paper gives no number.
+    """One row per scene and quantity; `paper` is empty where the paper gives no number.
 
     Parameters
     ----------
     slips : mapping
-        Scene to slip table (tables/{scene}_slips.csv), which has theta too.
+        Slip table of each scene.
     mu_sapp : DataFrame
         tables/mu_sapp.csv, of all scenes.
     paper : mapping
-        Scene to what the paper prints of it: events_kept and mu_sapp, or nothing.
+        What the paper prints of each scene: events_kept and mu_sapp, or nothing.
     """
     papers = mu_sapp[mu_sapp["is_papers"].astype(bool)].set_index("scene")["mu_sapp"]
     rows = [
@@ -37,12 +37,11 @@ def reproduction_table(
 
 
 def quantities(slips: pd.DataFrame, mu_sapp: float | None) -> Iterator[tuple[str, str, str, float | None]]:
-    """Quantity, unit, its key in `paper` (empty: none), and its value (None without a global slip)."""
-    yield "events kept, the first global slip included", "1", "events_kept", float(slips["kept"].sum())
-    yield "apparent static friction coefficient mu_sapp", "1", "mu_sapp", mu_sapp
+    """Quantity, unit, key in `paper` (empty: none), and value (None without a global slip)."""
+    yield COUNTED, "1", "events_kept", float(slips["kept"].sum())
+    yield FRICTION, "1", "mu_sapp", mu_sapp
     number = first_global(slips)
     time, load = (None, None) if number is None else slips[["onset_s", "load_before_N"]].iloc[number]
     yield "time of the first global slip", "s", "", time
     yield "load at the first global slip", "N", "", load
-    events = None if number is None else number + 1
-    yield "all events up to the first global slip", "1", "", events
+    yield "all events up to the first global slip", "1", "", None if number is None else number + 1
