@@ -7,7 +7,7 @@ from typing import Any
 
 from job import job
 
-from precursors.accuracy.proof import ExactChain, certify, verify
+from precursors.accuracy.proof import Certificate, ExactChain, certify
 from precursors.accuracy.proof.chains import is_about
 from precursors.support.files import write_whole
 
@@ -19,7 +19,7 @@ def main(
     outputs: Iterable[str | Path],
 ) -> None:
     """Write the certificate of each chain, given as fractions, for its duration [s]."""
-    known = {path: verify(path) for path in committed}
+    known = {path: Certificate.load(path) for path in committed}
     for text, duration, output in zip(chains, durations, outputs, strict=True):
         chain = ExactChain.from_text(text)
         fitting = [path for path, certificate in known.items() if is_about(certificate, chain, duration)]

@@ -6,7 +6,7 @@ import gzip
 import json
 import os
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from decimal import Context, Decimal, Inexact
 from fractions import Fraction
@@ -235,43 +235,3 @@ def _enclosure_text(enclosure: Enclosure) -> tuple[str, str]:
 
 def _enclosure(midpoint: str, radius: str) -> Enclosure:
     return Enclosure(written_fraction(midpoint), written_fraction(radius))
-
-
-def inconsistencies(certificate: Certificate) -> Iterator[str]:
-    """What is wrong with the enclosures by themselves.
-
-    Their widths and order; every transition changes its block's state, every event starts with block 1, and
-    the load grows at the rate K V between events.
-    """
-    chain = certificate.chain
-    loading_rate = chain.drive_stiffness * chain.drive_velocity
-    end = certificate.tie.time.upper if certificate.tie else certificate.duration
-    modes = [0] * chain.n_blocks
-    before: CertifiedTransition | None = None
-    for number, t in enumerate(certificate.transitions, 1):
-        where = f"transition {number}, t = {float(t.time.midpoint):.9g} s"
-        if not 1 <= t.block <= chain.n_blocks or t.mode not in (-1, 0, 1):
-            yield f"{where}: block {t.block} has no mode {t.mode:+d}"
-            return
-        if modes[t.block - 1] == t.mode:
-            yield f"{where}: block {t.block} is in mode {t.mode:+d} already"
-        if not (0 <= t.time.radius <= certificate.width and t.tangential_load.radius >= 0):
-            yield f"{where}: the radius of the time is not within 0 and {float(certificate.width):g} s"
-        if not ((before.time.midpoint if before else 0) <= t.time.midpoint and t.time.lower <= end):
-            yield f"{where}: not in order of time"
-        if not any(modes) and t.time.midpoint > 0:
-            if (t.block, t.mode) != (1, 1):
-                yield f"{where}: an event starts with block {t.block}, which the load does not reach"
-            if before and not _grows_at(loading_rate, before, t):
-                yield f"{where}: the load has not grown at the rate K V since the last event"
-        modes[t.block - 1] = t.mode
-        before = t
-
-
-def _grows_at(loading_rate: Fraction, before: CertifiedTransition, after: CertifiedTransition) -> bool:
-    """Whether the load can have grown at a rate [N/s] from one transition to the next."""
-    wrong = (after.tangential_load.midpoint - before.tangential_load.midpoint) - loading_rate * (
-        after.time.midpoint - before.time.midpoint
-    )
-    loads = before.tangential_load.radius + after.tangential_load.radius
-    return abs(wrong) <= loads + loading_rate * (before.time.radius + after.time.radius)

@@ -17,11 +17,15 @@ GRID = 40
 
 
 class Undecided(Exception):
-    """A question about some blocks that cannot be decided, between two times [T] as a ball."""
+    """A question about some blocks that cannot be decided: more bits are needed, or there is a tie.
 
-    def __init__(self, question: str, between: arb, blocks: tuple[int, ...]) -> None:
+    The ball `time` is the time within which it is undecided: [T] from where the step began, and [s] once the
+    proof has stopped.
+    """
+
+    def __init__(self, question: str, blocks: tuple[int, ...], time: arb) -> None:
         super().__init__(question)
-        self.question, self.between, self.blocks = question, between, blocks
+        self.question, self.blocks, self.time = question, blocks, time
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +131,7 @@ def first_root(
     for other, function in found:
         if function is not first and not other > root:
             question = f"whether first {first.what} or {function.what}"
-            raise Undecided(question, root.union(other), (first.block, function.block))
+            raise Undecided(question, (first.block, function.block), root.union(other))
     return first, root
 
 
@@ -156,10 +160,10 @@ def _crossing(function: EventFunction, end: float, valid: float, back: arb, bits
             root = _falling_root(function, a, b, valid)
             if root is not None:
                 if at_start and not root > back:
-                    raise Undecided(f"whether {function.what}", root, (function.block,))
+                    raise Undecided(f"whether {function.what}", (function.block,), root)
                 return root
         if half < smallest:
-            raise Undecided(f"whether {function.what}", box, (function.block,))
+            raise Undecided(f"whether {function.what}", (function.block,), box)
         pieces += [(middle, b, False), (a, middle, at_start)]
     return None
 

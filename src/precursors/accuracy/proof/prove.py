@@ -15,7 +15,6 @@ from precursors.accuracy.proof.certificate import (
     CertifiedTransition,
     Enclosure,
     Tie,
-    inconsistencies,
 )
 from precursors.accuracy.proof.exact_chain import ExactChain, Number, exact, exact_positions
 from precursors.model.chain import Chain, Until, checked_until
@@ -23,7 +22,8 @@ from precursors.model.chain import Chain, Until, checked_until
 if TYPE_CHECKING:
     from flint import arb
 
-    from precursors.accuracy.proof.tube import Proof, Unproved
+    from precursors.accuracy.proof.event_roots import Undecided
+    from precursors.accuracy.proof.tube import Proof
 
 FIRST_BITS = 256
 MAX_BITS = 4096
@@ -94,37 +94,35 @@ def certify(
     return replace(certificate, transitions=_published(proof), tie=tie, bits=bits, restarts=restarts)
 
 
-def verify(certificate: Certificate | str | os.PathLike[str], recompute: bool = False) -> Certificate:
-    """Check a certificate, or the file of one, and return it.
+def verify(certificate: Certificate | str | os.PathLike[str]) -> Certificate:
+    """Make the proof of a certificate, or of the file of one, again; return the certificate.
 
-    Without `recompute`, only what can be told from the enclosures alone (see `inconsistencies`). With it, the
-    proof is made again at the certificate's precision, and each recorded enclosure must hold the one that is
-    proved.
+    The proof is made at the certificate's precision. Each recorded enclosure must hold the proved one.
 
     Raises
     ------
     CertificateError
-        If the certificate is refused; the message says why.
+        If the certificate is not what is proved; the message says where.
     OSError
         If the file cannot be read.
     ModuleNotFoundError
-        If python-flint, which `recompute` needs, is not installed.
+        If python-flint is not installed.
     """
     if not isinstance(certificate, Certificate):
         certificate = Certificate.load(certificate)
-    for complaint in inconsistencies(certificate):
-        raise CertificateError(f"does not hold: {complaint}")
-    if recompute:
-        for complaint in _differences(certificate):
-            raise CertificateError(f"not what is proved with {certificate.bits} bits: {complaint}")
+    for difference in _differences(certificate):
+        raise CertificateError(f"not what is proved with {certificate.bits} bits: {difference}")
     return certificate
 
 
-def _prove(certificate: Certificate, bits: int) -> tuple[Proof, Unproved | None]:
+def _prove(certificate: Certificate, bits: int) -> tuple[Proof, Undecided | None]:
     """Run the proof of a certificate's chain with so many bits; return it and why it stopped short, if so."""
     try:
-        from precursors.accuracy.proof.tube import Proof, Unproved
+        from precursors.accuracy.proof.event_roots import Undecided
+        from precursors.accuracy.proof.tube import Proof
     except ModuleNotFoundError as error:
+        if error.name != "flint":
+            raise
         raise ModuleNotFoundError('a proof needs python-flint: pip install "precursors[proof]"') from error
     proof = Proof(
         certificate.chain,
@@ -136,12 +134,12 @@ def _prove(certificate: Certificate, bits: int) -> tuple[Proof, Unproved | None]
     )
     try:
         proof.run()
-    except Unproved as failure:
+    except Undecided as failure:
         return proof, failure
     return proof, None
 
 
-def _more_bits(proof: Proof, failure: Unproved, duration: Fraction) -> int:
+def _more_bits(proof: Proof, failure: Undecided, duration: Fraction) -> int:
     """Bits to try next, if bits go on being lost per second as they were up to the failure."""
     lost, bits = proof.lost_bits(), proof.bits
     left_to_do = float(duration) / max(float(failure.time), 0.05 * float(duration)) - 1
@@ -160,7 +158,7 @@ def _published(proof: Proof) -> tuple[CertifiedTransition, ...]:
     )
 
 
-def _tie(failure: Unproved) -> Tie:
+def _tie(failure: Undecided) -> Tie:
     time = _enclosure_of(failure.time)
     return Tie(_rounded(time), failure.blocks, failure.question, _round_up(2 * time.radius))
 

@@ -65,17 +65,6 @@ class Proved(NamedTuple):
     tangential_load: arb
 
 
-class Unproved(Exception):
-    """The proof stops at a question about some blocks: more bits are needed, or there is a tie.
-
-    The ball `time` [s] is the time within which it is undecided.
-    """
-
-    def __init__(self, question: str, blocks: tuple[int, ...], time: arb) -> None:
-        super().__init__(question)
-        self.question, self.blocks, self.time = question, blocks, time
-
-
 class Proof:
     """The motion of a chain from rest at given positions, in balls, and the transitions proved so far."""
 
@@ -135,8 +124,9 @@ class Proof:
 
         Raises
         ------
-        Unproved
-            Where the precision does not suffice or there is a tie; `transitions` holds what is proved.
+        Undecided
+            Where the precision does not suffice or there is a tie, with the time in s; `transitions` holds
+            what is proved.
         """
         while True:
             self.all_slid = self.all_slid or all(self.state.mode[1:-1])
@@ -147,8 +137,8 @@ class Proof:
                 go_on = self.slide() if sliding else self.load()
             except Undecided as undecided:
                 with ctx.workprec(self.bits + GUARD_BITS):
-                    time = self.clock + self.unit * undecided.between
-                raise Unproved(undecided.question, undecided.blocks, time) from None
+                    undecided.time = self.clock + self.unit * undecided.time
+                raise
             if not go_on:
                 return self.transitions
 
@@ -161,7 +151,7 @@ class Proof:
             lacking = constants.strength[1] - state.net_force(1)
             step = (lacking + arb(0, state.distance * self.bounds.force_reach[1])) / loading_rate
             if self.transitions and not step > self.gap:
-                raise Undecided("whether block 1 is released at once", step, (1,))
+                raise Undecided("whether block 1 is released at once", (1,), step)
             force = list(state.force)
             force[1] = constants.strength[1] + force[2]
             if self.n > 1:
@@ -245,7 +235,7 @@ class Proof:
             state.absorb(constants, force, velocity)
             self.clock += self.unit * step
         with ctx.workprec(BOUND_BITS):
-            undecided = Undecided(f"whether {event.what}", root, (i,))
+            undecided = Undecided(f"whether {event.what}", (i,), root)
             if not state.distance < 2 * before or not root.contains(step):
                 raise undecided
             steepness = event.slope(root).abs_lower()
@@ -288,7 +278,7 @@ class Proof:
         elif -state.mode[i] * force > bounds.strength[i]:
             state.mode[i], self.fresh = -state.mode[i], {i}
         else:
-            raise Undecided(f"whether block {i} sticks or turns round", root, (i,))
+            raise Undecided(f"whether block {i} sticks or turns round", (i,), root)
 
     def record(self, i: int) -> bool:
         """Note the transition of block i, just made; return whether it lies within the duration."""
@@ -298,9 +288,10 @@ class Proof:
             if time > self.duration:
                 return False
             if not time <= self.duration:
-                raise Unproved(f"whether block {i} changes its state before the run ends", (i,), time)
+                question = f"whether block {i} changes its state before the run ends"
+                raise Undecided(question, (i,), arb(0, self.gap))
             if not time.rad() < self.width:
-                raise Unproved("enclosures have become wider than asked for", (i,), time)
+                raise Undecided("enclosures have become wider than asked for", (i,), arb(0, self.gap))
             reach = state.distance * self.bounds.coupling[1].sqrt() + self.largest_force_change()
             self.transitions.append(Proved(time, i, state.mode[i], state.force[1] + arb(0, reach)))
         return True
