@@ -1,20 +1,21 @@
-from precursors.ensembles.catalogue import STUDIES, chunk_names, make_study
-from precursors.ensembles.maps import AXES
-from precursors.ensembles.questions import QUESTIONS
+from precursors.ensembles.catalogue import MAPS, STUDIES, study_arguments
+from precursors.ensembles.maps import places_of
+from precursors.ensembles.spread import QUESTIONS
 
-MAPS = list(AXES)
+CHUNKS = config["ensembles"]["chunks"]
 
 
 wildcard_constraints:
     study="|".join(STUDIES),
-    chunk="[0-9]+-[0-9]+",
     map="|".join(MAPS),
+    number="[0-9]+",
+    chunks="[0-9]+",
 
 
 rule ensembles:
     input:
         collect("results/figures/spread_{question}.svg", question=QUESTIONS),
-        collect("results/figures/{map}.svg", map=MAPS),
+        [f"results/figures/map_{x}_{y}.svg" for x, y in config["ensembles"]["maps"]["pairs"]],
         collect("results/figures/{figure}.svg", figure=["resolution", "long_runs"]),
         collect("results/tables/{table}.csv", table=["spread", "robustness", "resolution_limits"]),
     localrule: True
@@ -22,24 +23,23 @@ rule ensembles:
 
 rule run_chunk:
     input:
-        # Not all of the room: the members of a study are a parameter.
-        code=package("model/chain", "solver", "analysis", "ensembles/chunks", "ensembles/study"),
+        code=package("model/chain", "solver", "analysis/events", "analysis/summary", "ensembles"),
     output:
-        chunk="results/ensembles/{study}/{chunk}.h5",
+        chunk="results/ensembles/{study}/{number}of{chunks}.csv",
     log:
-        "results/logs/run_chunk/{study}_{chunk}.log",
+        "results/logs/run_chunk/{study}_{number}of{chunks}.log",
     params:
-        members=lambda wildcards: make_study(config, wildcards.study).fingerprint,
+        arguments=lambda wildcards: study_arguments(config, wildcards.study),
     script:
         "../scripts/run_chunk.py"
 
 
 rule gather_members:
     input:
-        chunks=lambda wildcards: collect(
-            "results/ensembles/{{study}}/{chunk}.h5", chunk=chunk_names(config, wildcards.study)
+        chunks=collect(
+            "results/ensembles/{{study}}/{number}of{chunks}.csv", number=range(1, CHUNKS + 1), chunks=CHUNKS
         ),
-        code=package("ensembles/chunks", "ensembles/study"),
+        code=package("ensembles/study"),
     output:
         table="results/tables/{study}.csv",
     log:
@@ -52,7 +52,7 @@ rule gather_members:
 rule tabulate_spread:
     input:
         members="results/tables/spread_members.csv",
-        code=package("model", "analysis", "ensembles/questions", "ensembles/spread", "ensembles/study"),
+        code=package("ensembles/spread"),
     output:
         spread=report("results/tables/spread.csv", category="Tables"),
         robustness=report("results/tables/robustness.csv", category="Tables"),
@@ -66,7 +66,7 @@ rule tabulate_spread:
 rule tabulate_resolution:
     input:
         members="results/tables/resolution_members.csv",
-        code=package("model", "analysis", "ensembles/resolution", "ensembles/study"),
+        code=package("analysis/run_statistics", "ensembles/resolution"),
     output:
         table=report("results/tables/resolution.csv", category="Tables"),
         limits=report("results/tables/resolution_limits.csv", category="Tables"),
@@ -82,7 +82,7 @@ rule tabulate_resolution:
 
 rule tabulate_long_runs:
     input:
-        code=package("model/chain", "solver", "analysis", "ensembles/long_runs"),
+        code=package("model/chain", "solver", "analysis/events", "analysis/slips", "ensembles/long_runs"),
     output:
         slips="results/tables/long_runs.csv",
         statistics=report("results/tables/long_runs_statistics.csv", category="Tables"),

@@ -1,4 +1,4 @@
-"""Run one chunk of a study."""
+"""Run one chunk of a study: every n-th member."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -6,21 +6,23 @@ from typing import Any
 
 from job import job
 
-from precursors.ensembles.catalogue import make_study
-from precursors.ensembles.chunks import estimated_seconds, save_chunk
+from precursors.ensembles.catalogue import STUDIES
 from precursors.ensembles.study import run_members
-from precursors.support.progress import Progress
+from precursors.support.files import write_table
 
 
-def main(config: Mapping[str, Any], name: str, chunk: str, output: str | Path) -> None:
-    """Run the members of a chunk ("first-last") of a study of the configuration and store what they gave."""
-    study = make_study(config, name)
-    first, last = (int(number) for number in chunk.split("-"))
-    with Progress(f"{name} {chunk}", estimated_seconds(study)[first : last + 1], in_file=True) as progress:
-        found = run_members(study, first, last + 1, progress)
-    save_chunk(output, study, first, found)
+def main(name: str, arguments: Mapping[str, Any], number: int, chunks: int, output: str | Path) -> None:
+    """Write one row per member of chunk 1, 2, ... of a study: what it is, and what its run gave."""
+    found = run_members(STUDIES[name](**arguments).chunk(number - 1, chunks))
+    write_table(found.rename_axis("member").reset_index(), output)
 
 
 if __name__ == "__main__":
     with job() as snakemake:
-        main(snakemake.config, snakemake.wildcards.study, snakemake.wildcards.chunk, snakemake.output.chunk)
+        main(
+            snakemake.wildcards.study,
+            snakemake.params.arguments,
+            int(snakemake.wildcards.number),
+            int(snakemake.wildcards.chunks),
+            snakemake.output.chunk,
+        )

@@ -1,5 +1,5 @@
-"""Ensembles: thousands of runs that differ in a few values, in chunks that may run anywhere.
+"""Ensembles: many runs that differ in a few values.
 
-A `Study` (study.py) is a table of members; a chunk (chunks.py) is a range of its rows, run by one job into
-one file; gathered, the chunks are the table of the study, the same whatever the chunks were.
+A `Study` (study.py) is a table of members, each of them one run. A job runs every n-th member and writes a
+file of rows. Together the files are the table of the study, the same for any n.
 """

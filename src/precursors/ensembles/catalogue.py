@@ -1,44 +1,33 @@
-"""The studies of a configuration by name, and their chunks."""
+"""The studies of a configuration by name."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
-from functools import lru_cache, partial
+from functools import partial
+from itertools import permutations
+from typing import Any
 
-from precursors.ensembles.chunks import plan_chunks
-from precursors.ensembles.maps import AXES, map_study
+from precursors.ensembles.maps import PARAMETERS, map_study
 from precursors.ensembles.resolution import resolution_study
 from precursors.ensembles.spread import spread_study
 from precursors.ensembles.study import Study
-from precursors.model.scenes import Config
+from precursors.model.scenes import Config, scene_slider
 
-STUDIES: dict[str, Callable[[Config], Study]] = {
+MAPS = {f"map_{x}_{y}": (x, y) for x, y in permutations(PARAMETERS, 2)}
+STUDIES: dict[str, Callable[..., Study]] = {
     "spread_members": spread_study,
     "resolution_members": resolution_study,
-    **{name: partial(map_study, name=name) for name in AXES},
+    **{name: partial(map_study, x=x, y=y) for name, (x, y) in MAPS.items()},
 }
 
 
-def make_study(config: Config, name: str) -> Study:
-    """The study of this name.
-
-    Raises
-    ------
-    ValueError
-        If there is none.
-    """
-    if name not in STUDIES:
-        raise ValueError(f"study = {name!r} is unknown: allowed are {', '.join(STUDIES)}")
-    return _made(json.dumps(config), name)
-
-
-@lru_cache(maxsize=len(STUDIES))
-def _made(config: str, name: str) -> Study:
-    return STUDIES[name](json.loads(config))
-
-
-def chunk_names(config: Config, name: str) -> list[str]:
-    """Names of the chunks of a study: the range of its members, first and last."""
-    seconds = config["ensembles"]["seconds_per_chunk"]
-    return [f"{first}-{end - 1}" for first, end in plan_chunks(make_study(config, name), seconds)]
+def study_arguments(config: Config, name: str) -> dict[str, Any]:
+    """What decides the members of a study: the arguments of its function in STUDIES."""
+    settings = config["ensembles"]
+    if name in MAPS:
+        return {"slider": config["chain"], "points": settings["maps"]["points"]}
+    return {
+        "sliders": {scene: scene_slider(config, scene) for scene in config["fig13"]},
+        "duration": config["duration"],
+        "settings": settings[name.removesuffix("_members")],
+    }

@@ -1,25 +1,20 @@
-"""Resolution: which numbers of the paper belong to the slider, and which to its N blocks."""
+"""Resolution: which numbers of the paper depend on how finely the slider is cut into blocks."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+import pandas as pd
+from numpy.typing import ArrayLike
 
-from precursors.ensembles.cost import seconds_to_first_slip
-from precursors.ensembles.study import Study
+from precursors.analysis.run_statistics import statistics
+from precursors.ensembles.study import Study, stack
 from precursors.model.chain import FloatArray
-from precursors.model.scenes import Config, scene_slider
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 QUANTITIES = ("events_kept", "mu_sapp", "time_s", "front_speed_m_per_s")
-
-
-# The law that each number is carried on by, from the smallest N that the configuration names.
+# The law with which each number is carried on to infinite N.
 LAWS = {
     "events_kept": "c N^p",
     "mu_sapp": "a + b/N",
@@ -28,23 +23,30 @@ LAWS = {
 }
 
 
-def resolution_study(config: Config) -> Study:
-    """Chains of more and more blocks with the loading of the scenes of Fig. 13.
+def resolution_study(
+    sliders: Mapping[str, Mapping[str, Any]], duration: float, settings: Mapping[str, Any]
+) -> Study:
+    """Chains of more and more blocks with the loading of some scenes.
 
-    The first member of each chain has the normal loads of Eq. 7, the others have them with noise. There are
-    as many as `seconds_per_point` allows, between `least_runs` and `most_runs`.
+    The first member of each chain has the normal loads of Eq. 7, the others have them with noise.
+
+    Parameters
+    ----------
+    sliders : mapping
+        Scene to arguments of `Chain.from_slider`.
+    duration : float
+        Time limit of a run [s].
+    settings : mapping
+        Section `resolution` of the configuration.
     """
-    settings = config["ensembles"]["resolution"]
     blocks: list[dict[str, Any]] = []
-    for scene in config["fig13"]:
-        for n_blocks in settings["n_blocks"]:
-            n_runs = int(settings["seconds_per_point"] / seconds_to_first_slip(n_blocks))
-            draw = np.arange(np.clip(n_runs, settings["least_runs"], settings["most_runs"]))
-            slider = scene_slider(config, scene) | {"n_blocks": n_blocks, "scene": scene}
-            blocks.append(slider | {"load_noise": np.where(draw == 0, 0.0, settings["noise"]), "draw": draw})
-    for group, block in enumerate(blocks):
-        block["group"] = group
-    return Study.of_blocks("resolution_members", blocks, duration=config["duration"], seed=settings["seed"])
+    for scene, slider in sliders.items():
+        for n_blocks, n_runs in zip(settings["n_blocks"], settings["runs"], strict=True):
+            draw = np.arange(n_runs)
+            noise = np.where(draw == 0, 0.0, settings["noise"])
+            block = {**slider, "n_blocks": n_blocks, "duration": duration, "scene": scene}
+            blocks.append(block | {"load_noise": noise, "draw": draw, "group": len(blocks)})
+    return Study(stack(blocks), seed=settings["seed"])
 
 
 def estimated_mu_sapp(n_blocks: ArrayLike, mu_s: float, mu_k: float) -> FloatArray:
@@ -55,16 +57,22 @@ def estimated_mu_sapp(n_blocks: ArrayLike, mu_s: float, mu_k: float) -> FloatArr
     return mu_k + 2.0 * (mu_s - mu_k) / np.asarray(n_blocks, float)
 
 
-def front_speed(n_blocks: NDArray, length: float, crossing_time: NDArray) -> FloatArray:
-    """Mean speed [m/s] of the front of the first global slip from block 1 to block N."""
-    distance = length * (n_blocks - 1) / n_blocks
-    return np.divide(distance, crossing_time, out=np.full(len(n_blocks), np.nan), where=crossing_time > 0)
+def front_speed(members: pd.DataFrame, length: float) -> pd.Series:
+    """Mean speed of the front of the first global slip from block 1 to block N [m/s]; NaN without one.
+
+    Parameters
+    ----------
+    members : DataFrame
+        Columns n_blocks and crossing_time_s.
+    length : float
+        Length L of the contact [m].
+    """
+    distance = length * (members["n_blocks"] - 1) / members["n_blocks"]
+    return distance / members["crossing_time_s"].where(members["crossing_time_s"] > 0)
 
 
-def resolution_table(
-    members: pd.DataFrame, length: float, chains: Sequence[str] = ("scene", "theta")
-) -> pd.DataFrame:
-    """What the number of blocks makes of each number.
+def resolution_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
+    """Statistics of each number over the runs with the same scene and number of blocks.
 
     Parameters
     ----------
@@ -72,39 +80,21 @@ def resolution_table(
         The gathered study.
     length : float
         Length L of the contact [m].
-    chains : sequence of str
-        Columns that say which chain it is, whatever the number of its blocks.
 
     Returns
     -------
     DataFrame
-        One row per chain, n_blocks and quantity: the value without noise; mean, standard deviation and
-        quantiles over all members; q50_low and q50_high, see `run_statistics`; the number of members n.
+        One row per scene, theta, n_blocks and quantity: the value without noise, and what `statistics` has of
+        all runs.
     """
-    import pandas as pd
-
-    from precursors.analysis.run_statistics import statistics  # a plan of chunks waits for no statistics
-
+    members = members.assign(front_speed_m_per_s=front_speed(members, length))
     rows = []
-    members = with_front_speed(members, length)
-    for keys, runs in members.groupby([*chains, "n_blocks"], sort=False):
-        [(_, without_noise)] = runs[runs["load_noise"] == 0.0].iterrows()
+    for (scene, theta, n_blocks), runs in members.groupby(["scene", "theta", "n_blocks"], sort=False):
         for quantity in QUANTITIES:
-            rows.append(
-                {
-                    **dict(zip([*chains, "n_blocks"], keys, strict=True)),
-                    "quantity": quantity,
-                    "without_noise": without_noise[quantity],
-                    **statistics(runs[quantity]),
-                }
-            )
+            point = {"scene": scene, "theta": theta, "n_blocks": n_blocks, "quantity": quantity}
+            without_noise = runs.loc[runs["load_noise"] == 0.0, quantity].item()
+            rows.append(point | {"without_noise": without_noise} | statistics(runs[quantity]))
     return pd.DataFrame(rows)
-
-
-def with_front_speed(members: pd.DataFrame, length: float) -> pd.DataFrame:
-    """A gathered study with a column front_speed_m_per_s, for a contact of length [m]."""
-    speed = front_speed(members["n_blocks"].to_numpy(), length, members["crossing_time_s"].to_numpy())
-    return members.assign(front_speed_m_per_s=speed)
 
 
 def with_estimates(table: pd.DataFrame, slider: Mapping[str, Any]) -> pd.DataFrame:
@@ -136,8 +126,6 @@ def extrapolation_table(resolution: pd.DataFrame, from_n_blocks: int) -> pd.Data
         One row per scene and quantity: the law; a (the limit) and b, or c and p, with their standard errors;
         n_points, how many N took part. NaN where there are fewer than three.
     """
-    import pandas as pd
-
     rows = []
     for (scene, quantity), table in resolution.groupby(["scene", "quantity"], sort=False):
         law = LAWS[str(quantity)]

@@ -1,4 +1,4 @@
-"""Spread: what the counts and mu_sapp of a scene do when values that nobody knows exactly change a little.
+"""Spread: how far counts and mu_sapp of a scene change with values that nobody knows exactly.
 
 Four questions in one study: noise in the normal loads; theta swept through a window; noise in the initial
 positions; and the parameters one by one.
@@ -7,18 +7,17 @@ positions; and the parameters one by one.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 
-from precursors.ensembles.questions import QUESTIONS, SWEEP, UNPERTURBED
-from precursors.ensembles.study import Study
+from precursors.ensembles.study import Study, stack
 from precursors.model.chain import FloatArray
-from precursors.model.scenes import Config, scene_slider
 
-if TYPE_CHECKING:
-    import pandas as pd
-
+QUESTIONS = ("loads", "theta", "start", "parameters")
+# Perturbations that change no single parameter: the scene as it is, and the sweep of theta.
+UNPERTURBED, SWEEP = "none", "theta, evenly spaced"
 # What is changed for each parameter of the model; k enters through E alone (Eq. 10).
 PARAMETERS = {
     "mu_s": "mu_s",
@@ -51,31 +50,36 @@ RULES = {
 }
 
 
-def spread_study(config: Config) -> Study:
-    """The study of the four questions, for the scenes of Fig. 13.
+def spread_study(
+    sliders: Mapping[str, Mapping[str, Any]], duration: float, settings: Mapping[str, Any]
+) -> Study:
+    """The study of the four questions.
 
     Each scene has one member that is not perturbed, and ensembles of members told apart by `draw`. A size is
     the largest relative change, reached with both signs; that of theta is absolute, and that of the initial
     positions relative to mu_s F_Z / (N k). Changes are uniform between the two.
+
+    Parameters
+    ----------
+    sliders : mapping
+        Scene to arguments of `Chain.from_slider`.
+    duration : float
+        Time limit of a run [s].
+    settings : mapping
+        Section `spread` of the configuration.
     """
-    settings = config["ensembles"]["spread"]
-    blocks = [block for question in QUESTIONS for block in _blocks(config, question)]
-    return Study.of_blocks("spread_members", blocks, duration=config["duration"], seed=settings["seed"])
-
-
-def _blocks(config: Config, question: str) -> list[dict[str, Any]]:
-    """The unperturbed member and the ensembles of each scene."""
-    settings = config["ensembles"]["spread"]
     nothing = {"perturbation": UNPERTURBED, "size": 0.0, "draw": np.arange(1)}
-    blocks: list[dict[str, Any]] = []
-    for scene in config["fig13"]:
-        common = {"scene": scene, "question": question, "load_noise": 0.0, "start_noise": 0.0}
-        ensembles = [nothing, *_ensembles(question, settings)]
-        blocks += [{**scene_slider(config, scene), **common, **ensemble} for ensemble in ensembles]
-    for group, block in enumerate(blocks, start=STREAMS_PER_QUESTION * QUESTIONS.index(question)):
-        block["group"] = group
-        _perturb_parameter(block, settings["seed"])
-    return blocks
+    blocks = []
+    for i, question in enumerate(QUESTIONS):
+        group = STREAMS_PER_QUESTION * i
+        for scene, slider in sliders.items():
+            common = {"duration": duration, "scene": scene, "question": question}
+            common |= {"load_noise": 0.0, "start_noise": 0.0}
+            for ensemble in (nothing, *_ensembles(question, settings)):
+                block = {**slider, **common, **ensemble, "group": group}
+                blocks.append(block | _changed_parameter(block, settings["seed"]))
+                group += 1
+    return Study(stack(blocks), seed=settings["seed"])
 
 
 def _ensembles(question: str, settings: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
@@ -96,15 +100,16 @@ def _ensembles(question: str, settings: Mapping[str, Any]) -> Iterator[dict[str,
                 yield {"perturbation": name, "size": size, "draw": draw}
 
 
-def _perturb_parameter(block: dict[str, Any], seed: int) -> None:
-    """Put the changed values of the parameter in place that an ensemble changes, if it is one."""
+def _changed_parameter(block: Mapping[str, Any], seed: int) -> dict[str, FloatArray]:
+    """The changed values of the parameter that an ensemble changes, if it is one."""
     size, n = block["size"], len(block["draw"])
     if block["perturbation"] == SWEEP:
-        block["theta"] = _change("theta", block["theta"], np.linspace(-size, size, n))
-    elif block["perturbation"] in PARAMETERS:
+        return {"theta": _change("theta", block["theta"], np.linspace(-size, size, n))}
+    if block["perturbation"] in PARAMETERS:
         key = PARAMETERS[block["perturbation"]]
         stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(block["group"],)))
-        block[key] = _change(key, block[key], stream.uniform(-size, size, n))
+        return {key: _change(key, block[key], stream.uniform(-size, size, n))}
+    return {}
 
 
 def _change(key: str, value: float, change: FloatArray) -> FloatArray:
@@ -126,8 +131,6 @@ def spread_table(members: pd.DataFrame) -> pd.DataFrame:
         quantiles; the share of members that have it unchanged (see `UNCHANGED`), the share that met a global
         slip, and the number of members n.
     """
-    import pandas as pd
-
     keys = ["scene", "question", "perturbation", "size"]
     alone = members[members["perturbation"] == UNPERTURBED].drop_duplicates("scene")
     unperturbed = alone.set_index("scene").to_dict("index")
@@ -166,8 +169,6 @@ def robustness_table(spread: pd.DataFrame) -> pd.DataFrame:
         5 % of an ensemble (NaN if it never does), with the perturbation and the share_unchanged of the
         ensemble that changes most at that size, or at any; the rule.
     """
-    import pandas as pd
-
     rows = []
     for (scene, quantity), ensembles in spread.groupby(["scene", "quantity"], sort=False):
         changes_at = ensembles.loc[ensembles["share_unchanged"] < ENOUGH, "size"].min()

@@ -2,29 +2,27 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Callable, Mapping, Sequence
+import inspect
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
-from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from os import PathLike
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+import pandas as pd
 
+from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
 from precursors.model.chain import Chain, FloatArray, Until
-from precursors.model.slider import SLIDER, Slider
+from precursors.solver.run import Run
+from precursors.solver.simulate import TransitionLimitError, simulate_many
+from precursors.support.files import read_table
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from precursors.solver.run import Run
-    from precursors.solver.simulate import TransitionLimitError
-
+ARGUMENTS = tuple(inspect.signature(Chain.from_slider).parameters)
+# Columns that the table of a study does not have where they are the same for all members.
+LEFT_OUT = {*ARGUMENTS, "duration"} - {"theta", "n_blocks"}
 # Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
 BLOCKS_PER_BATCH = 2000
-NOISE = ("load_noise", "start_noise")
+WITH_UNITS = {name: f"{name}_{unit}" for name, unit in SUMMARY_UNITS.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,163 +31,91 @@ class Study:
 
     Attributes
     ----------
-    name : str
-        Name of the study and of its files.
-    slider : mapping
-        Arguments of `Chain.from_slider` that all members have in common.
-    columns : mapping of arrays, one value per member
-        What the members differ in. Known names: the arguments of `Chain.from_slider`; duration [s];
-        load_noise and start_noise (largest relative change, see `Study.member`), with group and draw, the
-        numbers of the random stream (spawned group by group, then draw by draw). Other names are labels.
-    duration : float
-        Time limit of a run [s] where there is no such column.
+    members : DataFrame
+        One row per run. Its columns are arguments of `Chain.from_slider`; duration, the time limit of the run
+        [s]; load_noise and start_noise (see `start_of`) with group and draw, the numbers of the random
+        stream. All other columns are labels.
     until : "global slip" or None
         As in `simulate`.
     seed : int
         Seed of all random numbers.
+    """
+
+    members: pd.DataFrame
+    until: Until = "global slip"
+    seed: int = 0
+
+    def chunk(self, i: int, n: int) -> Study:
+        """Every n-th member, from member i on: about a n-th of the work."""
+        return replace(self, members=self.members.iloc[i::n])
+
+
+def stack(blocks: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
+    """Members of several ensembles one below the other; each has a value or an array for every column."""
+    return pd.concat([pd.DataFrame(block) for block in blocks], ignore_index=True)
+
+
+def start_of(member: Mapping[Any, Any], seed: int = 0) -> tuple[Chain, FloatArray]:
+    """Chain and start positions [m] of a member; they depend on nothing but the member and the seed.
+
+    Noise of size s changes each normal load to w_i (1 + s u_i), and puts block i at s u_i times
+    mu_s F_Z / (N k), the compression of a spring that holds a mean block. u_i is uniform in -1..1.
+    """
+    chain = Chain.from_slider(**{name: member[name] for name in ARGUMENTS if name in member})
+    load_noise, start_noise = member.get("load_noise", 0.0), member.get("start_noise", 0.0)
+    if load_noise == start_noise == 0.0:
+        return chain, np.zeros(chain.n_blocks)
+    stream = np.random.SeedSequence(seed, spawn_key=(member["group"], member["draw"]))
+    random = np.random.default_rng(stream)
+    change = load_noise * random.uniform(-1, 1, chain.n_blocks)
+    compression = start_noise * random.uniform(-1, 1, chain.n_blocks)
+    scale = chain.mu_s * chain.normal_load / (chain.n_blocks * chain.stiffness)
+    return replace(chain, weights=chain.weights * (1 + change)), compression * scale
+
+
+def run_members(study: Study) -> pd.DataFrame:
+    """Run all members of a study on one core.
+
+    Returns
+    -------
+    DataFrame
+        The members, each with the summary of its run (see `summary.SUMMARY`), units in the names: load_N. A
+        member that meets the limit of transitions is summarised as far as it came.
+    """
+    size = max(1, BLOCKS_PER_BATCH // max(study.members["n_blocks"], default=1))
+    results = [pd.DataFrame(np.empty(0, SUMMARY))]
+    for _, members in study.members.groupby("duration", sort=False):
+        for begin in range(0, len(members), size):
+            batch = members.iloc[begin : begin + size]
+            starts = [start_of(member, study.seed) for member in batch.to_dict("records")]
+            summary = summarise(_runs(starts, float(batch["duration"].iloc[0]), study.until))
+            results.append(pd.DataFrame(summary, index=batch.index))
+    return study.members.join(pd.concat(results).rename(columns=WITH_UNITS))
+
+
+def gather(chunks: Iterable[str | PathLike[str]]) -> pd.DataFrame:
+    """One table of a study from the files of its chunks, without columns that say nothing (`LEFT_OUT`).
 
     Raises
     ------
     ValueError
-        If columns differ in length, or noise has no random stream.
+        If a chunk is missing or there twice.
     """
-
-    name: str
-    slider: Slider
-    columns: Mapping[str, NDArray]
-    duration: float = 10.0
-    until: Until = "global slip"
-    seed: int = 0
-
-    def __post_init__(self) -> None:
-        lengths = {name: len(values) for name, values in self.columns.items()}
-        if len(set(lengths.values())) > 1:
-            raise ValueError(f"study {self.name}: columns differ in length: {lengths}")
-        if set(NOISE) & lengths.keys() and not {"group", "draw"} <= lengths.keys():
-            raise ValueError(f"study {self.name}: noise needs the columns group and draw")
-
-    @classmethod
-    def of_blocks(cls, name: str, blocks: Sequence[Mapping[str, Any]], **settings: Any) -> Study:
-        """Stack blocks of members, each with a value or an array of values for every column."""
-        lengths = [np.broadcast(*block.values()).size for block in blocks]
-        columns = {
-            key: np.concatenate(
-                [np.broadcast_to(block[key], n) for block, n in zip(blocks, lengths, strict=True)]
-            )
-            for key in blocks[0]
-        }
-        same = {key: values[0].item() for key, values in columns.items() if key in SLIDER and _is_one(values)}
-        differ = {key: values for key, values in columns.items() if key not in same}
-        return cls(name, same, differ, **settings)
-
-    def __len__(self) -> int:
-        return len(next(iter(self.columns.values()), ()))
-
-    def column(self, name: str) -> NDArray:
-        """Value of each member, from its column or what all have in common, shape (n_members,)."""
-        if name in self.columns:
-            return self.columns[name]
-        return np.full(len(self), {**SLIDER, **self.slider, "duration": self.duration}[name])
-
-    def member(self, i: int) -> tuple[Chain, FloatArray | None]:
-        """Chain and start positions [m] of member i; the same whatever else is run.
-
-        Noise of size s changes each normal load to w_i (1 + s u_i), and puts block i at s u_i times
-        mu_s F_Z / (N k), the compression of a spring that holds a mean block; u_i is uniform in -1..1.
-        """
-        differing = [name for name in SLIDER if name in self.columns]
-        chain = Chain.from_slider(**{**self.slider, **{name: self.columns[name][i] for name in differing}})
-        load_noise, start_noise = (self.columns[name][i] if name in self.columns else 0.0 for name in NOISE)
-        if load_noise == start_noise == 0.0:
-            return chain, None
-        random = np.random.default_rng(
-            np.random.SeedSequence(self.seed, spawn_key=(self.columns["group"][i], self.columns["draw"][i]))
-        )
-        change = load_noise * random.uniform(-1, 1, chain.n_blocks)
-        compression = start_noise * random.uniform(-1, 1, chain.n_blocks)
-        scale = chain.mu_s * chain.normal_load / (chain.n_blocks * chain.stiffness)
-        return replace(chain, weights=chain.weights * (1 + change)), compression * scale
-
-    @cached_property
-    def fingerprint(self) -> str:
-        """SHA-256 of everything that decides the runs: a chunk of another study is told by it."""
-        common = {"slider": dict(self.slider), "duration": self.duration, "until": self.until}
-        digest = hashlib.sha256(json.dumps(common | {"seed": self.seed}, sort_keys=True).encode())
-        for name, values in self.columns.items():
-            digest.update(f"{name} {values.dtype} {values.shape}".encode())
-            digest.update(np.ascontiguousarray(values).tobytes())
-        return digest.hexdigest()
+    tables = [read_table(path) for path in chunks]
+    together = pd.concat([table for table in tables if len(table)]).sort_values("member", ignore_index=True)
+    if (together["member"] != together.index).any():
+        raise ValueError("the chunks are not all members of their study, each once")
+    first = together.iloc[0]
+    constant = [name for name in LEFT_OUT & set(together) if (together[name] == first[name]).all()]
+    return together.drop(columns=["member", *constant])
 
 
-def _is_one(values: NDArray) -> bool:
-    """Whether all are the same value."""
-    return bool((values == values[0]).all())
-
-
-def run_members(
-    study: Study,
-    first: int,
-    end: int,
-    progress: Callable[[int], None] | None = None,
-    threads: int | None = 1,
-    at_cap: Callable[[int, TransitionLimitError], object] | None = None,
-) -> NDArray[np.void]:
-    """Summaries of members `first` .. `end` - 1 of a study, one row each (see `summary.SUMMARY`).
-
-    A member that meets its cap on transitions is summarised as far as it came.
-
-    Parameters
-    ----------
-    study : Study
-        The study.
-    first, end : int
-        Range of members.
-    progress : callable, optional
-        Called now and then with the number of members done.
-    threads : int or None
-        Threads to use; None for as many as there are cores.
-    at_cap : callable, optional
-        Called with each member that met its cap on transitions, and what the solver said of it.
-    """
-    from precursors.analysis.summary import SUMMARY, summarise  # a plan of chunks waits for no compiler
-
-    summaries = [np.empty(0, SUMMARY)]
-    for batch in _batches(study, first, end):
-        summaries.append(summarise(_runs(study, batch, threads, at_cap)))
-        if progress:
-            progress(batch.stop - first)
-    return np.concatenate(summaries)
-
-
-def _batches(study: Study, first: int, end: int) -> Iterator[range]:
-    """Ranges of members with one duration, so small that their runs find room and progress is seen."""
-    durations = study.column("duration")
-    most_blocks = int(study.column("n_blocks").max())
-    size = max(1, BLOCKS_PER_BATCH // most_blocks)
-    changes = np.flatnonzero(np.diff(durations[first:end])) + first + 1
-    for start, stop in pairwise([first, *changes.tolist(), end]):
-        for begin in range(start, stop, size):
-            yield range(begin, min(begin + size, stop))
-
-
-def _runs(
-    study: Study,
-    batch: range,
-    threads: int | None,
-    at_cap: Callable[[int, TransitionLimitError], object] | None,
-) -> list[Run]:
-    """The runs of some members; one that meets its cap on transitions is kept as far as it came."""
-    from precursors.solver.simulate import TransitionLimitError, simulate_many
-
-    duration = float(study.column("duration")[batch[0]])
-    members = [study.member(i) for i in batch]
-    chains = [chain for chain, _ in members]
-    starts = [np.zeros(chain.n_blocks) if start is None else start for chain, start in members]
+def _runs(starts: list[tuple[Chain, FloatArray]], duration: float, until: Until) -> list[Run]:
+    """Run a batch; a run that meets the limit of transitions is kept as far as it came."""
+    chains, positions = zip(*starts, strict=True)
     try:
-        return simulate_many(chains, duration, study.until, threads, starts)
+        return simulate_many(chains, duration, until, threads=1, start_positions=positions)
     except TransitionLimitError as limit:
-        if len(batch) > 1:
-            return [run for i in batch for run in _runs(study, range(i, i + 1), threads, at_cap)]
-        if at_cap:
-            at_cap(batch[0], limit)
-        return [limit.run]
+        if len(starts) == 1:
+            return [limit.run]
+        return [run for start in starts for run in _runs([start], duration, until)]

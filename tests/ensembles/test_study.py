@@ -1,0 +1,106 @@
+"""The rows of a study are those of its runs one by one, however it is cut into chunks."""
+
+import itertools
+
+import numpy as np
+import pandas as pd
+import pytest
+from ensembles.studies import spread_of
+
+from precursors import simulate
+from precursors.analysis.summary import SUMMARY, summarise
+from precursors.ensembles import study as studies
+from precursors.ensembles.study import Study, gather, run_members, start_of
+from precursors.support.files import write_table
+
+
+@pytest.fixture(scope="module")
+def spread() -> Study:
+    return spread_of()
+
+
+@pytest.fixture(scope="module")
+def rows(spread) -> pd.DataFrame:
+    return run_members(spread)
+
+
+def chunk_files(study: Study, n: int, directory) -> list:
+    paths = [directory / f"{i}of{n}.csv" for i in range(n)]
+    for i, path in enumerate(paths):
+        write_table(run_members(study.chunk(i, n)).rename_axis("member").reset_index(), path)
+    return paths
+
+
+def one_by_one(study: Study) -> np.ndarray:
+    """Summaries of the members of a study, each run alone."""
+    runs = []
+    for member in study.members.to_dict("records"):
+        chain, start = start_of(member, study.seed)
+        runs.append(simulate(chain, member["duration"], study.until, start_positions=start))
+    return summarise(runs)
+
+
+def test_every_row_is_that_of_its_run_alone_to_the_last_bit(spread, rows):
+    some = spread.chunk(0, 7)
+    found = rows.loc[some.members.index].rename(columns={v: k for k, v in studies.WITH_UNITS.items()})
+    expected = one_by_one(some)
+    for name in SUMMARY.names:
+        np.testing.assert_array_equal(found[name], expected[name], err_msg=name)
+
+
+@pytest.mark.parametrize("n", [2, 5])
+def test_the_gathered_table_is_the_same_to_the_last_bit_however_a_study_is_cut(spread, rows, n, tmp_path):
+    paths = chunk_files(spread, n, tmp_path)
+    table = gather(paths[::-1])
+    pd.testing.assert_frame_equal(table, rows[list(table)], check_exact=True)
+    assert set(rows) - set(table) <= studies.LEFT_OUT
+
+
+def test_more_chunks_than_members_leave_some_empty(spread, tmp_path):
+    few = Study(spread.members.iloc[:2], spread.until, spread.seed)
+    assert len(gather(chunk_files(few, 3, tmp_path))) == 2
+
+
+def test_a_missing_and_a_doubled_chunk_are_noticed(spread, tmp_path):
+    few = Study(spread.members.iloc[:4], spread.until, spread.seed)
+    a, b = chunk_files(few, 2, tmp_path)
+    for paths in ([a], [b], [a, a], [a, b, b]):
+        with pytest.raises(ValueError, match="each once"):
+            gather(paths)
+
+
+def test_members_are_run_with_their_own_length_start_and_duration():
+    table = {
+        "n_blocks": [4, 4, 6],
+        "theta": 0.0,
+        "start_noise": [0.0, 0.5, 0.5],
+        "duration": [1.0, 2.0, 1.0],
+        "group": 0,
+        "draw": [0, 1, 2],
+    }
+    study = Study(pd.DataFrame(table), until=None)
+    found = run_members(study)
+    expected = one_by_one(study)
+    np.testing.assert_array_equal(found["transitions"], expected["transitions"])
+    np.testing.assert_array_equal(found["n_all_events"], expected["n_all_events"])
+    assert found["transitions"].nunique() == 3
+
+
+def test_a_member_that_meets_the_limit_of_transitions_is_kept_as_far_as_it_came(spread, rows, monkeypatch):
+    few = Study(spread.members.iloc[:3], spread.until, spread.seed)
+    monkeypatch.setattr("precursors.solver.simulate.MAX_TRANSITIONS", 100)
+    found = run_members(few)
+    assert not found["reached"].any()
+    assert (found["transitions"] == 100).all()
+    assert rows.iloc[:3]["reached"].all()
+
+
+def test_a_larger_ensemble_contains_the_smaller(spread):
+    larger = spread_of(members=5)
+    for label, value in (("question", "loads"), ("perturbation", "mu_s")):
+        few, many = (s.members.query("scene == 'fig10' and size == 0.01") for s in (spread, larger))
+        few, many = few[few[label] == value], many[many[label] == value]
+        for a, b in itertools.zip_longest(few.to_dict("records"), many.to_dict("records")[:3]):
+            (chain_a, start_a), (chain_b, start_b) = start_of(a, spread.seed), start_of(b, larger.seed)
+            assert chain_a == chain_b
+            np.testing.assert_array_equal(start_a, start_b)
