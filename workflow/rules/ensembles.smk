@@ -2,14 +2,14 @@ from precursors.ensembles.catalogue import MAPS, STUDIES, study_arguments
 from precursors.ensembles.maps import places_of
 from precursors.ensembles.spread import QUESTIONS
 
-CHUNKS = config["ensembles"]["chunks"]
+NUMBER_OF_CHUNKS = config["ensembles"]["chunks"]
+CHUNKS = [f"{i}of{NUMBER_OF_CHUNKS}" for i in range(1, NUMBER_OF_CHUNKS + 1)]
 
 
 wildcard_constraints:
     study="|".join(STUDIES),
     map="|".join(MAPS),
-    number="[0-9]+",
-    chunks="[0-9]+",
+    chunk="[0-9]+of[0-9]+",
 
 
 rule ensembles:
@@ -25,9 +25,9 @@ rule run_chunk:
     input:
         code=package("model/chain", "solver", "analysis/events", "analysis/summary", "ensembles"),
     output:
-        chunk="results/ensembles/{study}/{number}of{chunks}.csv",
+        chunk="results/ensembles/{study}/{chunk}.csv",
     log:
-        "results/logs/run_chunk/{study}_{number}of{chunks}.log",
+        "results/logs/run_chunk/{study}_{chunk}.log",
     params:
         arguments=lambda wildcards: study_arguments(config, wildcards.study),
     script:
@@ -36,9 +36,7 @@ rule run_chunk:
 
 rule gather_members:
     input:
-        chunks=collect(
-            "results/ensembles/{{study}}/{number}of{chunks}.csv", number=range(1, CHUNKS + 1), chunks=CHUNKS
-        ),
+        chunks=collect("results/ensembles/{{study}}/{chunk}.csv", chunk=CHUNKS),
         code=package("ensembles/study"),
     output:
         table="results/tables/{study}.csv",

@@ -11,8 +11,9 @@ from precursors.ensembles.study import run_members
 from precursors.support.files import write_table
 
 
-def main(name: str, arguments: Mapping[str, Any], number: int, chunks: int, output: str | Path) -> None:
-    """Write one row per member of chunk 1, 2, ... of a study: what it is, and what its run gave."""
+def main(name: str, arguments: Mapping[str, Any], chunk: str, output: str | Path) -> None:
+    """Write one row per member of a chunk, "1of4" to "4of4": what it is, and what its run gave."""
+    number, chunks = map(int, chunk.split("of"))
     found = run_members(STUDIES[name](**arguments).chunk(number - 1, chunks))
     write_table(found.rename_axis("member").reset_index(), output)
 
@@ -22,7 +23,6 @@ if __name__ == "__main__":
         main(
             snakemake.wildcards.study,
             snakemake.params.arguments,
-            int(snakemake.wildcards.number),
-            int(snakemake.wildcards.chunks),
+            snakemake.wildcards.chunk,
             snakemake.output.chunk,
         )
