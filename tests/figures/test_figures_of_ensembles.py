@@ -102,7 +102,12 @@ def test_a_cell_of_a_map_is_the_run_at_its_place(name):
 
 @pytest.mark.parametrize(
     ("name", "place"),
-    [("map_blocks", 12), ("map_friction", 0.3), ("map_stiffness", 0.8e6 / 30e6), ("map_velocity", 2e-4)],
+    [
+        ("map_theta_n_blocks", 12),
+        ("map_theta_friction_ratio", 0.3),
+        ("map_theta_stiffness_ratio", 0.8e6 / 30e6),
+        ("map_theta_drive_velocity", 2e-4),
+    ],
 )
 def test_crosses_of_a_map_stand_where_the_scenes_are(name, place):
     slider = {"n_blocks": 12, "mu_s": 0.5, "mu_k": 0.15, "drive_stiffness": 0.8e6, "drive_velocity": 2e-4}

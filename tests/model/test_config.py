@@ -92,9 +92,14 @@ WRONG = [
     ("accuracy.work_precision.full.whole_run.rk4", "swep", ['the word "sweep"', "'swep'"]),
     ("accuracy.work_precision.full.whole_run.rk4", [0.0], ["whole_run.rk4[0]", "1e-16", "is 0.0"]),
     ("hierarchy.tolerances.waveforms", 0.1, ["the name 'waveforms'", "waveform"]),
-    ("ensembles.maps.theta", [0.5, -0.5], ["ensembles.maps.theta", "the smaller first", "[0.5, -0.5]"]),
-    ("ensembles.maps.friction_ratio", [0.1, 1.0], ["friction_ratio[1]", "between 0 and 1"]),
-    ("ensembles.maps.friction_ratio", [0.1], ["two numbers between 0 and 1"]),
+    ("ensembles.chunks", 0, ["ensembles.chunks", "a whole number from 1 to 10000", "is 0"]),
+    (
+        "ensembles.maps.pairs",
+        [["theta", "length"]],
+        ["pairs[0][1]", "one of theta, friction_ratio", "'length'"],
+    ),
+    ("ensembles.maps.pairs", [["theta", "theta"]], ["pairs[0]", "two different parameters"]),
+    ("ensembles.resolution.runs", [40], ["resolution.runs", "one number for each of n_blocks"]),
     ("ensembles.spread.loads", [], ["a list of different numbers between 0 and 1", "is []"]),
     ("ensembles.spread.seed", 20.5, ["a whole number >= 0", "is 20.5"]),
 ]

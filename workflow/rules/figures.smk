@@ -210,24 +210,20 @@ rule draw_spread:
 
 rule draw_maps:
     input:
-        tables=collect("results/tables/{map}.csv", map=MAPS),
+        table="results/tables/{map}.csv",
         code=package("figures/style", "figures/maps"),
     output:
-        collect("results/figures/{map}.png", map=MAPS),
-        [
-            report(
-                f"results/figures/{map}.svg",
-                caption="../report/maps.rst",
-                category="Sensitivity",
-                labels={"figure": f"{map}: theta and {axis.replace('_', ' ')}"},
-            )
-            for map, (axis, _) in AXES.items()
-        ],
+        png="results/figures/{map}.png",
+        svg=report(
+            "results/figures/{map}.svg",
+            caption="../report/maps.rst",
+            category="Sensitivity",
+            labels={"figure": "{map}: two parameters"},
+        ),
     log:
-        "results/logs/draw_maps.log",
+        "results/logs/draw_maps/{map}.log",
     localrule: True
     params:
-        maps=MAPS,
         sliders=list(SLIDERS.values()),
     script:
         "../scripts/draw_maps.py"

@@ -35,12 +35,12 @@ def _stiffness_ratio(slider: Mapping[str, float]) -> float:
 
 
 AXES = {
-    "map_blocks": Axis("n_blocks", "Number of blocks $N$ [-]", lambda slider: slider["n_blocks"]),
-    "map_friction": Axis(
+    "map_theta_n_blocks": Axis("n_blocks", "Number of blocks $N$ [-]", lambda slider: slider["n_blocks"]),
+    "map_theta_friction_ratio": Axis(
         "friction_ratio", r"$\mu_k/\mu_s$ [-]", lambda slider: slider["mu_k"] / slider["mu_s"]
     ),
-    "map_stiffness": Axis("stiffness_ratio", "$K/k$ [-]", _stiffness_ratio, logarithmic=True),
-    "map_velocity": Axis(
+    "map_theta_stiffness_ratio": Axis("stiffness_ratio", "$K/k$ [-]", _stiffness_ratio, logarithmic=True),
+    "map_theta_drive_velocity": Axis(
         "drive_velocity", "$V$ [m/s]", lambda slider: slider["drive_velocity"], logarithmic=True
     ),
 }

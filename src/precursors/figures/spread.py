@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
-from precursors.ensembles.questions import UNPERTURBED
+from precursors.ensembles.spread import UNPERTURBED
 from precursors.figures import style
 
 HEIGHT_MM = 92.0

@@ -70,7 +70,7 @@ def check_config(config: Config, schema_path: str | os.PathLike[str]) -> None:
         raise ValueError(f"configuration: {complaint}")
     try:
         _check_chains(config)
-        _check_names_and_spans(config)
+        _check_names_and_lengths(config)
     except (ValueError, OverflowError) as error:
         raise ValueError(f"configuration: {error}") from None
 
@@ -140,8 +140,8 @@ def _check_chains(config: Config) -> None:
         raise ValueError(f"{where}: {error}") from None
 
 
-def _check_names_and_spans(config: Config) -> None:
-    """Refuse names of nothing, and spans without a length."""
+def _check_names_and_lengths(config: Config) -> None:
+    """Refuse names of nothing, and lists that do not fit each other."""
     accuracy = config["accuracy"]
     for where, names, known in (
         ("fig13", config["fig13"], scenes_with(config, "run")),
@@ -150,6 +150,6 @@ def _check_names_and_spans(config: Config) -> None:
         for name in names:
             if name not in known:
                 raise ValueError(f"{where} holds {name!r}, but must hold names of {', '.join(known)}")
-    for key, span in config["ensembles"]["maps"].items():
-        if isinstance(span, list) and span[0] >= span[1]:
-            raise ValueError(f"ensembles.maps.{key} must be two numbers, the smaller first, but is {span}")
+    resolution = config["ensembles"]["resolution"]
+    if len(resolution["runs"]) != len(resolution["n_blocks"]):
+        raise ValueError("ensembles.resolution.runs must have one number for each of n_blocks")

@@ -26,7 +26,7 @@ TABLES = (
     "resolution_limits",
     "resolution_models",
     "long_runs_statistics",
-    "map_friction",
+    "map_theta_friction_ratio",
 )
 
 
@@ -227,7 +227,7 @@ def long_runs(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Many global slips of a scene, and the map over theta and friction."""
     found: Numbers = {
         "long-duration": (config["ensembles"]["long_runs"]["duration"], "s"),
-        "map-points": len(t["map_friction"]),
+        "map-points": len(t["map_theta_friction_ratio"]),
     }
     for scene in SCENES:
         row = rows(t["long_runs_statistics"], scene=scene).iloc[0]
