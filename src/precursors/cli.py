@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
     import pandas as pd
-    from matplotlib.figure import Figure
 
     from precursors.solver.run import Run
 
@@ -149,46 +148,18 @@ def slips(arguments: argparse.Namespace) -> None:
 
 def plot(arguments: argparse.Namespace) -> None:
     """Draw a run: its load and slips over time, or its propagation lengths against the load."""
-    from precursors.figures import style
-
-    run = run_of(arguments)
-    figure = draw_lengths(run) if arguments.figure == "lengths" else draw_load(run)
-    style.save(figure, arguments.output)
-    show_values({"output": str(arguments.output.resolve())}, arguments.json)
-
-
-def draw_load(run: Run) -> Figure:
-    """Draw F_X(t) and the fronts of all slips, as in Figs. 10 to 12."""
     from precursors.analysis.load_curve import load_trace
     from precursors.analysis.slips import slip_table
-    from precursors.figures.scene import draw_scene
+    from precursors.figures import precursor_lengths, scene, style
 
-    chain = run.chain
-    return draw_scene(slip_table(run), load_trace(run), chain.n_blocks, chain.length, label=label_of(run))
-
-
-def draw_lengths(run: Run) -> Figure:
-    """Draw propagation lengths against the load, as in Fig. 13."""
-    from precursors.analysis.slips import slip_table
-    from precursors.figures.precursor_lengths import PrecursorLengths, draw_precursor_lengths
-
-    chain = run.chain
-    return draw_precursor_lengths(
-        [
-            PrecursorLengths(
-                slip_table(run), (run.slider or {}).get("theta", 0.0), chain.n_blocks, chain.normal_load
-            )
-        ]
-    )
-
-
-def label_of(run: Run) -> str:
-    """Theta, where the run knows it, and N."""
-    from precursors.figures.style import theta_text
-
-    theta = (run.slider or {}).get("theta")
-    n_blocks = f"$N = {run.chain.n_blocks}$"
-    return n_blocks if theta is None else f"{theta_text(theta)}, {n_blocks}"
+    run = run_of(arguments)
+    slips = slip_table(run)
+    if arguments.figure == "lengths":
+        figure = precursor_lengths.draw([slips])
+    else:
+        figure = scene.draw(slips, load_trace(run), f"N = {run.chain.n_blocks}")
+    style.save(figure, arguments.output)
+    show_values({"output": str(arguments.output.resolve())}, arguments.json)
 
 
 def audit(arguments: argparse.Namespace) -> None:

@@ -16,8 +16,7 @@ from precursors.accuracy.failures.common import transitions_right
 from precursors.accuracy.failures.friction_laws import RK4_REAL_LIMIT
 from precursors.accuracy.failures.locating import gauges, motion_after, next_root, overdue, solve_merging
 from precursors.accuracy.step_sweep import steps_between, sweep
-from precursors.figures.failure_gallery import read_numbers
-from precursors.figures.step_sweep import draw_step_sweep, read_step_sweep
+from precursors.figures import step_sweep
 from precursors.methods import events
 from precursors.support.files import read_table
 
@@ -203,15 +202,15 @@ def test_a_step_far_beyond_the_limit_makes_a_global_slip_of_the_first_event():
 def test_the_scripts_write_tables_that_the_figures_read(tmp_path, monkeypatch):
     ranges = {"coarsest": 1e-5, "finest": 1e-6, "finest_every_step": 1e-5, "per_decade": 2}
     tabulate_step_sweep.main({"scene": {"theta": 0.0}}, {"scene": 10.0}, ranges, tmp_path / "sweep.csv")
-    table = read_step_sweep(tmp_path / "sweep.csv")
+    table = read_table(tmp_path / "sweep.csv")
     assert table["method"].tolist() == ["exact", "rk4_skip", "rk4_skip", "rk4_skip", "rk4"]
-    assert len(draw_step_sweep(table).axes) == 3
+    assert len(step_sweep.draw(table).axes) == 3
     ways = [way for way in WAYS if way.name in ("stiffness", "restart_on_root")]
     monkeypatch.setattr(tabulate_failures, "WAYS", ways)
     tabulate_failures.main(
         tmp_path / "failures.csv", {way.name: tmp_path / f"{way.name}.csv" for way in ways}
     )
-    numbers = read_numbers(tmp_path / "failures.csv")
+    numbers = read_table(tmp_path / "failures.csv")
     assert numbers["way"].tolist() == ["stiffness"] * 2 + ["restart_on_root"] * 2
     assert numbers["value"].tolist() == [number("stiffness", 0)[0], number("stiffness", 1)[0], 82, 12]
     assert read_table(tmp_path / "stiffness.csv").equals(measured("stiffness").curves)

@@ -13,8 +13,8 @@ from golden.regenerate import GOLDEN
 from golden.test_golden import FIGURE_RMS, MOST_BYTES
 from matplotlib.testing.compare import compare_images
 
-from precursors.figures import style
-from precursors.figures.work_precision import draw_work_precision, read_work_precision
+from precursors.figures import style, work_precision
+from precursors.support.files import read_table
 
 TABLE, CHART = GOLDEN / "work_precision_full.csv", GOLDEN / "work_precision_full.png"
 MADE = Path(__file__).parents[2] / "results/tables/work_precision.csv"
@@ -23,11 +23,11 @@ PEERS = {"heyoka", "cvode_adams", "cvode_bdf", "scipy_dop853", "scipy_rk45", "sc
 
 @pytest.fixture(scope="module", params=[TABLE, MADE], ids=["published", "made"])
 def table(request):
-    return read_work_precision(request.param)
+    return read_table(request.param)
 
 
 def test_the_published_chart_is_the_published_table_drawn(tmp_path):
-    style.save(draw_work_precision(read_work_precision(TABLE)), tmp_path / CHART.name)
+    style.save(work_precision.draw(read_table(TABLE)), tmp_path / CHART.name)
     assert compare_images(str(CHART), str(tmp_path / CHART.name), tol=FIGURE_RMS) is None
 
 
@@ -36,7 +36,7 @@ def test_both_published_files_are_small():
 
 
 def test_all_peers_are_in_the_published_table():
-    assert set(read_work_precision(TABLE)["method"]) > PEERS
+    assert set(read_table(TABLE)["method"]) > PEERS
 
 
 def test_the_truth_is_proved(table):

@@ -10,13 +10,13 @@ import pandas as pd
 import pytest
 
 from precursors import Chain, find_precursors, find_slips
-from precursors.figures import style
-from precursors.figures.ladder import draw_ladder, read_ladder
+from precursors.figures import model_comparison, style
 from precursors.hierarchy.compare_models import compare_models, waveform_error
 from precursors.hierarchy.larger import LargerChain, simulate_larger
 from precursors.hierarchy.models import MODELS
 from precursors.model.scene_models import ADDED
 from precursors.support import timing
+from precursors.support.files import read_table
 
 SCENES = {name: Chain.from_slider(theta=theta) for name, theta in (("lead", "5/6"), ("even", 0.0))}
 TOLERANCES = {
@@ -122,7 +122,7 @@ def test_an_addition_is_never_the_smallest_model(comparison: pd.DataFrame) -> No
 
 def test_the_figure_frames_the_smallest_models(comparison: pd.DataFrame, tmp_path) -> None:
     comparison.to_csv(tmp_path / "comparison.csv", index=False)
-    figure = draw_ladder(read_ladder(tmp_path / "comparison.csv"))
+    figure = model_comparison.draw(read_table(tmp_path / "comparison.csv"))
     frames = [p for p in figure.axes[0].patches if not p.get_fill()]
     assert len(frames) == len(TOLERANCES)
     heads = [label.get_text() for label in figure.axes[0].get_xticklabels()]

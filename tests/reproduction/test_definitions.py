@@ -1,11 +1,10 @@
 """The table of definitions tells which readings give the paper's numbers, and its figure shows them."""
 
-import draw_definitions
 import pytest
 import tabulate_definitions
 from matplotlib.figure import Figure
 
-from precursors.figures.definitions import draw_definitions as draw
+from precursors.figures.definitions import draw
 from precursors.support.files import read_table
 
 SLIDER = {
@@ -74,7 +73,7 @@ def test_a_reading_without_a_global_slip_has_empty_numbers(tmp_path):
     assert isinstance(draw(few), Figure)
 
 
-def test_the_figure_has_a_cell_for_each_reading_and_theta(table, path, tmp_path):
+def test_the_figure_has_a_cell_for_each_reading_and_theta(table):
     left, right = draw(table).axes[:2]
     cells = [
         text.get_text() for text in left.texts if "\n" in text.get_text() and text.get_text()[0].isdigit()
@@ -83,10 +82,3 @@ def test_the_figure_has_a_cell_for_each_reading_and_theta(table, path, tmp_path)
     assert len(cells) == n_readings * 5
     assert cells[:5] == ["6\n0.484", "6\n0.484", "9\n0.486", "15\n0.546", "14\n0.488"]
     assert [text.get_text() for text in right.texts[:2]] == ["4", "6"]
-    draw_definitions.main(path, [tmp_path / "definitions.png"])
-    assert (tmp_path / "definitions.png").stat().st_size > 0
-
-
-def test_a_table_without_rows_is_refused(table):
-    with pytest.raises(ValueError, match="the table of definitions has no rows"):
-        draw(table[:0])

@@ -1,7 +1,6 @@
 """Methods are measured in the size that is asked for, held to the truth, and drawn from the table."""
 
-import draw_growth
-import draw_work_precision
+import draw
 import measure_growth
 import measure_methods
 import pytest
@@ -62,10 +61,12 @@ def test_a_name_that_is_no_methods_is_refused_before_anything_is_measured(files)
 
 
 def test_the_charts_are_drawn_from_the_tables(files):
-    draw_work_precision.main(files / "methods.csv", [files / "time.png"], [files / "evaluations.svg"])
-    draw_growth.main(files / "growth.csv", [files / "growth.svg"])
+    methods, time, evaluations = (str(files / name) for name in ("methods.csv", "time.png", "evaluations.svg"))
+    draw.main("work_precision", {"table": methods}, {}, [time])
+    draw.main("work_precision", {"table": methods}, {"work": "evaluations"}, [evaluations])
+    draw.main("cost_per_event", {"table": str(files / "growth.csv")}, {}, [str(files / "cost.svg")])
     assert (files / "time.png").read_bytes().startswith(b"\x89PNG")
-    for name in ("evaluations.svg", "growth.svg"):
+    for name in ("evaluations.svg", "cost.svg"):
         assert (files / name).read_text(encoding="utf-8").rstrip().endswith("</svg>")
 
 

@@ -118,12 +118,12 @@ def test_a_scene_may_have_any_name_that_is_a_word(finished):
 def test_an_edit_of_a_figure_module_redraws_its_figures_only(finished):
     """All are edited at once, and each job must name the modules for which it is run."""
     redrawn = {
-        "chain_schematic": {"draw_chain"},
+        "chain_schematic": {"draw_fig09"},
         "scene": {"draw_scene fig10", "draw_scene fig11", "draw_scene fig12"},
         "precursor_lengths": {"draw_fig13"},
         "definitions": {"draw_definitions"},
         "spread": {"draw_spread"},
-        "maps": {"draw_maps"},
+        "map_of": {"draw_map"},
     }
     for module in redrawn:
         finished.append(f"src/precursors/figures/{module}.py", "\nCOLOR = 'red'\n")
@@ -179,8 +179,8 @@ def test_an_edit_of_how_jobs_are_logged_runs_nothing(finished):
 
 
 def test_an_edit_of_a_script_runs_its_rule_again(finished):
-    finished.append("workflow/scripts/draw_fig13.py", "\n# edited\n")
-    assert finished.would_run() == {"draw_fig13"} | PAPER
+    finished.append("workflow/scripts/judge_claims.py", "\n# edited\n")
+    assert finished.would_run() == {"judge_claims"} | PAPER
 
 
 def test_an_edit_of_a_scene_runs_that_scene_only(more_scenes):
@@ -203,7 +203,8 @@ def test_the_full_comparison_of_methods_is_a_target_of_its_own(workspace):
     assert workspace.run("-n", "accuracy_full").jobs == {
         "take_certificates",
         "measure_methods_fully",
-        "draw_work_precision_full",
+        "draw_work_precision",
+        "draw_work_precision_evaluations",
         "tabulate_step_sweep",
         "draw_step_sweep",
         "accuracy_full",
@@ -218,9 +219,12 @@ def test_an_edit_of_a_method_measures_again_and_proves_nothing(finished):
 
 
 def test_an_edit_of_a_chart_measures_nothing(finished):
-    finished.append("src/precursors/figures/growth.py", "\nCOLOR = 'red'\n")
+    finished.append("src/precursors/figures/cost_per_event.py", "\nCOLOR = 'red'\n")
     finished.append("src/precursors/figures/work_precision.py", "\nCOLOR = 'red'\n")
-    assert finished.would_run() == {"draw_growth", "draw_work_precision"} | PAPER
+    assert (
+        finished.would_run()
+        == {"draw_cost_per_event", "draw_work_precision", "draw_work_precision_evaluations"} | PAPER
+    )
 
 
 def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):

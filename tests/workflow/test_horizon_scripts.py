@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from pathlib import Path
 
 import pandas as pd
@@ -15,7 +14,6 @@ import tabulate_lyapunov
 import take_certificates
 
 from precursors.accuracy.proof import Certificate, CertificateError, ExactChain, certify
-from precursors.figures.horizon import draw_horizon
 
 CHAIN = ExactChain.from_slider(n_blocks=2, theta="1/2", drive_velocity="1e-3")
 DURATION = 0.5
@@ -84,47 +82,11 @@ def test_the_tables_hold_what_is_proved_and_what_the_solver_gets_right(
 
 
 def test_a_scene_without_an_exponent_has_an_empty_row(tmp_path: Path) -> None:
-    sliders = {"alone": {"n_blocks": 1, "drive_velocity": 0.02}, "ten": {"drive_velocity": 0.002}}
+    sliders = {"alone": {"theta": 0.0, "n_blocks": 1, "drive_velocity": 0.02}}
+    sliders["ten"] = {"theta": 0.5, "drive_velocity": 0.002}
     tabulate_lyapunov.main(sliders, 2.0, tmp_path / "lyapunov.csv")
     table = pd.read_csv(tmp_path / "lyapunov.csv").set_index("scene")
-    assert table.loc["alone"].isna().all()
+    assert table["theta"].to_dict() == {"alone": 0.0, "ten": 0.5}
+    assert table.loc["alone"].drop("theta").isna().all()
     assert table.loc["ten"].notna().all()
     assert table.loc["ten", "uncertainty_per_s"] > 0
-
-
-def test_the_figure_names_exponents_by_theta_and_its_axes_with_capitals() -> None:
-    times = pd.DataFrame(
-        {"chain": "pair", "time_s": [0.1, 0.2], "actual_error_s": [1e-17, 1e-16], "predicted_error_s": 1e-15}
-    )
-    facts = {"duration_s": 0.2, "order_lost_s": math.inf, "horizon_s": 0.2, "right_until_s": 0.2}
-    exponents = pd.DataFrame({"scene": ["b", "a"], "exponent_per_s": [1.5, 1.7], "uncertainty_per_s": 0.3})
-    figure = draw_horizon(
-        times,
-        pd.DataFrame([{"chain": "pair", **facts}]),
-        exponents,
-        {"pair": {"n_blocks": 2}},
-        {"a": 0.0, "b": -5 / 6},
-        1e-9,
-    )
-    errors, bars = figure.axes[:2]
-    assert (errors.get_xlabel(), errors.get_ylabel()) == ("Time [s]", "Error of time [s]")
-    assert [label.get_text() for label in bars.get_yticklabels()] == [r"$\theta = -5/6$", r"$\theta = 0$"]
-
-
-def test_chains_that_have_only_a_theta_come_first_in_its_order() -> None:
-    facts = {"duration_s": 0.2, "order_lost_s": math.inf, "horizon_s": 0.2, "right_until_s": 0.2}
-    chains = {
-        "uniform": {"theta": 0},
-        "fast": {"theta": "-5/6", "drive_velocity": 0.01},
-        "leading": {"theta": "5/6"},
-        "trailing": {"theta": "-5/6", "duration": 1.0},
-    }
-    times = pd.DataFrame(
-        {"chain": [*chains], "time_s": 0.1, "actual_error_s": 1e-17, "predicted_error_s": 1e-15}
-    )
-    exponents = pd.DataFrame({"scene": ["a"], "exponent_per_s": [1.5], "uncertainty_per_s": 0.3})
-    overview = pd.DataFrame([{"chain": name, **facts} for name in chains])
-    figure = draw_horizon(times, overview, exponents, chains, {"a": 0.0}, 1e-9)
-    titles = [axes.get_title() for axes in figure.axes[:4]]
-    theta = [rf"$\theta = {text}$" for text in ("-5/6", "0", "5/6")]
-    assert titles == [*theta, f"{theta[0]}, $V$ = 10 mm/s"]

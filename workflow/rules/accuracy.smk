@@ -33,7 +33,7 @@ rule accuracy:
             figure=[
                 "work_precision",
                 "work_precision_evaluations",
-                "growth",
+                "cost_per_event",
                 "step_sweep",
                 "failure_gallery",
                 "horizon",

@@ -1,4 +1,5 @@
 from precursors.ensembles.catalogue import MAPS, STUDIES, study_arguments
+from precursors.ensembles.maps import places_of
 from precursors.ensembles.spread import QUESTIONS
 
 NUMBER_OF_CHUNKS = config["ensembles"]["chunks"]

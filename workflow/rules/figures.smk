@@ -1,29 +1,58 @@
-# Every figure that is drawn from tables: what it shows and where it stands in the report, the modules that draw it, its
-# tables and its parameters. Rule and script are draw_{name}, the caption is report/{name}.rst.
+# Every figure that is drawn from tables: what it shows and where it stands in the report, its tables, and its options.
+# The rule is draw_{name}, the caption report/{name}.rst. The file is {name} or "file", and the module of
+# precursors.figures that draws it is {name} or "module".
 FIGURES = {
     "fig09": {
         "shows": "the chain",
         "category": "Reproduction",
-        "modules": ["chain_schematic"],
+        "module": "chain_schematic",
+    },
+    "scene": {
+        "file": "{scene}",
+        "shows": "load and slips over time",
+        "category": "Reproduction",
+        "tables": {
+            "slips": "results/tables/{scene}_slips.csv",
+            "trace": "results/tables/{scene}_trace.csv",
+        },
+        "options": {"title": lambda wildcards: config["scenes"][wildcards.scene]["title"]},
     },
     "fig13": {
         "shows": "propagation length against load",
         "category": "Reproduction",
-        "modules": ["precursor_lengths"],
-        "tables": {"slips": collect("results/tables/{scene}_slips.csv", scene=config["fig13"])},
-        "params": {"sliders": list(SLIDERS.values())},
+        "module": "precursor_lengths",
+        "tables": {
+            "slips": collect("results/tables/{scene}_slips.csv", scene=config["fig13"]),
+            "mu_sapp": "results/tables/mu_sapp.csv",
+        },
+        "options": {"scenes": config["fig13"]},
     },
     "definitions": {
         "shows": "what every reading gives",
         "category": "Reproduction",
         "tables": {"table": "results/tables/definitions.csv"},
     },
-    "growth": {
+    "work_precision": {
+        "file": "work_precision{full}",
+        "shows": "errors against time",
+        "category": "Speed and accuracy",
+        "tables": {"table": "results/tables/work_precision{full}.csv"},
+    },
+    "work_precision_evaluations": {
+        "file": "work_precision_evaluations{full}",
+        "shows": "errors against evaluations",
+        "category": "Speed and accuracy",
+        "module": "work_precision",
+        "tables": {"table": "results/tables/work_precision{full}.csv"},
+        "options": {"work": "evaluations"},
+    },
+    "cost_per_event": {
         "shows": "time per transition against N",
         "category": "Speed and accuracy",
         "tables": {"table": "results/tables/growth.csv"},
     },
-    "step_sweep{full}": {
+    "step_sweep": {
+        "file": "step_sweep{full}",
         "shows": "the paper's numbers against the step",
         "category": "Speed and accuracy",
         "tables": {"table": "results/tables/step_sweep{full}.csv"},
@@ -40,15 +69,21 @@ FIGURES = {
         "shows": "predicted and actual error",
         "category": "Proof and horizon",
         "tables": {
-            "horizon": "results/tables/horizon.csv",
-            "summary": "results/tables/solver_vs_proof.csv",
-            "lyapunov": "results/tables/lyapunov.csv",
+            "errors": "results/tables/horizon.csv",
+            "overview": "results/tables/solver_vs_proof.csv",
+            "exponents": "results/tables/lyapunov.csv",
         },
-        "params": {
-            "chains": CHAINS,
-            "thetas": {scene: slider["theta"] for scene, slider in SLIDERS.items()},
-            "tolerance": config["accuracy"]["tolerance"],
+        "options": {"chains": CHAINS, "tolerance": config["accuracy"]["tolerance"]},
+    },
+    "spread": {
+        "file": "spread_{question}",
+        "shows": "changes of {question}",
+        "category": "Sensitivity",
+        "tables": {
+            "members": "results/tables/spread_members.csv",
+            "spread": "results/tables/spread.csv",
         },
+        "options": {"question": "{question}"},
     },
     "resolution": {
         "shows": "what the number of blocks does",
@@ -57,17 +92,28 @@ FIGURES = {
             "table": "results/tables/resolution.csv",
             "limits": "results/tables/resolution_limits.csv",
         },
-        "params": {"papers_n": config["chain"]["n_blocks"]},
+        "options": {"papers_n": config["chain"]["n_blocks"]},
     },
     "resolution_models": {
         "shows": "the same with viscosity and interface springs",
         "category": "Sensitivity",
-        "modules": ["resolution", "resolution_models"],
         "tables": {
             "table": "results/tables/resolution_models.csv",
             "runs": "results/tables/resolution_models_runs.csv",
         },
-        "params": {"papers_n": config["chain"]["n_blocks"]},
+        "options": {"papers_n": config["chain"]["n_blocks"]},
+    },
+    "map": {
+        "file": "{map}",
+        "shows": "two parameters",
+        "category": "Sensitivity",
+        "module": "map_of",
+        "tables": {"table": "results/tables/{map}.csv"},
+        "options": {
+            "x": lambda wildcards: MAPS[wildcards.map][0],
+            "y": lambda wildcards: MAPS[wildcards.map][1],
+            "scenes": lambda wildcards: places_of(SLIDERS.values(), *MAPS[wildcards.map]),
+        },
     },
     "long_runs": {
         "shows": "peak loads of hundreds of global slips",
@@ -77,12 +123,16 @@ FIGURES = {
             "statistics": "results/tables/long_runs_statistics.csv",
         },
     },
-    "ladder": {
+    "model_comparison": {
         "shows": "which model answers which question",
         "category": "Models",
-        "tables": {"ladder": "results/tables/model_comparison.csv"},
+        "tables": {"table": "results/tables/model_comparison.csv"},
     },
 }
+
+
+wildcard_constraints:
+    question="|".join(QUESTIONS),
 
 
 rule fig13:
@@ -103,130 +153,33 @@ rule explorer:
     localrule: True
 
 
-for figure, about in FIGURES.items():
-    name = figure.removesuffix("{full}")
-    drawn_by = ["style", *about.get("modules", [name])]
+for name, about in FIGURES.items():
+    file, module = about.get("file", name), about.get("module", name)
+    # The two figures of resolution share panels.
+    shared = ["figures/resolution"] if module == "resolution_models" else []
 
     rule:
         name:
             f"draw_{name}"
         input:
             **about.get("tables", {}),
-            code=[
-                *package(*[f"figures/{module}" for module in drawn_by]),
-                ROOT / f"workflow/scripts/draw_{name}.py",
-            ],
+            code=[*package("figures/style", *shared, f"figures/{module}"), ROOT / "workflow/scripts/draw.py"],
         output:
-            png=f"results/figures/{figure}.png",
+            png=f"results/figures/{file}.png",
             svg=report(
-                f"results/figures/{figure}.svg",
+                f"results/figures/{file}.svg",
                 caption=f"../report/{name}.rst",
                 category=about["category"],
-                labels={"figure": f"{figure}: {about['shows']}"},
+                labels={"figure": f"{file}: {about['shows']}"},
             ),
         log:
-            f"results/logs/draw_{figure}.log",
+            f"results/logs/draw_{name}/{file}.log",
         localrule: True
         params:
-            **about.get("params", {}),
-            script=f"draw_{name}",  # a script's path is read late, when `name` is the last one
+            **about.get("options", {}),
+            figure=module,
         script:
-            "../scripts/{params.script}.py"
-
-
-rule draw_scene:
-    input:
-        slips="results/tables/{scene}_slips.csv",
-        trace="results/tables/{scene}_trace.csv",
-        code=package("figures/style", "figures/scene"),
-    output:
-        png="results/figures/{scene}.png",
-        svg=report(
-            "results/figures/{scene}.svg",
-            caption="../report/scene.rst",
-            category="Reproduction",
-            labels={"figure": "{scene}: load and slips over time"},
-        ),
-    log:
-        "results/logs/draw_scene/{scene}.log",
-    localrule: True
-    params:
-        slider=lambda wildcards: scene_slider(config, wildcards.scene),
-        title=lambda wildcards: config["scenes"][wildcards.scene]["title"],
-    script:
-        "../scripts/draw_scene.py"
-
-
-rule draw_work_precision:
-    input:
-        table="results/tables/work_precision{full}.csv",
-        code=package("figures/style", "figures/work_precision"),
-    output:
-        time_png="results/figures/work_precision{full}.png",
-        time_svg=report(
-            "results/figures/work_precision{full}.svg",
-            caption="../report/work_precision.rst",
-            category="Speed and accuracy",
-            labels={"figure": "work_precision{full}: errors against time"},
-        ),
-        evaluations_png="results/figures/work_precision_evaluations{full}.png",
-        evaluations_svg=report(
-            "results/figures/work_precision_evaluations{full}.svg",
-            caption="../report/work_precision_evaluations.rst",
-            category="Speed and accuracy",
-            labels={"figure": "work_precision_evaluations{full}: errors against evaluations"},
-        ),
-    log:
-        "results/logs/draw_work_precision{full}.log",
-    localrule: True
-    script:
-        "../scripts/draw_work_precision.py"
-
-
-rule draw_spread:
-    input:
-        members="results/tables/spread_members.csv",
-        spread="results/tables/spread.csv",
-        code=package("figures/style", "figures/spread"),
-    output:
-        collect("results/figures/spread_{question}.png", question=QUESTIONS),
-        [
-            report(
-                f"results/figures/spread_{question}.svg",
-                caption="../report/spread.rst",
-                category="Sensitivity",
-                labels={"figure": f"spread_{question}: changes of {question}"},
-            )
-            for question in QUESTIONS
-        ],
-    log:
-        "results/logs/draw_spread.log",
-    localrule: True
-    params:
-        questions=[*QUESTIONS, *QUESTIONS],
-    script:
-        "../scripts/draw_spread.py"
-
-
-rule draw_maps:
-    input:
-        table="results/tables/{map}.csv",
-        code=package("figures/style", "figures/maps"),
-    output:
-        png="results/figures/{map}.png",
-        svg=report(
-            "results/figures/{map}.svg",
-            caption="../report/maps.rst",
-            category="Sensitivity",
-            labels={"figure": "{map}: two parameters"},
-        ),
-    log:
-        "results/logs/draw_maps/{map}.log",
-    localrule: True
-    params:
-        sliders=list(SLIDERS.values()),
-    script:
-        "../scripts/draw_maps.py"
+            "../scripts/draw.py"
 
 
 rule write_explorer:

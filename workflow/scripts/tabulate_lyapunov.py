@@ -15,7 +15,12 @@ from precursors.support.files import write_table
 
 def main(sliders: Mapping[str, Mapping[str, Any]], duration: float, output: str | Path) -> None:
     """Write one row a scene; a scene that has no exponent (one block, few events) has an empty one."""
-    write_table(pd.DataFrame([{"scene": name, **row(s, duration)} for name, s in sliders.items()]), output)
+    write_table(
+        pd.DataFrame(
+            [{"scene": name, "theta": s["theta"], **row(s, duration)} for name, s in sliders.items()]
+        ),
+        output,
+    )
 
 
 def row(slider: Mapping[str, Any], duration: float) -> dict[str, float]:

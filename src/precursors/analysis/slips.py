@@ -64,8 +64,8 @@ def find_slips(run: Run) -> pd.DataFrame:
 def slip_table(run: Run) -> pd.DataFrame:
     """Every slip event of a run, with units in the names of the columns.
 
-    `kept` marks the rows of Fig. 13. theta, n_blocks and normal_load_N (F_Z) say which slider it was, the
-    same in every row; theta is NaN where the run does not know its slider.
+    `kept` marks the rows of Fig. 13. theta, n_blocks, normal_load_N (F_Z) and length_m (L) say which slider
+    it was, the same in every row; theta is NaN where the run does not know its slider.
     """
     slips = find_slips(run)
     return slips.rename(columns=WITH_UNITS).assign(
@@ -73,6 +73,7 @@ def slip_table(run: Run) -> pd.DataFrame:
         theta=run.slider["theta"] if run.slider else np.nan,
         n_blocks=run.chain.n_blocks,
         normal_load_N=run.slider["normal_load"] if run.slider else run.chain.normal_load,
+        length_m=run.chain.length,
     )
 
 

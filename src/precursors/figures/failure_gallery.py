@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -18,396 +17,194 @@ from precursors.figures import style
 
 HEIGHT_MM = 212.0
 ROWS, COLUMNS = 4, 3
-TITLE_SIZE, TEXT_SIZE, LEGEND_SIZE = 6.8, 6.0, 5.8
-LINE_PT = 8.2
+TITLE_SIZE, TEXT_SIZE, KEY_SIZE = 6.8, 6.0, 5.8
 # A layout made for the longest title would leave no room for the panels.
 LAYOUT = {"left": 0.07, "right": 0.99, "bottom": 0.04, "top": 0.95, "wspace": 0.38, "hspace": 0.7}
-TEXT_LEFT_PT = -24.0
-# Where the ends of an axis are closer than by this factor it has one or two decades, and where it is all
-# above this number its labels are decimals.
+TEXT_LEFT_PT, TEXT_BOTTOM_PT, LINE_PT = -24.0, 3.0, 8.2
+ABOVE: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "bottom"}
+ABOVE |= {"annotation_clip": False}
+# A logarithmic axis that spans less than this factor, above this number, has decimal labels.
 FEW_DECADES, SHORT = 110.0, 1e-4
 MICRO, MILLI = 1e6, 1e3
+DASHED: dict[str, Any] = {"color": style.BLACK, "linewidth": 0.6, "linestyle": (0, (4, 2))}
 
-NUMBER_COLUMNS = {
-    "way": str,
-    "method": str,
-    "knob": str,
-    "quantity": str,
-    "unit": str,
-    "value": float,
-    "exact": float,
-}
 # What is right is black and theory grey; what fails has these colours in turn.
-COLORS = (style.VERMILION, style.BLUE, style.GREEN)
+COLORS = 2 * (style.VERMILION, style.BLUE, style.GREEN)
 RIGHT: dict[str, dict[str, Any]] = {
     "exact": {"color": style.BLACK},
     "theory": {"color": style.GREY},
-    "the drive": {"color": style.BLACK, "linewidth": 0.6, "linestyle": (0, (4, 2))},
-    "the chain itself": {"color": style.BLACK, "linewidth": 0.6, "linestyle": (0, (4, 2))},
+    "the drive": DASHED,
+    "the chain itself": DASHED,
 }
 THEORY_OF = "theory, "
 
 
-@dataclass(frozen=True)
-class Sentence:
-    """A line above a panel, and which of the way's numbers stands in it.
-
-    Attributes
-    ----------
-    text : str
-        With columns of the table as format fields, such as {value}.
-    quantity : str
-        What the number's quantity begins with.
-    knob, method : str
-        The number's knob and method, where the quantity alone does not tell it from others.
-    """
+class Sentence(NamedTuple):
+    """A line above a panel, and the number in it: its quantity begins so, with this setting and method."""
 
     text: str
     quantity: str
-    knob: str = ""
+    setting: str = ""
     method: str = ""
-
-    def find(self, numbers: pd.DataFrame) -> pd.Series:
-        """The number among those of a way.
-
-        Raises
-        ------
-        LookupError
-            If it is not there, or not alone.
-        """
-        return find_number(numbers, self.quantity, self.knob, self.method)
 
 
 @dataclass(frozen=True)
 class Panel:
-    """A panel: what it is about, its axes, and the sentences in which the numbers stand.
+    """A panel: its title, its axes, and the sentences with its numbers.
 
-    Attributes
-    ----------
-    title : str
-        The way to fail.
-    x, y : str
-        Labels of the axes.
-    sentences : tuple of Sentence
-        What stands above it.
-    scale : tuple of float
-        What the table's x and y are multiplied by for the axes.
-    logarithmic : str
-        Which axes are: "", "x", "y" or "xy".
-    vertical : str
-        Quantity of a number that stands at a place on the x axis.
-    joined : bool
-        Whether lines join the points of what fails.
-    markers : bool
-        Whether those points have markers.
-    drawstyle : str
-        Matplotlib's: "steps-post" for a number that jumps.
-    legend : str or (x, y)
-        Where Matplotlib puts the legend.
-    limits : mapping
-        Limits of the axes where the data's will not do.
+    `scale` is from the table's x and y to the axes, `log` names the logarithmic axes, `vertical` is a
+    quantity whose value is marked on the x axis. What fails is drawn by a line if `joined`, and by markers if
+    `marked`.
     """
 
     title: str
     x: str
     y: str
-    sentences: tuple[Sentence, ...]
+    sentences: Sequence[Sentence]
     scale: tuple[float, float] = (1.0, 1.0)
-    logarithmic: str = ""
+    log: str = ""
     vertical: str = ""
     joined: bool = True
-    markers: bool = True
+    marked: bool = True
     drawstyle: str = "default"
-    legend: Any = "best"
-    limits: Mapping[str, tuple[float | None, float | None]] = field(default_factory=dict)
+    key: Any = "best"
+    xmin: float | None = None
+    ylim: tuple[float | None, float | None] = (None, None)
 
 
+FACTOR = "Energy factor per step [-]"
 OMEGA_DT = r"$\omega_\mathrm{max}\,\Delta t$ [-]"
-RIGHT_OF_ALL = "{knob}: {value:.0f} of {exact:.0f} transitions right"
+LIMIT = "largest stable omega dt"
+STABLE = r"stable up to $\omega\Delta t$ = {value:.3f}; theory "
 STABLE_STEP = Sentence(r"that is $\Delta t$ = {value:.3g} s on the paper's chain", "largest stable dt")
+RIGHT_OF_ALL = "{knob}: {value:.0f} of {exact:.0f} transitions right"
+F_X, TIME = "$F_X$ [N]", "Time [s]"
+CREEP = "velocity in stick, of the drive's"
 
-PANELS: dict[str, Panel] = {
-    "rk4_unstable": Panel(
-        "RK4 above its stability limit",
-        OMEGA_DT,
-        "Energy factor per step [-]",
-        (
-            Sentence(
-                r"stable up to $\omega\Delta t$ = {value:.3f}; theory $2\sqrt{{2}}$ = {exact:.3f}",
-                "largest stable omega dt",
-            ),
-            STABLE_STEP,
-        ),
-        vertical="largest stable omega dt",
-        joined=False,
-    ),
-    "leapfrog_unstable": Panel(
-        "Leapfrog above its stability limit",
-        OMEGA_DT,
-        "Energy factor per step [-]",
-        (
-            Sentence(
-                r"stable up to $\omega\Delta t$ = {value:.3f}; theory {exact:.3f}", "largest stable omega dt"
-            ),
-            STABLE_STEP,
-        ),
-        vertical="largest stable omega dt",
-        joined=False,
-    ),
-    "numerical_damping": Panel(
-        "Implicit Moreau-Jean damps motion",
-        r"Time [$\mu$s]",
-        "Energy left [-]",
-        (
-            Sentence(
-                "{knob}: {value:.3f} of the energy left; exact {exact:g}",
-                "energy left",
-                "dt = 1e-07 s",
-                "Moreau-Jean, implicit",
-            ),
-            Sentence("{method}, {knob}: {value:.3f}", "energy left", method="Moreau-Jean, trapezoidal"),
-        ),
-        scale=(MICRO, 1.0),
-        legend=(0.5, 0.12),
-        joined=False,
-    ),
-    "literal_friction": Panel(
-        "Eq. 4 taken literally never sticks again",
-        "Time [s]",
-        "$F_X$ [N]",
-        (
-            Sentence("{quantity}: {value:.2f} N; exact {exact:.2f} N", "largest F_X", "dt = 1e-06 s"),
-            Sentence("with {knob}: {value:.2f} N", "largest F_X", "dt = 3e-06 s"),
-        ),
-        markers=False,
-    ),
+PANELS = {
+    "rk4_unstable": Panel("RK4 above its stability limit", OMEGA_DT, FACTOR, (
+        Sentence(STABLE + r"$2\sqrt{{2}}$ = {exact:.3f}", LIMIT),
+        STABLE_STEP,
+    ), vertical=LIMIT, joined=False),
+    "leapfrog_unstable": Panel("Leapfrog above its stability limit", OMEGA_DT, FACTOR, (
+        Sentence(STABLE + "{exact:.3f}", LIMIT),
+        STABLE_STEP,
+    ), vertical=LIMIT, joined=False),
+    "numerical_damping": Panel("Implicit Moreau-Jean damps motion", r"Time [$\mu$s]", "Energy left [-]", (
+        Sentence("{knob}: {value:.3f} of the energy left; exact {exact:g}", "energy left", "dt = 1e-07 s",
+                 "Moreau-Jean, implicit"),
+        Sentence("{method}, {knob}: {value:.3f}", "energy left", method="Moreau-Jean, trapezoidal"),
+    ), scale=(MICRO, 1.0), key=(0.5, 0.12), joined=False),
+    "literal_friction": Panel("Eq. 4 taken literally never sticks again", TIME, F_X, (
+        Sentence("{quantity}: {value:.2f} N; exact {exact:.2f} N", "largest F_X", "dt = 1e-06 s"),
+        Sentence("with {knob}: {value:.2f} N", "largest F_X", "dt = 3e-06 s"),
+    ), marked=False),
     "dead_zone_too_small": Panel(
         "Dead zone too small: jumped over",
-        r"Zone / safe width $(\mu_s+\mu_k)\,w\,\Delta t/2m$ [-]",
-        "Transitions right [-]",
-        (
-            Sentence(
-                "{knob}: {value:.0f} of {exact:.0f} right",
-                "transitions right",
-                "dt = 4e-08 s, zone = 0.05 safe",
-            ),
-            Sentence("all are right from {value:.2g} {unit} on", "zone from which all is right"),
-        ),
-        logarithmic="x",
-        vertical="zone from which all is right",
-        limits={"y": (0.0, None)},
-    ),
+        r"Zone / safe width $(\mu_s+\mu_k)\,w\,\Delta t/2m$ [-]", "Transitions right [-]", (
+        Sentence("{knob}: {value:.0f} of {exact:.0f} right", "transitions right",
+                 "dt = 4e-08 s, zone = 0.05 safe"),
+        Sentence("all are right from {value:.2g} {unit} on", "zone from which all is right"),
+    ), log="x", vertical="zone from which all is right", ylim=(0.0, None)),
     "dead_zone_too_large": Panel(
-        "Dead zone too large: creep inside",
-        "Width of the zone [m/s]",
-        r"$F_X - \mu_s w_1$ at release [N]",
-        (
-            Sentence(RIGHT_OF_ALL, "transitions right"),
-            Sentence("all are right up to {value:.2g} {unit}", "zone up to which all is right"),
-        ),
-        logarithmic="xy",
-        vertical="zone up to which all is right",
-        joined=False,
-    ),
-    "creep": Panel(
-        "Regularised friction creeps in stick",
-        r"Load / $\mu_s w$ [-]",
-        "Velocity [m/s]",
-        (
-            Sentence("{knob}:", "velocity in stick, of the drive's"),
-            Sentence(
-                "creeps at {value:.2%} of the drive's $V$; exact {exact:g}",
-                "velocity in stick, of the drive's",
-            ),
-        ),
-        logarithmic="y",
-        joined=False,
-        legend="lower right",
-        limits={"y": (1e-11, 3e-4)},
-    ),
-    "stiffness": Panel(
-        "Regularised friction is stiff",
-        "Width [m/s]",
-        "Fastest rate [1/s]",
-        (
-            Sentence("{knob}: {value:.1e} /s; chain {exact:.1e} /s", "fastest rate"),
-            Sentence("RK4 stable up to {value:.1e} s; chain {exact:.1e} s", "longest stable step of RK4"),
-        ),
-        logarithmic="xy",
-        joined=False,
-    ),
+        "Dead zone too large: creep inside", "Width of the zone [m/s]", r"$F_X - \mu_s w_1$ at release [N]", (
+        Sentence(RIGHT_OF_ALL, "transitions right"),
+        Sentence("all are right up to {value:.2g} {unit}", "zone up to which all is right"),
+    ), log="xy", vertical="zone up to which all is right", joined=False),
+    "creep": Panel("Regularised friction creeps in stick", r"Load / $\mu_s w$ [-]", "Velocity [m/s]", (
+        Sentence("{knob}:", CREEP),
+        Sentence("creeps at {value:.2%} of the drive's $V$; exact {exact:g}", CREEP),
+    ), log="y", joined=False, key="lower right", ylim=(1e-11, 3e-4)),
+    "stiffness": Panel("Regularised friction is stiff", "Width [m/s]", "Fastest rate [1/s]", (
+        Sentence("{knob}: {value:.1e} /s; chain {exact:.1e} /s", "fastest rate"),
+        Sentence("RK4 stable up to {value:.1e} s; chain {exact:.1e} s", "longest stable step of RK4"),
+    ), log="xy", joined=False),
     "missed_roots": Panel(
         "DOP853 misses two roots in a step",
-        r"Time since the last transition [$\mu$s]",
-        "Block's velocity [mm/s]",
-        (
-            Sentence(RIGHT_OF_ALL, "transitions right", "rtol = 1e-07"),
-            Sentence(
-                "{knob}: {value:.0f} of {exact:.0f}", "transitions right", "rtol = 1e-07, max_step = 1e-06 s"
-            ),
-        ),
-        scale=(MICRO, MILLI),
-    ),
-    "restart_on_root": Panel(
-        "Restart on a root: time stands still",
-        "Time [s]",
-        "Transitions [-]",
-        (
-            Sentence("{quantity}: {value:.0f}, no end; exact {exact:.0f}", "transitions at t"),
-            Sentence("{knob}: {value:.0f}; exact {exact:.0f}", "transitions in"),
-        ),
-        markers=False,
-        drawstyle="steps-post",
-    ),
+        r"Time since the last transition [$\mu$s]", "Block's velocity [mm/s]", (
+        Sentence(RIGHT_OF_ALL, "transitions right", "rtol = 1e-07"),
+        Sentence("{knob}: {value:.0f} of {exact:.0f}", "transitions right",
+                 "rtol = 1e-07, max_step = 1e-06 s"),
+    ), scale=(MICRO, MILLI)),
+    "restart_on_root": Panel("Restart on a root: time stands still", TIME, "Transitions [-]", (
+        Sentence("{quantity}: {value:.0f}, no end; exact {exact:.0f}", "transitions at t"),
+        Sentence("{knob}: {value:.0f}; exact {exact:.0f}", "transitions in"),
+    ), marked=False, drawstyle="steps-post"),
     "merged_transitions": Panel(
-        "Transitions closer than a step merged",
-        "Merged within [s]",
-        "Transitions right [-]",
-        (
-            Sentence(RIGHT_OF_ALL + ",", "transitions right"),
-            Sentence("though only {value:.0f} of them lie so close", "transitions merged"),
-        ),
-        logarithmic="x",
-        limits={"y": (0.0, None)},
-    ),
-    "forward_only": Panel(
-        r"Backward sliding forbidden ($\theta$ = 5/6)",
-        "Time [s]",
-        "$F_X$ [N]",
-        (
-            Sentence(
-                r"{knob}: $\mu_\mathrm{{sapp}}$ = {value:.4f}; exact {exact:.4f}", "mu_sapp", "theta = 5/6"
-            ),
-            Sentence(RIGHT_OF_ALL, "transitions right", "theta = -5/6"),
-        ),
-        markers=False,
-        limits={"x": (2.0, None), "y": (125.0, None)},
-    ),
-}
+        "Transitions closer than a step merged", "Merged within [s]", "Transitions right [-]", (
+        Sentence(RIGHT_OF_ALL + ",", "transitions right"),
+        Sentence("though only {value:.0f} of them lie so close", "transitions merged"),
+    ), log="x", ylim=(0.0, None)),
+    "forward_only": Panel(r"Backward sliding forbidden ($\theta$ = 5/6)", TIME, F_X, (
+        Sentence(r"{knob}: $\mu_\mathrm{{sapp}}$ = {value:.4f}; exact {exact:.4f}", "mu_sapp", "theta = 5/6"),
+        Sentence(RIGHT_OF_ALL, "transitions right", "theta = -5/6"),
+    ), marked=False, xmin=2.0, ylim=(125.0, None)),
+}  # fmt: skip
+N_LINES = max(len(panel.sentences) for panel in PANELS.values())
 
 
-def draw_failure_gallery(numbers: pd.DataFrame, curves: Mapping[str, pd.DataFrame]) -> Figure:
+def draw(numbers: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
     """Draw the ways to fail.
 
     Parameters
     ----------
     numbers : DataFrame
-        Columns way, method, knob, quantity, unit, value, exact; see `read_numbers`.
-    curves : mapping of str to DataFrame
-        By way: the curve's name, x and y in the first three columns.
+        failures.csv: columns way, method, knob, quantity, unit, value, exact.
+    curves : sequence of DataFrame
+        failures/{way}.csv in the order of `PANELS`: the curve's name, x and y in the first three columns.
 
     Raises
     ------
     ValueError
-        If a way has no curves, or a number of a sentence is missing or not the only one.
+        If a number of a sentence is missing, or not the only one.
     """
-    with style.styled():
-        figure = style.new_figure(style.PAGE_MM, HEIGHT_MM)
-        grid = figure.subplots(ROWS, COLUMNS).ravel()
-        for letter, axes, (way, panel) in zip("abcdefghijkl", grid, PANELS.items(), strict=True):
-            if way not in curves:
-                raise ValueError(f"{way}: its curves are missing")
-            try:
-                _draw_panel(axes, panel, letter, numbers[numbers["way"] == way], curves[way])
-            except LookupError as error:
-                raise ValueError(f"{way}: {error}") from None
+    with style.page(style.PAGE_MM, HEIGHT_MM, lay_out=False) as figure:
+        grid = figure.subplots(ROWS, COLUMNS).flat
+        for letter, axes, way, table in zip("abcdefghijkl", grid, PANELS, curves, strict=True):
+            _draw_panel(axes, letter, way, numbers, table)
         figure.subplots_adjust(**LAYOUT)
     return figure
 
 
-def read_numbers(path: str | Path) -> pd.DataFrame:
-    """Read the table of numbers (tables/failures.csv).
-
-    Raises
-    ------
-    ValueError
-        If a column is missing or holds something else than it should.
-    """
-    return style.read_columns(path, NUMBER_COLUMNS)
-
-
-def find_number(numbers: pd.DataFrame, quantity: str, knob: str = "", method: str = "") -> pd.Series:
-    """The only number of a way whose quantity begins so, with a knob and a method if these are given.
-
-    Raises
-    ------
-    LookupError
-        If there is none, or more than one.
-    """
-    found = numbers[numbers["quantity"].str.startswith(quantity)]
-    for column, wanted in (("knob", knob), ("method", method)):
-        found = found[found[column] == wanted] if wanted else found
-    if len(found) != 1:
-        which = ", ".join(filter(None, (repr(quantity), knob, method)))
-        raise LookupError(f"{len(found)} numbers are {which}: needed is one")
-    return found.iloc[0]
-
-
-def sentence(text: str, number: pd.Series) -> str:
-    """A sentence of a panel, with powers of ten and the names of variables as mathematics."""
-    fields = {str(key): value for key, value in number.items()}
-    return pretty(text.format(**fields)).replace("mu_s w", r"$\mu_s w$").replace(" F_X ", " $F_X$ ")
-
-
-def pretty(text: str) -> str:
-    """Write 1e-07 as a power of ten and the names of variables as mathematics."""
-    text = (
-        text.replace("dt =", r"$\Delta t$ =")
-        .replace("theta =", r"$\theta$ =")
-        .replace("= -", "= \N{MINUS SIGN}")
-    )
-    text = re.sub(r"\b1(?:\.0+)?e([-+]\d+)", lambda m: f"$10^{{{int(m[1])}}}$", text)
-    return re.sub(r"(\d+(?:\.\d+)?)e([-+]\d+)", lambda m: rf"${m[1]}\times10^{{{int(m[2])}}}$", text)
-
-
-def _draw_panel(axes: Axes, panel: Panel, letter: str, numbers: pd.DataFrame, curves: pd.DataFrame) -> None:
-    name, x, y = curves.columns[:3]
-    color = dict(zip((n for n in curves[name].unique() if _fails(n)), 2 * COLORS, strict=False))
-    for curve, points in curves.groupby(name, sort=False):
-        own = {"color": color.get(str(curve).removeprefix(THEORY_OF), style.GREY)}
-        look = dict(RIGHT.get(str(curve), own))
-        if curve in color and panel.markers:
-            look |= {"marker": "o", "markersize": 2.4}
-            look |= {"linewidth": 0.6} if panel.joined else {"linestyle": "none"}
-        if str(curve).startswith(THEORY_OF):
-            look |= {"linewidth": 0.6, "label": "_"}
-        axes.plot(
-            points[x] * panel.scale[0],
-            points[y] * panel.scale[1],
-            drawstyle=panel.drawstyle,
-            **{"label": pretty(str(curve)), **look},
-        )
+def _draw_panel(axes: Axes, letter: str, way: str, numbers: pd.DataFrame, curves: pd.DataFrame) -> None:
+    panel = PANELS[way]
+    _draw_curves(axes, panel, curves)
     if panel.vertical:
-        place = find_number(numbers, panel.vertical)["value"] * panel.scale[0]
-        axes.axvline(place, color=style.GREY, linewidth=0.6, linestyle=(0, (1, 2)), zorder=1)
-    for axis in panel.logarithmic:
-        (axes.set_xscale if axis == "x" else axes.set_yscale)("log")
-    for axis, limits in panel.limits.items():
-        (axes.set_xlim if axis == "x" else axes.set_ylim)(*limits)
-    for axis in panel.logarithmic:
-        _label(axes.xaxis if axis == "x" else axes.yaxis)
+        axes.axvline(find_number(numbers, way, panel.vertical)["value"] * panel.scale[0], **style.DOTTED)
+    axes.set_xscale("log" if "x" in panel.log else "linear")
+    axes.set_yscale("log" if "y" in panel.log else "linear")
+    axes.set(xlim=(panel.xmin, None), ylim=panel.ylim)
+    for name in panel.log:
+        _label_decades(axes.xaxis if name == "x" else axes.yaxis)
     axes.set_xlabel(panel.x, fontsize=TITLE_SIZE)
     axes.set_ylabel(panel.y, fontsize=TITLE_SIZE)
     axes.tick_params(labelsize=TEXT_SIZE)
-    axes.legend(loc=panel.legend, fontsize=LEGEND_SIZE, handlelength=1.4, borderaxespad=0.3)
-    lines = [sentence(line.text, line.find(numbers)) for line in panel.sentences]
-    axes.annotate(
-        "\n".join(lines),
-        (0, 1),
-        xytext=(TEXT_LEFT_PT, 3),
-        **_ABOVE,
-        fontsize=TEXT_SIZE,
-        color=style.VERMILION,
-    )
-    height = 4 + LINE_PT * max(len(other.sentences) for other in PANELS.values())
-    axes.annotate(
-        f"{letter}  {panel.title}", (0, 1), xytext=(TEXT_LEFT_PT, height), **_ABOVE, fontsize=TITLE_SIZE,
-        fontweight="bold",
-    )  # fmt: skip
+    axes.legend(loc=panel.key, fontsize=KEY_SIZE, handlelength=1.4, borderaxespad=0.3)
+    lines = [sentence(text, find_number(numbers, way, *which)) for text, *which in panel.sentences]
+    title = f"{letter}  {panel.title}"
+    low, high = (TEXT_LEFT_PT, TEXT_BOTTOM_PT), (TEXT_LEFT_PT, TEXT_BOTTOM_PT + 1 + N_LINES * LINE_PT)
+    axes.annotate("\n".join(lines), (0, 1), low, **ABOVE, fontsize=TEXT_SIZE, color=style.VERMILION)
+    axes.annotate(title, (0, 1), high, **ABOVE, fontsize=TITLE_SIZE, fontweight="bold")
 
 
-def _label(axis: Axis) -> None:
-    """Label the decades of a logarithmic axis; where it has few, 2 and 5 times them in place of that."""
+def _draw_curves(axes: Axes, panel: Panel, curves: pd.DataFrame) -> None:
+    name, x, y = curves.columns[:3]
+    failing = [curve for curve in curves[name].unique() if curve not in RIGHT and THEORY_OF not in curve]
+    color = dict(zip(failing, COLORS, strict=False))
+    for curve in curves[name].unique():
+        points = curves[curves[name] == curve]
+        look = RIGHT.get(curve, {"color": color.get(curve.removeprefix(THEORY_OF), style.GREY)})
+        look = {"label": pretty(curve), **look}
+        if curve in color and panel.marked:
+            look |= {"marker": "o", "markersize": 2.4}
+            look |= {"linewidth": 0.6} if panel.joined else {"linestyle": "none"}
+        if curve.startswith(THEORY_OF):
+            look |= {"linewidth": 0.6, "label": "_"}
+        axes.plot(points[x] * panel.scale[0], points[y] * panel.scale[1], drawstyle=panel.drawstyle, **look)
+
+
+def _label_decades(axis: Axis) -> None:
+    """Label the decades of a logarithmic axis; on an axis of few decades label 1, 2 and 5 times them."""
     low, high = sorted(axis.get_view_interval())
     if high < low * FEW_DECADES and low > SHORT:
         axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -415,13 +212,27 @@ def _label(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-_ABOVE: dict[str, Any] = {
-    "xycoords": "axes fraction",
-    "textcoords": "offset points",
-    "va": "bottom",
-    "annotation_clip": False,
-}
+def find_number(
+    numbers: pd.DataFrame, way: str, quantity: str, setting: str = "", method: str = ""
+) -> pd.Series:
+    """The only number of a way whose quantity begins so, with a setting and a method if these are given."""
+    found = numbers[(numbers["way"] == way) & numbers["quantity"].str.startswith(quantity)]
+    for column, wanted in (("knob", setting), ("method", method)):
+        found = found[found[column] == wanted] if wanted else found
+    if len(found) != 1:
+        raise ValueError(f"failures.csv must have one {quantity!r} for {way}, but has {len(found)}")
+    return found.iloc[0]
 
 
-def _fails(curve: str) -> bool:
-    return curve not in RIGHT and not curve.startswith(THEORY_OF)
+def sentence(text: str, number: pd.Series) -> str:
+    """Put a number into its sentence, with powers of ten and the names of variables as mathematics."""
+    written = pretty(text.format(**{str(key): value for key, value in number.items()}))
+    return written.replace("mu_s w", r"$\mu_s w$").replace(" F_X ", " $F_X$ ")
+
+
+def pretty(text: str) -> str:
+    """Write 1e-07 as a power of ten and the names of variables as mathematics."""
+    text = text.replace("dt =", r"$\Delta t$ =").replace("theta =", r"$\theta$ =")
+    text = text.replace("= -", "= \N{MINUS SIGN}")
+    text = re.sub(r"\b1(?:\.0+)?e([-+]\d+)", lambda m: f"$10^{{{int(m[1])}}}$", text)
+    return re.sub(r"(\d+(?:\.\d+)?)e([-+]\d+)", lambda m: rf"${m[1]}\times10^{{{int(m[2])}}}$", text)

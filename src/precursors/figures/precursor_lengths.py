@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,145 +13,113 @@ from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 
-from precursors.analysis.slip_rows import up_to_first_global
 from precursors.figures import style
 
 HEIGHT_MM = 76.0
-# The fill tells the sign of theta, as in the paper; a second scene of the same sign has another outline.
-OUTLINES = ("o", "s", "D", "^", "v", "h")
+# The filling tells the sign of theta, as in the paper; a second scene of the same sign has another outline.
+OUTLINES = "osD^vh"
 # All scenes meet at the global slip: circles of different size stay visible around each other.
 SIZES = {-1: 4.2, 0: 5.2, 1: 6.6}
+SHORT: dict[str, Any] = {"linestyle": "none", "marker": "x", "markersize": 2.5, "alpha": 0.5}
+SHORT |= {"markeredgewidth": 0.6}
 
 
-@dataclass(frozen=True)
-class PrecursorLengths:
-    """A scene as Fig. 13 needs it.
-
-    Parameters
-    ----------
-    slips : DataFrame
-        Slip table, see `style.read_slips`.
-    theta : float
-        Degree of non-uniformity of its normal loading.
-    n_blocks : int
-        Number N of blocks.
-    normal_load_N : float
-        Total normal load F_Z [N].
-    """
-
-    slips: pd.DataFrame
-    theta: float
-    n_blocks: int
-    normal_load_N: float
-
-
-def draw_precursor_lengths(scenes: Sequence[PrecursorLengths], with_short_events: bool = True) -> Figure:
+def draw(
+    slips: Sequence[pd.DataFrame], mu_sapp: pd.DataFrame | None = None, scenes: Sequence[str] = ()
+) -> Figure:
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
 
     Parameters
     ----------
-    scenes : sequence of PrecursorLengths
-        At least one.
-    with_short_events : bool
-        Whether the short events that Fig. 13 leaves out are shown too, faint and small.
-
-    Raises
-    ------
-    ValueError
-        If there is no scene.
+    slips : sequence of DataFrame
+        Slip tables of the scenes, {scene}_slips.csv. A scene without a slip event is left out.
+    mu_sapp : DataFrame, optional
+        mu_sapp.csv: a line marks the mean of its scenes, if all scenes have the same normal load.
+    scenes : sequence of str
+        The scenes of `mu_sapp` that count.
 
     Notes
     -----
-    Fig. 13 of the paper: solid circles for theta < 0, dotted for theta = 0, open for theta > 0. The upper
-    axis, and the line at the mean apparent static friction coefficient (Eq. 1), are there when all scenes
-    have the same normal load.
+    Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta > 0. Small crosses are
+    the short events, which Fig. 13 does not count.
     """
-    if not scenes:
-        raise ValueError("Fig. 13 has no scene: allowed is at least one")
-    with style.styled():
-        figure = style.new_figure(style.COLUMN_MM, HEIGHT_MM)
+    slips = [table for table in slips if len(table)]
+    with style.page(style.COLUMN_MM, HEIGHT_MM) as figure:
         axes = figure.subplots()
-        entries = [
-            _draw_scene(axes, scene, outline, with_short_events)
-            for scene, outline in zip(scenes, _outlines(scenes), strict=True)
-        ]
-        labels = [_label(scene, scenes) for scene in scenes]
-        if with_short_events and any(len(_short_events(scene.slips)) for scene in scenes):
-            entries.append((Line2D([], [], **_SHORT, color=style.GREY),))
+        entries = [_draw_events(axes, table, outline) for table, outline in _outlined(slips)]
+        labels = [_label(table, slips) for table in slips]
+        if any(len(_short_events(table)) for table in slips):
+            entries.append((Line2D([], [], **SHORT, color=style.GREY),))
             labels.append("short events, not counted")
-        axes.set_xlim(0, None)
-        axes.set_ylim(0, 1.06)
+        axes.set(xlim=(0, None), ylim=(0, 1.06))
         axes.set_xlabel("Tangential load $F_X$ [N]")
         axes.set_ylabel("Propagation length $L_p/L$ [-]")
-        _draw_friction_coefficient(axes, scenes)
+        normal_loads = [table["normal_load_N"].iloc[0] for table in slips]
+        if len(set(normal_loads)) == 1:
+            _draw_friction_coefficient(axes, normal_loads[0], mu_sapp, scenes)
         axes.legend(entries, labels, loc="best", handler_map={tuple: HandlerTuple(ndivide=1)}, handlelength=1)
-        style.lay_out(figure)
     return figure
 
 
-_SHORT: dict[str, Any] = {
-    "linestyle": "none",
-    "marker": "x",
-    "markersize": 2.5,
-    "markeredgewidth": 0.6,
-    "alpha": 0.5,
-}
+def _outlined(slips: Sequence[pd.DataFrame]) -> list[tuple[pd.DataFrame, str]]:
+    """The tables, each with an outline that no other table of the same sign has."""
+    used: Counter[float] = Counter()
+    pairs = []
+    for table in slips:
+        sign = np.sign(table["theta"].iloc[0])
+        pairs.append((table, OUTLINES[used[sign] % len(OUTLINES)]))
+        used[sign] += 1
+    return pairs
 
 
-def _outlines(scenes: Sequence[PrecursorLengths]) -> list[str]:
-    signs = [np.sign(scene.theta) for scene in scenes]
-    return [OUTLINES[signs[:i].count(sign) % len(OUTLINES)] for i, sign in enumerate(signs)]
-
-
-def _draw_scene(
-    axes: Axes, scene: PrecursorLengths, outline: str, with_short_events: bool
-) -> tuple[Line2D, ...]:
-    sign = int(np.sign(scene.theta))
-    color = style.theta_color(scene.theta)
-    if with_short_events:
-        short = _short_events(scene.slips)
-        axes.plot(short["load_before_N"], short["front"] / scene.n_blocks, **_SHORT, color=color, zorder=1.5)
-    kept = scene.slips[scene.slips["kept"]]
-    load, reached = kept["load_before_N"], kept["front"] / scene.n_blocks
-    marker: dict[str, Any] = {"linestyle": "none", "color": color, "markeredgewidth": 0.8}
+def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> tuple[Line2D, ...]:
+    """Draw the events of a scene; return the marks for the key."""
+    theta = slips["theta"].iloc[0]
+    sign, color = int(theta > 0) - int(theta < 0), style.theta_color(theta)
+    short = _short_events(slips)
+    axes.plot(short["load_before_N"], short["front"] / short["n_blocks"], **SHORT, color=color, zorder=1.5)
+    counted = slips[slips["kept"]]
+    points = counted["load_before_N"], counted["front"] / counted["n_blocks"]
+    look: dict[str, Any] = {"linestyle": "none", "color": color, "markeredgewidth": 0.8}
     fill = color if sign < 0 else "none"
-    drawn = axes.plot(load, reached, marker=outline, markersize=SIZES[sign], markerfacecolor=fill, **marker)
+    drawn = axes.plot(*points, marker=outline, markersize=SIZES[sign], markerfacecolor=fill, **look)
     if sign == 0:
-        drawn += axes.plot(load, reached, marker=".", markersize=0.5 * SIZES[sign], **marker)
+        drawn += axes.plot(*points, marker=".", markersize=0.5 * SIZES[sign], **look)
     return tuple(drawn)
 
 
 def _short_events(slips: pd.DataFrame) -> pd.DataFrame:
-    return up_to_first_global(slips).query("not kept")
+    """Events before the first global slip that Fig. 13 does not count."""
+    return slips[~slips["is_global"].cummax() & ~slips["kept"]]
 
 
-def _label(scene: PrecursorLengths, scenes: Sequence[PrecursorLengths]) -> str:
-    name = style.theta_text(scene.theta)
-    if len({other.n_blocks for other in scenes}) > 1:
-        name += f", $N = {scene.n_blocks}$"
-    if len({other.normal_load_N for other in scenes}) > 1:
-        name += f", $F_Z = {scene.normal_load_N:g}$ N"
-    n_kept = int(scene.slips["kept"].sum())
-    note = "" if scene.slips["is_global"].any() else ", no global slip"
-    return f"{name}: {n_kept} event{'' if n_kept == 1 else 's'}{note}"
+def _label(slips: pd.DataFrame, others: Sequence[pd.DataFrame]) -> str:
+    first = slips.iloc[0]
+    name = style.theta_text(first["theta"]) if pd.notna(first["theta"]) else r"$\theta$ unknown"
+    for column, text in (("n_blocks", ", $N = {:g}$"), ("normal_load_N", ", $F_Z = {:g}$ N")):
+        if len({table[column].iloc[0] for table in others}) > 1:
+            name += text.format(first[column])
+    n = int(slips["kept"].sum())
+    note = "" if slips["is_global"].any() else ", no global slip"
+    return f"{name}: {n} event{'' if n == 1 else 's'}{note}"
 
 
-def _draw_friction_coefficient(axes: Axes, scenes: Sequence[PrecursorLengths]) -> None:
-    normal_load = scenes[0].normal_load_N
-    if any(scene.normal_load_N != normal_load for scene in scenes):
+def _draw_friction_coefficient(
+    axes: Axes, normal_load: float, mu_sapp: pd.DataFrame | None, scenes: Sequence[str]
+) -> None:
+    """Draw F_X/F_Z as upper axis, and the mean apparent static friction coefficient (Eq. 1) as a line."""
+    scale = (lambda load: np.divide(load, normal_load), lambda mu: np.multiply(mu, normal_load))
+    axes.secondary_xaxis("top", functions=scale).set_xlabel("Friction coefficient $F_X/F_Z$ [-]")
+    if mu_sapp is None:
         return
-    upper = axes.secondary_xaxis(
-        "top", functions=(lambda load: np.divide(load, normal_load), lambda mu: np.multiply(mu, normal_load))
-    )
-    upper.set_xlabel("Friction coefficient $F_X/F_Z$ [-]")
-    up_to = [up_to_first_global(scene.slips) for scene in scenes if scene.slips["is_global"].any()]
-    if not up_to:
+    values = mu_sapp.loc[mu_sapp["is_papers"] & mu_sapp["scene"].isin(scenes), "mu_sapp"]
+    if values.empty:
         return
-    mu_sapp = float(np.mean([slips["load_before_N"].max() for slips in up_to])) / normal_load
-    axes.axvline(mu_sapp * normal_load, color=style.GREY, linewidth=0.6, linestyle=(0, (1, 2)), zorder=1)
+    load = values.mean() * normal_load
+    axes.axvline(load, **style.DOTTED)
     axes.annotate(
-        ("mean " if len(up_to) > 1 else "") + rf"$\mu_\mathrm{{sapp}} = {mu_sapp:.3f}$",
-        xy=(mu_sapp * normal_load, 0.6),
+        ("mean " if len(values) > 1 else "") + rf"$\mu_\mathrm{{sapp}} = {values.mean():.3f}$",
+        xy=(load, 0.6),
         xytext=(2, 0),
         textcoords="offset points",
         rotation=90,

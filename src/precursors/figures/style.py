@@ -1,21 +1,24 @@
-"""What the figures share: the style, the colours, reading of tables and writing of files."""
+"""The look of all figures: sizes, colours, words for numbers, the page, and the files."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from contextlib import AbstractContextManager
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
-import matplotlib
 import matplotlib.style
-import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.lines import Line2D
+from matplotlib.ticker import NullLocator
 
-from precursors.support.files import read_table, write_whole
+from precursors.support.files import write_whole
 
-# Okabe and Ito (2008): told apart by colour-blind readers too.
+# Okabe and Ito (2008): colour-blind readers can tell these colours apart, too.
 BLACK = "#000000"
 BLUE = "#0072B2"
 GREEN = "#009E73"
@@ -24,9 +27,7 @@ PURPLE = "#CC79A7"
 SKY = "#56B4E9"
 VERMILION = "#D55E00"
 GREY = "#8C8C8C"
-
-# By the sign of theta: larger load at the trailing edge, uniform, at the leading edge.
-SIGN_COLORS = {-1: VERMILION, 0: BLACK, 1: BLUE}
+PALE = "0.9"
 
 MM_PER_M = 1e3
 MM_PER_INCH = 25.4
@@ -34,21 +35,16 @@ COLUMN_MM = 85.0
 PAGE_MM = 178.0
 PNG_DPI = 150
 
-SLIP_COLUMNS = {
-    "onset_s": float,
-    "end_s": float,
-    "load_before_N": float,
-    "load_after_N": float,
-    "front": int,
-    "is_global": bool,
-    "kept": bool,
-}
-TRACE_COLUMNS = {"time_s": float, "tangential_load_N": float}
+BLOCKS_LABEL = "Number of blocks $N$ [-]"
+EVENTS_LABEL = "Events counted [-]"
+MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
+DOTTED: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "linestyle": (0, (1, 2)), "zorder": 1}
 
 _SETTINGS = {
     "font.family": "DejaVu Sans",
     "font.size": 8,
     "axes.labelsize": 8,
+    "axes.titlesize": 8,
     "axes.linewidth": 0.6,
     "axes.axisbelow": True,
     "xtick.labelsize": 7,
@@ -63,70 +59,59 @@ _SETTINGS = {
     "legend.frameon": False,
     "lines.linewidth": 0.8,
     "hatch.linewidth": 0.6,
+    "grid.linewidth": 0.3,
+    "grid.color": PALE,
     # Element ids of an SVG come from this salt instead of a random number.
     "svg.hashsalt": "precursors",
     "svg.fonttype": "path",
 }
-# Neither the hour nor the release of Matplotlib: the same table gives the same bytes.
-_METADATA: dict[str, dict[str, None]] = {"png": {"Software": None}, "svg": {"Date": None, "Creator": None}}
+# Without the date and the release of Matplotlib, the same table gives the same bytes.
+_METADATA: dict[str, dict[str, None]] = {
+    ".png": {"Software": None},
+    ".svg": {"Date": None, "Creator": None},
+}
 
 
-def styled() -> AbstractContextManager[None]:
-    """Enter the settings in which figures are made and written; a matplotlibrc of the user has no say."""
-    return matplotlib.style.context(_SETTINGS, after_reset=True)
+@contextmanager
+def page(width_mm: float, height_mm: float, lay_out: bool = True) -> Iterator[Figure]:
+    """Make a figure of a given size on paper [mm], with room for its labels when the block ends.
 
-
-def inches(millimetres: float) -> float:
-    """Convert a length on paper from mm to inches."""
-    return millimetres / MM_PER_INCH
-
-
-def new_figure(width_mm: float, height_mm: float) -> Figure:
-    """Make an empty figure of a given size [mm], to be finished by `lay_out`."""
-    return Figure(figsize=(inches(width_mm), inches(height_mm)), dpi=PNG_DPI, facecolor="white")
-
-
-def lay_out(figure: Figure) -> None:
-    """Make room for the labels, once and for all: a layout done anew for each file would differ by a hair."""
-    ConstrainedLayoutEngine().execute(figure)
+    The settings of a user's matplotlibrc have no effect. The layout is done once, because a layout for each
+    file would make the files differ slightly.
+    """
+    with matplotlib.style.context(_SETTINGS, after_reset=True):
+        size = (width_mm / MM_PER_INCH, height_mm / MM_PER_INCH)
+        figure = Figure(figsize=size, dpi=PNG_DPI, facecolor="white")
+        yield figure
+        if lay_out:
+            ConstrainedLayoutEngine().execute(figure)
 
 
 def save(figure: Figure, path: str | Path) -> None:
-    """Write a figure as PNG (150 dpi) or SVG, whole or not at all, with the same bytes every time.
+    """Write a figure as PNG (150 dpi) or SVG, complete or not at all, with the same bytes every time.
 
     Raises
     ------
     ValueError
         If the name ends neither in .png nor in .svg.
     """
-    path = Path(path)
-    kind = path.suffix.removeprefix(".").lower()
-    if kind not in _METADATA:
-        raise ValueError(f"figure {path} has the ending {path.suffix!r}: allowed are .png and .svg")
-    with styled(), write_whole(path) as temporary:
-        figure.savefig(temporary, format=kind, dpi=PNG_DPI, metadata=_METADATA[kind])
+    ending = Path(path).suffix.lower()
+    if ending not in _METADATA:
+        raise ValueError(f"a figure must be a .png or .svg file, but {path} ends in {ending!r}")
+    with matplotlib.style.context(_SETTINGS, after_reset=True), write_whole(path) as temporary:
+        figure.savefig(temporary, format=ending[1:], dpi=PNG_DPI, metadata=_METADATA[ending])
 
 
-def read_slips(path: str | Path) -> pd.DataFrame:
-    """Read a slip table (tables/{scene}_slips.csv); an unfinished event has end_s = NaN.
-
-    Raises
-    ------
-    ValueError
-        If a column is missing or holds something else than it should.
-    """
-    return read_columns(path, SLIP_COLUMNS)
+def set_ticks(axis: Axis, values: Sequence[float]) -> None:
+    """Put ticks at some values of an axis and nowhere else, labelled as decimal numbers."""
+    axis.set_ticks(values, labels=[f"{value:g}" for value in values])
+    axis.set_minor_locator(NullLocator())
 
 
-def read_trace(path: str | Path) -> pd.DataFrame:
-    """Read a trace (tables/{scene}_trace.csv): straight lines between its rows draw the tangential load.
-
-    Raises
-    ------
-    ValueError
-        If a column is missing or holds something else than it should.
-    """
-    return read_columns(path, TRACE_COLUMNS)
+def draw_band(axes: Axes, table: Any, color: str, scale: float = 1.0, **how: Any) -> None:
+    """Draw the range from column q05 to q95 over n_blocks: 5 to 95 % of the runs."""
+    low, high = table["q05"] * scale, table["q95"] * scale
+    axes.fill_between(table["n_blocks"], low, high, color=color, alpha=0.15, linewidth=0, **how)
 
 
 def fraction_text(value: float) -> str:
@@ -141,8 +126,8 @@ def theta_text(theta: float) -> str:
 
 
 def theta_color(theta: float) -> str:
-    """Colour of a scene by the sign of its theta."""
-    return SIGN_COLORS[int(theta > 0) - int(theta < 0)]
+    """Colour of a scene: by the edge that carries the larger load."""
+    return VERMILION if theta < 0 else BLUE if theta > 0 else BLACK
 
 
 def plain(text: str) -> str:
@@ -150,12 +135,12 @@ def plain(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def read_columns(path: str | Path, columns: Mapping[str, type]) -> pd.DataFrame:
-    """Read a table that has at least some columns, of some types.
+def draw_key(figure: Figure, entries: Sequence[Any], **how: Any) -> None:
+    """Draw a key below the panels, for marks that mean the same in all of them."""
+    look = {"loc": "outside lower center", "ncols": len(entries), "columnspacing": 1.4}
+    figure.legend(handles=entries, **{**look, **how})
 
-    Raises
-    ------
-    ValueError
-        If a column is missing or holds something else than it should.
-    """
-    return read_table(path, columns)
+
+def mark(label: str, **look: Any) -> Line2D:
+    """Make an entry of a key that looks like a plotted line or marker; black where no color is given."""
+    return Line2D([], [], **{"color": BLACK, **look}, label=label)

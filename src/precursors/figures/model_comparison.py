@@ -1,0 +1,134 @@
+"""Which model answers which question: questions down, models across; value, error and cost in each cell."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch, Rectangle
+
+from precursors.figures import style
+from precursors.model.scene_models import NO_ADDITION
+
+WIDTH_MM = 175.0
+ROW_MM, HEAD_MM = 14.0, 31.0
+GAP = 0.2  # between the models up to the paper's chain and those beyond it, in widths of a column
+DIM = "#5A5A5A"
+ANSWERED, MISSED, SILENT = "#CDE7DC", "#F6DDD0", "#F2F2F2"
+SMALLEST: dict[str, Any] = {"fill": False, "edgecolor": style.GREEN, "linewidth": 1.4}
+QUESTIONS = {
+    "first_load": "First precursor,\nload [N]",
+    "events_kept": style.EVENTS_LABEL,
+    "mu_sapp": style.MU_SAPP_LABEL,
+    "front_loads": "$L_p$ against $F_X$,\nload at $L/2$ [N]",
+    "slip_duration": "Global slip,\nduration [ms]",
+    "waveform": "Waveform $F_X(t)$,\npeak [N]",
+}
+SCALES = {"slip_duration": 1e3}  # from the SI unit to what is shown
+MODELS = {
+    "statics": "statics",
+    "front law": "front\nlaw",
+    "rigid slider": "rigid\nslider",
+    "overdamped chain": "over-\ndamped\nchain",
+    "quasi-static chain": "quasi-\nstatic\nchain",
+    "paper's chain": "paper's\nchain",
+    "with viscosity": "with\nviscosity",
+    "with interface springs": "with\ninterface\nsprings",
+    "with head mass": "with\nhead mass",
+}
+
+
+ORDER = {label: place for place, label in enumerate(MODELS)}
+
+
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw the values over the scenes, the largest error and the median cost of each model.
+
+    The table is model_comparison.csv. Models that add something to the paper's chain stand apart.
+    """
+    cells = table.groupby(["question", "label"]).agg(
+        low=("value", "min"),
+        high=("value", "max"),
+        error=("error", "max"),
+        error_unit=("error_unit", "first"),
+        cost_s=("cost_s", "median"),
+        is_answer=("is_answer", "all"),
+        is_smallest=("is_smallest", "any"),
+    )
+    questions = table.drop_duplicates("question")
+    models = table.drop_duplicates("label").sort_values("label", key=lambda label: label.map(ORDER))
+    places = np.arange(len(models)) + GAP * (models["addition"] != NO_ADDITION).to_numpy()
+    with style.page(WIDTH_MM, HEAD_MM + ROW_MM * len(questions)) as figure:
+        axes = figure.subplots()
+        for y, question in enumerate(questions["question"]):
+            for x, model in zip(places, models["label"], strict=True):
+                if (question, model) in cells.index:
+                    _draw_cell(axes, x, y, cells.loc[question, model], SCALES.get(question, 1.0))
+                else:
+                    axes.add_patch(_box(x, y, facecolor=SILENT))
+                    axes.text(x, y, "\N{EN DASH}", ha="center", va="center", color=style.GREY)
+        axes.set(xlim=(places[0] - 0.5, places[-1] + 0.5), ylim=(len(questions) - 0.5, -0.5))
+        axes.set_xticks(places, [_head(model) for _, model in models.iterrows()], fontsize=6.5)
+        axes.set_yticks(range(len(questions)), [_row_label(row) for _, row in questions.iterrows()])
+        axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False)
+        axes.spines[:].set_visible(False)
+        entries = [
+            Patch(color=ANSWERED, label="within the tolerance in every scene"),
+            Patch(**SMALLEST, label="smallest such model"),
+            Patch(color=MISSED, label="not within it"),
+            Patch(color=SILENT, label="no answer"),
+        ]
+        lines = "In each cell: values of the scenes, $\\bf{largest\\ error}$, median time of an answer"
+        style.draw_key(figure, entries, title=lines, title_fontsize=7)
+    return figure
+
+
+def _draw_cell(axes: Axes, x: float, y: int, cell: pd.Series, scale: float) -> None:
+    axes.add_patch(_box(x, y, facecolor=ANSWERED if cell["is_answer"] else MISSED))
+    if cell["is_smallest"]:
+        axes.add_patch(_box(x, y, **SMALLEST))
+    low, high = f"{cell['low'] * scale:.3g}", f"{cell['high'] * scale:.3g}"
+    centred: dict[str, Any] = {"ha": "center", "va": "center"}
+    axes.text(x, y - 0.26, low if low == high else f"{low}\N{EN DASH}{high}", fontsize=6, **centred)
+    error = _error_text(cell["error"], cell["error_unit"])
+    axes.text(x, y + 0.02, error, fontsize=6.5, fontweight="bold", **centred)
+    axes.text(x, y + 0.3, _time_text(cell["cost_s"]), fontsize=6, color=DIM, **centred)
+
+
+def _box(x: float, y: int, **look: Any) -> Rectangle:
+    return Rectangle((x - 0.48, y - 0.46), 0.96, 0.92, **{"edgecolor": "none", **look})
+
+
+def _head(model: pd.Series) -> str:
+    """Name of a model, and the value of what it adds."""
+    name = MODELS[model["label"]]
+    if model["addition"] == NO_ADDITION:
+        return name
+    value, _, unit = model["addition"].partition(" ")
+    number, unit = (float(value) * 1e-6, f"M{unit}") if float(value) >= 1e6 else (float(value), unit)
+    return f"{name}\n{number:.3g} {unit}"
+
+
+def _row_label(row: pd.Series) -> str:
+    within = _error_text(row["tolerance"], row["error_unit"])
+    return f"{QUESTIONS.get(row['question'], row['question'])}\n(within {within})"
+
+
+def _error_text(error: float, unit: str) -> str:
+    if error == 0:
+        return "exact"
+    if unit != "1":
+        return f"{error:g} {unit}" if error != 1 else f"1 {unit.removesuffix('s')}"
+    if error < 1e-4:
+        return rf"$10^{{{round(np.log10(error))}}}$"
+    return f"{100 * error:.2g} %" if error < 1 else f"{100 * error:.0f} %"
+
+
+def _time_text(seconds: float) -> str:
+    for size, unit in ((1e-3, "ms"), (1e-6, "µs")):
+        if seconds >= size:
+            return f"{seconds / size:.2g} {unit}" if seconds < 100 * size else f"{seconds / size:.0f} {unit}"
+    return "< 1 µs"

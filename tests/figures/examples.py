@@ -1,0 +1,294 @@
+"""Small tables for every figure, with numbers that can be told apart."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from itertools import product
+
+import numpy as np
+import pandas as pd
+
+from precursors.figures.failure_gallery import PANELS
+
+THETAS = {"fig11": -5 / 6, "fig10": 0.0, "fig12": 5 / 6}
+N_BLOCKS, LENGTH_M, NORMAL_LOAD_N = 10, 0.1, 400.0
+LOADING_RATE = 80.0  # N/s
+FRONTS = [1, 2, 3, 4, 5, 2, 6, 4, 3, 8, 3, 9, 8, 3, 1, 10]
+LOADS_N = [28.0, 47.4, 65.0, 79.0, 92.7, 99.4, 112.9, 118.4, 129.0, 142.1, 149.7, 164.7, 165.4]
+LOADS_N += [170.0, 174.9, 194.3]
+N_COUNTED = 9
+
+
+def slips(fronts=FRONTS, loads_N=LOADS_N, theta=0.0, drop_N=1.5, **columns) -> pd.DataFrame:
+    """Slip table of a load that grows steadily and drops by the same amount in each event."""
+    front, load = np.array(fronts, dtype=int), np.array(loads_N, dtype=float)
+    onset = (load + drop_N * np.arange(len(load))) / LOADING_RATE
+    is_global = front == N_BLOCKS
+    before = np.cumsum(is_global) - is_global == 0
+    table = pd.DataFrame(
+        {
+            "onset_s": onset,
+            "end_s": onset + 1e-4,
+            "load_before_N": load,
+            "load_after_N": load - drop_N,
+            "front": front,
+            "is_global": is_global,
+            "kept": (front >= np.maximum.accumulate(front)) & before if len(front) else front > 0,
+        }
+    )
+    slider = {"theta": theta, "n_blocks": N_BLOCKS, "normal_load_N": NORMAL_LOAD_N, "length_m": LENGTH_M}
+    return table.assign(**{**slider, **columns})
+
+
+def trace(events: pd.DataFrame, duration=10.0) -> pd.DataFrame:
+    """Corners of the load: its start, both ends of each drop, and the end of the run."""
+    last_s, last_N = (events["end_s"].iloc[-1], events["load_after_N"].iloc[-1]) if len(events) else (0, 0)
+    end_N = last_N + LOADING_RATE * (duration - last_s)
+    times = [0.0, *events[["onset_s", "end_s"]].to_numpy().ravel(), duration]
+    loads = [0.0, *events[["load_before_N", "load_after_N"]].to_numpy().ravel(), end_N]
+    return pd.DataFrame({"time_s": times, "tangential_load_N": loads})
+
+
+def scene(events=None, duration=10.0, title="uniform") -> dict:
+    events = slips() if events is None else events
+    return {"slips": events, "trace": trace(events, duration), "title": title}
+
+
+def precursor_lengths() -> dict:
+    tables = [
+        slips([1, 3, 2, 10], [51.3, 86.7, 120.0, 193.8], -5 / 6),
+        slips(),
+        slips([1, 1, 2, 1, 10], [4.7, 8.0, 12.0, 30.0, 195.3], 5 / 6),
+    ]
+    names = [*THETAS, "another"]
+    mu_sapp = pd.DataFrame({"scene": names, "mu_sapp": [0.48, 0.49, 0.50, 0.9], "is_papers": True})
+    return {
+        "slips": tables,
+        "mu_sapp": pd.concat([mu_sapp, mu_sapp.assign(mu_sapp=0.1, is_papers=False)]),
+        "scenes": list(THETAS),
+    }
+
+
+def work_precision(thetas=(-5 / 6, 0.0, 5 / 6), extents=("global slip", "end")) -> dict:
+    # Method, seconds, error of the load and of the time, transitions and slips right of 100 and 10.
+    points = [
+        ("exact", 1e-3, 1e-12, 1e-15, 100, 10),
+        ("rk4", 2e-3, 2.0, 1e-2, 20, 4),
+        ("rk4", 2e-2, 1e-1, 1e-3, 60, 10),
+        ("rk4", 2e-1, 1e-2, 1e-4, 100, 10),
+        ("rk4", 2e0, 1e-3, 1e-5, 100, 10),
+        ("scipy_rk45", 1e-1, 0.0, np.nan, 0, 1),
+    ]
+    rows = [
+        {
+            "theta": theta,
+            "until": until,
+            "method": method,
+            "label": f"label of {method}",
+            "evaluations": np.nan if method == "exact" else 1e5 * seconds,
+            "seconds": seconds if until == "global slip" else 5 * seconds,
+            "error_load_N": load,
+            "error_time_s": time,
+            "transitions_right": right,
+            "slips_right": n_slips,
+        }
+        for theta, until, (method, seconds, load, time, right, n_slips) in product(thetas, extents, points)
+    ]
+    true = {"transitions_found": 100, "transitions_true": 100, "slips_found": 10, "slips_true": 10}
+    return {"table": pd.DataFrame(rows).assign(**true)}
+
+
+def cost_per_event() -> dict:
+    rows = [("natural", 10, 2e-6), ("driven", 100, 5e-6), ("driven", 10, 3e-6), ("front", 100, 9e-6)]
+    return {"table": pd.DataFrame(rows, columns=["kind", "n_blocks", "seconds_per_transition"])}
+
+
+def step_sweep() -> dict:
+    points = [
+        ("exact", np.nan, 5, 10),
+        ("rk4_skip", 1e-5, 7, 3),
+        ("rk4_skip", 1e-7, 5, 10),
+        ("rk4_skip", 1e-6, 6, 4),
+        ("rk4", 1e-5, 8, 2),
+    ]
+    rows = [(name, theta, *point) for (name, theta), point in product(THETAS.items(), points)]
+    columns = ["scene", "theta", "method", "step_s", "events_kept", "transitions_right"]
+    table = pd.DataFrame(rows, columns=columns)
+    return {"table": table.assign(mu_sapp=0.1 * table["events_kept"], transitions_true=10)}
+
+
+def failure_gallery() -> dict:
+    """Numbers 1.25, 2.25 ... with exact values 2.75, 3.75 ..., and the same curves in all panels."""
+    addresses = dict.fromkeys(
+        (way, line.method or "a method", line.setting or "dt = 1e-07 s", line.quantity)
+        for way, panel in PANELS.items()
+        for line in panel.sentences
+    )
+    numbers = pd.DataFrame(list(addresses), columns=["way", "method", "knob", "quantity"])
+    row = np.arange(len(numbers))
+    curves = []
+    for panel in PANELS.values():
+        x, y = np.array([0.1, 0.2, 0.4]) / np.reshape(panel.scale, (2, 1))
+        lines = [pd.DataFrame({"curve": name, "x": x, "y": n * y}) for n, name in ((1, "exact"), (2, "bad"))]
+        curves.append(pd.concat(lines))
+    return {"numbers": numbers.assign(unit="1", value=row + 1.25, exact=row + 2.75), "curves": curves}
+
+
+def horizon() -> dict:
+    chains = {"trailing": {"theta": "-5/6"}, "fast": {"theta": "5/6", "drive_velocity": 0.01}}
+    errors = {"time_s": [0.05, 0.1, 0.15], "predicted_error_s": [1e-16, 1e-12, np.nan]}
+    errors |= {"actual_error_s": [1e-17, 1e-13, 1e-10]}
+    lost = {"duration_s": 0.2, "order_lost_s": 0.16, "horizon_s": 0.12, "right_until_s": 0.14}
+    kept = {"duration_s": 0.2, "order_lost_s": np.inf, "horizon_s": 0.2, "right_until_s": 0.2}
+    return {
+        "errors": pd.concat([pd.DataFrame(errors).assign(chain=name) for name in chains]),
+        "overview": pd.DataFrame([{"chain": "fast", **lost}, {"chain": "trailing", **kept}]),
+        "exponents": pd.DataFrame(
+            {"theta": [-5 / 6, 0.0], "exponent_per_s": [1.5, 1.7], "uncertainty_per_s": 0.3}
+        ),
+        "chains": chains,
+        "tolerance": 1e-9,
+    }
+
+
+def spread(question="loads") -> dict:
+    """The quantiles are not those of the members: the figure must draw the table's."""
+    alone = {"scene": "s", "theta": 0.5, "events_kept": 4, "mu_sapp": 0.5, "size": 0.0}
+    alone |= {"perturbation": "none"}
+    loads = [
+        {**alone, "perturbation": "normal loads", "question": "loads", "size": size, "events_kept": 4 + k}
+        for size in (1e-4, 1e-2)
+        for k in range(3)
+    ]
+    sweep = [
+        {**alone, "question": "theta", "perturbation": "sweep", "size": 0.1, "theta": 0.4 + 0.05 * k}
+        for k in range(5)
+    ]
+    row = {"scene": "s", "question": "loads", "perturbation": "normal loads", "quantity": "mu_sapp"}
+    row |= {"q05": 0.41, "q25": 0.42, "q50": 0.43, "q75": 0.44, "q95": 0.45}
+    quantiles = [{**row, "size": 1e-4}, {**row, "size": 1e-2}, {**row, "size": 1e-4, "quantity": "load"}]
+    members = [{**alone, "question": name} for name in ("loads", "theta")] + loads + sweep
+    return {"members": pd.DataFrame(members), "spread": pd.DataFrame(quantiles), "question": question}
+
+
+def resolution() -> dict:
+    quantities = {"events_kept": 100.0, "mu_sapp": 0.5, "time_s": 2.7, "front_speed_m_per_s": 1000.0}
+    rows = [
+        {"scene": "s", "theta": 0.0, "n_blocks": n, "quantity": quantity, "q50": value}
+        for (quantity, value), n in product(quantities.items(), (2, 20, 200))
+    ]
+    table = pd.DataFrame(rows)
+    table = table.assign(q05=0.9 * table["q50"], q95=1.1 * table["q50"], without_noise=table["q50"])
+    has_estimate = table["quantity"].isin(["mu_sapp", "front_speed_m_per_s"])
+    limits = pd.DataFrame({"scene": ["s"], "quantity": ["mu_sapp"], "a": [0.45], "a_error": [0.01]})
+    estimate = (1.2 * table["q50"]).where(has_estimate)
+    return {"table": table.assign(estimate=estimate), "limits": limits, "papers_n": 12}
+
+
+def resolution_models() -> dict:
+    values = {
+        "plain": (0.0, 0.0, 0.0),
+        "slow": (1e-6, 0.0, 0.0),
+        "viscous": (0.0, 54.77, 0.0),
+        "soft": (0.0, 0.0, 25e6),
+        "both": (0.0, 54.77, 25e6),
+    }
+    columns = ["viscous_time_s", "viscosity_N_s_per_m", "interface_stiffness_N_per_m"]
+    quantities = ("events_kept", "mu_sapp", "front_speed_m_per_s")
+    rows = [
+        {"model": model, "theta": 0.0, **dict(zip(columns, value, strict=True)), "n_blocks": n}
+        | {"quantity": quantity, "q05": 0.9 * n, "q50": 1.0 * n, "q95": 1.1 * n, "n": 12 if n < 100 else 6}
+        for (model, value), quantity, n in product(values.items(), quantities, (2, 10, 100))
+        if (model, n) != ("soft", 100)
+    ]
+    table = pd.DataFrame(rows)
+    runs = pd.concat([table.assign(value=share * table["n_blocks"]) for share in (0.8, 1.2)])
+    return {"table": table, "runs": runs, "papers_n": 10}
+
+
+def map_of(y="friction_ratio", ys=(1.0, 2.0, 3.0)) -> dict:
+    rows = [
+        {"theta": theta, y: value, "mu_sapp": 0.1 * value + theta} for theta in (-0.5, 0.5) for value in ys
+    ]
+    table = pd.DataFrame(rows).assign(events_kept=3, n_global=1, n_all_events=4, reached=True)
+    table.loc[0, "reached"] = False
+    return {"table": table, "x": "theta", "y": y, "scenes": [(0.25, 2.0)]}
+
+
+def long_runs() -> dict:
+    mu = {"s": [0.6, 0.50, 0.51, 0.52, 0.53], "t": [0.6, 0.50, 0.50, 0.50, 0.51]}
+    runs = [pd.DataFrame({"scene": name, "theta": 0.5 * (name == "t"), "mu": mu[name]}) for name in mu]
+    statistics = [{"scene": name, "mu_first": 0.6, "n": 4, "mean": 0.55, "deviation": 0.02} for name in mu]
+    return {"slips": pd.concat(runs), "statistics": pd.DataFrame(statistics)}
+
+
+def model_comparison() -> dict:
+    rows = [
+        ("a", "mu_sapp", "paper's chain", 0.49, 0.0, True, True, 3e-3, "none"),
+        ("a", "mu_sapp", "front law", 0.45, 0.08, False, False, 1e-7, "none"),
+        ("b", "mu_sapp", "paper's chain", 0.48, 0.0, True, True, 1e-3, "none"),
+        ("b", "mu_sapp", "front law", 0.45, 0.07, False, False, 2e-6, "none"),
+        ("a", "slip_duration", "paper's chain", 5e-4, 0.0, True, True, 2e-3, "none"),
+        ("a", "slip_duration", "with head mass", 2e-3, 3.0, False, False, 2e-3, "0.3122 kg"),
+    ]
+    columns = [
+        "scene",
+        "question",
+        "label",
+        "value",
+        "error",
+        "is_answer",
+        "is_smallest",
+        "cost_s",
+        "addition",
+    ]
+    return {"table": pd.DataFrame(rows, columns=columns).assign(error_unit="1", tolerance=0.05)}
+
+
+def definitions() -> dict:
+    lengths = [
+        "farthest block that slid",
+        "number of blocks that slid",
+        "most blocks that slid at the same instant",
+    ]
+    rows = [
+        {"global_slip": global_slip, "short": "shorter than one before it", "front": front, "theta": theta}
+        | {"events_kept": 7 + (front == lengths[2]), "mu_sapp": 0.5 if theta else np.nan}
+        for global_slip in ("in which F_X drops by more than 3 N", "in which every block slides at some time")
+        for front, theta in product(lengths, (-0.9, -0.8, -0.7, -0.5, 0.0, 0.5, 0.7, 0.8, 0.9))
+    ]
+    table = pd.DataFrame(rows)
+    return {
+        "table": table.assign(
+            events_kept_is_papers=table["events_kept"] == 7,
+            mu_sapp_is_papers_within_a_digit=False,
+            numbers_within_a_digit=np.where(table["events_kept"] == 7, 6, 2),
+        )
+    }
+
+
+# Figures by name: module and tables.
+EXAMPLES = {
+    "fig09": ("chain_schematic", dict),
+    "scene": ("scene", scene),
+    "fig13": ("precursor_lengths", precursor_lengths),
+    "definitions": ("definitions", definitions),
+    "work_precision": ("work_precision", work_precision),
+    "cost_per_event": ("cost_per_event", cost_per_event),
+    "step_sweep": ("step_sweep", step_sweep),
+    "failure_gallery": ("failure_gallery", failure_gallery),
+    "horizon": ("horizon", horizon),
+    "spread": ("spread", spread),
+    "sweep": ("spread", lambda: spread("theta")),
+    "resolution": ("resolution", resolution),
+    "resolution_models": ("resolution_models", resolution_models),
+    "map": ("map_of", map_of),
+    "long_runs": ("long_runs", long_runs),
+    "model_comparison": ("model_comparison", model_comparison),
+}
+
+
+def draw(name, **changes):
+    """Draw the example of a figure, with other tables or options where they are given."""
+    module, tables = EXAMPLES[name]
+    return import_module(f"precursors.figures.{module}").draw(**{**tables(), **changes})

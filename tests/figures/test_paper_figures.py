@@ -1,0 +1,239 @@
+"""Figs. 9-13 show what the slip tables say."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from figures import examples
+from figures.examples import LENGTH_M, N_BLOCKS, N_COUNTED, NORMAL_LOAD_N, draw, scene, slips, trace
+from matplotlib.collections import FillBetweenPolyCollection, LineCollection
+from matplotlib.colors import to_hex
+from matplotlib.text import Annotation
+
+from precursors.figures.scene import GLOBAL, MOST_ARROWS, PARTIAL
+
+# Positions pass through no arithmetic but a unit conversion.
+ROUNDING = 1e-12
+FIRST_GLOBAL_S = slips()["onset_s"].iloc[-1]
+# An event that never ends.
+ENDLESS = {"end_s": np.nan, "load_after_N": np.nan, "kept": False}
+
+
+@pytest.fixture(scope="module")
+def figure():
+    return draw("scene")
+
+
+@pytest.fixture(scope="module")
+def lengths():
+    return draw("fig13")
+
+
+def draw_scene(events, duration=10.0):
+    return draw("scene", **scene(events, duration))
+
+
+def events_drawn(axes, color):
+    """Time of each vertical line of a color, and how far it goes; all must start at the trailing edge."""
+    drawn = {}
+    for collection in axes.collections:
+        if isinstance(collection, LineCollection) and to_hex(collection.get_color()[0]) == color.lower():
+            for (x, y), (x_end, y_end) in collection.get_segments():
+                assert (x, y) == (x_end, 0)
+                drawn[float(x)] = float(y_end)
+    return drawn
+
+
+def dashed_lines(axes):
+    return [float(line.get_xdata()[0]) for line in axes.lines if line.get_linestyle() == "--"]
+
+
+def arrows(axes):
+    return [tuple(child.xy) for child in axes.get_children() if isinstance(child, Annotation)]
+
+
+def key(figure):
+    return [text.get_text() for text in figure.axes[-1].get_legend().get_texts()]
+
+
+def markers(figure, marker):
+    return [line.get_xydata() for line in figure.axes[0].lines if line.get_marker() == marker]
+
+
+def test_the_load_is_the_trace(figure):
+    np.testing.assert_array_equal(figure.axes[0].lines[0].get_xydata(), trace(slips()).to_numpy())
+
+
+def test_each_event_is_a_line_from_the_trailing_edge_as_long_as_its_front(figure):
+    for is_global, color in ((False, PARTIAL), (True, GLOBAL)):
+        events = slips()[lambda table, wanted=is_global: table["is_global"] == wanted]
+        drawn = events_drawn(figure.axes[1], color)
+        np.testing.assert_allclose(list(drawn), events["onset_s"], rtol=ROUNDING)
+        reached_mm = 1e3 * LENGTH_M * events["front"] / N_BLOCKS
+        np.testing.assert_allclose(list(drawn.values()), reached_mm, rtol=ROUNDING)
+
+
+def test_a_dashed_line_marks_the_first_global_slip_in_both_panels_and_the_inset():
+    later = slips().iloc[[-1]].assign(onset_s=5.0, end_s=5.0005, kept=False)
+    upper, lower = draw_scene(pd.concat([slips(), later], ignore_index=True)).axes
+    (inset,) = upper.child_axes
+    assert dashed_lines(upper) == dashed_lines(lower) == dashed_lines(inset) == [FIRST_GLOBAL_S]
+
+
+def test_arrows_in_the_inset_point_at_the_drops_before_the_global_slip(figure):
+    (inset,) = figure.axes[0].child_axes
+    start, end = inset.get_xlim()
+    assert start < FIRST_GLOBAL_S < end
+    seen = slips()[lambda table: (table["onset_s"] > start) & ~table["is_global"]]
+    assert 0 < len(seen) < len(slips())
+    assert arrows(inset) == list(zip(seen["onset_s"], seen["load_before_N"], strict=True))
+
+
+def test_of_hundreds_of_events_the_largest_drops_have_the_arrows():
+    rng, n = np.random.default_rng(1), 600
+    events = slips([*rng.integers(1, N_BLOCKS, n), N_BLOCKS], np.linspace(1, 190, n + 1), drop_N=0.01)
+    events["load_after_N"] = events["load_before_N"] - rng.random(n + 1)
+    figure = draw_scene(events)
+    (inset,) = figure.axes[0].child_axes
+    seen = events[(events["onset_s"] > inset.get_xlim()[0]) & ~events["is_global"]]
+    drop = seen["load_before_N"] - seen["load_after_N"]
+    marked = seen["onset_s"].isin([time for time, _ in arrows(inset)])
+    assert marked.sum() == MOST_ARROWS < len(seen)
+    assert drop[marked].min() > drop[~marked].max()
+    assert len(events_drawn(figure.axes[1], PARTIAL)) == n
+
+
+def test_the_inset_hides_no_part_of_the_load(figure):
+    upper = figure.axes[0]
+    (inset,) = upper.child_axes
+    highest = trace(slips())["tangential_load_N"].max()
+    assert upper.transData.transform((0, highest))[1] < inset.get_tightbbox().y0
+
+
+@pytest.mark.parametrize("duration", [0.7, 1000.0])
+def test_the_time_axis_is_the_run(duration):
+    assert draw_scene(slips()[lambda table: table["end_s"] < duration], duration).axes[1].get_xlim() == (
+        0,
+        duration,
+    )
+
+
+def test_a_run_that_stops_at_the_global_slip_keeps_its_line_off_the_frame():
+    assert draw_scene(slips(), slips()["end_s"].iloc[-1]).axes[1].get_xlim()[1] > 1.03 * FIRST_GLOBAL_S
+
+
+def test_a_run_without_a_global_slip_says_so_and_has_no_inset():
+    figure = draw_scene(slips()[lambda table: ~table["is_global"]])
+    upper, lower = figure.axes
+    assert upper.get_title(loc="left") == r"$\theta = 0$: uniform (no global slip)"
+    assert not upper.child_axes
+    assert dashed_lines(upper) == dashed_lines(lower) == []
+    assert key(figure) == ["partial slip"]
+
+
+def test_a_run_without_any_slip_says_so():
+    figure = draw_scene(slips([], []), duration=0.3)
+    assert [text.get_text() for text in figure.axes[1].texts] == ["no slip event"]
+    assert figure.axes[0].get_title(loc="left") == "uniform"
+
+
+def test_an_event_that_the_end_of_the_run_cuts_off_is_a_band():
+    cut_off = slips().iloc[[0]].assign(onset_s=4.0, front=7, **ENDLESS)
+    figure = draw("scene", slips=pd.concat([slips(), cut_off], ignore_index=True))
+    (band,) = [item for item in figure.axes[1].collections if isinstance(item, FillBetweenPolyCollection)]
+    np.testing.assert_allclose(
+        band.get_paths()[0].get_extents().get_points(), [[4, 0], [10, 70]], rtol=ROUNDING
+    )
+    assert key(figure)[-1] == "not over when the run ends"
+
+
+def test_an_event_that_starts_the_run_and_never_ends_is_drawn():
+    flat = pd.DataFrame({"time_s": [0.0, 1.0], "tangential_load_N": [0.0, 0.0]})
+    figure = draw("scene", slips=slips([N_BLOCKS], [0.0]).assign(**ENDLESS), trace=flat)
+    assert list(events_drawn(figure.axes[1], GLOBAL)) == [0.0]
+
+
+def test_a_chain_of_one_block_slips_over_the_whole_length():
+    figure = draw_scene(slips([1], [280.0], n_blocks=1, length_m=0.25).assign(is_global=True))
+    assert list(events_drawn(figure.axes[1], GLOBAL).values()) == [250.0]
+
+
+def test_a_dollar_sign_in_a_title_is_a_dollar_sign():
+    assert draw("scene", title="$5").axes[0].get_title(loc="left").endswith(r": \$5")
+
+
+def test_a_circle_stands_for_each_event_counted(lengths):
+    circles = markers(lengths, "o")
+    assert [len(points) for points in circles] == [3, N_COUNTED, 4]
+    counted = slips()[lambda table: table["kept"]]
+    np.testing.assert_allclose(circles[1][:, 0], counted["load_before_N"], rtol=ROUNDING)
+    np.testing.assert_allclose(circles[1][:, 1], counted["front"] / N_BLOCKS, rtol=ROUNDING)
+
+
+def test_circles_are_solid_dotted_and_open_as_in_the_paper(lengths):
+    negative, zero, positive = [line for line in lengths.axes[0].lines if line.get_marker() == "o"]
+    assert negative.get_markerfacecolor() == negative.get_color()
+    assert zero.get_markerfacecolor() == positive.get_markerfacecolor() == "none"
+    (dots,) = markers(lengths, ".")
+    np.testing.assert_array_equal(dots, zero.get_xydata())
+
+
+def test_short_events_up_to_the_global_slip_are_crosses():
+    after = slips().iloc[[0]].assign(onset_s=9.0, kept=False)
+    (crosses,) = markers(draw("fig13", slips=[pd.concat([slips(), after], ignore_index=True)]), "x")
+    assert len(crosses) == len(slips()) - N_COUNTED
+
+
+def test_the_key_counts_the_events(lengths):
+    assert key(lengths) == [
+        r"$\theta = -5/6$: 3 events",
+        r"$\theta = 0$: 9 events",
+        r"$\theta = 5/6$: 4 events",
+        "short events, not counted",
+    ]
+
+
+def test_the_upper_axis_is_the_friction_coefficient(lengths):
+    axes = lengths.axes[0]
+    (upper,) = axes.child_axes
+    np.testing.assert_allclose(upper.get_xlim(), np.divide(axes.get_xlim(), NORMAL_LOAD_N), rtol=ROUNDING)
+
+
+def test_a_line_marks_the_mean_mu_sapp_of_the_scenes_shown(lengths):
+    axes = lengths.axes[0]
+    lines = [line.get_xdata()[0] for line in axes.lines if line.get_linestyle() == "--"]
+    np.testing.assert_allclose(lines, [0.49 * NORMAL_LOAD_N], rtol=ROUNDING)
+    assert "mean" in axes.texts[0].get_text()
+    assert "0.490" in axes.texts[0].get_text()
+
+
+def test_scenes_that_differ_in_n_or_normal_load_say_so_and_have_no_common_friction_coefficient():
+    figure = draw("fig13", slips=[slips(), slips(n_blocks=20, normal_load_N=800.0)])
+    assert not figure.axes[0].child_axes
+    assert key(figure)[:2] == [
+        rf"$\theta = 0$, $N = {n}$, $F_Z = {load}$ N: 9 events" for n, load in ((10, 400), (20, 800))
+    ]
+
+
+def test_two_scenes_with_the_same_sign_of_theta_have_different_outlines():
+    figure = draw("fig13", slips=[slips(theta=0.2), slips(theta=0.4)])
+    assert [len(markers(figure, outline)) for outline in "os"] == [1, 1]
+
+
+def test_scenes_without_a_global_slip_or_any_slip_or_a_known_theta_are_drawn():
+    without = slips()[lambda table: ~table["is_global"]]
+    tables = [without, slips([], []), slips([1], [5.0], theta=np.nan)]
+    figure = draw("fig13", slips=tables, mu_sapp=None)
+    assert key(figure)[:2] == [
+        r"$\theta = 0$: 8 events, no global slip",
+        r"$\theta$ unknown: 1 event, no global slip",
+    ]
+
+
+def test_the_chain_names_what_the_equations_name():
+    texts = {text.get_text() for text in examples.draw("fig09").axes[0].texts}
+    for symbol, block in ((s, b) for s in "wfx" for b in "12N"):
+        assert f"${symbol}_{block}$" in texts
+    assert {"P", "$V$", "$K$", "$k$", "$F_X$", "$x_0 = V t$", "$\\cdots$"} <= texts
+    assert {"loading section", "material section: $N$ blocks", "trailing edge", "leading edge"} <= texts

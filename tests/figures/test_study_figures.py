@@ -1,0 +1,302 @@
+"""Figures of the studies show the columns of their tables, and failures as failures."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from figures import examples
+from figures.examples import THETAS, draw
+from matplotlib.colors import to_hex
+from matplotlib.patches import Rectangle
+
+from precursors.accuracy.failures import WAYS
+from precursors.figures import style
+from precursors.figures.failure_gallery import PANELS, pretty
+from precursors.methods import METHODS
+
+RULES = Path(__file__).parents[2] / "workflow/rules"
+
+
+def points(axes, name):
+    """Points of the line that has a label or an id."""
+    (line,) = [line for line in axes.lines if name in (line.get_label(), line.get_gid())]
+    return [(float(x), float(y)) for x, y in line.get_xydata()]
+
+
+def words(axes):
+    return " ".join(text.get_text() for text in axes.texts)
+
+
+def key(owner):
+    legend = owner.legends[0] if hasattr(owner, "legends") else owner.get_legend()
+    return [text.get_text() for text in legend.get_texts()]
+
+
+@pytest.fixture(scope="module", name="figure")
+def work_precision_figure():
+    return draw("work_precision")
+
+
+@pytest.fixture(scope="module", name="gallery")
+def failure_gallery_figure():
+    return draw("failure_gallery")
+
+
+class TestWorkPrecision:
+    def panels(self, figure):
+        return np.array(figure.axes).reshape(3, -1)
+
+    def test_errors_are_over_the_time_to_the_first_global_slip(self, figure):
+        assert [axes.get_title() for axes in figure.axes[:3]] == list(map(style.theta_text, THETAS.values()))
+        for load, time, _ in self.panels(figure).T:
+            assert points(load, "rk4 right") == [(20.0, 1e-1), (200.0, 1e-2), (2000.0, 1e-3)]
+            assert points(time, "rk4 right") == [(200.0, 1e-4), (2000.0, 1e-5)]
+            assert points(load, "exact right") == [(1.0, 1e-12)]
+
+    def test_the_part_that_is_right_is_over_the_time_of_the_whole_run(self, figure):
+        right = self.panels(figure)[2, 1]
+        assert points(right, "rk4 right") == [(1000.0, 1.0), (10000.0, 1.0)]
+        assert points(right, "rk4 wrong") == [(10.0, 0.2), (100.0, 0.6)]
+        assert right.get_xlabel() == "Wall time for the whole run [ms]"
+
+    def test_without_whole_runs_it_is_that_to_the_first_global_slip(self):
+        figure = draw("work_precision", **examples.work_precision((0.0,), ("global slip",)))
+        assert points(figure.axes[2], "rk4 wrong") == [(2.0, 0.2), (20.0, 0.6)]
+        assert figure.axes[2].get_xlabel() == "Wall time to the end of the first global slip [ms]"
+
+    def test_a_wrong_sequence_is_open_and_joined_to_nothing(self, figure):
+        for axes in figure.axes:
+            lines = {line.get_gid(): line for line in axes.lines}
+            assert lines["rk4 right"].get_linestyle() == "-"
+            assert lines["rk4 right"].get_markerfacecolor() == style.GREEN
+            assert lines["rk4 wrong"].get_linestyle() == "None"
+            assert lines["rk4 wrong"].get_markerfacecolor() == "none"
+
+    def test_a_transition_too_many_makes_the_sequence_wrong(self):
+        table = examples.work_precision((0.0,))["table"].assign(transitions_found=101)
+        load, *others = draw("work_precision", table=table).axes
+        assert len(points(load, "exact right")) == 1
+        for axes in others:
+            assert points(axes, "exact right") == []
+            assert len(points(axes, "exact wrong")) == 1
+
+    def test_an_error_that_is_none_or_unknown_is_not_drawn(self, figure):
+        for axes in figure.axes[:6]:
+            assert points(axes, "scipy_rk45 wrong") == []
+
+    def test_a_run_that_fails_at_once_does_not_set_the_scale(self):
+        table = examples.work_precision((0.0,))["table"]
+        table.loc[table["method"] == "scipy_rk45", "error_load_N"] = 1e-30
+        assert 1e-14 < draw("work_precision", table=table).axes[0].get_ylim()[0] < 1e-12
+
+    def test_evaluations_are_drawn_where_they_are_counted(self):
+        load = draw("work_precision", work="evaluations").axes[0]
+        assert points(load, "rk4 right") == [(2e3, 1e-1), (2e4, 1e-2), (2e5, 1e-3)]
+        assert "exact right" not in [line.get_gid() for line in load.lines]
+
+    def test_the_key_names_the_methods_of_the_table_known_here_or_not(self, figure):
+        assert key(figure) == [
+            "label of exact",
+            "label of scipy_rk45",
+            "label of rk4",
+            "open: wrong sequence",
+        ]
+        own = examples.work_precision()["table"].replace({"method": {"rk4": "mine"}})
+        assert len(points(draw("work_precision", table=own).axes[0], "mine right")) == 3
+
+    def test_all_methods_fit_into_the_key(self):
+        (row,) = examples.work_precision((0.0,), ("end",))["table"].head(1).to_dict("records")
+        names = {method.name: method.label for method in METHODS.values()}
+        rows = [row | {"method": name, "label": label} for name, label in names.items()]
+        figure = draw("work_precision", table=pd.DataFrame(rows))
+        box, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
+        assert min(box.x0, box.y0) >= 0
+        assert (box.x1, box.y1) <= (width, height)
+
+
+def test_the_cost_per_event_is_a_line_for_each_kind_in_microseconds():
+    (axes,) = draw("cost_per_event").axes
+    assert points(axes, "natural start") == [(10.0, pytest.approx(2.0))]
+    assert points(axes, "strained, fast drive") == [(10, pytest.approx(3.0)), (100, pytest.approx(5.0))]
+    assert points(axes, "first front through all blocks") == [(100, pytest.approx(9.0))]
+    assert [tick.get_text() for tick in axes.get_xticklabels()] == ["10", "100"]
+
+
+def test_points_of_the_step_sweep_are_green_only_where_every_transition_is_right():
+    figure = draw("step_sweep")
+    assert [axes.get_title() for axes in figure.axes[:3]] == list(map(style.theta_text, THETAS.values()))
+    wrong = "RK4, waits in closed form: some transition wrong"
+    for row, exact in zip(np.reshape(figure.axes, (3, 3)), (5.0, 0.5, 100.0), strict=True):
+        for axes in row:
+            assert points(axes, "all transitions right") == [(1e-7, exact)]
+            assert {y for _, y in points(axes, "exact")} == {exact}
+            assert [x for x, _ in points(axes, wrong)] == [1e-5, 1e-6]
+    assert [y for _, y in points(figure.axes[0], wrong)] == [7, 6]
+    assert points(figure.axes[6], "RK4, every step") == [(1e-5, 20)]
+
+
+class TestFailureGallery:
+    def test_panels_ways_and_rule_have_the_same_order(self):
+        rule = (RULES / "accuracy.smk").read_text(encoding="utf-8")
+        listed = re.findall(r'"(\w+)"', rule.partition("WAYS_TO_FAIL = [")[2].partition("]")[0])
+        assert list(PANELS) == [way.name for way in WAYS] == listed
+
+    def test_numbers_stand_as_they_are_in_the_table(self, gallery):
+        assert "1.250; theory" in words(gallery.axes[0])
+        assert "2.750" in words(gallery.axes[0])
+        numbers = examples.failure_gallery()["numbers"]
+        others = draw("failure_gallery", numbers=numbers.assign(value=numbers["value"] + 77777.0)[::-1])
+        for way, before, after in zip(PANELS, gallery.axes, others.axes, strict=True):
+            assert words(before) != words(after), way
+
+    def test_every_axis_has_two_labels_at_least(self, gallery):
+        gallery.draw_without_rendering()
+        for way, axes in zip(PANELS, gallery.axes, strict=True):
+            for axis in (axes.xaxis, axes.yaxis):
+                low, high = sorted(axis.get_view_interval())
+                ticks = [
+                    t for t in axis.get_major_ticks() if t.label1.get_text() and low <= t.get_loc() <= high
+                ]
+                assert len(ticks) >= 2, (way, axis.axis_name)
+
+    def test_curves_are_those_of_the_tables_in_the_units_of_the_axes(self, gallery):
+        for axes in gallery.axes:
+            np.testing.assert_allclose(points(axes, "bad"), [(0.1, 0.2), (0.2, 0.4), (0.4, 0.8)])
+            colors = {line.get_label(): to_hex(line.get_color()) for line in axes.lines}
+            assert (colors["exact"], colors["bad"]) == (style.BLACK, style.VERMILION.lower())
+
+    @pytest.mark.parametrize("copies", [0, 2])
+    def test_a_number_that_is_missing_or_there_twice_is_named(self, copies):
+        numbers = examples.failure_gallery()["numbers"]
+        creep = numbers["way"] == "creep"
+        with pytest.raises(ValueError, match=f"must have one .* for creep, but has {copies}"):
+            draw("failure_gallery", numbers=pd.concat([numbers[~creep], *[numbers[creep]] * copies]))
+
+    @pytest.mark.parametrize(
+        ("text", "mathematics"),
+        [
+            ("dt = 1e-07 s", r"$\Delta t$ = $10^{-7}$ s"),
+            ("1.0e-10 s", "$10^{-10}$ s"),
+            ("1.2e-10 s", r"$1.2\times10^{-10}$ s"),
+            ("21e-10", r"$21\times10^{-10}$"),
+            ("0.35 s", "0.35 s"),
+        ],
+    )
+    def test_powers_of_ten_are_written_as_mathematics(self, text, mathematics):
+        assert pretty(text) == mathematics
+
+
+def test_the_horizon_marks_until_when_the_tolerance_is_met_and_where_the_order_is_lost():
+    kept, lost, exponents = draw("horizon").axes[:3]
+    assert (kept.get_title(), lost.get_title()) == (r"$\theta = -5/6$", r"$\theta = 5/6$, $V$ = 10 mm/s")
+    for axes, times in ((kept, []), (lost, [0.12, 0.14])):
+        ends = [line.get_xdata() for line in axes.lines if len(line.get_xdata()) == 2]
+        assert [start for start, end in ends if start == end] == times
+    assert [list(line.get_xydata()[0]) for line in lost.lines if line.get_marker() == "x"] == [[0.15, 1e-10]]
+    assert [label.get_text() for label in exponents.get_yticklabels()] == [
+        r"$\theta = -5/6$",
+        r"$\theta = 0$",
+    ]
+
+
+def test_bars_and_shades_of_the_spread_are_those_of_the_ensembles():
+    bars, counts = draw("spread").axes[:2]
+    assert points(bars, "median of the runs") == [(0.0, 0.43), (1.0, 0.43)]
+    cells = [patch for patch in counts.patches if isinstance(patch, Rectangle)]
+    places = {(cell.get_x() + 0.5, cell.get_y() + 0.5) for cell in cells}
+    assert places == {(place, count) for place in (0.0, 1.0) for count in (4.0, 5.0, 6.0)}
+    assert len({cell.get_facecolor() for cell in cells}) == 1  # a third each
+
+
+def test_every_run_of_the_sweep_is_a_dot_at_its_change_of_theta():
+    dots = draw("sweep").axes[0].lines[0]
+    assert dots.get_xdata().tolist() == pytest.approx([-100, -50, 0, 50, 100])
+
+
+@pytest.mark.parametrize(
+    ("y", "ys"), [("friction_ratio", (1.0, 2.0, 3.0)), ("drive_velocity", (1.0, 2.0, 4.0))]
+)
+def test_a_cell_of_a_map_is_the_run_at_its_place(y, ys):
+    figure = draw("map", **examples.map_of(y, ys))
+    meshes = [axes.collections[0] for axes in figure.axes[:3]]
+    counts, mu_sapp, share = (np.ma.filled(mesh.get_array().astype(float), np.nan) for mesh in meshes)
+    np.testing.assert_allclose(np.reshape(mu_sapp, (3, 2)), [[0.1 * v - 0.5, 0.1 * v + 0.5] for v in ys])
+    np.testing.assert_allclose(np.ravel(share), 25.0)
+    assert np.isnan(np.ravel(counts)).tolist() == [True] + [False] * 5
+    for axes, mesh in zip(figure.axes[:3], meshes, strict=True):
+        assert axes.get_yscale() == ("log" if y == "drive_velocity" else "linear")
+        assert all(tuple(line.get_xydata()[0]) == (0.25, 2.0) for line in axes.lines)
+        below, above = mesh.get_coordinates()[1:3, 0, 1]
+        middle = np.sqrt(below * above) if y == "drive_velocity" else (below + above) / 2
+        assert middle == pytest.approx(2.0)
+
+
+def test_lines_of_the_resolution_are_medians_estimates_and_the_papers_n():
+    figure = draw("resolution")
+    values = (100.0, 0.5, 2.7, 1.0)  # the front speed in km/s
+    for axes, value in zip(figure.axes, values, strict=True):
+        assert axes.lines[0].get_ydata() == pytest.approx([value] * 3)
+        assert [12, 12] in [list(line.get_xdata()) for line in axes.lines]
+    for axes, label in (
+        (figure.axes[1], r"$\mu_k + 2(\mu_s-\mu_k)/N$"),
+        (figure.axes[3], r"$c=\sqrt{ESL/M}$"),
+    ):
+        assert [y for _, y in points(axes, label)] == pytest.approx([1.2 * axes.lines[0].get_ydata()[0]] * 3)
+
+
+def test_each_larger_model_is_a_line_in_the_row_of_its_kind_beside_the_papers_chain():
+    figure = draw("resolution_models")
+    assert [key(axes) for axes in figure.axes[::3]] == [
+        ["paper's chain", "$t_v = 1$ µs", r"$\eta = 54.8$ N s/m"],
+        ["paper's chain", "$K_t = 25$ MN/m"],
+        ["paper's chain", r"$K_t = 25$ MN/m, $\eta = 54.8$ N s/m"],
+    ]
+    # A model that ends early has a line that ends early.
+    assert points(figure.axes[3], "$K_t = 25$ MN/m") == [(2.0, 2.0), (10.0, 10.0)]
+
+
+def test_few_runs_are_dots_and_many_a_band():
+    axes = draw("resolution_models").axes[0]
+    dots = [line for line in axes.lines if line.get_marker() == "."]
+    assert [sorted(map(tuple, line.get_xydata())) for line in dots] == [[(100, 80.0), (100, 120.0)]] * 3
+    for band in axes.collections:
+        corners = np.concatenate([path.vertices for path in band.get_paths()])
+        assert (corners[:, 0].min(), corners[:, 0].max()) == (2, 10)
+
+
+def test_the_histogram_of_a_long_run_leaves_the_first_slip_out_and_its_numbers_are_the_tables():
+    above, axes = draw("long_runs").axes
+    assert [outline.get_xy()[:, 1].max() for outline in axes.patches] == pytest.approx([25.0, 75.0])
+    assert key(axes) == [r"$\theta = 0$: 4 slips", r"$\theta = 1/2$: 4 slips"]
+    assert [text.get_text() for text in above.texts] == [r"0.550 $\pm$ 0.020"] * 2
+    marks = {
+        (line.get_color(), float(line.get_ydata()[0])) for line in above.lines if line.get_marker() == "^"
+    }
+    assert sorted(row for _, row in marks) == [0.0, 1.0]  # no mark is on the row of another scene
+    assert len({color for color, _ in marks}) == 2
+
+
+def test_a_cell_of_the_model_comparison_has_range_largest_error_and_median_time():
+    (axes,) = draw("model_comparison").axes
+    texts = [text.get_text() for text in axes.texts]
+    assert texts[:6] == ["0.45", "8 %", "1.1 µs", "0.48\N{EN DASH}0.49", "exact", "2 ms"]
+    assert texts[-3:] == ["2", "300 %", "2 ms"]
+    heads = [label.get_text() for label in axes.get_xticklabels()]
+    assert heads == ["front\nlaw", "paper's\nchain", "with\nhead mass\n0.312 kg"]
+    assert len([patch for patch in axes.patches if not patch.get_fill()]) == 2  # a frame for each question
+
+
+def test_a_row_of_the_definitions_is_a_reading_and_equal_lengths_share_it():
+    left, right = draw("definitions").axes
+    cells = [text.get_text() for text in left.texts if re.match(r"\d", text.get_text())]
+    rows = [[f"{n}\n{'-' if theta == 4 else '0.500'}" for theta in range(9)] for n in (7, 8)]
+    assert cells == 2 * [*rows[0], *rows[1]]
+    assert [text.get_text() for text in right.texts] == (["6"] * 4 + ["2"] * 4) * 2
+    assert [label.get_text() for label in left.get_yticklabels()] == [
+        "farthest block =\nall that slid",
+        "most at once",
+    ] * 2
