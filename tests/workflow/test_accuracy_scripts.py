@@ -61,7 +61,9 @@ def test_a_name_that_is_no_methods_is_refused_before_anything_is_measured(files)
 
 
 def test_the_charts_are_drawn_from_the_tables(files):
-    methods, time, evaluations = (str(files / name) for name in ("methods.csv", "time.png", "evaluations.svg"))
+    methods, time, evaluations = (
+        str(files / name) for name in ("methods.csv", "time.png", "evaluations.svg")
+    )
     draw.main("work_precision", {"table": methods}, {}, [time])
     draw.main("work_precision", {"table": methods}, {"work": "evaluations"}, [evaluations])
     draw.main("cost_per_event", {"table": str(files / "growth.csv")}, {}, [str(files / "cost.svg")])
