@@ -1,7 +1,5 @@
 """What every script of the workflow needs: its job, one line on an error, and the threads it was given."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sys
@@ -12,31 +10,24 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-# Snakemake sets OMP_NUM_THREADS from the rule's `threads`; Numba reads its own variable when it is imported.
+# Numba reads its variable when it is imported; Snakemake sets the other from the `threads` of the rule.
 os.environ.setdefault("NUMBA_NUM_THREADS", os.environ.get("OMP_NUM_THREADS", "1"))
 
 
 @contextmanager
 def job() -> Iterator[Any]:
-    """Yield the object `snakemake` that Snakemake gives a script, and keep the log of the job.
+    """Yield the object `snakemake` of a script, and write the log of its job.
 
-    An error becomes one line in the log and on the terminal; one that is neither a bad value nor a file that
-    cannot be used has its traceback in the log besides.
+    A wrong value or file is one line in the log and on the terminal. Other errors add their traceback to the log.
     """
     snakemake = vars(sys.modules["__main__"])["snakemake"]
-    # Python's own handler waits until compiled code returns, and prints a traceback.
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-    log = Path(snakemake.log[0])
-    name = ", ".join([snakemake.rule, *snakemake.wildcards])
-    start = perf_counter()
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Python's own handler waits until compiled code returns
+    log, name, start = Path(snakemake.log[0]), ", ".join([snakemake.rule, *snakemake.wildcards]), perf_counter()
     try:
         yield snakemake
     except Exception as error:
-        line = f"{name}: {' '.join(str(error).split()) or type(error).__name__}"
+        line = f"{name}: {' '.join(str(error).split()) or type(error).__name__}\n"
         expected = isinstance(error, ValueError | OSError)
-        log.write_text(f"{line}\n" if expected else f"{line}\n\n{traceback.format_exc()}", encoding="utf-8")
-        print(line, file=sys.stderr)
-        sys.exit(1)
-    log.write_text(
-        f"{name}: {perf_counter() - start:.3f} s, wrote {', '.join(snakemake.output)}\n", encoding="utf-8"
-    )
+        log.write_text(line if expected else f"{line}\n{traceback.format_exc()}", encoding="utf-8")
+        sys.exit(line.rstrip())
+    log.write_text(f"{name}: {perf_counter() - start:.3f} s\n", encoding="utf-8")
