@@ -2,7 +2,6 @@
 
 import re
 import shutil
-from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -11,57 +10,47 @@ from conftest import ROOT, Workspace
 from precursors import Chain
 from precursors.hierarchy.models import answers_table
 
+PAPERS = ("fig10", "fig11", "fig12")
 SCENE_JOBS = {"simulate_scene", "tabulate_slips", "tabulate_trace", "draw_scene"}
-# Rules that `all` leaves out.
-ON_DEMAND = {
-    "accuracy_full",
-    "answer_scene",
-    "certify_scene",
-    "prove_again",
-    "prove_scenes",
-    "write_provenance",  # part of `all`, but in no list of jobs here
-}
-RULES = {
-    rule
-    for file in (ROOT / "workflow/rules").glob("*.smk")
-    for rule in re.findall(r"^rule (\w+):", file.read_text(encoding="utf-8"), flags=re.MULTILINE)
-}
-SHARED_JOBS = RULES - SCENE_JOBS - ON_DEMAND
+# Rules that `all` leaves out, and write_provenance, which conftest leaves out of all lists of jobs.
+ON_DEMAND = {"answer_scene", "certify_scene", "prove_again", "write_provenance"}
 # The paper shows nearly all tables and figures, and is set again when one of them may change.
 PAPER = {"write_paper"}
 LISTS_OF_SCENES = {"tabulate_mu_sapp", "tabulate_reproduction", "evaluate_claims", "write_explorer"} | PAPER
-PAPERS = ("fig10", "fig11", "fig12")
-NEW_SCENE = """\
+STEEP = """\
   steep:
     title: nearly all of the load at the leading edge
     theta: "9/10"
     duration: 1.0
 """
-ASKED_SCENE = """\
+ASKED = """\
   quick:
     title: what a smaller model says
     theta: "9/10"
     model: {model}
 """
-SOFT_SCENE = """\
-  soft:
-    title: an interface with springs and viscosity
-    theta: "9/10"
-    model: interface
-    interface_stiffness: 25.0e+6
-    viscosity: 54.77
-"""
 
 
-def of(scene):
-    return {f"{job} {scene}" for job in SCENE_JOBS}
+def of(*scenes):
+    """The jobs of some scenes."""
+    return {f"{job} {scene}" for job in SCENE_JOBS for scene in scenes}
+
+
+def add(workspace, scene):
+    workspace.edit("config.yaml", "\nfig13: [", f"{scene}\nfig13: [")
+
+
+def edit_module(workspace, name):
+    """Add a line to a module of the library."""
+    assert (workspace.path / f"src/precursors/{name}.py").is_file()
+    workspace.append(f"src/precursors/{name}.py", "\nCHANGED = True\n")
 
 
 @pytest.fixture(scope="module")
 def _more_scenes(_finished, tmp_path_factory):
     workspace = Workspace(tmp_path_factory.mktemp("more_scenes") / "copy")
     shutil.copytree(_finished.path, workspace.path)
-    add(workspace, NEW_SCENE + SOFT_SCENE + ASKED_SCENE.format(model="chain"))
+    add(workspace, STEEP + ASKED.format(model="law"))
     outcome = workspace.pretend("-c2", "all")
     assert outcome.code == 0, outcome.text
     return workspace
@@ -69,32 +58,31 @@ def _more_scenes(_finished, tmp_path_factory):
 
 @pytest.fixture
 def more_scenes(_more_scenes, tmp_path):
-    """As `finished`, with a scene more of every kind that was run to the end as well."""
+    """As `finished`, with two more scenes that were run to the end as well."""
     shutil.copytree(_more_scenes.path, tmp_path / "copy")
     return Workspace(tmp_path / "copy")
 
 
-def add(workspace, scene):
-    workspace.edit("config.yaml", "\nfig13: [", f"{scene}\nfig13: [")
-
-
-def test_a_dry_run_lists_every_job_of_the_paper(untouched):
-    _, outcome = untouched
+def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
+    workspace, outcome = untouched
     assert outcome.code == 0, outcome.text
-    assert outcome.jobs == of("fig10") | of("fig11") | of("fig12") | SHARED_JOBS
-
-
-def test_a_dry_run_writes_nothing(untouched):
-    workspace, _ = untouched
+    rules = {
+        rule
+        for file in (ROOT / "workflow/rules").glob("*.smk")
+        for text in re.split(r"^(?=rule )", file.read_text(encoding="utf-8"), flags=re.MULTILINE)
+        for rule in re.findall(r"\Arule (\w+):", text)
+        if "\n    output:" in text
+    }
+    assert rules - SCENE_JOBS - ON_DEMAND <= outcome.jobs
+    assert of(*PAPERS) <= outcome.jobs
+    assert not ON_DEMAND & outcome.jobs
     assert not (workspace.path / "results").exists()
 
 
 def test_a_single_figure_needs_its_own_jobs_only(untouched):
     workspace, _ = untouched
-    outcome = workspace.run("-n", "results/figures/fig13.svg")
-    assert outcome.jobs == {f"{job} {s}" for job in ("simulate_scene", "tabulate_slips") for s in PAPERS} | {
-        "draw_fig13"
-    }
+    jobs = workspace.run("-n", "results/figures/fig11.svg").jobs
+    assert jobs == of("fig11")
 
 
 def test_a_second_run_has_nothing_to_do(finished):
@@ -105,87 +93,30 @@ def test_a_second_run_has_nothing_to_do(finished):
     assert finished.results() == before
 
 
-def test_four_lines_make_a_new_scene(finished):
-    add(finished, NEW_SCENE)
-    assert finished.would_run() == of("steep") | LISTS_OF_SCENES
+def test_the_provenance_comes_after_all_figures_and_follows_an_edit(finished):
+    outcome = finished.run("-n", "-F", "all")
+    (needed,) = re.findall(r"rule write_provenance:\n    input: (.+)", outcome.text)
+    figures = {f"results/figures/{file.name}" for file in (finished.path / "results/figures").glob("*.svg")}
+    assert len(figures) > 20
+    assert figures <= set(needed.split(", "))
+    edit_module(finished, "figures/scene")
+    assert "rule write_provenance:" in finished.run("-n", "all").text
 
 
-def test_a_scene_may_have_any_name_that_is_a_word(finished):
-    add(finished, NEW_SCENE.replace("steep", "fig10_slips"))
-    assert finished.would_run() == of("fig10_slips") | LISTS_OF_SCENES
-
-
-def test_an_edit_of_a_figure_module_redraws_its_figures_only(finished):
-    """All are edited at once, and each job must name the modules for which it is run."""
-    redrawn = {
-        "chain_schematic": {"draw_fig09"},
-        "scene": {"draw_scene fig10", "draw_scene fig11", "draw_scene fig12"},
-        "precursor_lengths": {"draw_fig13"},
-        "definitions": {"draw_definitions"},
-        "spread": {"draw_spread"},
-        "map_of": {"draw_map"},
-    }
-    for module in redrawn:
-        finished.append(f"src/precursors/figures/{module}.py", "\nCOLOR = 'red'\n")
-    reasons = finished.run("-n", "all").reasons
-    assert reasons == {
-        job: {f"src/precursors/figures/{module}.py"} for module, jobs in redrawn.items() for job in jobs
-    } | {"write_paper": reasons["write_paper"]}
-    # Not the figure of definitions, which the paper does not show.
-    shown = {Path(figure).stem.split("_")[0] for figure in reasons["write_paper"]}
-    assert shown == {"fig09", *PAPERS, "fig13", "map", "spread"}
-
-
-def test_an_edit_of_the_style_redraws_all_figures_and_simulates_nothing(finished):
-    finished.append("src/precursors/figures/style.py", "\nCOLOR = 'red'\n")
-    drawings = {job for job in SHARED_JOBS if job.startswith("draw_")}
-    scenes = {f"draw_scene {scene}" for scene in PAPERS}
-    assert finished.would_run() == drawings | scenes | {"write_explorer"} | PAPER
-
-
-def test_an_edit_of_the_solver_simulates_again(finished):
-    """All are edited at once, and each job must name every module."""
-    modules = {
-        f"src/precursors/{module}.py" for module in ("chain", "exact", "kernel/watch", "kernel/lanes", "run")
-    }
-    for module in modules:
-        finished.append(module, "\nCHANGED = True\n")
-    reasons = finished.run("-n", "all").reasons
-    assert all(reasons[f"simulate_scene {scene}"] == modules for scene in PAPERS)
-
-
-def test_an_edit_of_the_estimate_of_errors_simulates_and_proves_nothing(finished):
-    finished.append("src/precursors/horizon.py", "\nCHANGED = True\n")
-    assert finished.would_run() == {"tabulate_horizon", "draw_horizon"} | PAPER
-
-
-def test_an_edit_of_how_proof_and_run_are_compared_proves_and_simulates_nothing(finished):
-    finished.append("src/precursors/accuracy/compare.py", "\nCHANGED = True\n")
-    assert finished.would_run() == {"tabulate_horizon", "draw_horizon"} | PAPER
-
-
-def test_an_edit_of_how_tables_are_written_makes_all_of_them_again(finished):
-    finished.append("src/precursors/table_files.py", "\nCHANGED = True\n")
-    jobs = finished.would_run()
-    assert {job for job in SHARED_JOBS if job.startswith("tabulate_")} <= jobs
-    assert not {f"simulate_scene {scene}" for scene in PAPERS} & jobs
-    assert not {"run_chunk", "take_certificates"} & jobs
-
-
-def test_an_edit_of_how_jobs_are_logged_runs_nothing(finished):
-    finished.append("workflow/scripts/job.py", "\nCHANGED = True\n")
-    finished.append("src/precursors/progress.py", "\nCHANGED = True\n")
-    assert finished.would_run() == set()
-
-
-def test_an_edit_of_a_script_runs_its_rule_again(finished):
-    finished.append("workflow/scripts/judge_claims.py", "\n# edited\n")
-    assert finished.would_run() == {"judge_claims"} | PAPER
+@pytest.mark.parametrize("name", ["steep", "fig10_slips"])
+def test_four_lines_make_a_new_scene_of_any_name(finished, name):
+    add(finished, STEEP.replace("steep", name))
+    assert finished.would_run() == of(name) | LISTS_OF_SCENES
 
 
 def test_an_edit_of_a_scene_runs_that_scene_only(more_scenes):
     more_scenes.edit("config.yaml", 'leading edge\n    theta: "9/10"', 'leading edge\n    theta: "8/10"')
     assert more_scenes.would_run() == of("steep") | LISTS_OF_SCENES
+
+
+def test_another_model_asks_that_scene_again_and_nothing_else(more_scenes):
+    more_scenes.edit("config.yaml", "model: law", "model: rigid")
+    assert more_scenes.would_run() == {"answer_scene quick"}
 
 
 def test_a_new_title_simulates_nothing(finished):
@@ -199,34 +130,6 @@ def test_a_new_number_of_the_paper_simulates_nothing(finished):
     assert finished.would_run() == {"tabulate_reproduction", "evaluate_claims"} | of_definitions | PAPER
 
 
-def test_the_full_comparison_of_methods_is_a_target_of_its_own(workspace):
-    assert workspace.run("-n", "accuracy_full").jobs == {
-        "take_certificates",
-        "measure_methods_fully",
-        "draw_work_precision",
-        "draw_work_precision_evaluations",
-        "tabulate_step_sweep",
-        "draw_step_sweep",
-        "accuracy_full",
-    }
-
-
-def test_an_edit_of_a_method_measures_again_and_proves_nothing(finished):
-    finished.append("src/precursors/integrators/moreau_jean.py", "\nCHANGED = True\n")
-    jobs = finished.would_run()
-    assert {"measure_methods", "draw_work_precision"} <= jobs
-    assert not {"take_certificates", "measure_growth", "measure_methods_fully"} & jobs
-
-
-def test_an_edit_of_a_chart_measures_nothing(finished):
-    finished.append("src/precursors/figures/cost_per_event.py", "\nCOLOR = 'red'\n")
-    finished.append("src/precursors/figures/work_precision.py", "\nCOLOR = 'red'\n")
-    assert (
-        finished.would_run()
-        == {"draw_cost_per_event", "draw_work_precision", "draw_work_precision_evaluations"} | PAPER
-    )
-
-
 def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):
     finished.edit("config.yaml", "n_blocks: 10\n  mu_s", "n_blocks: 20\n  mu_s")
     jobs = finished.would_run()
@@ -234,9 +137,69 @@ def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(fi
     assert not {"measure_methods", "measure_growth"} & jobs
 
 
+@pytest.mark.parametrize(
+    ("module", "jobs"),
+    [
+        ("figures/scene", {f"draw_scene {scene}" for scene in PAPERS}),
+        ("figures/spread", {"draw_spread"}),
+        ("figures/definitions", {"draw_definitions"}),
+    ],
+)
+def test_an_edit_of_a_figure_module_draws_its_figures_again_and_nothing_else(finished, module, jobs):
+    edit_module(finished, module)
+    assert finished.would_run() - PAPER == jobs
+
+
+def test_an_edit_of_the_style_draws_all_figures_and_computes_nothing(finished):
+    edit_module(finished, "figures/style")
+    jobs = finished.would_run()
+    assert {"draw_fig13", "draw_horizon", "draw_scene fig10"} <= jobs
+    assert {job for job in jobs if not job.startswith("draw_")} <= {"write_explorer"} | PAPER
+
+
+def test_an_edit_of_the_solver_simulates_again(finished):
+    edit_module(finished, "solver/kernel/events")
+    reasons = finished.run("-n", "all").reasons
+    assert all(
+        reasons[f"simulate_scene {scene}"] == {"src/precursors/solver/kernel/events.py"} for scene in PAPERS
+    )
+
+
+def test_an_edit_of_a_method_measures_again_and_simulates_nothing(finished):
+    edit_module(finished, "methods/moreau_jean")
+    jobs = finished.would_run()
+    assert {"measure_methods", "draw_work_precision"} <= jobs
+    assert not ({"take_certificates", "measure_growth", "run_chunk"} | of(*PAPERS)) & jobs
+
+
+def test_an_edit_of_a_script_runs_its_rule_again(finished):
+    finished.append("workflow/scripts/tabulate_mu_sapp.py", "\n# edited\n")
+    jobs = finished.would_run()
+    assert "tabulate_mu_sapp" in jobs
+    assert not of(*PAPERS) & jobs
+
+
+def test_an_edit_of_how_jobs_are_logged_or_files_are_written_runs_nothing(finished):
+    finished.append("workflow/scripts/job.py", "\nCHANGED = True\n")
+    edit_module(finished, "support/timing")
+    assert finished.would_run() == set()
+
+
+def test_an_edit_of_the_text_sets_the_paper_again_and_nothing_else(finished):
+    finished.append("paper/sections/limits.typ", "\nOne sentence more.\n")
+    assert finished.would_run() == PAPER
+
+
 def test_an_edit_of_a_claim_compares_again_and_computes_nothing_else(finished):
-    finished.append("src/precursors/reproduction/claims_results.py", "\nCHANGED = True\n")
+    edit_module(finished, "reproduction/claims_results")
     assert finished.would_run() == {"evaluate_claims"} | PAPER
+
+
+def test_the_full_comparison_of_methods_is_a_target_of_its_own(untouched):
+    workspace, _ = untouched
+    jobs = workspace.run("-n", "accuracy_full").jobs
+    assert {"measure_methods", "draw_work_precision", "tabulate_step_sweep", "draw_step_sweep"} <= jobs
+    assert not {"simulate_scene fig10", "run_chunk"} & jobs
 
 
 def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(workspace):
@@ -247,41 +210,17 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(wo
     assert not {"evaluate_claims", "write_paper"} & jobs
 
 
-def test_a_scene_of_the_paper_given_by_theta_leaves_out_the_paper_and_runs(workspace):
-    workspace.edit("config.yaml", "    load_cell_a: 200.0\n    load_cell_b: 200.0\n", "    theta: 0\n")
-    jobs = workspace.would_run()
-    assert "simulate_scene fig10" in jobs
-    assert "write_paper" not in jobs
-
-
-def test_an_edit_of_the_text_sets_the_paper_again_and_nothing_else(finished):
-    finished.append("paper/sections/limits.typ", "\nOne sentence more.\n")
-    assert finished.would_run() == PAPER
-
-
 @pytest.mark.parametrize("model", ["quasistatic", "chain"])
-def test_a_scene_that_names_a_model_is_answered_and_has_no_run(finished, model):
-    add(finished, ASKED_SCENE.format(model=model))
+def test_a_scene_that_names_a_model_is_answered_and_not_run(finished, model):
+    add(finished, ASKED.format(model=model))
     assert finished.would_run() == {"answer_scene quick"}
-    outcome = finished.run("-n", "results/runs/quick.h5")
-    assert outcome.code != 0
-    assert "MissingRuleException" in outcome.text
+    assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
 
 
-def test_a_new_value_of_an_addition_asks_that_scene_only(finished):
-    add(finished, ASKED_SCENE.format(model="law") + SOFT_SCENE)
-    assert finished.would_run() == {"answer_scene quick", "answer_scene soft"}
-
-
-def test_scenes_with_models_are_computed(compiled_workspace):
-    workspace = compiled_workspace
-    add(workspace, ASKED_SCENE.format(model="chain") + SOFT_SCENE)
-    outcome = workspace.run("-c1", "results/tables/quick_answers.csv", "results/tables/soft_answers.csv")
+def test_the_answer_of_a_model_is_computed(compiled_workspace):
+    add(compiled_workspace, ASKED.format(model="chain"))
+    outcome = compiled_workspace.run("-c1", "results/tables/quick_answers.csv")
     assert outcome.code == 0, outcome.text
-    results = workspace.path / "results"
-    quick, soft = (pd.read_csv(results / f"tables/{scene}_answers.csv") for scene in ("quick", "soft"))
-    chain = Chain.from_slider(theta="9/10")
-    pd.testing.assert_frame_equal(quick, answers_table(chain, "chain"), check_dtype=False)
-    additions = {"interface_stiffness": 25e6, "viscosity": 54.77}
-    pd.testing.assert_frame_equal(soft, answers_table(chain, "interface", additions), check_dtype=False)
-    assert not (results / "runs").exists()
+    answers = pd.read_csv(compiled_workspace.path / "results/tables/quick_answers.csv")
+    expected = answers_table(Chain.from_slider(theta="9/10"), "chain", {}).reset_index(drop=True)
+    pd.testing.assert_frame_equal(answers, expected, check_dtype=False)

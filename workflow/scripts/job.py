@@ -18,11 +18,15 @@ os.environ.setdefault("NUMBA_NUM_THREADS", os.environ.get("OMP_NUM_THREADS", "1"
 def job() -> Iterator[Any]:
     """Yield the object `snakemake` of a script, and write the log of its job.
 
-    A wrong value or file is one line in the log and on the terminal. Other errors add their traceback to the log.
+    A wrong value or file is one line in the log and on the terminal; other errors add a traceback to the log.
     """
     snakemake = vars(sys.modules["__main__"])["snakemake"]
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # Python's own handler waits until compiled code returns
-    log, name, start = Path(snakemake.log[0]), ", ".join([snakemake.rule, *snakemake.wildcards]), perf_counter()
+    log, name, start = (
+        Path(snakemake.log[0]),
+        ", ".join([snakemake.rule, *snakemake.wildcards]),
+        perf_counter(),
+    )
     try:
         yield snakemake
     except Exception as error:
