@@ -57,7 +57,7 @@ rule accuracy_full:
 rule take_certificates:
     input:
         committed=[path for chain in CHAINS for path in certificate_path(COMMITTED, chain)],
-        code=package("model/chain", "accuracy/proof"),
+        code=package("model", "accuracy/proof"),
     output:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
     log:
@@ -80,7 +80,7 @@ rule prove_scenes:
 rule prove_again:
     input:
         certificate="results/certificates/chains/{chain}.json.gz",
-        code=package("model/chain", "accuracy/proof"),
+        code=package("model", "accuracy/proof"),
     output:
         table="results/tables/proved/{chain}.csv",
     log:
@@ -92,7 +92,7 @@ rule prove_again:
 # On demand: the proof of one scene of the configuration.
 rule certify_scene:
     input:
-        code=package("model/chain", "accuracy/proof"),
+        code=package("model", "accuracy/proof"),
     output:
         certificate="results/certificates/{scene}.json.gz",
     log:
@@ -108,7 +108,7 @@ rule tabulate_certificates:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
         effort=COMMITTED / "effort.csv",
-        code=package("model/chain", "accuracy/proof"),
+        code=package("model", "accuracy/proof"),
     output:
         table=report("results/tables/certificates.csv", category="Tables"),
     log:
@@ -197,7 +197,13 @@ rule measure_growth:
 rule tabulate_step_sweep:
     input:
         code=package(
-            "model/chain", "solver", "analysis", "methods", "accuracy/compare", "accuracy/step_sweep"
+            "model/chain",
+            "solver",
+            "analysis",
+            "methods",
+            "accuracy/compare",
+            "accuracy/proof",
+            "accuracy/step_sweep",
         ),
     output:
         table=report("results/tables/step_sweep{full}.csv", category="Tables"),
@@ -213,7 +219,15 @@ rule tabulate_step_sweep:
 
 rule tabulate_failures:
     input:
-        code=package("model/chain", "solver", "analysis", "methods", "accuracy/compare", "accuracy/failures"),
+        code=package(
+            "model/chain",
+            "solver",
+            "analysis",
+            "methods",
+            "accuracy/compare",
+            "accuracy/failures",
+            "accuracy/proof",
+        ),
     output:
         table=report("results/tables/failures.csv", category="Tables"),
         curves=collect("results/tables/failures/{way}.csv", way=WAYS_TO_FAIL),

@@ -36,7 +36,7 @@ rule tabulate_measures:
 rule evaluate_claims:
     input:
         tables=collect("results/tables/{table}.csv", table=claims.TABLES),
-        code=package("model/chain", "reproduction"),
+        code=package("model", "solver", "analysis", "reproduction"),
     output:
         table=report("results/tables/claims.csv", category="Tables"),
     log:
@@ -52,7 +52,7 @@ rule write_paper:
         source=sorted([*PAPER_SOURCE.rglob("*.typ"), *PAPER_SOURCE.glob("*.bib")]),
         shown=SHOWN,
         tables=collect("results/tables/{table}.csv", table=numbers.TABLES),
-        code=package("reproduction"),
+        code=package("model", "solver", "analysis", "reproduction"),
     output:
         pdf="results/paper.pdf",
         numbers="results/numbers.json",
