@@ -14,7 +14,7 @@ ACCEPTED_FINDING = "Specify a conda environment or container for each rule"
 QUEUED = {
     "certify_scene",
     "check_eq15",
-    "climb_ladder",
+    "compare_models",
     "measure_growth",
     "measure_methods",
     "prove_again",
