@@ -197,8 +197,7 @@ def larger_models(t: Tables, config: Mapping[str, Any]) -> Numbers:
     table = t["resolution_models"]
     fine = table[table["n_blocks"] >= config["chain"]["n_blocks"]]
     found: Numbers = {
-        "models-runs-most": fine["n"].max(),
-        "models-runs-least": fine["n"].min(),
+        "models-runs": fine["n"].max(),
         "viscous-n": rows(table, model=["viscous", "viscous_strong", "material"])["n_blocks"].max(),
     }
     friction = rows(fine, quantity="mu_sapp")
