@@ -145,6 +145,16 @@ class State:
             square += self.force[i] ** 2 / constants.coupling[i] + self.rate[i] ** 2
         return (square.sqrt() + self.distance).abs_upper()
 
+    def largest_force_change(self, constants: Constants, gap: arb) -> arb:
+        """Bound how much a net force changes in any run during twice the gap [T], in N.
+
+        |(T, u)| grows at most at the rate sqrt(c_1) u_0 + |mu_k w|, forwards or backwards in time.
+        """
+        friction = sum((f**2 for f in constants.friction), arb(0)).sqrt()
+        gain = (constants.coupling[1].sqrt() * constants.drive + friction) * 2 * gap
+        fastest = self.norm(constants) + gain + constants.drive
+        return (constants.frequency_squared * fastest * 2 * gap).abs_upper()
+
 
 def expand(constants: Constants, state: State, order: int) -> Series:
     """Taylor coefficients 0..order of u_i of the sliding blocks, from the second-order form of Eq. 2,

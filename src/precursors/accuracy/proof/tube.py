@@ -248,21 +248,10 @@ class Proof:
             else:
                 self.stop(event, root)
 
-    def largest_force_change(self) -> arb:
-        """Bound how much a net force changes in any run during twice the gap [N].
-
-        |(T, u)| grows at most at the rate sqrt(c_1) u_0 + |mu_k w|, forwards or backwards in time.
-        """
-        bounds = self.bounds
-        friction = sum((f**2 for f in bounds.friction), arb(0)).sqrt()
-        gain = (bounds.coupling[1].sqrt() * bounds.drive + friction) * 2 * self.gap
-        fastest = self.state.norm(bounds) + gain + bounds.drive
-        return (bounds.frequency_squared * fastest * 2 * self.gap).abs_upper()
-
     def release(self, i: int, way: int) -> None:
         """Let the stuck block i slide: the only transition that drives runs apart."""
-        excess = self.bounds.strength[i] - self.bounds.friction[i] + self.largest_force_change()
-        state = self.state
+        state, bounds = self.state, self.bounds
+        excess = bounds.strength[i] - bounds.friction[i] + state.largest_force_change(bounds, self.gap)
         state.distance = (state.distance**2 + (excess * self.gap) ** 2).sqrt().abs_upper()
         state.mode[i] = way
         self.fresh = {i}
@@ -270,7 +259,7 @@ class Proof:
     def stop(self, event: EventFunction, root: arb) -> None:
         """Let block i, whose velocity has reached zero, stick if friction holds it, or else turn round."""
         i, state, bounds = event.block, self.state, self.bounds
-        spread = state.distance * bounds.force_reach[i] + self.largest_force_change()
+        spread = state.distance * bounds.force_reach[i] + state.largest_force_change(bounds, self.gap)
         force = state.net_force(i) + arb(0, spread)
         slows_down = state.mode[i] * force < bounds.friction[i]
         if slows_down and abs(force) < bounds.strength[i]:
@@ -292,7 +281,8 @@ class Proof:
                 raise Undecided(question, (i,), arb(0, self.gap))
             if not time.rad() < self.width:
                 raise Undecided("enclosures have become wider than asked for", (i,), arb(0, self.gap))
-            reach = state.distance * self.bounds.coupling[1].sqrt() + self.largest_force_change()
+            change = state.largest_force_change(self.bounds, self.gap)
+            reach = state.distance * self.bounds.coupling[1].sqrt() + change
             self.transitions.append(Proved(time, i, state.mode[i], state.force[1] + arb(0, reach)))
         return True
 
