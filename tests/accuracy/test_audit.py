@@ -396,7 +396,7 @@ def test_arrays_that_do_not_fit_are_one_problem_and_no_crash(uniform):
     assert_found(changed(uniform, 7, block=11), "there is no such block or mode")
     assert_found(changed(uniform, 7, mode=-128), "there is no such block or mode")
     assert_found(replace(uniform, intervals=-uniform.intervals), "an interval is negative")
-    assert_found(replace(uniform, start_positions=np.zeros(9)), "start_positions does not hold")
+    assert_found(replace(uniform, start_positions=np.zeros(9)), "start_positions must have one finite value")
 
 
 def test_the_report_says_what_was_found_in_a_few_lines(uniform):

@@ -196,7 +196,7 @@ def test_a_bad_parameter_is_named(argument: dict[str, object], message: str) -> 
     [
         ({"duration": 0}, "must be above 0 s, but are 0 s"),
         ({"until": "slip"}, "until"),
-        ({"start_positions": ["0"]}, "start_positions must hold one value"),
+        ({"start_positions": ["0"]}, "start_positions must have one value"),
     ],
 )
 def test_a_bad_argument_is_named(argument: dict[str, object], message: str) -> None:

@@ -1,4 +1,4 @@
-"""Proofs hold: against the 40-digit reference, the double solver, and runs that start a little apart."""
+"""Proofs are right: beside the 40-digit reference, the double solver, and runs that start a little apart."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The error that a run predicts of itself is held against the proof: never optimistic, and of use."""
+"""The errors that a run predicts are compared with the proof: they are never too small, and not useless."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def validation(request: pytest.FixtureRequest) -> Validation:
     return validate(Certificate.load(path))
 
 
-def test_no_error_is_predicted_too_small_and_order_is_lost_only_where_it_is_doubted(
+def test_no_error_is_predicted_too_small_and_order_is_lost_only_where_it_is_unknown(
     validation: Validation,
 ) -> None:
     _, compared, predictions = validation
@@ -56,7 +56,7 @@ def test_no_error_is_predicted_too_small_and_order_is_lost_only_where_it_is_doub
 def test_the_prediction_is_of_use(validation: Validation) -> None:
     facts = summary(validation, 1e-9)
     assert facts["largest_ratio"] > 1 / PESSIMISM
-    # The tolerance is met for longer than half of the time that the digits really hold.
+    # The tolerance is met for longer than half of the time that the run is really right.
     assert facts["horizon_s"] > facts["right_until_s"] / 2
 
 
@@ -102,24 +102,23 @@ def held_out_run(case: HeldOut) -> Run:
 def test_held_out_chains_have_no_error_predicted_too_small(name: str) -> None:
     case, golden = read_held_out()[name]
     run = held_out_run(case)
-    growth = predicted_errors(run)
-    held = np.flatnonzero(np.isfinite(growth.time_error))
-    for k in held.tolist():
+    predictions = predicted_errors(run)
+    for k in np.flatnonzero(np.isfinite(predictions.time_error)).tolist():
         time, block, mode, _ = run.transitions[k].tolist()
         truth: Transition = golden[k]
         assert (block, mode) == (truth.block, truth.mode)
         # Closed forms are met to the last digit, which is counted with the time.
-        assert abs(float(Fraction(time) - truth.time)) <= OPTIMISM * max(growth.time_error[k], 1e-17)
+        assert abs(float(Fraction(time) - truth.time)) <= OPTIMISM * max(predictions.time_error[k], 1e-17)
 
 
 def test_a_block_that_only_touches_standstill_ends_the_horizon() -> None:
     case, _ = read_held_out()["grazing"]
     run = held_out_run(case)
-    growth = predicted_errors(run)
+    predictions = predicted_errors(run)
     # At 28 N/(K V) the block is released; whether it stops one period later no rounded number can tell.
-    assert growth.unknown.time == run.transitions["time"][0]
-    assert growth.unknown.reason == "whether block 1 changes its state"
-    assert predicted_errors(run).horizon(1.0) == growth.unknown.time
+    assert predictions.unknown.time == run.transitions["time"][0]
+    assert predictions.unknown.reason == "whether block 1 changes its state"
+    assert predicted_errors(run).horizon(1.0) == predictions.unknown.time
 
 
 @pytest.mark.parametrize(("miss", "is_lost"), [(1e-8, True), (1e-3, False)])
@@ -167,9 +166,9 @@ def test_a_start_at_the_limit_of_static_friction_is_not_trusted() -> None:
     chain = Chain.from_slider(n_blocks=2, normal_load=100.0)
     pushed = float(chain.strength[1] / chain.stiffness)
     run = simulate(chain, 0.5, start_positions=[pushed, 0.0])
-    growth = predicted_errors(run)
-    assert growth.unknown.time == 0.0
-    assert growth.unknown.reason.startswith("whether block")
+    predictions = predicted_errors(run)
+    assert predictions.unknown.time == 0.0
+    assert predictions.unknown.reason.startswith("whether block")
 
 
 def test_what_comes_later_does_not_change_the_horizon() -> None:

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from precursors.analysis.neighbours import EPS, SIGMAS, Doubt, Neighbours, spread
+from precursors.analysis.neighbours import EPS, SIGMAS, Neighbours, Unknown, spread
 from precursors.model.chain import FloatArray, positive
 from precursors.solver.run import Run
 
-NEVER = Doubt(np.inf, "")
+NEVER = Unknown(np.inf, "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,14 +31,14 @@ class PredictedErrors:
         Error of each time [s]; infinite where the order of transitions is unknown.
     duration : float
         Time that the run reached [s].
-    unknown : Doubt
+    unknown : Unknown
         From when the order of transitions is unknown; `NEVER` if all of it is known.
     """
 
     time: FloatArray
     time_error: FloatArray
     duration: float
-    unknown: Doubt
+    unknown: Unknown
 
     def horizon(self, tolerance: float) -> float:
         """Predictability time [s]; see the function `horizon`."""
@@ -81,13 +81,13 @@ def predicted_errors(run: Run) -> PredictedErrors:
     first, time = neighbours.path.n_started, run.transitions["time"].astype(np.float64)
     error = np.full(len(time), np.inf)
     error[:first] = 0.0
-    unknown = neighbours.doubt_at_start() or neighbours.doubt_after(first)
+    unknown = neighbours.unknown_at_start() or neighbours.unknown_after(first)
     for k in range(first, len(time)):
         unknown = unknown or neighbours.advance(k)
         if unknown:
             break
         error[k] = SIGMAS * spread(neighbours.clock) + EPS * time[k]
-        unknown = neighbours.doubt_after(k + 1)
+        unknown = neighbours.unknown_after(k + 1)
     unknown = unknown or NEVER
     error[time >= unknown.time] = np.inf
     return PredictedErrors(time, error, run.duration, unknown)

@@ -31,7 +31,7 @@ DRAWN = 64
 SEED = 2010
 
 
-class Doubt(NamedTuple):
+class Unknown(NamedTuple):
     """From what time [s] on the order of transitions is unknown, and what is not known then."""
 
     time: float
@@ -89,7 +89,7 @@ class Neighbours:
         windows = np.where(slides.any(axis=1, keepdims=True), np.maximum(span / motion.time_unit, 1.0), 1.0)
         return np.hstack([moves * force, slides * speed]) * np.sqrt(windows)
 
-    def advance(self, k: int) -> Doubt | None:
+    def advance(self, k: int) -> Unknown | None:
         """Carry the differences to transition k; return what is not known then, if anything."""
         path, motion, n, number = self.path, self.motion, self.n_blocks, k - self.path.n_started
         if number % DRAWN == 0:
@@ -105,24 +105,24 @@ class Neighbours:
         self.clock += interval
         block, error = int(path.block[k]), SIGMAS * spread(interval)
         if not error < span:
-            return Doubt(float(self.times[k]), f"whether block {block + 1} is the next to change its state")
+            return Unknown(float(self.times[k]), f"whether block {block + 1} is the next to change its state")
         # An event function that hardly goes below zero may not do so at all.
         depth = path.slope[k] ** 2 / (2.0 * path.bend[k]) if path.bend[k] > 0 else np.inf
         if not error * -path.slope[k] + self._resolution(k + 1, block, bool(path.old[k])) < depth:
-            return Doubt(float(self.times[k]), f"whether block {block + 1} changes its state")
+            return Unknown(float(self.times[k]), f"whether block {block + 1} changes its state")
         if path.old[k] and not self._sticking_is_known(block, k + 1):
-            return Doubt(float(self.times[k + 1]), f"whether block {block + 1} sticks or turns round")
+            return Unknown(float(self.times[k + 1]), f"whether block {block + 1} sticks or turns round")
         return None
 
-    def doubt_at_start(self) -> Doubt | None:
+    def unknown_at_start(self) -> Unknown | None:
         """Return which block may or may not be set in motion by the springs at time 0."""
         at_rest = self.path.state[0, self.n_blocks :] == 0.0
         for block in np.flatnonzero(at_rest).tolist() if self.run.start_positions.any() else ():
             if not self._sticking_is_known(block, 0):
-                return Doubt(0.0, f"whether block {block + 1} sticks")
+                return Unknown(0.0, f"whether block {block + 1} sticks")
         return None
 
-    def doubt_after(self, row: int) -> Doubt | None:
+    def unknown_after(self, row: int) -> Unknown | None:
         """Return the closest near miss between a row of the path and the next, if it is within the error."""
         if not self.path.mode[row].any():
             return None
@@ -136,7 +136,7 @@ class Neighbours:
             error += SIGMAS * ROUNDING * float(self.motion.strength[block])
         if error < by:
             return None
-        return Doubt(float(self.times[row]) + since, f"whether block {block + 1} changes its state")
+        return Unknown(float(self.times[row]) + since, f"whether block {block + 1} changes its state")
 
     def _sticking_is_known(self, block: int, row: int) -> bool:
         """Whether the net force on a block differs from its strength by more than the error."""

@@ -133,8 +133,8 @@ class Trajectory:
         Transitions at time 0, of blocks that move from the start.
     span : array, shape (n + 1,)
         Interval before each transition, and to the end of the run [s].
-    block, old, new : array, shape (n,)
-        Block of each transition, counted from 0, its mode before and after.
+    block, old : array, shape (n,)
+        Block of each transition, counted from 0, and its mode before.
     mode : array, shape (n + 1, N)
         Modes before the first transition and after each.
     state : array, shape (n + 1, 2 N)
@@ -152,7 +152,6 @@ class Trajectory:
     span: FloatArray
     block: IntArray
     old: IntArray
-    new: IntArray
     mode: IntArray
     state: FloatArray
     rate: FloatArray
@@ -185,7 +184,7 @@ class Trajectory:
         slope = np.sum(gradient * rate, axis=1)
         bend = np.sum(gradient * motion.derivative(mode[:-1], rate), axis=1)
         n_started = int(np.count_nonzero((time == 0.0) & (run.intervals[:-1] == 0.0)))
-        return cls(n_started, run.intervals, block, old, new, mode, state, rate, gradient, slope, bend)
+        return cls(n_started, run.intervals, block, old, mode, state, rate, gradient, slope, bend)
 
 
 class Tangent:

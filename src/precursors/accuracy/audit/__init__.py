@@ -95,7 +95,7 @@ def _malformed(run: Run) -> str:
     for name in ("start_positions", "start_velocities"):
         start = np.asarray(getattr(run, name))
         if start.shape != (n,) or not np.all(np.isfinite(start)):
-            return f"{name} does not hold one finite value for each of the {n} blocks"
+            return f"{name} must have one finite value for each of the {n} blocks"
     intervals = np.asarray(run.intervals)
     if intervals.shape != (n_transitions + 1,):
         return (

@@ -38,7 +38,7 @@ UNREADABLE = (
 
 
 class CertificateError(ValueError):
-    """A certificate that is altered, cannot be read, does not hold, or cannot be had."""
+    """A certificate that is damaged, is not what is proved, or cannot be made."""
 
 
 class Enclosure(NamedTuple):
@@ -170,7 +170,7 @@ class Certificate:
 
 
 def _content(certificate: Certificate) -> dict[str, Any]:
-    """What the file of a certificate holds."""
+    """The content of the file of a certificate."""
     tie = certificate.tie
     return {
         "format": FORMAT,
@@ -197,7 +197,7 @@ def _content(certificate: Certificate) -> dict[str, Any]:
 
 
 def _certificate(content: Mapping[str, Any]) -> Certificate:
-    """The certificate that a file holds."""
+    """The certificate in the content of a file."""
     tie, chain = content["tie"], ExactChain.from_text(content["chain"])
     return Certificate(
         chain=chain,

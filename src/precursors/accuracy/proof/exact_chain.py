@@ -19,7 +19,7 @@ _NUMBERS = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "m
 
 @dataclass(frozen=True)
 class ExactChain:
-    """What the equations of motion hold (Eqs. 2-6), each a fraction; fields and units as in `Chain`.
+    """The parameters of the equations of motion (Eqs. 2-6) as fractions; fields and units as in `Chain`.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def exact_positions(chain: ExactChain, positions: Sequence[Number] | None) -> tu
         return (Fraction(0),) * chain.n_blocks
     if len(positions) != chain.n_blocks:
         raise ValueError(
-            f"start_positions must hold one value [m] for each of the {chain.n_blocks} blocks, "
-            f"but hold {len(positions)}"
+            f"start_positions must have one value [m] for each of the {chain.n_blocks} blocks, "
+            f"but has {len(positions)}"
         )
     return tuple(exact("start_positions", x) for x in positions)

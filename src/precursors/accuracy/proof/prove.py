@@ -97,7 +97,7 @@ def certify(
 def verify(certificate: Certificate | str | os.PathLike[str]) -> Certificate:
     """Make the proof of a certificate, or of the file of one, again; return the certificate.
 
-    The proof is made at the certificate's precision. Each recorded enclosure must hold the proved one.
+    The proof is made at the certificate's precision. Each recorded enclosure must contain the proved one.
 
     Raises
     ------

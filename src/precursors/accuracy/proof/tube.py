@@ -125,8 +125,8 @@ class Proof:
         Raises
         ------
         Undecided
-            Where the precision does not suffice or there is a tie, with the time in s; `transitions` holds
-            what is proved.
+            Where the precision does not suffice or there is a tie, with the time in s; `transitions` are
+            those that are proved.
         """
         while True:
             self.all_slid = self.all_slid or all(self.state.mode[1:-1])
