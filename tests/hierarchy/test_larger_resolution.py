@@ -10,11 +10,13 @@ from chains import SLIDER
 from precursors import find_precursors, find_slips, simulate
 from precursors.hierarchy.larger import LargerChain
 from precursors.hierarchy.larger_resolution import (
+    numbers,
     resolution_models_table,
     run_models,
     with_additions,
     with_noise,
 )
+from precursors.hierarchy.models import Motion
 
 SETTINGS = {
     "seed": 2013,
@@ -87,3 +89,10 @@ def test_a_material_has_one_relaxation_time_and_an_interface_one_stiffness_at_ev
     assert with_additions(chain, {"relaxation_time": 1e-6}) == LargerChain(chain, 1e-6 * chain.stiffness)
     assert with_additions(chain, {"interface_stiffness": 25e6}) == LargerChain(chain, 0.0, 25e6)
     assert with_additions(chain, {}) is chain
+
+
+def test_a_front_that_starts_at_block_n_has_no_speed():
+    slips = pd.DataFrame({"onset": [1.0], "end": [2.0], "front": [4], "is_global": [True]})
+    found = numbers(Motion(4, slips, 0.5, front_arrival=1.0), length=0.1)
+    assert np.isnan(found["front_speed_m_per_s"])
+    assert found["time_s"] == 1.0

@@ -107,7 +107,7 @@ class _Scaled:
     kinetic: tuple[int, ...]  # mu_k w_i
     damping: int  # c
     springs: tuple[int, ...] | None  # kappa_i / k
-    lightness: int  # r_1
+    mass_share: int  # r_1
 
 
 def _fixed(x: Fraction, bits: int) -> int:
@@ -140,7 +140,7 @@ def _scale(chain: ReferenceChain, additions: Additions, bits: int) -> _Scaled:
         kinetic=(0, *(_fixed(chain.mu_k * w, bits) for w in chain.weights)),
         damping=_fixed(additions.viscosity / (chain.stiffness * time_unit), bits),
         springs=None if springs is None else (0, *(_fixed(x / chain.stiffness, bits) for x in springs)),
-        lightness=_fixed(chain.mass / (chain.mass + additions.head_mass), bits),
+        mass_share=_fixed(chain.mass / (chain.mass + additions.head_mass), bits),
     )
 
 
@@ -159,7 +159,7 @@ class _Motion:
         self.positions = [0, *(_fixed(chain.stiffness * Fraction(x), scaled.bits) for x in metres)]
         self.velocities = [scaled.drive_velocity] + [0] * n
         self.modes = [0] * (n + 1)
-        self.held = [0] * (n + 1)  # p_i of the blocks that stick
+        self.plane_force = [0] * (n + 1)  # p_i of the blocks that stick
 
     def overloaded(self) -> list[Transition]:
         """Let the blocks slide whose net force exceeds static friction at the start; attach the others."""
@@ -170,7 +170,7 @@ class _Motion:
                 self.modes[i] = 1 if force > 0 else -1
                 found.append(self._transition(i))
             else:
-                self.held[i] = force
+                self.plane_force[i] = force
         return found
 
     def moves(self) -> bool:
@@ -206,7 +206,7 @@ class _Motion:
             for i in range(1, len(self.modes)):
                 if not self.modes[i] and self.scaled.springs is not None:
                     moved = value([0, *u[i][1:]], step, bits)
-                    self.held[i] += self.scaled.springs[i] * moved >> bits
+                    self.plane_force[i] += self.scaled.springs[i] * moved >> bits
             for i in range(1, len(self.modes)):
                 self.positions[i] = value(u[i], step, bits)
                 self.velocities[i] = value(du[i], step, bits)
@@ -220,7 +220,7 @@ class _Motion:
             force = self._net(self.positions, self.velocities, i)
             holds = abs(force) <= self.scaled.strength[i] + NOISE
             self.modes[i] = 0 if holds else (1 if force > 0 else -1)
-            self.held[i] = force
+            self.plane_force[i] = force
         else:
             self.modes[i] = way
         return self._transition(i)
@@ -236,11 +236,11 @@ class _Motion:
             for i in mobile:
                 force = self._net(now, rate, i)
                 if n == 0:
-                    force -= self.modes[i] * scaled.kinetic[i] if self.modes[i] else self.held[i]
+                    force -= self.modes[i] * scaled.kinetic[i] if self.modes[i] else self.plane_force[i]
                 elif not self.modes[i] and scaled.springs is not None:
                     force -= scaled.springs[i] * now[i] >> bits
                 if i == 1:
-                    force = force * scaled.lightness >> bits
+                    force = force * scaled.mass_share >> bits
                 u[i][n + 2] = (force >> 2 * scaled.halvings) // ((n + 1) * (n + 2))
         return u
 
@@ -249,7 +249,7 @@ class _Motion:
         scaled = self.scaled
         if scaled.springs is not None:
             margin = [-way * (scaled.springs[i] * c >> scaled.bits) for c in u[i]]
-            margin[0] = scaled.strength[i] - way * self.held[i]
+            margin[0] = scaled.strength[i] - way * self.plane_force[i]
         else:
             padded = [[*c, 0] for c in du]
             margin = [

@@ -78,11 +78,12 @@ def numbers(motion: Motion, length: float) -> dict[str, float]:
     """What is kept of a run; `length` [m] is that of the contact."""
     onset = first_global_slip(motion)["onset"]
     distance = length * (motion.n_blocks - 1) / motion.n_blocks
+    crossing = motion.front_arrival - onset  # 0 if the event begins at block N, as it may on springs
     return {
         "events_kept": events_kept(motion),
         "mu_sapp": motion.mu_sapp,
         "time_s": onset,
-        "front_speed_m_per_s": distance / (motion.front_arrival - onset),
+        "front_speed_m_per_s": distance / crossing if crossing > 0 else np.nan,
     }
 
 
