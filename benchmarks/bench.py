@@ -35,7 +35,7 @@ from precursors.accuracy.cost_per_event import (
     LEAST_TRANSITIONS,
     SIZES,
     TRANSITIONS_PER_BLOCK,
-    measure_growth,
+    measure_cost,
 )
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy
@@ -88,7 +88,7 @@ def main() -> None:
     arguments = parser.parse_args()
     size = QUICK if arguments.quick else Size()
     rows: list[Row] = []
-    for benchmark in (against_heyoka, against_dop853, growth, ensemble):
+    for benchmark in (against_heyoka, against_dop853, cost_per_event, ensemble):
         for row in benchmark(size):
             print(
                 f"{row.benchmark:12} {row.case:36} {row.quantity:46} {row.value:10.4g} {row.unit}", flush=True
@@ -152,11 +152,11 @@ def compared(
         yield row(f"largest error of F_X at slip onsets, {name}", "N", found.load_error)
 
 
-def growth(size: Size) -> Iterable[Row]:
-    """Time per transition against the number of blocks, see `measure_growth`."""
-    table = measure_growth(size.sizes, size.rounds, size.least_transitions, size.transitions_per_block)
+def cost_per_event(size: Size) -> Iterable[Row]:
+    """Time per transition against the number of blocks, see `measure_cost`."""
+    table = measure_cost(size.sizes, size.rounds, size.least_transitions, size.transitions_per_block)
     for of in table.to_dict("records"):
-        row = partial(Row, "growth", f"{of['kind']}, N = {of['n_blocks']}, {of['transitions']} transitions")
+        row = partial(Row, "cost", f"{of['kind']}, N = {of['n_blocks']}, {of['transitions']} transitions")
         yield row("time per transition", "us", 1e6 * of["seconds_per_transition"])
         yield row(f"time per transition / N = {BASE_SIZE}", "1", of["relative"])
 

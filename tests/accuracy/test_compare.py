@@ -6,19 +6,15 @@ import contextlib
 import gc
 import math
 import time
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
 from reference import read_golden
 
-from precursors import Chain, Run, TransitionLimitError, simulate
+from precursors import Chain, Run, simulate
 from precursors.accuracy.compare import Comparison, TrueTransition, Truth, compare
-from precursors.accuracy.cost_per_event import KINDS, measure_growth
 from precursors.accuracy.proof import ExactChain, certify
-from precursors.accuracy.work_precision import Case, measure_methods, proved_cases, sweeps_of
-from precursors.methods import METHODS, Method, Result
 from precursors.support import timing
 
 CHAIN = Chain.from_slider(n_blocks=3)
@@ -43,8 +39,6 @@ ONSETS = [0, 2, 6]
 ROUNDING = 1e-14
 # A fake method sleeps so long [s]; sleep never ends early.
 SLEEP = 0.002
-# What a call takes on a clock that the test moves [s].
-WARM_CALL = 0.0005
 
 
 def made_up(rows) -> Run:
@@ -205,153 +199,6 @@ def test_a_proof_that_ends_with_a_tie_is_the_truth_up_to_there():
     assert len(truth.run.transitions) == len(certificate.transitions) == 3
 
 
-class TestCases:
-    def test_a_proof_is_the_truth_to_its_end_and_to_the_first_global_slip(self):
-        certificate = certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), 8)
-        first, whole = proved_cases("two", 0.25, certificate)
-        assert (first.until, whole.until) == ("global slip", None)
-        assert first.is_proved
-        assert whole.is_proved
-        assert first.duration == whole.duration == 8.0
-        n = len(first.truth.run.transitions)
-        assert 0 < n < len(whole.truth.run.transitions) == len(certificate.transitions)
-        np.testing.assert_array_equal(first.truth.time_rest, whole.truth.time_rest[:n])
-        for case in (first, whole):
-            run = simulate(case.chain, case.duration, case.until)
-            assert has_all_transitions(compare(run, case.truth))
-
-    def test_a_tie_leaves_all_to_the_exact_solver(self):
-        certificate = replace(tied_certificate(), start_positions=(Fraction(0),) * 7, duration=Fraction(2))
-        for case in proved_cases("seven", 0.0, certificate):
-            assert not case.is_proved
-            assert compare(simulate(case.chain, 2.0, case.until), case.truth).time_error == 0.0
-
-    def test_a_start_that_the_methods_do_not_have_is_refused(self):
-        with pytest.raises(ValueError, match=r"seven starts from .*natural length"):
-            proved_cases("seven", 0.0, tied_certificate())
-
-
-class Fake:
-    """A method that sleeps as long as its knob says, and gives a run."""
-
-    def __init__(self, run: Run) -> None:
-        self.run, self.calls = run, []
-
-    def solve(self, _chain: Chain, _duration: float, knob: float, _until: str | None) -> Result:
-        self.calls.append(knob)
-        time.sleep(knob)
-        return Result(self.run, 7)
-
-
-class Clock:
-    """A clock that only its owner moves."""
-
-    now = 0.0
-
-    def perf_counter(self) -> float:
-        return self.now
-
-    process_time = perf_counter
-
-
-def case(run: Run) -> Case:
-    return Case("made up", 0.0, CHAIN, DURATION, None, Truth.of_run(run), True)
-
-
-@pytest.fixture
-def fake(monkeypatch: pytest.MonkeyPatch) -> Fake:
-    fake = Fake(made_up(TRUE))
-    method = Method("rk4", "fake", "sleep [s]", (SLEEP, 2 * SLEEP), fake.solve)
-    monkeypatch.setitem(METHODS, "rk4", method)
-    return fake
-
-
-class TestMeasuring:
-    def test_a_row_holds_time_work_and_errors(self, fake):
-        fake.run = made_up([(t, b, m, f - 1.0) for t, b, m, f in TRUE[:6]])
-        (row,) = measure_methods(case(made_up(TRUE)), {"rk4": [SLEEP]}, 5, 1.0).to_dict("records")
-        assert SLEEP <= row["seconds"] < 10 * SLEEP
-        assert (row["method"], row["label"], row["knob"], row["value"]) == (
-            "rk4",
-            "fake",
-            "sleep [s]",
-            SLEEP,
-        )
-        assert (row["evaluations"], row["error_load_N"], row["error_time_s"]) == (7, 1.0, 0.0)
-        assert (row["transitions_right"], row["transitions_found"], row["transitions_true"]) == (6, 6, 12)
-        assert (row["slips_right"], row["slips_found"], row["slips_true"]) == (2, 2, 3)
-
-    def test_the_sweep_ends_before_the_first_value_that_takes_too_long(self, fake):
-        values = [SLEEP, 40 * SLEEP, 0.5 * SLEEP]
-        table = measure_methods(case(made_up(TRUE)), {"rk4": values}, 5, 10 * SLEEP)
-        assert table["value"].tolist() == [SLEEP]
-        assert fake.calls.count(SLEEP) >= 2 + 5
-        assert 0.5 * SLEEP not in fake.calls
-
-    def test_a_first_call_that_compiles_does_not_end_the_sweep(self, fake):
-        warm = fake.solve
-
-        def slow_at_first(*arguments):
-            if not fake.calls:
-                time.sleep(40 * SLEEP)
-            return warm(*arguments)
-
-        METHODS["rk4"] = replace(METHODS["rk4"], solve=slow_at_first)
-        table = measure_methods(case(made_up(TRUE)), {"rk4": [SLEEP]}, 5, 10 * SLEEP)
-        assert table["seconds"].item() < 10 * SLEEP
-
-    @pytest.mark.parametrize("first", [WARM_CALL, 0.05, 0.82, 1.9, 10.0])
-    def test_a_short_call_is_repeated_however_long_its_first_one_took(self, fake, monkeypatch, first):
-        clock = Clock()
-        monkeypatch.setattr(timing, "time", clock)
-
-        def solve(_chain, _duration, knob, _until):
-            clock.now += WARM_CALL if fake.calls else first
-            fake.calls.append(knob)
-            return Result(fake.run, 7)
-
-        METHODS["rk4"] = replace(METHODS["rk4"], solve=solve)
-        table = measure_methods(case(made_up(TRUE)), {"rk4": [1e-6]}, 5, 2.0)
-        assert len(fake.calls) == 2 + 5 * round(timing.SHORTEST / WARM_CALL)
-        assert table["seconds"].item() == pytest.approx(WARM_CALL)
-
-    def test_a_run_that_breaks_off_is_a_row_with_what_there_is(self, fake):
-        def breaks_off(*_arguments):
-            raise TransitionLimitError("enough", made_up(TRUE[:3]))
-
-        METHODS["rk4"] = replace(METHODS["rk4"], solve=breaks_off)
-        table = measure_methods(case(made_up(TRUE)), {"rk4": [SLEEP]}, 5, 1.0)
-        assert table["transitions_right"].item() == 3
-        assert math.isnan(table["evaluations"].item())
-
-    def test_the_exact_solver_has_no_error_where_it_is_the_truth(self):
-        chain = Chain.from_slider(n_blocks=2)
-        own = replace(case(simulate(chain, DURATION)), chain=chain)
-        for is_proved in (True, False):
-            (row,) = measure_methods(replace(own, is_proved=is_proved), {"exact": [0.0]}, 5, 1.0).to_dict(
-                "records"
-            )
-            assert math.isnan(row["error_time_s"]) is not is_proved
-            assert row["transitions_right"] == row["transitions_true"] > 0
-
-    def test_a_method_whose_package_is_missing_is_left_out(self, fake, monkeypatch):
-        monkeypatch.delitem(METHODS, "heyoka", raising=False)
-        table = measure_methods(case(made_up(TRUE)), {"heyoka": [1e-6], "rk4": [SLEEP]}, 5, 1.0)
-        assert table["method"].tolist() == ["rk4"]
-        assert list(sweeps_of({"heyoka": "sweep", "rk4": "sweep"})) == ["rk4"]
-
-    def test_a_name_that_is_no_methods_is_refused(self):
-        for refuse in (sweeps_of, lambda names: measure_methods(case(made_up(TRUE)), names, 5, 1.0)):
-            with pytest.raises(ValueError, match=r"no method 'rk5': allowed are .*rk4_skip"):
-                refuse({"rk5": [1e-6]})
-
-    def test_the_word_sweep_is_all_values_of_the_method(self):
-        assert sweeps_of({"leapfrog": "sweep", "karnopp": [1e-7]}) == {
-            "leapfrog": METHODS["leapfrog"].sweep,
-            "karnopp": [1e-7],
-        }
-
-
 class TestTiming:
     def test_tasks_take_turns(self):
         calls = []
@@ -390,24 +237,3 @@ class TestTiming:
                 timing.measure({"task": task}, 1, 0.0, {"task": 1.0})
             assert gc.isenabled()
             assert gc.get_freeze_count() == 0
-
-
-def test_growth_has_a_row_for_each_kind_and_size_and_is_relative_to_ten_blocks():
-    table = measure_growth((5, 10, 50), 2, 60, 3, 0.0)
-    assert table.groupby("kind")["n_blocks"].apply(list).to_dict() == {
-        "natural": [5, 10, 50],
-        "driven": [5, 10, 50],
-        "front": [50],
-    }
-    counted = table[table["kind"] != "front"]
-    assert counted["transitions"].tolist() == 2 * [60, 60, 150]
-    front = table[table["kind"] == "front"]
-    assert front["transitions"].item() > 2 * 50
-    assert front["mean_front"].item() > 0.5
-    assert (table["seconds_per_transition"] > 0).all()
-    assert table[table["n_blocks"] == 10]["relative"].tolist() == [1.0, 1.0]
-    base = counted[(counted["kind"] == "driven") & (counted["n_blocks"] == 10)][
-        "seconds_per_transition"
-    ].item()
-    assert front["relative"].item() == front["seconds_per_transition"].item() / base
-    assert table["definition"].tolist() == [KINDS[kind].definition for kind in table["kind"]]

@@ -120,11 +120,11 @@ def step_sweep() -> dict:
 def failure_gallery() -> dict:
     """Numbers 1.25, 2.25 ... with exact values 2.75, 3.75 ..., and the same curves in all panels."""
     addresses = dict.fromkeys(
-        (way, line.method or "a method", line.setting or "dt = 1e-07 s", line.quantity)
-        for way, panel in PANELS.items()
+        (mode, line.method or "a method", line.setting or "dt = 1e-07 s", line.quantity)
+        for mode, panel in PANELS.items()
         for line in panel.sentences
     )
-    numbers = pd.DataFrame(list(addresses), columns=["way", "method", "knob", "quantity"])
+    numbers = pd.DataFrame(list(addresses), columns=["failure_mode", "method", "setting", "quantity"])
     row = np.arange(len(numbers))
     curves = []
     for panel in PANELS.values():

@@ -13,7 +13,7 @@ from figures.examples import THETAS, draw
 from matplotlib.colors import to_hex
 from matplotlib.patches import Rectangle
 
-from precursors.accuracy.failures import WAYS
+from precursors.accuracy.failures import FAILURE_MODES
 from precursors.figures import style
 from precursors.figures.failure_gallery import PANELS, pretty
 from precursors.methods import METHODS
@@ -140,28 +140,28 @@ def test_points_of_the_step_sweep_are_green_only_where_every_transition_is_right
 
 
 class TestFailureGallery:
-    def test_panels_ways_and_rule_have_the_same_order(self):
+    def test_panels_failure_modes_and_rule_have_the_same_order(self):
         rule = (RULES / "accuracy.smk").read_text(encoding="utf-8")
-        listed = re.findall(r'"(\w+)"', rule.partition("WAYS_TO_FAIL = [")[2].partition("]")[0])
-        assert list(PANELS) == [way.name for way in WAYS] == listed
+        listed = re.findall(r'"(\w+)"', rule.partition("FAILURE_MODES = [")[2].partition("]")[0])
+        assert list(PANELS) == list(FAILURE_MODES) == listed
 
     def test_numbers_stand_as_they_are_in_the_table(self, gallery):
         assert "1.250; theory" in words(gallery.axes[0])
         assert "2.750" in words(gallery.axes[0])
         numbers = examples.failure_gallery()["numbers"]
         others = draw("failure_gallery", numbers=numbers.assign(value=numbers["value"] + 77777.0)[::-1])
-        for way, before, after in zip(PANELS, gallery.axes, others.axes, strict=True):
-            assert words(before) != words(after), way
+        for mode, before, after in zip(PANELS, gallery.axes, others.axes, strict=True):
+            assert words(before) != words(after), mode
 
     def test_every_axis_has_two_labels_at_least(self, gallery):
         gallery.draw_without_rendering()
-        for way, axes in zip(PANELS, gallery.axes, strict=True):
+        for mode, axes in zip(PANELS, gallery.axes, strict=True):
             for axis in (axes.xaxis, axes.yaxis):
                 low, high = sorted(axis.get_view_interval())
                 ticks = [
                     t for t in axis.get_major_ticks() if t.label1.get_text() and low <= t.get_loc() <= high
                 ]
-                assert len(ticks) >= 2, (way, axis.axis_name)
+                assert len(ticks) >= 2, (mode, axis.axis_name)
 
     def test_curves_are_those_of_the_tables_in_the_units_of_the_axes(self, gallery):
         for axes in gallery.axes:
@@ -172,7 +172,7 @@ class TestFailureGallery:
     @pytest.mark.parametrize("copies", [0, 2])
     def test_a_number_that_is_missing_or_there_twice_is_named(self, copies):
         numbers = examples.failure_gallery()["numbers"]
-        creep = numbers["way"] == "creep"
+        creep = numbers["failure_mode"] == "creep"
         with pytest.raises(ValueError, match=f"must have one .* for creep, but has {copies}"):
             draw("failure_gallery", numbers=pd.concat([numbers[~creep], *[numbers[creep]] * copies]))
 

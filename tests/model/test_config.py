@@ -88,9 +88,7 @@ WRONG = [
     ("reproduction.load_drop", [0.0], ["reproduction.load_drop[0]", "a number > 0"]),
     ("accuracy.proved.uniform.mu_k", 0.8, ["accuracy.proved.uniform: ", "mu_k", "0.8"]),
     ("accuracy.proved.two words", {"theta": 0}, ["the name 'two words'"]),
-    ("accuracy.work_precision.chains", ["none"], ["holds 'none'", "trailing"]),
-    ("accuracy.work_precision.full.whole_run.rk4", "swep", ['the word "sweep"', "'swep'"]),
-    ("accuracy.work_precision.full.whole_run.rk4", [0.0], ["whole_run.rk4[0]", "1e-16", "is 0.0"]),
+    ("accuracy.compared", ["none"], ["holds 'none'", "trailing"]),
     ("hierarchy.tolerances.waveforms", 0.1, ["the name 'waveforms'", "waveform"]),
     ("ensembles.chunks", 0, ["ensembles.chunks", "a whole number from 1 to 10000", "is 0"]),
     (

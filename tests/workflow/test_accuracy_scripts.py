@@ -1,22 +1,20 @@
-"""Methods are measured in the size that is asked for, held to the truth, and drawn from the table."""
+"""Methods are measured to the first slip and to the end, and drawn from the table."""
 
 import draw
-import measure_growth
 import measure_methods
 import pytest
-import yaml
-from conftest import ROOT
+import tabulate_failures
+import tabulate_step_sweep
 
+from precursors.accuracy.cost_per_event import measure_cost
 from precursors.accuracy.proof import ExactChain, certify
-from precursors.accuracy.work_precision import COLUMNS, check_methods
-from precursors.support.files import read_table
+from precursors.accuracy.work_precision import COLUMNS
+from precursors.figures import step_sweep
+from precursors.support.files import read_table, write_table
 
-CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
-SIZE = {
-    "repetitions": 5,
-    "longest": 1.0,
-    "first_slip": {"exact": "sweep", "leapfrog": [1e-6, 1e-7]},
-    "whole_run": {"exact": "sweep"},
+VALUES = {
+    "global slip": {"exact": [0.0], "leapfrog": [1e-6, 1e-7]},
+    None: {"exact": [0.0]},
 }
 DURATION = 6.0
 
@@ -24,18 +22,13 @@ DURATION = 6.0
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
     directory = tmp_path_factory.mktemp("accuracy")
-    certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), DURATION).save(directory / "two.json.gz")
-    measure(directory, SIZE)
-    measure_growth.main(
-        {"sizes": [5, 10], "repetitions": 5, "least_transitions": 20, "transitions_per_block": 1},
-        directory / "growth.csv",
-    )
+    certificate = directory / "two.json.gz"
+    certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), DURATION).save(certificate)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(measure_methods, "charted_values", lambda case, _full: VALUES[case.until])
+        measure_methods.main({"two": certificate}, {"two": 0.25}, False, directory / "methods.csv")
+    write_table(measure_cost((5, 10), 5, 20, 1), directory / "cost.csv")
     return directory
-
-
-def measure(directory, size):
-    certificates, thetas = {"two": directory / "two.json.gz"}, {"two": 0.25}
-    measure_methods.main(certificates, thetas, size, directory / "methods.csv")
 
 
 def test_methods_are_measured_to_the_first_slip_and_to_the_end(files):
@@ -55,26 +48,31 @@ def test_methods_are_measured_to_the_first_slip_and_to_the_end(files):
     assert 0 < exact["error_time_s"].iloc[0] < table["error_time_s"].iloc[2]
 
 
-def test_a_name_that_is_no_methods_is_refused_before_anything_is_measured(files):
-    with pytest.raises(ValueError, match="no method 'leapfrogs'"):
-        measure(files, SIZE | {"whole_run": {"leapfrogs": "sweep"}})
-
-
 def test_the_charts_are_drawn_from_the_tables(files):
     methods, time, evaluations = (
         str(files / name) for name in ("methods.csv", "time.png", "evaluations.svg")
     )
     draw.main("work_precision", {"table": methods}, {}, [time])
     draw.main("work_precision", {"table": methods}, {"work": "evaluations"}, [evaluations])
-    draw.main("cost_per_event", {"table": str(files / "growth.csv")}, {}, [str(files / "cost.svg")])
+    draw.main("cost_per_event", {"table": str(files / "cost.csv")}, {}, [str(files / "cost.svg")])
     assert (files / "time.png").read_bytes().startswith(b"\x89PNG")
     for name in ("evaluations.svg", "cost.svg"):
         assert (files / name).read_text(encoding="utf-8").rstrip().endswith("</svg>")
 
 
-@pytest.mark.parametrize("size", ["default", "full"])
-@pytest.mark.parametrize("extent", ["first_slip", "whole_run"])
-def test_the_configuration_names_methods_only_and_the_exact_solver_first(size, extent):
-    names = list(CONFIG["accuracy"]["work_precision"][size][extent])
-    check_methods(names)
-    assert names[0] == "exact"
+def test_the_step_sweep_is_a_table_that_the_figure_reads(tmp_path, monkeypatch):
+    steps = {"rk4_skip": [1e-5, 3e-6, 1e-6], "rk4": [1e-5]}
+    monkeypatch.setattr(tabulate_step_sweep, "charted_steps", lambda _full: steps)
+    tabulate_step_sweep.main({"scene": {"theta": 0.0}}, {"scene": 10.0}, False, tmp_path / "sweep.csv")
+    table = read_table(tmp_path / "sweep.csv")
+    assert table["method"].tolist() == ["exact", "rk4_skip", "rk4_skip", "rk4_skip", "rk4"]
+    assert len(step_sweep.draw(table).axes) == 3
+
+
+def test_failure_modes_are_tabulated_with_their_curves(tmp_path):
+    modes = ("stiffness", "restart_on_root")
+    tabulate_failures.main(tmp_path / "failures.csv", {mode: tmp_path / f"{mode}.csv" for mode in modes})
+    numbers = read_table(tmp_path / "failures.csv")
+    assert numbers["failure_mode"].tolist() == ["stiffness"] * 2 + ["restart_on_root"] * 2
+    assert numbers["value"].tolist()[2:] == [82, 12]
+    assert len(read_table(tmp_path / "stiffness.csv")) == 24

@@ -134,7 +134,7 @@ def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(fi
     finished.edit("config.yaml", "n_blocks: 10\n  mu_s", "n_blocks: 20\n  mu_s")
     jobs = finished.would_run()
     assert "simulate_scene fig10" in jobs
-    assert not {"measure_methods", "measure_growth"} & jobs
+    assert not {"measure_methods", "measure_cost_per_event"} & jobs
 
 
 @pytest.mark.parametrize(
@@ -169,7 +169,7 @@ def test_an_edit_of_a_method_measures_again_and_simulates_nothing(finished):
     edit_module(finished, "methods/moreau_jean")
     jobs = finished.would_run()
     assert {"measure_methods", "draw_work_precision"} <= jobs
-    assert not ({"take_certificates", "measure_growth", "run_chunk"} | of(*PAPERS)) & jobs
+    assert not ({"take_certificates", "measure_cost_per_event", "run_chunk"} | of(*PAPERS)) & jobs
 
 
 def test_an_edit_of_a_script_runs_its_rule_again(finished):

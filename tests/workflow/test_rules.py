@@ -15,7 +15,7 @@ QUEUED = {
     "certify_scene",
     "check_eq15",
     "compare_models",
-    "measure_growth",
+    "measure_cost_per_event",
     "measure_methods",
     "prove_again",
     "run_chunk",

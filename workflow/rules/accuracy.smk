@@ -2,10 +2,10 @@ from precursors.accuracy.proof.chains import certificate_path, chain_duration, e
 from precursors.model.chain import parse_theta
 
 CHAINS = config["accuracy"]["proved"]
-COMPARED = config["accuracy"]["work_precision"]["chains"]
+COMPARED = config["accuracy"]["compared"]
 COMMITTED = ROOT / "workflow/certificates"
-# As in precursors.accuracy.failures.WAYS, which takes seconds to import.
-WAYS_TO_FAIL = [
+# As in precursors.accuracy.failures.FAILURE_MODES, which takes seconds to import.
+FAILURE_MODES = [
     "rk4_unstable",
     "leapfrog_unstable",
     "numerical_damping",
@@ -176,22 +176,19 @@ rule measure_methods:
         "results/logs/measure_methods{full}.log",
     params:
         thetas={name: parse_theta(CHAINS[name].get("theta", 0)) for name in COMPARED},
-        size=lambda wildcards: config["accuracy"]["work_precision"]["full" if wildcards.full else "default"],
     script:
         "../scripts/measure_methods.py"
 
 
-rule measure_growth:
+rule measure_cost_per_event:
     input:
         code=package("model/chain", "model/statics", "solver", "accuracy/cost_per_event"),
     output:
-        table="results/tables/growth.csv",
+        table="results/tables/cost_per_event.csv",
     log:
-        "results/logs/measure_growth.log",
-    params:
-        size=config["accuracy"]["cost_per_event"],
+        "results/logs/measure_cost_per_event.log",
     script:
-        "../scripts/measure_growth.py"
+        "../scripts/measure_cost_per_event.py"
 
 
 rule tabulate_step_sweep:
@@ -212,7 +209,6 @@ rule tabulate_step_sweep:
     params:
         sliders=SLIDERS,
         durations={scene: scene_duration(config, scene) for scene in config["fig13"]},
-        ranges=lambda wildcards: config["accuracy"]["step_sweep"]["full" if wildcards.full else "default"],
     script:
         "../scripts/tabulate_step_sweep.py"
 
@@ -230,7 +226,7 @@ rule tabulate_failures:
         ),
     output:
         table=report("results/tables/failures.csv", category="Tables"),
-        curves=collect("results/tables/failures/{way}.csv", way=WAYS_TO_FAIL),
+        curves=collect("results/tables/failures/{mode}.csv", mode=FAILURE_MODES),
     log:
         "results/logs/tabulate_failures.log",
     script:

@@ -49,7 +49,7 @@ FIGURES = {
     "cost_per_event": {
         "shows": "time per transition against N",
         "category": "Speed and accuracy",
-        "tables": {"table": "results/tables/growth.csv"},
+        "tables": {"table": "results/tables/cost_per_event.csv"},
     },
     "step_sweep": {
         "file": "step_sweep{full}",
@@ -62,7 +62,7 @@ FIGURES = {
         "category": "Speed and accuracy",
         "tables": {
             "numbers": "results/tables/failures.csv",
-            "curves": collect("results/tables/failures/{way}.csv", way=WAYS_TO_FAIL),
+            "curves": collect("results/tables/failures/{mode}.csv", mode=FAILURE_MODES),
         },
     },
     "horizon": {

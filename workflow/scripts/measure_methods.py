@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from job import job  # before NumPy: it sets the number of threads
 
@@ -10,24 +9,28 @@ from job import job  # before NumPy: it sets the number of threads
 import pandas as pd
 
 from precursors.accuracy.proof import Certificate
-from precursors.accuracy.work_precision import measure_methods, proved_cases, sweeps_of
+from precursors.accuracy.work_precision import (
+    LONGEST,
+    LONGEST_FULL,
+    charted_values,
+    measure_methods,
+    proved_cases,
+)
 from precursors.support.files import write_table
 
 
 def main(
     certificates: Mapping[str, str | Path],
     thetas: Mapping[str, float],
-    size: Mapping[str, Any],
+    full: bool,
     output: str | Path,
 ) -> None:
-    """Write one row per chain, extent, method and value of its knob; `size` is as in the configuration."""
-    sweeps = [sweeps_of(size[extent]) for extent in ("first_slip", "whole_run")]
+    """Write one row per chain, extent, method and value of its setting."""
+    longest = LONGEST_FULL if full else LONGEST
     tables = [
-        measure_methods(case, values, size["repetitions"], size["longest"])
+        measure_methods(case, charted_values(case, full), longest=longest)
         for chain, path in certificates.items()
-        for case, values in zip(
-            proved_cases(chain, thetas[chain], Certificate.load(path)), sweeps, strict=True
-        )
+        for case in proved_cases(chain, thetas[chain], Certificate.load(path))
     ]
     write_table(pd.concat(tables, ignore_index=True), output)
 
@@ -37,6 +40,6 @@ if __name__ == "__main__":
         main(
             dict(zip(snakemake.params.thetas, snakemake.input.certificates, strict=True)),
             snakemake.params.thetas,
-            snakemake.params.size,
+            bool(snakemake.wildcards.full),
             snakemake.output.table,
         )

@@ -1,16 +1,16 @@
-"""How the time that the exact solver takes for a transition grows with the number of blocks."""
+"""How the time that the exact solver takes for a transition depends on the number of blocks."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 import pandas as pd
 
-from precursors.model.chain import Chain, FloatArray, Until
+from precursors.model.chain import Chain, Until
 from precursors.model.statics import maximal_strain_positions
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate
@@ -18,6 +18,7 @@ from precursors.support import timing
 
 SIZES = (5, 10, 20, 50, 100, 200, 500)
 BASE_SIZE = 10
+ROUNDS = 5
 SLOW_DRIVE, FAST_DRIVE = 1e-4, 0.02  # m/s
 STRAIN = 0.9  # of the maximal one
 LEAST_TRANSITIONS, TRANSITIONS_PER_BLOCK = 4000, 30
@@ -34,6 +35,15 @@ class Kind:
     until: Until
     least_size: int
 
+    def run(self, n_blocks: int, most_transitions: int) -> Run:
+        """The first transitions of the paper's slider, cut into so many blocks."""
+        chain = Chain.from_slider(n_blocks=n_blocks, drive_velocity=self.drive_velocity)
+        start = STRAIN * maximal_strain_positions(chain) if self.is_strained else None
+        try:
+            return simulate(chain, LONG, self.until, start_positions=start, max_transitions=most_transitions)
+        except TransitionLimitError as limit:
+            return limit.run
+
 
 KINDS = {
     "natural": Kind("from rest, springs at natural length, the paper's drive", False, SLOW_DRIVE, None, 1),
@@ -44,7 +54,7 @@ KINDS = {
         None,
         1,
     ),
-    # In a short chain it has too few transitions to be measured beside the call itself.
+    # In a short chain it has too few transitions: the call itself would take longer than they do.
     "front": Kind(
         f"the first slip from {STRAIN:g} of the largest strain, through all blocks",
         True,
@@ -64,9 +74,9 @@ COLUMNS = [
 ]
 
 
-def measure_growth(
-    sizes: Sequence[int] = SIZES,
-    rounds: int = timing.ROUNDS,
+def measure_cost(
+    sizes: Iterable[int] = SIZES,
+    rounds: int = ROUNDS,
     least_transitions: int = LEAST_TRANSITIONS,
     transitions_per_block: int = TRANSITIONS_PER_BLOCK,
     shortest: float = timing.SHORTEST,
@@ -80,10 +90,10 @@ def measure_growth(
 
     Parameters
     ----------
-    sizes : sequence of int
+    sizes : iterable of int
         Numbers N of blocks.
     rounds : int
-        Number of rounds that the median is taken of.
+        Number of rounds of which the median is taken.
     least_transitions, transitions_per_block : int
         A run has the larger of `least_transitions` and `transitions_per_block` N transitions; a front about
         2.5 N.
@@ -97,25 +107,30 @@ def measure_growth(
         over N, mean over the transitions), seconds_per_transition [s] of processor time, and that relative
         to the same kind's with `BASE_SIZE` blocks, for fronts to the driven one's (NaN without that size).
     """
-    runs: dict[tuple[str, int], Run] = {}
-    tasks: dict[str, Callable[[], object]] = {}
-    for n in sizes:
-        wanted = max(least_transitions, transitions_per_block * n)
-        for name, kind in KINDS.items():
-            if n >= kind.least_size:
-                run = partial(_first_transitions, *_chain_and_start(kind, n), kind.until, wanted)
-                runs[name, n], tasks[f"{name} {n}"] = run(), run
+    tasks = {
+        (name, n): partial(kind.run, n, max(least_transitions, transitions_per_block * n))
+        for name, kind in KINDS.items()
+        for n in sizes
+        if n >= kind.least_size
+    }
+    runs = {key: task() for key, task in tasks.items()}
     timings = timing.measure(tasks, rounds, shortest)
-    rows = []
-    for name, kind in KINDS.items():
-        for n in [n for of, n in runs if of == name]:
-            n_transitions = len(runs[name, n].transitions)
-            seconds = float(np.median(timings[f"{name} {n}"].cpu)) / n_transitions
-            rows.append((name, kind.definition, n, n_transitions, mean_front(runs[name, n]) / n, seconds))
-    table = pd.DataFrame(rows, columns=COLUMNS[:-1])
-    base = table[table["n_blocks"] == BASE_SIZE].set_index("kind")["seconds_per_transition"].to_dict()
+    table = pd.DataFrame(
+        [
+            {
+                "kind": name,
+                "definition": KINDS[name].definition,
+                "n_blocks": n,
+                "transitions": len(run.transitions),
+                "mean_front": mean_front(run) / n,
+                "seconds_per_transition": float(np.median(timings[name, n].cpu)) / len(run.transitions),
+            }
+            for (name, n), run in runs.items()
+        ]
+    )
+    base = table[table["n_blocks"] == BASE_SIZE].set_index("kind")["seconds_per_transition"]
     bases = table["kind"].map(lambda kind: base.get(kind, base.get("driven", math.nan)))
-    return table.assign(relative=table["seconds_per_transition"] / bases)
+    return table.assign(relative=table["seconds_per_transition"] / bases)[COLUMNS]
 
 
 def mean_front(run: Run) -> float:
@@ -126,15 +141,3 @@ def mean_front(run: Run) -> float:
         slides[block - 1] = mode != 0
         fronts.append(int(np.flatnonzero(slides)[-1]) + 1 if slides.any() else 0)
     return float(np.mean(fronts))
-
-
-def _chain_and_start(kind: Kind, n_blocks: int) -> tuple[Chain, FloatArray | None]:
-    chain = Chain.from_slider(n_blocks=n_blocks, drive_velocity=kind.drive_velocity)
-    return chain, STRAIN * maximal_strain_positions(chain) if kind.is_strained else None
-
-
-def _first_transitions(chain: Chain, start: FloatArray | None, until: Until, wanted: int) -> Run:
-    try:
-        return simulate(chain, LONG, until, start_positions=start, max_transitions=wanted)
-    except TransitionLimitError as limit:
-        return limit.run

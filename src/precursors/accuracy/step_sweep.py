@@ -4,68 +4,37 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from precursors.accuracy.compare import Truth, compare
 from precursors.analysis.slip_rows import first_global
 from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
-from precursors.methods import rk4
-from precursors.methods.common import DivergedError
+from precursors.methods import METHODS, DivergedError
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-EXACT = "exact"
-METHODS = {method.name: method for method in rk4.METHODS}
+# Steps [s] from the coarsest to the finest. RK4 that also makes every step while nothing slides ends earlier.
+COARSEST, FINEST = 1e-5, 1e-9
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """What a method gives up to the end of the first global slip.
-
-    Attributes
-    ----------
-    method : str
-        Its name in the table of methods.
-    step : float
-        Its step [s]; NaN for the exact solver.
-    events_kept : int
-        Events of Fig. 13, the first global slip included.
-    mu_sapp : float
-        Apparent static friction coefficient (Eq. 1); NaN without a global slip.
-    global_slip_time : float
-        Onset of the first global slip [s]; NaN without one.
-    transitions_right, transitions_true : int
-        Transitions before the first wrong one, and all there are.
-    """
-
-    method: str
-    step: float
-    events_kept: int
-    mu_sapp: float
-    global_slip_time: float
-    transitions_right: int
-    transitions_true: int
+def charted_steps(full: bool = False) -> dict[str, FloatArray]:
+    """Steps of the default chart or the full one [s], by name of the method."""
+    per_decade, finest_every_step = (24, 1e-7) if full else (6, 1e-6)
+    return {
+        "rk4_skip": steps_between(COARSEST, FINEST, per_decade),
+        "rk4": steps_between(COARSEST, finest_every_step, per_decade),
+    }
 
 
 def steps_between(coarsest: float, finest: float, per_decade: int) -> FloatArray:
-    """Steps [s] from the coarsest to the finest, both included, evenly spaced on a logarithmic scale.
-
-    Raises
-    ------
-    ValueError
-        If the coarsest is finer than the finest.
-    """
-    if coarsest < finest:
-        raise ValueError(f"coarsest = {coarsest!r} s is less than finest = {finest!r} s: allowed is at least")
-    intervals = round(per_decade * math.log10(coarsest / finest))
-    return np.geomspace(coarsest, finest, intervals + 1)
+    """Steps [s] from the coarsest to the finest, both included, evenly spaced on a logarithmic scale."""
+    return np.geomspace(coarsest, finest, round(per_decade * math.log10(coarsest / finest)) + 1)
 
 
-def sweep(chain: Chain, duration: float, steps: Mapping[str, Iterable[float]]) -> Iterator[Outcome]:
-    """The exact solver's outcome, then that of each method with each of its steps.
+def sweep(chain: Chain, duration: float, steps: Mapping[str, Iterable[float]]) -> Iterator[dict[str, object]]:
+    """The exact solver's numbers up to the end of the first global slip, then each method's at each step.
 
     Parameters
     ----------
@@ -75,29 +44,40 @@ def sweep(chain: Chain, duration: float, steps: Mapping[str, Iterable[float]]) -
         Time limit of a run without a global slip [s].
     steps : mapping of str to iterable of float
         Steps [s] by name of the method.
+
+    Yields
+    ------
+    dict
+        See `row`.
     """
     truth = Truth.of_run(simulate(chain, duration, "global slip"))
-    yield outcome(EXACT, math.nan, truth.run, truth)
+    yield row("exact", math.nan, truth.run, truth)
     for method, values in steps.items():
         for step in map(float, values):
-            yield outcome(method, step, _run(chain, duration, method, step), truth)
+            yield row(method, step, _run(chain, duration, method, step), truth)
 
 
-def outcome(method: str, step: float, run: Run, truth: Truth) -> Outcome:
-    """What a run that stopped after its first global slip gives."""
+def row(method: str, step: float, run: Run, truth: Truth) -> dict[str, object]:
+    """What a run that stopped after its first global slip gives.
+
+    Returns
+    -------
+    dict
+        method; step_s [s], NaN for the exact solver; events_kept, the number of events in Fig. 13; mu_sapp
+        (Eq. 1) and global_slip_time_s, the onset of the first global slip [s], NaN without one;
+        transitions_right before the first wrong one, and transitions_true, all there are.
+    """
     slips = find_slips(run)
-    first = first_global(slips)
-    friction = apparent_friction(run, slips)
-    compared = compare(run, truth)
-    return Outcome(
-        method,
-        step,
-        len(find_precursors(slips)),
-        friction.mu_sapp if friction else math.nan,
-        math.nan if first is None else float(slips["onset"].iloc[first]),
-        compared.transitions_right,
-        compared.transitions_true,
-    )
+    first, friction, compared = first_global(slips), apparent_friction(run, slips), compare(run, truth)
+    return {
+        "method": method,
+        "step_s": step,
+        "events_kept": len(find_precursors(slips)),
+        "mu_sapp": friction.mu_sapp if friction else math.nan,
+        "global_slip_time_s": math.nan if first is None else float(slips["onset"].iloc[first]),
+        "transitions_right": compared.transitions_right,
+        "transitions_true": compared.transitions_true,
+    }
 
 
 def _run(chain: Chain, duration: float, method: str, step: float) -> Run:

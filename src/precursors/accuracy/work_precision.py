@@ -1,17 +1,15 @@
-"""Speed against accuracy: methods over the values of their knobs, timed side by side, held to the truth."""
+"""Speed against accuracy: methods with several settings, timed side by side and compared with the truth."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from functools import partial
-from importlib import import_module
 from typing import TYPE_CHECKING, Literal
 
 import pandas as pd
 
-from precursors import methods as integrators
 from precursors.accuracy.compare import Truth, compare
 from precursors.methods import METHODS, DivergedError, Method, Result
 from precursors.model.chain import Chain
@@ -21,9 +19,10 @@ from precursors.support import timing
 if TYPE_CHECKING:
     from precursors.accuracy.proof import Certificate
 
-Until = Literal["global slip"] | None
-Sweeps = Mapping[str, Sequence[float]]
-
+REPETITIONS = 5
+# A method is given up at a setting with which one call takes longer [s]: in the default chart, in the
+# full one.
+LONGEST, LONGEST_FULL = 2.0, 5.0
 COLUMNS = [
     "scene",
     "theta",
@@ -31,7 +30,7 @@ COLUMNS = [
     "truth",
     "method",
     "label",
-    "knob",
+    "setting",
     "value",
     "evaluations",
     "seconds",
@@ -44,7 +43,6 @@ COLUMNS = [
     "slips_found",
     "slips_true",
 ]
-END = "end"
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,52 +71,16 @@ class Case:
     theta: float
     chain: Chain
     duration: float
-    until: Until
+    until: Literal["global slip"] | None
     truth: Truth
     is_proved: bool
 
-
-def measure_methods(case: Case, sweeps: Sweeps, repetitions: int, longest: float) -> pd.DataFrame:
-    """Time the methods over the values of their knobs, and compare each run with the truth.
-
-    Parameters
-    ----------
-    case : Case
-        What to run.
-    sweeps : mapping
-        Values of the knob for each method, from loose to tight; methods whose package is missing are left
-        out.
-    repetitions : int
-        Number of rounds, after a warm-up, that the median is taken of; methods take turns in a round.
-    longest : float
-        Where a call takes longer [s], the sweep of its method ends before it.
-
-    Returns
-    -------
-    DataFrame
-        A row per method and value, with `COLUMNS`; `evaluations` is NaN for a method that counts none, and
-        errors are those of `Comparison`, NaN for the exact solver where it is itself the truth.
-
-    Raises
-    ------
-    ValueError
-        If there is no method of a name.
-    """
-    check_methods(sweeps)
-    tried = {
-        f"{name} {attempt.value!r}": attempt
-        for name, values in sweeps.items()
-        if name in METHODS
-        for attempt in _sweep(METHODS[name], values, case, longest)
-    }
-    timings = timing.measure(
-        {key: attempt.call for key, attempt in tried.items()},
-        repetitions,
-        seconds={key: attempt.seconds for key, attempt in tried.items()},
-    )
-    return pd.DataFrame(
-        [_row(case, attempt, timings[key].seconds) for key, attempt in tried.items()], columns=COLUMNS
-    )
+    def run(self, method: Method, value: float) -> Result:
+        """Run a method with a value of its setting; of a run that breaks off, what there is."""
+        try:
+            return method.solve(self.chain, self.duration, value, self.until)
+        except (DivergedError, TransitionLimitError) as error:
+            return Result(error.run, 0)
 
 
 def proved_cases(scene: str, theta: float, certificate: Certificate) -> tuple[Case, Case]:
@@ -127,72 +89,73 @@ def proved_cases(scene: str, theta: float, certificate: Certificate) -> tuple[Ca
     If a tie ends the proof, the truth is the run of the exact solver.
     """
     chain, duration = certificate.chain.to_chain(), float(certificate.duration)
-    is_proved = certificate.tie is None
     start = [float(x) for x in certificate.start_positions]
     if any(start):
-        raise ValueError(f"{scene} starts from {start} m: allowed is a start with springs at natural length")
+        raise ValueError(f"{scene} must start with springs at natural length, but starts from {start} m")
+    is_proved = certificate.tie is None
     truth = Truth.proved(certificate) if is_proved else Truth.of_run(simulate(chain, duration))
     whole = Case(scene, theta, chain, duration, certificate.until, truth, is_proved)
     return replace(whole, until="global slip", truth=truth.until_global_slip()), whole
 
 
-def sweeps_of(values: Mapping[str, Sequence[float] | str]) -> Sweeps:
-    """Replace the word "sweep" by all values that the table of methods has for a method.
+def charted_values(case: Case, full: bool = False) -> dict[str, tuple[float, ...]]:
+    """Values of each method's setting in the default chart or the full one, by name of the method."""
+    return {name: method.values_of(case.until, full) for name, method in METHODS.items()}
 
-    Raises
-    ------
-    ValueError
-        If there is no method of a name.
+
+def measure_methods(
+    case: Case,
+    values: Mapping[str, Sequence[float]],
+    repetitions: int = REPETITIONS,
+    longest: float = LONGEST,
+) -> pd.DataFrame:
+    """Time methods with several settings, and compare each run with the truth.
+
+    Parameters
+    ----------
+    case : Case
+        What to run.
+    values : mapping
+        Values of the setting for each method, from loose to tight.
+    repetitions : int
+        Number of rounds, after a warm-up, of which the median is taken; methods take turns in a round.
+    longest : float
+        A method is given up at a value with which a call takes longer [s].
+
+    Returns
+    -------
+    DataFrame
+        A row per method and value, with `COLUMNS`; `evaluations` is NaN for a method that counts none, and
+        errors are those of `Comparison`, NaN for the exact solver where it is itself the truth.
     """
-    check_methods(values)
-    return {
-        name: METHODS[name].sweep if isinstance(wanted, str) else wanted
-        for name, wanted in values.items()
-        if name in METHODS
-    }
-
-
-def check_methods(names: Iterable[str]) -> None:
-    """Refuse a name that is no method's, be its package installed or not.
-
-    Raises
-    ------
-    ValueError
-        In one line, with the names there are.
-    """
-    modules = [import_module(f"{integrators.__name__}.{module}") for module in integrators.MODULES]
-    known = {method.name for module in modules for method in module.METHODS}
-    for name in names:
-        if name not in known:
-            raise ValueError(f"there is no method {name!r}: allowed are {', '.join(sorted(known))}")
-
-
-def outcome(method: Method, value: float, case: Case) -> Result:
-    """Run a method; of a run that breaks off, what there is."""
-    try:
-        return method.solve(case.chain, case.duration, value, case.until)
-    except (DivergedError, TransitionLimitError) as error:
-        return Result(error.run, 0)
+    attempts = [
+        attempt for name, some in values.items() for attempt in _attempts(case, METHODS[name], some, longest)
+    ]
+    timings = timing.measure(
+        {key: partial(case.run, of.method, of.value) for key, of in enumerate(attempts)},
+        repetitions,
+        seconds={key: of.seconds for key, of in enumerate(attempts)},
+    )
+    rows = [_row(case, of, timings[key].seconds) for key, of in enumerate(attempts)]
+    return pd.DataFrame(rows, columns=COLUMNS)
 
 
 @dataclass(frozen=True)
 class _Attempt:
-    """A method with a value of its knob, its result, and about how long a call takes [s]."""
+    """A method with a value of its setting, its result, and about how long a call takes [s]."""
 
     method: Method
     value: float
-    call: Callable[[], Result]
     result: Result
     seconds: float
 
 
-def _sweep(method: Method, values: Sequence[float], case: Case, longest: float) -> Iterator[_Attempt]:
+def _attempts(case: Case, method: Method, values: Sequence[float], longest: float) -> Iterator[_Attempt]:
     for value in values:
-        call = partial(outcome, method, value, case)
-        result, seconds = timing.second_call(call)
+        result, seconds = timing.second_call(partial(case.run, method, value))
         if seconds > longest:
             return
-        yield _Attempt(method, value, call, result, seconds)
+        yield _Attempt(method, value, result, seconds)
 
 
 def _row(case: Case, attempt: _Attempt, seconds: float) -> dict[str, object]:
@@ -200,23 +163,17 @@ def _row(case: Case, attempt: _Attempt, seconds: float) -> dict[str, object]:
     found = compare(result.run, case.truth)
     # The exact solver's distance from itself is no error.
     is_the_truth = method.name == "exact" and not case.is_proved
-    return {
+    return asdict(found) | {
         "scene": case.scene,
         "theta": case.theta,
-        "until": case.until or END,
+        "until": case.until or "end",
         "truth": "proved" if case.is_proved else "exact solver",
         "method": method.name,
         "label": method.label,
-        "knob": method.knob,
+        "setting": method.setting,
         "value": attempt.value,
         "evaluations": result.evaluations or math.nan,
         "seconds": seconds,
         "error_load_N": math.nan if is_the_truth else found.load_error,
         "error_time_s": math.nan if is_the_truth else found.time_error,
-        "transitions_right": found.transitions_right,
-        "transitions_found": found.transitions_found,
-        "transitions_true": found.transitions_true,
-        "slips_right": found.slips_right,
-        "slips_found": found.slips_found,
-        "slips_true": found.slips_true,
     }

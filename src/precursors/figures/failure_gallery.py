@@ -1,4 +1,4 @@
-"""The failure gallery: a panel for each way to fail, with the measured number that shows it."""
+"""The failure gallery: a panel for each failure mode, with the measured number that shows it."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ OMEGA_DT = r"$\omega_\mathrm{max}\,\Delta t$ [-]"
 LIMIT = "largest stable omega dt"
 STABLE = r"stable up to $\omega\Delta t$ = {value:.3f}; theory "
 STABLE_STEP = Sentence(r"that is $\Delta t$ = {value:.3g} s on the paper's chain", "largest stable dt")
-RIGHT_OF_ALL = "{knob}: {value:.0f} of {exact:.0f} transitions right"
+RIGHT_OF_ALL = "{setting}: {value:.0f} of {exact:.0f} transitions right"
 F_X, TIME = "$F_X$ [N]", "Time [s]"
 CREEP = "velocity in stick, of the drive's"
 
@@ -91,18 +91,18 @@ PANELS = {
         STABLE_STEP,
     ), vertical=LIMIT, joined=False),
     "numerical_damping": Panel("Implicit Moreau-Jean damps motion", r"Time [$\mu$s]", "Energy left [-]", (
-        Sentence("{knob}: {value:.3f} of the energy left; exact {exact:g}", "energy left", "dt = 1e-07 s",
+        Sentence("{setting}: {value:.3f} of the energy left; exact {exact:g}", "energy left", "dt = 1e-07 s",
                  "Moreau-Jean, implicit"),
-        Sentence("{method}, {knob}: {value:.3f}", "energy left", method="Moreau-Jean, trapezoidal"),
+        Sentence("{method}, {setting}: {value:.3f}", "energy left", method="Moreau-Jean, trapezoidal"),
     ), scale=(MICRO, 1.0), key=(0.5, 0.12), joined=False),
     "literal_friction": Panel("Eq. 4 taken literally never sticks again", TIME, F_X, (
         Sentence("{quantity}: {value:.2f} N; exact {exact:.2f} N", "largest F_X", "dt = 1e-06 s"),
-        Sentence("with {knob}: {value:.2f} N", "largest F_X", "dt = 3e-06 s"),
+        Sentence("with {setting}: {value:.2f} N", "largest F_X", "dt = 3e-06 s"),
     ), marked=False),
     "dead_zone_too_small": Panel(
         "Dead zone too small: jumped over",
         r"Zone / safe width $(\mu_s+\mu_k)\,w\,\Delta t/2m$ [-]", "Transitions right [-]", (
-        Sentence("{knob}: {value:.0f} of {exact:.0f} right", "transitions right",
+        Sentence("{setting}: {value:.0f} of {exact:.0f} right", "transitions right",
                  "dt = 4e-08 s, zone = 0.05 safe"),
         Sentence("all are right from {value:.2g} {unit} on", "zone from which all is right"),
     ), log="x", vertical="zone from which all is right", ylim=(0.0, None)),
@@ -112,23 +112,23 @@ PANELS = {
         Sentence("all are right up to {value:.2g} {unit}", "zone up to which all is right"),
     ), log="xy", vertical="zone up to which all is right", joined=False),
     "creep": Panel("Regularised friction creeps in stick", r"Load / $\mu_s w$ [-]", "Velocity [m/s]", (
-        Sentence("{knob}:", CREEP),
+        Sentence("{setting}:", CREEP),
         Sentence("creeps at {value:.2%} of the drive's $V$; exact {exact:g}", CREEP),
     ), log="y", joined=False, key="lower right", ylim=(1e-11, 3e-4)),
     "stiffness": Panel("Regularised friction is stiff", "Width [m/s]", "Fastest rate [1/s]", (
-        Sentence("{knob}: {value:.1e} /s; chain {exact:.1e} /s", "fastest rate"),
+        Sentence("{setting}: {value:.1e} /s; chain {exact:.1e} /s", "fastest rate"),
         Sentence("RK4 stable up to {value:.1e} s; chain {exact:.1e} s", "longest stable step of RK4"),
     ), log="xy", joined=False),
     "missed_roots": Panel(
         "DOP853 misses two roots in a step",
         r"Time since the last transition [$\mu$s]", "Block's velocity [mm/s]", (
         Sentence(RIGHT_OF_ALL, "transitions right", "rtol = 1e-07"),
-        Sentence("{knob}: {value:.0f} of {exact:.0f}", "transitions right",
+        Sentence("{setting}: {value:.0f} of {exact:.0f}", "transitions right",
                  "rtol = 1e-07, max_step = 1e-06 s"),
     ), scale=(MICRO, MILLI)),
     "restart_on_root": Panel("Restart on a root: time stands still", TIME, "Transitions [-]", (
         Sentence("{quantity}: {value:.0f}, no end; exact {exact:.0f}", "transitions at t"),
-        Sentence("{knob}: {value:.0f}; exact {exact:.0f}", "transitions in"),
+        Sentence("{setting}: {value:.0f}; exact {exact:.0f}", "transitions in"),
     ), marked=False, drawstyle="steps-post"),
     "merged_transitions": Panel(
         "Transitions closer than a step merged", "Merged within [s]", "Transitions right [-]", (
@@ -136,7 +136,8 @@ PANELS = {
         Sentence("though only {value:.0f} of them lie so close", "transitions merged"),
     ), log="x", ylim=(0.0, None)),
     "forward_only": Panel(r"Backward sliding forbidden ($\theta$ = 5/6)", TIME, F_X, (
-        Sentence(r"{knob}: $\mu_\mathrm{{sapp}}$ = {value:.4f}; exact {exact:.4f}", "mu_sapp", "theta = 5/6"),
+        Sentence(r"{setting}: $\mu_\mathrm{{sapp}}$ = {value:.4f}; exact {exact:.4f}", "mu_sapp",
+                 "theta = 5/6"),
         Sentence(RIGHT_OF_ALL, "transitions right", "theta = -5/6"),
     ), marked=False, xmin=2.0, ylim=(125.0, None)),
 }  # fmt: skip
@@ -144,14 +145,14 @@ N_LINES = max(len(panel.sentences) for panel in PANELS.values())
 
 
 def draw(numbers: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
-    """Draw the ways to fail.
+    """Draw the failure modes.
 
     Parameters
     ----------
     numbers : DataFrame
-        failures.csv: columns way, method, knob, quantity, unit, value, exact.
+        failures.csv: columns failure_mode, method, setting, quantity, unit, value, exact.
     curves : sequence of DataFrame
-        failures/{way}.csv in the order of `PANELS`: the curve's name, x and y in the first three columns.
+        failures/{mode}.csv in the order of `PANELS`: the curve's name, x and y in the first three columns.
 
     Raises
     ------
@@ -160,17 +161,17 @@ def draw(numbers: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
     """
     with style.page(style.PAGE_MM, HEIGHT_MM, lay_out=False) as figure:
         grid = figure.subplots(ROWS, COLUMNS).flat
-        for letter, axes, way, table in zip("abcdefghijkl", grid, PANELS, curves, strict=True):
-            _draw_panel(axes, letter, way, numbers, table)
+        for letter, axes, mode, table in zip("abcdefghijkl", grid, PANELS, curves, strict=True):
+            _draw_panel(axes, letter, mode, numbers, table)
         figure.subplots_adjust(**LAYOUT)
     return figure
 
 
-def _draw_panel(axes: Axes, letter: str, way: str, numbers: pd.DataFrame, curves: pd.DataFrame) -> None:
-    panel = PANELS[way]
+def _draw_panel(axes: Axes, letter: str, mode: str, numbers: pd.DataFrame, curves: pd.DataFrame) -> None:
+    panel = PANELS[mode]
     _draw_curves(axes, panel, curves)
     if panel.vertical:
-        axes.axvline(find_number(numbers, way, panel.vertical)["value"] * panel.scale[0], **style.DOTTED)
+        axes.axvline(find_number(numbers, mode, panel.vertical)["value"] * panel.scale[0], **style.DOTTED)
     axes.set_xscale("log" if "x" in panel.log else "linear")
     axes.set_yscale("log" if "y" in panel.log else "linear")
     axes.set(xlim=(panel.xmin, None), ylim=panel.ylim)
@@ -180,7 +181,7 @@ def _draw_panel(axes: Axes, letter: str, way: str, numbers: pd.DataFrame, curves
     axes.set_ylabel(panel.y, fontsize=TITLE_SIZE)
     axes.tick_params(labelsize=TEXT_SIZE)
     axes.legend(loc=panel.key, fontsize=KEY_SIZE, handlelength=1.4, borderaxespad=0.3)
-    lines = [sentence(text, find_number(numbers, way, *which)) for text, *which in panel.sentences]
+    lines = [sentence(text, find_number(numbers, mode, *which)) for text, *which in panel.sentences]
     title = f"{letter}  {panel.title}"
     low, high = (TEXT_LEFT_PT, TEXT_BOTTOM_PT), (TEXT_LEFT_PT, TEXT_BOTTOM_PT + 1 + N_LINES * LINE_PT)
     axes.annotate("\n".join(lines), (0, 1), low, **ABOVE, fontsize=TEXT_SIZE, color=style.VERMILION)
@@ -213,14 +214,14 @@ def _label_decades(axis: Axis) -> None:
 
 
 def find_number(
-    numbers: pd.DataFrame, way: str, quantity: str, setting: str = "", method: str = ""
+    numbers: pd.DataFrame, mode: str, quantity: str, setting: str = "", method: str = ""
 ) -> pd.Series:
-    """The only number of a way whose quantity begins so, with a setting and a method if these are given."""
-    found = numbers[(numbers["way"] == way) & numbers["quantity"].str.startswith(quantity)]
-    for column, wanted in (("knob", setting), ("method", method)):
+    """The only number of a mode whose quantity begins so, with a setting and a method if these are given."""
+    found = numbers[(numbers["failure_mode"] == mode) & numbers["quantity"].str.startswith(quantity)]
+    for column, wanted in (("setting", setting), ("method", method)):
         found = found[found[column] == wanted] if wanted else found
     if len(found) != 1:
-        raise ValueError(f"failures.csv must have one {quantity!r} for {way}, but has {len(found)}")
+        raise ValueError(f"failures.csv must have one {quantity!r} for {mode}, but has {len(found)}")
     return found.iloc[0]
 
 

@@ -16,7 +16,6 @@ MODULES = {
     "leapfrog": None,
     "moreau_jean": None,
     "karnopp": None,
-    "literal": None,
     "regularised": None,
 }
 

@@ -1,20 +1,13 @@
-"""What every method has in common: its result, its row in the table of methods, the loop of fixed steps."""
+"""What all methods share: their result, their row in the table of methods, the error of a diverged run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
-import numpy as np
-
-from precursors.methods import forces
-from precursors.model.chain import Chain, checked_span, positive
+from precursors.model.chain import Chain
 from precursors.solver.run import Run
-from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
-
-FIRST_ROOM = 4096
 
 
 @dataclass(frozen=True)
@@ -24,13 +17,35 @@ class Result:
     Attributes
     ----------
     run : Run
-        Transitions, intervals, chain and duration; no states, so that `run.at` refuses.
+        Transitions, intervals, chain and duration. It has no states, so `run.at` is refused.
     evaluations : int
-        Evaluations of the forces of the whole chain: the cost that does not depend on the machine.
+        How often the forces of the whole chain were evaluated: a cost that does not depend on the machine.
     """
 
     run: Run
     evaluations: int
+
+
+@dataclass(frozen=True)
+class Smooth:
+    """A fixed-step method while nothing switches: what is proved about it in theory.
+
+    Attributes
+    ----------
+    slide : callable
+        (system, state, step [s], number of steps): makes steps with all blocks sliding, see `fixed_step`.
+    order : int
+        Order of convergence.
+    limit : float
+        Largest stable omega dt, for the highest angular frequency omega of the chain.
+    energy_factor : callable
+        Factor on the energy of a mode in one step, as a function of omega dt.
+    """
+
+    slide: Callable[..., None]
+    order: int
+    limit: float
+    energy_factor: Callable[[float], float]
 
 
 @dataclass(frozen=True)
@@ -41,97 +56,40 @@ class Method:
     ----------
     name, label : str
         Key in the table; name in charts.
-    knob : str
-        What sets the accuracy, with its unit: "step [s]", "relative tolerance", ...
-    sweep : tuple of float
-        Values of the knob worth charting, from loose to tight.
+    setting : str
+        What sets the accuracy, with its unit: "step [s]", "relative tolerance", "width [m/s]".
     solve : callable
-        (chain, duration [s], knob, until) -> Result; `until` is None or "global slip".
+        (chain, duration [s], value of the setting, until) -> Result; `until` is None or "global slip".
+    values : tuple of float
+        Values of the setting in the full chart, from loose to tight, up to the first global slip.
+    whole : tuple of float
+        The same for the whole run.
+    quick, quick_whole : tuple of float
+        The same in the default chart, which takes seconds.
+    smooth : Smooth or None
+        The method without switching, where theory says something about it.
     """
 
     name: str
     label: str
-    knob: str
-    sweep: tuple[float, ...]
+    setting: str
     solve: Callable[[Chain, float, float, str | None], Result]
+    values: tuple[float, ...]
+    whole: tuple[float, ...] = ()
+    quick: tuple[float, ...] = ()
+    quick_whole: tuple[float, ...] = ()
+    smooth: Smooth | None = None
+
+    def values_of(self, until: Any, full: bool) -> tuple[float, ...]:
+        """Values to chart up to the first global slip (`until`) or for the whole run (None)."""
+        if full:
+            return self.values if until else self.whole
+        return self.quick if until else self.quick_whole
 
 
 class DivergedError(RuntimeError):
-    """The numbers overflowed; `run` holds what was computed up to there."""
+    """The numbers overflowed; `run` holds what was computed before."""
 
     def __init__(self, message: str, run: Run) -> None:
         super().__init__(message)
         self.run = run
-
-
-def fixed_step(
-    name: str, label: str, steps: tuple[float, ...], method: Callable[..., int], *parameters: Any
-) -> Method:
-    """Make the row of a compiled fixed-step method; `method` and its parameters are those of `march`."""
-    return Method(name, label, "step [s]", steps, partial(march, method, parameters))
-
-
-def march(
-    method: Callable[..., int],
-    parameters: tuple[Any, ...],
-    chain: Chain,
-    duration: float,
-    step: float,
-    until: str | None = None,
-    max_transitions: int = MAX_TRANSITIONS,
-) -> Result:
-    """Run a compiled fixed-step method from rest, with more room for transitions whenever it asks for it.
-
-    Parameters
-    ----------
-    method : compiled function
-        (system, state, record, clock, count, duration, until_global, step, *parameters) -> status, see
-        `forces`.
-    parameters
-        What the method has besides its step.
-    chain, duration, until
-        As in `precursors.simulate`.
-    step : float
-        Step [s].
-
-    Raises
-    ------
-    ValueError
-        If an argument is out of range.
-    DivergedError
-        If the numbers overflow.
-    TransitionLimitError
-        If there are more than `max_transitions`.
-    """
-    duration = checked_span(duration, until)
-    positive("step", step, "s")
-    system = forces.system_of(chain)
-    state = forces.at_rest(system)
-    clock, count = np.zeros(forces.CLOCK_SIZE), np.zeros(forces.COUNT_SIZE, np.int64)
-    record = forces.new_record(FIRST_ROOM)
-    status = forces.PAUSED
-    while status == forces.PAUSED and count[forces.TRANSITIONS] < max_transitions:
-        record = forces.with_room(record, int(count[forces.TRANSITIONS]), chain.n_blocks)
-        status = method(system, state, record, clock, count, duration, until is not None, step, *parameters)
-    n = int(count[forces.TRANSITIONS])
-    if status == forces.DIVERGED:
-        n = int(np.isfinite(record.tangential_load[:n]).sum())
-    reached = clock[forces.ONSET] + clock[forces.ELAPSED]
-    since = clock[forces.CARRIED] + (clock[forces.ELAPSED] - clock[forces.NOTED])
-    since += record.interval[n : int(count[forces.TRANSITIONS])].sum()
-    run = Run.from_transitions(
-        chain,
-        duration if status == forces.FINISHED else float(reached),
-        record.time[:n],
-        record.block[:n],
-        record.mode[:n],
-        record.tangential_load[:n],
-        np.append(record.interval[:n], since),
-    )
-    if status == forces.DIVERGED:
-        raise DivergedError(
-            f"the motion grows beyond all numbers at t = {reached:.9g} s: shorten the step", run
-        )
-    if status == forces.PAUSED:
-        raise TransitionLimitError(f"max_transitions = {max_transitions} reached at t = {reached:.9g} s", run)
-    return Result(run, int(count[forces.EVALUATIONS]))

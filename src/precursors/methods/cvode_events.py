@@ -12,14 +12,10 @@ from typing import Any, Literal
 import numpy as np
 
 from precursors.methods.common import Method, Result
-from precursors.methods.events import Motion, gauges, jacobian, march_restarting, rates
+from precursors.methods.events import Motion, event_functions, jacobian, march_restarting, rates
 from precursors.model.chain import Chain, FloatArray
 
 Formula = Literal["Adams", "BDF"]
-TOLERANCES: dict[Formula, tuple[float, ...]] = {
-    "Adams": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13),
-    "BDF": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11),
-}
 MAX_STEPS = 1_000_000
 EVENT_FOUND = 2
 
@@ -52,7 +48,7 @@ def solve_cvode(
     motion = Motion(chain, duration, until)
     solver = _solver(motion, tolerance, formula)
 
-    def go_on(time: float) -> tuple[float, int]:
+    def next_transition(time: float) -> tuple[float, int]:
         solver.init_step(time, motion.state)
         solution = solver.step(motion.remaining, tstop=motion.remaining)
         motion.evaluations += int(solution.nfev)
@@ -62,7 +58,7 @@ def solve_cvode(
         fired = np.flatnonzero(solution.i_events[-1]) if solution.status == EVENT_FOUND else [-1]
         return float(solution.t), int(fired[0])
 
-    return march_restarting(motion, go_on)
+    return march_restarting(motion, next_transition)
 
 
 def _solver(motion: Motion, tolerance: float, formula: Formula) -> Any:
@@ -72,7 +68,7 @@ def _solver(motion: Motion, tolerance: float, formula: Formula) -> Any:
         rates(state, motion.settings, motion.coupling, motion.drive_velocity, result)
 
     def events(_time: float, state: FloatArray, result: FloatArray) -> None:
-        gauges(state, motion.settings, motion.strength, result)
+        event_functions(state, motion.settings, motion.strength, result)
 
     def matrix(_time: float, _state: FloatArray, _rates: FloatArray, result: FloatArray) -> None:
         jacobian(motion.settings, motion.coupling, result)
@@ -92,13 +88,21 @@ def _solver(motion: Motion, tolerance: float, formula: Formula) -> Any:
     )
 
 
-METHODS = tuple(
+METHODS = (
     Method(
-        f"cvode_{formula.lower()}",
-        f"SUNDIALS CVODE, {formula}",
+        "cvode_adams",
+        "SUNDIALS CVODE, Adams",
         "relative tolerance",
-        TOLERANCES[formula],
-        partial(solve_cvode, formula=formula),
-    )
-    for formula in TOLERANCES
+        partial(solve_cvode, formula="Adams"),
+        values=(1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
+        whole=(1e-8, 1e-12),
+        quick=(1e-8,),
+    ),
+    Method(
+        "cvode_bdf",
+        "SUNDIALS CVODE, BDF",
+        "relative tolerance",
+        partial(solve_cvode, formula="BDF"),
+        values=(1e-3, 1e-5, 1e-7, 1e-9),
+    ),
 )

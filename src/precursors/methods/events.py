@@ -1,19 +1,17 @@
 """What methods that locate transitions as events share: the motion, its event functions and the switching.
 
-Scaled so that a solver of differential equations meets numbers near one: force in N, time in tau, which is
-sqrt(m / stiffest spring), velocity in N/tau. The state is y = (T_1..T_N, v_1..v_N), the force in the spring
-behind each block and its velocity:
+The solvers of others meet numbers near one: force in N, time in tau = sqrt(m / stiffest spring), velocity in
+N/tau. The state is y = (T_1..T_N, v_1..v_N), the force in the spring behind each block and its velocity:
 
-    dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = s_i (T_i - T_{i+1}) - p_i,
+    dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = s_i (T_i - T_{i+1}) - mode_i mu_k w_i,
 
-with s_i = 1 where block i slides, p_i = mode_i mu_k w_i, v_0 = V, T_{N+1} = 0. These are Eqs. 2-6 in
-variables that do not grow with the drive, so that a solver's relative tolerance means the same at 0 s and at
-10 s. Each slip event has its own time, counted from its onset.
+with s_i = 1 where block i slides, v_0 = V, T_{N+1} = 0. These are Eqs. 2-6 as in `fixed_step`, without its
+columns for the drive and the free end, which would count in a solver's error norm. A solver's relative
+tolerance means the same at 0 s and at 10 s. Each slip event has its own time, counted from its onset.
 
-An event function falls through zero at a transition. Function 2 i (i from 0) is the velocity of block i in
-the direction of its mode while it slides, and its margin mu_s w_i - F_i against letting go forward while it
-sticks; function 2 i + 1 is its margin against letting go backward.
-"""
+An event function falls through zero at a transition. Function 2 i (i from 0) is the velocity of block i
+in the direction of its mode while it slides, and its margin mu_s w_i - F_i against being released forward
+while it sticks; function 2 i + 1 is its margin against being released backward."""
 
 from __future__ import annotations
 
@@ -29,11 +27,11 @@ from precursors.model.chain import Chain, FloatArray, checked_span, require_plai
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError
 
-# Rows of `Motion.settings`.
-SLIDES, PUSH, MODE, STICKS = range(4)
-# A block that starts is given this velocity [N/tau] in the direction of its acceleration. From exactly zero,
-# a solver that brackets the stop within its first step takes the start for the root: SciPy's brentq returns
-# it and the block never gets away; heyoka's finds it, drops it for its direction and misses the stop.
+# Rows of `Motion.settings`: s_i, mode_i mu_k w_i, mode_i, 1 - s_i.
+SLIDES, FRICTION, MODE, STICKS = range(4)
+# A block that starts gets this velocity [N/tau] in the direction of its acceleration. From exactly zero, a
+# solver that brackets the stop within its first step takes the start for the root: SciPy's brentq returns it
+# and the block never gets away; heyoka's finds it, drops it for its direction and misses the stop.
 NUDGE = 1e-100
 # More transitions than this, or more of them per block at one instant, are a solver that has lost its way.
 MAX_TRANSITIONS = 1_000_000
@@ -56,7 +54,7 @@ class Motion:
     state : array, shape (2 N,), optional
         Where a solver keeps the state y, if it wants to.
     settings : array, shape (4, N), optional
-        Where it keeps s_i, p_i, mode_i and 1 - s_i.
+        Where it keeps the rows SLIDES, FRICTION, MODE, STICKS.
     nudge : float
         Velocity of a block that starts, see `NUDGE`.
     """
@@ -70,43 +68,39 @@ class Motion:
         settings: FloatArray | None = None,
         nudge: float = NUDGE,
     ) -> None:
-        self.chain = chain
-        self.duration = checked_span(duration, until)
-        self.until = until
         n = chain.n_blocks
+        self.chain, self.until, self.nudge = chain, until, nudge
+        self.duration = checked_span(duration, until)
         self.tau, self.drive_velocity, self.coupling = scaled(chain)
         self.strength, self.friction = chain.strength, chain.kinetic_friction
         self.state = np.zeros(2 * n) if state is None else state
         self.settings = np.zeros((4, n)) if settings is None else settings
         self.state[:] = 0.0
-        self.settings[:] = 0.0
-        self.settings[STICKS] = 1.0
+        self.settings[:] = [[0.0], [0.0], [0.0], [1.0]]
         self.onset = 0.0  # of the present or last slip event [s]
         self.elapsed = 0.0  # since then, at the last transition [tau]
         self.n_sliding = 0
         self.was_global = False
-        self.nudge = nudge
-        self.at_once = 0
         self.evaluations = 0
+        self._at_once = 0
         self._rows: list[tuple[float, int, int, float, float]] = []
-        self._intervals: list[float] = []
         self._waited = 0.0  # since the last transition [s]
 
     def next_event(self) -> bool:
-        """While all blocks stick, wait in closed form until block 1 lets go; False if the run ends before."""
+        """While all blocks stick, wait in closed form until block 1 slides; False if the run ends before."""
         if self.was_global and self.until:
             self.duration = self.onset
             return False
-        tension, strength = self.state, float(self.strength[0])
-        ahead = float(tension[1]) if self.chain.n_blocks > 1 else 0.0
-        wait = max((strength - (float(tension[0]) - ahead)) / self.chain.loading_rate, 0.0)
+        force, strength = self.state, float(self.strength[0])
+        ahead = float(force[1]) if self.chain.n_blocks > 1 else 0.0
+        wait = max((strength - (float(force[0]) - ahead)) / self.chain.loading_rate, 0.0)
         if self.onset + wait >= self.duration:
             self._waited += self.duration - self.onset
             return False
         self.onset += wait
         self._waited += wait
         self.elapsed = 0.0
-        tension[0] = ahead + strength
+        force[0] = ahead + strength
         self.switch(0, 0.0)
         return True
 
@@ -115,17 +109,36 @@ class Motion:
         """Time from the onset of the present event to the end of the run [tau]."""
         return (self.duration - self.onset) / self.tau
 
+    def rates(self, _time: float, state: FloatArray) -> FloatArray:
+        """Right-hand side of the equations of motion in a state y."""
+        result = np.empty_like(state)
+        rates(state, self.settings, self.coupling, self.drive_velocity, result)
+        return result
+
+    def event_functions(self, state: FloatArray) -> FloatArray:
+        """All event functions in a state y; what cannot happen is 1."""
+        result = np.empty_like(state)
+        event_functions(state, self.settings, self.strength, result)
+        return result
+
+    def overdue(self) -> int:
+        """An event whose function is below zero, or -1."""
+        late = np.flatnonzero(self.event_functions(self.state) < 0.0)
+        return int(late[0]) if late.size else -1
+
+    def settle(self, event: int) -> tuple[int, int, int, int]:
+        """Make one transition, see `settle`."""
+        return settle(self.state, self.settings, self.strength, self.friction, self.nudge, event)
+
     def switch(self, event: int, elapsed: float) -> bool:
         """Make the transition of an event function that has reached zero, and any that is overdue with it.
 
         Returns whether a block still slides; if none does, the slip event has ended.
         """
         while event >= 0:
-            block, old, new, event = settle(
-                self.state, self.settings, self.strength, self.friction, self.nudge, event
-            )
+            block, old, new, event = self.settle(event)
             if new != old:
-                self._note(block + 1, new, elapsed)
+                self._record(block + 1, new, elapsed)
                 self.n_sliding += abs(new) - abs(old)
                 if self.n_sliding == self.chain.n_blocks:
                     self.was_global = True
@@ -133,13 +146,12 @@ class Motion:
             self.onset += elapsed * self.tau
         return self.n_sliding > 0
 
-    def _note(self, block: int, mode: int, elapsed: float) -> None:
+    def _record(self, block: int, mode: int, elapsed: float) -> None:
         interval = self._waited + (elapsed - self.elapsed) * self.tau
-        self.at_once = self.at_once + 1 if interval == 0.0 else 0
+        self._at_once = self._at_once + 1 if interval == 0.0 else 0
         self._rows.append((self.onset + elapsed * self.tau, block, mode, float(self.state[0]), interval))
         self.elapsed, self._waited = elapsed, 0.0
-        n_blocks = self.chain.n_blocks
-        if self.at_once > MAX_AT_ONCE * n_blocks or len(self._rows) >= MAX_TRANSITIONS:
+        if self._at_once > MAX_AT_ONCE * self.chain.n_blocks or len(self._rows) >= MAX_TRANSITIONS:
             self.duration = self._rows[-1][0]
             raise TransitionLimitError(
                 f"the solver makes transition after transition at t = {self.duration:.9g} s", self.run().run
@@ -169,18 +181,18 @@ def march_events(motion: Motion, slip: Callable[[Motion], Any]) -> Result:
     return motion.run()
 
 
-def march_restarting(motion: Motion, go_on: Callable[[float], tuple[float, int]]) -> Result:
+def march_restarting(motion: Motion, next_transition: Callable[[float], tuple[float, int]]) -> Result:
     """Run a chain by a solver that is started anew at each transition.
 
-    `go_on(time)` integrates the state in `motion` from a time [tau] to the next root of an event function. It
-    returns the time of that and the function's number, or the end of the run and -1. If another has fired at
-    the same instant, it is overdue after this one or fires again at once.
+    `next_transition(time)` integrates the state in `motion` from a time [tau] to the next root of an event
+    function. It returns the time of that and the function's number, or the end of the run and -1. If another
+    has fired at the same instant, it is overdue after this one or fires again at once.
     """
 
     def slip(motion: Motion) -> None:
         time = 0.0
         while motion.n_sliding and time < motion.remaining:
-            time, event = go_on(time)
+            time, event = next_transition(time)
             if event >= 0:
                 motion.switch(event, time)
 
@@ -193,13 +205,7 @@ def time_unit(chain: Chain) -> float:
 
 
 def scaled(chain: Chain) -> tuple[float, float, FloatArray]:
-    """tau [s], the drive's velocity [N/tau] and the springs c_i (the stiffest is 1).
-
-    Raises
-    ------
-    ValueError
-        If the chain has viscosity, interface springs or a head.
-    """
+    """tau [s], the drive's velocity [N/tau] and the springs c_i (the stiffest is 1)."""
     require_plain(chain)
     tau = time_unit(chain)
     return tau, chain.drive_velocity * chain.mass / tau, chain.springs / np.max(chain.springs)
@@ -214,7 +220,7 @@ def rates(state, settings, coupling, drive_velocity, result):
         velocity = state[n + i]
         ahead = state[i + 1] if i + 1 < n else 0.0
         result[i] = coupling[i] * (behind - velocity)
-        result[n + i] = settings[SLIDES, i] * (state[i] - ahead) - settings[PUSH, i]
+        result[n + i] = settings[SLIDES, i] * (state[i] - ahead) - settings[FRICTION, i]
         behind = velocity
 
 
@@ -230,8 +236,8 @@ def jacobian(settings: FloatArray, coupling: FloatArray, result: FloatArray) -> 
 
 
 @compiled
-def gauges(state, settings, strength, result):
-    """All event functions; what cannot happen is 1."""
+def event_functions(state, settings, strength, result):
+    """All event functions, shape (2 N,); what cannot happen is 1."""
     n = strength.shape[0]
     for i in range(n):
         if settings[MODE, i] != 0.0:
@@ -247,8 +253,8 @@ def gauges(state, settings, strength, result):
 def settle(state, settings, strength, friction, nudge, event):
     """Make one transition: (block from 0, old mode, new mode, next event function that is below zero or -1).
 
-    A stuck block lets go in the direction of its force. A block that stops sticks within mu_s w, or slides on
-    in the direction of the force (Eq. 5).
+    A stuck block is released in the direction of its force. A block that stops sticks within mu_s w, or
+    slides on in the direction of the force (Eq. 5).
     """
     n = strength.shape[0]
     block = event // 2
@@ -261,7 +267,7 @@ def settle(state, settings, strength, friction, nudge, event):
     else:
         new = 1 if net > 0.0 else -1
     settings[SLIDES, block] = abs(new)
-    settings[PUSH, block] = new * friction[block]
+    settings[FRICTION, block] = new * friction[block]
     settings[MODE, block] = new
     settings[STICKS, block] = 1 - abs(new)
     state[n + block] = new * nudge

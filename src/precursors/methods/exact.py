@@ -1,4 +1,4 @@
-"""The exact solver in the table of methods."""
+"""The exact solver as a row in the table of methods."""
 
 from __future__ import annotations
 
@@ -9,16 +9,12 @@ from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
 
 
-def solve(chain: Chain, duration: float, knob: float = 0.0, until: str | None = None) -> Result:
-    """Simulate exactly; there is no knob. Each derivative of a Taylor series counts as an evaluation.
-
-    Raises
-    ------
-    ValueError, TransitionLimitError
-        As `precursors.simulate`.
-    """
+def solve(chain: Chain, duration: float, _value: float = 0.0, until: str | None = None) -> Result:
+    """Simulate exactly; nothing sets the accuracy. Each derivative of a Taylor series is an evaluation."""
     run = simulate(chain, duration, cast(Literal["global slip"] | None, until))
     return Result(run, round(run.evaluations))
 
 
-METHODS = (Method("exact", "exact", "none", (0.0,), solve),)
+METHODS = (
+    Method("exact", "exact", "none", solve, values=(0.0,), whole=(0.0,), quick=(0.0,), quick_whole=(0.0,)),
+)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from precursors.methods.common import Method, Result
-from precursors.methods.events import MODE, NUDGE, PUSH, SLIDES, STICKS, Motion, march_events, scaled
+from precursors.methods.events import FRICTION, MODE, NUDGE, SLIDES, STICKS, Motion, march_events, scaled
 from precursors.model.chain import Chain
 
 # The tightest is rounding, heyoka's own default.
@@ -31,10 +31,10 @@ class _Integrator:
         n = chain.n_blocks
         _, drive_velocity, coupling = scaled(chain)
         strength = chain.strength
-        tension = [hy.expression(f"T{i}") for i in range(n)]
+        force = [hy.expression(f"T{i}") for i in range(n)]
         velocity = [hy.expression(f"v{i}") for i in range(n)]
         setting = [[hy.par[row * n + i] for i in range(n)] for row in range(4)]
-        net = [tension[i] - tension[i + 1] for i in range(n - 1)] + [tension[-1]]
+        net = [force[i] - force[i + 1] for i in range(n - 1)] + [force[-1]]
         behind = [drive_velocity, *velocity[:-1]]
         falling = {"direction": hy.event_direction.negative}
         events = []
@@ -47,8 +47,8 @@ class _Integrator:
             ]
         self.motion: Motion | None = None
         self.solver: Any = hy.taylor_adaptive(
-            [(tension[i], coupling[i] * (behind[i] - velocity[i])) for i in range(n)]
-            + [(velocity[i], setting[SLIDES][i] * net[i] - setting[PUSH][i]) for i in range(n)],
+            [(force[i], coupling[i] * (behind[i] - velocity[i])) for i in range(n)]
+            + [(velocity[i], setting[SLIDES][i] * net[i] - setting[FRICTION][i]) for i in range(n)],
             np.zeros(2 * n),
             t_events=events,
             pars=np.zeros(4 * n),
@@ -124,4 +124,15 @@ def solve_heyoka(
     return _integrator(chain, float(tolerance), high_accuracy).run(chain, duration, until, nudge)
 
 
-METHODS = (Method("heyoka", "heyoka.py, Taylor series", "relative tolerance", TOLERANCES, solve_heyoka),)
+METHODS = (
+    Method(
+        "heyoka",
+        "heyoka.py, Taylor series",
+        "relative tolerance",
+        solve_heyoka,
+        values=TOLERANCES,
+        whole=TOLERANCES,
+        quick=TOLERANCES,
+        quick_whole=(1e-6, 1e-8, 2.2e-16),
+    ),
+)

@@ -5,11 +5,11 @@ Stick and slip are switched once a step, as with `rk4`; while all blocks stick t
 
 from __future__ import annotations
 
-from precursors.methods.common import fixed_step
-from precursors.methods.forces import (
-    ELAPSED,
-    EVALUATIONS,
-    LAST,
+import math
+from functools import partial
+
+from precursors.methods.common import Smooth
+from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
     MOVING,
     PAUSED,
@@ -17,6 +17,7 @@ from precursors.methods.forces import (
     accelerate,
     all_keep_their_modes,
     begin_leg,
+    fixed_step,
     inner,
     outer,
     step_length,
@@ -24,7 +25,12 @@ from precursors.methods.forces import (
     switch,
 )
 
-STEPS = (6e-6, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
+LIMIT = 2.0  # largest stable omega dt, of both methods
+
+
+def energy_factor(z: float) -> float:
+    """Factor on the energy in a step in the long run, z = omega dt: 1 up to the limit, for both methods."""
+    return math.exp(2.0 * math.acosh(max(0.5 * z * z - 1.0, 1.0)))
 
 
 @inner
@@ -44,7 +50,7 @@ def euler_step(system, state, last, h):
 
 @outer
 def slide(system, state, h, n_steps, verlet):
-    """Make n steps of all blocks as they slide, without switching: the smooth method alone."""
+    """Make n steps of all blocks as they slide, without switching."""
     last = state.mode.shape[0] - 2
     for _ in range(n_steps):
         if verlet:
@@ -54,34 +60,47 @@ def slide(system, state, h, n_steps, verlet):
 
 
 @outer
-def run_symplectic(system, state, record, clock, count, duration, until_global, step, verlet):
-    """Run until `duration` [s], the end of the first global slip, a full record or a spent budget.
+def run_symplectic(motion, step, verlet):
+    """Run until the end, a full record or a spent budget of legs.
 
     The forces at the end of a Verlet step are those at the start of the next: one evaluation a step, and one
     more where friction has changed in between.
     """
+    system, state, progress = motion.system, motion.state, motion.progress
     for _ in range(LEGS_PER_CALL):
-        status = begin_leg(system, state, record, clock, count, duration, until_global, True)
+        status = begin_leg(motion, True)
         if status != MOVING:
             return status
         if verlet:
-            count[EVALUATIONS] += 1
+            progress.evaluations += 1
         for _ in range(STEPS_IN_LEG):
-            h = step_length(clock, duration, step)
+            h = step_length(progress, step)
             if verlet:
-                verlet_step(system, state, count[LAST], h)
+                verlet_step(system, state, progress.last, h)
             else:
-                euler_step(system, state, count[LAST], h)
-            count[EVALUATIONS] += 1
-            clock[ELAPSED] += h
-            if h < step or not all_keep_their_modes(system, state, count[LAST]):
+                euler_step(system, state, progress.last, h)
+            progress.evaluations += 1
+            progress.elapsed += h
+            if h < step or not all_keep_their_modes(system, state, progress.last):
                 break
-        switch(system, state, record, clock, count)
+        switch(motion)
     return PAUSED
 
 
-METHODS = (
-    # Of order 2 and 1 while nothing switches.
-    fixed_step("leapfrog", "leapfrog", STEPS, run_symplectic, True),
-    fixed_step("semi_implicit_euler", "semi-implicit Euler", STEPS, run_symplectic, False),
+METHODS = tuple(
+    fixed_step(
+        name,
+        label,
+        run_symplectic,
+        verlet,
+        values=(6e-6, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9),
+        whole=(1e-6, 1e-7, 3e-8, 1e-8, 3e-9),
+        quick=(1e-6, 1e-7, 1e-8, 3e-9),
+        quick_whole=(1e-7,),
+        smooth=Smooth(partial(slide, verlet=verlet), order, LIMIT, energy_factor),
+    )
+    for name, label, verlet, order in (
+        ("leapfrog", "leapfrog", True, 2),
+        ("semi_implicit_euler", "semi-implicit Euler", False, 1),
+    )
 )

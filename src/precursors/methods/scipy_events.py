@@ -1,9 +1,9 @@
 """SciPy's solve_ivp with terminal events, restarted at each transition: RK45, DOP853, LSODA and Radau.
 
-Events are the velocities of the blocks that slide and the margins of the stuck blocks beside them; elsewhere
-no force changes. SciPy looks for an event where its function has changed sign over a step, so a velocity that
-falls below zero and rises again within one step is missed without a word: `max_step` is the cure.
-"""
+Events are the velocities of the blocks that slide and the margins of the stuck blocks beside them;
+elsewhere no force changes. SciPy looks for an event where its function has changed sign over a step, so a
+velocity that falls below zero and rises again within one step is missed without a warning. A shorter
+`max_step` is one cure; `next_transition`, which looks at more points of each step, is another."""
 
 from __future__ import annotations
 
@@ -13,22 +13,19 @@ from functools import partial
 from typing import Any, Literal
 
 import numpy as np
-from scipy.integrate import solve_ivp
+from scipy.integrate import DOP853, solve_ivp
+from scipy.optimize import brentq
 
 from precursors.methods.common import Method, Result
-from precursors.methods.events import MODE, NUDGE, Motion, jacobian, march_restarting, rates
+from precursors.methods.events import MODE, NUDGE, Motion, jacobian, march_restarting
 from precursors.model.chain import Chain, FloatArray
 
 Solver = Literal["RK45", "DOP853", "LSODA", "Radau"]
 IMPLICIT = ("LSODA", "Radau")
-# Tightest: below it the solver refuses, warns, or gains nothing.
-TOLERANCES: dict[Solver, tuple[float, ...]] = {
-    "RK45": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11),
-    "DOP853": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13),
-    "LSODA": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12),
-    "Radau": (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10),
-}
 FALLING = -1.0
+# Of `next_transition`: relative tolerance, points of a step at which events are looked for, and error of
+# a root [tau], which is below the rounding of a slip's time.
+TIGHT, PROBES, ROOT_ERROR = 1e-10, 9, 1e-14
 
 EventFunction = Callable[[float, FloatArray], float]
 
@@ -70,19 +67,14 @@ def solve_scipy(
     motion = Motion(chain, duration, until, nudge=nudge)
     n = chain.n_blocks
 
-    def right_hand_side(_time: float, state: FloatArray) -> FloatArray:
-        result = np.empty(2 * n)
-        rates(state, motion.settings, motion.coupling, motion.drive_velocity, result)
-        return result
-
-    def go_on(time: float) -> tuple[float, int]:
+    def next_transition(time: float) -> tuple[float, int]:
         events = dict(watched(motion, direction))
         options: dict[str, Any] = {}
         if solver in IMPLICIT:
             matrix = jacobian(motion.settings, motion.coupling, np.zeros((2 * n, 2 * n)))
             options["jac"] = matrix if solver == "Radau" else lambda _t, _y: matrix
         solution = solve_ivp(
-            right_hand_side,
+            motion.rates,
             (time, motion.remaining),
             motion.state,
             method=solver,
@@ -99,7 +91,36 @@ def solve_scipy(
         fired = [number for number, times in zip(events, solution.t_events or (), strict=True) if len(times)]
         return float(solution.t[-1]), fired[0] if fired else -1
 
-    return march_restarting(motion, go_on)
+    return march_restarting(motion, next_transition)
+
+
+def next_transition(motion: Motion, time: float) -> tuple[float, int]:
+    """Go on by DOP853 to the next transition: when it is [tau] and its event, or -1 at the end of the run.
+
+    Events are looked for at `PROBES` points of each step, so that two roots in one step are not missed.
+    """
+    stepper = DOP853(motion.rates, time, motion.state, motion.remaining, rtol=TIGHT, atol=TIGHT)
+    while stepper.status == "running":
+        stepper.step()
+        path = stepper.dense_output()
+        times = np.linspace(stepper.t_old, stepper.t, PROBES)
+        below = np.array([motion.event_functions(path(t)) for t in times])[1:] < 0.0
+        if not below.any():
+            continue
+        probe = int(np.argmax(below.any(axis=1)))
+        bracket = float(times[probe]), float(times[probe + 1])
+        root, event = min(
+            (brentq(_event(motion, path, i), *bracket, xtol=ROOT_ERROR), i)
+            for i in np.flatnonzero(below[probe]).tolist()
+        )
+        motion.state[:] = path(root)
+        return root, event
+    motion.state[:] = stepper.y
+    return float(stepper.t), -1
+
+
+def _event(motion: Motion, path: Callable[[float], FloatArray], number: int) -> Callable[[float], float]:
+    return lambda time: float(motion.event_functions(path(time))[number])
 
 
 def watched(motion: Motion, direction: float = FALLING) -> Iterator[tuple[int, EventFunction]]:
@@ -131,13 +152,23 @@ def _terminal(function: EventFunction, direction: float) -> EventFunction:
     return function
 
 
+_VALUES: dict[Solver, dict[str, Any]] = {
+    "RK45": {"values": (1e-4, 1e-6, 1e-8)},
+    "DOP853": {
+        "values": (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
+        "whole": (1e-13,),
+        "quick": (1e-11,),
+    },
+    "LSODA": {"values": (1e-4, 1e-6, 1e-8, 1e-10), "whole": (1e-10,)},
+    "Radau": {"values": (1e-4, 1e-5)},
+}
 METHODS = tuple(
     Method(
         f"scipy_{solver.lower()}",
         f"SciPy {solver} with events",
         "relative tolerance",
-        TOLERANCES[solver],
         partial(solve_scipy, solver=solver),
+        **values,
     )
-    for solver in TOLERANCES
+    for solver, values in _VALUES.items()
 )

@@ -1,8 +1,8 @@
-"""Where fixed-step methods become unstable: the growth of energy, measured and in theory.
+"""Where fixed-step methods become unstable: what a step makes of the energy, measured.
 
-A chain without friction whose drive rests keeps its energy. With z = omega dt, a method multiplies the energy
-of a mode of angular frequency omega by a factor a step; the fastest mode is the first whose factor exceeds 1.
-"""
+A chain without friction whose drive rests keeps its energy. A method multiplies the energy of a mode of
+angular frequency omega by a factor in each step, `Smooth.energy_factor(omega dt)`. The fastest mode is
+the first whose factor exceeds 1; its omega dt is then `Smooth.limit`."""
 
 from __future__ import annotations
 
@@ -13,32 +13,18 @@ from functools import partial
 
 import numpy as np
 
-from precursors.methods import leapfrog, moreau_jean, rk4
-from precursors.methods.forces import State, sliding_forward, system_of
+from precursors.methods.fixed_step import State, sliding_forward, system_of
 from precursors.model.chain import Chain, FloatArray
 
-# (system, state, step [s], number of steps): the smooth method alone, see `slide` of the integrators.
-Slide = Callable[..., None]
-# By name in the table of methods.
-SLIDES: dict[str, Slide] = {
-    "rk4": rk4.slide,
-    "leapfrog": partial(leapfrog.slide, verlet=True),
-    "semi_implicit_euler": partial(leapfrog.slide, verlet=False),
-    "moreau_jean_half": partial(moreau_jean.slide, theta=moreau_jean.TRAPEZOIDAL),
-    "moreau_jean_one": partial(moreau_jean.slide, theta=moreau_jean.IMPLICIT),
-}
-
-# Largest stable omega dt, where the growth factors below reach 1.
-RK4_LIMIT = 2.0 * math.sqrt(2.0)
-LEAPFROG_LIMIT = 2.0
-
-# Energy that grows so much within so many steps grows without limit. Bounded energy can rise by
+# Energy that becomes so many times larger within so many steps has no limit. Bounded energy can rise by
 # 1 / (1 - (omega dt / 2)^2) in leapfrog: 500 times at 0.1 % below its limit.
-GROWTH = 1e6
+UNBOUNDED = 1e6
 STEPS = 4000
 BISECTIONS = 20
 # A drive so slow does no work in a test; `Chain` has none that rests.
-AT_REST = 1e-15
+AT_REST = 1e-15  # m/s
+
+Slide = Callable[..., None]
 
 
 def without_friction(chain: Chain) -> Chain:
@@ -64,7 +50,7 @@ def highest_mode(chain: Chain) -> FloatArray:
 
 def energy(chain: Chain, state: State) -> float:
     """Kinetic energy and that of the springs [J]."""
-    springs = state.tension[1:-1] ** 2 / chain.springs
+    springs = state.spring_force[1:-1] ** 2 / chain.springs
     return 0.5 * float(chain.mass * state.velocity[1:-1] @ state.velocity[1:-1] + springs.sum())
 
 
@@ -78,10 +64,10 @@ def energy_left(chain: Chain, slide: Slide, step: float, n_steps: int, velocitie
         return energy(chain, state) / before
 
 
-def energy_grows(chain: Chain, slide: Slide, step: float) -> bool:
-    """Whether energy grows without limit at a step [s], whatever mode it is that grows."""
+def is_unstable(chain: Chain, slide: Slide, step: float) -> bool:
+    """Whether the energy has no limit at a step [s], whichever mode it is in."""
     velocities = np.sin(1.0 + 2.0 * np.arange(chain.n_blocks))
-    return not energy_left(chain, slide, step, STEPS, velocities) < GROWTH
+    return not energy_left(chain, slide, step, STEPS, velocities) < UNBOUNDED
 
 
 def bisect(
@@ -95,7 +81,7 @@ def bisect(
         If the first does not work, or the second does.
     """
     if fails(works) or not fails(broken):
-        raise ValueError(f"no limit to be found: {works!r} has to work and {broken!r} to fail")
+        raise ValueError(f"there is no limit: {works!r} must work and {broken!r} must fail")
     for _ in range(bisections):
         middle = math.sqrt(works * broken)
         works, broken = (works, middle) if fails(middle) else (middle, broken)
@@ -103,20 +89,5 @@ def bisect(
 
 
 def largest_stable_step(chain: Chain, slide: Slide, works: float = 1e-8, broken: float = 1e-4) -> float:
-    """Step [s] above which the energy of a chain without friction grows, by bisection between two steps."""
-    return bisect(partial(energy_grows, chain, slide), works, broken)
-
-
-def rk4_growth(z: float) -> float:
-    """Factor on the energy a step of RK4: |1 + iz - z^2/2 - iz^3/6 + z^4/24|^2."""
-    return 1.0 - z**6 / 72.0 + z**8 / 576.0
-
-
-def leapfrog_growth(z: float) -> float:
-    """Factor on the energy a step of leapfrog in the long run: 1 up to its limit."""
-    return math.exp(2.0 * math.acosh(max(0.5 * z * z - 1.0, 1.0)))
-
-
-def moreau_jean_growth(z: float, theta: float) -> float:
-    """Factor on the energy a step of Moreau-Jean time stepping: 1 at theta = 1/2, less above."""
-    return (1.0 + ((1.0 - theta) * z) ** 2) / (1.0 + (theta * z) ** 2)
+    """Step [s] above which the energy of a chain without friction has no limit, between two steps."""
+    return bisect(partial(is_unstable, chain, slide), works, broken)

@@ -145,7 +145,7 @@ def _check_names_and_lengths(config: Config) -> None:
     accuracy = config["accuracy"]
     for where, names, known in (
         ("fig13", config["fig13"], scenes_with(config, "run")),
-        ("accuracy.work_precision.chains", accuracy["work_precision"]["chains"], accuracy["proved"]),
+        ("accuracy.compared", accuracy["compared"], accuracy["proved"]),
     ):
         for name in names:
             if name not in known:

@@ -71,8 +71,8 @@ def model(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "block-mass": (measured["block_mass_kg"], "kg"),
         "block-stiffness": (measured["stiffness_N_per_m"], "N/m"),
         "loading-rate": (measured["drive_stiffness_N_per_m"] * measured["drive_velocity_m_per_s"], "N/s"),
-        "literal-load": (rows(t["failures"], way="literal_friction")["value"].iloc[-1], "N"),
-        "literal-step": rows(t["failures"], way="literal_friction")["knob"].iloc[-1],
+        "literal-load": (rows(t["failures"], failure_mode="literal_friction")["value"].iloc[-1], "N"),
+        "literal-step": rows(t["failures"], failure_mode="literal_friction")["setting"].iloc[-1],
     }
     for scene in SCENES:
         found[f"theta-{scene}"] = t[f"{scene}_slips"]["theta"].iloc[0]

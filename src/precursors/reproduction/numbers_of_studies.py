@@ -19,7 +19,7 @@ TABLES = (
     "solver_vs_proof",
     "work_precision",
     "step_sweep",
-    "growth",
+    "cost_per_event",
     "spread",
     "model_comparison",
     "resolution",
@@ -32,7 +32,7 @@ TABLES = (
 
 def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Speed against accuracy; heyoka's numbers only where it is installed."""
-    sweep, cost = t["step_sweep"], t["growth"]
+    sweep, cost = t["step_sweep"], t["cost_per_event"]
     found: Numbers = {
         "finest-step": (sweep["step_s"].min(), "s"),
         "growth-largest-n": cost["n_blocks"].max(),
@@ -60,8 +60,8 @@ def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
 def failures(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Where methods fail."""
 
-    def of(way: str, quantity: str, column: str = "value") -> pd.Series:
-        return rows(t["failures"], way=way, quantity=quantity)[column]
+    def of(mode: str, quantity: str, column: str = "value") -> pd.Series:
+        return rows(t["failures"], failure_mode=mode, quantity=quantity)[column]
 
     return {
         "rk4-limit": of("rk4_unstable", "largest stable omega dt").iloc[0],

@@ -1,19 +1,18 @@
-"""Ways in which methods fail on the paper's chain, each with a measured number that shows it."""
+"""Failure modes of the methods on the paper's chain, each with a measured number that shows it."""
 
-from precursors.accuracy.failures.backward import forward_only
-from precursors.accuracy.failures.common import Failure, Number, Way
+from collections.abc import Callable
+
+from precursors.accuracy.failures.common import Failure, Number
+from precursors.accuracy.failures.dead_zone import dead_zone_too_large, dead_zone_too_small
 from precursors.accuracy.failures.energy import leapfrog_unstable, numerical_damping, rk4_unstable
-from precursors.accuracy.failures.friction_laws import (
-    creep,
-    dead_zone_too_large,
-    dead_zone_too_small,
-    literal_friction,
-    stiffness,
-)
+from precursors.accuracy.failures.forward_only import forward_only
+from precursors.accuracy.failures.literal_friction import literal_friction
 from precursors.accuracy.failures.locating import merged_transitions, missed_roots, restart_on_root
+from precursors.accuracy.failures.regularised_friction import creep, stiffness
 
-WAYS = tuple(
-    Way(measure.__name__, measure)
+# By name, in the order of the gallery.
+FAILURE_MODES: dict[str, Callable[[], Failure]] = {
+    measure.__name__: measure
     for measure in (
         rk4_unstable,
         leapfrog_unstable,
@@ -28,6 +27,6 @@ WAYS = tuple(
         merged_transitions,
         forward_only,
     )
-)
+}
 
-__all__ = ["WAYS", "Failure", "Number", "Way"]
+__all__ = ["FAILURE_MODES", "Failure", "Number"]

@@ -1,8 +1,7 @@
-"""What a way to fail is: the numbers that show it and the curves that draw it."""
+"""What a failure mode gives: the numbers that show it and the curves that draw it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,10 +18,8 @@ class Number:
 
     Attributes
     ----------
-    method : str
-        What failed.
-    knob : str
-        Its setting, with unit.
+    method, setting : str
+        What failed, and its setting with unit.
     quantity, unit : str
         What was measured.
     value : float
@@ -32,7 +29,7 @@ class Number:
     """
 
     method: str
-    knob: str
+    setting: str
     quantity: str
     unit: str
     value: float
@@ -41,26 +38,10 @@ class Number:
 
 @dataclass(frozen=True)
 class Failure:
-    """A way to fail, measured.
-
-    Attributes
-    ----------
-    numbers : tuple of Number
-        At least one.
-    curves : DataFrame
-        Columns: the curve's name, x and y, with units in the names.
-    """
+    """A failure, measured: at least one number, and a table of curves (columns: curve, x, y with units)."""
 
     numbers: tuple[Number, ...]
     curves: pd.DataFrame
-
-
-@dataclass(frozen=True)
-class Way:
-    """A way to fail: its name and what measures it."""
-
-    name: str
-    measure: Callable[[], Failure]
 
 
 def curves(x: str, y: str, **points: tuple[ArrayLike, ArrayLike]) -> pd.DataFrame:

@@ -1,0 +1,45 @@
+"""Eq. 4 taken literally: friction is static only where the velocity is exactly zero."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from precursors.accuracy.failures.common import Failure, Number, curves
+from precursors.methods import karnopp
+from precursors.methods.fixed_step import at_rest, system_of
+from precursors.model.chain import Chain, FloatArray
+from precursors.solver.simulate import simulate
+
+END = 1.0  # s
+STEPS = (3e-6, 1e-6)  # s
+POINTS = 66
+
+
+def load_after_limit(chain: Chain, step: float, times: FloatArray) -> FloatArray:
+    """F_X [N] with Eq. 4 as printed, at some times [s] after block 1 has first reached its limit."""
+    system = system_of(chain)
+    state = at_rest(system)
+    state.spring_force[1] = chain.strength[0]
+    load = []
+    for time in np.diff(times, prepend=0.0):
+        karnopp.slide(system, state, step, round(time / step), 0.0)
+        load.append(float(state.spring_force[1]))
+    return np.array(load)
+
+
+def literal_friction() -> Failure:
+    """With Eq. 4 as printed a block that has once slid never sticks again."""
+    chain = Chain.from_slider()
+    run = simulate(chain, END)
+    exact_times = np.concatenate([[0.0], run.transitions["time"], [END]])
+    exact = run.tangential_load(exact_times)
+    onset = chain.strength[0] / chain.loading_rate
+    times = np.linspace(0.0, END - onset, POINTS)
+    lines = {"exact": (exact_times, exact)}
+    numbers = []
+    for step in STEPS:
+        load, setting = load_after_limit(chain, step, times), f"dt = {step:.0e} s"
+        lines[setting] = (np.append(0.0, onset + times), np.append(0.0, load))
+        largest = float(load.max()), float(exact.max())
+        numbers.append(Number("RK4 with Eq. 4 as printed", setting, "largest F_X in 1 s", "N", *largest))
+    return Failure(tuple(numbers), curves("time_s", "tangential_load_N", **lines))

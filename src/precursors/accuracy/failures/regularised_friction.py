@@ -1,0 +1,89 @@
+"""Regularised friction: blocks creep under less than mu_s w, and the narrower the law, the stiffer it is."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import solve_ivp
+
+from precursors.accuracy.failures.common import Failure, Number, curves
+from precursors.methods import rk4
+from precursors.methods.events import time_unit
+from precursors.methods.regularised import creep_velocity, equations
+from precursors.methods.stability import highest_frequency
+from precursors.model.chain import Chain
+
+WIDTHS = (1e-5, 1e-6, 1e-7)  # m/s
+LOADS = np.array([0.3, 0.6, 0.9])  # parts of mu_s w
+STIFF_WIDTHS = np.geomspace(1e-9, 1e-4, 11)  # m/s
+CHARTED_WIDTH, CHARTED_LOAD = 1e-6, 0.9
+# A stiff decay is stable with RK4 up to this lambda dt.
+RK4_REAL_LIMIT = 2.785293563
+
+
+def measured_creep(ratio: float, width: float) -> float:
+    """Velocity [m/s] of a block under the load ratio * mu_s w, which friction should hold."""
+    # So soft a drive keeps the load constant.
+    chain = Chain.from_slider(n_blocks=1, drive_stiffness=1e-3, drive_velocity=1e-12)
+    start = [ratio * float(chain.strength[0]), 0.0]
+    right_hand_side, jacobian = equations(chain, width)
+    solution = solve_ivp(
+        right_hand_side, (0.0, 1.0), start, "Radau", jac=jacobian, rtol=1e-8, atol=[1e-8, 1e-18]
+    )
+    return float(solution.y[1, -1]) * time_unit(chain) / chain.mass
+
+
+def creep() -> Failure:
+    """Regularised friction: a block under less than mu_s w creeps."""
+    block = Chain.from_slider(n_blocks=1)
+    weight, strength = float(block.weights[0]), float(block.strength[0])
+    fine = np.linspace(0.02, 0.99, 98)
+    lines: dict[str, tuple[ArrayLike, ArrayLike]] = {
+        "the_drive": (fine[[0, -1]], 2 * (block.drive_velocity,))
+    }
+    for width in WIDTHS:
+        theory = [creep_velocity(ratio * strength, weight, width, block.mu_s) for ratio in fine]
+        lines[f"theory, width = {width:.0e} m/s"] = (fine, theory)
+        lines[f"width = {width:.0e} m/s"] = (LOADS, [measured_creep(ratio, width) for ratio in LOADS])
+    speed = measured_creep(CHARTED_LOAD, CHARTED_WIDTH)
+    setting = f"width = {CHARTED_WIDTH:.0e} m/s, F = {CHARTED_LOAD:g} mu_s w"
+    number = partial(Number, "regularised friction", setting)
+    return Failure(
+        (
+            number("velocity in stick", "m/s", speed, 0.0),
+            number("velocity in stick, of the drive's", "1", speed / block.drive_velocity, 0.0),
+        ),
+        curves("load_over_strength", "velocity_m_per_s", **lines),
+    )
+
+
+def fastest_rate(chain: Chain, width: float) -> float:
+    """Largest eigenvalue of the equations with regularised friction at rest [1/s]."""
+    _, jacobian = equations(chain, width)
+    rates = np.linalg.eigvals(jacobian(0.0, np.zeros(2 * chain.n_blocks)))
+    return float(np.abs(rates).max()) / time_unit(chain)
+
+
+def stiffness() -> Failure:
+    """Regularised friction: the narrower, the stiffer."""
+    chain = Chain.from_slider()
+    omega = highest_frequency(chain)
+    rates = [fastest_rate(chain, width) for width in STIFF_WIDTHS]
+    theory = [float(chain.strength.max()) / (chain.mass * width) for width in STIFF_WIDTHS]
+    rate = fastest_rate(chain, CHARTED_WIDTH)
+    number = partial(Number, "regularised friction", f"width = {CHARTED_WIDTH:.0e} m/s")
+    return Failure(
+        (
+            number("fastest rate", "1/s", rate, omega),
+            number("longest stable step of RK4", "s", RK4_REAL_LIMIT / rate, rk4.LIMIT / omega),
+        ),
+        curves(
+            "width_m_per_s",
+            "fastest_rate_per_s",
+            theory=(STIFF_WIDTHS, theory),
+            measured=(STIFF_WIDTHS, rates),
+            the_chain_itself=(STIFF_WIDTHS[[0, -1]], [omega, omega]),
+        ),
+    )

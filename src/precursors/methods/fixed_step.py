@@ -1,0 +1,395 @@
+"""What the compiled fixed-step methods share: forces, switching, waiting, recording, and the run itself.
+
+The state is the force T_i in the spring behind each block and the block's velocity v_i (Eqs. 2-6):
+
+    dT_i/dt = c_i (v_{i-1} - v_i),    m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides,
+
+with c = K, k, k, ... and v_0 = V. Unlike positions, these numbers do not grow with the drive, so their
+rounding does not grow either. Column 0 of every array is the drive, columns 1..N the blocks, column N + 1
+the free end.
+
+A method is a compiled function (motion, step, *parameters) -> status. It works in legs: the steps up to
+the next change of a mode. `begin_leg` waits while all blocks stick, and says when the run has ended."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from precursors.methods.common import DivergedError, Method, Result, Smooth
+from precursors.model.chain import Chain, FloatArray, checked_span, positive, require_plain
+from precursors.solver.compile_cache import kept, stamp
+from precursors.solver.run import Run
+from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
+
+FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, MOVING = range(5)
+# A leg has at most so many steps, and a call so many legs, so that Ctrl-C is heard within a second or so.
+STEPS_IN_LEG, LEGS_PER_CALL = 1000, 5000
+FIRST_ROOM = 4096  # transitions
+
+# Numba counts references to all arrays of a tuple at each call, which costs more than a step. So what is
+# called in every step is inlined.
+apart = njit(error_model="numpy", fastmath={"contract"})
+inner = njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
+_entry = njit(error_model="numpy", fastmath={"contract"}, nogil=True)
+STAMP = stamp(Path(__file__).parent)
+
+
+def outer(function: Callable[..., Any]) -> Any:
+    """Compile what Python calls, and keep it until a file of this package is edited."""
+    return kept(_entry(function), STAMP)
+
+
+class System(NamedTuple):
+    """What stays: 1/m, V, and for each column the spring behind it [N/m], mu_s w and mu_k w [N]."""
+
+    inverse_mass: float
+    drive_velocity: float
+    spring: FloatArray
+    strength: FloatArray
+    kinetic_friction: FloatArray
+
+
+class State(NamedTuple):
+    """What changes: spring force [N], velocity [m/s], mode, 1/m where a block slides, mode_i mu_k w_i [N]."""
+
+    spring_force: FloatArray
+    velocity: FloatArray
+    mode: NDArray[np.int64]
+    mobility: FloatArray
+    friction: FloatArray
+
+
+PROGRESS = np.dtype(
+    [
+        ("duration", "f8"),  # of the run [s]
+        ("until_global", "i8"),  # whether it ends with the first global slip
+        ("onset", "f8"),  # of the slip event [s]; short times since then are not rounded as long ones
+        ("elapsed", "f8"),  # since the onset [s]
+        ("noted", "f8"),  # the same at the last transition [s]
+        ("waited", "f8"),  # from the last transition to the onset [s]
+        ("transitions", "i8"),
+        ("sliding", "i8"),  # number of sliding blocks
+        ("was_global", "i8"),  # whether all blocks have slid at the same instant
+        ("last", "i8"),  # farthest sliding block
+        ("evaluations", "i8"),
+    ]
+)
+RECORD = np.dtype(
+    [("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8"), ("interval", "f8")]
+)
+
+
+class Motion(NamedTuple):
+    """A chain in motion: what stays, what changes, how far it is, and its transitions so far."""
+
+    system: System
+    state: State
+    progress: np.record
+    record: NDArray[np.void]
+
+
+def system_of(chain: Chain) -> System:
+    """Put a chain into columns."""
+    require_plain(chain)
+    return System(
+        1.0 / chain.mass,
+        chain.drive_velocity,
+        *(np.pad(values, 1) for values in (chain.springs, chain.strength, chain.kinetic_friction)),
+    )
+
+
+def at_rest(system: System) -> State:
+    """All blocks stick, springs at natural length."""
+    n = len(system.spring)
+    state = State(np.zeros(n), np.zeros(n), np.zeros(n, np.int64), np.zeros(n), np.zeros(n))
+    state.velocity[0] = system.drive_velocity
+    return state
+
+
+def sliding_forward(system: System, velocities: FloatArray) -> State:
+    """All blocks slide forward with the given velocities [m/s], shape (N,), springs at natural length."""
+    state = at_rest(system)
+    state.velocity[1:-1] = velocities
+    state.mode[1:-1] = 1
+    state.mobility[1:-1] = system.inverse_mass
+    state.friction[:] = system.kinetic_friction
+    return state
+
+
+def motion_from_rest(chain: Chain, duration: float, until: str | None) -> Motion:
+    """A chain at the start of its run."""
+    system = system_of(chain)
+    progress = np.zeros(1, PROGRESS).view(np.recarray)[0]
+    progress.duration, progress.until_global = checked_span(duration, until), until is not None
+    return Motion(system, at_rest(system), progress, np.empty(FIRST_ROOM, RECORD))
+
+
+# Forces and motion
+
+
+@inner
+def rates(system, state, last, spring_force, velocity, force_rate, acceleration):
+    """Right-hand side (Eqs. 2-6) of blocks 1..last; the blocks ahead of these are at rest."""
+    spring, mobility, friction = system.spring, state.mobility, state.friction
+    for i in range(1, last + 1):
+        force_rate[i] = spring[i] * (velocity[i - 1] - velocity[i])
+        acceleration[i] = mobility[i] * (spring_force[i] - spring_force[i + 1] - friction[i])
+    force_rate[last + 1] = spring[last + 1] * velocity[last]
+    acceleration[last + 1] = 0.0
+
+
+@inner
+def accelerate(state, last, h):
+    """Change the velocities of blocks 1..last by h times the acceleration (Eqs. 2-4)."""
+    force, velocity, mobility, friction = state.spring_force, state.velocity, state.mobility, state.friction
+    for i in range(1, last + 1):
+        velocity[i] += h * mobility[i] * (force[i] - force[i + 1] - friction[i])
+
+
+@inner
+def stretch(system, state, last, h):
+    """Change the spring forces by what blocks 1..last move in a time h at their velocities."""
+    force, velocity, spring = state.spring_force, state.velocity, system.spring
+    for i in range(1, last + 1):
+        force[i] += h * spring[i] * (velocity[i - 1] - velocity[i])
+    force[last + 1] += h * spring[last + 1] * velocity[last]
+
+
+@inner
+def rows(state, n):
+    """Arrays of n rows to work in; row 3 begins with the drive's velocity, for a trial velocity."""
+    result = np.zeros((n, state.velocity.shape[0]))
+    result[3, 0] = state.velocity[0]
+    return result
+
+
+# Switching between stick and slip
+
+
+@inner
+def resting_mode(system, state, i):
+    """Mode of a block with zero velocity: it sticks within mu_s w (Eq. 5), or follows the force."""
+    net = state.spring_force[i] - state.spring_force[i + 1]
+    if abs(net) <= system.strength[i]:
+        return 0
+    return 1 if net > 0.0 else -1
+
+
+@inner
+def set_mode(motion, i, new):
+    """Set a block's new mode; the number of sliding blocks and the farthest one follow."""
+    state, progress = motion.state, motion.progress
+    old = state.mode[i]
+    state.mode[i] = new
+    state.mobility[i] = motion.system.inverse_mass if new != 0 else 0.0
+    state.friction[i] = new * motion.system.kinetic_friction[i]
+    progress.sliding += abs(new) - abs(old)
+    if progress.sliding == state.mode.shape[0] - 2:
+        progress.was_global = 1
+    last = max(progress.last, i)
+    while last > 0 and state.mode[last] == 0:
+        last -= 1
+    progress.last = last
+
+
+@apart
+def record_transition(motion, i, new):
+    """Write down a transition."""
+    progress, row = motion.progress, motion.record[motion.progress.transitions]
+    row.time = progress.onset + progress.elapsed
+    row.block, row.mode, row.tangential_load = i, new, motion.state.spring_force[1]
+    row.interval = progress.waited + (progress.elapsed - progress.noted)
+    progress.noted, progress.waited = progress.elapsed, 0.0
+    progress.transitions += 1
+
+
+@apart
+def change_mode(motion, i, new):
+    """Set a block's new mode and record it."""
+    set_mode(motion, i, new)
+    record_transition(motion, i, new)
+
+
+@inner
+def all_keep_their_modes(system, state, last):
+    """Whether no sliding block's velocity has changed its sign and no stuck block's force exceeds mu_s w.
+
+    Beyond the block after the last that slides no force changes, so no block is released there.
+    """
+    force, velocity, mode, strength = state.spring_force, state.velocity, state.mode, system.strength
+    for i in range(1, min(last + 1, mode.shape[0] - 2) + 1):
+        if mode[i] != 0:
+            if not velocity[i] * mode[i] >= 0.0:
+                return False
+        elif not abs(force[i] - force[i + 1]) <= strength[i]:
+            return False
+    return True
+
+
+@apart
+def switch(motion):
+    """Change modes at the end of a step: a block whose velocity has changed its sign stops or turns round."""
+    state = motion.state
+    for i in range(1, min(motion.progress.last + 1, state.mode.shape[0] - 2) + 1):
+        old = state.mode[i]
+        if old != 0:
+            if state.velocity[i] * old >= 0.0:
+                continue
+            state.velocity[i] = 0.0
+        new = resting_mode(motion.system, state, i)
+        if new != old:
+            change_mode(motion, i, new)
+
+
+# Waiting, and the end of a run
+
+
+@inner
+def step_length(progress, step):
+    """The step [s], cut at the end of the run."""
+    return min(step, progress.duration - progress.onset - progress.elapsed)
+
+
+@inner
+def start_clock(progress):
+    """Count the time from now on."""
+    progress.onset += progress.elapsed
+    progress.waited += progress.elapsed - progress.noted
+    progress.elapsed = progress.noted = 0.0
+
+
+@apart
+def rest(motion, waits):
+    """All blocks stick: end the run, or wait in closed form (where `waits`) until block 1 is at its limit.
+
+    Returns MOVING where the run goes on.
+    """
+    system, force, progress = motion.system, motion.state.spring_force, motion.progress
+    if progress.was_global and progress.until_global:
+        return GLOBAL_SLIP
+    if progress.noted > 0.0 or waits:
+        start_clock(progress)
+    if not waits:
+        return MOVING
+    loading_rate = system.spring[1] * system.drive_velocity
+    limit = force[2] + system.strength[1]
+    wait = max((limit - force[1]) / loading_rate, 0.0)
+    remaining = max(progress.duration - progress.onset, 0.0)
+    if wait >= remaining:
+        force[1] += loading_rate * remaining
+        progress.elapsed = remaining
+        return FINISHED
+    force[1] = max(force[1], limit)
+    progress.elapsed = wait
+    start_clock(progress)
+    return MOVING
+
+
+@inner
+def obstacle(motion):
+    """Why no step can be made: a full record, or numbers that have overflowed; MOVING if one can."""
+    if motion.progress.transitions + motion.state.mode.shape[0] > motion.record.shape[0]:
+        return PAUSED
+    return MOVING if math.isfinite(motion.state.spring_force[1]) else DIVERGED
+
+
+@apart
+def begin_leg(motion, waits):
+    """Whether steps are to be made (MOVING) or why not; where all blocks stick, wait and release block 1."""
+    status = obstacle(motion)
+    if status == MOVING and motion.progress.sliding == 0:
+        status = rest(motion, waits)
+        if status == MOVING and waits:
+            change_mode(motion, 1, 1)
+    if status == MOVING and step_length(motion.progress, motion.progress.duration) <= 0.0:
+        return FINISHED
+    return status
+
+
+# From Python
+
+
+def march(
+    method: Callable[..., int],
+    parameters: tuple[Any, ...],
+    chain: Chain,
+    duration: float,
+    step: float,
+    until: str | None = None,
+    max_transitions: int = MAX_TRANSITIONS,
+) -> Result:
+    """Run a compiled fixed-step method from rest.
+
+    Parameters
+    ----------
+    method : compiled function
+        (motion, step, *parameters) -> status.
+    parameters
+        What the method has besides its step.
+    chain, duration, until
+        As in `precursors.simulate`.
+    step : float
+        Step [s].
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of range.
+    DivergedError
+        If the numbers overflow.
+    TransitionLimitError
+        If there are more than `max_transitions`.
+    """
+    positive("step", step, "s")
+    motion = motion_from_rest(chain, duration, until)
+    progress = motion.progress
+    status = PAUSED
+    while status == PAUSED and progress.transitions < max_transitions:
+        if progress.transitions + chain.n_blocks + 2 > len(motion.record):
+            motion = motion._replace(record=np.resize(motion.record, 2 * len(motion.record) + chain.n_blocks))
+        status = method(motion, step, *parameters)
+    run = _run_of(motion, chain, status)
+    if status == DIVERGED:
+        raise DivergedError(f"the numbers overflow at t = {_reached(progress):.9g} s: shorten the step", run)
+    if status == PAUSED:
+        raise TransitionLimitError(
+            f"max_transitions = {max_transitions} reached at t = {_reached(progress):.9g} s", run
+        )
+    return Result(run, int(progress.evaluations))
+
+
+def _reached(progress: np.record) -> float:
+    return float(progress.onset + progress.elapsed)
+
+
+def _run_of(motion: Motion, chain: Chain, status: int) -> Run:
+    """The run so far; of a diverged one what is finite."""
+    progress, rows = motion.progress, motion.record[: motion.progress.transitions]
+    n = len(rows)
+    if status == DIVERGED:
+        n = int(np.isfinite(rows["tangential_load"]).sum())
+    since = progress.waited + (progress.elapsed - progress.noted) + rows["interval"][n:].sum()
+    good, intervals = rows[:n], np.append(rows["interval"][:n], since)
+    duration = float(progress.duration) if status == FINISHED else _reached(progress)
+    load = good["tangential_load"]
+    return Run.from_transitions(chain, duration, good["time"], good["block"], good["mode"], load, intervals)
+
+
+def fixed_step(
+    name: str,
+    label: str,
+    method: Callable[..., int],
+    *parameters: Any,
+    smooth: Smooth | None = None,
+    **values: tuple[float, ...],
+) -> Method:
+    """Make the row of a compiled fixed-step method; `method` and its parameters are those of `march`."""
+    return Method(name, label, "step [s]", partial(march, method, parameters), smooth=smooth, **values)

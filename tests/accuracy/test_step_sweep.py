@@ -1,0 +1,46 @@
+"""The step of RK4: its numbers are the paper's where all transitions are right."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from precursors import Chain
+from precursors.accuracy.step_sweep import charted_steps, steps_between, sweep
+
+
+def rows_of(theta, *steps) -> list:
+    return [pd.Series(row) for row in sweep(Chain.from_slider(theta=theta), 10.0, {"rk4_skip": steps})]
+
+
+def test_steps_run_from_the_coarsest_to_the_finest():
+    steps = steps_between(1e-5, 1e-7, 4)
+    assert len(steps) == 9
+    assert steps[[0, -1]] == pytest.approx([1e-5, 1e-7], rel=1e-14)
+    assert np.ptp(np.diff(np.log(steps))) < 1e-12
+    assert len(steps_between(1e-5, 1e-5, 4)) == 1
+
+
+def test_the_full_chart_has_more_and_finer_steps():
+    default, full = charted_steps(), charted_steps(full=True)
+    assert {name: len(steps) for name, steps in default.items()} == {"rk4_skip": 25, "rk4": 7}
+    assert {name: len(steps) for name, steps in full.items()} == {"rk4_skip": 97, "rk4": 49}
+
+
+@pytest.mark.parametrize(("theta", "right"), [(0.0, 216), ("5/6", 176)])
+def test_a_sweep_gives_the_papers_numbers_where_the_transitions_are_right(theta, right):
+    """Known: at theta = 5/6 and 1e-9 s it is right in 176 of 338 transitions, at 0 in all 216."""
+    exact, coarse, fine = rows_of(theta, 1e-5, 1e-9)
+    assert np.isnan(exact.step_s)
+    assert exact.transitions_right == exact.transitions_true
+    assert coarse.transitions_right < 10
+    assert fine.transitions_right == right
+    is_all = right == exact.transitions_true
+    assert (fine.mu_sapp == pytest.approx(exact.mu_sapp, abs=1e-4)) == is_all
+    assert fine.events_kept == exact.events_kept
+
+
+def test_a_step_far_beyond_the_limit_makes_a_global_slip_of_the_first_event():
+    exact, broken = rows_of(0.0, 3e-5)
+    assert (broken.events_kept, broken.transitions_right) == (1, 1)
+    assert broken.mu_sapp == pytest.approx(28.0 / 400.0, rel=1e-9)
+    assert exact.events_kept == 9

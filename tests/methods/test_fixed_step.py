@@ -1,0 +1,193 @@
+"""Whole runs of fixed-step methods: transitions, orders with switching, dead zones, Eq. 4 taken literally."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from precursors import Chain, Run, TransitionLimitError, find_slips, simulate
+from precursors.accuracy.failures.common import transitions_right
+from precursors.accuracy.failures.dead_zone import (
+    FIVE_SLIPS,
+    first_excess,
+    largest_dead_zone,
+    smallest_dead_zone,
+)
+from precursors.accuracy.failures.literal_friction import load_after_limit
+from precursors.methods import METHODS, DivergedError, karnopp
+from precursors.methods.fixed_step import FIRST_ROOM, march, sliding_forward, system_of
+from precursors.methods.rk4 import run_rk4
+from precursors.methods.stability import bisect, highest_frequency
+
+# They wait in closed form while all blocks stick.
+WAITING = (
+    "rk4_skip",
+    "rk4_located",
+    "leapfrog",
+    "semi_implicit_euler",
+    "moreau_jean_half",
+    "moreau_jean_one",
+    "karnopp",
+)
+SMOOTH = {name: method.smooth for name, method in METHODS.items() if method.smooth}
+# Orders with transitions, and the two steps between which they are measured [s].
+ORDERS = {
+    **dict.fromkeys(WAITING, (1.0, 5e-8, 5e-9)),  # a transition within a step is an error of its length
+    "rk4_located": (4.0, 8e-7, 2e-7),
+    "karnopp": (0.5, 3e-8, 3e-9),  # creep in the dead zone
+}
+# Where a transition falls within a step is chance: an average over this many steps leaves a few per cent.
+STEPS_IN_SAMPLE = 60
+ORDER_TOLERANCE = 0.15
+# Relative, of a slip of 4e-4 s by a clock that does not start anew at its onset, at 3.5 s.
+CLOCK_ROUNDING = 1e-9
+# Relative error of sums of some hundred terms in double precision.
+ROUNDING = 1e-12
+# What the load changes by in the step in which a block stops [N]; other methods differ by 1e-6 to 1 N.
+LAST_STEP = 2e-3
+# Whether a block jumps over the zone is chance: so much between two steps.
+JUMP_TOLERANCE = 0.3
+# Trembling and creep repeat at another step to within what the step adds to a release.
+CREEP_TOLERANCE = 0.02
+# Of F_Z, after some tens of transitions in chains of up to three blocks with a step of 1e-8 s.
+SHORT_CHAIN_TOLERANCE = 1e-3
+
+
+@pytest.fixture(scope="module")
+def chain() -> Chain:
+    return Chain.from_slider()
+
+
+@pytest.fixture(scope="module")
+def five_slips(chain: Chain) -> Run:
+    run = simulate(chain, FIVE_SLIPS)
+    assert len(find_slips(run)) == 5
+    return run
+
+
+def load_error(run: Run, exact: Run) -> float:
+    """Root mean square error of F_X at the transitions [N], of a run whose transitions are the right ones."""
+    assert transitions_right(run, exact) == len(run.transitions) == len(exact.transitions)
+    difference = run.transitions["tangential_load"] - exact.transitions["tangential_load"]
+    return float(np.sqrt(np.mean(difference**2)))
+
+
+@pytest.mark.parametrize("n_blocks", [1, 2, 3])
+@pytest.mark.parametrize("name", WAITING)
+def test_at_a_fine_step_every_method_gives_the_transitions_of_short_chains(name, n_blocks):
+    chain = Chain.from_slider(n_blocks=n_blocks)
+    duration = 3.6  # past the first global slip
+    exact = simulate(chain, duration)
+    run = METHODS[name].solve(chain, duration, 1e-8, None).run
+    assert find_slips(run)["is_global"].any()
+    assert load_error(run, exact) < SHORT_CHAIN_TOLERANCE * chain.normal_load
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_a_slip_of_the_method_in_the_table_is_made_of_its_smooth_steps(name):
+    chain, step = Chain.from_slider(n_blocks=1), 1e-6
+    run = METHODS[name].solve(chain, 3.6, step, None).run
+    system = system_of(chain)
+    state = sliding_forward(system, np.zeros(1))
+    release, stop = run.transitions[:2]
+    state.spring_force[1] = release["tangential_load"]
+    n_steps = 0
+    while state.velocity[1] >= 0.0:
+        SMOOTH[name].slide(system, state, step, 1)
+        n_steps += 1
+    assert run.intervals[1] == pytest.approx(n_steps * step, rel=CLOCK_ROUNDING)
+    # Moreau-Jean time stepping stops the block within the last step, the others after it.
+    last_step = LAST_STEP if name.startswith("moreau_jean") else 0.0
+    assert stop["tangential_load"] == pytest.approx(state.spring_force[1], rel=ROUNDING, abs=last_step)
+
+
+def test_only_rk4_as_it_stands_makes_steps_while_all_blocks_stick(chain):
+    assert METHODS["rk4"].solve(chain, 0.1, 1e-5, None).evaluations == pytest.approx(40_000, abs=8)
+    assert {METHODS[name].solve(chain, 0.1, 1e-5, None).evaluations for name in WAITING} == {0}
+
+
+def test_beyond_the_limit_a_run_ends_with_the_last_finite_transitions(chain):
+    step = 1.5 * 2.0 / highest_frequency(chain)
+    with pytest.raises(DivergedError, match="the numbers overflow at") as diverged:
+        METHODS["leapfrog"].solve(chain, 10.0, step, None)
+    assert np.isfinite(diverged.value.run.transitions["tangential_load"]).all()
+    assert diverged.value.run.duration < 10.0
+
+
+def test_a_record_gets_more_room_and_ends_at_the_limit_of_transitions():
+    chain = Chain.from_slider(n_blocks=3, drive_velocity=1e-2)
+    run = METHODS["rk4_skip"].solve(chain, 10.0, 1e-6, None).run
+    assert len(run.transitions) > 2 * FIRST_ROOM
+    with pytest.raises(TransitionLimitError, match="max_transitions = 10 reached") as limit:
+        march(run_rk4, (True,), chain, 10.0, 1e-6, max_transitions=10)
+    first = limit.value.run
+    np.testing.assert_array_equal(first.transitions, run.transitions[: len(first.transitions)])
+    assert first.intervals.sum() == pytest.approx(first.duration)
+
+
+@pytest.mark.parametrize("name", ORDERS)
+def test_the_order_with_transitions_depends_on_how_they_are_located(five_slips, name):
+    order, coarse, fine = ORDERS[name]
+
+    def error(step: float) -> float:
+        steps = step * np.linspace(0.8, 1.2, STEPS_IN_SAMPLE)
+        runs = (METHODS[name].solve(five_slips.chain, FIVE_SLIPS, h, None).run for h in steps)
+        return float(np.sqrt(np.mean([load_error(run, five_slips) ** 2 for run in runs])))
+
+    found = np.log(error(coarse) / error(fine)) / np.log(coarse / fine)
+    assert found == pytest.approx(order, abs=ORDER_TOLERANCE)
+
+
+@pytest.mark.parametrize("theta", ["-5/6", 0.0, "5/6"])
+def test_eq_4_taken_literally_never_sticks_again(theta):
+    run = METHODS["literal"].solve(Chain.from_slider(theta=theta), 1.0, 1e-6, None).run
+    assert not (run.transitions["mode"] == 0).any()
+    assert len(find_slips(run)) == 1
+
+
+def test_eq_4_taken_literally_creeps_by_the_step_not_by_the_model(chain):
+    """Blocks tremble about v = 0 by what a step changes v, and creep in proportion to it.
+
+    F_X falls at coarse steps and rises without a slip at fine ones; the limit is proportional to V.
+    """
+
+    def limit(speed: float) -> float:
+        fast = replace(Chain.from_slider(theta="-5/6"), drive_velocity=speed)
+        seconds = 1e-6 / speed
+
+        def falls(step: float) -> bool:
+            early, late = load_after_limit(fast, step, np.array([2 * seconds, 4 * seconds]))
+            return late < early
+
+        return bisect(falls, 2e-5 * speed, 2e-3 * speed)
+
+    slow, fast = limit(1e-3), limit(4e-3)
+    assert fast / slow == pytest.approx(4.0, rel=CREEP_TOLERANCE)
+    # The paper's V: RK4 with a step of 1e-7 s never exceeds the first limit, with 1e-8 s it does.
+    assert 1e-8 < slow / 10 < 1e-7
+    assert max(load_after_limit(chain, 1e-7, np.array([0.02, 0.04]))) < chain.strength[0]
+    assert max(load_after_limit(chain, 1e-8, np.array([0.02, 0.04]))) > chain.strength[0]
+
+
+def test_a_dead_zone_is_too_small_where_blocks_jump_over_it_which_depends_on_the_step(five_slips):
+    limits = [smallest_dead_zone(five_slips, step) for step in (2e-8, 5e-9)]
+    assert max(limits) < karnopp.PART_OF_SAFE_WIDTH
+    assert limits[0] == pytest.approx(limits[1], rel=JUMP_TOLERANCE)
+
+
+def test_a_dead_zone_is_too_large_from_a_width_on_that_no_step_changes(five_slips):
+    limits = [largest_dead_zone(five_slips, step) for step in (1e-8, 5e-9)]
+    assert limits[0] == pytest.approx(limits[1], rel=CREEP_TOLERANCE)
+    # A part of the speed that block 1 reaches when it slips alone, (mu_s - mu_k) w_1 / sqrt(m (k + K)).
+    chain = five_slips.chain
+    drop = chain.strength[0] - chain.kinetic_friction[0]
+    speed = drop / np.sqrt(chain.mass * (chain.stiffness + chain.drive_stiffness))
+    assert 0.01 * speed < limits[0] < 0.1 * speed
+
+
+@pytest.mark.parametrize("dead_zone", [1e-4, 1e-3, 1e-2])
+def test_a_dead_zone_lets_the_load_creep_beyond_the_first_limit(chain, dead_zone):
+    delay = karnopp.release_delay(chain, dead_zone)
+    assert first_excess(chain, dead_zone) == pytest.approx(chain.loading_rate * delay, rel=CREEP_TOLERANCE)

@@ -1,0 +1,156 @@
+"""While nothing switches, orders, stability limits and energy of fixed-step methods are those of theory."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from precursors import Chain, simulate
+from precursors.methods import METHODS, moreau_jean
+from precursors.methods.fixed_step import sliding_forward, system_of
+from precursors.methods.stability import (
+    bisect,
+    energy_left,
+    highest_frequency,
+    highest_mode,
+    is_unstable,
+    largest_stable_step,
+    without_friction,
+)
+
+SMOOTH = {name: method.smooth for name, method in METHODS.items() if method.smooth}
+UNSTABLE = [name for name, smooth in SMOOTH.items() if np.isfinite(smooth.limit)]
+# So much beyond RK4's limit energy becomes a millionfold within 4000 steps; a wrong drive spring would
+# move the limit by 1e-3.
+LIMIT_TOLERANCE = 5e-4
+# Of a factor per step: rounding of some tens of steps, and of the frequency.
+FACTOR_TOLERANCE = 1e-9
+# An order is measured over one halving of the step.
+ORDER_TOLERANCE = 0.1
+# Relative rounding of a step with omega dt = 100, by whose square the springs' forces outweigh inertia.
+STIFF_ROUNDING = 100**2 * float(np.finfo(float).eps)
+# Relative error of sums of some hundred terms in double precision, through several windows.
+ROUNDING = 1e-12
+# A stretch in which all blocks slide forward: four radians of the fastest oscillation.
+STRETCH = 1.5e-5
+VELOCITIES = 0.5 + 0.1 * np.sin(1.0 + 2.0 * np.arange(10.0))
+
+
+@pytest.fixture(scope="module")
+def free() -> Chain:
+    return without_friction(Chain.from_slider())
+
+
+def test_the_table_says_what_is_known_of_each_method():
+    known = {name: (smooth.order, smooth.limit) for name, smooth in SMOOTH.items()}
+    assert known == {
+        "rk4": (4, np.sqrt(8.0)),
+        "rk4_skip": (4, np.sqrt(8.0)),
+        "leapfrog": (2, 2.0),
+        "semi_implicit_euler": (1, 2.0),
+        "moreau_jean_half": (2, np.inf),
+        "moreau_jean_one": (1, np.inf),
+    }
+
+
+def exact_motion(chain: Chain, time: float) -> np.ndarray:
+    """Spring forces and velocities of sliding blocks, by the exponential of the whole system's matrix."""
+    n = chain.n_blocks
+    bonds = np.eye(n) - np.eye(n, k=-1)
+    matrix = np.zeros((2 * n + 1, 2 * n + 1))
+    matrix[:n, n : 2 * n] = -chain.springs[:, None] * bonds
+    matrix[n : 2 * n, :n] = bonds.T / chain.mass
+    matrix[0, -1] = chain.loading_rate
+    matrix[n : 2 * n, -1] = -chain.kinetic_friction / chain.mass
+    return (expm(matrix * time) @ np.concatenate([np.zeros(n), VELOCITIES, [1.0]]))[:-1]
+
+
+def in_velocities(chain: Chain, spring_force: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    """Forces and velocities, both in the unit of velocities [m/s]."""
+    return np.concatenate([spring_force / np.sqrt(chain.stiffness * chain.mass), velocity])
+
+
+def smooth_error(name: str, n_steps: int) -> float:
+    chain = Chain.from_slider()
+    system = system_of(chain)
+    state = sliding_forward(system, VELOCITIES)
+    SMOOTH[name].slide(system, state, STRETCH / n_steps, n_steps)
+    force, velocity = np.split(exact_motion(chain, STRETCH), 2)
+    assert (velocity > 0).all()
+    return float(
+        np.linalg.norm(
+            in_velocities(chain, state.spring_force[1:-1] - force, state.velocity[1:-1] - velocity)
+        )
+    )
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_the_order_on_a_smooth_stretch_is_that_of_the_method(name):
+    order = np.log2(smooth_error(name, 128) / smooth_error(name, 256))
+    assert order == pytest.approx(SMOOTH[name].order, abs=ORDER_TOLERANCE)
+
+
+@pytest.mark.parametrize("pieces", [1, 7, 64])
+def test_the_exact_solver_has_no_order_in_whatever_pieces_it_goes(pieces):
+    chain, time = Chain.from_slider(), STRETCH / pieces
+    position, velocity = np.zeros(10), VELOCITIES
+    for _ in range(pieces):
+        run = simulate(chain, time, start_positions=position, start_velocities=velocity)
+        positions, velocities = run.at([time])
+        position, velocity = positions[0] - chain.drive_velocity * time, velocities[0]
+    force = chain.springs * (np.append(0.0, position[:-1]) - position)
+    exact = in_velocities(chain, *np.split(exact_motion(chain, STRETCH), 2))
+    assert in_velocities(chain, force, velocity) == pytest.approx(exact, abs=ROUNDING * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("name", UNSTABLE)
+def test_energy_has_no_limit_beyond_the_step_that_theory_allows(free, name):
+    found = largest_stable_step(free, SMOOTH[name].slide)
+    assert found * highest_frequency(free) == pytest.approx(SMOOTH[name].limit, rel=LIMIT_TOLERANCE)
+
+
+def test_the_drive_spring_lowers_the_limit_where_it_is_the_stiffest(free):
+    stiff = replace(free, drive_stiffness=100 * free.stiffness)
+    assert highest_frequency(stiff) > 4 * highest_frequency(free)
+    found = largest_stable_step(stiff, SMOOTH["rk4"].slide)
+    assert found * highest_frequency(stiff) == pytest.approx(SMOOTH["rk4"].limit, rel=LIMIT_TOLERANCE)
+
+
+@pytest.mark.parametrize(
+    ("name", "z", "n_steps"),
+    [
+        ("rk4", 2.6, 8),
+        ("rk4", 3.0, 20),
+        ("leapfrog", 2.2, 20),
+        ("moreau_jean_half", 3.0, 200),
+        ("moreau_jean_one", 0.1, 200),
+    ],
+)
+def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(free, name, z, n_steps):
+    step, mode, smooth = z / highest_frequency(free), highest_mode(free), SMOOTH[name]
+    # Once the energy swings no more: leapfrog's second root fades meanwhile.
+    once, twice = (energy_left(free, smooth.slide, step, n, mode) for n in (n_steps, 2 * n_steps))
+    assert (twice / once) ** (1 / n_steps) == pytest.approx(smooth.energy_factor(z), rel=FACTOR_TOLERANCE)
+
+
+def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free):
+    step = 100 / highest_frequency(free)
+
+    def is_unstable_at(theta: float) -> bool:
+        # Below one half, energy rises by 4 (1/2 - theta) a step: 1e6 within 4000 steps from 0.499 on.
+        return is_unstable(free, lambda *start: moreau_jean.slide(*start, theta), step)
+
+    assert bisect(is_unstable_at, 0.6, 0.4) == pytest.approx(0.5, rel=2e-3)
+
+
+def test_moreau_jean_keeps_the_energy_at_one_half_and_loses_it_at_one(free):
+    step, n_steps = 100 / highest_frequency(free), 4000
+    half, one = (
+        energy_left(free, SMOOTH[name].slide, step, n_steps, VELOCITIES)
+        for name in ("moreau_jean_half", "moreau_jean_one")
+    )
+    assert half == pytest.approx(1.0, rel=n_steps * STIFF_ROUNDING)
+    assert one < 1e-12
