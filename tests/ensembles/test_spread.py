@@ -1,4 +1,4 @@
-"""Members of the spread are the chains that their labels say, and are judged by the stated rule."""
+"""Members of the spread are the chains that their labels say, and are classified by the stated rule."""
 
 import numpy as np
 import pandas as pd
@@ -72,10 +72,10 @@ def members_with(changes: dict[float, list[float]]) -> pd.DataFrame:
     ],
 )
 def test_a_number_is_classed_by_the_smallest_change_that_it_does_not_survive(changes, expected):
-    judged = robustness_table(spread_table(members_with(changes))).set_index("quantity")
-    assert judged.loc["mu_sapp", "class"] == expected
-    assert judged.loc["mu_sapp", "rule"] == RULES[expected]
-    assert judged.loc["events_kept", "class"] == "robust"
+    classified = robustness_table(spread_table(members_with(changes))).set_index("quantity")
+    assert classified.loc["mu_sapp", "class"] == expected
+    assert classified.loc["mu_sapp", "rule"] == RULES[expected]
+    assert classified.loc["events_kept", "class"] == "robust"
 
 
 def test_the_scene_with_the_load_at_the_leading_edge_is_fragile():
@@ -84,6 +84,6 @@ def test_the_scene_with_the_load_at_the_leading_edge_is_fragile():
         "scene in ['fig10', 'fig12'] and perturbation in ['none', 'normal loads', 'theta']"
     )
     table = spread_table(run_members(Study(few, study.until, study.seed)))
-    judged = robustness_table(table).set_index(["scene", "quantity"])
-    assert judged.loc[("fig12", "mu_sapp"), "class"] == "fragile"
-    assert judged.loc[("fig10", "events_kept"), "class"] != "fragile"
+    classified = robustness_table(table).set_index(["scene", "quantity"])
+    assert classified.loc[("fig12", "mu_sapp"), "class"] == "fragile"
+    assert classified.loc[("fig10", "events_kept"), "class"] != "fragile"

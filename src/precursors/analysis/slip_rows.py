@@ -18,17 +18,3 @@ def up_to_first_global(slips: pd.DataFrame) -> pd.DataFrame:
     """Rows up to and including the first global slip; all without one."""
     first = first_global(slips)
     return slips if first is None else slips.iloc[: first + 1]
-
-
-def require_first_global(slips: pd.DataFrame) -> int:
-    """Row number of the first global slip.
-
-    Raises
-    ------
-    ValueError
-        If there is none.
-    """
-    first = first_global(slips)
-    if first is None:
-        raise ValueError("the slips hold no global slip: run the chain for a longer duration")
-    return first
