@@ -54,10 +54,10 @@ def test_the_slip_table_holds_every_event_with_every_digit(run, files):
         "theta",
         "n_blocks",
         "normal_load_N",
+        "length_m",
     ]
-    assert table[["theta", "n_blocks", "normal_load_N"]].drop_duplicates().to_numpy().tolist() == [
-        [0, 10, 400]
-    ]
+    slider = table[["theta", "n_blocks", "normal_load_N", "length_m"]].drop_duplicates()
+    assert slider.to_numpy().tolist() == [[0, 10, 400, 0.1]]
     np.testing.assert_array_equal(table["onset_s"], slips["onset"])
     np.testing.assert_array_equal(table["load_after_N"], slips["load_after"])
     assert table["kept"].sum() == 9
