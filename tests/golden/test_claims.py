@@ -86,7 +86,7 @@ def test_no_claim_stays_the_same_on_other_numbers():
 @pytest.mark.parametrize(
     ("table", "column", "row", "name"),
     [
-        ("reproduction", "reproduced", 0, "count-uniform"),
+        ("fig10_slips", "kept", 0, "count-uniform"),
         ("fig12_slips", "kept", 3, "count-leading"),
         ("fig10_slips", "is_global", 3, "load-of-the-experiment"),
         ("mu_sapp", "mu_sapp", 0, "friction-uniform"),

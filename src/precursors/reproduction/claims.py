@@ -19,7 +19,6 @@ TABLES = (
     *(f"{scene}_slips" for scene in SCENES),
     *(f"{scene}_trace" for scene in SCENES),
     "measures",
-    "reproduction",
     "mu_sapp",
     "lyapunov",
     "definitions",
