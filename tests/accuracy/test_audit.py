@@ -339,6 +339,26 @@ def test_the_bound_on_fourth_derivatives_holds():
         assert np.all(abs(central - slopes[1:-1]) <= 1e-4 * abs(slopes).max(axis=0) + rounding / step)
 
 
+@pytest.mark.parametrize("radians", [1.0, 2.0, 2 * math.pi])
+def test_no_function_is_below_its_bound_in_a_cell(radians):
+    """One block swings without friction; over a period its values and slopes at both ends are the same."""
+    chain, generator = SLIDER(n_blocks=1, mu_s=0.0, mu_k=0.0), np.random.default_rng(2010)
+    omega = math.sqrt(chain.drive_stiffness / chain.mass)
+    run = simulate(chain, duration=1e-9, start_velocities=[1.0])
+    for phase in [0.0, *generator.uniform(0, 2 * math.pi, 20)]:
+        state = Auditor(run, ROUNDINGS)
+        state.mode[:], state.velocity[:] = 1, math.cos(phase)
+        state.spring_force[0] = -math.sin(phase) * omega * chain.mass
+        conditions = Conditions(state.motion(), state.mode, state.net_force(), chain.strength, 0.0)
+        edges = np.array([[0.0], [radians / omega]])
+        bound = conditions._bound(edges, *(x[:, None] for x in conditions(edges.ravel())))
+        lowest = conditions(np.linspace(0.0, radians / omega, 1000))[0].min()
+        assert bound <= lowest
+        # In a cell of a radian it is close: the remainder is d^4/384, and the cubic is bounded to d^2/12.
+        if radians == 1.0:
+            assert bound > lowest - (1 / 384 + 1 / 12)
+
+
 def test_energy_that_a_late_stop_destroys_is_found(uniform):
     stop = int(np.flatnonzero(uniform.transitions["mode"] == 0)[0])
     report = audit(shifted(uniform, stop, 100 * SHIFT), roundings=1e12)
