@@ -23,7 +23,7 @@ rule ensembles:
 
 rule run_chunk:
     input:
-        code=package("model/chain", "solver", "analysis/events", "analysis/summary", "ensembles"),
+        code=package("model/chain", "solver", "analysis", "ensembles"),
     output:
         chunk="results/ensembles/{study}/{chunk}.csv",
     log:
@@ -37,7 +37,7 @@ rule run_chunk:
 rule gather_members:
     input:
         chunks=collect("results/ensembles/{{study}}/{chunk}.csv", chunk=CHUNKS),
-        code=package("ensembles/study"),
+        code=package("model/chain", "solver", "analysis", "ensembles"),
     output:
         table="results/tables/{study}.csv",
     log:
@@ -50,7 +50,7 @@ rule gather_members:
 rule tabulate_spread:
     input:
         members="results/tables/spread_members.csv",
-        code=package("ensembles/spread"),
+        code=package("model/chain", "solver", "analysis", "ensembles"),
     output:
         spread=report("results/tables/spread.csv", category="Tables"),
         robustness=report("results/tables/robustness.csv", category="Tables"),
@@ -64,7 +64,7 @@ rule tabulate_spread:
 rule tabulate_resolution:
     input:
         members="results/tables/resolution_members.csv",
-        code=package("analysis/run_statistics", "ensembles/resolution"),
+        code=package("model/chain", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/resolution.csv", category="Tables"),
         limits=report("results/tables/resolution_limits.csv", category="Tables"),
@@ -80,7 +80,7 @@ rule tabulate_resolution:
 
 rule tabulate_long_runs:
     input:
-        code=package("model/chain", "solver", "analysis/events", "analysis/slips", "ensembles/long_runs"),
+        code=package("model/chain", "solver", "analysis", "ensembles"),
     output:
         slips="results/tables/long_runs.csv",
         statistics=report("results/tables/long_runs_statistics.csv", category="Tables"),

@@ -1,6 +1,6 @@
 # Every figure that is drawn from tables: what it shows and where it stands in the report, its tables, and its options.
 # The rule is draw_{name}, the caption report/{name}.rst. The file is {name} or "file", and the module of
-# precursors.figures that draws it is {name} or "module".
+# precursors.figures that draws it is {name} or "module"; it "uses" other modules.
 FIGURES = {
     "fig09": {
         "shows": "the chain",
@@ -88,6 +88,7 @@ FIGURES = {
     "resolution": {
         "shows": "what the number of blocks does",
         "category": "Sensitivity",
+        "uses": ["model/printed"],
         "tables": {
             "table": "results/tables/resolution.csv",
             "limits": "results/tables/resolution_limits.csv",
@@ -97,6 +98,7 @@ FIGURES = {
     "resolution_models": {
         "shows": "the same with viscosity and interface springs",
         "category": "Sensitivity",
+        "uses": ["figures/resolution", "model/printed"],
         "tables": {
             "table": "results/tables/resolution_models.csv",
             "runs": "results/tables/resolution_models_runs.csv",
@@ -108,6 +110,7 @@ FIGURES = {
         "shows": "two parameters",
         "category": "Sensitivity",
         "module": "map_of",
+        "uses": ["model/chain"],
         "tables": {"table": "results/tables/{map}.csv"},
         "options": {
             "x": lambda wildcards: MAPS[wildcards.map][0],
@@ -155,15 +158,14 @@ rule explorer:
 
 for name, about in FIGURES.items():
     file, module = about.get("file", name), about.get("module", name)
-    # The two figures of resolution share panels.
-    shared = ["figures/resolution"] if module == "resolution_models" else []
+    used = package("figures/style", f"figures/{module}", *about.get("uses", []))
 
     rule:
         name:
             f"draw_{name}"
         input:
             **about.get("tables", {}),
-            code=[*package("figures/style", *shared, f"figures/{module}"), ROOT / "workflow/scripts/draw.py"],
+            code=[*used, ROOT / "workflow/scripts/draw.py"],
         output:
             png=f"results/figures/{file}.png",
             svg=report(
