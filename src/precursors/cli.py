@@ -203,7 +203,7 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
     from dataclasses import replace
 
     from precursors.model.chain import Chain, parse_theta
-    from precursors.model.slider import SLIDER
+    from precursors.model.scenes import SLIDER
     from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError, simulate
 
     slider = SLIDER | slider_of(arguments)

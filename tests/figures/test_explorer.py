@@ -12,7 +12,7 @@ pytest.importorskip("bokeh", reason="Bokeh (the extra explorer) is not installed
 
 from precursors import Chain, simulate
 from precursors.figures.explorer.page import Scene, write_explorer
-from precursors.model.slider import SLIDER
+from precursors.model.scenes import SLIDER
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 MOST_BYTES = 1.5e6

@@ -14,7 +14,7 @@ from precursors.figures import model_comparison, style
 from precursors.hierarchy.compare_models import compare_models, waveform_error
 from precursors.hierarchy.larger import LargerChain, simulate_larger
 from precursors.hierarchy.models import MODELS
-from precursors.model.scene_models import ADDED
+from precursors.model.scenes import ADDED
 from precursors.support import timing
 from precursors.support.files import read_table
 

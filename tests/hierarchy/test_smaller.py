@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+import yaml
 
 from precursors import Chain, find_slips, simulate
 from precursors.hierarchy import quasistatic
@@ -11,9 +14,9 @@ from precursors.hierarchy.models import MODELS, UNITS, answers_table, move
 from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
 from precursors.hierarchy.rigid import as_rigid, load_drop, onset_load, rigid_slip_duration, slip_load
 from precursors.hierarchy.statics import first_precursor_load, front_load_law
-from precursors.model.scene_models import MODEL_NAMES
 from precursors.model.statics import balance_matrix
 
+ROOT = Path(__file__).parents[2]
 SLIDER = Chain.from_slider
 THETAS = ["-5/6", 0.0, "5/6"]
 ROUNDING = 1e-12  # relative, of sums of a few terms
@@ -198,8 +201,10 @@ def test_an_event_that_does_not_come_to_rest_is_said_and_no_other_advice_given(m
         quasistatic_slips(SLIDER())
 
 
-def test_the_plan_of_a_workflow_knows_the_names_of_the_models() -> None:
-    assert list(MODELS) == list(MODEL_NAMES)
+def test_the_schema_of_the_configuration_knows_the_names_of_the_models() -> None:
+    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8"))
+    scene = schema["properties"]["scenes"]["additionalProperties"]
+    assert scene["properties"]["model"]["enum"] == list(MODELS)
     assert all(set(model.answers) <= set(UNITS) for model in MODELS.values())
 
 

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from precursors.figures import style
-from precursors.model.scene_models import NO_ADDITION
 
 WIDTH_MM = 175.0
 ROW_MM, HEAD_MM = 14.0, 31.0
@@ -60,7 +59,7 @@ def draw(table: pd.DataFrame) -> Figure:
     )
     questions = table.drop_duplicates("question")
     models = table.drop_duplicates("label").sort_values("label", key=lambda label: label.map(ORDER))
-    places = np.arange(len(models)) + GAP * (models["addition"] != NO_ADDITION).to_numpy()
+    places = np.arange(len(models)) + GAP * (models["addition"] != "none").to_numpy()
     with style.page(WIDTH_MM, HEAD_MM + ROW_MM * len(questions)) as figure:
         axes = figure.subplots()
         for y, question in enumerate(questions["question"]):
@@ -105,7 +104,7 @@ def _box(x: float, y: int, **look: Any) -> Rectangle:
 def _head(model: pd.Series) -> str:
     """Name of a model, and the value of what it adds."""
     name = MODELS[model["label"]]
-    if model["addition"] == NO_ADDITION:
+    if model["addition"] == "none":
         return name
     value, _, unit = model["addition"].partition(" ")
     number, unit = (float(value) * 1e-6, f"M{unit}") if float(value) >= 1e6 else (float(value), unit)

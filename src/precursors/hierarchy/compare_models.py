@@ -14,7 +14,7 @@ from precursors.hierarchy.larger import UNITS as ADDITION_UNITS
 from precursors.hierarchy.larger import LargerChain
 from precursors.hierarchy.models import MODELS, UNITS, Model
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.scene_models import ADDED, NO_ADDITION, PAPERS_MODEL
+from precursors.model.scenes import ADDED, PAPERS_MODEL
 from precursors.support import timing
 
 WAVEFORM_SAMPLES = 2001
@@ -153,7 +153,7 @@ def with_addition(chain: Chain, model: str, additions: Mapping[str, float]) -> C
 def addition_text(model: str, additions: Mapping[str, float]) -> str:
     """What a model adds to the paper's chain, with its unit."""
     if model not in ADDED:
-        return NO_ADDITION
+        return "none"
     return f"{additions[ADDED[model]]:g} {ADDITION_UNITS[ADDED[model]]}"
 
 

@@ -15,7 +15,7 @@ from precursors.hierarchy import rigid, statics
 from precursors.hierarchy.larger import LargerChain, simulate_larger
 from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.scene_models import ADDED, PAPERS_MODEL
+from precursors.model.scenes import ADDED, PAPERS_MODEL
 from precursors.model.statics import load_bound
 from precursors.solver.simulate import simulate
 

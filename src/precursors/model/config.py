@@ -91,18 +91,19 @@ def _against_schema(config: Config, schema_path: str | os.PathLike[str]) -> Iter
 
 def _in_words(error: ValidationError) -> str:
     """What a value must be, from the description in the schema."""
-    path, schema, value = error.absolute_path, error.schema, error.instance
+    schema: Any = error.schema
+    value: Any = error.instance
+    path = error.absolute_path
     where = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path).lstrip(".")
-    if error.validator == "additionalProperties" and isinstance(value, dict):
+    if error.validator == "additionalProperties":
         known = schema["properties"]
         unknown = next(key for key in value if key not in known)
         return f"{where or 'top level'}: {unknown!r} is not a known key; known are {', '.join(known)}"
     if error.validator == "required":
-        missing = next(key for key in error.validator_value if key not in value)
+        missing = next(key for key in schema["required"] if key not in value)
         return f"{where or 'top level'}: the key {missing!r} is missing"
     if "propertyNames" in error.schema_path:
-        where = f"{where}: the name {value!r}"
-        return f"{where} must be {schema['description']}"
+        return f"{where}: the name {value!r} must be {schema['description']}"
     shown = "empty" if value is None else repr(value)
     shown = shown if len(shown) < LONGEST else f"{shown[:LONGEST]}..."
     return f"{where} must be {schema['description']}, but is {shown}{_number_in_text(value)}"
@@ -111,13 +112,14 @@ def _in_words(error: ValidationError) -> str:
 def _number_in_text(value: object) -> str:
     """How to write a number that was read as text, as YAML reads 2.5e9 and Snakemake all of --config."""
     try:
-        mantissa, exponent = f"{float(value):e}".split("e") if isinstance(value, str) else ("", "")
+        number = float(value) if isinstance(value, str) else None
     except ValueError:
+        number = None
+    if number is None:
         return ""
-    if not mantissa:
-        return ""
-    if "e" not in value.lower():
+    if "e" not in str(value).lower():
         return ", which is text: write it without quotes, in config.yaml or a --configfile"
+    mantissa, exponent = f"{number:e}".split("e")
     return f", which is text: write {mantissa.rstrip('0').ljust(3, '0')}e{exponent}"
 
 

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
 from precursors.model.chain import Chain, exact_theta_from_load_cells, parse_theta
-from precursors.model.scene_models import ADDED, PAPERS_MODEL
 
 Config = Mapping[str, Any]
+
+# Arguments of `Chain.from_slider` and their defaults, the paper's.
+SLIDER = {name: p.default for name, p in inspect.signature(Chain.from_slider).parameters.items()}
+PAPERS_MODEL = "chain"
+# Models that add to the paper's chain, and the field of `hierarchy.larger.LargerChain` that each one needs.
+ADDED = {"viscous": "viscosity", "interface": "interface_stiffness", "head": "head_mass"}
 
 
 def scenes_with(config: Config, output: str) -> list[str]:
@@ -18,7 +24,7 @@ def scenes_with(config: Config, output: str) -> list[str]:
 
 
 def scene_model(config: Config, name: str) -> str:
-    """The model of a scene, one of `MODEL_NAMES`."""
+    """The model of a scene, a key of `hierarchy.models.MODELS`."""
     return str(config["scenes"][name].get("model", PAPERS_MODEL))
 
 

@@ -9,8 +9,7 @@ from typing import Any
 
 from precursors.accuracy.proof.certificate import Certificate
 from precursors.accuracy.proof.exact_chain import ExactChain
-from precursors.model.scene_models import PAPERS_MODEL
-from precursors.model.scenes import scene_as_written, scene_model
+from precursors.model.scenes import PAPERS_MODEL, scene_as_written, scene_model
 
 # Duration of a proof [s] where the configuration has none.
 PROVED_FOR = 10.0
