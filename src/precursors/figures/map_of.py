@@ -54,9 +54,9 @@ def draw(table: pd.DataFrame, x: str, y: str, scenes: Sequence[tuple[float, floa
                 panel.plot(*place, "+", color="white", markersize=7, markeredgewidth=2.2)
                 panel.plot(*place, "+", color=style.BLACK, markersize=6)
         panels[0].set_ylabel(LABELS.get(y, y))
-        white = Patch(facecolor="white", edgecolor=style.GREY, linewidth=0.6, label="no global slip")
         cross = style.mark("scenes of Fig. 13", marker="+", markersize=6, linestyle="none")
-        style.draw_key(figure, [cross, white] if scenes else [white])
+        white = Patch(facecolor="white", edgecolor=style.GREY, linewidth=0.6, label="no global slip")
+        style.draw_key(figure, [cross] * bool(scenes) + [white] * (not table["reached"].all()))
     return figure
 
 
