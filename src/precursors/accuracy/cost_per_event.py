@@ -27,13 +27,12 @@ LONG = 1e6  # s, never reached: the number of transitions ends a run
 
 @dataclass(frozen=True)
 class Kind:
-    """A way to set a chain in motion: what it is in words, and its arguments."""
+    """A way to set a chain in motion."""
 
-    definition: str
     is_strained: bool
     drive_velocity: float
-    until: Until
-    least_size: int
+    until: Until = None
+    least_size: int = 1
 
     def run(self, n_blocks: int, most_transitions: int) -> Run:
         """The first transitions of the paper's slider, cut into so many blocks."""
@@ -46,32 +45,11 @@ class Kind:
 
 
 KINDS = {
-    "natural": Kind("from rest, springs at natural length, the paper's drive", False, SLOW_DRIVE, None, 1),
-    "driven": Kind(
-        f"from {STRAIN:g} of the largest strain, driven at {1e3 * FAST_DRIVE:g} mm/s",
-        True,
-        FAST_DRIVE,
-        None,
-        1,
-    ),
+    "natural": Kind(False, SLOW_DRIVE),
+    "driven": Kind(True, FAST_DRIVE),
     # In a short chain it has too few transitions: the call itself would take longer than they do.
-    "front": Kind(
-        f"the first slip from {STRAIN:g} of the largest strain, through all blocks",
-        True,
-        SLOW_DRIVE,
-        "global slip",
-        50,
-    ),
+    "front": Kind(True, SLOW_DRIVE, "global slip", least_size=50),
 }
-COLUMNS = [
-    "kind",
-    "definition",
-    "n_blocks",
-    "transitions",
-    "mean_front",
-    "seconds_per_transition",
-    "relative",
-]
 
 
 def measure_cost(
@@ -103,7 +81,7 @@ def measure_cost(
     Returns
     -------
     DataFrame
-        A row per kind and size, with `COLUMNS`: n_blocks, transitions, mean_front (farthest sliding block
+        A row per kind and size: n_blocks, transitions, mean_front (farthest sliding block
         over N, mean over the transitions), seconds_per_transition [s] of processor time, and that relative
         to the same kind's with `BASE_SIZE` blocks, for fronts to the driven one's (NaN without that size).
     """
@@ -119,7 +97,6 @@ def measure_cost(
         [
             {
                 "kind": name,
-                "definition": KINDS[name].definition,
                 "n_blocks": n,
                 "transitions": len(run.transitions),
                 "mean_front": mean_front(run) / n,
@@ -130,7 +107,7 @@ def measure_cost(
     )
     base = table[table["n_blocks"] == BASE_SIZE].set_index("kind")["seconds_per_transition"]
     bases = table["kind"].map(lambda kind: base.get(kind, base.get("driven", math.nan)))
-    return table.assign(relative=table["seconds_per_transition"] / bases)[COLUMNS]
+    return table.assign(relative=table["seconds_per_transition"] / bases)
 
 
 def mean_front(run: Run) -> float:

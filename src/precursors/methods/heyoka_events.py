@@ -25,7 +25,7 @@ LARGE = 20
 class _Integrator:
     """heyoka's integrator of one chain and the motion that it carries at present."""
 
-    def __init__(self, chain: Chain, tolerance: float, high_accuracy: bool) -> None:
+    def __init__(self, chain: Chain, tolerance: float) -> None:
         import heyoka as hy
 
         n = chain.n_blocks
@@ -53,7 +53,6 @@ class _Integrator:
             t_events=events,
             pars=np.zeros(4 * n),
             tol=tolerance,
-            high_accuracy=high_accuracy,
             compact_mode=n > LARGE,
         )
         self.outcome_end = hy.taylor_outcome.time_limit
@@ -86,17 +85,12 @@ class _Integrator:
 
 
 @lru_cache(maxsize=32)
-def _integrator(chain: Chain, tolerance: float, high_accuracy: bool) -> _Integrator:
-    return _Integrator(chain, tolerance, high_accuracy)
+def _integrator(chain: Chain, tolerance: float) -> _Integrator:
+    return _Integrator(chain, tolerance)
 
 
 def solve_heyoka(
-    chain: Chain,
-    duration: float,
-    tolerance: float,
-    until: str | None = None,
-    high_accuracy: bool = False,
-    nudge: float = NUDGE,
+    chain: Chain, duration: float, tolerance: float, until: str | None = None, nudge: float = NUDGE
 ) -> Result:
     """Run a chain by heyoka.py.
 
@@ -106,8 +100,6 @@ def solve_heyoka(
         As in `precursors.simulate`.
     tolerance : float
         heyoka's tolerance; it sets the order of the series too. 0 is its default, rounding.
-    high_accuracy : bool
-        Whether the series are summed with compensation.
     nudge : float
         Velocity with which a block starts, see `events.NUDGE`.
 
@@ -121,7 +113,7 @@ def solve_heyoka(
     ImportError
         Without heyoka.
     """
-    return _integrator(chain, float(tolerance), high_accuracy).run(chain, duration, until, nudge)
+    return _integrator(chain, float(tolerance)).run(chain, duration, until, nudge)
 
 
 METHODS = (
