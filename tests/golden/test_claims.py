@@ -79,8 +79,8 @@ def test_no_claim_stays_the_same_on_other_numbers():
 
     same = {claim.id for claim in CLAIMS if found(claim, true) == found(claim, false)}
     not_computed = set(EXPECTED.index[EXPECTED["verdict"] == NOT_COMPUTED])
-    # Two names of one thing, and theta of a continuous line: no table has a part in these.
-    assert same == not_computed | {"two-names", "theta-by-moments-of-a-line"}
+    # Two names of one thing change no number.
+    assert same == not_computed | {"two-names"}
 
 
 @pytest.mark.parametrize(

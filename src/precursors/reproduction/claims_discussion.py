@@ -43,8 +43,6 @@ from precursors.reproduction.tables import (
 
 # L_p/L from which the length of the experiment's precursors grows faster (Sect. 6.1).
 KINK = 0.7
-# Length of the contact.
-LENGTH_M = 0.1
 
 
 def largest_load(t: Tables) -> list[float]:
@@ -59,6 +57,17 @@ def growth(slips: pd.DataFrame) -> tuple[float, float]:
     kink = np.flatnonzero(length <= KINK)[-1]
     rise, span = np.diff(length[[0, kink, -1]]), np.diff(load[[0, kink, -1]])
     return rise[0] / span[0], rise[1] / span[1]
+
+
+def theta_of_cells(t: Tables) -> float:
+    """theta of the straight line through the load cells of Fig. 7."""
+    return theta_from_load_cells(*CELL_LOADS_N, CELL_SPACING_M, first(t, "length_m")[0])
+
+
+def cell_moment(t: Tables) -> float:
+    """Moment of the loads of the cells about the middle of the contact, over F_Z L."""
+    low, high = CELL_LOADS_N
+    return (high - low) / (high + low) * CELL_SPACING_M / 2 / first(t, "length_m")[0]
 
 
 def checked(t: Tables, check: str, column: str = "found") -> np.ndarray:
@@ -267,8 +276,8 @@ def ratio_at_the_load_cells(t: Tables) -> Finding:
     """Eq. 7 has 1 -+ theta at the centres of the outer blocks, and theta = 5/6 is of the straight line
     through the load cells, 60 mm apart. Meant: the loads of the cells (ratio of the normal loads at the
     cells)."""
-    n, theta = first(t, "n_blocks")[0], theta_of_cells()
-    at_cells = theta * (CELL_SPACING_M / LENGTH_M) / (1 - 1 / n)
+    n, theta = first(t, "n_blocks")[0], theta_of_cells(t)
+    at_cells = theta * (CELL_SPACING_M / first(t, "length_m")[0]) / (1 - 1 / n)
     return instead_of((1 + at_cells) / (1 - at_cells), CELL_LOADS_N[1] / CELL_LOADS_N[0])
 
 
@@ -278,14 +287,14 @@ def theta_by_moments_of_blocks(t: Tables) -> Finding:
     blocks (theta)."""
     n = int(first(t, "n_blocks")[0])
     centres = (np.arange(n) + 0.5) / n - 0.5
-    return instead_of(theta_of_cells(), cell_moment() / float(linear_weights(n, 1.0, 1.0) @ centres))
+    return instead_of(theta_of_cells(t), cell_moment(t) / float(linear_weights(n, 1.0, 1.0) @ centres))
 
 
 @claim("Eq. 7 and Sect. 5.2", kind="open point")
 def theta_by_moments_of_a_line(t: Tables) -> Finding:
     """theta is the straight line through the load cells. It may be the balance of moments with the cells, a
     continuous line contact (theta)."""
-    return instead_of(theta_of_cells(), cell_moment() / (1 / 6))
+    return instead_of(theta_of_cells(t), cell_moment(t) / (1 / 6))
 
 
 @claim("Eq. 7 and Sect. 6.2", kind="open point", unit="N")
@@ -300,14 +309,3 @@ def stiffness_of_the_slider(t: Tables) -> Finding:
     slider from end to end)."""
     n, k = first(t, "n_blocks")[0], measure(t, "stiffness_N_per_m")[0]
     return instead_of(k / (n - 1), k / n)
-
-
-def theta_of_cells() -> float:
-    """theta of the straight line through the load cells of Fig. 7."""
-    return theta_from_load_cells(*CELL_LOADS_N, CELL_SPACING_M, LENGTH_M)
-
-
-def cell_moment() -> float:
-    """Moment of the loads of the cells about the middle of the contact, over F_Z L."""
-    low, high = CELL_LOADS_N
-    return (high - low) / (high + low) * CELL_SPACING_M / 2 / LENGTH_M
