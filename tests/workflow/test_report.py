@@ -115,6 +115,7 @@ def test_the_report_is_clicked_through_in_a_browser_and_shows_everything(page):
         "Statistics",
         "About",
         "Reproduction",
+        "Tables",
     ]
     assert "reproduced" in page.evaluate("workflow_desc")
 
