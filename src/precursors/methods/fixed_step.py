@@ -92,7 +92,7 @@ class Motion(NamedTuple):
 
     system: System
     state: State
-    progress: np.record
+    progress: np.void
     record: NDArray[np.void]
 
 
@@ -127,8 +127,8 @@ def sliding_forward(system: System, velocities: FloatArray) -> State:
 def motion_from_rest(chain: Chain, duration: float, until: str | None) -> Motion:
     """A chain at the start of its run."""
     system = system_of(chain)
-    progress = np.zeros(1, PROGRESS).view(np.recarray)[0]
-    progress.duration, progress.until_global = checked_span(duration, until), until is not None
+    progress = np.zeros(1, PROGRESS)[0]
+    progress["duration"], progress["until_global"] = checked_span(duration, until), until is not None
     return Motion(system, at_rest(system), progress, np.empty(FIRST_ROOM, RECORD))
 
 
@@ -352,8 +352,8 @@ def march(
     motion = motion_from_rest(chain, duration, until)
     progress = motion.progress
     status = PAUSED
-    while status == PAUSED and progress.transitions < max_transitions:
-        if progress.transitions + chain.n_blocks + 2 > len(motion.record):
+    while status == PAUSED and progress["transitions"] < max_transitions:
+        if progress["transitions"] + chain.n_blocks + 2 > len(motion.record):
             motion = motion._replace(record=np.resize(motion.record, 2 * len(motion.record) + chain.n_blocks))
         status = method(motion, step, *parameters)
     run = _run_of(motion, chain, status)
@@ -363,22 +363,22 @@ def march(
         raise TransitionLimitError(
             f"max_transitions = {max_transitions} reached at t = {_reached(progress):.9g} s", run
         )
-    return Result(run, int(progress.evaluations))
+    return Result(run, int(progress["evaluations"]))
 
 
-def _reached(progress: np.record) -> float:
-    return float(progress.onset + progress.elapsed)
+def _reached(progress: np.void) -> float:
+    return float(progress["onset"] + progress["elapsed"])
 
 
 def _run_of(motion: Motion, chain: Chain, status: int) -> Run:
     """The run so far; of a diverged one what is finite."""
-    progress, rows = motion.progress, motion.record[: motion.progress.transitions]
+    progress, rows = motion.progress, motion.record[: motion.progress["transitions"]]
     n = len(rows)
     if status == DIVERGED:
         n = int(np.isfinite(rows["tangential_load"]).sum())
-    since = progress.waited + (progress.elapsed - progress.noted) + rows["interval"][n:].sum()
+    since = progress["waited"] + (progress["elapsed"] - progress["noted"]) + rows["interval"][n:].sum()
     good, intervals = rows[:n], np.append(rows["interval"][:n], since)
-    duration = float(progress.duration) if status == FINISHED else _reached(progress)
+    duration = float(progress["duration"]) if status == FINISHED else _reached(progress)
     load = good["tangential_load"]
     return Run.from_transitions(chain, duration, good["time"], good["block"], good["mode"], load, intervals)
 
