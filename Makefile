@@ -58,5 +58,5 @@ $(READY): requirements.lock
 	$(BIN)/python -m pip install -q --no-deps --require-hashes -r .venv/uv.txt
 	$(BIN)/uv pip sync -q -p $(BIN)/python --compile-bytecode --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
-	$(BIN)/python -m precursors.solver.warm_up
+	$(BIN)/python -c "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.4).at([0.4])" # compiles
 	touch $(READY)

@@ -66,25 +66,27 @@ def test_a_chain_cannot_be_changed():
 @pytest.mark.parametrize(
     ("argument", "value", "words"),
     [
-        ("n_blocks", 0, "n_blocks = 0 is out of range: allowed is a whole number >= 1"),
-        ("n_blocks", 2.5, "n_blocks = 2.5"),
-        ("n_blocks", True, "n_blocks = True"),
-        ("theta", 1.01, "theta = 1.01"),
-        ("theta", "5/0", "theta = '5/0' is not a number"),
-        ("theta", "1e999999999", "theta = '1e999999999' is not a number"),
-        ("theta", "1E-9_999_999_999", "theta = '1E-9_999_999_999' is not a number"),
-        ("theta", "__import__('os')", "is not a number"),
-        ("theta", math.nan, "theta = nan"),
-        ("normal_load", 0.0, "normal_load = 0.0 [N] is out of range: allowed is normal_load > 0"),
-        ("mu_s", -0.1, "mu_s = -0.1"),
-        ("mu_k", 0.71, "mu_k = 0.71 is larger than mu_s = 0.7"),
-        ("drive_stiffness", math.inf, "drive_stiffness = inf [N/m] is not finite"),
+        ("n_blocks", 0, "n_blocks must be a whole number of at least 1, but is 0"),
+        ("n_blocks", 2.5, "but is 2.5"),
+        ("n_blocks", True, "but is True"),
+        ("theta", 1.01, 'theta must be a number between -1 and 1, or a fraction as "5/6", but is 1.01'),
+        ("theta", "5/0", "but is '5/0'"),
+        ("theta", "1e999999999", "but is '1e999999999'"),
+        ("theta", "1E-9_999_999_999", "but is '1E-9_999_999_999'"),
+        ("theta", "__import__('os')", "theta must be a number"),
+        ("theta", math.nan, "but is nan"),
+        ("normal_load", 0.0, "normal_load must be above 0 N, but is 0.0"),
+        ("mu_s", -0.1, "mu_s must be between 0 and 1e+60 [1], but is -0.1"),
+        ("mu_k", 0.71, "mu_k must be between 0 and mu_s = 0.7, but is 0.71"),
+        ("mu_k", -0.1, "mu_k must be between 0 and mu_s = 0.7, but is -0.1"),
+        ("drive_stiffness", math.inf, "drive_stiffness must be a finite number [N/m], but is inf"),
         ("drive_stiffness", "0.8e6", "write 2.5e+9"),
-        ("drive_velocity", 0.0, "drive_velocity = 0.0 [m/s]"),
-        ("slider_mass", -1.0, "slider_mass = -1.0 [kg]"),
-        ("youngs_modulus", None, "youngs_modulus = None [Pa] is not a number"),
+        ("drive_velocity", 0.0, "drive_velocity must be above 0 m/s, but is 0.0"),
+        ("slider_mass", -1.0, "slider_mass must be above 0 kg, but is -1.0"),
+        ("slider_mass", 1e-70, "slider_mass must be between 1e-60 and 1e+60 kg, but is 1e-70"),
+        ("youngs_modulus", None, "youngs_modulus must be a finite number [Pa], but is None"),
         ("cross_section", 10**400, "cross_section"),
-        ("length", 0, "length = 0 [m]"),
+        ("length", 0, "length must be above 0 m, but is 0"),
     ],
 )
 def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):
@@ -99,8 +101,8 @@ def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):
         ([], "shape"),
         ([1.0, -1.0], "block 2"),
         ([math.nan], "block 1"),
-        ([0.0, 0.0], "all zero"),
-        (["a"], "not numbers"),
+        ([0.0, 0.0], "all are 0 N"),
+        (["a"], "must be numbers"),
     ],
 )
 def test_bad_weights_are_refused(weights, words):
@@ -109,7 +111,7 @@ def test_bad_weights_are_refused(weights, words):
 
 
 @pytest.mark.parametrize(
-    ("a", "b", "words"), [(-1.0, 2.0, "load_a"), (0.0, 0.0, "total normal load"), (400.0, 1.0, "theta")]
+    ("a", "b", "words"), [(-1.0, 2.0, "load_a"), (0.0, 0.0, "both are 0 N"), (400.0, 1.0, "theta")]
 )
 def test_load_cells_that_the_line_cannot_pass_through_are_refused(a, b, words):
     with pytest.raises(ValueError, match=words):
@@ -117,12 +119,11 @@ def test_load_cells_that_the_line_cannot_pass_through_are_refused(a, b, words):
 
 
 @pytest.mark.parametrize("ratio", [1e-3, 1.0, 2.0, 1e3])
-@pytest.mark.parametrize("interface_stiffness", [0.0, 1e6])
 @pytest.mark.parametrize("n_blocks", [1, 2, 3, 40])
-def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, interface_stiffness, ratio):
-    chain = Chain(np.ones(n_blocks), 2e-3, 1e6, ratio * 1e6, 1e-4, 0.7, 0.45, 0.1, 0.0, interface_stiffness)
+def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, ratio):
+    chain = Chain(np.ones(n_blocks), 2e-3, 1e6, ratio * 1e6, 1e-4, 0.7, 0.45)
     behind, ahead = chain.springs, np.append(chain.springs[1:], 0.0)
-    stiffness = np.diag(behind + ahead + interface_stiffness)
+    stiffness = np.diag(behind + ahead)
     stiffness -= np.diag(ahead[:-1], 1) + np.diag(ahead[:-1], -1)
     highest = math.sqrt(np.linalg.eigvalsh(stiffness)[-1] / chain.mass)
     assert highest <= chain.fastest_frequency_bound
@@ -133,10 +134,10 @@ def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, i
 @pytest.mark.parametrize(
     ("duration", "until", "words"),
     [
-        (1.0, "global", "until = 'global' is unknown: allowed is None or \"global slip\""),
-        (1.0, "", "until = '' is unknown"),
-        (0.0, None, "duration > 0"),
-        (math.nan, "global slip", "not finite"),
+        (1.0, "global", "until must be None or \"global slip\", but is 'global'"),
+        (1.0, "", "but is ''"),
+        (0.0, None, "duration must be above 0 s"),
+        (math.nan, "global slip", "duration must be a finite number"),
     ],
 )
 def test_a_wrong_end_of_a_run_is_named(duration, until, words):

@@ -145,7 +145,7 @@ def test_a_foreign_file_and_another_version_are_refused(run, tmp_path):
     with pytest.raises(RunFileError, match="not a run file"):
         Run.load(path)
     run.save(path)
-    path.write_bytes(path.read_bytes().replace(b"precursors run 3", b"precursors run 9", 1))
+    path.write_bytes(path.read_bytes().replace(b"precursors run 4", b"precursors run 9", 1))
     with pytest.raises(RunFileError, match="not a run file"):
         Run.load(path)
 

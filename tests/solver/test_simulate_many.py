@@ -66,10 +66,10 @@ def test_an_empty_ensemble_has_no_runs():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"threads": 0}, "threads = 0 is out of range"),
-        ({"duration": -1.0}, "duration = -1.0 [s] is out of range"),
-        ({"start_positions": []}, "start_positions are 0: allowed is one for each of the 2 chains"),
-        ({"start_velocities": [[0.0] * 10, [0.0]]}, "start_velocities[1] have shape (1,): allowed is (10,)"),
+        ({"threads": 0}, "threads must be a whole number of at least 1, but is 0"),
+        ({"duration": -1.0}, "duration must be above 0 s, but is -1.0"),
+        ({"start_positions": []}, "start_positions must be one for each of the 2 chains, but are 0"),
+        ({"start_velocities": [[0.0] * 10, [0.0]]}, "start_velocities[1] must have shape (10,)"),
     ],
 )
 def test_a_bad_argument_is_named_in_one_line(options, words):

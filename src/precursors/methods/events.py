@@ -23,7 +23,7 @@ import numpy as np
 from numba import njit
 
 from precursors.methods.common import Result
-from precursors.model.chain import Chain, FloatArray, checked_span, require_plain
+from precursors.model.chain import Chain, FloatArray, checked_span
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError
 
@@ -206,7 +206,6 @@ def time_unit(chain: Chain) -> float:
 
 def scaled(chain: Chain) -> tuple[float, float, FloatArray]:
     """tau [s], the drive's velocity [N/tau] and the springs c_i (the stiffest is 1)."""
-    require_plain(chain)
     tau = time_unit(chain)
     return tau, chain.drive_velocity * chain.mass / tau, chain.springs / np.max(chain.springs)
 

@@ -24,8 +24,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from precursors.methods.common import DivergedError, Method, Result, Smooth
-from precursors.model.chain import Chain, FloatArray, checked_span, positive, require_plain
-from precursors.solver.compile_cache import kept, stamp
+from precursors.model.chain import Chain, FloatArray, checked_span, positive
+from precursors.solver.kernel.compiled import entry
 from precursors.solver.run import Run
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 
@@ -38,13 +38,8 @@ FIRST_ROOM = 4096  # transitions
 # called in every step is inlined.
 apart = njit(error_model="numpy", fastmath={"contract"})
 inner = njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
-_entry = njit(error_model="numpy", fastmath={"contract"}, nogil=True)
-STAMP = stamp(Path(__file__).parent)
-
-
-def outer(function: Callable[..., Any]) -> Any:
-    """Compile what Python calls, and keep it until a file of this package is edited."""
-    return kept(_entry(function), STAMP)
+# Python calls these; their code is kept until a file of this package is edited.
+outer = entry(Path(__file__).parent, error_model="numpy", fastmath={"contract"}, nogil=True)
 
 
 class System(NamedTuple):
@@ -98,7 +93,6 @@ class Motion(NamedTuple):
 
 def system_of(chain: Chain) -> System:
     """Put a chain into columns."""
-    require_plain(chain)
     return System(
         1.0 / chain.mass,
         chain.drive_velocity,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from numbers import Integral, Real
@@ -40,18 +41,11 @@ class Chain:
         Coefficients of static and kinetic friction, 0 <= mu_k <= mu_s.
     length : float
         Length L of the contact [m], positive.
-    viscosity : float
-        Viscosity eta of the dashpot beside each spring between neighbours [N s/m]; 0 is none.
-    interface_stiffness : float
-        Stiffness kappa = K_t/N of the spring between each block and the plane while it sticks [N/m], the
-        N-th part of what `from_slider` calls by this name; 0 is a rigid interface.
-    head_mass : float
-        Mass M_h that moves with block 1 [kg].
 
     Raises
     ------
     ValueError
-        Naming the parameter, its value, its unit and the allowed range.
+        In one line that names the parameter, what it must be, and what it is.
     """
 
     weights: FloatArray
@@ -62,21 +56,15 @@ class Chain:
     mu_s: float
     mu_k: float
     length: float = 0.1
-    viscosity: float = 0.0
-    interface_stiffness: float = 0.0
-    head_mass: float = 0.0
 
     def __post_init__(self) -> None:
         weights = _weights(self.weights)
         object.__setattr__(self, "weights", weights)
         for name, unit in _POSITIVE.items():
             object.__setattr__(self, name, positive(name, getattr(self, name), unit))
-        for name, unit in ADDITIONS.items():
-            object.__setattr__(self, name, not_negative(name, getattr(self, name), unit))
-        mu_s = not_negative("mu_s", self.mu_s, "1")
-        mu_k = not_negative("mu_k", self.mu_k, "1")
-        if mu_k > mu_s:
-            raise ValueError(f"mu_k = {mu_k!r} is larger than mu_s = {mu_s!r}: allowed is 0 <= mu_k <= mu_s")
+        mu_s, mu_k = not_negative("mu_s", self.mu_s, "1"), number("mu_k", self.mu_k, "1")
+        if not 0 <= mu_k <= mu_s:
+            raise ValueError(f"mu_k must be between 0 and mu_s = {mu_s!r}, but is {mu_k!r}")
         object.__setattr__(self, "mu_s", mu_s)
         object.__setattr__(self, "mu_k", mu_k)
 
@@ -94,9 +82,6 @@ class Chain:
         youngs_modulus: float = 2.5e9,
         cross_section: float = 1e-4,
         length: float = 0.1,
-        viscosity: float = 0.0,
-        interface_stiffness: float = 0.0,
-        head_mass: float = 0.0,
     ) -> Chain:
         """Cut a slider into N equal blocks (Eqs. 7, 9 and 10); the defaults are the paper's.
 
@@ -114,18 +99,11 @@ class Chain:
             K [N/m] and V [m/s] of the drive.
         slider_mass, youngs_modulus, cross_section, length : float
             M [kg], E [Pa], S [m^2] and L [m] of the slider.
-        viscosity : float
-            eta of each dashpot between neighbours [N s/m]; 0 is none.
-        interface_stiffness : float
-            Tangential stiffness K_t of the whole interface [N/m], N times the chain's value of this name,
-            which is one block's share; 0 is a rigid interface.
-        head_mass : float
-            Mass M_h of the loading head [kg].
 
         Raises
         ------
         ValueError
-            Naming the parameter, its value, its unit and the allowed range.
+            In one line that names the parameter, what it must be, and what it is.
         """
         n = whole("n_blocks", n_blocks, at_least=1)
         length = positive("length", length, "m")
@@ -143,9 +121,6 @@ class Chain:
             mu_s=mu_s,
             mu_k=mu_k,
             length=length,
-            viscosity=viscosity,
-            interface_stiffness=not_negative("interface_stiffness", interface_stiffness, "N/m") / n,
-            head_mass=head_mass,
         )
 
     @property
@@ -175,9 +150,8 @@ class Chain:
 
     @property
     def fastest_frequency_bound(self) -> float:
-        """Angular frequency [rad/s] above all of the chain's (Gershgorin), apart from viscosity."""
-        stiffness = 4 * self.stiffness + self.drive_stiffness + self.interface_stiffness
-        return math.sqrt(stiffness / self.mass)
+        """Angular frequency [rad/s] above all of the chain's (Gershgorin)."""
+        return math.sqrt((4 * self.stiffness + self.drive_stiffness) / self.mass)
 
     @property
     def loading_rate(self) -> float:
@@ -200,24 +174,6 @@ _POSITIVE = {
     "drive_velocity": "m/s",
     "length": "m",
 }
-
-
-# What a chain may have beyond the paper's, and its unit.
-ADDITIONS = {"viscosity": "N s/m", "interface_stiffness": "N/m", "head_mass": "kg"}
-
-
-def require_plain(chain: Chain) -> None:
-    """Refuse a chain that is more than the paper's, where nothing else is allowed for.
-
-    Raises
-    ------
-    ValueError
-        Naming the addition, its value and its unit.
-    """
-    for name, unit in ADDITIONS.items():
-        value = getattr(chain, name)
-        if value:
-            raise ValueError(f"{name} = {value!r} [{unit}]: allowed is 0 here, the paper's chain")
 
 
 def neighbour_stiffness(n_blocks: Any, youngs_modulus: Any, cross_section: Any, length: Any) -> Any:
@@ -244,38 +200,32 @@ def written_fraction(text: str) -> Fraction:
 
 
 def parse_theta(theta: float | str) -> float:
-    """Read theta from a number or a fraction written as "5/6".
+    """Read theta from a number between -1 and 1, or from a fraction written as "5/6".
 
     Raises
     ------
     ValueError
-        If it is neither, or lies outside -1 <= theta <= 1.
+        If it is not such a number.
     """
-    if isinstance(theta, str):
-        try:
-            value = written_fraction(theta)
-        except (ValueError, ZeroDivisionError, OverflowError):
-            raise ValueError(
-                f'theta = {theta!r} is not a number: allowed is -1 <= theta <= 1, a fraction as "5/6"'
-            ) from None
-    else:
-        value = Fraction(number("theta", theta, "1"))
-    if abs(value) > 1:
-        raise ValueError(f"theta = {theta!r} [1] is out of range: allowed is -1 <= theta <= 1")
-    return float(value)
+    try:
+        value = written_fraction(theta) if isinstance(theta, str) else Fraction(number("theta", theta, "1"))
+        if abs(value) <= 1:
+            return float(value)
+    except (ArithmeticError, ValueError):
+        pass
+    raise ValueError(f'theta must be a number between -1 and 1, or a fraction as "5/6", but is {theta!r}')
 
 
 def theta_from_load_cells(load_a: float, load_b: float, spacing: float, length: float) -> float:
     """Degree of non-uniformity from two load cells: (F_ZB - F_ZA)/F_Z * L/d, as in the paper's Sect. 5.2.
 
-    The straight line through the readings of two cells a distance `spacing` [m] apart is extended over
-    the contact of length `length` [m]. Computed in rational numbers and rounded once, so that loads of
-    100 N and 300 N at 60 mm on 100 mm give the double next to 5/6.
+    The straight line through the readings of two cells a distance `spacing` [m] apart is extended over the
+    contact of length `length` [m]. Loads of 100 N and 300 N at 60 mm on 100 mm give the double next to 5/6.
 
     Raises
     ------
     ValueError
-        If a load is negative, both are zero, a length is not positive, or the line leaves -1 <= theta <= 1.
+        If a load is negative, both are zero, a length is not positive, or theta is not between -1 and 1.
     """
     return float(exact_theta_from_load_cells(load_a, load_b, spacing, length))
 
@@ -286,71 +236,61 @@ def exact_theta_from_load_cells(load_a: float, load_b: float, spacing: float, le
     b = Fraction(repr(not_negative("load_b", load_b, "N")))
     span = Fraction(repr(positive("length", length, "m"))) / Fraction(repr(positive("spacing", spacing, "m")))
     if a + b == 0:
-        raise ValueError("load_a = load_b = 0 N: allowed is a total normal load above zero")
+        raise ValueError("load_a or load_b must be above 0 N, but both are 0 N")
     theta = (b - a) / (a + b) * span
     if abs(theta) > 1:
         raise ValueError(
-            f"load_a = {load_a!r} N and load_b = {load_b!r} N give theta = {float(theta):.4g}: "
-            "allowed is -1 <= theta <= 1 (a larger one would lift the slider at one end)"
+            f"theta must be between -1 and 1, but load_a = {load_a!r} N and load_b = {load_b!r} N give "
+            f"{float(theta):.4g}: the slider would be lifted at one end"
         )
     return theta
 
 
 def number(name: str, value: object, unit: str) -> float:
     """Return a finite float, or raise a ValueError that names the parameter."""
-    if isinstance(value, bool) or not isinstance(value, Real):
-        hint = ""
-        if isinstance(value, str):
-            hint = " (YAML reads 2.5e9 as text: write 2.5e+9)"
-        raise ValueError(f"{name} = {value!r} [{unit}] is not a number{hint}")
-    try:
-        result = float(value)
-    except OverflowError:
-        result = math.inf
-    if not math.isfinite(result):
-        raise ValueError(f"{name} = {value!r} [{unit}] is not finite")
-    return result
+    if isinstance(value, Real) and not isinstance(value, bool):
+        with suppress(OverflowError):
+            if math.isfinite(result := float(value)):
+                return result
+    hint = " (YAML reads 2.5e9 as text: write 2.5e+9)" if isinstance(value, str) else ""
+    raise ValueError(f"{name} must be a finite number [{unit}], but is {value!r}{hint}")
 
 
 def positive(name: str, value: object, unit: str) -> float:
-    """Return a float above zero, or raise a ValueError that names the parameter."""
+    """Return a float above zero that can be computed with, or raise a ValueError that names the parameter."""
     result = number(name, value, unit)
     if result <= 0:
-        raise ValueError(f"{name} = {value!r} [{unit}] is out of range: allowed is {name} > 0")
+        raise ValueError(f"{name} must be above 0 {unit}, but is {value!r}")
     if not SMALLEST <= result <= LARGEST:
-        raise ValueError(
-            f"{name} = {value!r} [{unit}] cannot be computed with: allowed is {SMALLEST:g} to {LARGEST:g}"
-        )
+        raise ValueError(f"{name} must be between {SMALLEST:g} and {LARGEST:g} {unit}, but is {value!r}")
     return result
 
 
 def not_negative(name: str, value: object, unit: str) -> float:
-    """Return a float not below zero, or raise a ValueError that names the parameter."""
+    """Return a float of zero or more, or raise a ValueError that names the parameter."""
     result = number(name, value, unit)
-    if result < 0:
-        raise ValueError(f"{name} = {value!r} [{unit}] is out of range: allowed is {name} >= 0")
-    if result > LARGEST:
-        raise ValueError(f"{name} = {value!r} [{unit}] cannot be computed with: allowed is up to {LARGEST:g}")
+    if not 0 <= result <= LARGEST:
+        raise ValueError(f"{name} must be between 0 and {LARGEST:g} [{unit}], but is {value!r}")
     return result
 
 
 def whole(name: str, value: object, at_least: int) -> int:
-    """Return an int not below `at_least`, or raise a ValueError that names the parameter."""
+    """Return an int of at least so much, or raise a ValueError that names the parameter."""
     if isinstance(value, bool) or not isinstance(value, Integral) or value < at_least:
-        raise ValueError(f"{name} = {value!r} is out of range: allowed is a whole number >= {at_least}")
+        raise ValueError(f"{name} must be a whole number of at least {at_least}, but is {value!r}")
     return int(value)
 
 
 def checked_span(duration: object, until: object) -> float:
-    """Return the duration [s] of a run, or raise a ValueError that names what is wrong with it or `until`."""
+    """Return the duration [s] of a run, or raise a ValueError about it or about `until`."""
     checked_until(until)
     return positive("duration", duration, "s")
 
 
 def checked_until(until: object) -> Until:
-    """Return where a run may end before its duration, or raise a ValueError that says what is allowed."""
+    """Return where a run may end before its duration, or raise a ValueError."""
     if until is not None and until != "global slip":
-        raise ValueError(f'until = {until!r} is unknown: allowed is None or "global slip"')
+        raise ValueError(f'until must be None or "global slip", but is {until!r}')
     return "global slip" if until else None
 
 
@@ -358,19 +298,15 @@ def _weights(values: ArrayLike) -> FloatArray:
     try:
         weights = np.array(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise ValueError(f"weights = {values!r} [N] are not numbers") from None
+        raise ValueError(f"weights must be numbers [N], but are {values!r}") from None
     if weights.ndim != 1 or weights.size == 0:
+        raise ValueError(f"weights must be one number [N] a block, but have shape {weights.shape}")
+    for i in np.flatnonzero(~((weights == 0) | ((weights >= SMALLEST) & (weights <= LARGEST))))[:1]:
         raise ValueError(
-            f"weights have shape {weights.shape}: allowed is one value [N] for each of N >= 1 blocks"
-        )
-    fits = (weights == 0) | ((weights >= SMALLEST) & (weights <= LARGEST))
-    if not fits.all():
-        i = int(np.argmin(fits))
-        raise ValueError(
-            f"weights: block {i + 1} has {float(weights[i])!r} N, which is out of range: allowed is 0 N, or "
-            f"{SMALLEST:g} to {LARGEST:g} N"
+            f"weights must be 0 N, or between {SMALLEST:g} and {LARGEST:g} N, but that of block {i + 1} is "
+            f"{float(weights[i])!r} N"
         )
     if not weights.any():
-        raise ValueError("weights are all zero: allowed is a total normal load above 0 N")
+        raise ValueError("one of the weights must be above 0 N, but all are 0 N")
     weights.flags.writeable = False
     return weights

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
-from precursors.solver import kernel
-from precursors.solver.kernel import States
-from precursors.solver.run_file import TRANSITION, RunFileError, read_run, write_run
+from precursors.solver import fallback
+from precursors.solver.backend import KERNEL
+from precursors.solver.record import TRANSITION, States
+from precursors.solver.run_file import RunFileError, read_run, write_run
 
 __all__ = ["TRANSITION", "Run", "RunFileError", "States"]
 
@@ -91,7 +92,7 @@ class Run:
             intervals=np.array(intervals, dtype=np.float64),
             start_positions=at_rest,
             start_velocities=at_rest,
-            states=States.none(chain.n_blocks),
+            states=States.empty(0, chain.n_blocks),
         )
 
     def at(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
@@ -104,7 +105,9 @@ class Run:
         """
         when = self._times(times)
         force, velocity = self._evaluate(when)
-        return kernel.to_positions(self.chain, when, force), velocity
+        # x_1 = V t - T_1/K (Eq. 3), x_2 = x_1 - T_2/k, ...
+        behind = np.cumsum(force / self.chain.springs, axis=1)
+        return self.chain.drive_velocity * when[:, None] - behind, velocity
 
     def tangential_load(self, times: ArrayLike) -> FloatArray:
         """Tangential load F_X = K(V t - x_1) [N], shape (len(times),) (Eq. 3)."""
@@ -131,14 +134,19 @@ class Run:
         if len(self.states.after) == 0:
             raise ValueError("the run has no stored states: only a run that simulate made can be evaluated")
         order = np.argsort(when, kind="stable")
-        record = kernel.Record(
-            np.ascontiguousarray(self.transitions["time"]),
-            self.transitions["block"].astype(np.int64),
-            self.transitions["mode"].astype(np.int64),
-            np.ascontiguousarray(self.transitions["tangential_load"]),
-            self.intervals,
-        )
-        force, velocity = kernel.evaluate(self.chain, when[order], record, self.states)
+        if KERNEL is None:
+            force, velocity = fallback.evaluate(
+                self.chain, when[order], self.transitions, self.intervals, self.states
+            )
+        else:
+            record = KERNEL.Record(
+                np.ascontiguousarray(self.transitions["time"]),
+                self.transitions["block"].astype(np.int64),
+                self.transitions["mode"].astype(np.int64),
+                np.ascontiguousarray(self.transitions["tangential_load"]),
+                self.intervals,
+            )
+            force, velocity = KERNEL.evaluate(self.chain, when[order], record, self.states)
         back = np.argsort(order, kind="stable")
         return force[back], velocity[back]
 

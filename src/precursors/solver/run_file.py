@@ -15,14 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from precursors.model.chain import Chain
-from precursors.solver.kernel import States, width
+from precursors.solver.record import TRANSITION, States
 from precursors.support.files import write_whole
 
 if TYPE_CHECKING:
     from precursors.solver.run import Run
 
-FORMAT = "precursors run 3"
-TRANSITION = np.dtype([("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")])
+FORMAT = "precursors run 4"
 UNITS = {
     "time": "s",
     "block": "1",
@@ -32,10 +31,9 @@ UNITS = {
     "start_positions": "m",
     "start_velocities": "m/s",
     "force": "N",
-    "velocity": "N/tau",
+    "velocity": "m/s",
     "after": "1",
     "offset": "s",
-    "grip": "N",
     "weights": "N",
 }
 
@@ -128,7 +126,7 @@ def _check(content: dict[str, Any]) -> None:
     _require(np.isin(mode, (-1, 0, 1)).all() and np.isin(states.mode, (-1, 0, 1)).all(), "a mode is unknown")
     _require(np.isfinite(content["intervals"]).all(), "an interval is not finite")
     _require(((after >= 0) & (after <= n)).all(), "a state comes after a transition that is not there")
-    shape = (len(after), width(n_blocks))
+    shape = (len(after), n_blocks)
     for name in ("force", "velocity", "mode"):
         found = getattr(states, name).shape
         _require(found == shape, f"states/{name} has shape {found} and not {shape}")

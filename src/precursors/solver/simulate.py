@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import LARGEST, Chain, FloatArray, Until, checked_span, whole
-from precursors.solver import kernel
-from precursors.solver.run import TRANSITION, Run, States
-
-IntArray = NDArray[np.int64]
+from precursors.solver import fallback
+from precursors.solver.backend import KERNEL
+from precursors.solver.record import TRANSITION, IntArray, States
+from precursors.solver.run import Run
 
 MAX_TRANSITIONS = 10_000_000
 # Stored states are thinned out so that they never take more room than this.
@@ -30,6 +30,16 @@ MAX_WINDOWS = 1_000_000_000
 FIRST_ROOM, SHARED_ROOM = 2048, 16384
 # Chains of a batch: many for little work between batches, few for all threads to end together.
 LARGEST_BATCH, BATCHES_PER_THREAD = 64, 8
+# Types of a record's columns: time, block, mode, tangential load, interval.
+COLUMNS: tuple[Any, ...] = (np.float64, np.int64, np.int64, np.float64, np.float64)
+
+
+class _End(NamedTuple):
+    """Where runs end: time [s], after a global slip, with so many transitions."""
+
+    duration: float
+    until_global: bool
+    most: int
 
 
 class TransitionLimitError(RuntimeError):
@@ -76,10 +86,10 @@ def simulate(
         If the cap, or one on the work of chains that hardly ever rest, is met; its attribute `run` holds what
         was computed.
     """
-    duration, max_transitions = _limits(duration, until, max_transitions)
+    end = _end(duration, until, max_transitions)
     positions = _start("start_positions", start_positions, "m", chain)
     velocities = _start("start_velocities", start_velocities, "m/s", chain)
-    return _run_batch([chain], positions[None], velocities[None], duration, until, max_transitions)[0]
+    return _run_batch([chain], positions[None], velocities[None], end)[0]
 
 
 def simulate_many(
@@ -118,14 +128,14 @@ def simulate_many(
     TransitionLimitError
         If a run meets the cap of `simulate`.
     """
-    duration, max_transitions = _limits(duration, until, MAX_TRANSITIONS)
+    end = _end(duration, until, MAX_TRANSITIONS)
     threads = available_cores() if threads is None else whole("threads", threads, at_least=1)
     positions = _starts("start_positions", start_positions, "m", chains)
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)
 
     def run(batch: list[int]) -> list[Run]:
         start = np.array([positions[j] for j in batch]), np.array([velocities[j] for j in batch])
-        return _run_batch([chains[j] for j in batch], *start, duration, until, max_transitions)
+        return _run_batch([chains[j] for j in batch], *start, end)
 
     runs: dict[int, Run] = {}
     with ThreadPoolExecutor(threads, "simulate") as pool:
@@ -141,8 +151,9 @@ def simulate_many(
     return [runs[j] for j in range(len(chains))]
 
 
-def _limits(duration: float, until: Until, max_transitions: int) -> tuple[float, int]:
-    return checked_span(duration, until), whole("max_transitions", max_transitions, at_least=1)
+def _end(duration: float, until: Until, max_transitions: int) -> _End:
+    most = whole("max_transitions", max_transitions, at_least=1)
+    return _End(checked_span(duration, until), until is not None, most)
 
 
 def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> FloatArray:
@@ -151,15 +162,13 @@ def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> Floa
     try:
         start = np.array(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise ValueError(f"{name} = {values!r} [{unit}] are not numbers") from None
+        raise ValueError(f"{name} must be numbers [{unit}], but are {values!r}") from None
     if start.shape != (chain.n_blocks,):
         raise ValueError(
-            f"{name} have shape {start.shape}: allowed is ({chain.n_blocks},), one [{unit}] a block"
+            f"{name} must have shape ({chain.n_blocks},), one [{unit}] a block, but have {start.shape}"
         )
-    if not np.isfinite(start).all():
-        raise ValueError(f"{name} hold a value that is not finite: allowed are finite numbers [{unit}]")
-    if np.abs(start).max() > LARGEST:
-        raise ValueError(f"{name} hold a value beyond {LARGEST:g} {unit}, which cannot be computed with")
+    if not (abs(start) <= LARGEST).all():
+        raise ValueError(f"{name} must be finite, and not beyond {LARGEST:g} {unit}, but are {start}")
     return start
 
 
@@ -169,7 +178,7 @@ def _starts(
     if values is None:
         return [np.zeros(chain.n_blocks) for chain in chains]
     if len(values) != len(chains):
-        raise ValueError(f"{name} are {len(values)}: allowed is one for each of the {len(chains)} chains")
+        raise ValueError(f"{name} must be one for each of the {len(chains)} chains, but are {len(values)}")
     return [
         _start(f"{name}[{j}]", value, unit, chain)
         for j, (value, chain) in enumerate(zip(values, chains, strict=True))
@@ -182,130 +191,33 @@ def available_cores() -> int:
 
 
 def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
-    """Numbers of chains of equal length and kind, so many at a time as one call of the kernel takes."""
+    """Numbers of chains of equal length, so many at a time as one call of the kernel takes."""
     most = min(LARGEST_BATCH, max(1, len(chains) // (threads * BATCHES_PER_THREAD)))
-    alike: dict[tuple[int, bool], list[int]] = {}
+    alike: dict[int, list[int]] = {}
     for j, chain in enumerate(chains):
-        alike.setdefault((chain.n_blocks, kernel.is_linked(chain)), []).append(j)
+        alike.setdefault(chain.n_blocks, []).append(j)
     for _, members in sorted(alike.items(), reverse=True):
         for first in range(0, len(members), most):
             yield members[first : first + most]
 
 
 class _Workspace(threading.local):
-    """The record into which a thread runs chains of one length and kind, kept from call to call."""
+    """Memory, record and states of a thread for chains of one length, kept from call to call."""
 
-    kind: tuple[int, bool, bool] | None = None
+    n_blocks = 0
 
-    def prepare(self, n_blocks: int, is_linked: bool, on_springs: bool) -> None:
+    def prepare(self, n_blocks: int) -> None:
         """Make room for chains of `n_blocks`, if it is not there yet."""
-        if (n_blocks, is_linked, on_springs) == self.kind:
+        if n_blocks == self.n_blocks:
             return
-        wide = kernel.width(n_blocks)
-        self.stride = 1 + wide // BLOCKS_PER_STRIDE
-        self.state_room = max(FIRST_ROOM // self.stride, 2)
-        self.additions = kernel.new_additions(n_blocks) if is_linked else None
-        self.ringing = kernel.new_ringing(n_blocks, on_springs) if is_linked else None
-        rows = max(SHARED_ROOM // self.stride, 2)
-        self.room = kernel.Room(
-            kernel.new_columns(n_blocks),
-            kernel.new_state(n_blocks),
-            kernel.new_motion(n_blocks),
-            kernel.new_search(n_blocks),
-            kernel.Record._make(np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in RECORD),
-            kernel.States(
-                np.empty((rows, wide)),
-                np.empty((rows, wide)),
-                np.empty((rows, wide), np.int64),
-                np.empty(rows, np.int64),
-                np.empty(rows),
-                np.zeros((rows, wide if is_linked else 0)),
-            ),
-        )
-        self.arrays = self.room.arrays
-        self.kind = n_blocks, is_linked, on_springs
+        self.stride = 1 + n_blocks // BLOCKS_PER_STRIDE
+        self.memory = KERNEL.memory_for(n_blocks)
+        self.record = KERNEL.Record._make(np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in COLUMNS)
+        self.states = States.empty(max(SHARED_ROOM // self.stride, 2), n_blocks)
+        self.n_blocks = n_blocks
 
 
 _workspace = _Workspace()
-
-
-def _run_batch(
-    chains: Sequence[Chain],
-    positions: FloatArray,
-    velocities: FloatArray,
-    duration: float,
-    until: Until,
-    max_transitions: int,
-) -> list[Run]:
-    """Run chains of equal length one after the other, in as few calls of the kernel as it takes."""
-    work = _workspace
-    on_springs = any(chain.interface_stiffness > 0.0 for chain in chains)
-    work.prepare(chains[0].n_blocks, kernel.is_linked(chains[0]), on_springs)
-    parameters = np.array([kernel.parameters(chain) for chain in chains])
-    weights = np.array([chain.weights for chain in chains])
-    taus = np.empty(len(chains))
-    clocks = np.zeros((len(chains), kernel.CLOCK_SIZE))
-    counts = np.zeros((len(chains), kernel.COUNT_SIZE), np.int64)
-    ends = taus, clocks, counts
-    runs: list[Run] = []
-    ends_at = duration, until is not None
-    most = min(FIRST_ROOM, max_transitions), work.state_room, WINDOWS_PER_CALL
-    while len(runs) < len(chains):
-        left = slice(len(runs), None)
-        n_finished, is_paused = kernel.run_batch(
-            parameters[left],
-            weights[left],
-            positions[left],
-            velocities[left],
-            *ends_at,
-            *most,
-            False,
-            work.stride,
-            work.additions,
-            work.ringing,
-            taus[left],
-            clocks[left],
-            counts[left],
-            *work.arrays,
-        )
-        for j, part in zip(
-            range(len(runs), len(runs) + n_finished + is_paused),
-            _parts(work, counts[left][: n_finished + is_paused]),
-            strict=True,
-        ):
-            if counts[j, kernel.STATUS] == kernel.PAUSED:
-                mine = slice(j, j + 1)
-                chain = parameters[mine], weights[mine], positions[mine], velocities[mine], *ends_at
-                part = _go_on(chain, part, work, [values[mine] for values in ends], max_transitions)
-            elapsed = clocks[j, kernel.ONSET] + (
-                clocks[j, kernel.ONSET_ERROR] + clocks[j, kernel.ELAPSED] * taus[j]
-            )
-            transitions = part.transitions
-            run = Run(
-                chain=chains[j],
-                duration=duration if counts[j, kernel.STATUS] == kernel.FINISHED else float(elapsed),
-                transitions=transitions,
-                intervals=part.intervals,
-                start_positions=positions[j],
-                start_velocities=velocities[j],
-                states=_needed(part.states, chains[j]),
-                evaluations=float(counts[j, kernel.DERIVATIVES]) / chains[j].n_blocks,
-            )
-            if counts[j, kernel.STATUS] == kernel.PAUSED:
-                where = f"at t = {elapsed:.9g} s of {duration:g} s"
-                if len(transitions) >= max_transitions:
-                    raise TransitionLimitError(
-                        f"max_transitions = {max_transitions} reached {where}, last at block "
-                        f"{transitions['block'][-1]}: raise max_transitions or shorten duration",
-                        run,
-                    )
-                raise TransitionLimitError(
-                    f"{MAX_WINDOWS:g} steps of the motion made {where}, blocks slide nearly all the time: "
-                    "shorten duration",
-                    run,
-                )
-            runs.append(run)
-    return runs
 
 
 class _Part(NamedTuple):
@@ -316,103 +228,142 @@ class _Part(NamedTuple):
     states: States
 
 
-def _parts(work: _Workspace, counts: IntArray) -> Iterator[_Part]:
-    """Cut the record of several runs, as `counts` has them, into one part a run."""
-    used, stored = counts[:, kernel.TRANSITIONS].tolist(), counts[:, kernel.STORED].tolist()
-    transitions = _transitions(work.room.record[:-1], sum(used))
-    intervals: FloatArray = work.room.record[-1][: sum(used) + len(used)].copy()
-    n_states = sum(stored)
-    states = [column[:n_states].copy() for column in work.room.states]
-    if len(used) == 1:
-        yield _Part(transitions, intervals, _states(states, slice(None)))
-        return
+def _run_batch(
+    chains: Sequence[Chain], positions: FloatArray, velocities: FloatArray, end: _End
+) -> list[Run]:
+    """Run chains of equal length one after the other, in as few calls of the kernel as it takes."""
+    if KERNEL is None:
+        return [_run_plain(*each, end) for each in zip(chains, positions, velocities, strict=True)]
+    work, n = _workspace, len(chains)
+    work.prepare(chains[0].n_blocks)
+    parameters = np.array([KERNEL.parameters(chain) for chain in chains])
+    batch = KERNEL.Batch(parameters, np.array([chain.weights for chain in chains]), positions, velocities)
+    clock, count = np.zeros((n, KERNEL.CLOCK_SIZE)), np.zeros((n, KERNEL.COUNT_SIZE), np.int64)
+    progress = KERNEL.Progress(np.empty(n), clock, count)
+    limits = KERNEL.Limits(
+        end.duration,
+        end.until_global,
+        min(FIRST_ROOM, end.most),
+        max(FIRST_ROOM // work.stride, 2),
+        WINDOWS_PER_CALL,
+        work.stride,
+        False,
+    )
+    runs: list[Run] = []
+    while len(runs) < n:
+        left = slice(len(runs), None)
+        n_finished, is_paused = KERNEL.run_batch(
+            _rows(batch, left), limits, _rows(progress, left), work.record, work.states, work.memory
+        )
+        for part in _parts(work, count[left][: n_finished + is_paused]):
+            j = len(runs)
+            mine = slice(j, j + 1)
+            if count[j, KERNEL.STATUS] == KERNEL.PAUSED:
+                part = _go_on(_rows(batch, mine), limits, _rows(progress, mine), part, end.most)
+            onset, error, elapsed, _ = clock[j].tolist()
+            time = onset + (error + elapsed * float(progress.tau[j]))
+            run = Run(
+                chain=chains[j],
+                duration=end.duration if count[j, KERNEL.STATUS] == KERNEL.FINISHED else time,
+                transitions=part.transitions,
+                intervals=part.intervals,
+                start_positions=positions[j],
+                start_velocities=velocities[j],
+                states=part.states,
+                evaluations=float(count[j, KERNEL.DERIVATIVES]) / chains[j].n_blocks,
+            )
+            if count[j, KERNEL.STATUS] == KERNEL.PAUSED:
+                raise _unfinished(run, end)
+            runs.append(run)
+    return runs
+
+
+def _run_plain(chain: Chain, positions: FloatArray, velocities: FloatArray, end: _End) -> Run:
+    """Run a chain in plain Python."""
+    start = positions, velocities
+    transitions, intervals, time = fallback.find(chain, start, end.duration, end.until_global, end.most)
+    states = fallback.first_state(chain, *start)
+    run = Run(chain, time, transitions, intervals, *start, states)
+    if len(transitions) >= end.most:
+        raise _unfinished(run, end)
+    return run
+
+
+def _unfinished(run: Run, end: _End) -> TransitionLimitError:
+    """The error of a run that met a cap before its end."""
+    where = f"at t = {run.duration:.9g} s of {end.duration:g} s"
+    if len(run.transitions) >= end.most:
+        return TransitionLimitError(
+            f"max_transitions = {end.most} reached {where}, last at block {run.transitions['block'][-1]}: "
+            "raise max_transitions or shorten duration",
+            run,
+        )
+    return TransitionLimitError(
+        f"{MAX_WINDOWS:g} steps of the motion made {where}, blocks slide nearly all the time: "
+        "shorten duration",
+        run,
+    )
+
+
+def _rows(columns: Any, rows: slice) -> Any:
+    """Those rows of all arrays in a named tuple."""
+    return columns._make(values[rows] for values in columns)
+
+
+def _parts(work: _Workspace, count: IntArray) -> Iterator[_Part]:
+    """Cut the record of several runs, as `count` has them, into one part a run."""
+    used, stored = count[:, KERNEL.TRANSITIONS].tolist(), count[:, KERNEL.STORED].tolist()
+    transitions = _transitions(work.record, sum(used))
+    intervals: FloatArray = work.record.intervals[: sum(used) + len(used)].copy()
+    states = States._make(column[: sum(stored)].copy() for column in work.states)
     first = first_state = 0
     for j, (n, m) in enumerate(zip(used, stored, strict=True)):
         yield _Part(
             transitions[first : first + n],
             intervals[first + j : first + j + n + 1],
-            _states(states, slice(first_state, first_state + m)),
+            _rows(states, slice(first_state, first_state + m)),
         )
         first, first_state = first + n, first_state + m
 
 
-def _go_on(
-    chain: tuple[Any, ...],
-    part: _Part,
-    work: _Workspace,
-    ends: Sequence[NDArray[Any]],
-    max_transitions: int,
-) -> _Part:
-    """Run on a chain that the kernel left unfinished, in a record of its own."""
-    [tau], [clock], [count] = ends
-    record = _Record(part, work.stride)
+def _go_on(batch: Any, limits: Any, progress: Any, part: _Part, most: int) -> _Part:
+    """Run on a chain that the kernel left unfinished, in a record of its own that grows as needed."""
+    [clock], [count] = progress.clock, progress.counts
+    values = [part.transitions[name] for name in TRANSITION.names or ()]
+    record = KERNEL.Record._make(
+        column.astype(kind) for column, kind in zip([*values, part.intervals], COLUMNS, strict=True)
+    )
+    states, stride = part.states, limits.stride
     while (
-        count[kernel.STATUS] == kernel.PAUSED
-        and count[kernel.TRANSITIONS] < max_transitions
-        and count[kernel.WINDOWS] < MAX_WINDOWS
+        count[KERNEL.STATUS] == KERNEL.PAUSED
+        and count[KERNEL.TRANSITIONS] < most
+        and count[KERNEL.WINDOWS] < MAX_WINDOWS
     ):
-        record.make_room(count, max_transitions)
-        room = work.room._replace(record=record.columns, states=record.states)
-        most = len(record.columns.time), len(record.states.after), WINDOWS_PER_CALL
-        linked = work.additions, work.ringing
-        kernel.run_batch(*chain, *most, True, record.stride, *linked, *ends, *room.arrays)
-    return record.part(count, clock[kernel.SINCE] * tau)
-
-
-class _Record:
-    """Room for the transitions and states of a long run, grown as needed."""
-
-    def __init__(self, part: _Part, stride: int) -> None:
-        self.stride = stride
-        values = [part.transitions[name] for name in TRANSITION.names or ()]
-        self.columns = kernel.Record._make(
-            column.astype(kind) for column, kind in zip([*values, part.intervals], RECORD, strict=True)
-        )
-        self.states = part.states
-
-    def make_room(self, count: IntArray, most: int) -> None:
-        """Enlarge what is full; thin the states out where they take too much."""
-        used, stored = int(count[kernel.TRANSITIONS]), int(count[kernel.STORED])
-        if used >= len(self.columns[0]) or len(self.columns[0]) < len(self.columns[-1]):
+        used = int(count[KERNEL.TRANSITIONS])
+        if used >= len(record.time) or len(record.time) < len(record.intervals):
             room = min(max(FIRST_ROOM, 2 * used), most)
-            self.columns = kernel.Record._make(_enlarged(column[:used], room) for column in self.columns)
-        if stored < len(self.states[0]):
-            return
-        rows = max(FIRST_ROOM // self.stride, 2 * len(self.states[0]))
-        if rows * sum(s[0].nbytes for s in self.states) > STATES_BYTES and stored > 1:
-            self.states = kernel.States._make(np.ascontiguousarray(s[:stored:2]) for s in self.states)
-            self.stride *= 2
-            count[kernel.STORED] = len(self.states[0])
-        self.states = kernel.States._make(_enlarged(s, rows) for s in self.states)
-
-    def part(self, count: IntArray, last_interval: float) -> _Part:
-        """What was recorded, the time since the last transition as its last interval."""
-        n, stored = int(count[kernel.TRANSITIONS]), int(count[kernel.STORED])
-        return _Part(
-            _transitions(self.columns[:-1], n),
-            np.append(self.columns[-1][:n], last_interval),
-            _states([column[:stored].copy() for column in self.states], slice(None)),
+            record = KERNEL.Record._make(_enlarged(column[:used], room) for column in record)
+        if count[KERNEL.STORED] >= len(states.after):
+            rows = max(FIRST_ROOM // stride, 2 * len(states.after))
+            if rows * sum(column[0].nbytes for column in states) > STATES_BYTES:
+                states, stride = _rows(states, slice(None, None, 2)), 2 * stride
+                count[KERNEL.STORED] = len(states.after)
+            states = States._make(_enlarged(column, rows) for column in states)
+        limits = limits._replace(
+            transitions=len(record.time), states=len(states.after), stride=stride, goes_on=True
         )
+        KERNEL.run_batch(batch, limits, progress, record, states, _workspace.memory)
+    n, stored = int(count[KERNEL.TRANSITIONS]), int(count[KERNEL.STORED])
+    return _Part(
+        _transitions(record, n),
+        np.append(record.intervals[:n], clock[KERNEL.SINCE] * progress.tau[0]),
+        _rows(states, slice(stored)),
+    )
 
 
-# Types of a record's columns: time, block, mode, tangential load, interval.
-RECORD: tuple[Any, ...] = (np.float64, np.int64, np.int64, np.float64, np.float64)
-
-
-def _states(columns: Sequence[NDArray[Any]], rows: slice) -> States:
-    return States(*(column[rows] for column in columns))
-
-
-def _needed(states: States, chain: Chain) -> States:
-    """The states without the forces of interface springs where there are none."""
-    if chain.interface_stiffness or not states.grip.size:
-        return states
-    return states._replace(grip=np.empty((len(states.after), 0)))
-
-
-def _transitions(columns: Sequence[NDArray], n: int) -> NDArray[np.void]:
+def _transitions(record: Any, n: int) -> NDArray[np.void]:
     transitions = np.empty(n, dtype=TRANSITION)
-    for name, column in zip(TRANSITION.names or (), columns, strict=True):
+    for name, column in zip(TRANSITION.names or (), record, strict=False):
         transitions[name] = column[:n]
     return transitions
 

@@ -1,54 +1,68 @@
-"""The arrays that a run is made in: what is known of the chain, its motion, and what is recorded of it."""
+"""The arrays that a run is made in: the chain, its motion, the search of the next transition, the record."""
 
 from __future__ import annotations
 
-from itertools import accumulate
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from precursors.model.chain import FloatArray
-from precursors.solver.kernel.layout import BEYOND, LEAPS, LEVELS, ROWS, WIDTH
+from precursors.solver.kernel.compiled import inner
+from precursors.solver.kernel.layout import BEYOND, LEVELS, ROWS, WIDTH
+from precursors.solver.kernel.pointers import pointer, shifted, table, whole_numbers
+from precursors.solver.record import IntArray
 
-IntArray = NDArray[np.int64]
+# In compiled code a vector is a pointer to a number for each column, and a table has rows of such vectors.
+Vector = Any
+Table = Any
+
+# Vectors with a column for each block, and with a row for each term of a series.
+BY_COLUMN, BY_TERM = 15, 4
 
 
-class Columns(NamedTuple):
-    """A chain in the kernel's units: spring behind each block, mu_s w_i, mu_k w_i, and r_i."""
+class System(NamedTuple):
+    """A chain in the kernel's units.
 
+    `tau` is in s, `speed` is the unit N/tau of velocities in m/s. Columns are the stiffness behind a block
+    and its friction, mu_s w_i and mu_k w_i [N].
+    """
+
+    n_blocks: int
+    tau: float
+    speed: float
+    drive_velocity: float
     coupling: FloatArray
     strength: FloatArray
     friction: FloatArray
-    lightness: FloatArray
 
 
-class Additions(NamedTuple):
-    """What joins blocks to each other and to the plane besides springs; see the package's docstring."""
+class Motion(NamedTuple):
+    """The state and the motion within a window.
 
-    dashpot: FloatArray
-    anchor: FloatArray
-    grip: FloatArray
-    hold: FloatArray
+    `rate` has the derivatives of the velocities, row 0 the velocities themselves. `velocity` is the state at
+    the start and at the end. `slides` is 1 or 0, `sense` the mode as a float, `push` the friction against the
+    motion. `slip` is the way of each block since the window began, `force_before` the spring forces then,
+    `origins` the time about which its series is, `fastest` a bound of its speed. `suspects` has blocks that
+    may stop as bits, `weight` the terms s^n / n!. The others are room to work in.
+    """
 
-
-class Ringing(NamedTuple):
-    """Room for what moves on springs: what rounding took away, and what `ringing.leap` needs."""
-
-    lost: FloatArray
-    lost_grip: FloatArray
-    pivot: FloatArray
-    softness: FloatArray
-    creep: FloatArray
-    leaps: FloatArray
-
-
-class State(NamedTuple):
-    """Velocities, spring forces and modes of the blocks."""
-
-    velocity: FloatArray
-    tension: FloatArray
-    mode: IntArray
+    velocity: Vector
+    spring_force: Vector
+    mode: Vector
+    slides: Vector
+    sense: Vector
+    push: Vector
+    slip: Vector
+    origins: Vector
+    force_before: Vector
+    fastest: Vector
+    suspects: Vector
+    kept_force: Vector
+    weight: Vector
+    spare: Vector
+    behind: Vector
+    ahead: Vector
+    rate: Table
 
 
 class Search(NamedTuple):
@@ -57,48 +71,65 @@ class Search(NamedTuple):
     `active[1 : active[0] + 1]` are the slots that may have a root in the window.
     """
 
-    series: FloatArray
-    level: FloatArray
-    terms: IntArray
-    stage: IntArray
-    bound: FloatArray
-    active: IntArray
-
-
-class Motion(NamedTuple):
-    """The motion within a window: Taylor rows of the velocities, and what goes with them, by columns."""
-
-    rate: FloatArray
-    mobile: FloatArray
-    sense: FloatArray
-    push: FloatArray
-    slip: FloatArray
-    origins: FloatArray
-    tension_before: FloatArray
-    fastest: FloatArray
-    suspects: NDArray[np.uint64]
-    weight: FloatArray
-    spare: FloatArray
-    behind: FloatArray
-    ahead: FloatArray
+    series: Table
+    level: Table
+    bound: Vector
+    terms: Vector
+    stage: Vector
+    active: Vector
 
 
 class Window(NamedTuple):
-    """What is looked at: `span` from `origin` on [tau], series of that order, and blocks first..final.
+    """What is looked at: blocks first..final, from `origin` to `limit` [tau], by series of that order.
 
     Block `last` is the farthest that may change its mode, `end` the last column of a whole group of four. A
-    value counts as zero below the relative size `doubt`.
+    value counts as zero below the relative size `roundings`.
     """
 
     origin: float
     span: float
+    limit: float
     order: int
     first: int
     final: int
     last: int
     end: int
     is_long: bool
-    doubt: float
+    roundings: float
+
+
+class Batch(NamedTuple):
+    """Chains of equal length and their starts, a row each: see `units.parameters`; [N], [m], [m/s]."""
+
+    parameters: FloatArray
+    weights: FloatArray
+    positions: FloatArray
+    velocities: FloatArray
+
+
+class Limits(NamedTuple):
+    """Where a run ends or pauses.
+
+    It ends at `duration` [s], or after a global slip. It pauses when it has so many transitions, states, or
+    windows in this call. A state is stored after every `stride` transitions or so. With `goes_on`, the run is
+    one that was paused.
+    """
+
+    duration: float
+    until_global: bool
+    transitions: int
+    states: int
+    windows: int
+    stride: int
+    goes_on: bool
+
+
+class Progress(NamedTuple):
+    """Where each run is: the places of its numbers are in `layout`."""
+
+    tau: FloatArray
+    clock: FloatArray
+    counts: IntArray
 
 
 class Record(NamedTuple):
@@ -111,118 +142,48 @@ class Record(NamedTuple):
     intervals: FloatArray
 
 
-class States(NamedTuple):
-    """Stored states in the kernel's units and columns; row 0 is the start, before any transition.
-
-    Spring forces [N], velocities [N/tau], modes, the number of transitions before, the time since [s], and
-    forces of the interface springs [N]: no columns where the interface is rigid.
-    """
-
-    force: FloatArray
-    velocity: FloatArray
-    mode: IntArray
-    after: IntArray
-    offset: FloatArray
-    grip: FloatArray = np.empty((0, 0))
-
-    @classmethod
-    def none(cls, n_blocks: int) -> States:
-        """No states of N blocks."""
-        rows = np.empty((0, width(n_blocks)))
-        return cls(rows, rows, rows.astype(np.int64), np.empty(0, np.int64), np.empty(0))
+def memory_for(n_blocks: int) -> FloatArray:
+    """Memory that `divide` divides."""
+    wide = n_blocks + 1 + BEYOND
+    by_slot = 2 * wide * (ROWS + 1 + LEVELS + 4) + 1
+    return np.zeros(BY_COLUMN * wide + BY_TERM * (ROWS + WIDTH) + (ROWS + 1) * wide + by_slot)
 
 
-class Limits(NamedTuple):
-    """Where a run ends: time [s], after a global slip, full records, windows that were worked on."""
-
-    duration: float
-    until_global: bool
-    room: int
-    state_room: int
-    budget: int
-
-
-class Room(NamedTuple):
-    """All that a run is made in."""
-
-    columns: Columns
-    state: State
-    motion: Motion
-    search: Search
-    record: Record
-    states: States
-
-    @property
-    def arrays(self) -> tuple[NDArray[Any], ...]:
-        """The arrays one by one."""
-        return (*self.columns, *self.state, *self.motion, *self.search, *self.record, *self.states)
-
-
-# Where in `Room.arrays` each part but the first begins.
-STATE_AT, MOTION_AT, SEARCH_AT, RECORD_AT, STATES_AT = accumulate(
-    len(part._fields) for part in (Columns, State, Motion, Search, Record)
-)
-
-
-def width(n_blocks: int) -> int:
-    """Number of columns of a chain's arrays."""
-    return n_blocks + 1 + BEYOND
-
-
-def new_columns(n_blocks: int) -> Columns:
-    """Room for a chain."""
-    return Columns(*np.zeros((4, width(n_blocks))))
-
-
-def new_additions(n_blocks: int) -> Additions:
-    """Room for the additions of a chain."""
-    return Additions(*np.zeros((4, width(n_blocks))))
-
-
-def new_state(n_blocks: int) -> State:
-    """Room for the state of a chain."""
-    wide = width(n_blocks)
-    return State(np.zeros(wide), np.zeros(wide), np.zeros(wide, np.int64))
-
-
-def new_ringing(n_blocks: int, on_springs: bool) -> Ringing:
-    """Room for chains with additions; leaps are for those on interface springs only."""
-    wide = width(n_blocks)
-    leaps = np.zeros((LEAPS + 2, 2 * n_blocks, 2 * n_blocks) if on_springs else (0, 0, 0))
-    lost, lost_grip, softness, creep = np.zeros((4, wide))
-    return Ringing(lost, lost_grip, np.zeros(2 * wide), softness, creep, leaps)
-
-
-def new_search(n_blocks: int) -> Search:
-    """Room for the search of the next transition: two slots a block."""
-    slots = 2 * width(n_blocks)
-    return Search(
-        series=np.zeros((slots, ROWS + 1)),
-        level=np.zeros((slots, LEVELS)),
-        terms=np.zeros(slots, np.int64),
-        stage=np.zeros(slots, np.int64),
-        bound=np.zeros(slots),
-        active=np.zeros(slots + 1, np.int64),
+@inner
+def divide(memory, n_blocks):
+    """Divide memory into the vectors of a system (coupling, strength, friction), a motion and a search."""
+    wide, slots, long = n_blocks + 1 + BEYOND, 2 * (n_blocks + 1 + BEYOND), ROWS + WIDTH
+    start = pointer(memory)
+    by_term = shifted(start, BY_COLUMN * wide)
+    rates = shifted(by_term, BY_TERM * long)
+    series = shifted(rates, (ROWS + 1) * wide)
+    levels = shifted(series, slots * (ROWS + 1))
+    by_slot = shifted(levels, slots * LEVELS)
+    motion = Motion(
+        shifted(start, 3 * wide),
+        shifted(start, 4 * wide),
+        whole_numbers(shifted(start, 5 * wide)),
+        shifted(start, 6 * wide),
+        shifted(start, 7 * wide),
+        shifted(start, 8 * wide),
+        shifted(start, 9 * wide),
+        shifted(start, 10 * wide),
+        shifted(start, 11 * wide),
+        shifted(start, 12 * wide),
+        whole_numbers(shifted(start, 13 * wide)),
+        shifted(start, 14 * wide),
+        by_term,
+        shifted(by_term, long),
+        shifted(by_term, 2 * long),
+        shifted(by_term, 3 * long),
+        table(rates, wide),
     )
-
-
-def new_motion(n_blocks: int) -> Motion:
-    """Room for the motion within a window."""
-    wide = width(n_blocks)
-    mobile, sense, push, slip, origins, tension_before, fastest = np.zeros((7, wide))
-    weight, spare, behind, ahead = np.zeros((4, ROWS + WIDTH))
-    return Motion(
-        rate=np.zeros((ROWS + 1, wide)),
-        mobile=mobile,
-        sense=sense,
-        push=push,
-        slip=slip,
-        origins=origins,
-        tension_before=tension_before,
-        fastest=fastest,
-        suspects=np.zeros(wide, np.uint64),
-        weight=weight,
-        spare=spare,
-        behind=behind,
-        ahead=ahead,
+    search = Search(
+        table(series, ROWS + 1),
+        table(levels, LEVELS),
+        by_slot,
+        whole_numbers(shifted(by_slot, slots)),
+        whole_numbers(shifted(by_slot, 2 * slots)),
+        whole_numbers(shifted(by_slot, 3 * slots)),
     )
+    return (start, shifted(start, wide), shifted(start, 2 * wide)), motion, search

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from precursors.solver.kernel.compiled import ONE, inner
+from precursors.solver.kernel.compiled import inner
 from precursors.solver.kernel.layout import CUBIC_STEPS
 
 
@@ -54,19 +54,12 @@ def surely_positive(c0, c1, c2, c3, rest):
 
 
 @inner
-def grain(i, doubt, chain, additions, tension, fastest):
+def zero_below(i, roundings, chain, motion):
     """Size below which a force on block i, or what it does to its velocity in the window, counts as zero.
 
-    From the forces, and from what the motion of the neighbours adds to them within the window.
+    It follows from the forces, and from what the motion of the neighbours adds to them within the window.
     """
-    coupling, strength = chain.coupling, chain.strength
-    still = abs(tension[i]) + abs(tension[i + ONE]) + strength[i]
-    moving = coupling[i] * fastest[i - ONE] + fastest[i] + coupling[i + ONE] * fastest[i + ONE]
-    if additions is not None:
-        still += abs(additions.grip[i])
-        moving += (
-            additions.dashpot[i] * fastest[i - ONE]
-            + additions.anchor[i] * fastest[i]
-            + additions.dashpot[i + ONE] * fastest[i + ONE]
-        )
-    return doubt * (2.0 * still + moving)
+    coupling, force, fastest = chain.coupling, motion.spring_force, motion.fastest
+    still = abs(force[i]) + abs(force[i + 1]) + chain.strength[i]
+    moving = coupling[i] * fastest[i - 1] + fastest[i] + coupling[i + 1] * fastest[i + 1]
+    return roundings * (2.0 * still + moving)

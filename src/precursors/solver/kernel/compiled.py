@@ -1,135 +1,81 @@
-"""How the kernel's functions are compiled and kept: the decorators.
-
-Only the entry points (`outer`) are kept on disk (`solver.compile_cache`), stamped with all files of this
-package: what they call is part of them.
-
-What they call is typed and lowered by itself, but becomes machine code in its callers only: optimising it,
-and making machine code of it, for each function anew would take as long again. `_Part`, `_OfferToCallers`,
-`_PartCompiler` and the option `_nrt` use what Numba keeps to itself, and may have to follow it: they were run
-with Numba 0.61.2 and 0.68.1.
-"""
+"""How functions are compiled, and where the machine code is kept."""
 
 from __future__ import annotations
 
-import ctypes
-import gc
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import hashlib
+import os
+import tempfile
+import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numba
-import numpy as np
 from numba import int64
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler
-from numba.core.compiler_machinery import LoweringPass, register_pass
-from numba.core.typed_passes import NativeLowering
-
-from precursors.solver.compile_cache import kept, stamp
-
-# Numba guards every index that may be negative; unsigned ones, and constants of their kind, save that time.
-index = np.uint64
-ZERO, ONE, TWO, THREE, FOUR, FIVE, SIX, SEVEN, EIGHT = (np.uint64(n) for n in range(9))
-# An index that starts from a literal is typed: what it goes to would be compiled for the literal anew.
-INDEX = {"first": int64, "slot": int64}
 
 Function = Callable[..., Any]
-# Options and parts that its type hints leave out.
+# `forceinline` and `config` are missing in Numba's type hints.
 untyped: Any = numba
 
-
-class _Part(JITCodeLibrary):
-    """Code of a function that becomes machine code in its callers only."""
-
-    def _optimize_final_module(self) -> None:
-        """Leave it to the callers."""
-
-    def _finalize_final_module(self) -> None:
-        """End with what the function and those that it calls are, and no machine code."""
-        self._finalize_dynamic_globals()
-        self._finalized = True
+# Numba compiles a function anew for an argument that is a literal number, unless its variable has a type.
+INDEX = {"first": int64, "slot": int64}
+_options: dict[str, Any] = {"error_model": "numpy", "locals": INDEX}
+# Products may be fused with sums, but not in the event loop, in starts and in units.
+inner: Any = untyped.njit(**_options, fastmath={"contract"}, forceinline=True)
+seldom: Any = untyped.njit(**_options, fastmath={"contract"})
+inner_unfused: Any = untyped.njit(**_options, forceinline=True)
+unfused: Any = untyped.njit(**_options)
 
 
-@register_pass(mutates_CFG=False, analysis_only=False)
-class _OfferToCallers(LoweringPass):
-    """Let callers find a function that has no machine code of its own; a call from Python is a TypeError."""
+def entry(directory: Path, **options: Any) -> Any:
+    """Decorator for functions that Python calls; their code is kept until a module in `directory` is edited.
 
-    _name = "offer_to_callers"
+    Numba looks at the file in which a function stands, and not at those of the functions that it calls. So
+    the code is kept in a directory that is named after the checksum of all modules.
+    """
+    place = _cache_place(directory)
 
-    def __init__(self) -> None:
-        super().__init__()
+    def compile(function: Function) -> Any:
+        if place is None:
+            return untyped.njit(**options)(function)
+        before = untyped.config.CACHE_DIR
+        untyped.config.CACHE_DIR = str(place)
+        try:
+            return untyped.njit(**options, cache=True)(function)
+        finally:
+            untyped.config.CACHE_DIR = before
 
-    def run_pass(self, state: Any) -> bool:
-        lowered = state["cr"]
-        description = lowered.fndesc
-        refuse = ctypes.cast(ctypes.pythonapi.PyErr_BadArgument, ctypes.c_void_p).value
-        entry = untyped._dynfunc.make_function(
-            description.lookup_module(), description.qualname, "", refuse, lowered.env, (state.library,)
-        )
-        state.targetctx.insert_user_function(entry, description, [state.library])
-        state["cr"] = lowered._replace(cfunc=entry)
-        return True
-
-
-class _PartCompiler(Compiler):
-    """Numba's compiler up to the point where machine code would be made."""
-
-    def define_pipelines(self) -> list[Any]:
-        state = self.state
-        state.flags.no_compile = True
-        state.library = _Part(state.targetctx.codegen(), state.func_id.func_qualname)
-        [passes] = super().define_pipelines()
-        passes.add_pass_after(_OfferToCallers, NativeLowering)
-        passes.finalize()
-        return [passes]
+    return compile
 
 
-class _EntryCompiler(Compiler):
-    """Numba's compiler; nothing of the millions of objects it makes is garbage before it is done."""
-
-    def compile_extra(self, func: Function) -> Any:
-        with _no_garbage_collection():
-            return super().compile_extra(func)
-
-
-@contextmanager
-def _no_garbage_collection() -> Iterator[None]:
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
+def checksum(directory: Path) -> str:
+    """Checksum of all modules in a directory."""
+    digest = hashlib.sha256()
+    for file in sorted(directory.glob("*.py")):
+        digest.update(f"{file.name} {file.stat().st_size} ".encode())
+        digest.update(file.read_bytes())
+    return digest.hexdigest()[:16]
 
 
-STAMP = stamp(Path(__file__).parent)
-
-# No code counts references (`_nrt`) or allocates, as that takes longer than the arithmetic; so does passing
-# arrays to a function: hence what is inlined. Products may be fused with sums, but in the event loop, starts
-# and units.
-_part: dict[str, Any] = {
-    "error_model": "numpy",
-    "locals": INDEX,
-    "_nrt": False,
-    "no_cpython_wrapper": True,
-    "no_cfunc_wrapper": True,
-    "pipeline_class": _PartCompiler,
-}
-inner: Any = untyped.njit(**_part, fastmath={"contract"}, forceinline=True)
-seldom: Any = untyped.njit(**_part, fastmath={"contract"})
-unfused: Any = untyped.njit(**_part)
-_entry: Any = untyped.njit(
-    error_model="numpy",
-    nogil=True,
-    locals=INDEX,
-    _nrt=False,
-    no_cfunc_wrapper=True,
-    pipeline_class=_EntryCompiler,
-)
+def _cache_place(directory: Path) -> Path | None:
+    """A directory that can be written, named after the checksum of the modules; None, with a warning."""
+    places = [directory / "__pycache__", Path("~/.cache/precursors").expanduser()]
+    if untyped.config.CACHE_DIR:
+        places = [Path(untyped.config.CACHE_DIR)]
+    for base in places:
+        place = base / f"numba-{directory.name}-{checksum(directory)}"
+        try:
+            place.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryFile(dir=place):
+                return place
+        except OSError:
+            continue
+    warnings.warn(
+        f"compiled code cannot be kept in {' or '.join(map(os.fspath, places))}, so every process compiles "
+        "for some 20 s: set NUMBA_CACHE_DIR to a directory that can be written",
+        stacklevel=3,
+    )
+    return None
 
 
-def outer(function: Function) -> Any:
-    """Compile an entry point, which Python calls, and keep it."""
-    return kept(_entry(function), STAMP)
+outer = entry(Path(__file__).parent, **_options, nogil=True)

@@ -12,6 +12,8 @@ from llvmlite import ir
 from numba.core import cgutils, types
 from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
 
+from precursors.solver.kernel.pointers import NUMBERS, TABLE, element
+
 LANES = 4
 DOUBLE = ir.DoubleType()
 VECTOR = ir.VectorType(DOUBLE, LANES)
@@ -33,75 +35,62 @@ class _FourModel(models.PrimitiveModel):
         super().__init__(dmm, fe_type, VECTOR)
 
 
-def _pointer(context, builder, array_type, array, indices):
-    """Pointer to four doubles that begin at an element of a C-contiguous array."""
-    view = context.make_array(array_type)(context, builder, value=array)
-    shape = cgutils.unpack_tuple(builder, view.shape)
-    strides = cgutils.unpack_tuple(builder, view.strides)
-    item = cgutils.get_item_pointer2(context, builder, view.data, shape, strides, array_type.layout, indices)
-    return builder.bitcast(item, VECTOR.as_pointer())
+def _read(builder, start):
+    return builder.load(_untyped(builder, start), align=8, typ=VECTOR)
+
+
+def _write(context, builder, values, start):
+    builder.store(values, _untyped(builder, start), align=8)
+    return context.get_dummy_value()
+
+
+def _untyped(builder, start):
+    """The same pointer, without the type that Numba still gives it; the compiler sees nothing of it."""
+    box = ir.Constant(ir.LiteralStructType([ir.PointerType()]), ir.Undefined)
+    return builder.extract_value(builder.insert_value(box, start, 0), 0)
 
 
 @intrinsic
-def load(typingctx, array, i):
-    """array[i : i + 4]."""
+def load(typingctx, values, i):
+    """values[i : i + 4]."""
 
     def generate(context, builder, signature, arguments):
-        value, index = arguments
-        return builder.load(_pointer(context, builder, signature.args[0], value, [index]), align=8)
+        start, index = arguments
+        return _read(builder, builder.gep(start, [index]))
 
-    return four(array, i), generate
+    return four(NUMBERS, types.intp), generate
 
 
 @intrinsic
-def store(typingctx, array, i, value):
-    """array[i : i + 4] = value."""
+def store(typingctx, values, i, value):
+    """values[i : i + 4] = value."""
 
     def generate(context, builder, signature, arguments):
-        target, index, values = arguments
-        builder.store(values, _pointer(context, builder, signature.args[0], target, [index]), align=8)
-        return context.get_dummy_value()
+        start, index, four_values = arguments
+        return _write(context, builder, four_values, builder.gep(start, [index]))
 
-    return types.void(array, i, value), generate
+    return types.void(NUMBERS, types.intp, four), generate
 
 
 @intrinsic
-def load_row(typingctx, array, n, i):
-    """array[n, i : i + 4]."""
+def load_row(typingctx, table, n, i):
+    """table[n, i : i + 4]."""
 
     def generate(context, builder, signature, arguments):
-        value, *indices = arguments
-        return builder.load(_pointer(context, builder, signature.args[0], value, indices), align=8)
+        return _read(builder, element(context, builder, *arguments))
 
-    return four(array, n, i), generate
+    return four(TABLE, types.intp, types.intp), generate
 
 
 @intrinsic
-def store_row(typingctx, array, n, i, value):
-    """array[n, i : i + 4] = value."""
+def store_row(typingctx, table, n, i, value):
+    """table[n, i : i + 4] = value."""
 
     def generate(context, builder, signature, arguments):
-        target, row, column, values = arguments
-        builder.store(values, _pointer(context, builder, signature.args[0], target, [row, column]), align=8)
-        return context.get_dummy_value()
+        *place, four_values = arguments
+        return _write(context, builder, four_values, element(context, builder, *place))
 
-    return types.void(array, n, i, value), generate
-
-
-@intrinsic
-def of_width(typingctx, array, width):
-    """The same array of two dimensions, C-contiguous, with rows of a width that the compiler knows."""
-
-    def generate(context, builder, signature, arguments):
-        value, columns = arguments
-        view = context.make_array(signature.args[0])(context, builder, value=value)
-        n_rows = builder.extract_value(view.shape, 0)
-        view.shape = cgutils.pack_array(builder, [n_rows, columns])
-        item = ir.Constant(columns.type, DOUBLE.get_abi_size(context.target_data))
-        view.strides = cgutils.pack_array(builder, [builder.mul(columns, item), item])
-        return view._getvalue()
-
-    return array(array, types.intp), generate
+    return types.void(TABLE, types.intp, types.intp, four), generate
 
 
 @intrinsic
@@ -197,7 +186,7 @@ def where_not_above(typingctx, a, b):
         lanes = builder.not_(builder.fcmp_ordered(">", *arguments))
         return builder.zext(builder.bitcast(lanes, ir.IntType(LANES)), ir.IntType(64))
 
-    return types.uint64(four, four), generate
+    return types.int64(four, four), generate
 
 
 @intrinsic

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from numba import int64
-
 from precursors.solver.kernel import lanes
-from precursors.solver.kernel.bounds import cubic_bound, downward, grain, safe_step, surely_positive, turning
-from precursors.solver.kernel.compiled import (
-    EIGHT,
-    FIVE,
-    FOUR,
-    ONE,
-    SEVEN,
-    SIX,
-    THREE,
-    TWO,
-    ZERO,
-    index,
-    inner,
+from precursors.solver.kernel.bounds import (
+    cubic_bound,
+    downward,
+    safe_step,
+    surely_positive,
+    turning,
+    zero_below,
 )
+from precursors.solver.kernel.compiled import inner
 from precursors.solver.kernel.layout import (
     BEND,
     BUILT,
@@ -27,12 +20,10 @@ from precursors.solver.kernel.layout import (
     C2,
     C3,
     CUBIC,
-    DOUBT,
     FINAL,
     INVERSE_FACTORIAL,
     ORIGIN,
     POWER,
-    REACH,
     REACH_SQUARED,
     REST,
     RESTART,
@@ -43,47 +34,44 @@ from precursors.solver.kernel.layout import (
     TAIL,
     TURN,
     WHOLE,
+    ZERO_BELOW,
 )
 from precursors.solver.kernel.margins import margin_series, may_let_go, watch_margins
 from precursors.solver.kernel.roots import divide_out, examine, examine_from, keep, refine
 from precursors.solver.kernel.series import powers
-from precursors.solver.kernel.springs import on_springs
 
 
 @inner
-def watch(window, chain, additions, state, motion, search):
+def watch(window, chain, motion, search):
     """Bound the next transition of blocks first..last from below, as times in the window.
 
     Slot 2 i watches the velocity of block i while it slides, or its margin against letting go forward while
     it sticks; slot 2 i + 1 its margin against letting go backward. active[1:active[0] + 1] are the slots that
-    may have a root, `fastest` bounds the speeds in the window, and a value counts as zero below the relative
-    size `doubt`.
+    may have a root.
     """
-    first, final, active, mode, tension = window.first, window.final, search.active, state.mode, state.tension
+    first, final, active, mode = window.first, window.final, search.active, motion.mode
+    last = min(final, window.last)
     kept = 0
     for k in range(1, active[0] + 1):
         if active[k] < 2 * first or active[k] > 2 * final + 1:
             kept += 1
             active[kept] = active[k]
     active[0] = kept
-    tail, tail_bend = tail_bound(window, additions, motion.rate)
-    start, stop = index(first), index(final) + ONE
-    for group in range(start, stop, FOUR):
-        motion.suspects[group] = may_stop(group, tail, motion)
-        if additions is not None and on_springs(additions):
-            speed_bound(group, tail, motion)
-    for group in range(start, stop, FOUR):
-        bits = motion.suspects[group] | may_let_go(group, window.span, chain, additions, tension, motion)
+    tails = tail_bounds(window, motion.rate)
+    for group in range(first, final + 1, 4):
+        motion.suspects[group] = may_stop(group, tails[0], motion)
+    for group in range(first, final + 1, 4):
+        bits = motion.suspects[group] | may_let_go(group, window.span, chain, motion)
         i = group
-        while bits != ZERO and i <= index(window.last):
-            if bits & ONE:
-                zero = grain(i, window.doubt, chain, additions, tension, motion.fastest)
+        while bits != 0 and i <= last:
+            if bits & 1:
+                zero = zero_below(i, window.roundings, chain, motion)
                 if mode[i] != 0:
-                    watch_velocity(i, window, mode[i], zero, tail, tail_bend, motion, search)
+                    watch_velocity(i, window, mode[i], zero, tails, motion, search)
                 else:
-                    watch_margins(i, window, zero, tail, tail_bend, chain, additions, tension, motion, search)
-            bits >>= ONE
-            i += ONE
+                    watch_margins(i, window, zero, tails, chain, motion, search)
+            bits >>= 1
+            i += 1
 
 
 @inner
@@ -95,12 +83,12 @@ def may_stop(i, tail, motion):
     sense, rate, weight, fastest = motion.sense, motion.rate, motion.weight, motion.fastest
     sign = lanes.load(sense, i)
     slides = sign * sign
-    c0 = sign * lanes.load_row(rate, ZERO, i)
-    c1 = sign * (lanes.load_row(rate, ONE, i) * weight[ONE])
-    c2 = sign * (lanes.load_row(rate, TWO, i) * weight[TWO])
-    c3 = sign * (lanes.load_row(rate, THREE, i) * weight[THREE])
-    rest = (size(FOUR, i, rate, weight) + size(FIVE, i, rate, weight)) + (
-        size(SIX, i, rate, weight) + size(SEVEN, i, rate, weight)
+    c0 = sign * lanes.load_row(rate, 0, i)
+    c1 = sign * (lanes.load_row(rate, 1, i) * weight[1])
+    c2 = sign * (lanes.load_row(rate, 2, i) * weight[2])
+    c3 = sign * (lanes.load_row(rate, 3, i) * weight[3])
+    rest = (size(4, i, rate, weight) + size(5, i, rate, weight)) + (
+        size(6, i, rate, weight) + size(7, i, rate, weight)
     )
     rest = rest + tail
     total = (lanes.magnitude(c0) + lanes.magnitude(c1)) + (lanes.magnitude(c2) + lanes.magnitude(c3)) + rest
@@ -117,40 +105,32 @@ def size(n, i, rate, weight):
 
 
 @inner
-def speed_bound(i, tail, motion):
-    """Set `fastest` of blocks i..i + 3 whether they slide or not."""
-    total = lanes.spread(tail)
-    for n in range(ZERO, EIGHT):
-        total = total + size(n, i, motion.rate, motion.weight)
-    lanes.store(motion.fastest, i, total)
-
-
-@inner
-def watch_velocity(i, window, sign, zero, tail, tail_bend, motion, search):
-    """Bound the time at which sliding block i stops from below."""
+def watch_velocity(i, window, sign, zero, tails, motion, search):
+    """Bound the time at which sliding block i stops from below; `tails` bounds the rest of its series."""
     rate, weight, origin, span = motion.rate, motion.weight, window.origin, window.span
     series, level, stage, bound = search.series, search.level, search.stage, search.bound
-    slot = TWO * i
+    tail, tail_bend = tails
+    slot = 2 * i
     w1, w2, w3, w4 = weight[1], weight[2], weight[3], weight[4]
-    c0, c1 = sign * rate[ZERO, i], sign * rate[ONE, i] * w1
-    c2, c3 = sign * rate[TWO, i] * w2, sign * rate[THREE, i] * w3
-    r4, r5 = abs(rate[FOUR, i]) * w4, abs(rate[FIVE, i]) * weight[5]
-    r6, r7 = abs(rate[SIX, i]) * weight[6], abs(rate[SEVEN, i]) * weight[7]
+    c0, c1 = sign * rate[0, i], sign * rate[1, i] * w1
+    c2, c3 = sign * rate[2, i] * w2, sign * rate[3, i] * w3
+    r4, r5 = abs(rate[4, i]) * w4, abs(rate[5, i]) * weight[5]
+    r6, r7 = abs(rate[6, i]) * weight[6], abs(rate[7, i]) * weight[7]
     rest = (r4 + r5) + (r6 + r7) + tail
-    level[slot, ORIGIN], level[slot, SPAN], level[slot, DOUBT] = origin, span, zero
+    level[slot, ORIGIN], level[slot, SPAN], level[slot, ZERO_BELOW] = origin, span, zero
     if c0 > zero:
         level[slot, POWER] = 0.0
         bend = 12.0 * r4 + 20.0 * r5 + 30.0 * r6 + 42.0 * r7 + tail_bend
     elif c0 >= -zero and c1 > zero:
         # It has just begun to move: the root at the start is divided out.
-        c0, c1, c2, c3 = c1, c2, c3, sign * rate[FOUR, i] * w4
+        c0, c1, c2, c3 = c1, c2, c3, sign * rate[4, i] * w4
         rest = r5 + r6 + r7 + tail
         if surely_positive(c0, c1, c2, c3, rest):
             return
         level[slot, POWER] = 1.0
         bend = 12.0 * r5 + 20.0 * r6 + 30.0 * r7 + tail_bend
     else:
-        for n in range(index(window.order) + ONE):
+        for n in range(window.order + 1):
             series[slot, n] = sign * rate[n, i] * weight[n]
         stage[slot], bound[slot] = BUILT, origin
         keep(slot, search)
@@ -165,22 +145,18 @@ def watch_velocity(i, window, sign, zero, tail, tail_bend, motion, search):
 
 
 @inner
-def next_transition(limit, origin, order, chain, additions, state, motion, search, count):
-    """Earliest root of all watched functions: (time in the window, slot); (limit, -1) where there is none.
-
-    `weight` holds the powers of limit - origin; `spare` is for those of other origins.
-    """
-    mode, rate, weight, spare = state.mode, motion.rate, motion.weight, motion.spare
-    series, level, terms, stage, bound, active = search
+def next_transition(window, chain, motion, search, count):
+    """Earliest root of all watched functions: (time in the window, slot); (limit, -1) where there is none."""
+    level, stage, bound, active = search.level, search.stage, search.bound, search.active
     while True:
-        slot, t = -1, limit
+        slot, t = -1, window.limit
         for k in range(1, active[0] + 1):
             if bound[active[k]] < t:
                 slot, t = active[k], bound[active[k]]
         if slot < 0 or stage[slot] == FINAL:
             return t, slot
         if stage[slot] == BUILT:
-            bound[slot] = examine(slot, order + 1, search)
+            bound[slot] = examine(slot, window.order + 1, search)
             continue
         if stage[slot] == ROUGH:
             s = cubic_bound(
@@ -190,21 +166,7 @@ def next_transition(limit, origin, order, chain, additions, state, motion, searc
             stage[slot] = CUBIC
             continue
         if stage[slot] == CUBIC:
-            i = index(slot // 2)
-            if mode[i] == 0:
-                margin_series(slot, i, order, chain, additions, state.tension, motion, search)
-            elif level[slot, ORIGIN] == origin:
-                for n in range(index(order) + ONE):
-                    series[slot, n] = mode[i] * rate[n, i] * weight[n]
-            else:
-                powers(level[slot, SPAN], order, spare)
-                for n in range(index(order) + ONE):
-                    series[slot, n] = mode[i] * rate[n, i] * spare[n]
-            p = index(level[slot, POWER])
-            divide_out(index(slot), p, index(order) + ONE, series)
-            terms[slot] = order + 1 - int64(p)
-            level[slot, STEPS] = 0.0
-            stage[slot] = WHOLE
+            build(slot, window, chain, motion, search)
         count[ROOT_STEPS] += 1
         level[slot, STEPS] += 1.0
         if level[slot, STEPS] > RESTART:
@@ -214,7 +176,29 @@ def next_transition(limit, origin, order, chain, additions, state, motion, searc
 
 
 @inner
-def tail_bound(window, additions, rate):
+def build(slot, window, chain, motion, search):
+    """Fill the whole series of a watched function, a root at its start divided out."""
+    order = window.order
+    series, level = search.series, search.level
+    i = slot // 2
+    mode, rate, weight = motion.mode[i], motion.rate, motion.weight
+    if mode == 0:
+        margin_series(slot, i, order, chain, motion, series)
+    else:
+        if level[slot, ORIGIN] != window.origin:
+            weight = motion.spare
+            powers(level[slot, SPAN], order, weight)
+        for n in range(order + 1):
+            series[slot, n] = mode * rate[n, i] * weight[n]
+    p = int(level[slot, POWER])
+    divide_out(slot, p, order + 1, series)
+    search.terms[slot] = order + 1 - p
+    level[slot, STEPS] = 0.0
+    search.stage[slot] = WHOLE
+
+
+@inner
+def tail_bounds(window, rate):
     """Bounds of the terms from the eighth on of the velocity series of blocks first..final: sum, curvature.
 
     Row n + 2 of a block is at most REACH^2 times the largest of row n (Gershgorin); moving neighbours
@@ -222,11 +206,11 @@ def tail_bound(window, additions, rate):
     """
     first, final, order, span = window.first, window.final, window.order, window.span
     sixth_row = seventh_row = lanes.spread(0.0)
-    for i in range(index(first), index(final) + ONE, FOUR):
-        sixth_row = lanes.larger(sixth_row, lanes.magnitude(lanes.load_row(rate, SIX, i)))
-        seventh_row = lanes.larger(seventh_row, lanes.magnitude(lanes.load_row(rate, SEVEN, i)))
-    even = max(lanes.largest(sixth_row), abs(rate[SIX, first - 1]), abs(rate[SIX, final + 1]))
-    odd = max(lanes.largest(seventh_row), abs(rate[SEVEN, first - 1]), abs(rate[SEVEN, final + 1]))
+    for i in range(first, final + 1, 4):
+        sixth_row = lanes.larger(sixth_row, lanes.magnitude(lanes.load_row(rate, 6, i)))
+        seventh_row = lanes.larger(seventh_row, lanes.magnitude(lanes.load_row(rate, 7, i)))
+    even = max(lanes.largest(sixth_row), abs(rate[6, first - 1]), abs(rate[6, final + 1]))
+    odd = max(lanes.largest(seventh_row), abs(rate[7, first - 1]), abs(rate[7, final + 1]))
     if first > 1 or final < window.end:
         shrink = 1.0
         for n in range(8, order + 1):
@@ -235,10 +219,6 @@ def tail_bound(window, additions, rate):
                 even = max(even, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, final + 1]))
             else:
                 odd = max(odd, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, final + 1]))
-    if additions is not None:
-        # Dashpots mix even and odd rows: what grows by REACH at most is the larger of two rows on end.
-        even = max(even, odd / REACH)
-        odd = even * REACH
     # Each of the two sums is geometric at worst.
     square = span * span
     sixth = REACH_SQUARED * TAIL * square * square * square

@@ -1,0 +1,111 @@
+"""Compiled code is kept on disk, and compiled anew after an edit of any module it was made from."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from precursors.solver import kernel
+from precursors.solver.kernel.compiled import checksum
+
+KERNEL = Path(kernel.__file__).parent
+PATIENCE = 300.0  # s: a start takes some seconds, far more only if it hangs
+# A kernel in small: a function that Python calls, and one that it calls in another file.
+ENTRY = """
+from small.compiled import outer
+from small.part import times
+
+@outer
+def entry(x):
+    return times(x) + 1
+"""
+PART = """
+from small.compiled import inner
+
+@inner
+def times(x):
+    return 3 * x
+"""
+USE = """
+import json
+from small.entry import entry
+print(json.dumps([entry(2), sum(entry.stats.cache_hits.values())]))
+"""
+
+
+class Small:
+    """A package with a copy of the kernel's decorators, used in processes of its own."""
+
+    def __init__(self, directory: Path) -> None:
+        self.directory, self.package = directory, directory / "small"
+        self.package.mkdir(parents=True)
+        shutil.copy(KERNEL / "compiled.py", self.package)
+        self.write("__init__.py", "")
+        self.write("entry.py", ENTRY)
+        self.write("part.py", PART)
+
+    def write(self, name: str, text: str) -> None:
+        (self.package / name).write_text(text, encoding="utf-8")
+
+    def use(self, **environment: str) -> tuple[int, int, str]:
+        """What the entry point returns for 2, how often it came from the cache, and the warnings."""
+        inherited = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
+        process = subprocess.run(
+            [sys.executable, "-c", USE],
+            cwd=self.directory,
+            env=inherited | {"PYTHONPATH": str(self.directory)} | environment,
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+            check=True,
+        )
+        return *json.loads(process.stdout), process.stderr
+
+
+@pytest.fixture
+def small(tmp_path):
+    return Small(tmp_path / "with spaces, Ümläute and 摩擦")
+
+
+def test_what_was_compiled_is_used_again_and_an_edit_of_what_it_calls_is_seen(small):
+    assert small.use() == (7, 0, "")
+    assert small.use() == (7, 1, "")
+    small.write("part.py", PART.replace("3 * x", "5 * x"))
+    assert small.use() == (11, 0, "")
+    assert small.use() == (11, 1, "")
+
+
+def test_an_edit_a_new_module_and_a_new_name_change_the_checksum(tmp_path):
+    copy = shutil.copytree(KERNEL, tmp_path / "kernel", ignore=shutil.ignore_patterns("__pycache__"))
+    sums = [checksum(copy)]
+    assert sums == [checksum(KERNEL)]
+    for module in sorted(copy.glob("*.py")):
+        with module.open("a") as file:
+            file.write("# edited\n")
+        sums.append(checksum(copy))
+    (copy / "watch.py").rename(copy / "watched.py")
+    sums.append(checksum(copy))
+    (copy / "new.py").write_text("")
+    sums.append(checksum(copy))
+    assert len(set(sums)) == len(sums)
+
+
+def test_the_code_lies_where_numba_is_asked_to_keep_it(small, tmp_path):
+    place = tmp_path / "elsewhere"
+    assert small.use(NUMBA_CACHE_DIR=str(place))[0] == 7
+    assert list(place.rglob("*.nbc"))
+    assert not list(small.directory.rglob("*.nbc"))
+    assert small.use(NUMBA_CACHE_DIR=str(place))[1] == 1
+
+
+def test_where_nothing_can_be_written_it_compiles_and_says_so(small, tmp_path):
+    # A file where a directory should be stops root as well.
+    (small.package / "__pycache__").write_text("")
+    (tmp_path / "home").write_text("")
+    result, hits, warnings = small.use(HOME=str(tmp_path / "home"))
+    assert (result, hits) == (7, 0)
+    assert "set NUMBA_CACHE_DIR" in warnings
