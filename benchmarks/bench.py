@@ -1,4 +1,4 @@
-"""The speed of the exact solver beside that of others, each with its error against the 40-digit reference.
+"""The exact solver compared with heyoka.py and DOP853 in time, each with its error against 40 digits.
 
     make bench                                            everything, in a minute or two
     .venv/bin/python benchmarks/bench.py --quick          a reduced size, to see that it runs
@@ -21,63 +21,33 @@ import argparse
 import csv
 import sys
 from collections.abc import Callable, Iterable
-from dataclasses import astuple, dataclass, fields
 from fractions import Fraction
 from functools import cache, partial
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Literal
+from typing import Any
+
+import pandas as pd
 
 from precursors import Chain, Run, simulate, simulate_many
 from precursors.accuracy.compare import TrueTransition, Truth, compare
-from precursors.accuracy.cost_per_event import (
-    BASE_SIZE,
-    LEAST_TRANSITIONS,
-    SIZES,
-    TRANSITIONS_PER_BLOCK,
-    measure_cost,
-)
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy
+from precursors.model.chain import Until
 from precursors.solver.simulate import available_cores
 from precursors.support import timing
-from precursors.support.files import write_whole
+from precursors.support.files import write_table
 
 ROOT = Path(__file__).resolve().parent.parent
-REFERENCE = ROOT / "tests" / "golden" / "reference_fig10.csv"
 TABLE = ROOT / "results" / "tables" / "bench.csv"
 DURATION = 10.0  # s, the limit where a run ends by itself
 HEYOKA_TOLERANCE = 0.0  # its default, rounding
 DOP853_TOLERANCE = 1e-13
+SCENES = {"0": "fig10", "-5/6": "fig11", "5/6": "fig12"}
+ENDS: dict[str, Until] = {"to the first global slip": "global slip", "10 s": None}
 ENSEMBLE = 2000
 
-
-@dataclass(frozen=True)
-class Size:
-    """How much to do."""
-
-    rounds: int = timing.ROUNDS
-    shortest: float = timing.SHORTEST
-    sizes: tuple[int, ...] = SIZES
-    least_transitions: int = LEAST_TRANSITIONS
-    transitions_per_block: int = TRANSITIONS_PER_BLOCK
-    ensemble: int = ENSEMBLE
-
-
-QUICK = Size(
-    rounds=2, shortest=0.0, sizes=(5, 10, 50), least_transitions=200, transitions_per_block=5, ensemble=20
-)
-
-
-@dataclass(frozen=True)
-class Row:
-    """One number of the table."""
-
-    benchmark: str
-    case: str
-    quantity: str
-    unit: str
-    value: float
+Row = dict[str, Any]
 
 
 def main() -> None:
@@ -86,64 +56,51 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="a reduced size, to see that it runs")
     parser.add_argument("--output", type=Path, default=TABLE, help="the CSV file (%(default)s)")
     arguments = parser.parse_args()
-    size = QUICK if arguments.quick else Size()
+    measure = partial(timing.measure, rounds=2, shortest=0.0) if arguments.quick else timing.measure
     rows: list[Row] = []
-    for benchmark in (against_heyoka, against_dop853, cost_per_event, ensemble):
-        for row in benchmark(size):
+    for benchmark in (against_heyoka(measure), against_dop853(measure), ensemble(measure, arguments.quick)):
+        for row in benchmark:
             print(
-                f"{row.benchmark:12} {row.case:36} {row.quantity:46} {row.value:10.4g} {row.unit}", flush=True
+                f"{row['benchmark']:9} {row['case']:38} {row['quantity']:46} "
+                f"{row['value']:10.4g} {row['unit']}",
+                flush=True,
             )
             rows.append(row)
-    with write_whole(arguments.output) as temporary, temporary.open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(field.name for field in fields(Row))
-        writer.writerows(map(astuple, rows))
+    write_table(pd.DataFrame(rows), arguments.output)
 
 
-def against_heyoka(size: Size) -> Iterable[Row]:
-    """The exact solver and heyoka.py at its default tolerance, theta = 0."""
+def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:
+    """The exact solver and heyoka.py at its default tolerance, on the paper's three scenes."""
     if not find_spec("heyoka"):
         print("heyoka.py is not installed: left out", file=sys.stderr)
         return
-    chain = Chain.from_slider()
-    cases: tuple[tuple[str, Literal["global slip"] | None, Truth], ...] = (
-        ("theta = 0 to the first global slip", "global slip", reference().until_global_slip()),
-        ("theta = 0, 10 s", None, reference()),
-    )
-    for case, until, truth in cases:
-        tasks: dict[str, Callable[[], Run]] = {
-            "exact": partial(simulate, chain, DURATION, until),
-            "heyoka": partial(heyoka, chain, until),
-        }
-        yield from compared("heyoka", case, tasks, truth, size)
+    for theta in SCENES:
+        for name, until in ENDS.items():
+            solve = partial(solve_heyoka, Chain.from_slider(theta=theta), DURATION, HEYOKA_TOLERANCE, until)
+            yield from compared("heyoka", theta, name, lambda solve=solve: solve().run, measure)
 
 
-def heyoka(chain: Chain, until: Literal["global slip"] | None) -> Run:
-    """heyoka.py at its default tolerance."""
-    return solve_heyoka(chain, DURATION, HEYOKA_TOLERANCE, until).run
-
-
-def against_dop853(size: Size) -> Iterable[Row]:
+def against_dop853(measure: Callable[..., Any]) -> Iterable[Row]:
     """The exact solver and SciPy's DOP853 at its tightest, theta = 0 to the end of the first global slip."""
-    chain = Chain.from_slider()
-    tasks = {
-        "exact": lambda: simulate(chain, DURATION, "global slip"),
-        "DOP853": lambda: solve_scipy(chain, DURATION, DOP853_TOLERANCE, "global slip").run,
-    }
-    truth = reference().until_global_slip()
-    yield from compared("DOP853", "theta = 0 to the first global slip", tasks, truth, size)
+    solve = partial(solve_scipy, Chain.from_slider(), DURATION, DOP853_TOLERANCE, "global slip")
+    yield from compared("DOP853", "0", "to the first global slip", lambda: solve().run, measure)
 
 
 def compared(
-    benchmark: str, case: str, tasks: dict[str, Callable[[], Run]], truth: Truth, size: Size
+    other: str, theta: str, end: str, solve: Callable[[], Run], measure: Callable[..., Any]
 ) -> Iterable[Row]:
-    """How many times faster the first task is than the second, and the errors of both."""
-    exact, other = tasks
-    timings = timing.measure(tasks, size.rounds, size.shortest)
-    wall, cpu = timings[exact].times_faster_than(timings[other])
-    row = partial(Row, benchmark, case)
-    yield row(f"time of {other} / {exact}", "1", wall)
-    yield row(f"processor time of {other} / {exact}", "1", cpu)
+    """How many times faster the exact solver is than another, and the errors of both."""
+    chain, until = Chain.from_slider(theta=theta), ENDS[end]
+    tasks: dict[str, Callable[[], Run]] = {
+        "exact": partial(simulate, chain, DURATION, until),
+        other: solve,
+    }
+    truth = reference(theta) if until is None else reference(theta).until_global_slip()
+    timings = measure(tasks)
+    wall, cpu = timings["exact"].times_faster_than(timings[other])
+    row = partial(_row, other, f"theta = {theta}, {end}")
+    yield row(f"time of {other} / exact", "1", wall)
+    yield row(f"processor time of {other} / exact", "1", cpu)
     for name, task in tasks.items():
         found = compare(task(), truth)
         yield row(f"time of {name}", "ms", 1e3 * timings[name].seconds)
@@ -152,32 +109,28 @@ def compared(
         yield row(f"largest error of F_X at slip onsets, {name}", "N", found.load_error)
 
 
-def cost_per_event(size: Size) -> Iterable[Row]:
-    """Time per transition against the number of blocks, see `measure_cost`."""
-    table = measure_cost(size.sizes, size.rounds, size.least_transitions, size.transitions_per_block)
-    for of in table.to_dict("records"):
-        row = partial(Row, "cost", f"{of['kind']}, N = {of['n_blocks']}, {of['transitions']} transitions")
-        yield row("time per transition", "us", 1e6 * of["seconds_per_transition"])
-        yield row(f"time per transition / N = {BASE_SIZE}", "1", of["relative"])
-
-
-def ensemble(size: Size) -> Iterable[Row]:
+def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
     """First-slip runs of theta = 0 per second, by `simulate_many` on one thread and more."""
-    chains = [Chain.from_slider()] * size.ensemble
+    chains = [Chain.from_slider()] * (20 if quick else ENSEMBLE)
     threads = sorted({1, 2, available_cores()})
     tasks = {str(n): partial(simulate_many, chains, DURATION, "global slip", threads=n) for n in threads}
-    timings = timing.measure(tasks, size.rounds, size.shortest)
+    timings = measure(tasks)
     for n in threads:
-        row = partial(Row, "ensemble", f"{n} threads, {size.ensemble} runs")
+        row = partial(_row, "ensemble", f"{n} threads, {len(chains)} runs")
         faster, _ = timings[str(n)].times_faster_than(timings["1"])
-        yield row("first-slip runs a second and thread", "1/s", size.ensemble / timings[str(n)].seconds / n)
+        yield row("first-slip runs a second and thread", "1/s", len(chains) / timings[str(n)].seconds / n)
         yield row("of linear scaling", "1", faster / n)
 
 
+def _row(benchmark: str, case: str, quantity: str, unit: str, value: float) -> Row:
+    return {"benchmark": benchmark, "case": case, "quantity": quantity, "unit": unit, "value": value}
+
+
 @cache
-def reference() -> Truth:
-    """The transitions of theta = 0 with 40 digits."""
-    with REFERENCE.open(encoding="utf-8", newline="") as file:
+def reference(theta: str) -> Truth:
+    """The transitions of a scene with 40 digits."""
+    path = ROOT / "tests" / "golden" / f"reference_{SCENES[theta]}.csv"
+    with path.open(encoding="utf-8", newline="") as file:
         rows = [
             TrueTransition(
                 Fraction(row["time_s"]),
@@ -187,7 +140,7 @@ def reference() -> Truth:
             )
             for row in csv.DictReader(file)
         ]
-    return Truth.exact(Chain.from_slider(), DURATION, rows)
+    return Truth.exact(Chain.from_slider(theta=theta), DURATION, rows)
 
 
 if __name__ == "__main__":
