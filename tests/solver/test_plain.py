@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from chains import SLIDER, first_transitions, positions_under
 
-from precursors import Chain, simulate
+from precursors import Chain, Run, simulate
 from precursors.solver import fallback
 
 THETAS = ["-5/6", "0", "5/6"]
@@ -91,3 +91,16 @@ def test_without_the_compiler_a_chain_is_run_in_plain_python_with_one_warning():
     np.testing.assert_allclose(
         loads, run.tangential_load([0.1, 0.4, run.duration]), rtol=0, atol=LOAD * strength
     )
+
+
+def test_a_run_in_plain_python_is_a_run_like_any_other():
+    chain, at_rest = SLIDER(3), np.zeros(3)
+    transitions, intervals, end = fallback.find(chain, (at_rest, at_rest), 1.0, False, 10)
+    states = fallback.first_state(chain, at_rest, at_rest)
+    assert intervals.dtype == states.force.dtype == states.velocity.dtype == np.float64
+    # From the start through all its transitions: compiled code takes what plain Python found.
+    run = Run(chain, end, transitions, intervals, at_rest, at_rest, states)
+    times = np.linspace(0.0, end, 20)
+    force, velocity = fallback.evaluate(chain, times, transitions, intervals, states)
+    np.testing.assert_allclose(force, run.spring_forces(times), rtol=0, atol=LOAD * chain.strength.sum())
+    np.testing.assert_allclose(velocity, run.at(times)[1], rtol=0, atol=1e-12)

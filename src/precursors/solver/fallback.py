@@ -17,14 +17,16 @@ def find(
     state = plain.at_start(chain, *start)
     rows, end, since = plain.find_transitions(chain, state, duration, until_global, most)
     transitions = np.array([(t, block, mode, load) for t, _, block, mode, load in rows], dtype=TRANSITION)
-    return transitions, np.array([interval for _, interval, *_ in rows] + [since]), end
+    intervals = np.array([interval for _, interval, *_ in rows] + [since], dtype=np.float64)
+    return transitions, intervals, float(end)
 
 
 def first_state(chain: Chain, positions: FloatArray, velocities: FloatArray) -> States:
     """The state at the start, as the compiled kernel stores it."""
     state = plain.at_start(chain, positions, velocities)
     none = np.zeros((1, chain.n_blocks), np.int64)
-    return States(state.force[None, 1:-1], state.velocity[None, 1:-1], none, none[:, 0], np.zeros(1))
+    force = state.force[None, 1:-1].astype(np.float64)
+    return States(force, velocities[None], none, none[:, 0], np.zeros(1))
 
 
 def evaluate(

@@ -23,8 +23,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import Chain
 
+Floats = NDArray[np.floating]
 REAL = np.longdouble  # more digits, where the machine has them
 ORDER = 24
 REACH = 1.375  # largest frequency times window: REACH^ORDER / ORDER! is 3e-21
@@ -37,12 +38,12 @@ EXPONENT = np.maximum(N[None, :] - N[:, None], 0).astype(int)
 class State(NamedTuple):
     """Velocities [m/s], spring forces [N] and modes; column 0 is the drive, N + 1 the free end."""
 
-    velocity: FloatArray
-    force: FloatArray
+    velocity: Floats
+    force: Floats
     mode: NDArray[np.int64]
 
 
-def at_start(chain: Chain, positions: FloatArray, velocities: FloatArray) -> State:
+def at_start(chain: Chain, positions: Floats, velocities: Floats) -> State:
     """State at time 0: a block slides if it moves, or if its springs overcome the static friction (Eq. 5)."""
     force = np.pad(-chain.springs * np.diff(positions, prepend=0.0), 1).astype(REAL)
     net = force[1:-1] - force[2:]
@@ -52,7 +53,7 @@ def at_start(chain: Chain, positions: FloatArray, velocities: FloatArray) -> Sta
     return State(np.r_[chain.drive_velocity, velocities, REAL(0)], force, np.pad(mode.astype(np.int64), 1))
 
 
-def expand(chain: Chain, state: State, window: float) -> tuple[FloatArray, FloatArray]:
+def expand(chain: Chain, state: State, window: float) -> tuple[Floats, Floats]:
     """Taylor series of velocities and spring forces, row n times s^n, with s = 1 at the end of the window."""
     v, force = np.zeros((2, ORDER + 1, chain.n_blocks + 2), dtype=REAL)
     v[0], force[0] = state.velocity, state.force
@@ -66,12 +67,12 @@ def expand(chain: Chain, state: State, window: float) -> tuple[FloatArray, Float
     return v, force
 
 
-def powers(s: float) -> FloatArray:
+def powers(s: float) -> Floats:
     """1, s, s^2, ..., shape (ORDER + 1,)."""
     return np.append(REAL(1), np.cumprod(np.full(ORDER, s, dtype=REAL)))
 
 
-def move(state: State, v: FloatArray, force: FloatArray, s: float) -> State:
+def move(state: State, v: Floats, force: Floats, s: float) -> State:
     """The state at s, summed from the smallest term on."""
     terms = powers(s)[:, None]
     return State((v * terms)[::-1].sum(axis=0), (force * terms)[::-1].sum(axis=0), state.mode)
@@ -84,7 +85,7 @@ def safe_step(g: float, slope: float, curvature: float) -> float:
     return 2.0 * g / (root - slope) if slope < 0.0 else rising
 
 
-def first_root(series: FloatArray, zero: float, limit: float) -> float:
+def first_root(series: Floats, zero: float, limit: float) -> float:
     """First root of a polynomial in 0 <= s < limit <= 1, or infinity; a value up to `zero` is zero."""
     resolved = np.flatnonzero(abs(series) > zero)
     if resolved.size == 0:
@@ -104,15 +105,12 @@ def first_root(series: FloatArray, zero: float, limit: float) -> float:
     return math.inf
 
 
-def next_transition(
-    chain: Chain, state: State, window: float, roundings: float
-) -> tuple[float, int, int, State]:
+def next_transition(chain: Chain, state: State, window: float, eps: float) -> tuple[float, int, int, State]:
     """(s, block, new mode) of the first transition in the window, and the state at s; (1, 0, 0) if none."""
     v, force = expand(chain, state, window)
     net, sliding = force[:, 1:-1] - force[:, 2:], state.mode[1:-1]
-    zero = (
-        2.0 * roundings * (abs(force[:, 1:-1]).sum(axis=0) + abs(force[:, 2:]).sum(axis=0) + chain.strength)
-    )
+    sizes = abs(force).sum(axis=0)
+    zero = 2.0 * eps * (sizes[1:-1] + sizes[2:] + chain.strength)
     first, block, new = 1.0, 0, 0
     for side in (1, -1):
         margin = np.concatenate([[chain.strength], np.zeros((ORDER, chain.n_blocks))]) - side * net
