@@ -252,9 +252,8 @@ def _run_batch(
     runs: list[Run] = []
     while len(runs) < n:
         left = slice(len(runs), None)
-        n_finished, is_paused = KERNEL.run_batch(
-            _rows(batch, left), limits, _rows(progress, left), work.record, work.states, work.memory
-        )
+        here, reached = (_rows(batch, left), _rows(progress, left)) if runs else (batch, progress)
+        n_finished, is_paused = KERNEL.run_batch(here, limits, reached, work.record, work.states, work.memory)
         for part in _parts(work, count[left][: n_finished + is_paused]):
             j = len(runs)
             mine = slice(j, j + 1)
@@ -315,7 +314,11 @@ def _parts(work: _Workspace, count: IntArray) -> Iterator[_Part]:
     used, stored = count[:, KERNEL.TRANSITIONS].tolist(), count[:, KERNEL.STORED].tolist()
     transitions = _transitions(work.record, sum(used))
     intervals: FloatArray = work.record.intervals[: sum(used) + len(used)].copy()
-    states = States._make(column[: sum(stored)].copy() for column in work.states)
+    n_states = sum(stored)
+    states = States(*[column[:n_states].copy() for column in work.states])
+    if len(used) == 1:
+        yield _Part(transitions, intervals, states)
+        return
     first = first_state = 0
     for j, (n, m) in enumerate(zip(used, stored, strict=True)):
         yield _Part(
