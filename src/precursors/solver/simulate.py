@@ -315,7 +315,8 @@ def _parts(work: _Workspace, count: IntArray) -> Iterator[_Part]:
     transitions = _transitions(work.record, sum(used))
     intervals: FloatArray = work.record.intervals[: sum(used) + len(used)].copy()
     n_states = sum(stored)
-    states = States(*[column[:n_states].copy() for column in work.states])
+    copies: Any = [column[:n_states].copy() for column in work.states]
+    states = States(*copies)
     if len(used) == 1:
         yield _Part(transitions, intervals, states)
         return
