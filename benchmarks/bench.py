@@ -33,7 +33,7 @@ from precursors import Chain, Run, simulate, simulate_many
 from precursors.accuracy.compare import TrueTransition, Truth, compare
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy
-from precursors.model.chain import Until
+from precursors.model.checks import Until
 from precursors.solver.simulate import available_cores
 from precursors.support import timing
 from precursors.support.files import write_table

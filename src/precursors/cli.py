@@ -104,7 +104,8 @@ def simulate_ensemble(arguments: argparse.Namespace) -> None:
     import pandas as pd
 
     from precursors.analysis.summary import summarise
-    from precursors.model.chain import Chain, not_negative, whole
+    from precursors.model.chain import Chain
+    from precursors.model.checks import not_negative, whole
     from precursors.solver.simulate import simulate_many
     from precursors.support.files import write_table
 

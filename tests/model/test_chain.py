@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from precursors import Chain
-from precursors.model.chain import checked_span, linear_weights, parse_theta, theta_from_load_cells
+from precursors.model.chain import linear_weights, parse_theta, theta_from_load_cells
+from precursors.model.checks import checked_span
 
 ROUNDING = 4e-16  # a few roundings of doubles, relative
 

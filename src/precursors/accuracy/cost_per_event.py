@@ -10,7 +10,8 @@ from functools import partial
 import numpy as np
 import pandas as pd
 
-from precursors.model.chain import Chain, Until
+from precursors.model.chain import Chain
+from precursors.model.checks import Until
 from precursors.model.statics import maximal_strain_positions
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate

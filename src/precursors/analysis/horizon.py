@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from precursors.analysis.neighbours import EPS, SIGMAS, Neighbours, Unknown, spread
-from precursors.model.chain import FloatArray, positive
+from precursors.model.chain import FloatArray
+from precursors.model.checks import positive
 from precursors.solver.run import Run
 
 NEVER = Unknown(np.inf, "")

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.stats import t as student_t
 
 from precursors.analysis.tangent import Tangent
-from precursors.model.chain import whole
+from precursors.model.checks import whole
 from precursors.solver.run import Run
 
 # Uncertainties come from means over so many stretches of the run.

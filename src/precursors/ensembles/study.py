@@ -12,7 +12,8 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
-from precursors.model.chain import Chain, FloatArray, Until
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.checks import Until
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate_many
 from precursors.support.files import read_table

@@ -20,7 +20,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from precursors.hierarchy.swing import Swing, System
-from precursors.model.chain import Chain, FloatArray, Until, checked_span, not_negative
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.checks import Until, checked_span, not_negative
 from precursors.solver.run import Run
 
 ORDER = 16  # of the Taylor series, with which a step of 1/omega is exact to rounding

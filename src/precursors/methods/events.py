@@ -23,7 +23,8 @@ import numpy as np
 from numba import njit
 
 from precursors.methods.common import Result
-from precursors.model.chain import Chain, FloatArray, checked_span
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.checks import checked_span
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError
 

@@ -24,7 +24,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 from precursors.methods.common import DivergedError, Method, Result, Smooth
-from precursors.model.chain import Chain, FloatArray, checked_span, positive
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.checks import checked_span, positive
 from precursors.solver.kernel.compiled import entry
 from precursors.solver.run import Run
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError

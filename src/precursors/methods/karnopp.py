@@ -34,7 +34,8 @@ from precursors.methods.fixed_step import (
     rows,
     step_length,
 )
-from precursors.model.chain import Chain, not_negative, positive
+from precursors.model.chain import Chain
+from precursors.model.checks import not_negative, positive
 
 # Part of the width that is certainly safe, found by trial: below 0.1 blocks jump over the zone, above 0.2 the
 # error grows for nothing.

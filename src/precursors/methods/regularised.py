@@ -23,7 +23,8 @@ from scipy.optimize import brentq, minimize_scalar
 
 from precursors.methods.common import Method, Result
 from precursors.methods.events import jacobian, scaled, time_unit
-from precursors.model.chain import Chain, FloatArray, checked_span, positive
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.checks import checked_span, positive
 from precursors.solver.run import Run
 
 Solver = Literal["Radau", "BDF"]

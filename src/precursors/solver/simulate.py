@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from precursors.model.chain import LARGEST, Chain, FloatArray, Until, checked_span, whole
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.checks import LARGEST, Until, checked_span, whole
 from precursors.solver import fallback
 from precursors.solver.backend import KERNEL
 from precursors.solver.record import TRANSITION, IntArray, States

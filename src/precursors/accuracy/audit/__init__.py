@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from precursors.accuracy.audit.checks import ROUNDINGS, Auditor
-from precursors.model.chain import positive
+from precursors.model.checks import positive
 from precursors.solver.run import Run
 
 __all__ = ["Audit", "audit"]

@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from precursors.accuracy.proof.exact_chain import ExactChain, Number, exact_positions
-from precursors.model.chain import Until, checked_until, written_fraction
+from precursors.model.chain import written_fraction
+from precursors.model.checks import Until, checked_until
 from precursors.support.files import write_whole
 
 FORMAT = "precursors certificate 1"

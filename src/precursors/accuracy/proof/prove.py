@@ -17,7 +17,8 @@ from precursors.accuracy.proof.certificate import (
     Tie,
 )
 from precursors.accuracy.proof.exact_chain import ExactChain, Number, exact, exact_positions
-from precursors.model.chain import Chain, Until, checked_until
+from precursors.model.chain import Chain
+from precursors.model.checks import Until, checked_until
 
 if TYPE_CHECKING:
     from flint import arb

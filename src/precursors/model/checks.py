@@ -1,0 +1,62 @@
+"""Checks of arguments: each returns the value, or raises a ValueError that names the parameter."""
+
+from __future__ import annotations
+
+import math
+from contextlib import suppress
+from numbers import Integral, Real
+from typing import Literal
+
+# Where a run ends before its duration is over.
+Until = Literal["global slip"] | None
+
+# Products and squares of three such numbers stay within the range of doubles.
+SMALLEST, LARGEST = 1e-60, 1e60
+
+
+def number(name: str, value: object, unit: str) -> float:
+    """Return a finite float, or raise a ValueError that names the parameter."""
+    if isinstance(value, Real) and not isinstance(value, bool):
+        with suppress(OverflowError):
+            if math.isfinite(result := float(value)):
+                return result
+    hint = " (YAML reads 2.5e9 as text: write 2.5e+9)" if isinstance(value, str) else ""
+    raise ValueError(f"{name} must be a finite number [{unit}], but is {value!r}{hint}")
+
+
+def positive(name: str, value: object, unit: str) -> float:
+    """Return a float above zero that can be computed with, or raise a ValueError that names the parameter."""
+    result = number(name, value, unit)
+    if result <= 0:
+        raise ValueError(f"{name} must be above 0 {unit}, but is {value!r}")
+    if not SMALLEST <= result <= LARGEST:
+        raise ValueError(f"{name} must be between {SMALLEST:g} and {LARGEST:g} {unit}, but is {value!r}")
+    return result
+
+
+def not_negative(name: str, value: object, unit: str) -> float:
+    """Return a float of zero or more, or raise a ValueError that names the parameter."""
+    result = number(name, value, unit)
+    if not 0 <= result <= LARGEST:
+        raise ValueError(f"{name} must be between 0 and {LARGEST:g} [{unit}], but is {value!r}")
+    return result
+
+
+def whole(name: str, value: object, at_least: int) -> int:
+    """Return an int of at least so much, or raise a ValueError that names the parameter."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or value < at_least:
+        raise ValueError(f"{name} must be a whole number of at least {at_least}, but is {value!r}")
+    return int(value)
+
+
+def checked_span(duration: object, until: object) -> float:
+    """Return the duration [s] of a run, or raise a ValueError about it or about `until`."""
+    checked_until(until)
+    return positive("duration", duration, "s")
+
+
+def checked_until(until: object) -> Until:
+    """Return where a run may end before its duration, or raise a ValueError."""
+    if until is not None and until != "global slip":
+        raise ValueError(f'until must be None or "global slip", but is {until!r}')
+    return "global slip" if until else None
