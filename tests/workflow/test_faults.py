@@ -38,7 +38,7 @@ class Project:
             shutil.copytree(ROOT / name, directory / name)
         config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
         config["duration"] = 4.0
-        config["spread"]["members"] = 8
+        config["ensembles"]["spread"]["members"] = 8
         (directory / "config.yaml").write_text(yaml.safe_dump(config, sort_keys=False), encoding="utf-8")
 
     def start(self, *arguments: str) -> subprocess.Popen[str]:
