@@ -5,7 +5,7 @@ import pytest
 from analysis.random_runs import random_chain, random_transitions
 
 from precursors import Chain, Run, find_precursors, find_slips, simulate
-from precursors.analysis.slips import apparent_friction, first_global
+from precursors.analysis.slips import Definition, apparent_friction, first_global
 from precursors.analysis.summary import summarise
 
 PAPERS = {"-5/6": (6, 0.4845, 2.632), 0: (9, 0.4858, 2.739), "5/6": (14, 0.4883, 2.890)}
@@ -19,6 +19,9 @@ def table_path(run: Run) -> dict[str, float]:
     up_to = slips.iloc[: first_global(slips) + 1] if reached else slips
     start, end = (up_to.onset.iloc[-1], up_to.end.iloc[-1]) if reached else (np.nan, np.nan)
     later = slips.onset.iloc[len(up_to)] if len(up_to) < len(slips) else np.inf
+    each = Definition("each").read(slips, run.chain.n_blocks)
+    friction_each = apparent_friction(run, slips, Definition("each"))
+    of_each = first_global(each) if friction_each else len(slips) - 1
     return {
         "n_events": len(up_to),
         "events_kept": len(find_precursors(slips)),
@@ -31,6 +34,10 @@ def table_path(run: Run) -> dict[str, float]:
         "reached": reached,
         "n_global": int(slips.is_global.sum()),
         "n_all_events": len(slips),
+        "n_alone": int((up_to.n_slid == 1).sum()),
+        "n_events_each": of_each + 1,
+        "mu_sapp_each": friction_each.mu_sapp if friction_each else np.nan,
+        "sliding_each": slips.n_simultaneous.iloc[of_each] if friction_each else 0,
     }
 
 
@@ -49,7 +56,7 @@ def assert_same(runs: list[Run]) -> None:
     """Summarise all runs together, and compare each row with the tables of its run."""
     for found, run in zip(summarise(runs), runs, strict=True):
         expected = table_path(run)
-        assert set(found.dtype.names) == set(expected)
+        assert set(found.dtype.names) == {*expected, "pulse_blocks", "pulse_speed"}
         for name, value in expected.items():
             if name == "crossing_time":  # the only sum, added up in another order here
                 assert found[name] == pytest.approx(value, rel=1e-12, nan_ok=True)
@@ -93,3 +100,17 @@ def test_a_run_without_transitions_has_no_event_and_no_run_no_row():
     assert np.isnan(row["mu_sapp"])
     assert len(summarise([])) == 0
     assert_same([calm, simulate(Chain.from_slider(), duration=3.0), calm])
+
+
+def test_a_pulse_that_crosses_a_chain_has_its_length_and_speed():
+    """Three blocks slide at a time; one is released and one stops every 0.1 s, on blocks 1 m apart."""
+    chain = Chain(np.ones(10), 1.0, 1.0, 1.0, 1e-4, mu_s=0.7, mu_k=0.4, length=10.0)
+    steps = [(1, 1), (2, 1), (3, 1)] + [(j, m) for i in range(4, 11) for j, m in ((i, 1), (i - 3, 0))]
+    block, mode = zip(*steps, strict=True)
+    pauses = [0.0, 0.0] + [0.1, 0.0] * 7  # before transitions 2, 3 and so on
+    time = 1.0 + np.cumsum([0.0, *pauses])
+    run = Run.from_transitions(chain, time[-1] + 0.1, time, block, mode, np.ones(17), [1.0, *pauses, 0.1])
+    row = summarise([run])[0]
+    assert not row["reached"]
+    assert row["pulse_blocks"] == pytest.approx(3.0)
+    assert row["pulse_speed"] == pytest.approx(10.0 / 0.8)

@@ -185,6 +185,13 @@ def resolution() -> dict:
     return {"table": table.assign(estimate=estimate), "limits": limits, "papers_n": 12}
 
 
+def event_law() -> dict:
+    varied = ["N and theta", "N and theta", "friction", "drive", "loading"]
+    table = pd.DataFrame({"varied": varied, "theta": 0.0, "n_blocks": [5, 10, 10, 10, 10]})
+    law = {"law": 20.0, "events": 16.0, "ratio": 0.8, "ratio_low": 0.7, "ratio_high": 0.9, "rise": 1.25}
+    return {"table": table.assign(**law)}
+
+
 def resolution_models() -> dict:
     values = {
         "plain": (0.0, 0.0, 0.0),
@@ -281,6 +288,7 @@ EXAMPLES = {
     "spread": ("spread", spread),
     "sweep": ("spread", lambda: spread("theta")),
     "resolution": ("resolution", resolution),
+    "event_law": ("event_law", event_law),
     "resolution_models": ("resolution_models", resolution_models),
     "map": ("map_of", map_of),
     "long_runs": ("long_runs", long_runs),

@@ -248,6 +248,15 @@ def test_lines_of_the_resolution_are_medians_estimates_and_the_papers_n():
         assert [y for _, y in points(axes, label)] == pytest.approx([1.2 * axes.lines[0].get_ydata()[0]] * 3)
 
 
+def test_counts_and_ratios_beside_the_law_are_the_tables():
+    counts, ratios, rises = draw("event_law").axes
+    assert [tuple(line.get_xydata()[0]) for line in counts.lines[:4]] == [(20.0, 16.0)] * 4
+    assert ratios.lines[0].get_ydata().tolist() == [0.8, 0.8]
+    [bars] = ratios.collections
+    np.testing.assert_allclose([segment[:, 1] for segment in bars.get_segments()], [[0.7, 0.9]] * 2)
+    assert rises.lines[0].get_ydata().tolist() == [1.25, 1.25]
+
+
 def test_each_larger_model_is_a_line_in_the_row_of_its_kind_beside_the_papers_chain():
     figure = draw("resolution_models")
     assert [key(axes) for axes in figure.axes[::3]] == [

@@ -16,7 +16,7 @@ rule ensembles:
     input:
         collect("results/figures/spread_{question}.svg", question=QUESTIONS),
         [f"results/figures/map_{x}_{y}.svg" for x, y in config["ensembles"]["maps"]["pairs"]],
-        collect("results/figures/{figure}.svg", figure=["resolution", "long_runs"]),
+        collect("results/figures/{figure}.svg", figure=["resolution", "event_law", "long_runs"]),
         collect("results/tables/{table}.csv", table=["spread", "robustness", "resolution_limits"]),
     localrule: True
 
@@ -76,6 +76,21 @@ rule tabulate_resolution:
         fit_from=config["ensembles"]["resolution"]["fit_from"],
     script:
         "../scripts/tabulate_resolution.py"
+
+
+rule tabulate_event_law:
+    input:
+        members="results/tables/event_law{full}_members.csv",
+        code=package("model/chain", "solver", "analysis", "ensembles"),
+    output:
+        table=report("results/tables/event_law{full}.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_event_law{full}.log",
+    localrule: True
+    params:
+        slider=config["chain"],
+    script:
+        "../scripts/tabulate_event_law.py"
 
 
 rule tabulate_long_runs:

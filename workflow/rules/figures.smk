@@ -95,6 +95,12 @@ FIGURES = {
         },
         "options": {"papers_n": config["chain"]["n_blocks"]},
     },
+    "event_law": {
+        "file": "event_law{full}",
+        "shows": "the number of events by theory",
+        "category": "Sensitivity",
+        "tables": {"table": "results/tables/event_law{full}.csv"},
+    },
     "resolution_models": {
         "shows": "the same with viscosity and interface springs",
         "category": "Sensitivity",

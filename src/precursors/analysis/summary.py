@@ -23,9 +23,17 @@ SUMMARY = np.dtype(
         ("reached", "?"),
         ("n_global", "i8"),
         ("n_all_events", "i8"),
+        ("n_alone", "i8"),
+        ("n_events_each", "i8"),
+        ("mu_sapp_each", "f8"),
+        ("sliding_each", "i8"),
+        ("pulse_blocks", "f8"),
+        ("pulse_speed", "f8"),
     ]
 )
-SUMMARY_UNITS = {"load": "N", "time": "s", "end": "s", "crossing_time": "s"}
+SUMMARY_UNITS = {"load": "N", "time": "s", "end": "s", "crossing_time": "s", "pulse_speed": "m_per_s"}
+# A travelling pulse is measured over so many transitions of each block, some five times there and back.
+PULSE_TRANSITIONS = 20
 
 
 def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
@@ -40,7 +48,11 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
         mu_sapp [1] (Eq. 1) and the load F_X [N] that it stands for. Of the first global slip: time (its
         onset), end and crossing_time (from its onset until block N first slides) [s]. Where reached is False
         there was no global slip: these are NaN, and the counts are those of the whole run. n_global and
-        n_all_events count the global slips and the events of the whole run.
+        n_all_events count the global slips and the events of the whole run, n_alone the events up to the
+        first global slip in which one block slid alone. n_events_each and mu_sapp_each are n_events and
+        mu_sapp if every block must slide at some time of a global slip, not all at once; sliding_each is the
+        most blocks that slid at once in this event (0 without one). A run that ends in an event, without a
+        global slip, has pulse_blocks, the mean number of blocks that slide, and pulse_speed (see `pulse`).
 
     Notes
     -----
@@ -49,8 +61,9 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     runs = list(runs)
     events = slip_events(runs)
     summaries = np.zeros(len(runs), SUMMARY)
-    for name in ("mu_sapp", "load", "time", "end", "crossing_time"):
-        summaries[name] = np.nan
+    for name in summaries.dtype.names or ():
+        if SUMMARY[name].kind == "f":
+            summaries[name] = np.nan
     summaries["n_all_events"] = np.bincount(events["run"], minlength=len(runs))
     summaries["n_global"] = np.bincount(events["run"], events["is_global"], minlength=len(runs))
     summaries["reached"] = summaries["n_global"] > 0
@@ -63,6 +76,8 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     last_counted[reached] = global_slips[first]
     counted = np.arange(len(events)) <= last_counted[events["run"]]
     summaries["n_events"] = np.bincount(events["run"], counted, minlength=len(runs))
+    alone = counted & (events["n_slid"] == 1)
+    summaries["n_alone"] = np.bincount(events["run"], alone, minlength=len(runs))
     # Fronts of later runs are raised above all earlier ones, so that the running maximum begins anew.
     front = events["front"] + events["run"] * (events["front"].max(initial=0) + 1)
     kept = counted & (front == np.maximum.accumulate(front))
@@ -82,7 +97,44 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     }
     for name, values in first_global.items():
         summaries[name][reached] = values
+
+    n_blocks = np.array([run.chain.n_blocks for run in runs], dtype=int)
+    every_block = np.flatnonzero(events["n_slid"] == n_blocks[events["run"]])
+    reached, first = np.unique(events["run"][every_block], return_index=True)
+    summaries["n_events_each"] = summaries["n_all_events"]
+    summaries["n_events_each"][reached] -= (
+        np.cumsum(summaries["n_all_events"])[reached] - 1 - every_block[first]
+    )
+    for i, slip in zip(reached, events[every_block[first]], strict=True):
+        summaries["mu_sapp_each"][i] = _load_and_crossing(runs[i], slip)[0] / runs[i].chain.normal_load
+        summaries["sliding_each"][i] = slip["n_simultaneous"]
+    last = np.cumsum(summaries["n_all_events"]) - 1
+    for i in np.flatnonzero(~summaries["reached"] & (summaries["n_all_events"] > 0)):
+        if np.isnan(events["end"][last[i]]):
+            summaries["pulse_blocks"][i], summaries["pulse_speed"][i] = pulse(runs[i])
     return summaries
+
+
+def pulse(run: Run) -> tuple[float, float]:
+    """Mean number of blocks that slide at the end of a run, and their speed along the chain [m/s].
+
+    Each release carries the pulse on by the distance L/N of two blocks, so that its speed is L/N times the
+    releases per second. If there are several pulses it is the sum of their speeds.
+    """
+    chain, n = run.chain, run.chain.n_blocks
+    modes = run.transitions["mode"]
+    start = max(0, len(modes) - PULSE_TRANSITIONS * n)
+    # Every transition but a change of direction starts or stops one block.
+    of_block = np.argsort(run.transitions["block"], kind="stable")
+    before = np.zeros(len(modes), dtype=bool)
+    same = np.diff(run.transitions["block"][of_block]) == 0
+    before[of_block[1:]] = same & (modes[of_block][:-1] != 0)
+    change = (modes != 0).astype(int) - before
+    sliding, time = np.cumsum(change)[start:], run.intervals[start + 1 :]
+    if not time.sum() > 0:
+        return np.nan, np.nan
+    releases = np.count_nonzero(change[start:] > 0)
+    return float(np.average(sliding, weights=time)), float(releases * chain.length / n / time.sum())
 
 
 def _load_and_crossing(run: Run, slip: np.void) -> tuple[float, float]:

@@ -7,6 +7,7 @@ from functools import partial
 from itertools import permutations
 from typing import Any
 
+from precursors.ensembles.event_law import event_law_study
 from precursors.ensembles.maps import PARAMETERS, map_study
 from precursors.ensembles.resolution import resolution_study
 from precursors.ensembles.spread import spread_study
@@ -17,6 +18,8 @@ MAPS = {f"map_{x}_{y}": (x, y) for x, y in permutations(PARAMETERS, 2)}
 STUDIES: dict[str, Callable[..., Study]] = {
     "spread_members": spread_study,
     "resolution_members": resolution_study,
+    "event_law_members": event_law_study,
+    "event_law_full_members": event_law_study,
     **{name: partial(map_study, x=x, y=y) for name, (x, y) in MAPS.items()},
 }
 
@@ -26,6 +29,8 @@ def study_arguments(config: Config, name: str) -> dict[str, Any]:
     settings = config["ensembles"]
     if name in MAPS:
         return {"slider": config["chain"], "points": settings["maps"]["points"]}
+    if name.startswith("event_law"):
+        return {"slider": config["chain"], "settings": settings[name.removesuffix("_members")]}
     return {
         "sliders": {scene: scene_slider(config, scene) for scene in config["fig13"]},
         "duration": config["duration"],

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
+from precursors.ensembles.loadings import loaded
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until
 from precursors.solver.run import Run
@@ -34,8 +35,8 @@ class Study:
     ----------
     members : DataFrame
         One row per run. Its columns are arguments of `Chain.from_slider`; duration, the time limit of the run
-        [s]; load_noise and start_noise (see `start_of`) with group and draw, the numbers of the random
-        stream. All other columns are labels.
+        [s]; loading, a key of `LOADINGS`; load_noise and start_noise (see `start_of`) with group and draw,
+        the numbers of the random stream. All other columns are labels.
     until : "global slip" or None
         As in `simulate`.
     seed : int
@@ -63,6 +64,7 @@ def start_of(member: Mapping[Any, Any], seed: int = 0) -> tuple[Chain, FloatArra
     mu_s F_Z / (N k), the compression of a spring that holds a mean block. u_i is uniform in -1..1.
     """
     chain = Chain.from_slider(**{name: member[name] for name in ARGUMENTS if name in member})
+    chain = loaded(chain, member.get("loading", "linear"))
     load_noise, start_noise = member.get("load_noise", 0.0), member.get("start_noise", 0.0)
     if load_noise == start_noise == 0.0:
         return chain, np.zeros(chain.n_blocks)
