@@ -9,10 +9,9 @@ from precursors import Chain, simulate
 from precursors.accuracy.compare import Truth, compare
 from precursors.accuracy.failures import FAILURE_MODES, Failure
 from precursors.accuracy.failures.common import transitions_right
-from precursors.accuracy.failures.forward_only import ForwardMotion, solve_forward_only
+from precursors.accuracy.failures.forward_only import solve_forward_only
 from precursors.accuracy.failures.locating import motion_after, solve_merging
 from precursors.accuracy.failures.regularised_friction import RK4_REAL_LIMIT
-from precursors.methods.events import Motion
 from precursors.methods.scipy_events import next_transition
 
 SCENES = {"fig10": 0.0, "fig11": "-5/6", "fig12": "5/6"}
@@ -114,18 +113,6 @@ def test_where_no_block_would_slide_backward_the_rule_changes_nothing():
     found = compare(solve_forward_only(chain, 10.0, "global slip"), Truth.of_run(exact))
     assert found.transitions_right == found.transitions_found == found.transitions_true
     assert found.time_error < TIME_ERROR
-
-
-def test_a_stuck_block_that_is_pushed_backward_stays_where_it_is():
-    chain = Chain.from_slider(n_blocks=2)
-    motion, free = ForwardMotion(chain, 1e-3, None), Motion(chain, 1e-3, None)
-    motion.state[:] = free.state[:] = [0.0, 300.0, 0.0, 0.0]
-    assert free.overdue() == 1
-    assert motion.overdue() == 2
-    time, event = 0.0, 2
-    while event >= 0 and motion.switch(event, time):
-        time, event = next_transition(motion, time)
-    assert (motion.run().run.transitions["mode"] >= 0).all()
 
 
 def test_a_motion_taken_from_a_run_goes_on_as_the_run_does():

@@ -270,6 +270,7 @@ def definitions() -> dict:
             events_kept_is_papers=table["events_kept"] == 7,
             mu_sapp_is_papers_within_a_digit=False,
             numbers_within_a_digit=np.where(table["events_kept"] == 7, 6, 2),
+            switching="one rule",
         )
     }
 

@@ -5,6 +5,7 @@ import tabulate_definitions
 from matplotlib.figure import Figure
 
 from precursors.figures.definitions import draw
+from precursors.methods.fixed_step import COULOMB, KINETIC, SWITCHING_RULES
 from precursors.support.files import read_table
 
 SLIDER = {
@@ -20,7 +21,7 @@ SLIDER = {
     "length": 0.1,
 }
 PAPER = [{"events_kept": kept, "mu_sapp": 0.49} for kept in (6, 9, 14)]
-READING = ["degree", "global_slip", "short", "front"]
+READING = ["degree", "switching", "global_slip", "short", "front"]
 AT_ONCE = "in which all blocks slide at the same instant"
 
 
@@ -37,7 +38,7 @@ def table(path):
 
 
 def test_each_reading_has_a_row_for_each_sign_of_each_size_of_theta(table):
-    assert len(table) == 2 * 3 * (4 * 3 * 3)
+    assert len(table) == 2 * 3 * len(SWITCHING_RULES) * (4 * 3 * 3)
     assert not table.duplicated([*READING, "theta"]).any()
     assert sorted(table["theta"].unique()) == pytest.approx([-5 / 6, -0.833, 0, 0.833, 5 / 6], rel=1e-15)
 
@@ -45,6 +46,7 @@ def test_each_reading_has_a_row_for_each_sign_of_each_size_of_theta(table):
 def test_the_papers_numbers_come_of_few_readings_and_only_with_five_sixths(table):
     best = table[table["numbers_within_a_digit"] == 6][READING].drop_duplicates()
     assert set(best["degree"]) == {"5/6"}
+    assert set(best["switching"]) == {COULOMB, KINETIC}
     assert set(best["short"]) == {"shorter than one before it"}
     assert set(best["global_slip"]) == {AT_ONCE, "in which F_X drops by more than 10 N"}
     assert set(best["front"]) == {"farthest block that slid", "number of blocks that slid"}
@@ -52,7 +54,11 @@ def test_the_papers_numbers_come_of_few_readings_and_only_with_five_sixths(table
 
 def test_no_reading_gives_six_numbers_as_printed_because_0_4845_rounds_to_0_48(table):
     assert table["numbers_as_printed"].max() == 5
-    papers = table[(table["global_slip"] == AT_ONCE) & (table["numbers_as_printed"] == 5)]
+    papers = table[
+        (table["switching"] == COULOMB)
+        & (table["global_slip"] == AT_ONCE)
+        & (table["numbers_as_printed"] == 5)
+    ]
     wrong = papers[~papers["mu_sapp_is_papers_as_printed"]]
     assert wrong["mu_sapp"].round(4).unique().tolist() == [0.4845]
 

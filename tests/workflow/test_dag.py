@@ -132,7 +132,7 @@ def test_a_new_title_simulates_nothing(finished):
 
 def test_a_new_number_of_the_paper_simulates_nothing(finished):
     finished.edit("config.yaml", "events_kept: 9", "events_kept: 8")
-    of_definitions = {"tabulate_definitions", "draw_definitions"}
+    of_definitions = {"tabulate_definitions", "draw_definitions", "tabulate_random_steps"}
     assert finished.would_run() == {"tabulate_reproduction", "evaluate_claims"} | of_definitions | PAPER
 
 

@@ -20,7 +20,7 @@ rule check_eq15:
 
 rule tabulate_definitions:
     input:
-        code=package("model/chain", "solver", "analysis", "reproduction/definitions"),
+        code=package("model/chain", "solver", "analysis", "methods", "reproduction/definitions"),
     output:
         table=report("results/tables/definitions.csv", category="Tables"),
     log:
@@ -34,3 +34,21 @@ rule tabulate_definitions:
         paper=[config["scenes"][scene].get("paper", {}) for scene in config["fig13"]],
     script:
         "../scripts/tabulate_definitions.py"
+
+
+# `random_steps_full` on demand: half a minute.
+rule tabulate_random_steps:
+    input:
+        definitions="results/tables/definitions.csv",
+        code=package("model/chain", "analysis", "methods", "reproduction/random_steps"),
+    output:
+        table=report("results/tables/random_steps{full}.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_random_steps{full}.log",
+    params:
+        slider=config["chain"],
+        duration=config["duration"],
+        settings=config["reproduction"]["random_steps"],
+        paper=[config["scenes"][scene].get("paper", {}) for scene in config["fig13"]],
+    script:
+        "../scripts/tabulate_random_steps.py"

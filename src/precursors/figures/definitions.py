@@ -44,8 +44,10 @@ SHORT_NAMES = {
 def draw(table: pd.DataFrame) -> Figure:
     """Draw events counted and mu_sapp of every reading (rows) at every theta (columns).
 
-    Lengths of an event that give the same numbers at every theta share a row (definitions.csv).
+    Lengths of an event that give the same numbers at every theta share a row (definitions.csv). The rule of
+    switching is the first of the table, ours.
     """
+    table = table[table["switching"] == table["switching"].iloc[0]]
     table = _merge_lengths(table).assign(size=table["theta"].abs())
     table["of_two"] = table["events_kept_is_papers"] + table["mu_sapp_is_papers_within_a_digit"].astype(int)
     rows = pd.MultiIndex.from_frame(table[READING].drop_duplicates())

@@ -44,13 +44,29 @@ outer = entry(Path(__file__).parent, error_model="numpy", fastmath={"contract"},
 
 
 class System(NamedTuple):
-    """What stays: 1/m, V, and for each column the spring behind it [N/m], mu_s w and mu_k w [N]."""
+    """What stays: 1/m, V, and for each column the spring behind it [N/m], mu_s w and mu_k w [N].
+
+    `backward` [N] is the largest force that does not release a stuck block backward, `turning` [N] the
+    largest that does not turn a stopping block round: see `SWITCHING_RULES`.
+    """
 
     inverse_mass: float
     drive_velocity: float
     spring: FloatArray
     strength: FloatArray
     kinetic_friction: FloatArray
+    backward: FloatArray
+    turning: FloatArray
+
+
+# Rule of switching: from mu_s w and mu_k w to `System.backward` and `System.turning`. The first is the rule
+# of Eqs. 4 and 5; the others are readings of what the paper does not say.
+SWITCHING_RULES: dict[str, Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]] = {
+    "sticks if |F| <= mu_s w": lambda strength, _kinetic: (strength, strength),
+    "sticks if |F| <= mu_k w": lambda strength, kinetic: (strength, kinetic),
+    "slides forward only": lambda strength, _kinetic: (np.full_like(strength, np.inf),) * 2,
+}
+COULOMB, KINETIC, FORWARD_ONLY = SWITCHING_RULES
 
 
 class State(NamedTuple):
@@ -92,13 +108,11 @@ class Motion(NamedTuple):
     record: NDArray[np.void]
 
 
-def system_of(chain: Chain) -> System:
-    """Put a chain into columns."""
-    return System(
-        1.0 / chain.mass,
-        chain.drive_velocity,
-        *(np.pad(values, 1) for values in (chain.springs, chain.strength, chain.kinetic_friction)),
-    )
+def system_of(chain: Chain, rule: str = COULOMB) -> System:
+    """Put a chain into columns, with a rule of switching."""
+    friction = chain.strength, chain.kinetic_friction
+    columns = chain.springs, *friction, *SWITCHING_RULES[rule](*friction)
+    return System(1.0 / chain.mass, chain.drive_velocity, *(np.pad(values, 1) for values in columns))
 
 
 def at_rest(system: System) -> State:
@@ -119,9 +133,9 @@ def sliding_forward(system: System, velocities: FloatArray) -> State:
     return state
 
 
-def motion_from_rest(chain: Chain, duration: float, until: str | None) -> Motion:
+def motion_from_rest(chain: Chain, duration: float, until: str | None, rule: str = COULOMB) -> Motion:
     """A chain at the start of its run."""
-    system = system_of(chain)
+    system = system_of(chain, rule)
     progress = np.zeros(1, PROGRESS)[0]
     progress["duration"], progress["until_global"] = checked_span(duration, until), until is not None
     return Motion(system, at_rest(system), progress, np.empty(FIRST_ROOM, RECORD))
@@ -171,11 +185,14 @@ def rows(state, n):
 
 @inner
 def resting_mode(system, state, i):
-    """Mode of a block with zero velocity: it sticks within mu_s w (Eq. 5), or follows the force."""
+    """Mode of a block with zero velocity: by the rule of switching it sticks or follows the force."""
     net = state.spring_force[i] - state.spring_force[i + 1]
-    if abs(net) <= system.strength[i]:
-        return 0
-    return 1 if net > 0.0 else -1
+    forward, backward = system.turning[i], system.turning[i]
+    if state.mode[i] == 0:
+        forward, backward = system.strength[i], system.backward[i]
+    if net > forward:
+        return 1
+    return -1 if net < -backward else 0
 
 
 @inner
@@ -219,12 +236,12 @@ def all_keep_their_modes(system, state, last):
 
     Beyond the block after the last that slides no force changes, so no block is released there.
     """
-    force, velocity, mode, strength = state.spring_force, state.velocity, state.mode, system.strength
+    force, velocity, mode, backward = state.spring_force, state.velocity, state.mode, system.backward
     for i in range(1, min(last + 1, mode.shape[0] - 2) + 1):
         if mode[i] != 0:
             if not velocity[i] * mode[i] >= 0.0:
                 return False
-        elif not abs(force[i] - force[i + 1]) <= strength[i]:
+        elif not -backward[i] <= force[i] - force[i + 1] <= system.strength[i]:
             return False
     return True
 
@@ -320,6 +337,7 @@ def march(
     step: float,
     until: str | None = None,
     max_transitions: int = MAX_TRANSITIONS,
+    rule: str = COULOMB,
 ) -> Result:
     """Run a compiled fixed-step method from rest.
 
@@ -333,6 +351,8 @@ def march(
         As in `precursors.simulate`.
     step : float
         Step [s].
+    rule : str
+        A key of `SWITCHING_RULES`.
 
     Raises
     ------
@@ -344,7 +364,7 @@ def march(
         If there are more than `max_transitions`.
     """
     positive("step", step, "s")
-    motion = motion_from_rest(chain, duration, until)
+    motion = motion_from_rest(chain, duration, until, rule)
     progress = motion.progress
     status = PAUSED
     while status == PAUSED and progress["transitions"] < max_transitions:

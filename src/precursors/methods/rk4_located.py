@@ -45,7 +45,8 @@ def event_function(system, state, i):
     """What stays positive while block i keeps its mode: velocity [m/s] or margin of mu_s w [N]."""
     if state.mode[i] != 0:
         return state.mode[i] * state.velocity[i]
-    return system.strength[i] - abs(state.spring_force[i] - state.spring_force[i + 1])
+    net = state.spring_force[i] - state.spring_force[i + 1]
+    return min(system.strength[i] - net, system.backward[i] + net)
 
 
 @inner
@@ -57,7 +58,8 @@ def evaluate(system, state, last, rate, event):
         if state.mode[i] != 0:
             event[1, i] = state.mode[i] * rate[1, i]
         else:
-            sign = 1.0 if state.spring_force[i] > state.spring_force[i + 1] else -1.0
+            net = state.spring_force[i] - state.spring_force[i + 1]
+            sign = 1.0 if system.strength[i] - net < system.backward[i] + net else -1.0
             event[1, i] = -sign * (rate[0, i] - rate[0, i + 1])
 
 

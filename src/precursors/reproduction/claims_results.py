@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from precursors.methods.fixed_step import COULOMB
 from precursors.reproduction.claim import (
     FOLLOWS,
     Finding,
@@ -63,6 +64,7 @@ def leading_reading(
 ) -> float:
     """A number for theta > 0 with another size of theta or meaning of "short"; all else is as we read it."""
     ours = {
+        "switching": COULOMB,
         "global_slip": "in which all blocks slide at the same instant",
         "front": "farthest block that slid",
     }

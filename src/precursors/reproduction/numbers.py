@@ -9,7 +9,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from scipy.stats import fisher_exact
 
+from precursors.methods.fixed_step import COULOMB
 from precursors.reproduction import numbers_of_studies
 from precursors.reproduction.claim import FOLLOWS, FRAGILE, NOT_REPRODUCED, REPRODUCED
 from precursors.reproduction.claims import TABLES as TABLES_OF_CLAIMS
@@ -29,10 +31,11 @@ from precursors.reproduction.tables import (
 TABLES = (
     *TABLES_OF_CLAIMS,
     "claims",
+    "random_steps",
     *numbers_of_studies.TABLES,
 )
 # Keys of the configuration that the text has numbers of.
-KEYS = ("chain", "load_cells", "scenes", "duration", "accuracy", "ensembles")
+KEYS = ("chain", "load_cells", "scenes", "duration", "reproduction", "accuracy", "ensembles")
 
 
 def numbers(t: Tables, config: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -147,8 +150,31 @@ def readings(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "best-readings": uniform["numbers_within_a_digit"].max(),
         "best-readings-printed": uniform["numbers_as_printed"].max(),
         "readings-that-do": len(rows(uniform, numbers_within_a_digit=6)),
+        "switching-that-do": rows(uniform, numbers_within_a_digit=6)["switching"].nunique(),
         "other-global-events": other["events_kept"],
         "other-global-mu": other["mu_sapp"],
+    }
+
+
+def random_steps(t: Tables, config: Mapping[str, Any]) -> Numbers:
+    """How often random steps of RK4 give the printed numbers."""
+    ours = rows(t["random_steps"], switching=COULOMB)
+    least, most = config["reproduction"]["random_steps"]["steps"]
+    found: Numbers = {"draws": ours["n"].iloc[0], "step-least": (least, "s"), "step-most": (most, "s")}
+    for name, degree, question in (
+        ("six-ours", "5/6", "all six"),
+        ("six-printed", "0.833", "all six"),
+        ("any-reading", "5/6", "any reading"),
+    ):
+        row = rows(ours, degree=degree, question=question).iloc[0]
+        found |= {name: row["share"], f"{name}-low": row["low"], f"{name}-high": row["high"]}
+    six = rows(ours, question="all six", degree=["5/6", "0.833"])
+    share = rows(ours, degree="5/6").set_index("question")["share"]
+    return found | {
+        "six-p": fisher_exact(np.column_stack([six["k"], six["n"] - six["k"]])).pvalue,
+        "sure-counts": min(share["events_trailing"], share["events_uniform"]),
+        "events-leading-share": share["events_leading"],
+        "mu-leading-share": share["mu_sapp_leading"],
     }
 
 
@@ -166,7 +192,7 @@ def claims(t: Tables, config: Mapping[str, Any]) -> Numbers:
     }
 
 
-PARTS = (model, printed, results, readings, *numbers_of_studies.PARTS, claims)
+PARTS = (model, printed, results, readings, random_steps, *numbers_of_studies.PARTS, claims)
 
 
 def _plain(name: str, number: Any) -> dict[str, Any]:

@@ -6,38 +6,19 @@ from functools import partial
 
 from precursors.accuracy.failures.common import Failure, Number, curves, transitions_right
 from precursors.analysis.slips import apparent_friction, find_slips
-from precursors.methods.events import MODE, Motion, march_restarting
-from precursors.methods.scipy_events import next_transition
-from precursors.model.chain import Chain, FloatArray
+from precursors.methods.fixed_step import FORWARD_ONLY, march
+from precursors.methods.rk4_located import run_located
+from precursors.model.chain import Chain
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
 THETAS = ("-5/6", "5/6")
-
-
-class ForwardMotion(Motion):
-    """A motion in which friction balances any force that points backward."""
-
-    def event_functions(self, state: FloatArray) -> FloatArray:
-        """As in `Motion`, but no block is released backward."""
-        result = super().event_functions(state)
-        result[1::2] = 1.0
-        return result
-
-    def settle(self, event: int) -> tuple[int, int, int, int]:
-        """Release a block, or stop it: it was braked, so that its force is below mu_k w, and it stays."""
-        block = event // 2
-        old = int(self.settings[MODE, block])
-        new = 1 - old
-        self.settings[:, block] = new, new * self.friction[block], new, 1 - new
-        self.state[self.chain.n_blocks + block] = new * self.nudge
-        return block, old, new, self.overdue()
+STEP = 1e-8  # [s]: mu_sapp is right to 1e-9
 
 
 def solve_forward_only(chain: Chain, duration: float, until: str | None = None) -> Run:
-    """Run a chain whose blocks slide forward only: transitions located with DOP853."""
-    motion = ForwardMotion(chain, duration, until)
-    return march_restarting(motion, partial(next_transition, motion)).run
+    """Run a chain whose blocks slide forward only: RK4, transitions located."""
+    return march(run_located, (), chain, duration, STEP, until, rule=FORWARD_ONLY).run
 
 
 def forward_only() -> Failure:
