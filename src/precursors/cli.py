@@ -172,9 +172,9 @@ def audit(arguments: argparse.Namespace) -> None:
     for path in arguments.files:
         try:
             run = Run.load(path)
-            problems = audit(run).problems
+            problems = tuple(audit(run).problems)
         except RunFileError as error:
-            problems = [str(error)]
+            problems = (str(error),)
         if problems:
             failed += 1
             print(f"{path}: not a motion of the model: {problems[0]}", file=sys.stderr)
