@@ -8,13 +8,17 @@ ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
 
-.PHONY: all test test-cluster results check report golden docs bench lock lint clean
+.PHONY: all test mutants test-cluster results check report golden docs bench lock lint clean
 
 all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
 
 test: results
 	$(BIN)/pytest -n $(CORES) --dist worksteal
+
+# 200 single faults in copies of the library: prints those that no test sees, in half an hour on two cores.
+mutants: results
+	$(BIN)/python tests/mutants.py --jobs $(CORES)
 
 # The ensembles as jobs of a real SLURM; Error 77: there is none here, and nothing was tested.
 test-cluster: $(READY)

@@ -40,7 +40,7 @@ RUN = """(() => {
 @pytest.fixture(scope="module")
 def file(tmp_path_factory):
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    scenes = [Scene(name, "a <title>", SLIDER | {"theta": theta}) for name, theta in THETAS.items()]
+    scenes = [Scene(name, "a <!--<script>", SLIDER | {"theta": theta}) for name, theta in THETAS.items()]
     write_explorer(scenes, 10.0, path)
     return path
 
@@ -97,7 +97,8 @@ def test_the_page_is_one_small_file_that_names_no_other(file):
     text = file.read_text(encoding="utf-8")
     assert len(text.encode()) < MOST_BYTES
     assert "src=" not in text.replace("script-src", "").split("<script>")[0]
-    assert "a &lt;title&gt;" in text
+    assert "a &lt;!--&lt;script&gt;" in text
+    assert "<!--" not in text.split("</style>")[-1].replace("&lt;!--", "")
 
 
 def test_the_page_asks_the_network_for_nothing(page, file):

@@ -1,6 +1,8 @@
 """A chain holds the paper's equations 7 to 10, and refuses what they cannot mean."""
 
+import copy
 import math
+import pickle
 import re
 from fractions import Fraction
 
@@ -62,6 +64,9 @@ def test_a_chain_cannot_be_changed():
         chain.weights[0] = 1.0
     with pytest.raises(AttributeError):
         chain.mu_s = 0.1
+    for twin in (pickle.loads(pickle.dumps(chain)), copy.deepcopy(chain)):
+        assert twin == chain
+        assert not twin.weights.flags.writeable
 
 
 @pytest.mark.parametrize(
@@ -104,6 +109,13 @@ def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):
         ([math.nan], "block 1"),
         ([0.0, 0.0], "all are 0 N"),
         (["a"], "must be numbers"),
+        (["1.0"], "must be numbers"),
+        (np.ma.masked_less([1.0, 2.0], 1.5), "weights must be numbers.*a masked array"),
+        (np.array([1.0 + 0j]), "weights must be numbers.*complex128"),
+        ([1.0 + 1j], "weights must be numbers.*complex128"),
+        ([True, False], "weights must be numbers.*bool"),
+        (np.array(["2010-01-01"], "M8[D]"), "weights must be numbers.*datetime64"),
+        (np.array([5], "m8[s]"), "weights must be numbers.*timedelta64"),
     ],
 )
 def test_bad_weights_are_refused(weights, words):

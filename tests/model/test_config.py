@@ -53,7 +53,11 @@ WRONG = [
         ["scenes.fig10.paper.events_kept", "a whole number >= 1", "'nine'"],
     ),
     ("scenes.steep", {"title": "steep"}, ["scenes.steep: ", "is neither"]),
-    ("scenes.steep", STEEP | {"title": ""}, ["scenes.steep.title", "1 to 120 characters"]),
+    ("scenes.steep", STEEP | {"title": ""}, ["scenes.steep.title", "1 to 120 printable characters"]),
+    ("scenes.steep", STEEP | {"title": "a\n"}, ["scenes.steep.title", "one line"]),
+    ("scenes.steep", STEEP | {"title": "a\n.. include:: /etc/passwd"}, ["scenes.steep.title", "one line"]),
+    ("scenes.steep", STEEP | {"title": "a\u202eb"}, ["scenes.steep.title", "printable"]),
+    ("scenes.steep", STEEP | {"title": " a"}, ["scenes.steep.title", "printable"]),
     ("scenes.steep", STEEP | {"theta": 1.1}, ["scenes.steep.theta", "from -1 to 1", "is 1.1"]),
     ("scenes.steep", STEEP | {"theta": "7/6"}, ["scenes.steep: ", "'7/6'", "-1"]),
     ("scenes.steep", STEEP | {"theta": "1/0"}, ["scenes.steep: ", "'1/0'"]),
@@ -98,7 +102,11 @@ WRONG = [
     ),
     ("ensembles.maps.pairs", [["theta", "theta"]], ["pairs[0]", "two different parameters"]),
     ("ensembles.resolution.runs", [40], ["resolution.runs", "one number for each of n_blocks"]),
-    ("ensembles.spread.loads", [], ["a list of different numbers between 0 and 1", "is []"]),
+    ("ensembles.spread.loads", [], ["a list of up to 1000 different numbers between 0 and 1", "is []"]),
+    ("ensembles.spread.members", 10**7, ["a whole number from 1 to 1000000", "is 10000000"]),
+    ("hierarchy.repetitions", 10**6, ["a whole number >= 5 and up to 1000"]),
+    ("hierarchy.resolution.n_blocks", list(range(1, 1002)), ["a list of 2 to 1000 different"]),
+    ("duration", 1e7, ["up to 1e+6", "is 10000000.0"]),
     ("ensembles.spread.seed", 20.5, ["a whole number >= 0", "is 20.5"]),
 ]
 
@@ -166,6 +174,10 @@ def test_every_value_of_the_file_is_checked(key, value):
     [
         ("a: 1\nb: {c: 2, c: 3}\n", "the key 'c' stands there twice in line 2, column 11"),
         ("a:\n\tb: 1\n", "found character '\\t' that cannot start any token in line 2, column 1"),
+        ("a: 1\t\n", "found character '\\t' that cannot start any token in line 1, column 5"),
+        ("a: 010\n", "010 is not plain: write a decimal number, or a text in quotes in line 1, column 4"),
+        ("a: [1, 1:30]\n", "1:30 is not plain"),
+        ("a: -1:30.5\n", "-1:30.5 is not plain"),
         ("a: [1\n", "line 2, column 1"),
         ("a: !!python/tuple [1]\n", "could not determine a constructor"),
         ("- 1\n", "must be a table of keys and values"),
@@ -179,3 +191,9 @@ def test_a_file_that_is_not_plain_yaml_is_refused_with_its_place(tmp_path, text,
     with pytest.raises(ValueError, match=r"\A[^\n]+mine.yaml[^\n]+\Z") as error:
         check_file(path)
     assert words in str(error.value)
+
+
+def test_plain_numbers_and_quoted_texts_are_accepted(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text('a: [0, -1, 0.5, 2.5e+9, 1_000, "010", "1:30"]\n', encoding="utf-8")
+    check_file(path)

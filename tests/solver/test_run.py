@@ -158,7 +158,14 @@ def test_a_foreign_file_and_another_version_are_refused(run, tmp_path):
         ("transitions/block", lambda block: block[:-1], "transitions/block has shape"),
         ("transitions/mode", lambda mode: mode * 0 + 3, "a mode is unknown"),
         ("intervals", lambda intervals: intervals[1:], "intervals do not fit"),
-        ("intervals", lambda intervals: intervals * np.nan, "an interval is not finite"),
+        ("intervals", lambda intervals: intervals * np.nan, "an interval is not between 0 and"),
+        ("intervals", lambda intervals: intervals * 1e300, "an interval is not between 0 and"),
+        ("intervals", lambda intervals: intervals[::-1], "intervals do not add up to its times"),
+        ("transitions/time", lambda time: time[::-1], "times are not in order"),
+        ("transitions/time", lambda time: time * np.nan, "times are not in order"),
+        ("transitions/time", lambda time: time * 2, "times are not in order"),
+        ("states/after", lambda after: after[::-1], "states are not in order"),
+        ("states/offset", lambda offset: offset + 1e300, "an offset is not between 0 and"),
         ("start_positions", lambda positions: positions[1:], "start_positions do not fit to 10 blocks"),
         ("weights", lambda weights: -weights, "block 1"),
         ("weights", lambda weights: weights[1:], "do not fit to 9 blocks"),
@@ -183,6 +190,25 @@ def test_a_file_whose_contents_do_not_fit_together_is_refused(run, tmp_path, nam
         Run.load(path)
     assert "run.h5" in str(error.value)
     assert "\n" not in str(error.value)
+
+
+def test_states_of_other_types_are_taken_as_numbers(run, tmp_path):
+    """Compiled code reads memory as doubles and 64-bit integers."""
+    run.save(tmp_path / "run.h5")
+    with h5py.File(tmp_path / "run.h5", "r+") as file:
+        for name, kind in (("after", "i4"), ("mode", "i1"), ("velocity", "f4")):
+            values = file[f"states/{name}"][()].astype(kind)
+            del file[f"states/{name}"]
+            file[f"states/{name}"] = values
+    times = np.linspace(0, 3, 7)
+    loads = Run.load(tmp_path / "run.h5").tangential_load(times)
+    np.testing.assert_allclose(loads, run.tangential_load(times), rtol=1e-6)
+
+
+@pytest.mark.parametrize("times", [[True], ["1"], [1j], np.ma.masked_array([1.0], [True])])
+def test_times_that_are_not_numbers_are_refused(run, times):
+    with pytest.raises(ValueError, match=r"times must be numbers \[s\]"):
+        run.at(times)
 
 
 def test_a_missing_file_and_an_unwritable_place_are_named(run, tmp_path):

@@ -76,3 +76,9 @@ def test_a_bad_argument_is_named_in_one_line(options, words):
     with pytest.raises(ValueError, match=r"^[^\n]+$") as error:
         simulate_many([SLIDER(), SLIDER()], **options)
     assert words in str(error.value)
+
+
+@pytest.mark.parametrize("call", [lambda: simulate(5), lambda: simulate_many([SLIDER(), "chain"])])
+def test_what_is_not_a_chain_is_refused_in_one_line(call):
+    with pytest.raises(TypeError, match=r"^what is simulated must be a Chain, but is [^\n]+$"):
+        call()

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from precursors.model.checks import LARGEST, SMALLEST, not_negative, number, positive, whole
+from precursors.model.checks import LARGEST, SMALLEST, not_negative, number, number_array, positive, whole
 
 FloatArray = NDArray[np.float64]
 
@@ -153,6 +153,10 @@ class Chain:
         """Growth K V of the tangential load while block 1 sticks [N/s]."""
         return self.drive_stiffness * self.drive_velocity
 
+    def __reduce__(self) -> tuple[type[Chain], tuple[Any, ...]]:
+        # A copy is checked and read-only, as the chain itself.
+        return type(self), tuple(getattr(self, field.name) for field in fields(self))
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Chain):
             return NotImplemented
@@ -242,10 +246,7 @@ def exact_theta_from_load_cells(load_a: float, load_b: float, spacing: float, le
 
 
 def _weights(values: ArrayLike) -> FloatArray:
-    try:
-        weights = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ValueError(f"weights must be numbers [N], but are {values!r}") from None
+    weights = number_array("weights", values, "N")
     if weights.ndim != 1 or weights.size == 0:
         raise ValueError(f"weights must be one number [N] a block, but have shape {weights.shape}")
     for i in np.flatnonzero(~((weights == 0) | ((weights >= SMALLEST) & (weights <= LARGEST))))[:1]:

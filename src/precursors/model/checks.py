@@ -7,6 +7,9 @@ from contextlib import suppress
 from numbers import Integral, Real
 from typing import Literal
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 # Where a run ends before its duration is over.
 Until = Literal["global slip"] | None
 
@@ -22,6 +25,16 @@ def number(name: str, value: object, unit: str) -> float:
                 return result
     hint = " (YAML reads 2.5e9 as text: write 2.5e+9)" if isinstance(value, str) else ""
     raise ValueError(f"{name} must be a finite number [{unit}], but is {value!r}{hint}")
+
+
+def number_array(name: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
+    """Return a new array of floats, or raise a ValueError that names the parameter and its type."""
+    array = np.asarray(values) if not np.ma.isMaskedArray(values) else None
+    with suppress(TypeError, ValueError):
+        if array is not None and array.dtype.kind in "iufO":
+            return np.array(array, dtype=np.float64)
+    kind = "a masked array" if array is None else f"of type {array.dtype}"
+    raise ValueError(f"{name} must be numbers [{unit}], but are {kind}: {' '.join(repr(values).split())}")
 
 
 def positive(name: str, value: object, unit: str) -> float:

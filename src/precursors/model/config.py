@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,7 +19,7 @@ LONGEST = 80  # characters of a value in a message
 
 
 def check_file(path: str | os.PathLike[str]) -> None:
-    """Refuse a YAML file that cannot be read or has a key twice, of which YAML would take the second.
+    """Refuse a YAML file that cannot be read, has a key twice, or a number that YAML reads as another.
 
     Raises
     ------
@@ -38,6 +39,19 @@ def check_file(path: str | os.PathLike[str]) -> None:
                         problem=f"the key {key.value!r} stands there twice", problem_mark=key.start_mark
                     )
             return super().construct_mapping(node, deep)
+
+        def plain_number(self, node: yaml.ScalarNode) -> Any:
+            """A number as people read it: YAML takes 010 for 8 and 1:30 for 90."""
+            if ":" in node.value or re.match(r"[-+]?0[0-9_]+$", node.value):
+                raise yaml.MarkedYAMLError(
+                    problem=f"{node.value} is not plain: write a decimal number, or a text in quotes",
+                    problem_mark=node.start_mark,
+                )
+            whole = node.tag.endswith("int")
+            return self.construct_yaml_int(node) if whole else self.construct_yaml_float(node)
+
+    for tag in ("int", "float"):
+        Loader.add_constructor(f"tag:yaml.org,2002:{tag}", Loader.plain_number)
 
     try:
         config = yaml.load(Path(path).read_text(encoding="utf-8"), Loader)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
+from precursors.model.checks import number_array
 from precursors.solver import fallback
 from precursors.solver.backend import KERNEL
 from precursors.solver.record import TRANSITION, States
@@ -122,7 +123,7 @@ class Run:
         return self._evaluate(self._times(times))
 
     def _times(self, times: ArrayLike) -> FloatArray:
-        when = np.atleast_1d(np.asarray(times, dtype=np.float64))
+        when = np.atleast_1d(number_array("times", times, "s"))
         outside = ~((when >= 0.0) & (when <= self.duration))
         if outside.any():
             raise ValueError(

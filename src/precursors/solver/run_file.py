@@ -36,6 +36,9 @@ UNITS = {
     "offset": "s",
     "weights": "N",
 }
+# Compiled code takes these types only.
+KINDS = {"force": float, "velocity": float, "mode": np.int64, "after": np.int64, "offset": float}
+INTERVALS_APART = 1e-9  # of the duration; roundings of 1e7 intervals add up to less
 
 
 class RunFileError(ValueError):
@@ -107,8 +110,11 @@ def _content(file: h5py.File) -> dict[str, Any]:
         "chain": Chain(weights=file["weights"][()], **scalars),
         "duration": float(file.attrs["duration"]),
         "transitions": transitions,
-        **{name: file[name][()] for name in ("intervals", "start_positions", "start_velocities")},
-        "states": States(*(file[f"states/{name}"][()] for name in States._fields)),
+        **{
+            name: file[name][()].astype(float)
+            for name in ("intervals", "start_positions", "start_velocities")
+        },
+        "states": States._make(file[f"states/{name}"][()].astype(KINDS[name]) for name in States._fields),
         "evaluations": float(file.attrs["evaluations"]),
         "slider": json.loads(file.attrs["slider"]),
     }
@@ -124,7 +130,17 @@ def _check(content: dict[str, Any]) -> None:
     block, mode, after = transitions["block"], transitions["mode"], states.after
     _require(((block >= 1) & (block <= n_blocks)).all(), f"a block is not one of 1 to {n_blocks}")
     _require(np.isin(mode, (-1, 0, 1)).all() and np.isin(states.mode, (-1, 0, 1)).all(), "a mode is unknown")
-    _require(np.isfinite(content["intervals"]).all(), "an interval is not finite")
+    # Every span is part of the run: the motion over a longer one would be summed for ever.
+    duration, ends = content["duration"], np.append(transitions["time"], content["duration"])
+    intervals, spread = content["intervals"], INTERVALS_APART * duration
+    _require(((ends >= 0) & (np.diff(ends, prepend=0.0) >= 0)).all(), "its times are not in order")
+    _require(
+        ((intervals >= 0) & (intervals <= duration)).all(), "an interval is not between 0 and the duration"
+    )
+    _require((abs(np.cumsum(intervals) - ends) <= spread).all(), "its intervals do not add up to its times")
+    offset = states.offset
+    _require(((offset >= 0) & (offset <= duration)).all(), "an offset is not between 0 and the duration")
+    _require((np.diff(after) >= 0).all(), "its states are not in order")
     _require(((after >= 0) & (after <= n)).all(), "a state comes after a transition that is not there")
     shape = (len(after), n_blocks)
     for name in ("force", "velocity", "mode"):

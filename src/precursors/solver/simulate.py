@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.checks import LARGEST, Until, checked_span, whole
+from precursors.model.checks import LARGEST, Until, checked_span, number_array, whole
 from precursors.solver import fallback
 from precursors.solver.backend import KERNEL
 from precursors.solver.record import TRANSITION, IntArray, States
@@ -81,13 +81,15 @@ def simulate(
 
     Raises
     ------
+    TypeError
+        If something else than a chain is given.
     ValueError
         If an argument is out of range.
     TransitionLimitError
         If the cap, or one on the work of chains that hardly ever rest, is met; its attribute `run` holds what
         was computed.
     """
-    end = _end(duration, until, max_transitions)
+    end = _end([chain], duration, until, max_transitions)
     positions = _start("start_positions", start_positions, "m", chain)
     velocities = _start("start_velocities", start_velocities, "m/s", chain)
     return _run_batch([chain], positions[None], velocities[None], end)[0]
@@ -124,12 +126,14 @@ def simulate_many(
 
     Raises
     ------
+    TypeError
+        If something else than a chain is given.
     ValueError
         If an argument is out of range.
     TransitionLimitError
         If a run meets the cap of `simulate`.
     """
-    end = _end(duration, until, MAX_TRANSITIONS)
+    end = _end(chains, duration, until, MAX_TRANSITIONS)
     threads = available_cores() if threads is None else whole("threads", threads, at_least=1)
     positions = _starts("start_positions", start_positions, "m", chains)
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)
@@ -152,7 +156,11 @@ def simulate_many(
     return [runs[j] for j in range(len(chains))]
 
 
-def _end(duration: float, until: Until, max_transitions: int) -> _End:
+def _end(chains: Sequence[Chain], duration: float, until: Until, max_transitions: int) -> _End:
+    """Check what is simulated and where it ends."""
+    for chain in chains:
+        if not isinstance(chain, Chain):
+            raise TypeError(f"what is simulated must be a Chain, but is {chain!r}")
     most = whole("max_transitions", max_transitions, at_least=1)
     return _End(checked_span(duration, until), until is not None, most)
 
@@ -160,10 +168,7 @@ def _end(duration: float, until: Until, max_transitions: int) -> _End:
 def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> FloatArray:
     if values is None:
         return np.zeros(chain.n_blocks)
-    try:
-        start = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} must be numbers [{unit}], but are {values!r}") from None
+    start = number_array(name, values, unit)
     if start.shape != (chain.n_blocks,):
         raise ValueError(
             f"{name} must have shape ({chain.n_blocks},), one [{unit}] a block, but have {start.shape}"
