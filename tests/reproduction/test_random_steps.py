@@ -8,7 +8,6 @@ from golden.regenerate import GOLDEN
 
 from precursors import Chain
 from precursors.methods.fixed_step import (
-    COULOMB,
     SWITCHING_RULES,
     march,
     resting_mode,
@@ -16,6 +15,7 @@ from precursors.methods.fixed_step import (
     system_of,
 )
 from precursors.methods.rk4_located import run_located
+from precursors.model.switching import COULOMB
 from precursors.reproduction.random_steps import SIX, draws_table, random_steps_table, six_of_readings
 
 SLIDER = yaml.safe_load((GOLDEN.parents[1] / "config.yaml").read_text(encoding="utf-8"))["chain"]

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from precursors.methods.common import DivergedError, Method, Result, Smooth
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span, positive
+from precursors.model.switching import COULOMB, FORWARD_ONLY, KINETIC
 from precursors.solver.kernel.compiled import entry
 from precursors.solver.run import Run
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
@@ -59,14 +60,12 @@ class System(NamedTuple):
     turning: FloatArray
 
 
-# Rule of switching: from mu_s w and mu_k w to `System.backward` and `System.turning`. The first is the rule
-# of Eqs. 4 and 5; the others are readings of what the paper does not say.
+# Rule of switching: from mu_s w and mu_k w to `System.backward` and `System.turning`. The first is ours.
 SWITCHING_RULES: dict[str, Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]] = {
-    "sticks if |F| <= mu_s w": lambda strength, _kinetic: (strength, strength),
-    "sticks if |F| <= mu_k w": lambda strength, kinetic: (strength, kinetic),
-    "slides forward only": lambda strength, _kinetic: (np.full_like(strength, np.inf),) * 2,
+    COULOMB: lambda strength, _kinetic: (strength, strength),
+    KINETIC: lambda strength, kinetic: (strength, kinetic),
+    FORWARD_ONLY: lambda strength, _kinetic: (np.full_like(strength, np.inf),) * 2,
 }
-COULOMB, KINETIC, FORWARD_ONLY = SWITCHING_RULES
 
 
 class State(NamedTuple):

@@ -12,10 +12,21 @@ from precursors.model.chain import FloatArray
 from precursors.reproduction.tables import Tables, one
 
 REPRODUCED, FRAGILE, NOT_REPRODUCED = "reproduced", "reproduced but fragile", "not reproduced"
+AS_DESCRIBED = "as described"
 FOLLOWS = "follows from the equations"
 MISPRINT, MATTERS, NO_MATTER = "misprint", "changes a number", "changes no number"
 NOT_COMPUTED = "not computed here"
-VERDICTS = (REPRODUCED, FRAGILE, NOT_REPRODUCED, FOLLOWS, MISPRINT, MATTERS, NO_MATTER, NOT_COMPUTED)
+VERDICTS = (
+    REPRODUCED,
+    FRAGILE,
+    NOT_REPRODUCED,
+    AS_DESCRIBED,
+    FOLLOWS,
+    MISPRINT,
+    MATTERS,
+    NO_MATTER,
+    NOT_COMPUTED,
+)
 
 
 @dataclass(frozen=True)
@@ -28,7 +39,7 @@ class Kind:
 
 
 KINDS = {
-    "input": Kind("the chain computed here is the one described"),
+    "input": Kind("the chain computed here is the one described", holds=AS_DESCRIBED),
     "result": Kind("what the model gives, and could have given otherwise"),
     FOLLOWS: Kind("true by algebra for any such chain; no run could contradict it", holds=FOLLOWS),
     "reading": Kind("how a number is printed, or what another reading gives"),

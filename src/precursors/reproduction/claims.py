@@ -25,6 +25,10 @@ TABLES = (
     "eq15",
     "failures",
     "robustness",
+    "spread",
+    "long_runs_statistics",
+    "model_comparison",
+    "map_theta_friction_ratio",
 )
 COLUMNS = ["id", "where", "kind", "statement", "unit", "paper", "ours", "rule", "verdict"]
 

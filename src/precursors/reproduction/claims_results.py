@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
+from scipy.stats import kendalltau
 
-from precursors.methods.fixed_step import COULOMB
+from precursors.model.switching import COULOMB
 from precursors.reproduction.claim import (
     FOLLOWS,
     Finding,
     above,
     at_least,
+    below,
     claim,
     decreasing,
     equal,
@@ -30,12 +32,15 @@ from precursors.reproduction.tables import (
     up_to_global,
 )
 
-COUNTS = [(scene, "events_kept") for scene in SCENES]
 FRICTION = [(scene, "mu_sapp") for scene in SCENES]
 # mu_sapp is printed with two digits, and said to "appear to have" this value.
 LAST_DIGIT = 0.01
 # A sequence whose steps vary by less than this (standard deviation over mean) would be called periodic.
 PERIODIC = 0.05
+# Probability by chance below which a trend counts as one.
+CHANCE = 0.05
+# Relative noise in the normal loads: a tenth of what an experiment knows of them, and well above rounding.
+NOISE = 1e-3
 EXACT = 1e-12
 
 
@@ -88,11 +93,15 @@ def variation_of_steps(values: pd.Series) -> float:
     return float(np.std(steps) / np.mean(steps))
 
 
-def rank_correlation(values: pd.Series) -> float:
-    """Kendall's tau of the values with their order: 1 where each is larger than all before it."""
-    x = values.to_numpy()
-    signs = np.sign(x[np.newaxis, :] - x[:, np.newaxis])
-    return float(np.triu(signs).sum()) / (len(x) * (len(x) - 1) / 2)
+def chance_of_rise(values: pd.Series) -> float:
+    """Probability that values in random order rise as much: one-sided test of Kendall's tau."""
+    return float(kendalltau(range(len(values)), values.astype(float), alternative="greater").pvalue)
+
+
+def noisy(t: Tables, quantity: str, column: str) -> list[float]:
+    """A statistic of the runs with noise in the normal loads, for the three scenes."""
+    ensemble = rows(t["spread"], question="loads", size=NOISE, quantity=quantity)
+    return [one(ensemble, column, scene=scene) for scene in SCENES]
 
 
 # Sect. 4: model and parameters
@@ -232,9 +241,9 @@ def simultaneous(t: Tables) -> Finding:
 
 @claim("Sect. 5.1, Fig. 10")
 def lengths_tend_to_increase(t: Tables) -> Finding:
-    """The length of the slips tends to increase up to the first global slip (rank correlation with their
-    order above 0)."""
-    return above([rank_correlation(up_to_global(t, scene)["front"]) for scene in SCENES], 0)
+    """The length of the slips tends to increase up to the first global slip (probability that the rank
+    correlation with their order is as large by chance)."""
+    return below([chance_of_rise(up_to_global(t, scene)["front"]) for scene in SCENES], CHANCE)
 
 
 @claim("Sects. 3.2.1 and 7 (1), Fig. 10")
@@ -270,10 +279,12 @@ def count_at_printed_theta(t: Tables) -> Finding:
     return equal(leading_reading(t, "events_kept", degree="0.833"), paper=14)
 
 
-@claim("Sects. 5.2 and 7 (2), Fig. 13", fragile=COUNTS)
+@claim("Sects. 5.2 and 7 (2), Fig. 13")
 def count_grows_with_theta(t: Tables) -> Finding:
-    """The smaller theta, the fewer precursors come in the first stick phase."""
-    return increasing(counted(t, *SCENES))
+    """The smaller theta, the fewer precursors come in the first stick phase. With noise of 0.1 % in the
+    normal loads this holds for any pair of runs (least counts, and the largest of the next smaller theta)."""
+    least, largest = noisy(t, "events_kept", "least"), noisy(t, "events_kept", "largest")
+    return above(least[1:], largest[:-1])
 
 
 @claim("Sects. 5.2 and 7 (2), Figs. 10-12", kind="reading")
@@ -325,10 +336,26 @@ def friction_at_printed_theta(t: Tables) -> Finding:
     return equal(leading_reading(t, "mu_sapp", degree="0.833"), paper=0.49, within=LAST_DIGIT)
 
 
-@claim("Sects. 5.2, 6.2 and 7 (4)", fragile=FRICTION)
-def friction_independent_of_loading(t: Tables) -> Finding:
-    """mu_sapp is the same for the three normal loadings (to a unit of the last digit printed)."""
+@claim("Sects. 5.2, 6.2 and 7 (4)", kind="reading", fragile=FRICTION)
+def friction_same_in_one_run_each(t: Tables) -> Finding:
+    """mu_sapp of one run each is the same for the three normal loadings (to a unit of the last digit
+    printed)."""
     return same(mu_sapp(t, *SCENES), within=LAST_DIGIT)
+
+
+@claim("Sects. 5.2, 6.2 and 7 (4)")
+def friction_independent_of_loading(t: Tables) -> Finding:
+    """mu_sapp is the same for the three normal loadings (medians of runs with noise of 0.1 % in the normal
+    loads, to a unit of the last digit printed)."""
+    return same(noisy(t, "mu_sapp", "q50"), within=LAST_DIGIT)
+
+
+@claim("Sects. 5.2, 6.2 and 7 (4)")
+def friction_independent_of_loading_later(t: Tables) -> Finding:
+    """The peaks of F_X/F_Z are the same for the three normal loadings (means over 300 s, to a unit of the
+    last digit printed)."""
+    means = [one(t["long_runs_statistics"], "mean", scene=scene) for scene in SCENES]
+    return same(means, within=LAST_DIGIT)
 
 
 @claim("Sect. 7 (4)", kind="reading", unit="N", fragile=FRICTION)

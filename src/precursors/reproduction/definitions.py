@@ -17,9 +17,10 @@ from precursors.analysis.slips import (
     every_definition,
     find_slips,
 )
-from precursors.methods.fixed_step import COULOMB, SWITCHING_RULES, march
+from precursors.methods.fixed_step import SWITCHING_RULES, march
 from precursors.methods.rk4_located import run_located
 from precursors.model.chain import Chain, parse_theta
+from precursors.model.switching import COULOMB
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import fisher_exact
 
-from precursors.methods.fixed_step import COULOMB
+from precursors.model.switching import COULOMB
 from precursors.reproduction import numbers_of_studies
 from precursors.reproduction.claim import FOLLOWS, FRAGILE, NOT_REPRODUCED, REPRODUCED
 from precursors.reproduction.claims import TABLES as TABLES_OF_CLAIMS

@@ -6,9 +6,10 @@ from functools import partial
 
 from precursors.accuracy.failures.common import Failure, Number, curves, transitions_right
 from precursors.analysis.slips import apparent_friction, find_slips
-from precursors.methods.fixed_step import FORWARD_ONLY, march
+from precursors.methods.fixed_step import march
 from precursors.methods.rk4_located import run_located
 from precursors.model.chain import Chain
+from precursors.model.switching import FORWARD_ONLY
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
