@@ -35,29 +35,60 @@ def test_the_estimate_comes_nearer_to_kinetic_friction_with_every_block():
     np.testing.assert_allclose(estimate, [0.95, 0.5, 0.4525, 0.45], rtol=1e-8)
 
 
-def test_an_exact_law_is_carried_on_exactly():
+def runs_of(laws: dict[str, np.ndarray], n_blocks: np.ndarray) -> pd.DataFrame:
+    """Three runs for each N, one below the law, one on it, one above, and one without a global slip."""
+    runs = {
+        "scene": "s",
+        "n_blocks": n_blocks,
+        "crossing_time_s": 1e-4,
+        "time_s": 2.0,
+        **laws,
+        "reached": True,
+    }
+    on_law = pd.DataFrame(runs)
+    names = list(laws)
+    others = [on_law.assign(**{name: factor * on_law[name] for name in names}) for factor in (0.9, 1.1)]
+    never = on_law.assign(**dict.fromkeys(names, 9e9), reached=False)
+    return pd.concat([on_law, *others, never], ignore_index=True)
+
+
+def test_an_exact_law_is_carried_on_exactly_and_has_an_interval():
     n_blocks = np.array([5, 20, 40, 80, 160])
-    laws = {"mu_sapp": 0.45 + 0.5 / n_blocks, "events_kept": 2.0 * n_blocks**0.75}
-    laws["mu_sapp"][0] = 9.9  # below the smallest N that takes part
-    table = pd.concat(
-        pd.DataFrame({"scene": "s", "quantity": name, "n_blocks": n_blocks, "q50": values})
-        for name, values in laws.items()
-    )
-    found = resolution.extrapolation_table(table, from_n_blocks=20).set_index("quantity")
-    assert found.loc["mu_sapp", ["a", "b"]].tolist() == pytest.approx([0.45, 0.5], rel=1e-12)
-    assert found.loc["events_kept", ["c", "p"]].tolist() == pytest.approx([2.0, 0.75], rel=1e-12)
-    assert found.loc["mu_sapp", "a_error"] < 1e-12
-    assert set(found["n_points"]) == {4}
+    mu_sapp = 0.45 + 0.5 / n_blocks
+    mu_sapp[0] = 9.9  # below the smallest N that takes part
+    runs = runs_of({"mu_sapp": mu_sapp}, n_blocks)
+    found = resolution.extrapolation_table(runs, 0.1, from_n_blocks=20).set_index("quantity").loc["mu_sapp"]
+    assert found[["a", "b"]].tolist() == pytest.approx([0.45, 0.5], rel=1e-12)
+    assert found["a_low"] < 0.45 < found["a_high"]
+    assert found["n_points"] == 4
 
 
-def test_the_errors_of_a_line_are_those_of_the_textbook():
-    x, y = np.array([0.0, 1.0, 2.0, 3.0]), np.array([0.0, 1.0, 1.0, 3.0])
-    slope, intercept = 0.9, -0.1
-    variance = (0.1**2 + 0.2**2 + 0.7**2 + 0.4**2) / 2
-    coefficients, errors = resolution.straight_line(x, y)
-    assert coefficients.tolist() == pytest.approx([slope, intercept])
-    expected = [np.sqrt(variance / 5), np.sqrt(variance * (1 / 4 + 1.5**2 / 5))]
-    assert errors.tolist() == pytest.approx(expected)
+def test_an_exponent_is_that_of_each_octave_and_runs_without_a_global_slip_do_not_count():
+    n_blocks = np.array([5, 10, 15, 20])
+    counts = np.array([10.0, 20.0, 20.0, 20.0])
+    runs = runs_of({"n_events": counts, "events_kept": counts}, n_blocks)
+    table = resolution.exponents_table(runs).query("quantity == 'n_events'").set_index("n_blocks")
+    assert table["exponent"].to_dict() == pytest.approx({5: 1.0, 10: 0.0})
+    assert (table["low"] < table["exponent"]).all()
+    assert (table["exponent"] < table["high"]).all()
+
+
+def test_both_readings_of_global_slip_are_told_apart_and_every_run_is_counted():
+    runs = {"n_blocks": 4, "sliding_each": [4, 2, 2, 0], "reached": [True, True, False, False]}
+    runs |= {"n_events": [5, 5, 9, 9], "n_events_each": [5, 3, 3, 9]}
+    runs |= {"mu_sapp": [0.5, 0.5, np.nan, np.nan], "mu_sapp_each": [0.5, 0.4, 0.4, np.nan]}
+    row = resolution.readings_table(pd.DataFrame(runs).assign(scene="s", theta=0.0)).iloc[0]
+    assert (row["runs"], row["without_global_slip"], row["earlier"]) == (4, 2, 0.5)
+    assert (row["events_at_once"], row["events_each"], row["pulse_share"]) == (5, 3, 0.5)
+    # Two of four: Clopper and Pearson's tables.
+    assert [row["earlier_low"], row["earlier_high"]] == pytest.approx([0.0676, 0.9324], abs=1e-4)
+
+
+def test_the_papers_run_is_predictable_and_thirty_blocks_with_a_heavy_trailing_edge_are_not():
+    """At N = 30 and theta = 5/6 the horizon of the run is shorter than its first global slip."""
+    slider = {"s": {**CONFIG["chain"], "theta": 5 / 6}}
+    table = resolution.predictability_table(slider, [10, 30], 10.0, 1e-9)
+    assert table["predictable"].tolist() == [True, False]
 
 
 def test_the_front_of_the_papers_global_slip_is_slower_than_long_waves():

@@ -180,9 +180,19 @@ def resolution() -> dict:
     table = pd.DataFrame(rows)
     table = table.assign(q05=0.9 * table["q50"], q95=1.1 * table["q50"], without_noise=table["q50"])
     has_estimate = table["quantity"].isin(["mu_sapp", "front_speed_m_per_s"])
-    limits = pd.DataFrame({"scene": ["s"], "quantity": ["mu_sapp"], "a": [0.45], "a_error": [0.01]})
+    limits = pd.DataFrame(
+        {"scene": ["s"], "quantity": ["mu_sapp"], "a": [0.45], "a_low": 0.44, "a_high": 0.46}
+    )
+    foreseen = pd.DataFrame(
+        {"scene": "s", "n_blocks": [2, 20], "horizon_s": 2.5, "predictable": [True, False]}
+    )
     estimate = (1.2 * table["q50"]).where(has_estimate)
-    return {"table": table.assign(estimate=estimate), "limits": limits, "papers_n": 12}
+    return {
+        "table": table.assign(estimate=estimate),
+        "limits": limits,
+        "predictability": foreseen,
+        "papers_n": 12,
+    }
 
 
 def event_law() -> dict:

@@ -241,6 +241,8 @@ def test_lines_of_the_resolution_are_medians_estimates_and_the_papers_n():
     for axes, value in zip(figure.axes, values, strict=True):
         assert axes.lines[0].get_ydata() == pytest.approx([value] * 3)
         assert [12, 12] in [list(line.get_xdata()) for line in axes.lines]
+        dots = next(line for line in axes.lines if line.get_marker() == ".")
+        assert dots.get_xdata().tolist() == [2]  # the others are not predictable
     for axes, label in (
         (figure.axes[1], r"$\mu_k + 2(\mu_s-\mu_k)/N$"),
         (figure.axes[3], r"$c=\sqrt{ESL/M}$"),

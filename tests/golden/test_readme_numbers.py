@@ -47,4 +47,5 @@ def test_the_scene_at_theta_plus_is_fragile():
 def test_the_apparent_friction_falls_to_mu_k_with_the_number_of_blocks():
     table = pd.read_csv(TABLES / "resolution_limits.csv")
     friction = table[table["quantity"] == "mu_sapp"]
-    assert ((friction["a"] - 0.45).abs() < 2 * friction["a_error"]).all()
+    # To half a unit of the last digit of mu_k = 0.45.
+    assert ((friction["a"] - 0.45).abs() < 0.005).all()

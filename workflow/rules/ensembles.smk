@@ -1,5 +1,6 @@
 from precursors.ensembles.catalogue import MAPS, STUDIES, study_arguments
 from precursors.ensembles.maps import places_of
+from precursors.ensembles.resolution import PREDICTED_UP_TO
 from precursors.ensembles.spread import QUESTIONS
 
 NUMBER_OF_CHUNKS = config["ensembles"]["chunks"]
@@ -17,7 +18,7 @@ rule ensembles:
         collect("results/figures/spread_{question}.svg", question=QUESTIONS),
         [f"results/figures/map_{x}_{y}.svg" for x, y in config["ensembles"]["maps"]["pairs"]],
         collect("results/figures/{figure}.svg", figure=["resolution", "event_law", "long_runs"]),
-        collect("results/tables/{table}.csv", table=["spread", "robustness", "resolution_limits"]),
+        collect("results/tables/{table}.csv", table=["spread", "robustness", "resolution_limits", "endless"]),
     localrule: True
 
 
@@ -67,7 +68,9 @@ rule tabulate_resolution:
         code=package("model/chain", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/resolution.csv", category="Tables"),
+        readings=report("results/tables/resolution_readings.csv", category="Tables"),
         limits=report("results/tables/resolution_limits.csv", category="Tables"),
+        exponents=report("results/tables/resolution_exponents.csv", category="Tables"),
     log:
         "results/logs/tabulate_resolution.log",
     localrule: True
@@ -76,6 +79,41 @@ rule tabulate_resolution:
         fit_from=config["ensembles"]["resolution"]["fit_from"],
     script:
         "../scripts/tabulate_resolution.py"
+
+
+rule tabulate_predictability:
+    input:
+        code=package("model/chain", "solver", "analysis", "ensembles"),
+    output:
+        table=report("results/tables/predictability{full}.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_predictability{full}.log",
+    params:
+        sliders=SLIDERS,
+        n_blocks=lambda wildcards: [
+            n
+            for n in config["ensembles"]["resolution"]["n_blocks"]
+            if n <= PREDICTED_UP_TO or wildcards.full
+        ],
+        duration=config["duration"],
+        tolerance=config["accuracy"]["tolerance"],
+    script:
+        "../scripts/tabulate_predictability.py"
+
+
+rule tabulate_endless:
+    input:
+        members="results/tables/endless{full}_members.csv",
+        code=package("model/chain", "solver", "analysis", "ensembles"),
+    output:
+        table=report("results/tables/endless{full}.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_endless{full}.log",
+    localrule: True
+    params:
+        length=config["chain"]["length"],
+    script:
+        "../scripts/tabulate_endless.py"
 
 
 rule tabulate_event_law:

@@ -92,6 +92,7 @@ FIGURES = {
         "tables": {
             "table": "results/tables/resolution.csv",
             "limits": "results/tables/resolution_limits.csv",
+            "predictability": "results/tables/predictability.csv",
         },
         "options": {"papers_n": config["chain"]["n_blocks"]},
     },

@@ -6,17 +6,20 @@ from typing import Any
 
 from job import job
 
-from precursors.ensembles.resolution import extrapolation_table, resolution_table, with_estimates
+from precursors.ensembles import resolution
 from precursors.support.files import read_table, write_table
 
 
 def main(
-    members: str | Path, slider: Mapping[str, Any], fit_from: int, table: str | Path, limits: str | Path
+    members: str | Path, slider: Mapping[str, Any], fit_from: int, outputs: Mapping[str, str | Path]
 ) -> None:
-    """Write a row per scene, N and number, and the law of each number for chains of `fit_from` blocks on."""
-    resolution = with_estimates(resolution_table(read_table(members), slider["length"]), slider)
-    write_table(resolution, table)
-    write_table(extrapolation_table(resolution, fit_from), limits)
+    """Write a row per scene, N and number, both readings of global slip, limits and local exponents."""
+    runs = read_table(members)
+    table = resolution.resolution_table(runs, slider["length"])
+    write_table(resolution.with_estimates(table, slider), outputs["table"])
+    write_table(resolution.readings_table(runs), outputs["readings"])
+    write_table(resolution.extrapolation_table(runs, slider["length"], fit_from), outputs["limits"])
+    write_table(resolution.exponents_table(runs), outputs["exponents"])
 
 
 if __name__ == "__main__":
@@ -25,6 +28,5 @@ if __name__ == "__main__":
             snakemake.input.members,
             snakemake.params.slider,
             snakemake.params.fit_from,
-            snakemake.output.table,
-            snakemake.output.limits,
+            dict(snakemake.output.items()),
         )

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
-from scipy.stats import binom
+from scipy.stats import beta, binom
 
 QUANTILES = {"q05": 0.05, "q25": 0.25, "q50": 0.5, "q75": 0.75, "q95": 0.95}
 
@@ -38,3 +38,11 @@ def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, floa
     if not left_out:
         return math.nan, math.nan
     return float(values[left_out - 1]), float(values[-left_out])
+
+
+def share_interval(hits: int, of: int, share: float = 0.95) -> tuple[float, float]:
+    """Interval of a probability of which so many hits were seen (Clopper and Pearson): never too short."""
+    tail = (1.0 - share) / 2.0
+    low = beta.ppf(tail, hits, of - hits + 1) if hits else 0.0
+    high = beta.ppf(1.0 - tail, hits + 1, of - hits) if hits < of else 1.0
+    return float(low), float(high)

@@ -29,6 +29,7 @@ SUMMARY = np.dtype(
         ("sliding_each", "i8"),
         ("pulse_blocks", "f8"),
         ("pulse_speed", "f8"),
+        ("pulse_mu", "f8"),
     ]
 )
 SUMMARY_UNITS = {"load": "N", "time": "s", "end": "s", "crossing_time": "s", "pulse_speed": "m_per_s"}
@@ -52,7 +53,8 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
         first global slip in which one block slid alone. n_events_each and mu_sapp_each are n_events and
         mu_sapp if every block must slide at some time of a global slip, not all at once; sliding_each is the
         most blocks that slid at once in this event (0 without one). A run that ends in an event, without a
-        global slip, has pulse_blocks, the mean number of blocks that slide, and pulse_speed (see `pulse`).
+        global slip, has pulse_blocks, the mean number of blocks that slide, pulse_mu and pulse_speed (see
+        `pulse`).
 
     Notes
     -----
@@ -111,12 +113,13 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     last = np.cumsum(summaries["n_all_events"]) - 1
     for i in np.flatnonzero(~summaries["reached"] & (summaries["n_all_events"] > 0)):
         if np.isnan(events["end"][last[i]]):
-            summaries["pulse_blocks"][i], summaries["pulse_speed"][i] = pulse(runs[i])
+            for name, value in zip(("pulse_blocks", "pulse_speed", "pulse_mu"), pulse(runs[i]), strict=True):
+                summaries[name][i] = value
     return summaries
 
 
-def pulse(run: Run) -> tuple[float, float]:
-    """Mean number of blocks that slide at the end of a run, and their speed along the chain [m/s].
+def pulse(run: Run) -> tuple[float, float, float]:
+    """Mean number of blocks that slide at the end of a run, their speed along the chain [m/s], and F_X/F_Z.
 
     Each release carries the pulse on by the distance L/N of two blocks, so that its speed is L/N times the
     releases per second. If there are several pulses it is the sum of their speeds.
@@ -132,9 +135,11 @@ def pulse(run: Run) -> tuple[float, float]:
     change = (modes != 0).astype(int) - before
     sliding, time = np.cumsum(change)[start:], run.intervals[start + 1 :]
     if not time.sum() > 0:
-        return np.nan, np.nan
+        return np.nan, np.nan, np.nan
     releases = np.count_nonzero(change[start:] > 0)
-    return float(np.average(sliding, weights=time)), float(releases * chain.length / n / time.sum())
+    speed = releases * chain.length / n / time.sum()
+    mu = run.transitions["tangential_load"][start:].mean() / chain.normal_load
+    return float(np.average(sliding, weights=time)), float(speed), float(mu)
 
 
 def _load_and_crossing(run: Run, slip: np.void) -> tuple[float, float]:

@@ -7,6 +7,7 @@ from functools import partial
 from itertools import permutations
 from typing import Any
 
+from precursors.ensembles.endless import endless_study
 from precursors.ensembles.event_law import event_law_study
 from precursors.ensembles.maps import PARAMETERS, map_study
 from precursors.ensembles.resolution import resolution_study
@@ -20,6 +21,8 @@ STUDIES: dict[str, Callable[..., Study]] = {
     "resolution_members": resolution_study,
     "event_law_members": event_law_study,
     "event_law_full_members": event_law_study,
+    "endless_members": endless_study,
+    "endless_full_members": endless_study,
     **{name: partial(map_study, x=x, y=y) for name, (x, y) in MAPS.items()},
 }
 
@@ -29,7 +32,7 @@ def study_arguments(config: Config, name: str) -> dict[str, Any]:
     settings = config["ensembles"]
     if name in MAPS:
         return {"slider": config["chain"], "points": settings["maps"]["points"]}
-    if name.startswith("event_law"):
+    if name.startswith(("event_law", "endless")):
         return {"slider": config["chain"], "settings": settings[name.removesuffix("_members")]}
     return {
         "sliders": {scene: scene_slider(config, scene) for scene in config["fig13"]},

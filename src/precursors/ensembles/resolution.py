@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
-from precursors.analysis.run_statistics import statistics
+from precursors.analysis.horizon import horizon
+from precursors.analysis.run_statistics import share_interval, statistics
 from precursors.ensembles.study import Study, stack
-from precursors.model.chain import FloatArray
+from precursors.model.chain import Chain, FloatArray
+from precursors.solver.simulate import simulate
 
 QUANTITIES = ("events_kept", "mu_sapp", "time_s", "front_speed_m_per_s")
-# The law with which each number is carried on to infinite N.
-LAWS = {
-    "events_kept": "c N^p",
-    "mu_sapp": "a + b/N",
-    "time_s": "a + b/N",
-    "front_speed_m_per_s": "a + b/N",
-}
+# Numbers that are carried on to infinite N as a + b/N.
+CARRIED_ON = ("mu_sapp", "time_s", "front_speed_m_per_s")
+# Numbers whose growth with N is told octave by octave.
+COUNTS = ("events_kept", "n_events")
+# Samples of a bootstrap, and the ends of its 95 % interval.
+SAMPLES, ENDS = 1000, (0.025, 0.975)
+# Largest N for which the predictability time is part of every run of the workflow: its work grows as N^2.
+PREDICTED_UP_TO = 30
 
 
 def resolution_study(
@@ -84,8 +87,8 @@ def resolution_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        One row per scene, theta, n_blocks and quantity: the value without noise, and what `statistics` has of
-        all runs.
+        One row per scene, theta, n_blocks and quantity: the value without noise; what `statistics` has of the
+        runs with a global slip; how many runs there are, n_runs.
     """
     members = members.assign(front_speed_m_per_s=front_speed(members, length))
     rows = []
@@ -93,7 +96,58 @@ def resolution_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
         for quantity in QUANTITIES:
             point = {"scene": scene, "theta": theta, "n_blocks": n_blocks, "quantity": quantity}
             without_noise = runs.loc[runs["load_noise"] == 0.0, quantity].item()
-            rows.append(point | {"without_noise": without_noise} | statistics(runs[quantity]))
+            reached = runs.loc[runs["reached"], quantity]
+            rows.append(point | {"without_noise": without_noise, "n_runs": len(runs)} | statistics(reached))
+    return pd.DataFrame(rows)
+
+
+def readings_table(members: pd.DataFrame) -> pd.DataFrame:
+    """The two readings of global slip: all blocks at the same instant, or each at some time.
+
+    Returns
+    -------
+    DataFrame
+        One row per scene, theta and n_blocks: runs; without_global_slip, how many never have all blocks slide
+        at once; earlier, the share (with its interval) of runs in which every block slid in an event before
+        all slid at once; medians of events and mu_sapp by each reading, and of pulse_share, the share of the
+        blocks that slide at once in the first event in which every block slides.
+    """
+    rows = []
+    for (scene, theta, n_blocks), runs in members.groupby(["scene", "theta", "n_blocks"], sort=False):
+        each = runs["sliding_each"] > 0
+        earlier = each & (runs["sliding_each"] < n_blocks)
+        low, high = share_interval(int(earlier.sum()), len(runs))
+        medians = {
+            "events_at_once": runs.loc[runs["reached"], "n_events"].median(),
+            "events_each": runs.loc[each, "n_events_each"].median(),
+            "mu_sapp_at_once": runs["mu_sapp"].median(),
+            "mu_sapp_each": runs["mu_sapp_each"].median(),
+            "pulse_share": (runs.loc[each, "sliding_each"] / n_blocks).median(),
+        }
+        counted = {"runs": len(runs), "without_global_slip": int((~runs["reached"]).sum())}
+        shares = {"earlier": earlier.mean(), "earlier_low": low, "earlier_high": high}
+        rows.append({"scene": scene, "theta": theta, "n_blocks": n_blocks} | counted | shares | medians)
+    return pd.DataFrame(rows)
+
+
+def predictability_table(
+    sliders: Mapping[str, Mapping[str, Any]], n_blocks: Iterable[int], duration: float, tolerance: float
+) -> pd.DataFrame:
+    """Predictability time of the chain without noise, up to its first global slip, against N.
+
+    Returns
+    -------
+    DataFrame
+        One row per scene and N: horizon_s and global_slip_s [s], the end of the slip; predictable, whether
+        the horizon is not before it, so that the numbers of this run do not depend on rounding.
+    """
+    rows = []
+    for scene, slider in sliders.items():
+        for n in n_blocks:
+            run = simulate(Chain.from_slider(**{**slider, "n_blocks": n}), duration, until="global slip")
+            found = {"horizon_s": horizon(run, tolerance), "global_slip_s": run.duration}
+            predictable = found["horizon_s"] >= run.duration
+            rows.append({"scene": scene, "n_blocks": n, **found, "predictable": predictable})
     return pd.DataFrame(rows)
 
 
@@ -110,42 +164,67 @@ def with_estimates(table: pd.DataFrame, slider: Mapping[str, Any]) -> pd.DataFra
     return table.assign(estimate=np.where(is_friction, friction, np.where(is_speed, wave_speed, np.nan)))
 
 
-def extrapolation_table(resolution: pd.DataFrame, from_n_blocks: int) -> pd.DataFrame:
-    """Carry each number on to an infinite number of blocks, by least squares over the medians.
+def extrapolation_table(members: pd.DataFrame, length: float, from_n_blocks: int) -> pd.DataFrame:
+    """Carry numbers on to an infinite number of blocks as a + b/N, by least squares over the medians.
 
     Parameters
     ----------
-    resolution : DataFrame
-        See `resolution_table`.
+    members : DataFrame
+        The gathered study.
+    length : float
+        Length L of the contact [m].
     from_n_blocks : int
         Smallest number of blocks that takes part.
 
     Returns
     -------
     DataFrame
-        One row per scene and quantity: the law; a (the limit) and b, or c and p, with their standard errors;
-        n_points, how many N took part. NaN where there are fewer than three.
+        One row per scene and quantity: a (the limit) and b, with the ends of their bootstrap intervals;
+        n_points, how many N took part.
     """
+    members = members.assign(front_speed_m_per_s=front_speed(members, length))
+    members = members[(members["n_blocks"] >= from_n_blocks) & members["reached"]]
     rows = []
-    for (scene, quantity), table in resolution.groupby(["scene", "quantity"], sort=False):
-        law = LAWS[str(quantity)]
-        used = table[(table["n_blocks"] >= from_n_blocks) & table["q50"].notna()]
-        n_blocks, value = used["n_blocks"].to_numpy(float), used["q50"].to_numpy(float)
-        if law == "c N^p":
-            (power, factor), errors = straight_line(np.log(n_blocks), np.log(value))
-            c = np.exp(factor)
-            names = {"p": power, "p_error": errors[0], "c": c, "c_error": c * errors[1]}
-        else:
-            (slope, limit), errors = straight_line(1.0 / n_blocks, value)
-            names = {"a": limit, "a_error": errors[1], "b": slope, "b_error": errors[0]}
-        rows.append({"scene": scene, "quantity": quantity, "law": law, **names, "n_points": len(used)})
+    for scene, of_scene in members.groupby("scene", sort=False):
+        for quantity in CARRIED_ON:
+            n_blocks, medians, samples = bootstrap_medians(of_scene, quantity)
+            (b, a), (b_all, a_all) = (np.polyfit(1.0 / n_blocks, y, 1) for y in (medians, samples))
+            (a_low, a_high), (b_low, b_high) = np.quantile(a_all, ENDS), np.quantile(b_all, ENDS)
+            found = {"a": a, "a_low": a_low, "a_high": a_high, "b": b, "b_low": b_low, "b_high": b_high}
+            rows.append({"scene": scene, "quantity": quantity, **found, "n_points": len(n_blocks)})
     return pd.DataFrame(rows)
 
 
-def straight_line(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Slope and intercept of the line of least squares, and their standard errors; NaN below three points."""
-    if len(x) < 3:
-        return np.full(2, np.nan), np.full(2, np.nan)
-    coefficients, covariance = np.polyfit(x, y, 1, cov="unscaled")
-    spread = np.sum((y - np.polyval(coefficients, x)) ** 2) / (len(x) - 2)
-    return coefficients, np.sqrt(np.diag(covariance) * spread)
+def exponents_table(members: pd.DataFrame) -> pd.DataFrame:
+    """Local exponents of the counts: log2 of the ratio of the medians at 2 N and at N.
+
+    Returns
+    -------
+    DataFrame
+        One row per scene, count and octave, from n_blocks to twice as many: exponent, with the ends of its
+        bootstrap interval.
+    """
+    rows = []
+    for scene, of_scene in members[members["reached"]].groupby("scene", sort=False):
+        for quantity in COUNTS:
+            n_blocks, medians, samples = bootstrap_medians(of_scene, quantity)
+            for i, n in enumerate(n_blocks):
+                for j in np.flatnonzero(n_blocks == 2 * n):
+                    low, high = np.quantile(np.log2(samples[j] / samples[i]), ENDS)
+                    exponent = np.log2(medians[j] / medians[i])
+                    octave = {"scene": scene, "quantity": quantity, "n_blocks": int(n)}
+                    rows.append(octave | {"exponent": exponent, "low": low, "high": high})
+    return pd.DataFrame(rows)
+
+
+def bootstrap_medians(members: pd.DataFrame, quantity: str) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Numbers of blocks, the median of each, and medians of `SAMPLES` resamplings, shape (len, SAMPLES)."""
+    random = np.random.default_rng(0)
+    groups = [(n, values.dropna().to_numpy(float)) for n, values in members.groupby("n_blocks")[quantity]]
+    groups = [(n, values) for n, values in groups if len(values)]
+    medians = [np.median(values) for _, values in groups]
+    samples = [
+        np.median(values[random.integers(len(values), size=(SAMPLES, len(values)))], axis=1)
+        for _, values in groups
+    ]
+    return np.array([n for n, _ in groups], float), np.array(medians), np.array(samples)

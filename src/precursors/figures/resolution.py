@@ -23,12 +23,13 @@ SCALES = {"front_speed_m_per_s": 1e-3}
 ESTIMATES = {"mu_sapp": r"$\mu_k + 2(\mu_s-\mu_k)/N$", "front_speed_m_per_s": r"$c=\sqrt{ESL/M}$"}
 BEYOND = 1.35  # where marks stand beyond the last N, in units of it
 WITHOUT_NOISE: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 3}
+HORIZON: dict[str, Any] = {"linestyle": ":", "linewidth": 1.2}
 LIMIT: dict[str, Any] = {"linestyle": "none", "marker": "D", "markersize": 3}
 EXPERIMENT: dict[str, Any] = {"linestyle": "none", "marker": "<", "markersize": 5}
 BAND = Patch(color=style.GREY, alpha=0.3, linewidth=0, label="5 to 95 %")
 
 
-def draw(table: pd.DataFrame, limits: pd.DataFrame, papers_n: int) -> Figure:
+def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame, papers_n: int) -> Figure:
     """Draw four numbers against N.
 
     Parameters
@@ -36,7 +37,9 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, papers_n: int) -> Figure:
     table : DataFrame
         resolution.csv: medians are lines, 5 to 95 % of the runs are bands, and estimates are dashed.
     limits : DataFrame
-        resolution_limits.csv: limits for large N are diamonds beyond the last N.
+        resolution_limits.csv: limits for large N are diamonds beyond the last N, with their intervals.
+    predictability : DataFrame
+        predictability.csv: a run without noise is a dot where it is predictable up to its global slip.
     papers_n : int
         Number of blocks that a dotted line marks.
     """
@@ -47,7 +50,8 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, papers_n: int) -> Figure:
             rows = table[table["quantity"] == quantity]
             for scene, of_scene in rows.groupby("scene", sort=False):
                 limit = limits[(limits["scene"] == scene) & (limits["quantity"] == quantity)]
-                _draw_scene(panel, of_scene, limit.assign(n_blocks=beyond), quantity)
+                foreseen = predictability[predictability["scene"] == scene]
+                _draw_scene(panel, of_scene, limit.assign(n_blocks=beyond), foreseen, quantity)
             finish(panel, quantity, papers_n)
             _draw_estimate(panel, rows, quantity)
         for sign, count in printed.EVENTS_KEPT.items():
@@ -63,23 +67,29 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, papers_n: int) -> Figure:
             style.mark("median of the runs"),
             BAND,
             style.mark("without noise", **WITHOUT_NOISE),
+            style.mark("predictability time", **HORIZON),
             style.mark(r"limit $N \to \infty$", **LIMIT),
             style.mark("experiment", **EXPERIMENT),
             style.mark(f"$N = {papers_n}$", **style.DOTTED),
         ]
-        style.draw_key(figure, entries)
+        style.draw_key(figure, entries, ncols=4)
     return figure
 
 
-def _draw_scene(axes: Axes, table: pd.DataFrame, limit: pd.DataFrame, quantity: str) -> None:
+def _draw_scene(
+    axes: Axes, table: pd.DataFrame, limit: pd.DataFrame, foreseen: pd.DataFrame, quantity: str
+) -> None:
     theta, scale = table["theta"].iloc[0], SCALES.get(quantity, 1.0)
     color = style.theta_color(theta)
     label = style.theta_text(theta) if quantity == "events_kept" else None
     style.draw_band(axes, table, color, scale)
     axes.plot(table["n_blocks"], table["q50"] * scale, color=color, label=label)
-    axes.plot(table["n_blocks"], table["without_noise"] * scale, **WITHOUT_NOISE, color=color)
-    error = limit["a_error"] * scale
-    axes.errorbar(limit["n_blocks"], limit["a"] * scale, error, color=color, elinewidth=0.8, **LIMIT)
+    right = table[table["n_blocks"].isin(foreseen.loc[foreseen["predictable"], "n_blocks"])]
+    axes.plot(right["n_blocks"], right["without_noise"] * scale, **WITHOUT_NOISE, color=color)
+    if quantity == "time_s":
+        axes.plot(foreseen["n_blocks"], foreseen["horizon_s"], **HORIZON, color=color)
+    errors = [(limit["a"] - limit["a_low"]) * scale, (limit["a_high"] - limit["a"]) * scale]
+    axes.errorbar(limit["n_blocks"], limit["a"] * scale, errors, color=color, elinewidth=0.8, **LIMIT)
 
 
 def finish(axes: Axes, quantity: str, papers_n: int) -> None:

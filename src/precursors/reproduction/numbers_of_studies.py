@@ -24,6 +24,7 @@ TABLES = (
     "model_comparison",
     "resolution",
     "resolution_limits",
+    "resolution_exponents",
     "resolution_models",
     "long_runs_statistics",
     "map_theta_friction_ratio",
@@ -171,23 +172,25 @@ def resolution(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "scattered-speed-high": (finest_speed["q95"], "m/s"),
     }
     for scene in SCENES:
-        friction, counts, speeds = (
+        friction, speeds = (
             rows(limits, scene=scene, quantity=quantity).iloc[0]
-            for quantity in ("mu_sapp", "events_kept", "front_speed_m_per_s")
+            for quantity in ("mu_sapp", "front_speed_m_per_s")
         )
+        counts = rows(t["resolution_exponents"], scene=scene, quantity="events_kept").iloc[-1]
         medians = {q: rows(table, scene=scene, quantity=q) for q in ("mu_sapp", "events_kept")}
         found |= {
             f"noisy-mu-{scene}": one(medians["mu_sapp"], "q50", n_blocks=10),
             f"most-mu-{scene}": medians["mu_sapp"]["q50"].iloc[-1],
             f"most-events-{scene}": medians["events_kept"]["q50"].iloc[-1],
             f"limit-mu-{scene}": friction["a"],
-            f"limit-mu-error-{scene}": friction["a_error"],
+            f"limit-mu-error-{scene}": (friction["a_high"] - friction["a_low"]) / 2,
             f"slope-mu-{scene}": friction["b"],
-            f"slope-mu-error-{scene}": friction["b_error"],
-            f"power-{scene}": counts["p"],
-            f"power-error-{scene}": counts["p_error"],
+            f"slope-mu-error-{scene}": (friction["b_high"] - friction["b_low"]) / 2,
+            f"octave-{scene}": counts["n_blocks"],
+            f"power-{scene}": counts["exponent"],
+            f"power-error-{scene}": (counts["high"] - counts["low"]) / 2,
             f"limit-speed-{scene}": (speeds["a"], "m/s"),
-            f"limit-speed-error-{scene}": (speeds["a_error"], "m/s"),
+            f"limit-speed-error-{scene}": ((speeds["a_high"] - speeds["a_low"]) / 2, "m/s"),
         }
     return found
 
