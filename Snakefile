@@ -41,6 +41,8 @@ if not os.access("results" if os.path.exists("results") else ".", os.W_OK | os.X
 
 SCENES = scenes_with(config, "run")
 ASKED = scenes_with(config, "answers")
+# Formats of the figures; the paper and the report show SVG.
+FORMATS = ["svg", *[name for name in config["figure_formats"] if name != "svg"]]
 SLIDERS = {scene: scene_slider(config, scene) for scene in config["fig13"]}
 
 

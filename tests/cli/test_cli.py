@@ -240,7 +240,7 @@ def test_the_version_is_told(cli):
         (("slips", "missing.h5"), FILE, "missing.h5: no such file"),
         (("slips", __file__), REFUSED, "run file"),
         (("slips", "run.h5", "--theta", "0"), WRONG_USE, "cannot be combined"),
-        (("plot", "--duration", "1", "--output", "figure.doc"), WRONG_USE, ".png or .svg"),
+        (("plot", "--duration", "1", "--output", "figure.doc"), WRONG_USE, ".pdf or .eps"),
     ],
 )
 def test_an_error_is_one_line_that_names_what_is_wrong(cli, arguments, code, about):

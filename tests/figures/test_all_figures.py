@@ -8,14 +8,15 @@ from pathlib import Path
 import matplotlib
 import pytest
 from figures.examples import EXAMPLES, draw
+from matplotlib import image
 from matplotlib.text import Text
 
 from precursors import figures
 from precursors.figures import style
 
-SMALLEST_PT = 5.0  # in the table of definitions
+SMALLEST_PT = 7.0  # what journals ask for at the width on paper; indices and exponents are smaller
 # Boxes of text are as high as the tallest letter of a font: so much of it may lie in another box.
-SLACK_PX = 3.0
+SLACK_PX = 6.0
 WITHOUT_KEY = {"fig09"}
 
 
@@ -70,15 +71,27 @@ def test_every_figure_has_a_key(named):
 
 def test_drawing_twice_gives_the_same_bytes_whichever_file_is_first(named, tmp_path):
     name, figure = named
-    again = draw(name)
-    for drawn, names in ((figure, ("first.png", "first.svg")), (again, ("second.svg", "second.png"))):
-        for file in names:
-            style.save(drawn, tmp_path / file)
-    for ending in ("png", "svg"):
+    endings = ("png", "svg", "pdf", "eps")
+    for drawn, which, order in ((figure, "first", endings), (draw(name), "second", endings[::-1])):
+        for ending in order:
+            style.save(drawn, tmp_path / f"{which}.{ending}")
+    for ending in endings:
         first, second = ((tmp_path / f"{which}.{ending}").read_bytes() for which in ("first", "second"))
-        assert first == second
-        for word in (b"dc:date", b"Software", b"Creation Time", b"Matplotlib v"):
+        assert first == second, ending
+        for word in (b"dc:date", b"Software", b"Creation", b"Matplotlib v"):
             assert word not in first
+
+
+def test_an_eps_file_needs_no_transparency(figure, tmp_path, caplog):
+    style.save(figure, tmp_path / "figure.eps")
+    assert caplog.messages == []
+    assert (tmp_path / "figure.eps").read_bytes().startswith(b"%!PS-Adobe-3.0 EPSF")
+
+
+def test_a_png_has_300_dots_per_inch(tmp_path):
+    style.save(draw("fig13"), tmp_path / "figure.png")
+    width = image.imread(tmp_path / "figure.png").shape[1]
+    assert width == pytest.approx(300 * style.COLUMN_MM / style.MM_PER_INCH, abs=1)
 
 
 def test_settings_of_the_user_change_nothing(tmp_path):
@@ -90,7 +103,7 @@ def test_settings_of_the_user_change_nothing(tmp_path):
 
 
 def test_other_endings_are_refused(tmp_path):
-    with pytest.raises(ValueError, match=r"must be a \.png or \.svg file, but .*a\.gif"):
+    with pytest.raises(ValueError, match=r"must be a \.png, \.svg, \.pdf or \.eps file, but .*a\.gif"):
         style.save(draw("fig09"), tmp_path / "a.gif")
     assert list(tmp_path.iterdir()) == []
 

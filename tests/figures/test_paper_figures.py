@@ -81,6 +81,32 @@ def test_a_dashed_line_marks_the_first_global_slip_in_both_panels_and_the_inset(
     assert dashed_lines(upper) == dashed_lines(lower) == dashed_lines(inset) == [FIRST_GLOBAL_S]
 
 
+def test_the_dashed_line_lies_on_the_slip_that_it_marks_in_another_colour(figure):
+    lower = figure.axes[1]
+    (mark,) = [line for line in lower.lines if line.get_linestyle() == "--"]
+    assert all(mark.get_zorder() > slip.get_zorder() for slip in lower.collections)
+    assert mark.get_color() not in (PARTIAL, GLOBAL)
+
+
+def test_a_partial_slip_that_reaches_the_leading_edge_has_a_circle():
+    events = slips().assign(is_global=False)
+    figure = draw_scene(events)
+    (circles,) = [line for line in figure.axes[1].lines if line.get_marker() == "o"]
+    assert circles.get_xydata().tolist() == [[FIRST_GLOBAL_S, 1e3 * LENGTH_M]]
+    assert key(figure) == ["partial slip", "partial, to the leading edge"]
+
+
+def test_scenes_that_are_compared_have_one_load_axis():
+    high, low = slips(), slips()[lambda table: ~table["is_global"]]
+    traces = [trace(high, 20.0), trace(low, 2.0)]
+    limits = [
+        draw("scene", slips=one, trace=own, others=traces).axes[0].get_ylim()
+        for one, own in zip((high, low), traces, strict=True)
+    ]
+    assert limits[0] == limits[1]
+    assert limits[0][1] > traces[0]["tangential_load_N"].max()
+
+
 def test_arrows_in_the_inset_point_at_the_drops_before_the_global_slip(figure):
     (inset,) = figure.axes[0].child_axes
     start, end = inset.get_xlim()

@@ -16,6 +16,7 @@ from matplotlib.patches import Rectangle
 from precursors.accuracy.failures import FAILURE_MODES
 from precursors.figures import style
 from precursors.figures.failure_gallery import PANELS, pretty
+from precursors.figures.work_precision import MARKS
 from precursors.methods import METHODS
 
 RULES = Path(__file__).parents[2] / "workflow/rules"
@@ -48,53 +49,61 @@ def failure_gallery_figure():
 
 class TestWorkPrecision:
     def panels(self, figure):
-        return np.array(figure.axes).reshape(3, -1)
+        """A row for each theta: wrong sequences and errors of loads, of times, and the part right."""
+        return np.array(figure.axes).reshape(5, -1).T
 
-    def test_errors_are_over_the_time_to_the_first_global_slip(self, figure):
+    def test_errors_of_right_sequences_are_over_the_time_to_the_first_global_slip(self, figure):
         assert [axes.get_title() for axes in figure.axes[:3]] == list(map(style.theta_text, THETAS.values()))
-        for load, time, _ in self.panels(figure).T:
+        for _, load, _, time, _ in self.panels(figure):
             assert points(load, "rk4 right") == [(20.0, 1e-1), (200.0, 1e-2), (2000.0, 1e-3)]
             assert points(time, "rk4 right") == [(200.0, 1e-4), (2000.0, 1e-5)]
             assert points(load, "exact right") == [(1.0, 1e-12)]
 
+    def test_wrong_sequences_are_in_the_bands_as_high_as_their_wrong_part(self, figure):
+        for slips, load, transitions, time, _ in self.panels(figure):
+            assert points(slips, "rk4 wrong") == [(2.0, pytest.approx(0.6))]
+            assert points(transitions, "rk4 wrong") == [(2.0, 0.8), (20.0, pytest.approx(0.4))]
+            assert points(slips, "scipy_rk45 wrong") == [(100.0, 0.9)]
+            for axes in (load, time):
+                assert not [line for line in axes.lines if line.get_gid().endswith("wrong")]
+
     def test_the_part_that_is_right_is_over_the_time_of_the_whole_run(self, figure):
-        right = self.panels(figure)[2, 1]
+        right = self.panels(figure)[1, -1]
         assert points(right, "rk4 right") == [(1000.0, 1.0), (10000.0, 1.0)]
         assert points(right, "rk4 wrong") == [(10.0, 0.2), (100.0, 0.6)]
         assert right.get_xlabel() == "Wall time for the whole run [ms]"
 
     def test_without_whole_runs_it_is_that_to_the_first_global_slip(self):
         figure = draw("work_precision", **examples.work_precision((0.0,), ("global slip",)))
-        assert points(figure.axes[2], "rk4 wrong") == [(2.0, 0.2), (20.0, 0.6)]
-        assert figure.axes[2].get_xlabel() == "Wall time to the end of the first global slip [ms]"
+        assert points(figure.axes[-1], "rk4 wrong") == [(2.0, 0.2), (20.0, 0.6)]
+        assert figure.axes[-1].get_xlabel() == "Wall time to the end of the first global slip [ms]"
 
     def test_a_wrong_sequence_is_open_and_joined_to_nothing(self, figure):
-        for axes in figure.axes:
-            lines = {line.get_gid(): line for line in axes.lines}
-            assert lines["rk4 right"].get_linestyle() == "-"
-            assert lines["rk4 right"].get_markerfacecolor() == style.GREEN
-            assert lines["rk4 wrong"].get_linestyle() == "None"
-            assert lines["rk4 wrong"].get_markerfacecolor() == "none"
+        lines = {line.get_gid(): line for line in self.panels(figure)[0, -1].lines}
+        assert lines["rk4 right"].get_linestyle() == "-"
+        assert lines["rk4 right"].get_markerfacecolor() == lines["rk4 right"].get_color()
+        assert lines["rk4 wrong"].get_linestyle() == "None"
+        assert lines["rk4 wrong"].get_markerfacecolor() == "none"
 
     def test_a_transition_too_many_makes_the_sequence_wrong(self):
         table = examples.work_precision((0.0,))["table"].assign(transitions_found=101)
-        load, *others = draw("work_precision", table=table).axes
-        assert len(points(load, "exact right")) == 1
-        for axes in others:
+        slips, load, transitions, time, right = draw("work_precision", table=table).axes
+        assert (points(slips, "exact wrong"), len(points(load, "exact right"))) == ([], 1)
+        for wrong, axes in ((transitions, time), (right, right)):
             assert points(axes, "exact right") == []
-            assert len(points(axes, "exact wrong")) == 1
+            assert len(points(wrong, "exact wrong")) == 1
 
-    def test_an_error_that_is_none_or_unknown_is_not_drawn(self, figure):
-        for axes in figure.axes[:6]:
-            assert points(axes, "scipy_rk45 wrong") == []
+    def test_an_error_that_is_none_is_not_drawn(self):
+        table = examples.work_precision((0.0,))["table"].assign(error_load_N=0.0)
+        assert points(draw("work_precision", table=table).axes[1], "exact right") == []
 
-    def test_a_run_that_fails_at_once_does_not_set_the_scale(self):
-        table = examples.work_precision((0.0,))["table"]
-        table.loc[table["method"] == "scipy_rk45", "error_load_N"] = 1e-30
-        assert 1e-14 < draw("work_precision", table=table).axes[0].get_ylim()[0] < 1e-12
+    def test_every_method_has_a_colour_and_a_marker_of_its_own(self):
+        assert METHODS.keys() <= MARKS.keys()
+        for looks in zip(*MARKS.values(), strict=True):
+            assert len(set(looks)) == len(MARKS)
 
     def test_evaluations_are_drawn_where_they_are_counted(self):
-        load = draw("work_precision", work="evaluations").axes[0]
+        load = draw("work_precision", work="evaluations").axes[3]
         assert points(load, "rk4 right") == [(2e3, 1e-1), (2e4, 1e-2), (2e5, 1e-3)]
         assert "exact right" not in [line.get_gid() for line in load.lines]
 
@@ -106,7 +115,7 @@ class TestWorkPrecision:
             "open: wrong sequence",
         ]
         own = examples.work_precision()["table"].replace({"method": {"rk4": "mine"}})
-        assert len(points(draw("work_precision", table=own).axes[0], "mine right")) == 3
+        assert len(points(draw("work_precision", table=own).axes[3], "mine right")) == 3
 
     def test_all_methods_fit_into_the_key(self):
         (row,) = examples.work_precision((0.0,), ("end",))["table"].head(1).to_dict("records")

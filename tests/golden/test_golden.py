@@ -25,7 +25,7 @@ EQ15_RELATIVE = 1e-8
 # antialiasing may differ by a few grey levels here and there. Of the edits tried (colours, markers, sizes,
 # dashes, words, a moved point) the least, fewer arrows in an inset, is worth 1.4.
 FIGURE_RMS = 0.5
-MOST_BYTES = 300_000
+MOST_BYTES = 800_000
 
 
 def result(kind: str, name: str) -> Path:

@@ -38,7 +38,7 @@ rule accuracy:
                 "failure_gallery",
                 "horizon",
             ],
-            kind=["png", "svg"],
+            kind=FORMATS,
         ),
         collect("results/tables/{table}.csv", table=["certificates", "solver_vs_proof", "lyapunov"]),
     localrule: True

@@ -2,7 +2,7 @@ rule mu_sapp:
     input:
         "results/tables/mu_sapp.csv",
         "results/tables/reproduction.csv",
-        collect("results/figures/definitions.{kind}", kind=["png", "svg"]),
+        collect("results/figures/definitions.{kind}", kind=FORMATS),
     localrule: True
 
 

@@ -14,6 +14,12 @@ FIGURES = {
         "tables": {
             "slips": "results/tables/{scene}_slips.csv",
             "trace": "results/tables/{scene}_trace.csv",
+            # The scenes of Fig. 13 have one load axis.
+            "others": lambda wildcards: [
+                f"results/tables/{scene}_trace.csv"
+                for scene in config["fig13"]
+                if wildcards.scene in config["fig13"]
+            ],
         },
         "options": {"title": lambda wildcards: config["scenes"][wildcards.scene]["title"]},
     },
@@ -147,13 +153,13 @@ wildcard_constraints:
 
 rule fig13:
     input:
-        collect("results/figures/fig13.{kind}", kind=["png", "svg"]),
+        collect("results/figures/fig13.{kind}", kind=FORMATS),
     localrule: True
 
 
 rule paper_figures:
     input:
-        collect("results/figures/{figure}.{kind}", figure=["fig09", *SCENES, "fig13"], kind=["png", "svg"]),
+        collect("results/figures/{figure}.{kind}", figure=["fig09", *SCENES, "fig13"], kind=FORMATS),
     localrule: True
 
 
@@ -174,13 +180,13 @@ for name, about in FIGURES.items():
             **about.get("tables", {}),
             code=[*used, ROOT / "workflow/scripts/draw.py"],
         output:
-            png=f"results/figures/{file}.png",
-            svg=report(
+            report(
                 f"results/figures/{file}.svg",
                 caption=f"../report/{name}.rst",
                 category=about["category"],
                 labels={"figure": f"{file}: {about['shows']}"},
             ),
+            *[f"results/figures/{file}.{kind}" for kind in FORMATS[1:]],
         log:
             f"results/logs/draw_{name}/{file}.log",
         localrule: True

@@ -1,6 +1,6 @@
 rule hierarchy:
     input:
-        collect("results/figures/model_comparison.{kind}", kind=["png", "svg"]),
+        collect("results/figures/model_comparison.{kind}", kind=FORMATS),
         "results/figures/resolution_models.svg",
         collect("results/tables/{scene}_answers.csv", scene=ASKED),
     localrule: True

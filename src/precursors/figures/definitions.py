@@ -15,25 +15,25 @@ from matplotlib.patches import Patch
 
 from precursors.figures import style
 
-ROW_MM, MARGIN_MM = 5.4, 34.0
+ROW_MM, MARGIN_MM = 6.0, 36.0
 READING = ["global_slip", "short", "front"]
 RESULTS = ["events_kept", "mu_sapp"]
 # Shades by how many of the two numbers of a cell, or of the six of a reading and |theta|, are the paper's.
 OF_TWO = ListedColormap(["white", "#D6EAF7", style.SKY])
 OF_SIX = ListedColormap(["white", "#EDF5FA", "#D6EAF7", "#B5D9F0", "#8AC6EA", style.SKY, style.BLUE])
 SIX = 6
-SMALL = 5.5
+SMALL = 7
 # The columns of names left of the rows: the place in widths of the left panel, and the heading.
 NAMES = {
     "front": (0.0, "length of\nan event"),
-    "short": (-0.17, "short\nevent"),
-    "global_slip": (-0.34, "global\nslip"),
+    "short": (-0.22, "short\nevent"),
+    "global_slip": (-0.41, "global\nslip"),
 }
 SHORT_NAMES = {
-    "in which all blocks slide at the same instant": "all blocks\nslide at once",
-    "in which every block slides at some time": "each slides\nat some time",
+    "in which all blocks slide at the same instant": "all blocks\nat once",
+    "in which every block slides at some time": "each at\nsome time",
     "shorter than one before it": "shorter than\none before",
-    "not longer than all before it": "not longer than\nall before",
+    "not longer than all before it": "not the\nlongest so far",
     "shorter than the one just before it": "shorter than\nthe last",
     "farthest block that slid": "farthest block",
     "number of blocks that slid": "all that slid",
@@ -65,13 +65,14 @@ def draw(table: pd.DataFrame) -> Figure:
             f"{_number(n, '.0f')}\n{_number(mu, '.3f')}"
             for n, mu in zip(counts.to_numpy().flat, mu_sapp.to_numpy().flat, strict=True)
         ]
-        _draw_cells(left, of_two, OF_TWO, texts, fontsize=5)
+        _draw_cells(left, of_two, OF_TWO, texts, fontsize=SMALL)
         left.set_xlabel(r"$\theta$")
         left.set_title(r"Events counted, and below them $\mu_{\mathrm{sapp}}$", fontsize=7)
         _draw_cells(right, of_six, OF_SIX, [f"{n:.0f}" for n in of_six.to_numpy().flat], fontsize=SMALL)
         right.set_xlabel(r"$|\theta|$")
         right.set_title("Of the paper's six\nnumbers, so many", fontsize=7)
-        right.tick_params(axis="x", rotation=90, labelsize=6)
+        for axes in (left, right):
+            axes.tick_params(axis="x", rotation=90)
         for text in right.texts:
             if text.get_text() == f"{SIX}":
                 text.set(color="white", fontweight="bold")
@@ -108,7 +109,7 @@ def _draw_cells(
     edges = np.arange(n_columns + 1) - 0.5, np.arange(n_rows + 1) - 0.5
     axes.pcolormesh(*edges, values, cmap=colors, vmin=-0.5, vmax=colors.N - 0.5, **grid)
     for (row, column), text in zip(np.ndindex(values.shape), texts, strict=True):
-        axes.text(column, row, text, ha="center", va="center", fontsize=fontsize)
+        axes.text(column, row, text, ha="center", va="center", fontsize=fontsize, linespacing=1.0)
     axes.set_xticks(range(n_columns), [f"${style.fraction_text(float(theta))}$" for theta in values.columns])
     axes.xaxis.tick_top()
     axes.xaxis.set_label_position("top")
@@ -139,4 +140,4 @@ def _name_rows(axes: Axes, readings: pd.DataFrame) -> None:
 
 def _short_name(text: str) -> str:
     drop = re.fullmatch(r"in which F_X drops by more than (\S+) N", text)
-    return f"$F_X$ drops by\nmore than {drop[1]} N" if drop else SHORT_NAMES.get(text, text)
+    return f"$F_X$ drop\nabove {drop[1]} N" if drop else SHORT_NAMES.get(text, text)

@@ -17,10 +17,10 @@ from precursors.figures import style
 
 HEIGHT_MM = 212.0
 ROWS, COLUMNS = 4, 3
-TITLE_SIZE, TEXT_SIZE, KEY_SIZE = 6.8, 6.0, 5.8
+TEXT_SIZE = 7.0
 # A layout made for the longest title would leave no room for the panels.
-LAYOUT = {"left": 0.07, "right": 0.99, "bottom": 0.04, "top": 0.95, "wspace": 0.38, "hspace": 0.7}
-TEXT_LEFT_PT, TEXT_BOTTOM_PT, LINE_PT = -24.0, 3.0, 8.2
+LAYOUT = {"left": 0.07, "right": 0.99, "bottom": 0.04, "top": 0.94, "wspace": 0.38, "hspace": 0.78}
+TEXT_LEFT_PT, TEXT_BOTTOM_PT, LINE_PT = -24.0, 3.0, 9.8
 ABOVE: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "bottom"}
 ABOVE |= {"annotation_clip": False}
 # A logarithmic axis that spans less than this factor, above this number, has decimal labels.
@@ -91,10 +91,10 @@ PANELS = {
         STABLE_STEP,
     ), vertical=LIMIT, joined=False),
     "numerical_damping": Panel("Implicit Moreau-Jean damps motion", r"Time [$\mu$s]", "Energy left [-]", (
-        Sentence("{setting}: {value:.3f} of the energy left; exact {exact:g}", "energy left", "dt = 1e-07 s",
+        Sentence("{setting}: {value:.3f} of the energy; exact {exact:g}", "energy left", "dt = 1e-07 s",
                  "Moreau-Jean, implicit"),
-        Sentence("{method}, {setting}: {value:.3f}", "energy left", method="Moreau-Jean, trapezoidal"),
-    ), scale=(MICRO, 1.0), key=(0.5, 0.12), joined=False),
+        Sentence("trapezoidal, {setting}: {value:.3f}", "energy left", method="Moreau-Jean, trapezoidal"),
+    ), scale=(MICRO, 1.0), key=(0.5, 0.06), joined=False),
     "literal_friction": Panel("Eq. 4 taken literally never sticks again", TIME, F_X, (
         Sentence("{quantity}: {value:.2f} N; exact {exact:.2f} N", "largest F_X", "dt = 1e-06 s"),
         Sentence("with {setting}: {value:.2f} N", "largest F_X", "dt = 3e-06 s"),
@@ -102,7 +102,7 @@ PANELS = {
     "dead_zone_too_small": Panel(
         "Dead zone too small: jumped over",
         r"Zone / safe width $(\mu_s+\mu_k)\,w\,\Delta t/2m$ [-]", "Transitions right [-]", (
-        Sentence("{setting}: {value:.0f} of {exact:.0f} right", "transitions right",
+        Sentence("{setting}: {value:.0f} of {exact:.0f}", "transitions right",
                  "dt = 4e-08 s, zone = 0.05 safe"),
         Sentence("all are right from {value:.2g} {unit} on", "zone from which all is right"),
     ), log="x", vertical="zone from which all is right", ylim=(0.0, None)),
@@ -114,10 +114,10 @@ PANELS = {
     "creep": Panel("Regularised friction creeps in stick", r"Load / $\mu_s w$ [-]", "Velocity [m/s]", (
         Sentence("{setting}:", CREEP),
         Sentence("creeps at {value:.2%} of the drive's $V$; exact {exact:g}", CREEP),
-    ), log="y", joined=False, key="lower right", ylim=(1e-11, 3e-4)),
+    ), log="y", joined=False, key="lower right", ylim=(1e-13, 3e-4)),
     "stiffness": Panel("Regularised friction is stiff", "Width [m/s]", "Fastest rate [1/s]", (
-        Sentence("{setting}: {value:.1e} /s; chain {exact:.1e} /s", "fastest rate"),
-        Sentence("RK4 stable up to {value:.1e} s; chain {exact:.1e} s", "longest stable step of RK4"),
+        Sentence("{setting}: {value:.0e} /s, chain {exact:.0e}", "fastest rate"),
+        Sentence("RK4: {value:.0e} s at most, chain {exact:.0e} s", "longest stable step of RK4"),
     ), log="xy", joined=False),
     "missed_roots": Panel(
         "DOP853 misses two roots in a step",
@@ -128,14 +128,14 @@ PANELS = {
     ), scale=(MICRO, MILLI)),
     "restart_on_root": Panel("Restart on a root: time stands still", TIME, "Transitions [-]", (
         Sentence("{quantity}: {value:.0f}, no end; exact {exact:.0f}", "transitions at t"),
-        Sentence("{setting}: {value:.0f}; exact {exact:.0f}", "transitions in"),
+        Sentence("from the sign of the force: {value:.0f}; exact {exact:.0f}", "transitions in"),
     ), marked=False, drawstyle="steps-post"),
     "merged_transitions": Panel(
         "Transitions closer than a step merged", "Merged within [s]", "Transitions right [-]", (
         Sentence(RIGHT_OF_ALL + ",", "transitions right"),
         Sentence("though only {value:.0f} of them lie so close", "transitions merged"),
     ), log="x", ylim=(0.0, None)),
-    "forward_only": Panel(r"Backward sliding forbidden ($\theta$ = 5/6)", TIME, F_X, (
+    "forward_only": Panel(r"No backward sliding ($\theta$ = 5/6)", TIME, F_X, (
         Sentence(r"{setting}: $\mu_\mathrm{{sapp}}$ = {value:.4f}; exact {exact:.4f}", "mu_sapp",
                  "theta = 5/6"),
         Sentence(RIGHT_OF_ALL, "transitions right", "theta = -5/6"),
@@ -177,15 +177,15 @@ def _draw_panel(axes: Axes, letter: str, mode: str, numbers: pd.DataFrame, curve
     axes.set(xlim=(panel.xmin, None), ylim=panel.ylim)
     for name in panel.log:
         _label_decades(axes.xaxis if name == "x" else axes.yaxis)
-    axes.set_xlabel(panel.x, fontsize=TITLE_SIZE)
-    axes.set_ylabel(panel.y, fontsize=TITLE_SIZE)
+    axes.set_xlabel(panel.x, fontsize=TEXT_SIZE)
+    axes.set_ylabel(panel.y, fontsize=TEXT_SIZE)
     axes.tick_params(labelsize=TEXT_SIZE)
-    axes.legend(loc=panel.key, fontsize=KEY_SIZE, handlelength=1.4, borderaxespad=0.3)
+    axes.legend(loc=panel.key, fontsize=TEXT_SIZE, handlelength=1.4, labelspacing=0.2, borderaxespad=0.3)
     lines = [sentence(text, find_number(numbers, mode, *which)) for text, *which in panel.sentences]
     title = f"{letter}  {panel.title}"
     low, high = (TEXT_LEFT_PT, TEXT_BOTTOM_PT), (TEXT_LEFT_PT, TEXT_BOTTOM_PT + 1 + N_LINES * LINE_PT)
     axes.annotate("\n".join(lines), (0, 1), low, **ABOVE, fontsize=TEXT_SIZE, color=style.VERMILION)
-    axes.annotate(title, (0, 1), high, **ABOVE, fontsize=TITLE_SIZE, fontweight="bold")
+    axes.annotate(title, (0, 1), high, **ABOVE, fontsize=TEXT_SIZE, fontweight="bold")
 
 
 def _draw_curves(axes: Axes, panel: Panel, curves: pd.DataFrame) -> None:

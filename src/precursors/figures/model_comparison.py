@@ -12,7 +12,7 @@ from matplotlib.patches import Patch, Rectangle
 
 from precursors.figures import style
 
-WIDTH_MM = 175.0
+WIDTH_MM = 178.0
 ROW_MM, HEAD_MM = 14.0, 31.0
 GAP = 0.2  # between the models up to the paper's chain and those beyond it, in widths of a column
 DIM = "#5A5A5A"
@@ -70,7 +70,7 @@ def draw(table: pd.DataFrame) -> Figure:
                     axes.add_patch(_box(x, y, facecolor=SILENT))
                     axes.text(x, y, "\N{EN DASH}", ha="center", va="center", color=style.GREY)
         axes.set(xlim=(places[0] - 0.5, places[-1] + 0.5), ylim=(len(questions) - 0.5, -0.5))
-        axes.set_xticks(places, [_head(model) for _, model in models.iterrows()], fontsize=6.5)
+        axes.set_xticks(places, [_head(model) for _, model in models.iterrows()], fontsize=7)
         axes.set_yticks(range(len(questions)), [_row_label(row) for _, row in questions.iterrows()])
         axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False)
         axes.spines[:].set_visible(False)
@@ -91,10 +91,10 @@ def _draw_cell(axes: Axes, x: float, y: int, cell: pd.Series, scale: float) -> N
         axes.add_patch(_box(x, y, **SMALLEST))
     low, high = f"{cell['low'] * scale:.3g}", f"{cell['high'] * scale:.3g}"
     centred: dict[str, Any] = {"ha": "center", "va": "center"}
-    axes.text(x, y - 0.26, low if low == high else f"{low}\N{EN DASH}{high}", fontsize=6, **centred)
+    axes.text(x, y - 0.26, low if low == high else f"{low}\N{EN DASH}{high}", fontsize=7, **centred)
     error = _error_text(cell["error"], cell["error_unit"])
-    axes.text(x, y + 0.02, error, fontsize=6.5, fontweight="bold", **centred)
-    axes.text(x, y + 0.3, _time_text(cell["cost_s"]), fontsize=6, color=DIM, **centred)
+    axes.text(x, y + 0.02, error, fontsize=7, fontweight="bold", **centred)
+    axes.text(x, y + 0.3, _time_text(cell["cost_s"]), fontsize=7, color=DIM, **centred)
 
 
 def _box(x: float, y: int, **look: Any) -> Rectangle:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from textwrap import fill
 from typing import Any
 
@@ -17,7 +18,11 @@ from precursors.figures import style
 
 HEIGHT_MM = 112.0
 PARTIAL, GLOBAL = style.BLUE, style.VERMILION
-FIRST_GLOBAL: dict[str, Any] = {"color": GLOBAL, "linewidth": 0.8, "linestyle": (0, (5, 3))}
+# Black on the colour of the slip that it marks, and above it.
+FIRST_GLOBAL: dict[str, Any] = {"color": style.BLACK, "linewidth": 0.9, "linestyle": (0, (5, 4)), "zorder": 3}
+# A partial slip that ends at the leading edge: its blocks did not all slide at the same instant.
+TO_THE_EDGE: dict[str, Any] = {"color": PARTIAL, "linestyle": "none", "marker": "o", "markersize": 3.6}
+TO_THE_EDGE |= {"markerfacecolor": "white", "markeredgewidth": 0.9, "clip_on": False}
 UNFINISHED: dict[str, Any] = {"alpha": 0.2, "linewidth": 0}
 
 # The inset shows the last stretch before the first global slip, as fractions of the time of that slip.
@@ -33,7 +38,9 @@ THIN_OUT_FROM = 200
 CHARACTERS_OF_TITLE = 100
 
 
-def draw(slips: pd.DataFrame, trace: pd.DataFrame, title: str = "") -> Figure:
+def draw(
+    slips: pd.DataFrame, trace: pd.DataFrame, title: str = "", others: Sequence[pd.DataFrame] = ()
+) -> Figure:
     """Draw F_X(t) with a magnified view before the first global slip, and below it all slip events.
 
     Parameters
@@ -44,6 +51,8 @@ def draw(slips: pd.DataFrame, trace: pd.DataFrame, title: str = "") -> Figure:
         {scene}_trace.csv: straight lines between its rows are the tangential load.
     title : str
         Name of the scene.
+    others : sequence of DataFrame
+        Traces of scenes to compare with: the load axis holds them, too.
 
     Notes
     -----
@@ -56,14 +65,14 @@ def draw(slips: pd.DataFrame, trace: pd.DataFrame, title: str = "") -> Figure:
     end = trace["time_s"].iloc[-1]
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[2.2, 1])
-        _draw_load(upper, trace, HEADROOM[has_global])
+        _draw_load(upper, trace, others, HEADROOM[has_global or len(others) > 0])
         upper.set_title(fill(_title(slips, title), CHARACTERS_OF_TITLE), loc="left", pad=3)
         _draw_events(lower, slips, end)
         lower.set_xlabel("Time $t$ [s]")
         lower.set_xlim(0, max(end, INSET_END * first_s) if has_global else end)
         if has_global:
             for axes in (upper, lower):
-                axes.axvline(first_s, **FIRST_GLOBAL, zorder=1.5)
+                axes.axvline(first_s, **FIRST_GLOBAL)
         if has_global and first_s > 0:
             _draw_inset(upper, slips, trace, first_s)
         _draw_key(lower, slips)
@@ -77,11 +86,11 @@ def _title(slips: pd.DataFrame, title: str) -> str:
     return ": ".join([*parts, style.plain(title)]).removesuffix(": ") + note
 
 
-def _draw_load(axes: Axes, trace: pd.DataFrame, headroom: float) -> None:
-    load = trace["tangential_load_N"]
-    axes.plot(trace["time_s"], load, color=style.BLACK, linewidth=0.6)
-    lowest = min(0.0, load.min())
-    highest = max(load.max(), lowest + 1e-9)
+def _draw_load(axes: Axes, trace: pd.DataFrame, others: Sequence[pd.DataFrame], headroom: float) -> None:
+    axes.plot(trace["time_s"], trace["tangential_load_N"], color=style.BLACK, linewidth=0.6)
+    loads = pd.concat([trace, *others])["tangential_load_N"]
+    lowest = min(0.0, loads.min())
+    highest = max(loads.max(), lowest + 1e-9)
     axes.set_ylim(lowest, lowest + (highest - lowest) / (1 - headroom))
     axes.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     axes.set_ylabel("Tangential load $F_X$ [N]")
@@ -101,7 +110,9 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, end_s: float) -> None:
         axes.vlines(chosen["onset_s"], 0, chosen["reached_mm"], color=color, linewidth=width)
         for _, event in chosen[chosen["end_s"].isna()].iterrows():
             axes.fill_between([event["onset_s"], end_s], 0, event["reached_mm"], color=color, **UNFINISHED)
-    axes.set_ylim(0, 1.04 * length_mm)
+    to_the_edge = events[~events["is_global"] & (events["front"] == events["n_blocks"])]
+    axes.plot(to_the_edge["onset_s"], to_the_edge["reached_mm"], **TO_THE_EDGE)
+    axes.set_ylim(0, 1.08 * length_mm)
     edges = axes.secondary_yaxis("right")
     edges.set_yticks([0, length_mm], ["trailing\nedge", "leading\nedge"])
     edges.tick_params(length=0)
@@ -117,8 +128,7 @@ def _draw_inset(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, first_s: f
     if on_the_right:
         inset.yaxis.tick_right()
     inset.plot(trace["time_s"], trace["tangential_load_N"], color=style.BLACK)
-    inset.axvline(first_s, **FIRST_GLOBAL, zorder=1.5)
-    inset.tick_params(labelsize=6.5)
+    inset.axvline(first_s, **FIRST_GLOBAL)
     inset.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
     load_at_start = np.interp(start, trace["time_s"], trace["tangential_load_N"])
     seen = trace["time_s"].between(start, first_s)
@@ -133,7 +143,7 @@ def _draw_inset(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, first_s: f
             textcoords="offset points",
             arrowprops={**ARROW, "shrinkA": 0, "shrinkB": 2},
         )
-    frame = axes.indicate_inset_zoom(inset, edgecolor=style.GREY, alpha=0.8, linewidth=0.6)
+    frame = axes.indicate_inset_zoom(inset, edgecolor=style.GREY, alpha=1.0, linewidth=0.6)
     for connector, is_shown in zip(frame.connectors or (), (False, True, False, True), strict=False):
         connector.set_visible(is_shown)
 
@@ -149,10 +159,14 @@ def _draw_key(axes: Axes, slips: pd.DataFrame) -> None:
     entries: list[Line2D | Patch] = []
     if (~is_global).any():
         entries.append(Line2D([], [], color=PARTIAL, linewidth=1.2, label="partial slip"))
+    if (~is_global & (slips["front"] == slips["n_blocks"])).any():
+        entries.append(Line2D([], [], **TO_THE_EDGE, label="partial, to the leading edge"))
     if is_global.any():
         entries.append(Line2D([], [], color=GLOBAL, linewidth=1.2, label="global slip"))
         entries.append(Line2D([], [], **FIRST_GLOBAL, label="first global slip"))
     for one in is_global[slips["end_s"].isna()][:1]:
         color = GLOBAL if one else PARTIAL
         entries.append(Patch(color=color, **UNFINISHED, label="not over when the run ends"))
-    axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=4, borderaxespad=0.1)
+    axes.legend(
+        handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=len(entries), borderaxespad=0.1
+    )

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from fractions import Fraction
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import matplotlib.style
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.collections import Collection
+from matplotlib.colors import to_rgba_array
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
@@ -33,11 +38,12 @@ MM_PER_M = 1e3
 MM_PER_INCH = 25.4
 COLUMN_MM = 85.0
 PAGE_MM = 178.0
-PNG_DPI = 150
+PNG_DPI = 300
 
 BLOCKS_LABEL = "Number of blocks $N$ [-]"
 EVENTS_LABEL = "Events counted [-]"
 MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
+COLORS_OF_AN_ARTIST = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
 DOTTED: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "linestyle": (0, (1, 2)), "zorder": 1}
 
 _SETTINGS = {
@@ -64,11 +70,16 @@ _SETTINGS = {
     # Element ids of an SVG come from this salt instead of a random number.
     "svg.hashsalt": "precursors",
     "svg.fonttype": "path",
+    # TrueType, which programs that draw can edit; journals refuse the Type 3 that is the default.
+    "pdf.fonttype": 42,
+    "ps.fonttype": 42,
 }
 # Without the date and the release of Matplotlib, the same table gives the same bytes.
-_METADATA: dict[str, dict[str, None]] = {
+_METADATA: dict[str, dict[str, str | None]] = {
     ".png": {"Software": None},
     ".svg": {"Date": None, "Creator": None},
+    ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+    ".eps": {"Creator": "precursors"},
 }
 
 
@@ -88,18 +99,56 @@ def page(width_mm: float, height_mm: float, lay_out: bool = True) -> Iterator[Fi
 
 
 def save(figure: Figure, path: str | Path) -> None:
-    """Write a figure as PNG (150 dpi) or SVG, complete or not at all, with the same bytes every time.
+    """Write a figure as PNG (300 dpi), SVG, PDF or EPS, complete or not at all, always the same bytes.
+
+    EPS knows no transparency: what is transparent in the other formats has its colour on white there.
 
     Raises
     ------
     ValueError
-        If the name ends neither in .png nor in .svg.
+        If the name ends in none of .png, .svg, .pdf and .eps.
     """
     ending = Path(path).suffix.lower()
     if ending not in _METADATA:
-        raise ValueError(f"a figure must be a .png or .svg file, but {path} ends in {ending!r}")
-    with matplotlib.style.context(_SETTINGS, after_reset=True), write_whole(path) as temporary:
-        figure.savefig(temporary, format=ending[1:], dpi=PNG_DPI, metadata=_METADATA[ending])
+        *others, last = _METADATA
+        raise ValueError(
+            f"a figure must be a {', '.join(others)} or {last} file, but {path} ends in {ending!r}"
+        )
+    with (
+        matplotlib.style.context(_SETTINGS, after_reset=True),
+        _opaque(figure) if ending == ".eps" else nullcontext(),
+        write_whole(path) as temporary,
+    ):
+        buffer = BytesIO()
+        figure.savefig(buffer, format=ending[1:], dpi=PNG_DPI, metadata=_METADATA[ending])
+        temporary.write_bytes(re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
+
+
+@contextmanager
+def _opaque(figure: Figure) -> Iterator[None]:
+    """Replace transparent colours by what they are on white, until the block ends."""
+    undo: list[tuple[Any, Any]] = []
+    transparent = [
+        (artist, artist.get_alpha()) for artist in figure.findobj(lambda a: a.get_alpha() is not None)
+    ]
+    for artist, alpha in transparent:
+        undo.append((artist.set_alpha, alpha))
+        artist.set_alpha(None)
+        parts = [part for part in COLORS_OF_AN_ARTIST if hasattr(artist, f"get_{part}")]
+        for part, old in [(part, getattr(artist, f"get_{part}")()) for part in parts]:
+            color = to_rgba_array(old)
+            strength = np.where(color[:, 3:] == 1, alpha, color[:, 3:])
+            color[:, :3] = 1 - strength * (1 - color[:, :3])
+            color[:, 3:] = strength > 0
+            change = getattr(artist, f"set_{part}")
+            undo.append((change, old))
+            if len(color):
+                change(color if isinstance(artist, Collection) else color[0])
+    try:
+        yield
+    finally:
+        for change, old in reversed(undo):
+            change(old)
 
 
 def set_ticks(axis: Axis, values: Sequence[float]) -> None:

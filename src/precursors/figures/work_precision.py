@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -13,7 +11,7 @@ from matplotlib.ticker import LogLocator, NullLocator, PercentFormatter
 
 from precursors.figures import style
 
-HEIGHT_MM = 200.0
+HEIGHT_MM = 215.0
 FIRST_SLIP, WHOLE_RUN = "global slip", "end"
 EXTENTS = {FIRST_SLIP: "to the end of the first global slip", WHOLE_RUN: "for the whole run"}
 # Columns that measure the work of a method: the factor to what is drawn, and the words.
@@ -21,34 +19,37 @@ WORK = {
     "seconds": (1e3, "Wall time {} [ms]"),
     "evaluations": (1.0, "Evaluations of the forces {}"),
 }
-LABELS = (
-    "(a) Error of $F_X$ at slip onsets [N]",
-    "(b) Error of transition times [s]",
-    "(c) Transitions right\nbefore the first wrong one",
+# Columns of errors, what must be right for an error to count, and the words.
+ERRORS = (
+    ("error_load_N", "slips", "(a) Error of $F_X$\nat slip onsets [N]"),
+    ("error_time_s", "transitions", "(b) Error of\ntransition times [s]"),
 )
-# A color is a family of methods, and its markers tell the members.
-MARKS = {
+PART_LABEL = "(c) Transitions right\nbefore the first wrong one"
+# Of the rows: wrong sequences and errors twice, and the part that is right.
+HEIGHTS = (1.0, 2.4, 1.0, 2.4, 2.8)
+# Every method has its own colour and marker; shades of one hue are a family of methods.
+MARKS: dict[str, tuple[str, Any]] = {
     "exact": (style.BLACK, "*"),
     "heyoka": (style.VERMILION, "o"),
     "cvode_adams": (style.ORANGE, "s"),
-    "cvode_bdf": (style.ORANGE, "D"),
-    "scipy_rk45": (style.BLUE, "v"),
+    "cvode_bdf": ("#A87400", "D"),
+    "scipy_rk45": ("#00436A", "v"),
     "scipy_dop853": (style.BLUE, "^"),
-    "scipy_lsoda": (style.BLUE, "<"),
-    "scipy_radau": (style.BLUE, ">"),
-    "rk4": (style.GREEN, "s"),
-    "rk4_skip": (style.GREEN, "o"),
-    "rk4_located": (style.GREEN, "D"),
-    "leapfrog": (style.SKY, "v"),
-    "semi_implicit_euler": (style.SKY, "^"),
-    "moreau_jean_half": (style.PURPLE, "s"),
-    "moreau_jean_one": (style.PURPLE, "o"),
-    "karnopp": (style.GREY, "o"),
-    "literal": (style.GREY, "^"),
-    "regularised_radau": (style.GREY, "s"),
-    "regularised_bdf": (style.GREY, "D"),
+    "scipy_lsoda": ("#4F9FD0", "<"),
+    "scipy_radau": ("#8FBFE0", ">"),
+    "rk4": ("#00573F", "p"),
+    "rk4_skip": (style.GREEN, "h"),
+    "rk4_located": ("#63C9A8", "d"),
+    "leapfrog": (style.SKY, "X"),
+    "semi_implicit_euler": ("#2B7FB0", "P"),
+    "moreau_jean_half": ("#8C3A6B", "8"),
+    "moreau_jean_one": (style.PURPLE, (4, 1, 0)),
+    "karnopp": ("#5A5A5A", (3, 1, 0)),
+    "literal": ("#B5B5B5", (5, 1, 36)),
+    "regularised_radau": ("#7A5C3E", (6, 1, 0)),
+    "regularised_bdf": ("#C4A27A", (8, 1, 0)),
 }
-OTHERS = (style.GREY, "h")
+OTHERS = (style.GREY, "H")
 OPEN: dict[str, Any] = {"markerfacecolor": "none", "markeredgewidth": 0.7, "alpha": 0.75, "linestyle": "none"}
 
 
@@ -65,68 +66,82 @@ def draw(table: pd.DataFrame, work: str = "seconds") -> Figure:
     Notes
     -----
     The columns of panels are the values of theta. The errors are those up to the end of the first global
-    slip, because the motion is chaotic after it. The part that is right is that of the whole run, if the
-    table has it. A point is full, and joined to the others of its method, if the sequence is right: of slip
-    events in the first row, of transitions in the others. Else it is open, and its error is that of what
-    comes before the first difference; errors far below those of right sequences are outside the panel.
+    slip, because the motion is chaotic after it; a method has one only if its sequence is right: of slip
+    events in (a), of transitions in (b). A wrong sequence is open, in a band above the errors, as high as the
+    part of it that is wrong. The part that is right is that of the whole run, if the table has it.
     """
     factor, words = WORK[work]
     rows = table.dropna(subset=work).assign(work=table[work] * factor)
-    rows["part"] = rows["transitions_right"] / rows["transitions_true"]
     extent = WHOLE_RUN if (rows["until"] == WHOLE_RUN).any() else FIRST_SLIP
     first, whole = rows[rows["until"] == FIRST_SLIP], rows[rows["until"] == extent]
     thetas = sorted(rows["theta"].unique())
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        panels = figure.subplots(3, len(thetas), sharey="row", squeeze=False)
-        for (load, time, right), theta in zip(panels.T, thetas, strict=True):
-            load.set_title(style.theta_text(theta), pad=4)
-            _draw_methods(load, first[first["theta"] == theta], "error_load_N", "slips")
-            _draw_methods(time, first[first["theta"] == theta], "error_time_s", "transitions")
-            for axes in (load, time):
-                axes.set_yscale("log")
-                axes.yaxis.set_major_locator(LogLocator(numticks=12))
-            at_last = whole[whole["theta"] == theta]
-            _draw_methods(right, at_last, "part", "transitions")
-            right.set_ylim(-0.03, 1.06)
-            right.yaxis.set_major_formatter(PercentFormatter(1.0))
-            for n in at_last["transitions_true"][:1]:
-                right.set_title(f"{n} transitions", fontsize=7, pad=3)
-        for row in panels[:2]:
-            row[0].set_ylim(bottom=_lowest(row))
-        for row, label in zip(panels, LABELS, strict=True):
-            row[0].set_ylabel(label)
+        panels = figure.subplots(
+            5, len(thetas), sharex="col", sharey="row", squeeze=False, height_ratios=HEIGHTS
+        )
+        for column, theta in zip(panels.T, thetas, strict=True):
+            column[0].set_title(style.theta_text(theta), pad=4)
+            of_theta = first[first["theta"] == theta]
+            for i, (error, sequence, _) in enumerate(ERRORS):
+                _draw_errors(column[2 * i], column[2 * i + 1], of_theta, error, sequence)
+            of_theta = whole[whole["theta"] == theta]
+            _draw_right(column[-1], of_theta)
+            for n in of_theta["transitions_true"][:1]:
+                column[-1].set_title(f"{n} transitions", fontsize=7, pad=3)
+        for i, (*_, label) in enumerate(ERRORS):
+            panels[2 * i, 0].set_ylabel("Wrong part of\na sequence")
+            panels[2 * i + 1, 0].set_ylabel(label)
+        panels[-1, 0].set_ylabel(PART_LABEL)
         for axes in panels.flat:
             axes.set_xscale("log")
             axes.xaxis.set_minor_locator(NullLocator())
             axes.grid()
-        for row, until in zip(panels[1:], (FIRST_SLIP, extent), strict=True):
-            row[len(thetas) // 2].set_xlabel(words.format(EXTENTS[until]))
+        for row, until in ((3, FIRST_SLIP), (4, extent)):
+            for axes in panels[row]:
+                axes.tick_params(labelbottom=True)
+            panels[row, len(thetas) // 2].set_xlabel(words.format(EXTENTS[until]))
+        figure.align_ylabels(panels[:, 0])
         _draw_key(figure, dict(zip(table["method"], table["label"], strict=True)))
     return figure
 
 
-def _draw_methods(axes: Axes, rows: pd.DataFrame, column: str, sequence: str) -> None:
-    """Draw a column for all methods; `sequence` is what must be right for a full marker."""
-    right, found, true = (rows[f"{sequence}_{what}"] for what in ("right", "found", "true"))
-    is_right = (right == true) & (found == true)
-    shown = rows[column].notna() & ((rows[column] > 0) | (column == "part"))
+def _draw_errors(band: Axes, axes: Axes, rows: pd.DataFrame, error: str, sequence: str) -> None:
+    """Draw the errors of right sequences, joined, and above them the wrong sequences."""
+    is_right, part = _right(rows, sequence)
     for method in reversed(rows["method"].unique()):
-        of_method = shown & (rows["method"] == method)
-        full, empty = rows[of_method & is_right], rows[of_method & ~is_right]
-        axes.plot(full["work"], full[column], **_look(method), gid=f"{method} right")
-        axes.plot(empty["work"], empty[column], **_look(method) | OPEN, gid=f"{method} wrong")
+        of_method = rows["method"] == method
+        right = rows[of_method & is_right & (rows[error] > 0)]
+        axes.plot(right["work"], right[error], **_look(method), gid=f"{method} right")
+        wrong = of_method & ~is_right
+        band.plot(rows["work"][wrong], 1 - part[wrong], **_look(method) | OPEN, gid=f"{method} wrong")
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(numticks=12))
+    band.set_ylim(-0.12, 1.12)
+    band.yaxis.set_major_formatter(PercentFormatter(1.0))
 
 
-def _lowest(row: Iterable[Axes]) -> float | None:
-    """A tenth of the least error of a right sequence: a run that fails at once may have less."""
-    lines = [line for axes in row for line in axes.lines if str(line.get_gid()).endswith(" right")]
-    errors = [error for line in lines for error in np.asarray(line.get_ydata(), float)]
-    return min(errors) / 10 if errors else None
+def _draw_right(axes: Axes, rows: pd.DataFrame) -> None:
+    """Draw the part of the transitions that comes before the first wrong one."""
+    is_right, part = _right(rows, "transitions")
+    for method in reversed(rows["method"].unique()):
+        for chosen, look, name in ((is_right, {}, "right"), (~is_right, OPEN, "wrong")):
+            of_method = chosen & (rows["method"] == method)
+            axes.plot(
+                rows["work"][of_method], part[of_method], **_look(method) | look, gid=f"{method} {name}"
+            )
+    axes.set_ylim(-0.03, 1.06)
+    axes.yaxis.set_major_formatter(PercentFormatter(1.0))
+
+
+def _right(rows: pd.DataFrame, sequence: str) -> tuple[pd.Series, pd.Series]:
+    """Whether the whole sequence is right, and the part of it before the first difference."""
+    right, found, true = (rows[f"{sequence}_{what}"] for what in ("right", "found", "true"))
+    return (right == true) & (found == true), right / true
 
 
 def _look(method: str) -> dict[str, Any]:
     color, marker = MARKS.get(method, OTHERS)
-    size, zorder = (8.0, 4.0) if method == "exact" else (3.6, 2.5)
+    size, zorder = (8.0, 4.0) if method == "exact" else (4.2, 2.5)
     look: dict[str, Any] = {"color": color, "marker": marker, "markersize": size, "zorder": zorder}
     return look | {"markeredgewidth": 0.0, "linewidth": 0.9}
 
@@ -137,4 +152,4 @@ def _draw_key(figure: Figure, labels: dict[str, str]) -> None:
     wrong = _look("karnopp") | OPEN | {"color": style.BLACK}
     entries.append(style.mark("open: wrong sequence", **wrong))
     spaces = {"handlelength": 2.0, "handletextpad": 0.5, "columnspacing": 1.2}
-    style.draw_key(figure, entries, ncols=4, fontsize=6.5, **spaces)
+    style.draw_key(figure, entries, ncols=4, **spaces)
