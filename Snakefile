@@ -6,7 +6,14 @@ from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 from precursors.model.config import check_config, check_file
-from precursors.model.scenes import scene_additions, scene_duration, scene_model, scene_slider, scenes_with
+from precursors.model.scenes import (
+    scene_additions,
+    scene_duration,
+    scene_model,
+    scene_slider,
+    scenes_with,
+    scenes_with_theta,
+)
 from precursors.support.package import files_of
 
 min_version("9.20")

@@ -117,9 +117,7 @@ def simulate_ensemble(arguments: argparse.Namespace) -> None:
     chains = [replace(chain, weights=chain.weights * of_one) for of_one in noises]
     rows = []
     for first in range(0, count, ENSEMBLE_BATCH):
-        runs = simulate_many(
-            chains[first : first + ENSEMBLE_BATCH], duration_of(arguments), until_of(arguments)
-        )
+        runs = simulate_many(chains[first : first + ENSEMBLE_BATCH], duration_of(arguments), arguments.until)
         rows.append(pd.DataFrame(summarise(runs))[list(SUMMARY)])
     table = pd.concat(rows, ignore_index=True).rename(columns=SUMMARY)
     table.insert(0, "member", np.arange(1, count + 1))
@@ -152,13 +150,15 @@ def plot(arguments: argparse.Namespace) -> None:
     from precursors.analysis.load_curve import load_trace
     from precursors.analysis.slips import slip_table
     from precursors.figures import precursor_lengths, scene, style
+    from precursors.support.files import read_table
 
+    data = read_table(arguments.data) if arguments.data else None
     run = run_of(arguments)
     slips = slip_table(run)
     if arguments.figure == "lengths":
         figure = precursor_lengths.draw([slips])
     else:
-        figure = scene.draw(slips, load_trace(run), f"N = {run.chain.n_blocks}")
+        figure = scene.draw(slips, load_trace(run), f"N = {run.chain.n_blocks}", data=data)
     style.save(figure, arguments.output)
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
 
@@ -188,7 +188,7 @@ def run_of(arguments: argparse.Namespace) -> Run:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
         return run_of_options(arguments)
-    options = {"duration", "until_global_slip", "max_transitions"}
+    options = {"duration", "until", "max_transitions"}
     if slider_of(arguments) or any(getattr(arguments, name) for name in options):
         raise ValueError(f"{arguments.file}: a run file cannot be combined with options of a chain")
     from precursors.solver.run import Run, RunFileError
@@ -208,11 +208,13 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
     from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError, simulate
 
     slider = SLIDER | slider_of(arguments)
-    slider["theta"] = parse_theta(slider["theta"])
+    if slider["weights"] is None:
+        slider["theta"] = parse_theta(slider["theta"])
+        del slider["weights"]
     chain = Chain.from_slider(**slider)
     limit = MAX_TRANSITIONS if arguments.max_transitions is None else arguments.max_transitions
     try:
-        run = simulate(chain, duration_of(arguments), until_of(arguments), max_transitions=limit)
+        run = simulate(chain, duration_of(arguments), arguments.until, max_transitions=limit)
     except TransitionLimitError as error:
         raise Refused(str(error)) from error
     return replace(run, slider=slider)
@@ -220,18 +222,20 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
 
 def slider_of(arguments: argparse.Namespace) -> dict[str, Any]:
     """Arguments of `Chain.from_slider` that were given."""
+    from precursors.model.scenes import measured
+
     names = ("theta", "n_blocks", *(name for _, name, _, _ in CHAIN))
-    return {name: getattr(arguments, name) for name in names if getattr(arguments, name) is not None}
+    given = {name: getattr(arguments, name) for name in names if getattr(arguments, name) is not None}
+    if arguments.weights is None:
+        return given
+    if given.keys() & {"theta", "n_blocks", "normal_load"}:
+        raise ValueError("--weights cannot be combined with --theta, --blocks or --normal-load")
+    return measured(given, arguments.weights)
 
 
 def duration_of(arguments: argparse.Namespace) -> float:
     """Time to run [s]."""
     return DURATION if arguments.duration is None else arguments.duration
-
-
-def until_of(arguments: argparse.Namespace) -> Any:
-    """Where to stop before the duration is over."""
-    return "global slip" if arguments.until_global_slip else None
 
 
 def show_values(values: Mapping[str, Any], as_json: bool) -> None:
@@ -278,11 +282,13 @@ def add_chain(command: argparse.ArgumentParser) -> None:
     add = command.add_argument_group("the chain", "the defaults are the paper's").add_argument
     add("--theta", metavar="X", help='non-uniformity of the normal loading, for example "5/6" (0)')
     add("--blocks", dest="n_blocks", type=whole_number, metavar="N", help="number of blocks (10)")
+    add("--weights", metavar="FILE", help="normal load of each block [N], instead of the options above")
     for option, name, default, meaning in CHAIN:
         add(option, dest=name, type=number, metavar="X", help=f"{meaning} ({default})")
     add = command.add_argument_group("the run").add_argument
     add("--duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
-    add("--until-global-slip", action="store_true", help="stop at the end of the first global slip")
+    help_ = "stop at the end of the first global slip"
+    add("--until-global-slip", dest="until", action="store_const", const="global slip", help=help_)
     add("--max-transitions", type=whole_number, metavar="N", help="limit of transitions")
 
 
@@ -307,7 +313,10 @@ def add_options(command: argparse.ArgumentParser, name: str) -> None:
     else:
         kinds, meaning = ["load", "lengths"], "as Figs. 10 to 12 (load), or as Fig. 13 (lengths)"
         command.add_argument("--figure", choices=kinds, default="load", help=meaning)
-        output(default=FIGURE_FILE, help=f"a .png or .svg file ({FIGURE_FILE})")
+        command.add_argument(
+            "--data", metavar="FILE", help="draw a measured load over it: CSV with t [s], F_X [N]"
+        )
+        output(default=FIGURE_FILE, help=f"a .png, .svg, .pdf or .eps file ({FIGURE_FILE})")
     command.add_argument("--json", action="store_true", help="print one JSON value")
 
 

@@ -183,6 +183,25 @@ def test_plot_writes_the_file_that_is_asked_for(cli, run_file, tmp_path):
     assert "<svg" in (tmp_path / "figure.svg").read_text()
 
 
+def test_plot_draws_a_measured_load_over_the_run(cli, run_file, tmp_path):
+    (tmp_path / "measured.csv").write_text("t,F\n0,0\n1,500\n")
+    code, *_ = cli("plot", run_file, "--data", tmp_path / "measured.csv", "--output", tmp_path / "a.svg")
+    assert code == DONE
+    cli("plot", run_file, "--output", tmp_path / "b.svg")
+    assert (tmp_path / "a.svg").read_text() != (tmp_path / "b.svg").read_text()
+
+
+def test_slips_of_measured_normal_loads_are_those_of_the_same_linear_ones_without_theta(cli, tmp_path):
+    (tmp_path / "loads.csv").write_text("30\n40\n50\n")
+    files = [tmp_path / "measured.csv", tmp_path / "linear.csv"]
+    cli("slips", "--weights", tmp_path / "loads.csv", "--duration", 2, "--output", files[0])
+    cli("slips", "--theta", 0.25, "--blocks", 3, "--normal-load", 120, "--duration", 2, "--output", files[1])
+    measured, linear = map(pd.read_csv, files)
+    assert measured["theta"].isna().all()
+    assert len(measured) > 0
+    pd.testing.assert_frame_equal(measured.drop(columns="theta"), linear.drop(columns="theta"))
+
+
 # audit
 
 
@@ -237,6 +256,8 @@ def test_the_version_is_told(cli):
         (("simulate", "--ensemble", "2", "--duration", "0"), WRONG_USE, "duration must be above 0 s"),
         (("simulate", "--max-transitions", "9"), REFUSED, "max_transitions = 9 reached"),
         (("simulate", "--output", "/dev/null/run.h5"), FILE, "/dev/null/run.h5"),
+        (("simulate", "--weights", "w.csv", "--theta", "0"), WRONG_USE, "cannot be combined with --theta"),
+        (("simulate", "--weights", "missing.csv"), WRONG_USE, "missing.csv cannot be read"),
         (("slips", "missing.h5"), FILE, "missing.h5: no such file"),
         (("slips", __file__), REFUSED, "run file"),
         (("slips", "run.h5", "--theta", "0"), WRONG_USE, "cannot be combined"),

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from precursors.model.chain import Chain
 from precursors.model.config import check_config, check_file
 from precursors.model.scenes import scene_chain, scene_slider, scenes_with
 
@@ -17,6 +18,7 @@ MISSING = object()
 STEEP = {"title": "steep", "theta": 0.9}
 
 # Key, value, and words that the line must hold.
+MEASURED = {"title": "as measured", "weights": [30.0, 40.0, 50.0]}
 WRONG = [
     ("chain.youngs_modulus", "2.5e9", ["a number > 0", "[Pa]", "is '2.5e9'", "text: write 2.5e+09"]),
     ("chain.cross_section", "1e-4", ["[m^2]", "text: write 1.0e-04"]),
@@ -84,6 +86,10 @@ WRONG = [
         STEEP | {"model": "head", "head_mass": 0},
         ["scenes.steep.head_mass", "a number > 0", "[kg]"],
     ),
+    ("scenes.fig10.weights", [40.0] * 10, ["load_cell_a must not be given beside weights"]),
+    ("scenes.steep", MEASURED | {"n_blocks": 3}, ["n_blocks must not be given beside weights"]),
+    ("scenes.steep", MEASURED | {"weights": "none.csv"}, ["none.csv cannot be read: No such file"]),
+    ("scenes.steep", MEASURED | {"weights": [40.0, -1.0]}, ["weights[1]", "a number >= 0", "-1.0"]),
     ("fig13", ["fig10", "fig11", "fig21"], ["fig13 holds 'fig21'", "fig10, fig11, fig12"]),
     ("fig13", ["fig10", "fig11", "fig11"], ["three different scenes"]),
     ("fig13", ["fig10"], ["three different scenes"]),
@@ -197,3 +203,16 @@ def test_plain_numbers_and_quoted_texts_are_accepted(tmp_path):
     path = tmp_path / "mine.yaml"
     path.write_text('a: [0, -1, 0.5, 2.5e+9, 1_000, "010", "1:30"]\n', encoding="utf-8")
     check_file(path)
+
+
+def test_measured_normal_loads_are_those_of_the_blocks_from_a_list_or_a_file(tmp_path):
+    (tmp_path / "loads.csv").write_text("30, 40\n50\n")
+    for weights in (MEASURED["weights"], str(tmp_path / "loads.csv")):
+        config = changed("scenes.steep", MEASURED | {"weights": weights})
+        check_config(config, SCHEMA)
+        chain = scene_chain(config, "steep")
+        assert chain.weights.tolist() == [30.0, 40.0, 50.0]
+        assert chain == Chain.from_slider(n_blocks=3, normal_load=120.0, theta=0.25)
+        slider = scene_slider(config, "steep")
+        assert (slider["n_blocks"], slider["normal_load"]) == (3, 120.0)
+        assert math.isnan(slider["theta"])

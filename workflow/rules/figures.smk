@@ -210,8 +210,8 @@ rule write_explorer:
         "results/logs/write_explorer.log",
     localrule: True
     params:
-        titles={scene: config["scenes"][scene]["title"] for scene in SCENES},
-        sliders={scene: scene_slider(config, scene) for scene in SCENES},
+        titles={scene: config["scenes"][scene]["title"] for scene in scenes_with_theta(config)},
+        sliders={scene: scene_slider(config, scene) for scene in scenes_with_theta(config)},
         duration=config["duration"],
     script:
         "../scripts/write_explorer.py"

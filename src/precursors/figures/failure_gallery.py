@@ -91,7 +91,7 @@ PANELS = {
         STABLE_STEP,
     ), vertical=LIMIT, joined=False),
     "numerical_damping": Panel("Implicit Moreau-Jean damps motion", r"Time [$\mu$s]", "Energy left [-]", (
-        Sentence("{setting}: {value:.3f} of the energy; exact {exact:g}", "energy left", "dt = 1e-07 s",
+        Sentence("{setting}: energy {value:.3f}; exact {exact:g}", "energy left", "dt = 1e-07 s",
                  "Moreau-Jean, implicit"),
         Sentence("trapezoidal, {setting}: {value:.3f}", "energy left", method="Moreau-Jean, trapezoidal"),
     ), scale=(MICRO, 1.0), key=(0.5, 0.06), joined=False),

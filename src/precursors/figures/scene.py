@@ -23,6 +23,7 @@ FIRST_GLOBAL: dict[str, Any] = {"color": style.BLACK, "linewidth": 0.9, "linesty
 # A partial slip that ends at the leading edge: its blocks did not all slide at the same instant.
 TO_THE_EDGE: dict[str, Any] = {"color": PARTIAL, "linestyle": "none", "marker": "o", "markersize": 3.6}
 TO_THE_EDGE |= {"markerfacecolor": "white", "markeredgewidth": 0.9, "clip_on": False}
+MEASURED: dict[str, Any] = {"color": style.ORANGE, "linewidth": 0.8, "zorder": 1.8, "label": "measured"}
 UNFINISHED: dict[str, Any] = {"alpha": 0.2, "linewidth": 0}
 
 # The inset shows the last stretch before the first global slip, as fractions of the time of that slip.
@@ -39,7 +40,11 @@ CHARACTERS_OF_TITLE = 100
 
 
 def draw(
-    slips: pd.DataFrame, trace: pd.DataFrame, title: str = "", others: Sequence[pd.DataFrame] = ()
+    slips: pd.DataFrame,
+    trace: pd.DataFrame,
+    title: str = "",
+    others: Sequence[pd.DataFrame] = (),
+    data: pd.DataFrame | None = None,
 ) -> Figure:
     """Draw F_X(t) with a magnified view before the first global slip, and below it all slip events.
 
@@ -53,6 +58,8 @@ def draw(
         Name of the scene.
     others : sequence of DataFrame
         Traces of scenes to compare with: the load axis holds them, too.
+    data : DataFrame, optional
+        An experiment: time [s] and tangential load [N] in the first two columns.
 
     Notes
     -----
@@ -60,6 +67,9 @@ def draw(
     is a band from its onset to the end of the run.
     """
     slips = slips.astype({"is_global": bool})
+    if data is not None:
+        data = data.iloc[:, :2].set_axis(["time_s", "tangential_load_N"], axis=1).astype(float)
+        others = [*others, data]
     first_s = slips.loc[slips["is_global"], "onset_s"].min()
     has_global = bool(slips["is_global"].any())
     end = trace["time_s"].iloc[-1]
@@ -75,6 +85,10 @@ def draw(
                 axes.axvline(first_s, **FIRST_GLOBAL)
         if has_global and first_s > 0:
             _draw_inset(upper, slips, trace, first_s)
+        if data is not None:
+            for axes in (upper, *upper.child_axes):
+                axes.plot(data["time_s"], data["tangential_load_N"], **MEASURED, scaley=False)
+            upper.legend(handles=[Line2D([], [], **MEASURED)], loc="lower right")
         _draw_key(lower, slips)
         figure.align_ylabels([upper, lower])
     return figure

@@ -129,7 +129,7 @@ def _opaque(figure: Figure) -> Iterator[None]:
     """Replace transparent colours by what they are on white, until the block ends."""
     undo: list[tuple[Any, Any]] = []
     transparent = [
-        (artist, artist.get_alpha()) for artist in figure.findobj(lambda a: a.get_alpha() is not None)
+        (artist, alpha) for artist in figure.findobj() if (alpha := artist.get_alpha()) is not None
     ]
     for artist, alpha in transparent:
         undo.append((artist.set_alpha, alpha))

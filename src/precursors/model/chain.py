@@ -77,6 +77,7 @@ class Chain:
         youngs_modulus: float = 2.5e9,
         cross_section: float = 1e-4,
         length: float = 0.1,
+        weights: ArrayLike | None = None,
     ) -> Chain:
         """Cut a slider into N equal blocks (Eqs. 7, 9 and 10); the defaults are the paper's.
 
@@ -94,16 +95,20 @@ class Chain:
             K [N/m] and V [m/s] of the drive.
         slider_mass, youngs_modulus, cross_section, length : float
             M [kg], E [Pa], S [m^2] and L [m] of the slider.
+        weights : array_like, shape (N,), optional
+            Normal load of each block [N], from the trailing edge on. The loading is then as measured:
+            n_blocks, theta and normal_load do not count.
 
         Raises
         ------
         ValueError
             In one line that names the parameter, what it must be, and what it is.
         """
-        n = whole("n_blocks", n_blocks, at_least=1)
+        loads = linear_weights(n_blocks, normal_load, theta) if weights is None else _weights(weights)
+        n = len(loads)
         length = positive("length", length, "m")
         return cls(
-            weights=linear_weights(n, normal_load, theta),
+            weights=loads,
             mass=positive("slider_mass", slider_mass, "kg") / n,
             stiffness=neighbour_stiffness(
                 n,

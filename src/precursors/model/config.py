@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from precursors.model.chain import Chain, parse_theta
-from precursors.model.scenes import Config, scene_additions, scene_chain, scenes_with
+from precursors.model.scenes import Config, scene_additions, scene_chain, scenes_with_theta
 
 if TYPE_CHECKING:
     from jsonschema import ValidationError
@@ -160,7 +160,7 @@ def _check_names_and_lengths(config: Config) -> None:
     """Refuse names of nothing, and lists that do not fit each other."""
     accuracy = config["accuracy"]
     for where, names, known in (
-        ("fig13", config["fig13"], scenes_with(config, "run")),
+        ("fig13", config["fig13"], scenes_with_theta(config)),
         ("accuracy.compared", accuracy["compared"], accuracy["proved"]),
     ):
         for name in names:

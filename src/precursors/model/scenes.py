@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from os import PathLike
+from pathlib import Path
 from typing import Any
 
 from precursors.model.chain import Chain, exact_theta_from_load_cells, parse_theta
@@ -23,6 +26,11 @@ def scenes_with(config: Config, output: str) -> list[str]:
     return [name for name, scene in config["scenes"].items() if ("model" in scene) == (output == "answers")]
 
 
+def scenes_with_theta(config: Config) -> list[str]:
+    """Names of the scenes that have a run and whose normal load changes linearly along the slider."""
+    return [name for name in scenes_with(config, "run") if "weights" not in config["scenes"][name]]
+
+
 def scene_model(config: Config, name: str) -> str:
     """The model of a scene, a key of `hierarchy.models.MODELS`."""
     return str(config["scenes"][name].get("model", PAPERS_MODEL))
@@ -33,9 +41,37 @@ def scene_duration(config: Config, name: str) -> float:
     return float(config["scenes"][name].get("duration", config["duration"]))
 
 
+def read_weights(path: str | PathLike[str]) -> list[float]:
+    """Normal loads [N] from a text file with a number for each block, in one line or one a line.
+
+    Raises
+    ------
+    ValueError
+        In one line, if the file cannot be read.
+    """
+    try:
+        return [float(text) for text in Path(path).read_text(encoding="utf-8").replace(",", " ").split()]
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise ValueError(f"the weights in {path} cannot be read: {reason}") from None
+
+
+def measured(slider: Mapping[str, Any], weights: str | PathLike[str] | Sequence[float]) -> dict[str, Any]:
+    """A slider with measured normal loads [N], a list or a file; there is no theta."""
+    loads = (
+        list(weights)
+        if isinstance(weights, Sequence) and not isinstance(weights, str)
+        else read_weights(weights)
+    )
+    known = {"weights": loads, "n_blocks": len(loads), "normal_load": math.fsum(loads), "theta": math.nan}
+    return {**slider, **known}
+
+
 def scene_slider(config: Config, name: str) -> dict[str, Any]:
     """Arguments of `Chain.from_slider` for a scene; theta and F_Z are rounded once."""
     slider = scene_as_written(config, name)
+    if "weights" in slider:
+        return measured(slider, slider["weights"])
     return slider | {"theta": parse_theta(slider["theta"]), "normal_load": float(slider["normal_load"])}
 
 
@@ -64,14 +100,21 @@ def scene_as_written(config: Config, name: str) -> dict[str, Any]:
     Raises
     ------
     ValueError
-        If the scene gives both theta and load cells, or neither.
+        If the scene gives more than one of theta, load cells and weights, or none.
     """
     scene = config["scenes"][name]
     slider = {key: scene.get(key, value) for key, value in config["chain"].items()}
     cells = [key for key in ("load_cell_a", "load_cell_b") if key in scene]
+    if "weights" in scene:
+        for key in ("theta", *cells, "normal_load", "n_blocks"):
+            if key in scene:
+                raise ValueError(f"{key} must not be given beside weights")
+        return slider | {"weights": scene["weights"]}
     if ("theta" in scene) == bool(cells) or len(cells) == 1:
         given = " and ".join([key for key in ("theta", *cells) if key in scene]) or "neither"
-        raise ValueError(f"needed is either theta or both load_cell_a and load_cell_b, but given is {given}")
+        raise ValueError(
+            f"needed is either theta or both load_cell_a and load_cell_b, or weights, but given is {given}"
+        )
     if "theta" in scene:
         return slider | {"theta": scene["theta"]}
     if "normal_load" in scene:

@@ -36,6 +36,8 @@ def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
     model = scene_model(config, name)
     if model != PAPERS_MODEL:
         raise ValueError(f"scenes.{name}.model must be {PAPERS_MODEL!r} for a proof, but is {model!r}")
+    if "weights" in config["scenes"][name]:
+        raise ValueError(f"scenes.{name} must have theta or load cells for a proof, but has weights")
     return ExactChain.from_slider(**scene_as_written(config, name))
 
 
