@@ -18,7 +18,7 @@ rule ensembles:
         collect("results/figures/spread_{question}.svg", question=QUESTIONS),
         [f"results/figures/map_{x}_{y}.svg" for x, y in config["ensembles"]["maps"]["pairs"]],
         collect("results/figures/{figure}.svg", figure=["resolution", "event_law", "long_runs"]),
-        collect("results/tables/{table}.csv", table=["spread", "robustness", "resolution_limits", "endless"]),
+        collect("results/tables/{table}.csv", table=["spread", "robustness", "resolution_limits", "endless", "digits"]),
     localrule: True
 
 
@@ -99,6 +99,19 @@ rule tabulate_predictability:
         tolerance=config["accuracy"]["tolerance"],
     script:
         "../scripts/tabulate_predictability.py"
+
+
+rule tabulate_digits:
+    input:
+        members="results/tables/digits_members.csv",
+        code=package("model/chain", "solver", "analysis", "ensembles"),
+    output:
+        table=report("results/tables/digits.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_digits.log",
+    localrule: True
+    script:
+        "../scripts/tabulate_digits.py"
 
 
 rule tabulate_endless:

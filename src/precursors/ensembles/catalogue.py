@@ -7,6 +7,7 @@ from functools import partial
 from itertools import permutations
 from typing import Any
 
+from precursors.ensembles.digits import digits_study
 from precursors.ensembles.endless import endless_study
 from precursors.ensembles.event_law import event_law_study
 from precursors.ensembles.maps import PARAMETERS, map_study
@@ -19,6 +20,7 @@ MAPS = {f"map_{x}_{y}": (x, y) for x, y in permutations(PARAMETERS, 2)}
 STUDIES: dict[str, Callable[..., Study]] = {
     "spread_members": spread_study,
     "resolution_members": resolution_study,
+    "digits_members": digits_study,
     "event_law_members": event_law_study,
     "event_law_full_members": event_law_study,
     "endless_members": endless_study,
