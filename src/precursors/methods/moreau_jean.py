@@ -17,8 +17,6 @@ from __future__ import annotations
 import math
 from functools import partial
 
-import numpy as np
-
 from precursors.methods.common import Smooth
 from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
@@ -31,7 +29,6 @@ from precursors.methods.fixed_step import (
     inner,
     outer,
     rows,
-    set_mode,
     step_length,
 )
 
@@ -143,17 +140,13 @@ def slide(system, state, h, n_steps, theta):
 def run_moreau_jean(motion, step, theta):
     """Run until the end, a full record or a spent budget of legs.
 
-    A block that turns round needs a step to stop in, whose friction brakes it; a rest of one step between the
-    two directions is recorded as the turn that it stands for. Each solution of the tridiagonal system counts
-    as an evaluation.
+    A block that turns round needs a step to stop in, whose friction brakes it: where its springs overcome the
+    static friction at the end of that step, it turns. Each solution of the tridiagonal system counts as an
+    evaluation.
     """
     system, state, progress = motion.system, motion.state, motion.progress
     work = rows(state, 4)
     trial = state.mode.copy()
-    # Of each block's last stop: its mode before, the step, and its row in the record.
-    came_from, stop_row = np.zeros_like(trial), np.zeros_like(trial)
-    stop_step = np.full_like(trial, -1)
-    n_step = 0
     for _ in range(LEGS_PER_CALL):
         status = begin_leg(motion, True)
         if status != MOVING:
@@ -161,7 +154,6 @@ def run_moreau_jean(motion, step, theta):
         trial[1] = state.mode[1]
         last = progress.last
         for _ in range(STEPS_IN_LEG):
-            n_step += 1
             h = step_length(progress, step)
             last, solutions = step_modes(system, state, last, h, theta, work, trial)
             finish(system, state, last, h, theta, work[3])
@@ -173,15 +165,12 @@ def run_moreau_jean(motion, step, theta):
             old, new = state.mode[i], trial[i]
             if new == 0:
                 state.velocity[i] = 0.0
-            if new == old:
-                continue
-            if stop_step[i] == n_step - 1 and new == -came_from[i]:
-                set_mode(motion, i, new)
-                motion.record[stop_row[i]].mode = new
-                continue
-            if new == 0:
-                came_from[i], stop_step[i], stop_row[i] = old, n_step, progress.transitions
-            change_mode(motion, i, new)
+                net = state.spring_force[i] - state.spring_force[i + 1]
+                if old * net < -system.strength[i]:
+                    set_trial(system, state, trial, i, -old)
+                    new = -old
+            if new != old:
+                change_mode(motion, i, new)
     return PAUSED
 
 
