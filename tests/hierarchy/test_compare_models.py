@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from precursors import Chain, find_precursors, find_slips
+from precursors import Chain
 from precursors.figures import model_comparison, style
-from precursors.hierarchy.compare_models import compare_models, waveform_error
+from precursors.hierarchy.compare_models import DRAWS, compare_models, waveform_error
 from precursors.hierarchy.larger import LargerChain, simulate_larger
 from precursors.hierarchy.models import MODELS
 from precursors.model.scenes import ADDED
@@ -44,7 +44,7 @@ def test_the_smallest_model_for_each_question_is_named(comparison: pd.DataFrame)
     assert smallest(comparison) == {
         "first_load": "statics",
         "events_kept": "quasistatic",
-        "mu_sapp": "chain",
+        "mu_sapp": "overdamped",
         "front_loads": "quasistatic",
         "slip_duration": "chain",
         "waveform": "chain",
@@ -52,15 +52,15 @@ def test_the_smallest_model_for_each_question_is_named(comparison: pd.DataFrame)
 
 
 def test_a_wider_tolerance_lets_a_smaller_model_answer() -> None:
-    wide = compare_models(SCENES, TOLERANCES | {"mu_sapp": 0.08, "slip_duration": 0.4}, ADDITIONS, rounds=1)
+    wide = compare_models(SCENES, TOLERANCES | {"mu_sapp": 0.1, "slip_duration": 0.4}, ADDITIONS, rounds=1)
     assert smallest(wide)["mu_sapp"] == "law"
     assert smallest(wide)["slip_duration"] == "rigid"
 
 
 def test_a_model_that_fails_in_one_scene_is_not_the_smallest_for_any(comparison: pd.DataFrame) -> None:
-    damped = comparison[(comparison["question"] == "mu_sapp") & (comparison["model"] == "overdamped")]
-    assert damped.set_index("scene")["is_answer"].to_dict() == {"lead": False, "even": True}
-    assert not damped["is_smallest"].any()
+    cascade = comparison[(comparison["question"] == "mu_sapp") & (comparison["model"] == "quasistatic")]
+    assert cascade.set_index("scene")["is_answer"].to_dict() == {"lead": True, "even": False}
+    assert not cascade["is_smallest"].any()
 
 
 def test_each_model_is_asked_what_it_answers_and_nothing_else(comparison: pd.DataFrame) -> None:
@@ -80,15 +80,15 @@ def test_a_cost_is_that_of_a_warm_answer_repeated_until_it_can_be_measured(monke
     exact = MODELS["chain"]
 
     def prepare(chain: Chain):
-        # The exact answer that others are held against comes first, and then the first of two calls.
-        clock.now += warm if len(calls) >= 2 else 10.0
+        clock.now += warm if calls else 10.0
         calls.append(chain)
         return exact.prepare(chain)
 
     models = {"chain": replace(exact, prepare=prepare)}
     table = compare_models({"even": SCENES["even"]}, TOLERANCES, ADDITIONS, models, rounds)
     assert table["cost_s"].tolist() == pytest.approx([warm] * len(TOLERANCES))
-    assert len(calls) == len(TOLERANCES) * (1 + 2 + rounds * round(timing.SHORTEST / warm))
+    noisy = 2 * DRAWS
+    assert len(calls) == len(TOLERANCES) * (2 + rounds * round(timing.SHORTEST / warm)) + noisy
 
 
 def test_waveforms_are_compared_over_the_same_time() -> None:
@@ -109,7 +109,7 @@ def test_waveforms_are_compared_over_the_same_time() -> None:
 def test_an_addition_has_its_value_for_the_whole_slider(comparison, model, addition, text) -> None:
     run = simulate_larger(LargerChain(SCENES["lead"], **addition), 10.0, until="global slip").run
     rows = comparison[(comparison["model"] == model) & (comparison["scene"] == "lead")].set_index("question")
-    assert rows.loc["events_kept", "value"] == len(find_precursors(find_slips(run)))
+    assert rows.loc["waveform", "value"] == run.transitions["tangential_load"].max()
     assert set(rows["addition"]) == {text}
 
 

@@ -120,10 +120,11 @@ def hierarchy(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Smaller and larger models beside the paper's chain."""
     table = t["model_comparison"]
     head = rows(table, question="slip_duration", model="head")
-    quasistatic = rows(table, question="events_kept", model="quasistatic").set_index("scene")["value"]
+    counts = rows(table, question="events_kept").set_index(["model", "scene"])["value"]
     return {
-        **{f"quasistatic-events-{scene}": quasistatic[scene] for scene in SCENES},
+        **{f"{m}-events-{scene}": counts[m, scene] for m in ("quasistatic", "chain") for scene in SCENES},
         "quasistatic-lengths-worst": rows(table, question="front_loads", model="quasistatic")["error"].max(),
+        "overdamped-worst": rows(table, question="mu_sapp", model="overdamped")["error"].max(),
         "law-worst": rows(table, question="mu_sapp", model="law")["error"].max(),
         "law-lengths-worst": rows(table, question="front_loads", model="law")["error"].max(),
         "rigid-mu": rows(table, question="mu_sapp", model="rigid")["value"].mean(),
