@@ -122,7 +122,7 @@ def readings_table(members: pd.DataFrame) -> pd.DataFrame:
             "events_each": runs.loc[each, "n_events_each"].median(),
             "mu_sapp_at_once": runs["mu_sapp"].median(),
             "mu_sapp_each": runs["mu_sapp_each"].median(),
-            "pulse_share": (runs.loc[each, "sliding_each"] / n_blocks).median(),
+            "pulse_share": (runs["sliding_each"] / runs["n_blocks"])[each].median(),
         }
         counted = {"runs": len(runs), "without_global_slip": int((~runs["reached"]).sum())}
         shares = {"earlier": earlier.mean(), "earlier_low": low, "earlier_high": high}
