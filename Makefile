@@ -62,5 +62,9 @@ $(READY): requirements.lock
 	$(BIN)/python -m pip install -q --no-deps --require-hashes -r .venv/uv.txt
 	$(BIN)/uv pip sync -q -p $(BIN)/python --compile-bytecode --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
-	$(BIN)/python -c "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.4).at([0.4])" # compiles
+	@# Compile the solver and the methods with fixed steps, one on each core.
+	$(BIN)/python -c "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.4).at([0.4])" & \
+	$(BIN)/python -c "from precursors import Chain; from precursors.methods import METHODS; \
+	  [METHODS[name].solve(Chain.from_slider(), 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'leapfrog', 'karnopp')]" & \
+	wait
 	touch $(READY)

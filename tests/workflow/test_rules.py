@@ -24,6 +24,8 @@ QUEUED = {
     "tabulate_failures",
     "tabulate_long_runs",
     "tabulate_lyapunov",
+    "tabulate_predictability",
+    "tabulate_random_steps",
     "tabulate_step_sweep",
 }
 # These make the parameters of rules, which Snakemake compares itself; `support` has no physics.

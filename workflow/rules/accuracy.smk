@@ -125,6 +125,7 @@ rule tabulate_horizon:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
         code=package(
             "model/chain",
+            "model/checks",
             "solver",
             "analysis",
             "accuracy/proof",
@@ -146,7 +147,7 @@ rule tabulate_horizon:
 
 rule tabulate_lyapunov:
     input:
-        code=package("model/chain", "solver", "analysis"),
+        code=package("model/chain", "model/checks", "solver", "analysis"),
     output:
         table=report("results/tables/lyapunov.csv", category="Tables"),
     log:
@@ -163,6 +164,7 @@ rule measure_methods:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=COMPARED),
         code=package(
             "model/chain",
+            "model/checks",
             "solver",
             "analysis",
             "methods",
@@ -182,7 +184,7 @@ rule measure_methods:
 
 rule measure_cost_per_event:
     input:
-        code=package("model/chain", "model/statics", "solver", "accuracy/cost_per_event"),
+        code=package("model/chain", "model/checks", "model/statics", "solver", "accuracy/cost_per_event"),
     output:
         table="results/tables/cost_per_event.csv",
     log:
@@ -195,6 +197,7 @@ rule tabulate_step_sweep:
     input:
         code=package(
             "model/chain",
+            "model/checks",
             "solver",
             "analysis",
             "methods",
@@ -217,6 +220,7 @@ rule tabulate_failures:
     input:
         code=package(
             "model/chain",
+            "model/checks",
             "solver",
             "analysis",
             "methods",

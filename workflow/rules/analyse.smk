@@ -9,7 +9,7 @@ rule mu_sapp:
 rule tabulate_slips:
     input:
         run="results/runs/{scene}.h5",
-        code=package("model/chain", "solver", "analysis"),
+        code=package("model/chain", "model/checks", "solver", "analysis"),
     output:
         table=report("results/tables/{scene}_slips.csv", category="Tables"),
     log:
@@ -22,7 +22,7 @@ rule tabulate_slips:
 rule tabulate_trace:
     input:
         run="results/runs/{scene}.h5",
-        code=package("model/chain", "solver", "analysis"),
+        code=package("model/chain", "model/checks", "solver", "analysis"),
     output:
         table="results/tables/{scene}_trace.csv",
     log:
@@ -35,7 +35,7 @@ rule tabulate_trace:
 rule tabulate_mu_sapp:
     input:
         runs=collect("results/runs/{scene}.h5", scene=SCENES),
-        code=package("model/chain", "solver", "analysis"),
+        code=package("model/chain", "model/checks", "solver", "analysis"),
     output:
         table=report("results/tables/mu_sapp.csv", category="Tables"),
     log:

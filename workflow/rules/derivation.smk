@@ -20,7 +20,7 @@ rule check_eq15:
 
 rule tabulate_definitions:
     input:
-        code=package("model/chain", "solver", "analysis", "methods", "reproduction/definitions"),
+        code=package("model", "solver", "analysis", "methods", "reproduction/definitions"),
     output:
         table=report("results/tables/definitions.csv", category="Tables"),
     log:
@@ -40,7 +40,9 @@ rule tabulate_definitions:
 rule tabulate_random_steps:
     input:
         definitions="results/tables/definitions.csv",
-        code=package("model/chain", "analysis", "methods", "reproduction/random_steps"),
+        code=package(
+            "model", "solver", "analysis", "methods", "reproduction/definitions", "reproduction/random_steps"
+        ),
     output:
         table=report("results/tables/random_steps{full}.csv", category="Tables"),
     log:

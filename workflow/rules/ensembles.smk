@@ -18,13 +18,16 @@ rule ensembles:
         collect("results/figures/spread_{question}.svg", question=QUESTIONS),
         [f"results/figures/map_{x}_{y}.svg" for x, y in config["ensembles"]["maps"]["pairs"]],
         collect("results/figures/{figure}.svg", figure=["resolution", "event_law", "long_runs"]),
-        collect("results/tables/{table}.csv", table=["spread", "robustness", "resolution_limits", "endless", "digits"]),
+        collect(
+            "results/tables/{table}.csv",
+            table=["spread", "robustness", "resolution_limits", "endless", "digits"],
+        ),
     localrule: True
 
 
 rule run_chunk:
     input:
-        code=package("model/chain", "solver", "analysis", "ensembles"),
+        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         chunk="results/ensembles/{study}/{chunk}.csv",
     log:
@@ -38,7 +41,7 @@ rule run_chunk:
 rule gather_members:
     input:
         chunks=collect("results/ensembles/{{study}}/{chunk}.csv", chunk=CHUNKS),
-        code=package("model/chain", "solver", "analysis", "ensembles"),
+        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table="results/tables/{study}.csv",
     log:
@@ -51,7 +54,7 @@ rule gather_members:
 rule tabulate_spread:
     input:
         members="results/tables/spread_members.csv",
-        code=package("model/chain", "solver", "analysis", "ensembles"),
+        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         spread=report("results/tables/spread.csv", category="Tables"),
         robustness=report("results/tables/robustness.csv", category="Tables"),
@@ -65,7 +68,7 @@ rule tabulate_spread:
 rule tabulate_resolution:
     input:
         members="results/tables/resolution_members.csv",
-        code=package("model/chain", "solver", "analysis", "ensembles"),
+        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/resolution.csv", category="Tables"),
         readings=report("results/tables/resolution_readings.csv", category="Tables"),
@@ -83,7 +86,7 @@ rule tabulate_resolution:
 
 rule tabulate_predictability:
     input:
-        code=package("model/chain", "solver", "analysis", "ensembles"),
+        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/predictability{full}.csv", category="Tables"),
     log:
@@ -104,7 +107,7 @@ rule tabulate_predictability:
 rule tabulate_digits:
     input:
         members="results/tables/digits_members.csv",
-        code=package("model/chain", "solver", "analysis", "ensembles"),
+        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/digits.csv", category="Tables"),
     log:
@@ -117,7 +120,7 @@ rule tabulate_digits:
 rule tabulate_endless:
     input:
         members="results/tables/endless{full}_members.csv",
-        code=package("model/chain", "solver", "analysis", "ensembles"),
+        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/endless{full}.csv", category="Tables"),
     log:
@@ -132,7 +135,7 @@ rule tabulate_endless:
 rule tabulate_event_law:
     input:
         members="results/tables/event_law{full}_members.csv",
-        code=package("model/chain", "solver", "analysis", "ensembles"),
+        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/event_law{full}.csv", category="Tables"),
     log:
@@ -146,7 +149,7 @@ rule tabulate_event_law:
 
 rule tabulate_long_runs:
     input:
-        code=package("model/chain", "solver", "analysis", "ensembles"),
+        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         slips="results/tables/long_runs.csv",
         statistics=report("results/tables/long_runs_statistics.csv", category="Tables"),

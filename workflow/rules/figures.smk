@@ -123,7 +123,7 @@ FIGURES = {
         "shows": "two parameters",
         "category": "Sensitivity",
         "module": "map_of",
-        "uses": ["model/chain"],
+        "uses": ["model/chain", "model/checks"],
         "tables": {"table": "results/tables/{map}.csv"},
         "options": {
             "x": lambda wildcards: MAPS[wildcards.map][0],

@@ -1,6 +1,6 @@
 rule simulate_scene:
     input:
-        code=package("model/chain", "solver"),
+        code=package("model/chain", "model/checks", "solver"),
     output:
         run="results/runs/{scene}.h5",
     log:
