@@ -221,6 +221,7 @@ rule tabulate_failures:
         code=package(
             "model/chain",
             "model/checks",
+            "model/switching",
             "solver",
             "analysis",
             "methods",

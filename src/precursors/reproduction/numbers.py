@@ -176,7 +176,7 @@ def random_steps(t: Tables, config: Mapping[str, Any]) -> Numbers:
     p = fisher_exact(np.column_stack([six["k"], six["n"] - six["k"]])).pvalue
     return found | {
         "six-p": p,
-        "six-may-be-equal": int(p > SIGNIFICANT),
+        "six-shares": "may be equal" if p > SIGNIFICANT else "differ",
         "sure-counts": min(share["events_trailing"], share["events_uniform"]),
         "events-leading-share": share["events_leading"],
         "mu-leading-share": share["mu_sapp_leading"],
