@@ -192,7 +192,7 @@ class Trials:
         copy: Path = self.local.copy
         return copy
 
-    def judge(self, fault: Fault, tests: list[Path]) -> str:
+    def verdict(self, fault: Fault, tests: list[Path]) -> str:
         """What the nearest tests say of a fault."""
         target = self.copy() / fault.path.relative_to(ROOT)
         whole, spent = target.read_bytes(), 0.0
@@ -248,7 +248,7 @@ def main() -> None:
     }
     with tempfile.TemporaryDirectory() as place, ThreadPoolExecutor(chosen.jobs) as pool:
         trials = Trials(Path(place))
-        verdicts = pool.map(lambda fault: trials.judge(fault, nearest[fault.path]), faults)
+        verdicts = pool.map(lambda fault: trials.verdict(fault, nearest[fault.path]), faults)
         counts = Counter[str]()
         for fault, verdict in zip(faults, verdicts, strict=True):
             counts[verdict] += 1

@@ -152,7 +152,7 @@ def verdict(case: Trial) -> str:
     return f"{len(report.problems)} problems after {report.n_intervals} intervals: {report.problems[0]}"
 
 
-def judged(number: int) -> tuple[str, str]:
+def kind_and_verdict(number: int) -> tuple[str, str]:
     """Kind and verdict of the trial with a number; a chain may be refused before it is run."""
     kind = trial_kind(number)
     try:

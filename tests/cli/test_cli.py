@@ -80,7 +80,7 @@ def test_the_help_states_the_defaults_of_the_library():
     parameters = inspect.signature(Chain.from_slider).parameters
     for _, name, default, _ in CHAIN:
         assert float(default) == parameters[name].default
-    assert {name for _, name, _, _ in CHAIN} <= parameters.keys() - {"theta", "n_blocks"}
+    assert {name for _, name, _, _ in CHAIN} == parameters.keys() - {"theta", "n_blocks", "weights"}
 
 
 # simulate

@@ -128,7 +128,7 @@ def reference(
         each block.
     """
     if until not in (None, "global slip"):
-        raise ValueError(f'until = {until!r}: allowed is None or "global slip"')
+        raise ValueError(f'until must be None or "global slip", but is {until!r}')
     scaled = _scale(chain, bits)
     state = _rest(chain, scaled, start_positions)
     end = _fixed(Fraction(duration) / scaled.time_unit, bits)

@@ -76,7 +76,7 @@ def extended_reference(
 ) -> list[Transition]:
     """Return all transitions up to `duration` [s], in time order; arguments as those of `reference`."""
     if until not in (None, "global slip"):
-        raise ValueError(f'until = {until!r}: allowed is None or "global slip"')
+        raise ValueError(f'until must be None or "global slip", but is {until!r}')
     motion = _Motion(_scale(chain, additions, bits), chain, start_positions)
     end = _fixed(Fraction(duration) / motion.scaled.time_unit, bits)
     transitions = motion.overloaded()

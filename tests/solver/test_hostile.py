@@ -1,4 +1,4 @@
-"""Hostile chains whose runs were once in doubt, and what the auditor sees of wrong ones."""
+"""Hostile chains whose runs once looked wrong, and how many wrong runs the auditor sees."""
 
 import math
 from fractions import Fraction
@@ -17,7 +17,7 @@ from precursors.accuracy.audit.checks import ROUNDINGS, Auditor
 # 2e-10 elsewhere. A force at its limit is known to a rounding, its instant to less where it hardly grows.
 RADIANS = 1e-8
 # Deviations that were beyond 1e-10 of the largest strength, the worst first; 12621 is what was never judged.
-ONCE_IN_DOUBT = (12621, 14434, 12209, 12177, 19552, 12626, 15083, 17283, 19995, 18644, 17322, 327, 1462)
+ONCE_SUSPECTED = (12621, 14434, 12209, 12177, 19552, 12626, 15083, 17283, 19995, 18644, 17322, 327, 1462)
 # Friction is a rounding of the forces for all blocks but one, or for all: 1e24 N beside 1e-3 N.
 BELOW_ROUNDING = {1668: [3], 3798: []}
 # Of each kind some with much rounding, and some as they come.
@@ -87,8 +87,8 @@ def run_and_exact(number: int):
     return run, run.transitions[["time", "block", "mode"]].tolist(), exact
 
 
-@pytest.mark.parametrize("number", ONCE_IN_DOUBT)
-def test_a_run_that_was_once_in_doubt_is_that_of_the_reference(number):
+@pytest.mark.parametrize("number", ONCE_SUSPECTED)
+def test_a_run_that_once_looked_wrong_is_that_of_the_reference(number):
     run, mine, exact = run_and_exact(number)
     assert run.duration < random_chains.trial(number)[1].duration or len(exact) <= len(mine)
     exact = exact[: len(mine)]
@@ -136,6 +136,6 @@ def test_the_auditor_sees_nearly_every_run_that_was_spoiled(kind):
 @pytest.mark.parametrize("first", range(0, 200, 20))
 def test_random_chains_move_as_the_model_says(first):
     """The auditor, which shares no code with the solver, finds nothing wrong."""
-    verdicts = {number: random_chains.judged(number)[1] for number in range(first, first + 20)}
+    verdicts = {number: random_chains.kind_and_verdict(number)[1] for number in range(first, first + 20)}
     assert {n: v for n, v in verdicts.items() if v not in ("survived", "refused")} == {}
     assert list(verdicts.values()).count("survived") >= 15

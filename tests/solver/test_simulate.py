@@ -28,7 +28,7 @@ COUNTS = {"fig10": 1428, "fig11": 1871, "fig12": 1255}
 # What the project promises [s].
 PROMISED_TO_GLOBAL_SLIP, PROMISED_TO_THE_END = 1e-9, 1e-6
 # What holds [s]: measured are 3e-15 .. 4e-14 up to the end of the first global slip and 2e-11 .. 3e-9 at
-# 10 s. Allowed is what changing the weights by a rounding does to the exact times: 1e-12 and 3e-8.
+# 10 s. The tolerance is what changing the weights by a rounding does to the exact times: 1e-12 and 3e-8.
 TO_GLOBAL_SLIP, TO_THE_END = 1e-12, 3e-8
 # The load changes by up to some 1e5 N/s in a slip, at transitions by less: measured are 3e-12 and 5e-7 N.
 LOAD_TO_GLOBAL_SLIP, LOAD_TO_THE_END = 1e-10, 1e-5

@@ -36,10 +36,10 @@ def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
     sweep, cost = t["step_sweep"], t["cost_per_event"]
     found: Numbers = {
         "finest-step": (sweep["step_s"].min(), "s"),
-        "growth-largest-n": cost["n_blocks"].max(),
+        "cost-largest-n": cost["n_blocks"].max(),
     }
     for start in ("natural", "driven", "front"):
-        found[f"growth-relative-{start}"] = rows(cost, kind=start)["relative"].iloc[-1]
+        found[f"cost-relative-{start}"] = rows(cost, kind=start)["relative"].iloc[-1]
     names = {"exact": "exact", "heyoka": "heyoka", "dop853": "scipy_dop853", "rk4": "rk4_skip"}
     for chain in CHAINS:
         own = rows(t["work_precision"], scene=chain, until="global slip")
