@@ -98,16 +98,17 @@ def test_after_kills_the_same_command_ends_with_the_same_bytes(project, right):
     while killed < KILLS:
         process = project.start()
         time.sleep(rng.uniform(1.0, LATEST))
-        if process.poll() is None:
-            killed += 1
+        if process.poll() is not None:  # it ended before the kill: begin again
+            assert process.returncode == 0, process.communicate()[0]
+            project.clean()
+            continue
+        killed += 1
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
         found = project.contents()
         assert {name for name in found if found[name] != right.get(name)} == set()
         code, text = project.run("--unlock")
         assert code == 0, text
-        if process.returncode == 0:  # it was done before the kill
-            project.clean()
     code, text = project.run()
     assert code == 0, text
     assert project.contents() == right
