@@ -28,7 +28,8 @@ package = partial(files_of, LIBRARY)
 if not workflow.modifier.skip_configfile:
     try:
         for path in ["config.yaml", *workflow.overwrite_configfiles]:
-            check_file(path)
+            if os.path.exists(path):  # else Snakemake says that it is missing
+                check_file(path)
     except ValueError as error:
         raise WorkflowError(str(error)) from None
 
