@@ -107,7 +107,6 @@ def simulate_ensemble(arguments: argparse.Namespace) -> None:
     from precursors.model.chain import Chain
     from precursors.model.checks import not_negative, whole
     from precursors.solver.simulate import simulate_many
-    from precursors.support.files import write_table
 
     count = whole("ensemble", arguments.ensemble, at_least=1)
     noise = not_negative("noise", NOISE if arguments.noise is None else arguments.noise, "1")
@@ -121,28 +120,17 @@ def simulate_ensemble(arguments: argparse.Namespace) -> None:
         rows.append(pd.DataFrame(summarise(runs))[list(SUMMARY)])
     table = pd.concat(rows, ignore_index=True).rename(columns=SUMMARY)
     table.insert(0, "member", np.arange(1, count + 1))
-    if arguments.output:
-        write_table(table, arguments.output)
-    if arguments.output and not arguments.json:
-        print(f"{count} runs: {arguments.output}")
-    else:
-        show_table(table, arguments.json)
+    give_table(table, arguments, "runs")
 
 
 def slips(arguments: argparse.Namespace) -> None:
     """List the slip events of a run file, or of a chain that is run."""
     from precursors.analysis.slips import slip_table
-    from precursors.support.files import write_table
 
     table = slip_table(run_of(arguments))
     if arguments.kept:
         table = table[table["kept"]]
-    if arguments.output:
-        write_table(table, arguments.output)
-    if arguments.output and not arguments.json:
-        print(f"{len(table)} events: {arguments.output}")
-    else:
-        show_table(table, arguments.json)
+    give_table(table, arguments, "events")
 
 
 def plot(arguments: argparse.Namespace) -> None:
@@ -248,6 +236,18 @@ def show_values(values: Mapping[str, Any], as_json: bool) -> None:
     for name, value in values.items():
         text = f"{value:.10g}" if isinstance(value, float) else value
         print(f"{name:<{width}}  {'-' if text is None else text}")
+
+
+def give_table(table: pd.DataFrame, arguments: argparse.Namespace, rows: str) -> None:
+    """Write a table to the file that was asked for, or print it."""
+    if arguments.output:
+        from precursors.support.files import write_table
+
+        write_table(table, arguments.output)
+    if arguments.output and not arguments.json:
+        print(f"{len(table)} {rows}: {arguments.output}")
+    else:
+        show_table(table, arguments.json)
 
 
 def show_table(table: pd.DataFrame, as_json: bool) -> None:
