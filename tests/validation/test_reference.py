@@ -174,7 +174,7 @@ def test_a_block_pulled_beyond_its_strength_slides_back_from_time_zero() -> None
 
 
 def test_rejects_an_unknown_stop_and_the_wrong_number_of_positions() -> None:
-    with pytest.raises(ValueError, match="allowed is None"):
+    with pytest.raises(ValueError, match="until must be None"):
         reference(ReferenceChain.from_slider(), 1, until="noon")
     with pytest.raises(ValueError, match="2 start positions for 10 blocks"):
         reference(ReferenceChain.from_slider(), 1, start_positions=[0, 0])
