@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from conftest import ROOT
 
+from precursors import cli
+
 DOCS = ROOT / "docs"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", flags=re.MULTILINE | re.DOTALL)
 
@@ -78,6 +80,26 @@ def test_the_workflow_shown_uses_this_one_as_a_module(compiled_workspace):
     outcome = outer.run("-c1")
     assert outcome.code == 0, outcome.text
     assert float((outer.path / "first_slip.txt").read_text().split(",")[0]) == pytest.approx(2.8)
+
+
+def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
+    found: dict[str, list[str]] = {}
+    for language, code in BLOCK.findall((DOCS / "customise.md").read_text(encoding="utf-8")):
+        found.setdefault(language, []).append(code)
+    monkeypatch.chdir(workspace.path)
+    (workspace.path / "mine.yaml").write_text(found["yaml"][0], encoding="utf-8")
+    (workspace.path / "loads.csv").write_text("50\n" * 8, encoding="utf-8")
+    (workspace.path / "measured.csv").write_text("t,F_X\n0,0\n2,150\n", encoding="utf-8")
+    for program, *arguments in map(str.split, "".join(found["sh"]).splitlines()):
+        if program == "precursors":
+            assert cli.main(arguments) == cli.DONE
+            assert (workspace.path / arguments[-1]).stat().st_size > 0
+        else:
+            outcome = workspace.run("-n", *arguments)
+            assert outcome.code == 0, outcome.text
+    capsys.readouterr()
+    exec(found["python"][0], {})
+    assert capsys.readouterr().out == found["text"][0]
 
 
 @pytest.mark.parametrize("page", sorted(DOCS.glob("*.md")), ids=lambda page: page.name)
