@@ -1,6 +1,7 @@
 """The package: its public names, what it loads, its wheel and its citation."""
 
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -46,6 +47,24 @@ def test_a_name_that_is_not_there_is_refused():
 )
 def test_nothing_is_loaded_before_it_is_needed(program, missing):
     assert not loaded(program) & missing
+
+
+def test_the_library_works_without_its_extras():
+    """What only the workflow, the paper, the page and the proof need is not there."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = {name for extra in project["optional-dependencies"].values() for name in map(package, extra)}
+    assert not extras & set(map(package, project["dependencies"]))
+    absent = ("sympy", "snakemake", "jsonschema", "yaml", "flint", "typst", "bokeh", "heyoka", "sksundae")
+    loaded(
+        f"sys.modules.update(dict.fromkeys({absent!r}))\n"
+        "from precursors import Chain, audit, find_slips, simulate\n"
+        "import precursors.cli, precursors.hierarchy.models, precursors.ensembles.study, precursors.methods\n"
+        "import precursors.figures.scene, precursors.figures.precursor_lengths"
+    )
+
+
+def package(requirement: str) -> str:
+    return re.match(r"[\w-]+", requirement)[0]
 
 
 @pytest.fixture(scope="module")

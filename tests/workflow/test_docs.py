@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -90,7 +91,7 @@ def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
     (workspace.path / "mine.yaml").write_text(found["yaml"][0], encoding="utf-8")
     (workspace.path / "loads.csv").write_text("50\n" * 8, encoding="utf-8")
     (workspace.path / "measured.csv").write_text("t,F_X\n0,0\n2,150\n", encoding="utf-8")
-    for program, *arguments in map(str.split, "".join(found["sh"]).splitlines()):
+    for program, *arguments in map(shlex.split, "".join(found["sh"]).splitlines()):
         if program == "precursors":
             assert cli.main(arguments) == cli.DONE
             assert (workspace.path / arguments[-1]).stat().st_size > 0
