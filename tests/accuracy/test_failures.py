@@ -9,6 +9,7 @@ from precursors import Chain, simulate
 from precursors.accuracy.compare import Truth, compare
 from precursors.accuracy.failures import FAILURE_MODES, Failure
 from precursors.accuracy.failures.common import transitions_right
+from precursors.accuracy.failures.dead_zone import jumped_over
 from precursors.accuracy.failures.forward_only import solve_forward_only
 from precursors.accuracy.failures.locating import motion_after, solve_merging
 from precursors.accuracy.failures.regularised_friction import RK4_REAL_LIMIT
@@ -17,10 +18,20 @@ from precursors.methods.scipy_events import next_transition
 SCENES = {"fig10": 0.0, "fig11": "-5/6", "fig12": "5/6"}
 # DOP853 at a relative tolerance of 1e-10, after some hundred transitions.
 TIME_ERROR = 1e-6  # s
-# What a bisection leaves, 2^-20 of four decades, and the rise of energy that it waits for.
-LIMIT_TOLERANCE = 1e-3
-# Between a measured curve and the closed form, of its first order.
+# Between a measured curve or number and the closed form, of its first order.
 THEORY_TOLERANCE = 0.02
+# Between a measured threshold and its theory. A bisection leaves 2^-20 of four decades, and energy must have
+# risen. Where a stop falls within a step is chance: a zone that is jumped over at some phase is met, or not.
+# A step longer than a dip can still end in it. Late transitions change the loads of those after them.
+THRESHOLDS = {
+    ("unstable", "largest stable omega dt"): 1e-3,
+    ("unstable", "largest stable dt"): 1e-3,
+    ("dead_zone_too_small", "zone from which all is right"): 0.2,
+    ("missed_roots", "longest step with which all are right"): 0.5,
+    ("restart_on_root", "smallest start that gets away"): 0.0,
+    ("merged_transitions", "window up to which all are right"): 0.2,
+    ("forward_only", "transitions right"): 0.0,
+}
 
 
 @cache
@@ -30,7 +41,7 @@ def measured(name: str) -> Failure:
 
 def number(mode: str, row: int) -> tuple[float, float]:
     found = measured(mode).numbers[row]
-    return found.value, found.exact
+    return found.measured, found.exact
 
 
 @pytest.mark.parametrize("mode", FAILURE_MODES)
@@ -38,19 +49,37 @@ def test_every_failure_mode_has_curves_and_a_number_that_is_not_the_right_one(mo
     failure = measured(mode)
     assert len(failure.curves) >= 5
     assert not failure.curves.isna().any(axis=None)
-    assert any(np.isfinite(n.exact) and n.value != pytest.approx(n.exact, rel=1e-3) for n in failure.numbers)
+    assert any(
+        np.isfinite(n.exact) and n.measured != pytest.approx(n.exact, rel=1e-3) for n in failure.numbers
+    )
+    assert any(np.isfinite(n.predicted) for n in failure.numbers)
     for n in failure.numbers:
-        assert np.isfinite(n.value)
+        assert np.isfinite(n.measured)
         assert all((n.method, n.setting, n.quantity, n.unit))
 
 
-@pytest.mark.parametrize("mode", ["rk4_unstable", "leapfrog_unstable"])
-def test_stability_limits_are_those_of_theory(mode):
-    for row in (0, 1):
-        found, theory = number(mode, row)
-        assert found == pytest.approx(theory, rel=LIMIT_TOLERANCE)
-    factor, kept = number(mode, 2)
-    assert factor > 2 * kept
+@pytest.mark.parametrize("mode", [mode for mode in FAILURE_MODES if mode != "silent_instability"])
+def test_what_is_measured_is_what_theory_predicts(mode):
+    for n in measured(mode).numbers:
+        if np.isfinite(n.predicted):
+            tolerance = THRESHOLDS.get((mode, n.quantity), THEORY_TOLERANCE)
+            assert n.measured == pytest.approx(n.predicted, rel=tolerance, abs=0.0), n
+
+
+def test_rk4_beyond_its_limit_finishes_with_friction_and_is_wrong_at_every_step():
+    last, _, least, largest, right = measured("silent_instability").numbers
+    assert last.measured > 1.1 * last.predicted
+    assert least.measured < 0.95 * least.exact
+    assert largest.measured > 1.05 * largest.exact
+    # The first slip has 2 transitions: what is right ends within the second or third.
+    assert right.measured < 0.1 * right.exact
+    runs = measured("silent_instability").curves
+    assert (runs["curve"] == "RK4").sum() > 20
+    assert runs.loc[runs["curve"] == "RK4", "omega_dt"].min() > last.predicted
+
+
+def test_a_zone_is_jumped_over_at_a_greater_width_where_friction_turns_more():
+    assert 0.5 > jumped_over(3.0) > jumped_over(1.0) > 0.0
 
 
 @pytest.mark.parametrize(
@@ -127,7 +156,7 @@ def test_a_motion_taken_from_a_run_goes_on_as_the_run_does():
 def test_the_step_between_the_missed_roots_is_longer_than_the_time_below_zero():
     table = measured("missed_roots").curves
     steps = table.loc[table["curve"] == "steps of DOP853"]
-    below = number("missed_roots", 4)[0]
+    below = measured("missed_roots").numbers[1].predicted
     assert steps["time_s"].diff().max() > below > 0
     assert (steps["velocity_m_per_s"] > 0).all()
     assert table.loc[table["curve"] == "exact", "velocity_m_per_s"].min() < 0

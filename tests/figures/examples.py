@@ -118,7 +118,7 @@ def step_sweep() -> dict:
 
 
 def failure_gallery() -> dict:
-    """Numbers 1.25, 2.25 ... with exact values 2.75, 3.75 ..., and the same curves in all panels."""
+    """Numbers from 1.25, exact ones from 2.75, predicted ones from 3.75; the same curves in all panels."""
     addresses = dict.fromkeys(
         (mode, line.method or "a method", line.setting or "dt = 1e-07 s", line.quantity)
         for mode, panel in PANELS.items()
@@ -131,7 +131,8 @@ def failure_gallery() -> dict:
         x, y = np.array([0.1, 0.2, 0.4]) / np.reshape(panel.scale, (2, 1))
         lines = [pd.DataFrame({"curve": name, "x": x, "y": n * y}) for n, name in ((1, "exact"), (2, "bad"))]
         curves.append(pd.concat(lines))
-    return {"numbers": numbers.assign(unit="1", value=row + 1.25, exact=row + 2.75), "curves": curves}
+    numbers = numbers.assign(unit="1", measured=row + 1.25, exact=row + 2.75, predicted=row + 3.75)
+    return {"numbers": numbers, "curves": curves}
 
 
 def horizon() -> dict:

@@ -156,9 +156,9 @@ class TestFailureGallery:
 
     def test_numbers_stand_as_they_are_in_the_table(self, gallery):
         assert "1.250; theory" in words(gallery.axes[0])
-        assert "2.750" in words(gallery.axes[0])
+        assert "3.750" in words(gallery.axes[0])
         numbers = examples.failure_gallery()["numbers"]
-        others = draw("failure_gallery", numbers=numbers.assign(value=numbers["value"] + 77777.0)[::-1])
+        others = draw("failure_gallery", numbers=numbers.assign(measured=numbers["measured"] + 77777.0)[::-1])
         for mode, before, after in zip(PANELS, gallery.axes, others.axes, strict=True):
             assert words(before) != words(after), mode
 

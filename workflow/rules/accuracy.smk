@@ -6,8 +6,8 @@ COMPARED = config["accuracy"]["compared"]
 COMMITTED = ROOT / "workflow/certificates"
 # As in precursors.accuracy.failures.FAILURE_MODES, which takes seconds to import.
 FAILURE_MODES = [
-    "rk4_unstable",
-    "leapfrog_unstable",
+    "unstable",
+    "silent_instability",
     "numerical_damping",
     "literal_friction",
     "dead_zone_too_small",

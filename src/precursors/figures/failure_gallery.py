@@ -53,8 +53,8 @@ class Panel:
     """A panel: its title, its axes, and the sentences with its numbers.
 
     `scale` is from the table's x and y to the axes, `log` names the logarithmic axes, `vertical` is a
-    quantity whose value is marked on the x axis. What fails is drawn by a line if `joined`, and by markers if
-    `marked`.
+    quantity whose measured (dotted) and predicted (dashed) values are marked on the x axis. What fails is
+    drawn by a line if `joined`, and by markers if `marked`.
     """
 
     title: str
@@ -72,73 +72,74 @@ class Panel:
     ylim: tuple[float | None, float | None] = (None, None)
 
 
-FACTOR = "Energy factor per step [-]"
 OMEGA_DT = r"$\omega_\mathrm{max}\,\Delta t$ [-]"
-LIMIT = "largest stable omega dt"
-STABLE = r"stable up to $\omega\Delta t$ = {value:.3f}; theory "
-STABLE_STEP = Sentence(r"that is $\Delta t$ = {value:.3g} s on the paper's chain", "largest stable dt")
-RIGHT_OF_ALL = "{setting}: {value:.0f} of {exact:.0f} transitions right"
+LIMIT, FINISH = "largest stable omega dt", "omega dt up to which runs finish"
+RIGHT_ZONE, MERGED = "zone from which all is right", "window up to which all are right"
+STABLE = r"{method}: up to $\omega\Delta t$ = {measured:.3f}; theory {predicted:.3f}"
+RIGHT_OF_ALL = "{setting}: {measured:.0f} of {exact:.0f} transitions right"
 F_X, TIME = "$F_X$ [N]", "Time [s]"
+MU_SAPP = r"$\mu_\mathrm{sapp}$ [-]"
 CREEP = "velocity in stick, of the drive's"
 
 PANELS = {
-    "rk4_unstable": Panel("RK4 above its stability limit", OMEGA_DT, FACTOR, (
-        Sentence(STABLE + r"$2\sqrt{{2}}$ = {exact:.3f}", LIMIT),
-        STABLE_STEP,
+    "unstable": Panel("Steps above the stability limit", OMEGA_DT, "Energy factor per step [-]", (
+        Sentence(STABLE, LIMIT, method="RK4"),
+        Sentence(STABLE, LIMIT, method="leapfrog"),
     ), vertical=LIMIT, joined=False),
-    "leapfrog_unstable": Panel("Leapfrog above its stability limit", OMEGA_DT, FACTOR, (
-        Sentence(STABLE + "{exact:.3f}", LIMIT),
-        STABLE_STEP,
-    ), vertical=LIMIT, joined=False),
+    "silent_instability": Panel("The same with friction: no warning", OMEGA_DT, MU_SAPP, (
+        Sentence(r"RK4 finishes up to $\omega\Delta t$ = {measured:.2f}; stable to {predicted:.2f}", FINISH),
+        Sentence(r"largest $\mu_\mathrm{{sapp}}$ = {measured:.3f}; exact {exact:.3f}", "largest mu_sapp"),
+    ), vertical=FINISH, joined=False),
     "numerical_damping": Panel("Implicit Moreau-Jean damps motion", r"Time [$\mu$s]", "Energy left [-]", (
-        Sentence("{setting}: energy {value:.3f}; exact {exact:g}", "energy left", "dt = 1e-07 s",
+        Sentence("{setting}: energy {measured:.3f}; theory {predicted:.3f}", "energy left", "dt = 1e-07 s",
                  "Moreau-Jean, implicit"),
-        Sentence("trapezoidal, {setting}: {value:.3f}", "energy left", method="Moreau-Jean, trapezoidal"),
+        Sentence("trapezoidal, {setting}: {measured:.3f}", "energy left", method="Moreau-Jean, trapezoidal"),
     ), scale=(MICRO, 1.0), key=(0.5, 0.06), joined=False),
     "literal_friction": Panel("Eq. 4 taken literally never sticks again", TIME, F_X, (
-        Sentence("{quantity}: {value:.2f} N; exact {exact:.2f} N", "largest F_X", "dt = 1e-06 s"),
-        Sentence("with {setting}: {value:.2f} N", "largest F_X", "dt = 3e-06 s"),
+        Sentence("{quantity}: {measured:.2f} N; exact {exact:.2f} N", "largest F_X", "dt = 1e-06 s"),
+        Sentence("with {setting}: {measured:.2f} N; theory {predicted:.2f} N", "largest F_X",
+                 "dt = 3e-06 s"),
     ), marked=False),
     "dead_zone_too_small": Panel(
         "Dead zone too small: jumped over",
         r"Zone / safe width $(\mu_s+\mu_k)\,w\,\Delta t/2m$ [-]", "Transitions right [-]", (
-        Sentence("{setting}: {value:.0f} of {exact:.0f}", "transitions right",
+        Sentence("{setting}: {measured:.0f} of {exact:.0f}", "transitions right",
                  "dt = 4e-08 s, zone = 0.05 safe"),
-        Sentence("all are right from {value:.2g} {unit} on", "zone from which all is right"),
-    ), log="x", vertical="zone from which all is right", ylim=(0.0, None)),
+        Sentence("right from {measured:.2g} {unit} on; theory {predicted:.2g}", RIGHT_ZONE),
+    ), log="x", vertical=RIGHT_ZONE, key="lower right", ylim=(0.0, None)),
     "dead_zone_too_large": Panel(
         "Dead zone too large: creep inside", "Width of the zone [m/s]", r"$F_X - \mu_s w_1$ at release [N]", (
         Sentence(RIGHT_OF_ALL, "transitions right"),
-        Sentence("all are right up to {value:.2g} {unit}", "zone up to which all is right"),
+        Sentence("all are right up to {measured:.2g} {unit}", "zone up to which all is right"),
     ), log="xy", vertical="zone up to which all is right", joined=False),
     "creep": Panel("Regularised friction creeps in stick", r"Load / $\mu_s w$ [-]", "Velocity [m/s]", (
         Sentence("{setting}:", CREEP),
-        Sentence("creeps at {value:.2%} of the drive's $V$; exact {exact:g}", CREEP),
+        Sentence("creeps at {measured:.2%} of the drive's $V$; theory {predicted:.2%}", CREEP),
     ), log="y", joined=False, key="lower right", ylim=(1e-13, 3e-4)),
     "stiffness": Panel("Regularised friction is stiff", "Width [m/s]", "Fastest rate [1/s]", (
-        Sentence("{setting}: {value:.0e} /s, chain {exact:.0e}", "fastest rate"),
-        Sentence("RK4: {value:.0e} s at most, chain {exact:.0e} s", "longest stable step of RK4"),
+        Sentence("{setting}: {measured:.0e} /s, chain {exact:.0e}", "fastest rate"),
+        Sentence("RK4: {measured:.0e} s at most, chain {exact:.0e} s", "longest stable step of RK4"),
     ), log="xy", joined=False),
     "missed_roots": Panel(
         "DOP853 misses two roots in a step",
         r"Time since the last transition [$\mu$s]", "Block's velocity [mm/s]", (
-        Sentence(RIGHT_OF_ALL, "transitions right", "rtol = 1e-07"),
-        Sentence("{setting}: {value:.0f} of {exact:.0f}", "transitions right",
-                 "rtol = 1e-07, max_step = 1e-06 s"),
+        Sentence(RIGHT_OF_ALL, "transitions right"),
+        Sentence("safe steps: {measured:.1e} s; theory {predicted:.1e}", "longest step"),
     ), scale=(MICRO, MILLI)),
     "restart_on_root": Panel("Restart on a root: time stands still", TIME, "Transitions [-]", (
-        Sentence("{quantity}: {value:.0f}, no end; exact {exact:.0f}", "transitions at t"),
-        Sentence("from the sign of the force: {value:.0f}; exact {exact:.0f}", "transitions in"),
+        Sentence("{quantity}: {measured:.0f}, no end; exact {exact:.0f}", "transitions at t"),
+        Sentence("not from v = {measured:.0e}; theory {predicted:.0e}", "smallest start"),
     ), marked=False, drawstyle="steps-post"),
     "merged_transitions": Panel(
         "Transitions closer than a step merged", "Merged within [s]", "Transitions right [-]", (
-        Sentence(RIGHT_OF_ALL + ",", "transitions right"),
-        Sentence("though only {value:.0f} of them lie so close", "transitions merged"),
-    ), log="x", ylim=(0.0, None)),
+        Sentence(RIGHT_OF_ALL, "transitions right"),
+        Sentence("right up to {measured:.1e} s; theory {predicted:.1e} s", MERGED),
+    ), log="x", vertical=MERGED, ylim=(0.0, None)),
     "forward_only": Panel(r"No backward sliding ($\theta$ = 5/6)", TIME, F_X, (
-        Sentence(r"{setting}: $\mu_\mathrm{{sapp}}$ = {value:.4f}; exact {exact:.4f}", "mu_sapp",
+        Sentence(r"{setting}: $\mu_\mathrm{{sapp}}$ = {measured:.4f}; exact {exact:.4f}", "mu_sapp",
                  "theta = 5/6"),
-        Sentence(RIGHT_OF_ALL, "transitions right", "theta = -5/6"),
+        Sentence("right: {measured:.0f} of {exact:.0f} transitions; theory {predicted:.0f}",
+                 "transitions right", "theta = 5/6"),
     ), marked=False, xmin=2.0, ylim=(125.0, None)),
 }  # fmt: skip
 N_LINES = max(len(panel.sentences) for panel in PANELS.values())
@@ -150,7 +151,7 @@ def draw(numbers: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
     Parameters
     ----------
     numbers : DataFrame
-        failures.csv: columns failure_mode, method, setting, quantity, unit, value, exact.
+        failures.csv: columns failure_mode, method, setting, quantity, unit, measured, exact, predicted.
     curves : sequence of DataFrame
         failures/{mode}.csv in the order of `PANELS`: the curve's name, x and y in the first three columns.
 
@@ -170,8 +171,10 @@ def draw(numbers: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
 def _draw_panel(axes: Axes, letter: str, mode: str, numbers: pd.DataFrame, curves: pd.DataFrame) -> None:
     panel = PANELS[mode]
     _draw_curves(axes, panel, curves)
-    if panel.vertical:
-        axes.axvline(find_number(numbers, mode, panel.vertical)["value"] * panel.scale[0], **style.DOTTED)
+    of_mode = numbers[numbers["failure_mode"] == mode]
+    for _, number in of_mode[of_mode["quantity"] == panel.vertical].iterrows():
+        axes.axvline(number["predicted"] * panel.scale[0], **DASHED | {"color": style.GREY})
+        axes.axvline(number["measured"] * panel.scale[0], **style.DOTTED)
     axes.set_xscale("log" if "x" in panel.log else "linear")
     axes.set_yscale("log" if "y" in panel.log else "linear")
     axes.set(xlim=(panel.xmin, None), ylim=panel.ylim)

@@ -77,7 +77,7 @@ def model(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "block-mass": (measured["block_mass_kg"], "kg"),
         "block-stiffness": (measured["stiffness_N_per_m"], "N/m"),
         "loading-rate": (measured["drive_stiffness_N_per_m"] * measured["drive_velocity_m_per_s"], "N/s"),
-        "literal-load": (rows(t["failures"], failure_mode="literal_friction")["value"].iloc[-1], "N"),
+        "literal-load": (rows(t["failures"], failure_mode="literal_friction")["measured"].iloc[-1], "N"),
         "literal-step": rows(t["failures"], failure_mode="literal_friction")["setting"].iloc[-1],
     }
     for scene in SCENES:

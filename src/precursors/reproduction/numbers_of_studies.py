@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import pandas as pd
-
 from precursors.reproduction.tables import LEADING, SCENES, Tables, one, rows
 
 # Name -> value, or value and unit.
@@ -61,27 +59,41 @@ def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
 def failures(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Where methods fail."""
 
-    def of(mode: str, quantity: str, column: str = "value") -> pd.Series:
-        return rows(t["failures"], failure_mode=mode, quantity=quantity)[column]
+    def of(mode: str, quantity: str, column: str = "measured", method: str = "") -> float:
+        found = rows(t["failures"], failure_mode=mode, quantity=quantity)
+        return float((rows(found, method=method) if method else found)[column].iloc[-1])
 
-    return {
-        "rk4-limit": of("rk4_unstable", "largest stable omega dt").iloc[0],
-        "rk4-limit-theory": of("rk4_unstable", "largest stable omega dt", "exact").iloc[0],
-        "rk4-limit-step": (of("rk4_unstable", "largest stable dt").iloc[0], "s"),
-        "leapfrog-limit": of("leapfrog_unstable", "largest stable omega dt").iloc[0],
-        "leapfrog-limit-theory": of("leapfrog_unstable", "largest stable omega dt", "exact").iloc[0],
-        "leapfrog-limit-step": (of("leapfrog_unstable", "largest stable dt").iloc[0], "s"),
-        "damping-left": of("numerical_damping", "energy left after 100 us").min(),
-        "creep-share": of("creep", "velocity in stick, of the drive's").iloc[0],
-        "stiff-step": (of("stiffness", "longest stable step of RK4").iloc[0], "s"),
-        "missed-right": of("missed_roots", "transitions right").min(),
-        "missed-true": of("missed_roots", "transitions right", "exact").iloc[0],
-        "merged-close": of("merged_transitions", "transitions merged").iloc[0],
-        "merged-right": of("merged_transitions", "transitions right").iloc[0],
-        "dead-zone-right": of("dead_zone_too_large", "transitions right").iloc[0],
-        "dead-zone-true": of("dead_zone_too_large", "transitions right", "exact").iloc[0],
-        "forward-mu-leading": of("forward_only", "mu_sapp").iloc[-1],
-        "forward-events-leading": of("forward_only", "events kept").iloc[-1],
+    found: Numbers = {}
+    for name, method in (("rk4", "RK4"), ("leapfrog", "leapfrog")):
+        found |= {
+            f"{name}-limit": of("unstable", "largest stable omega dt", method=method),
+            f"{name}-limit-theory": of("unstable", "largest stable omega dt", "predicted", method),
+            f"{name}-limit-step": (of("unstable", "largest stable dt", method=method), "s"),
+        }
+    for name, mode, quantity, unit in (
+        ("zone", "dead_zone_too_small", "zone from which all is right", "1"),
+        ("silent-step", "silent_instability", "dt up to which runs finish", "s"),
+        ("missed-step", "missed_roots", "longest step with which all are right", "s"),
+        ("merged-window", "merged_transitions", "window up to which all are right", "s"),
+        ("forward-right", "forward_only", "transitions right", "1"),
+    ):
+        found[name] = (of(mode, quantity), unit)
+        found[f"{name}-theory"] = (of(mode, quantity, "predicted"), unit)
+    return found | {
+        "silent-least-mu": of("silent_instability", "least mu_sapp of these"),
+        "silent-most-mu": of("silent_instability", "largest mu_sapp of these"),
+        "silent-right": of("silent_instability", "most transitions right of these"),
+        "damping-left": rows(t["failures"], quantity="energy left after 100 us")["measured"].min(),
+        "creep-share": of("creep", "velocity in stick, of the drive's"),
+        "stiff-step": (of("stiffness", "longest stable step of RK4"), "s"),
+        "missed-right": of("missed_roots", "transitions right"),
+        "missed-true": of("missed_roots", "transitions right", "exact"),
+        "merged-close": of("merged_transitions", "transitions merged"),
+        "merged-right": of("merged_transitions", "transitions right"),
+        "dead-zone-right": of("dead_zone_too_large", "transitions right"),
+        "dead-zone-true": of("dead_zone_too_large", "transitions right", "exact"),
+        "forward-mu-leading": of("forward_only", "mu_sapp"),
+        "forward-events-leading": of("forward_only", "events kept"),
     }
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from precursors.accuracy.failures.common import Failure, Number
 from precursors.accuracy.failures.dead_zone import dead_zone_too_large, dead_zone_too_small
-from precursors.accuracy.failures.energy import leapfrog_unstable, numerical_damping, rk4_unstable
+from precursors.accuracy.failures.energy import numerical_damping, silent_instability, unstable
 from precursors.accuracy.failures.forward_only import forward_only
 from precursors.accuracy.failures.literal_friction import literal_friction
 from precursors.accuracy.failures.locating import merged_transitions, missed_roots, restart_on_root
@@ -14,8 +14,8 @@ from precursors.accuracy.failures.regularised_friction import creep, stiffness
 FAILURE_MODES: dict[str, Callable[[], Failure]] = {
     measure.__name__: measure
     for measure in (
-        rk4_unstable,
-        leapfrog_unstable,
+        unstable,
+        silent_instability,
         numerical_damping,
         literal_friction,
         dead_zone_too_small,

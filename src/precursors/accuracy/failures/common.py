@@ -22,18 +22,21 @@ class Number:
         What failed, and its setting with unit.
     quantity, unit : str
         What was measured.
-    value : float
+    measured : float
         What the method gave.
     exact : float
-        What is right: the exact solver's, or the theory's; NaN where there is no such number.
+        What is right; NaN where there is no such number.
+    predicted : float
+        What theory says of the method, from the chain and its exact run; NaN where it says nothing.
     """
 
     method: str
     setting: str
     quantity: str
     unit: str
-    value: float
+    measured: float
     exact: float = float("nan")
+    predicted: float = float("nan")
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,10 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from precursors.accuracy.failures.common import Failure, Number, curves
-from precursors.methods import METHODS
-from precursors.methods.common import Method
+from precursors.accuracy.failures.common import Failure, Number, curves, transitions_right
+from precursors.analysis.slips import apparent_friction, find_slips
+from precursors.methods import METHODS, DivergedError
+from precursors.methods.rk4 import LIMIT as RK4_LIMIT
 from precursors.methods.stability import (
     energy_left,
     highest_frequency,
@@ -18,47 +19,75 @@ from precursors.methods.stability import (
     without_friction,
 )
 from precursors.model.chain import Chain
+from precursors.solver.simulate import simulate
 
 # Steps over which the factor per step is an average: more for leapfrog, whose energy also swings, fewer for
 # RK4, which damps the mode below the rounding of the others.
-RK4_STEPS, LEAPFROG_STEPS = 20, 200
+UNSTABLE_STEPS = {"rk4": 20, "leapfrog": 200}
 POINTS = 21
+# With friction: omega dt from RK4's limit on, and where its runs end.
+BEYOND = RK4_LIMIT * np.linspace(1.0, 1.25, 51)[1:]
+END = 10.0  # s
 # Time of a short slip [s], and the steps with which Moreau-Jean time stepping goes through it.
 SLIP = 100e-6
 DAMPING_STEPS = (1e-6, 1e-7, 1e-8)
 
 
-def rk4_unstable() -> Failure:
-    """RK4 above omega dt = 2 sqrt 2."""
-    return _unstable("RK4", METHODS["rk4"], RK4_STEPS)
-
-
-def leapfrog_unstable() -> Failure:
-    """Leapfrog above omega dt = 2."""
-    return _unstable("leapfrog", METHODS["leapfrog"], LEAPFROG_STEPS)
-
-
-def _unstable(label: str, method: Method, n_steps: int) -> Failure:
+def unstable() -> Failure:
+    """RK4 above omega dt = 2 sqrt 2 and leapfrog above 2, without friction."""
     chain = without_friction(Chain.from_slider())
     omega, mode = highest_frequency(chain), highest_mode(chain)
-    smooth = method.smooth
-    assert smooth
-    found = largest_stable_step(chain, smooth.slide)
-    z = smooth.limit * np.linspace(0.9, 1.1, POINTS)
-    left = [energy_left(chain, smooth.slide, x / omega, n_steps, mode) ** (1 / n_steps) for x in z]
-    fine = smooth.limit * np.linspace(0.9, 1.1, 201)
-    bisection = partial(Number, label, "bisection")
+    lines: dict[str, tuple[ArrayLike, ArrayLike]] = {}
+    numbers = []
+    for name, n_steps in UNSTABLE_STEPS.items():
+        method = METHODS[name]
+        smooth, label = method.smooth, method.label.removesuffix(", every step")
+        assert smooth
+        found = largest_stable_step(chain, smooth.slide)
+        z, fine = smooth.limit * np.linspace(0.9, 1.1, POINTS), smooth.limit * np.linspace(0.9, 1.1, 201)
+        left = [energy_left(chain, smooth.slide, x / omega, n_steps, mode) ** (1 / n_steps) for x in z]
+        lines[f"theory, {label}"] = (fine, [smooth.energy_factor(x) for x in fine])
+        lines[label] = (z, left)
+        limit = partial(Number, label, "bisection")
+        numbers += [
+            limit("largest stable omega dt", "1", found * omega, predicted=smooth.limit),
+            limit("largest stable dt", "s", found, predicted=smooth.limit / omega),
+            Number(label, f"omega dt = {z[-1]:.3g}", "energy a step", "1", left[-1], 1.0),
+        ]
+    return Failure(tuple(numbers), curves("omega_dt", "energy_per_step", **lines))
+
+
+def silent_instability() -> Failure:
+    """RK4 above its limit with friction: stops take the energy away, so that no number overflows at first."""
+    chain = Chain.from_slider()
+    omega, exact = highest_frequency(chain), simulate(chain, END, "global slip")
+    true = apparent_friction(exact, find_slips(exact))
+    assert true
+    finished, mu_sapp, right = [], [], 0
+    for z in BEYOND:
+        try:
+            run = METHODS["rk4_skip"].solve(chain, END, z / omega, "global slip").run
+        except DivergedError:
+            break
+        if (found := apparent_friction(run, find_slips(run))) is None:
+            break
+        finished.append(z)
+        mu_sapp.append(found.mu_sapp)
+        right = max(right, transitions_right(run, exact))
+    number = partial(Number, "RK4", "theta = 0")
     return Failure(
         (
-            bisection("largest stable omega dt", "1", found * omega, smooth.limit),
-            bisection("largest stable dt", "s", found, smooth.limit / omega),
-            Number(label, f"omega dt = {z[-1]:.3g}", "energy a step", "1", left[-1], 1.0),
+            number("omega dt up to which runs finish", "1", finished[-1], predicted=RK4_LIMIT),
+            number("dt up to which runs finish", "s", finished[-1] / omega, predicted=RK4_LIMIT / omega),
+            number("least mu_sapp of these", "1", min(mu_sapp), true.mu_sapp),
+            number("largest mu_sapp of these", "1", max(mu_sapp), true.mu_sapp),
+            number("most transitions right of these", "1", right, len(exact.transitions)),
         ),
         curves(
             "omega_dt",
-            "energy_per_step",
-            theory=(fine, [smooth.energy_factor(x) for x in fine]),
-            measured=(z, left),
+            "mu_sapp",
+            exact=(BEYOND[[0, -1]], (true.mu_sapp, true.mu_sapp)),
+            RK4=(finished, mu_sapp),
         ),
     )
 
@@ -76,10 +105,10 @@ def numerical_damping() -> Failure:
         assert method.smooth
         n_steps = np.linspace(0, round(SLIP / step), POINTS).astype(int)
         left = [energy_left(chain, method.smooth.slide, step, int(n), mode) for n in n_steps]
-        setting = f"dt = {step:.0e} s"
-        numbers.append(Number(method.label, setting, "energy left after 100 us", "1", left[-1], 1.0))
+        setting, factor = f"dt = {step:.0e} s", method.smooth.energy_factor(omega * step)
+        number = partial(Number, method.label, setting, "energy left after 100 us", "1")
+        numbers.append(number(left[-1], 1.0, factor ** (SLIP / step)))
         if name == "moreau_jean_one":
-            factor = method.smooth.energy_factor(omega * step)
             lines[f"theory, {setting}"] = (times, factor ** (times / step))
             lines[setting] = (times, left)
     return Failure(tuple(numbers), curves("time_s", "energy_left", **lines))

@@ -40,6 +40,6 @@ def literal_friction() -> Failure:
     for step in STEPS:
         load, setting = load_after_limit(chain, step, times), f"dt = {step:.0e} s"
         lines[setting] = (np.append(0.0, onset + times), np.append(0.0, load))
-        largest = float(load.max()), float(exact.max())
+        largest = float(load.max()), float(exact.max()), float(chain.strength[0])
         numbers.append(Number("RK4 with Eq. 4 as printed", setting, "largest F_X in 1 s", "N", *largest))
     return Failure(tuple(numbers), curves("time_s", "tangential_load_N", **lines))

@@ -44,16 +44,17 @@ def creep() -> Failure:
         "the_drive": (fine[[0, -1]], 2 * (block.drive_velocity,))
     }
     for width in WIDTHS:
-        theory = [creep_velocity(ratio * strength, weight, width, block.mu_s) for ratio in fine]
-        lines[f"theory, width = {width:.0e} m/s"] = (fine, theory)
+        creeping = [creep_velocity(ratio * strength, weight, width, block.mu_s) for ratio in fine]
+        lines[f"theory, width = {width:.0e} m/s"] = (fine, creeping)
         lines[f"width = {width:.0e} m/s"] = (LOADS, [measured_creep(ratio, width) for ratio in LOADS])
-    speed = measured_creep(CHARTED_LOAD, CHARTED_WIDTH)
+    speed, drive = measured_creep(CHARTED_LOAD, CHARTED_WIDTH), block.drive_velocity
+    theory = creep_velocity(CHARTED_LOAD * strength, weight, CHARTED_WIDTH, block.mu_s)
     setting = f"width = {CHARTED_WIDTH:.0e} m/s, F = {CHARTED_LOAD:g} mu_s w"
     number = partial(Number, "regularised friction", setting)
     return Failure(
         (
-            number("velocity in stick", "m/s", speed, 0.0),
-            number("velocity in stick, of the drive's", "1", speed / block.drive_velocity, 0.0),
+            number("velocity in stick", "m/s", speed, 0.0, theory),
+            number("velocity in stick, of the drive's", "1", speed / drive, 0.0, theory / drive),
         ),
         curves("load_over_strength", "velocity_m_per_s", **lines),
     )
@@ -71,12 +72,15 @@ def stiffness() -> Failure:
     chain = Chain.from_slider()
     omega = highest_frequency(chain)
     rates = [fastest_rate(chain, width) for width in STIFF_WIDTHS]
-    theory = [float(chain.strength.max()) / (chain.mass * width) for width in STIFF_WIDTHS]
-    rate = fastest_rate(chain, CHARTED_WIDTH)
+    theory = float(chain.strength.max()) / (chain.mass * STIFF_WIDTHS)
+    rate, expected = (
+        fastest_rate(chain, CHARTED_WIDTH),
+        float(chain.strength.max()) / chain.mass / CHARTED_WIDTH,
+    )
     number = partial(Number, "regularised friction", f"width = {CHARTED_WIDTH:.0e} m/s")
     return Failure(
         (
-            number("fastest rate", "1/s", rate, omega),
+            number("fastest rate", "1/s", rate, omega, expected),
             number("longest stable step of RK4", "s", RK4_REAL_LIMIT / rate, rk4.LIMIT / omega),
         ),
         curves(
