@@ -11,7 +11,7 @@ endif
 .PHONY: all test mutants test-cluster results check report golden docs bench lock lint clean
 
 all: results
-	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
+	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures results/provenance.json
 
 test: results
 	$(BIN)/pytest -n $(CORES) --dist worksteal

@@ -39,7 +39,7 @@ def parameters(chain: Chain) -> dict[str, float]:
 
 
 def up_to_global_slip(run: Run) -> dict[str, float]:
-    """Where events begin, releases backward, and the residual strain; NaN without a global slip."""
+    """Where events begin, releases backward, residual strain (NaN without a global slip), transitions."""
     slips, transitions = find_slips(run), run.transitions
     begins_at = transitions["block"][np.searchsorted(transitions["time"], slips["onset"])]
     first = first_global(slips)
@@ -53,6 +53,7 @@ def up_to_global_slip(run: Run) -> dict[str, float]:
         "share_of_events_from_block_1": float(np.mean(begins_at == 1)) if len(slips) else math.nan,
         "backward_releases": backward,
         "residual_strain": strain,
+        "transitions": float(len(transitions)),
     }
 
 

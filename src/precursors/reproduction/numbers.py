@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from scipy.stats import fisher_exact
 
 from precursors.model.switching import COULOMB
@@ -17,6 +18,7 @@ from precursors.reproduction.claim import FOLLOWS, FRAGILE, NOT_REPRODUCED, REPR
 from precursors.reproduction.claims import TABLES as TABLES_OF_CLAIMS
 from precursors.reproduction.claims_results import leading_reading
 from precursors.reproduction.numbers_of_studies import CHAINS, Numbers
+from precursors.reproduction.subject import changes
 from precursors.reproduction.tables import (
     SCENES,
     TRAILING,
@@ -77,6 +79,7 @@ def model(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "block-mass": (measured["block_mass_kg"], "kg"),
         "block-stiffness": (measured["stiffness_N_per_m"], "N/m"),
         "loading-rate": (measured["drive_stiffness_N_per_m"] * measured["drive_velocity_m_per_s"], "N/s"),
+        "changed": ", ".join(changes(config)),
         "literal-load": (rows(t["failures"], failure_mode="literal_friction")["measured"].iloc[-1], "N"),
         "literal-step": rows(t["failures"], failure_mode="literal_friction")["setting"].iloc[-1],
     }
@@ -85,6 +88,7 @@ def model(t: Tables, config: Mapping[str, Any]) -> Numbers:
         found[f"cell-a-{scene}"] = (config["scenes"][scene]["load_cell_a"], "N")
         found[f"cell-b-{scene}"] = (config["scenes"][scene]["load_cell_b"], "N")
         found[f"backward-{scene}"] = one(t["measures"], "backward_releases", scene=scene)
+        found[f"transitions-{scene}"] = one(t["measures"], "transitions", scene=scene)
     return found
 
 
@@ -113,7 +117,7 @@ def results(t: Tables, config: Mapping[str, Any]) -> Numbers:
     found: Numbers = {
         "events-at-printed-theta": leading_reading(t, "events_kept", degree="0.833"),
         "mu-at-printed-theta": leading_reading(t, "mu_sapp", degree="0.833"),
-        "shortest-slip": ((t["fig11_slips"]["end_s"] - t["fig11_slips"]["onset_s"]).min(), "s"),
+        "shortest-slip": (min(shortest_slip(t[f"{scene}_slips"]) for scene in SCENES), "s"),
         "eq15-checks": len(t["eq15"]),
         "eq15-holding": t["eq15"]["holds"].sum(),
         "load-of-printed-eq12": (one(t["claims"], "paper", id="eq12-last-line").split("; ")[1], "N"),
@@ -138,6 +142,11 @@ def results(t: Tables, config: Mapping[str, Any]) -> Numbers:
             f"strain-{scene}": one(t["measures"], "residual_strain", scene=scene),
         }
     return found
+
+
+def shortest_slip(slips: pd.DataFrame) -> float:
+    """Duration of the shortest slip of a scene [s]."""
+    return float((slips["end_s"] - slips["onset_s"]).min())
 
 
 def readings(t: Tables, config: Mapping[str, Any]) -> Numbers:

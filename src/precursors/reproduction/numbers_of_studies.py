@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from precursors.model.scenes import ADDED
+from precursors.reproduction.subject import scenes_are_proved
 from precursors.reproduction.tables import LEADING, SCENES, Tables, one, rows
 
 # Name -> value, or value and unit.
@@ -29,6 +31,11 @@ TABLES = (
 )
 
 
+def yes_or_no(answer: bool) -> str:
+    """Say whether something is so, for a condition of the text."""
+    return "yes" if answer else "no"
+
+
 def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Speed against accuracy; heyoka's numbers only where it is installed."""
     sweep, cost = t["step_sweep"], t["cost_per_event"]
@@ -41,6 +48,7 @@ def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
     names = {"exact": "exact", "heyoka": "heyoka", "dop853": "scipy_dop853", "rk4": "rk4_skip"}
     for chain in CHAINS:
         own = rows(t["work_precision"], scene=chain, until="global slip")
+        found[f"theta-{chain}"] = own["theta"].iloc[0]
         found[f"slip-transitions-{chain}"] = own["transitions_true"].iloc[0]
         for name, method in names.items():
             for tightest in rows(own, method=method).tail(1).to_dict("records"):
@@ -49,6 +57,15 @@ def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
     finest = rows(t["work_precision"], scene="uniform", until="global slip", method="rk4_skip").iloc[-1]
     found["rk4-step"] = (finest["value"], "s")
     steps = rows(sweep, scene=LEADING, method="rk4_skip")
+    others = rows(sweep[sweep["scene"] != LEADING], method="rk4_skip")
+    counts = rows(sweep, method="exact").set_index("scene")["events_kept"]
+    last = others.sort_values("step_s").groupby("scene").first()
+    found["sweep-finest-right"] = yes_or_no(
+        bool((last["transitions_right"] == last["transitions_true"]).all())
+    )
+    right_count = others["events_kept"] == others["scene"].map(counts)
+    wrong_early = 2 * others["transitions_right"] < others["transitions_true"]
+    found["sweep-lucky-counts"] = (right_count & wrong_early).sum()
     found["sweep-true"] = one(sweep, "transitions_true", scene=LEADING, method="exact")
     found["sweep-most-right"] = steps["transitions_right"].max()
     for name, column in (("mu", "mu_sapp"), ("events", "events_kept")):
@@ -92,6 +109,7 @@ def failures(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "merged-right": of("merged_transitions", "transitions right"),
         "dead-zone-right": of("dead_zone_too_large", "transitions right"),
         "dead-zone-true": of("dead_zone_too_large", "transitions right", "exact"),
+        "forward-theta": rows(t["failures"], failure_mode="forward_only")["setting"].iloc[-1],
         "forward-mu-leading": of("forward_only", "mu_sapp"),
         "forward-events-leading": of("forward_only", "events kept"),
     }
@@ -105,6 +123,7 @@ def proof(t: Tables, config: Mapping[str, Any]) -> Numbers:
     found: Numbers = {
         "proved-until": (one(proved, "proved_until_s", chain="uniform"), "s"),
         "proved-chains": len(proved),
+        "scenes-are-proved": yes_or_no(scenes_are_proved(t, config, CHAINS)),
         "proved-in-all": proved["transitions"].sum(),
         "widest-time": (scenes["largest_time_width_s"].max(), "s"),
         "widest-load": (scenes["largest_load_width_N"].max(), "N"),
@@ -139,6 +158,7 @@ def hierarchy(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "overdamped-worst": rows(table, question="mu_sapp", model="overdamped")["error"].max(),
         "law-worst": rows(table, question="mu_sapp", model="law")["error"].max(),
         "law-lengths-worst": rows(table, question="front_loads", model="law")["error"].max(),
+        "larger-that-differ": (~rows(table, model=list(ADDED)).groupby("model")["is_answer"].all()).sum(),
         "rigid-mu": rows(table, question="mu_sapp", model="rigid")["value"].mean(),
         "hierarchy-mu-tolerance": rows(table, question="mu_sapp")["tolerance"].iloc[0],
         "head-mass": (head["addition"].iloc[0].removesuffix(" kg"), "kg"),
@@ -173,10 +193,13 @@ def spread(t: Tables, config: Mapping[str, Any]) -> Numbers:
 def resolution(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """The numbers with more blocks."""
     table, limits = t["resolution"], t["resolution_limits"]
+    # The number of blocks of the scenes, or the nearest that was tried.
+    noisy_n = min(table["n_blocks"], key=lambda n: abs(n - config["chain"]["n_blocks"]))
     finest_speed = rows(table, scene=LEADING, quantity="front_speed_m_per_s").iloc[-1]
     found: Numbers = {
         "resolution-most": table["n_blocks"].max(),
         "resolution-least": table["n_blocks"].min(),
+        "noisy-n": noisy_n,
         "resolution-noise": config["ensembles"]["resolution"]["noise"],
         "resolution-fit-from": config["ensembles"]["resolution"]["fit_from"],
         "resolution-runs-most": table["n"].max(),
@@ -184,7 +207,8 @@ def resolution(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "scattered-speed-low": (finest_speed["q05"], "m/s"),
         "scattered-speed-high": (finest_speed["q95"], "m/s"),
     }
-    for scene in SCENES:
+    counts_met = []
+    for i, scene in enumerate(SCENES):
         friction, speeds = (
             rows(limits, scene=scene, quantity=quantity).iloc[0]
             for quantity in ("mu_sapp", "front_speed_m_per_s")
@@ -192,7 +216,7 @@ def resolution(t: Tables, config: Mapping[str, Any]) -> Numbers:
         counts = rows(t["resolution_exponents"], scene=scene, quantity="events_kept").iloc[-1]
         medians = {q: rows(table, scene=scene, quantity=q) for q in ("mu_sapp", "events_kept")}
         found |= {
-            f"noisy-mu-{scene}": one(medians["mu_sapp"], "q50", n_blocks=10),
+            f"noisy-mu-{scene}": one(medians["mu_sapp"], "q50", n_blocks=noisy_n),
             f"most-mu-{scene}": medians["mu_sapp"]["q50"].iloc[-1],
             f"most-events-{scene}": medians["events_kept"]["q50"].iloc[-1],
             f"limit-mu-{scene}": friction["a"],
@@ -205,7 +229,10 @@ def resolution(t: Tables, config: Mapping[str, Any]) -> Numbers:
             f"limit-speed-{scene}": (speeds["a"], "m/s"),
             f"limit-speed-error-{scene}": ((speeds["a_high"] - speeds["a_low"]) / 2, "m/s"),
         }
-    return found
+        experiment = float(one(t["claims"], "paper", id="counts-of-the-experiment").split("; ")[i])
+        medians_of_counts = medians["events_kept"]["q50"]
+        counts_met.append(medians_of_counts.min() <= experiment <= medians_of_counts.max())
+    return found | {"experiment-counts-met": sum(counts_met)}
 
 
 def larger_models(t: Tables, config: Mapping[str, Any]) -> Numbers:
