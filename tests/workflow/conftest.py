@@ -33,6 +33,18 @@ for module in (
 snakemake.cli.get_argument_parser()
 
 ROOT = Path(__file__).parents[2]
+# Scenes beside the paper's: one that is run, and one that a smaller model answers.
+MORE_SCENES = """\
+  steep:
+    title: nearly all of the load at the leading edge
+    theta: "9/10"
+    duration: 0.5
+  quick:
+    title: what a smaller model says
+    theta: "9/10"
+    model: law
+
+"""
 
 
 @dataclass(frozen=True)
@@ -43,26 +55,36 @@ class Outcome:
     text: str
 
     @property
-    def reasons(self) -> dict[str, set[str]]:
-        """Newer inputs of each job that was run or would be, a rule with its scene as "draw_scene fig10".
-
-        Inputs are newer because they were edited or because another job makes them anew.
-        """
-        found: dict[str, set[str]] = {}
+    def plan(self) -> list[tuple[str, set[str], set[str]]]:
+        """Jobs that were run or would be, such as "draw_scene fig10", with their inputs and outputs."""
+        found = []
         for block in re.split(r"\n(?=(?:local)?(?:rule|checkpoint) \w+:)", self.text):
-            rule = re.match(r"(?:local)?rule (\w+):", block)
-            scene = re.search(r"wildcards: scene=(\S+)", block)
-            if rule:
-                job = f"{rule[1]} {scene[1]}" if scene else rule[1]
-                inputs = re.findall(r"(?:Updated input files|updated by another job): ([^;\n]+)", block)
-                found.setdefault(job, set()).update(*(files.split(", ") for files in inputs))
-        # These two come after whatever is run.
-        return {job: inputs for job, inputs in found.items() if job not in ("all", "write_provenance")}
+            if rule := re.match(r"(?:local)?rule (\w+):", block):
+                scene = re.search(r"wildcards: scene=(\S+)", block)
+                inputs, outputs = (
+                    {
+                        file
+                        for files in re.findall(rf"\n    {kind}: (.+)", block)
+                        for file in files.split(", ")
+                    }
+                    for kind in ("input", "output")
+                )
+                found.append((f"{rule[1]} {scene[1]}" if scene else rule[1], inputs, outputs))
+        return found
 
     @property
     def jobs(self) -> set[str]:
-        """The jobs alone."""
-        return set(self.reasons)
+        """The jobs, without the two that come after whatever is run."""
+        return {job for job, _, _ in self.plan} - {"all", "write_provenance"}
+
+    def after(self, *files: str) -> set[str]:
+        """The jobs of a dry run that read one of these files, or what such a job makes, and so on."""
+        plan, changed, jobs = self.plan, set(files), set[str]()
+        while again := [row for row in plan if row[1] & changed]:
+            plan = [row for row in plan if row not in again]
+            jobs |= {job for job, _, _ in again}
+            changed = set().union(*(outputs for _, _, outputs in again))
+        return jobs - {"all", "write_provenance"}
 
 
 @dataclass(frozen=True)
@@ -117,7 +139,7 @@ class Workspace:
 
 def _run_snakemake(directory: Path, output: Path, arguments: tuple[str, ...]) -> None:
     os.chdir(directory)
-    os.environ["PYTHONPATH"] = str(directory / "src")
+    os.environ["PYTHONPATH"] = str((directory / "src").resolve())
     with output.open("w", encoding="utf-8") as file:
         os.dup2(file.fileno(), 1)
         os.dup2(file.fileno(), 2)
@@ -140,34 +162,35 @@ def _make_outputs(script: PythonScript, _file: str, edit: bool = False) -> None:
     )
 
 
-def _copy_workflow(path: Path, compiled: bool) -> Workspace:
+def copy_workflow(path: Path, compiled: bool = False) -> Workspace:
     path.mkdir()
     for name in ("Snakefile", "config.yaml"):
         shutil.copy2(ROOT / name, path)
     for name in ("workflow", "src", "paper", "profiles"):
-        shutil.copytree(ROOT / name, path / name, ignore=shutil.ignore_patterns("__pycache__"))
-    if compiled:
-        # Links: Python and Numba put a new file in the place of an old one and never write into it.
-        for cache in (ROOT / "src").rglob("__pycache__"):
-            shutil.copytree(cache, path / cache.relative_to(ROOT), copy_function=os.symlink)
+        if compiled and name == "src":
+            # Numba keeps compiled code by the place of its source.
+            (path / name).symlink_to(ROOT / name)
+        else:
+            shutil.copytree(ROOT / name, path / name, ignore=shutil.ignore_patterns("__pycache__"))
     return Workspace(path)
 
 
 @pytest.fixture
 def workspace(tmp_path: Path) -> Workspace:
     """A copy of the workflow that has not been run."""
-    return _copy_workflow(tmp_path / "copy", compiled=False)
+    return copy_workflow(tmp_path / "copy")
 
 
 @pytest.fixture
 def compiled_workspace(tmp_path: Path) -> Workspace:
-    """A copy of the workflow that has not been run, with the compiled code, to compute something in."""
-    return _copy_workflow(tmp_path / "copy", compiled=True)
+    """A copy of the workflow with the library itself, whose code is compiled, to compute something in."""
+    return copy_workflow(tmp_path / "copy", compiled=True)
 
 
 @pytest.fixture(scope="session")
 def _finished(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
-    workspace = _copy_workflow(tmp_path_factory.mktemp("finished") / "copy", compiled=False)
+    workspace = copy_workflow(tmp_path_factory.mktemp("finished") / "copy")
+    workspace.edit("config.yaml", "\nfig13: [", f"{MORE_SCENES}fig13: [")
     outcome = workspace.pretend("-c2", "all")
     assert outcome.code == 0, outcome.text
     return workspace
@@ -176,12 +199,12 @@ def _finished(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
 @pytest.fixture(scope="session")
 def untouched(tmp_path_factory: pytest.TempPathFactory) -> tuple[Workspace, Outcome]:
     """A copy of the workflow that has not been run, and what `snakemake -n all` says; shared by tests."""
-    workspace = _copy_workflow(tmp_path_factory.mktemp("untouched") / "copy", compiled=False)
+    workspace = copy_workflow(tmp_path_factory.mktemp("untouched") / "copy")
     return workspace, workspace.run("-n", "all")
 
 
 @pytest.fixture
 def finished(_finished: Workspace, tmp_path: Path) -> Workspace:
-    """A copy of the workflow that has been run to the end, with stand-ins for what the scripts compute."""
+    """A copy of the workflow with MORE_SCENES, run to the end with stand-ins for what the scripts compute."""
     shutil.copytree(_finished.path, tmp_path / "copy")
     return Workspace(tmp_path / "copy")

@@ -17,11 +17,9 @@ def finished(_finished, tmp_path_factory):
     return workspace
 
 
-@pytest.mark.parametrize("arguments", [["-c1", "all"], ["-n"]])
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("  youngs_modulus: 2.5e+9", "  youngs_modulus: 2.5e9", "chain.youngs_modulus must be a number > 0"),
         ("mu_k: 0.45", "mu_k: 0.8", "configuration: chain: "),
         ("duration: 10.0", "durations: 10.0", "'durations' is not a known key"),
         (
@@ -29,32 +27,27 @@ def finished(_finished, tmp_path_factory):
             "  mu_k: 0.45\n  mu_k: 0.46",
             "the key 'mu_k' stands there twice in line 9, column 3",
         ),
-        (
-            "  mu_k: 0.45",
-            "\tmu_k: 0.45",
-            "config.yaml: found character '\\t' that cannot start any token in line 8",
-        ),
-        ("chain:", "- chain:", "config.yaml: "),
     ],
 )
-def test_a_wrong_configuration_is_refused_in_one_line(finished, arguments, old, new, words):
+def test_a_wrong_configuration_is_refused_in_one_line(finished, old, new, words):
     text = (finished.path / "good.yaml").read_text(encoding="utf-8")
     assert old in text
     (finished.path / "config.yaml").write_text(text.replace(old, new, 1), encoding="utf-8")
     before = finished.results()
-    outcome = finished.run(*arguments)
+    outcome = finished.run("-c1", "all")
     assert outcome.code != 0
     assert "Traceback" not in outcome.text
     assert len([line for line in outcome.text.splitlines() if words in line]) == 1, outcome.text
     assert finished.results() == before
 
 
-@pytest.mark.parametrize("arguments", [["--config", "duration=3"], ["--configfile", "mine.yaml"]])
-def test_values_of_the_command_line_are_taken(compiled_workspace, arguments):
-    (compiled_workspace.path / "mine.yaml").write_text("duration: 3\n", encoding="utf-8")
+def test_values_of_the_command_line_are_taken(compiled_workspace):
+    (compiled_workspace.path / "mine.yaml").write_text("chain: {mu_k: 0.4}\n", encoding="utf-8")
+    arguments = ("--configfile", "mine.yaml", "--config", "duration=3")
     outcome = compiled_workspace.run("-c1", *arguments, "--", "results/runs/fig10.h5")
     assert outcome.code == 0, outcome.text
-    assert Run.load(compiled_workspace.path / "results/runs/fig10.h5").duration == 3.0
+    run = Run.load(compiled_workspace.path / "results/runs/fig10.h5")
+    assert (run.duration, run.chain.mu_k) == (3.0, 0.4)
 
 
 def test_a_wrong_file_of_the_command_line_is_named(workspace):

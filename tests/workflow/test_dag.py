@@ -1,11 +1,10 @@
 """What is run: every job once, and after an edit only what the edit touches."""
 
 import re
-import shutil
 
 import pandas as pd
 import pytest
-from conftest import ROOT, Workspace
+from conftest import ROOT
 
 from precursors import Chain
 from precursors.hierarchy.models import answers_table
@@ -23,17 +22,18 @@ LISTS_OF_SCENES = {
     "draw_fig13",
     "write_explorer",
 } | PAPER
-STEEP = """\
-  steep:
+# A name that looks like that of a table.
+SCENE = """\
+  fig10_slips:
     title: nearly all of the load at the leading edge
     theta: "9/10"
     duration: 1.0
 """
 ASKED = """\
-  quick:
-    title: what a smaller model says
+  asked:
+    title: what the chain says
     theta: "9/10"
-    model: {model}
+    model: chain
 """
 
 
@@ -44,29 +44,6 @@ def of(*scenes):
 
 def add(workspace, scene):
     workspace.edit("config.yaml", "\nfig13: [", f"{scene}\nfig13: [")
-
-
-def edit_module(workspace, name):
-    """Add a line to a module of the library."""
-    assert (workspace.path / f"src/precursors/{name}.py").is_file()
-    workspace.append(f"src/precursors/{name}.py", "\nCHANGED = True\n")
-
-
-@pytest.fixture(scope="module")
-def _more_scenes(_finished, tmp_path_factory):
-    workspace = Workspace(tmp_path_factory.mktemp("more_scenes") / "copy")
-    shutil.copytree(_finished.path, workspace.path)
-    add(workspace, STEEP + ASKED.format(model="law"))
-    outcome = workspace.pretend("-c2", "all")
-    assert outcome.code == 0, outcome.text
-    return workspace
-
-
-@pytest.fixture
-def more_scenes(_more_scenes, tmp_path):
-    """As `finished`, with two more scenes that were run to the end as well."""
-    shutil.copytree(_more_scenes.path, tmp_path / "copy")
-    return Workspace(tmp_path / "copy")
 
 
 def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
@@ -103,48 +80,15 @@ def test_a_second_run_has_nothing_to_do(finished):
     assert finished.results() == before
 
 
-def test_the_provenance_comes_after_all_figures_and_follows_an_edit(finished):
-    outcome = finished.run("-n", "-F", "all")
-    (needed,) = re.findall(r"rule write_provenance:\n    input: (.+)", outcome.text)
-    figures = {f"results/figures/{file.name}" for file in (finished.path / "results/figures").glob("*.svg")}
+def test_the_provenance_comes_after_all_figures(untouched):
+    (needed,) = [inputs for job, inputs, _ in untouched[1].plan if job == "write_provenance"]
+    made = set().union(*(outputs for _, _, outputs in untouched[1].plan))
+    figures = {file for file in made if file.startswith("results/figures/") and file.endswith(".svg")}
     assert len(figures) > 20
-    assert figures <= set(needed.split(", "))
-    edit_module(finished, "figures/scene")
-    assert "rule write_provenance:" in finished.run("-n", "all").text
+    assert figures <= needed
 
 
-@pytest.mark.parametrize("name", ["steep", "fig10_slips"])
-def test_four_lines_make_a_new_scene_of_any_name(finished, name):
-    add(finished, STEEP.replace("steep", name))
-    assert finished.would_run() == of(name) | LISTS_OF_SCENES
-
-
-def test_an_edit_of_a_scene_runs_that_scene_only(more_scenes):
-    more_scenes.edit("config.yaml", 'leading edge\n    theta: "9/10"', 'leading edge\n    theta: "8/10"')
-    assert more_scenes.would_run() == of("steep") | LISTS_OF_SCENES
-
-
-def test_another_model_asks_that_scene_again_and_nothing_else(more_scenes):
-    more_scenes.edit("config.yaml", "model: law", "model: rigid")
-    assert more_scenes.would_run() - PAPER == {"answer_scene quick"}
-
-
-def test_a_new_title_simulates_nothing(finished):
-    finished.edit("config.yaml", "title: uniform normal loading", "title: same load on every block")
-    assert finished.would_run() == {"draw_scene fig10", "write_explorer"} | PAPER
-
-
-def test_a_new_number_of_the_paper_simulates_nothing(finished):
-    finished.edit("config.yaml", "events_kept: 9", "events_kept: 8")
-    of_definitions = {"tabulate_definitions", "draw_definitions", "tabulate_random_steps"}
-    assert finished.would_run() == {"tabulate_reproduction", "evaluate_claims"} | of_definitions | PAPER
-
-
-def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):
-    finished.edit("config.yaml", "n_blocks: 10\n  mu_s", "n_blocks: 20\n  mu_s")
-    jobs = finished.would_run()
-    assert "simulate_scene fig10" in jobs
-    assert not {"measure_methods", "measure_cost_per_event"} & jobs
+# What an edit runs again, by the inputs of the jobs: one dry run tells all of them.
 
 
 @pytest.mark.parametrize(
@@ -153,56 +97,69 @@ def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(fi
         ("figures/scene", {f"draw_scene {scene}" for scene in PAPERS}),
         ("figures/spread", {"draw_spread"}),
         ("figures/definitions", {"draw_definitions"}),
+        ("reproduction/claims_results", {"evaluate_claims"}),
+        ("support/timing", set()),
     ],
 )
-def test_an_edit_of_a_figure_module_draws_its_figures_again_and_nothing_else(finished, module, jobs):
-    edit_module(finished, module)
-    assert finished.would_run() - PAPER == jobs
+def test_an_edit_of_a_figure_or_a_claim_makes_it_again_and_computes_nothing(untouched, module, jobs):
+    assert (ROOT / f"src/precursors/{module}.py").is_file()
+    assert untouched[1].after(f"src/precursors/{module}.py") - PAPER == jobs
 
 
-def test_an_edit_of_the_style_draws_all_figures_and_computes_nothing(finished):
-    edit_module(finished, "figures/style")
-    jobs = finished.would_run()
+def test_an_edit_of_the_style_draws_all_figures_and_computes_nothing(untouched):
+    jobs = untouched[1].after("src/precursors/figures/style.py")
     assert {"draw_fig13", "draw_horizon", "draw_scene fig10"} <= jobs
     assert {job for job in jobs if not job.startswith("draw_")} <= {"write_explorer"} | PAPER
 
 
-def test_an_edit_of_the_solver_simulates_again(finished):
-    edit_module(finished, "solver/kernel/events")
-    reasons = finished.run("-n", "all").reasons
-    assert all(
-        reasons[f"simulate_scene {scene}"] == {"src/precursors/solver/kernel/events.py"} for scene in PAPERS
-    )
-
-
-def test_an_edit_of_a_method_measures_again_and_simulates_nothing(finished):
-    edit_module(finished, "methods/moreau_jean")
-    jobs = finished.would_run()
+def test_an_edit_of_a_method_measures_again_and_simulates_nothing(untouched):
+    jobs = untouched[1].after("src/precursors/methods/moreau_jean.py")
     assert {"measure_methods", "draw_work_precision"} <= jobs
     assert not ({"take_certificates", "measure_cost_per_event", "run_chunk"} | of(*PAPERS)) & jobs
 
 
-def test_an_edit_of_a_script_runs_its_rule_again(finished):
-    finished.append("workflow/scripts/tabulate_mu_sapp.py", "\n# edited\n")
+def test_an_edit_of_the_solver_simulates_again(untouched):
+    jobs = untouched[1].after("src/precursors/solver/kernel/events.py")
+    assert of(*PAPERS) | {"run_chunk"} <= jobs
+
+
+def test_snakemake_runs_again_what_follows_from_the_inputs_and_from_the_script(finished, untouched):
+    edited = ("src/precursors/reproduction/claims_results.py", "paper/sections/limits.typ")
+    for name in (*edited, "workflow/scripts/tabulate_measures.py", "workflow/scripts/job.py"):
+        finished.append(name, "\n// # edited\n" if name.endswith(".typ") else "\n# edited\n")
+    measures = untouched[1].after("results/tables/measures.csv")
+    assert finished.would_run() == untouched[1].after(*edited) | {"tabulate_measures"} | measures
+
+
+# What an edit of the configuration runs again
+
+
+def test_four_lines_make_a_new_scene_of_any_name(finished):
+    add(finished, SCENE)
+    assert finished.would_run() == of("fig10_slips") | LISTS_OF_SCENES
+
+
+def test_an_edit_of_a_scene_runs_that_scene_only_and_another_model_answers_its_own(finished):
+    finished.edit("config.yaml", 'leading edge\n    theta: "9/10"', 'leading edge\n    theta: "8/10"')
+    finished.edit("config.yaml", "model: law", "model: rigid")
+    assert finished.would_run() == of("steep") | LISTS_OF_SCENES | {"answer_scene quick"}
+    assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
+
+
+def test_a_new_title_and_a_new_number_of_the_paper_simulate_nothing(finished):
+    finished.edit("config.yaml", "title: uniform normal loading", "title: same load on every block")
+    finished.edit("config.yaml", "events_kept: 9", "events_kept: 8")
+    of_title = {"draw_scene fig10", "write_explorer"}
+    of_definitions = {"tabulate_definitions", "draw_definitions", "tabulate_random_steps"}
+    of_number = {"tabulate_reproduction", "evaluate_claims"} | of_definitions
+    assert finished.would_run() == of_title | of_number | PAPER
+
+
+def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):
+    finished.edit("config.yaml", "n_blocks: 10\n  mu_s", "n_blocks: 20\n  mu_s")
     jobs = finished.would_run()
-    assert "tabulate_mu_sapp" in jobs
-    assert not of(*PAPERS) & jobs
-
-
-def test_an_edit_of_how_jobs_are_logged_or_files_are_written_runs_nothing(finished):
-    finished.append("workflow/scripts/job.py", "\nCHANGED = True\n")
-    edit_module(finished, "support/timing")
-    assert finished.would_run() == set()
-
-
-def test_an_edit_of_the_text_sets_the_paper_again_and_nothing_else(finished):
-    finished.append("paper/sections/limits.typ", "\nOne sentence more.\n")
-    assert finished.would_run() == PAPER
-
-
-def test_an_edit_of_a_claim_compares_again_and_computes_nothing_else(finished):
-    edit_module(finished, "reproduction/claims_results")
-    assert finished.would_run() == {"evaluate_claims"} | PAPER
+    assert "simulate_scene fig10" in jobs
+    assert not {"measure_methods", "measure_cost_per_event"} & jobs
 
 
 def test_the_full_comparison_of_methods_is_a_target_of_its_own(untouched):
@@ -220,17 +177,10 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(wo
     assert not {"evaluate_claims", "write_paper"} & jobs
 
 
-@pytest.mark.parametrize("model", ["quasistatic", "chain"])
-def test_a_scene_that_names_a_model_is_answered_and_not_run(finished, model):
-    add(finished, ASKED.format(model=model))
-    assert finished.would_run() - PAPER == {"answer_scene quick"}
-    assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
-
-
 def test_the_answer_of_a_model_is_computed(compiled_workspace):
-    add(compiled_workspace, ASKED.format(model="chain"))
-    outcome = compiled_workspace.run("-c1", "results/tables/quick_answers.csv")
+    add(compiled_workspace, ASKED)
+    outcome = compiled_workspace.run("-c1", "results/tables/asked_answers.csv")
     assert outcome.code == 0, outcome.text
-    answers = pd.read_csv(compiled_workspace.path / "results/tables/quick_answers.csv")
+    answers = pd.read_csv(compiled_workspace.path / "results/tables/asked_answers.csv")
     expected = answers_table(Chain.from_slider(theta="9/10"), "chain", {}).reset_index(drop=True)
     pd.testing.assert_frame_equal(answers, expected, check_dtype=False)

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import ROOT
+from conftest import ROOT, copy_workflow
 
 from precursors import cli
 
@@ -25,9 +25,14 @@ def blocks(section):
         yield language, named and named[1], code[named.end() :] if named else code
 
 
-def write_files(workspace, section):
-    """Make the new files of a section, and its changes."""
-    for language, name, code in blocks(section):
+SECTIONS = ("A scene", "A figure", "A model", "A method", "Within another workflow")
+
+
+@pytest.fixture(scope="module")
+def documented(tmp_path_factory):
+    """A copy of the workflow with the new files and the changes of all sections."""
+    workspace = copy_workflow(tmp_path_factory.mktemp("documented") / "copy")
+    for language, name, code in (block for section in SECTIONS for block in blocks(section)):
         if name and language == "diff":
             lines = code.splitlines(keepends=True)
             old, new = ("".join(line[1:] for line in lines if line[0] in signs) for signs in (" -", " +"))
@@ -35,46 +40,34 @@ def write_files(workspace, section):
         elif name:
             (workspace.path / name).parent.mkdir(exist_ok=True)
             (workspace.path / name).write_text(code, encoding="utf-8")
+    return workspace
 
 
-def commands(section):
-    return [code.split() for language, _, code in blocks(section) if language == "sh"]
+def command(section):
+    (found,) = [code.split() for language, _, code in blocks(section) if language == "sh"]
+    return found[1:]
 
 
-def run_python(workspace, section):
-    """Run the code of a section that belongs to no file; what it printed, and what the section shows."""
+def test_the_scene_and_the_figure_shown_are_made(documented):
+    assert "draw_scene steep" in documented.run("-n", *command("A scene")).jobs
+    outcome = documented.run(*command("A figure"))
+    assert outcome.code == 0, outcome.text
+    assert (documented.path / command("A figure")[-1]).read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("section", ["A model", "A method"])
+def test_the_model_and_the_method_shown_give_what_is_shown(documented, section):
     code = "\n".join(code for language, name, code in blocks(section) if language == "python" and not name)
-    environment = {**os.environ, "PYTHONPATH": str(workspace.path / "src")}
+    environment = {**os.environ, "PYTHONPATH": str(documented.path / "src")}
     done = subprocess.run(
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
     )
     (shown,) = [code for language, _, code in blocks(section) if language == "text"]
-    return done.stdout + done.stderr, shown
+    assert done.stdout + done.stderr == shown
 
 
-def test_the_scene_and_the_figure_shown_are_made(compiled_workspace):
-    workspace = compiled_workspace
-    for section in ("A scene", "A figure"):
-        write_files(workspace, section)
-    (scene,), (figure,) = commands("A scene"), commands("A figure")
-    assert "draw_scene steep" in workspace.run("-n", *scene[1:]).jobs
-    outcome = workspace.run(*figure[1:])
-    assert outcome.code == 0, outcome.text
-    assert (workspace.path / figure[-1]).read_bytes().startswith(b"\x89PNG")
-
-
-@pytest.mark.parametrize("section", ["A model", "A method"])
-def test_the_model_and_the_method_shown_give_what_is_shown(compiled_workspace, section):
-    workspace = compiled_workspace
-    write_files(workspace, section)
-    printed, shown = run_python(workspace, section)
-    assert printed == shown
-
-
-def test_the_workflow_shown_uses_this_one_as_a_module(compiled_workspace):
-    workspace = compiled_workspace
-    write_files(workspace, "Within another workflow")
-    outer = type(workspace)(workspace.path / "elsewhere")
+def test_the_workflow_shown_uses_this_one_as_a_module(documented):
+    outer = type(documented)(documented.path / "elsewhere")
     outcome = outer.run("-n", "precursors_all")
     assert outcome.code == 0, outcome.text
     assert {"precursors_draw_scene soft", "precursors_write_paper"} <= outcome.jobs
