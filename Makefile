@@ -38,9 +38,11 @@ report: results
 golden: results
 	$(BIN)/python tests/golden/regenerate.py
 
-# Pages of the interface, from the docstrings, in results/docs.
+# Pages of the interface, from the docstrings, and of docs/, in results/docs.
 docs: $(READY)
-	$(BIN)/pdoc --output-directory results/docs --docformat numpy precursors
+	$(BIN)/pdoc -o results/docs -d numpy precursors precursors.analysis.horizon precursors.methods docs/guide.py
+	sed -i.md -e 's|href="[a-z]*\.md#|href="#|g' -e 's|href="\.\./src|href="../../src|g' results/docs/guide.html
+	rm results/docs/guide.html.md
 
 bench: $(READY)
 	$(BIN)/python benchmarks/bench.py

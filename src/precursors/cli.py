@@ -340,6 +340,7 @@ class PrintVersion(argparse.Action):
     """Look the version up only when it is asked for."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        """Print the version."""
         from importlib.metadata import version
 
         print(f"precursors {version('precursors')}")

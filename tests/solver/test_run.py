@@ -226,3 +226,11 @@ def test_a_long_run_keeps_few_states_and_still_evaluates_everywhere():
     pick = np.sort(rng.choice(len(long.transitions), 200, replace=False))
     times, loads = long.transitions["time"][pick], long.transitions["tangential_load"][pick]
     np.testing.assert_allclose(long.tangential_load(times), loads, rtol=0, atol=1e-8)
+
+
+def test_a_run_prints_its_size_and_its_chain_in_a_few_lines():
+    run = simulate(Chain.from_slider(theta="5/6"), 1.0)
+    lines = repr(run).splitlines()
+    assert lines[:2] == ["Run of 1 s with 74 transitions", "Chain of 10 blocks"]
+    assert "w_N = 73.3333 N" in lines[2]
+    assert len(lines) == 4

@@ -1,5 +1,6 @@
 """The package: its public names, what it loads, its wheel and its citation."""
 
+import inspect
 import os
 import re
 import subprocess
@@ -26,8 +27,12 @@ def loaded(program: str) -> set[str]:
 
 @pytest.mark.parametrize("name", precursors.__all__)
 def test_every_public_name_is_there(name):
-    assert getattr(precursors, name).__name__ == name
+    thing = getattr(precursors, name)
+    assert thing.__name__ == name
     assert name in dir(precursors)
+    own = vars(thing) if isinstance(thing, type) else {}
+    public = [thing, *(getattr(thing, part) for part in own if not part.startswith("_"))]
+    assert [one for one in public if callable(one) and not inspect.getdoc(one)] == []
 
 
 def test_a_name_that_is_not_there_is_refused():
@@ -59,7 +64,10 @@ def test_the_library_works_without_its_extras():
         f"sys.modules.update(dict.fromkeys({absent!r}))\n"
         "from precursors import Chain, audit, find_slips, simulate\n"
         "import precursors.cli, precursors.hierarchy.models, precursors.ensembles.study, precursors.methods\n"
-        "import precursors.figures.scene, precursors.figures.precursor_lengths"
+        "import precursors.figures.scene, precursors.figures.precursor_lengths\n"
+        "try: precursors.certify(Chain.from_slider(), 1)\n"
+        "except ModuleNotFoundError as error: assert 'pip install \"precursors[proof]\"' in str(error)\n"
+        "else: raise AssertionError"
     )
 
 

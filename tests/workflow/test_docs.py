@@ -96,6 +96,18 @@ def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
     assert capsys.readouterr().out == found["text"][0]
 
 
+def test_every_page_is_rendered_with_links_that_the_makefile_can_follow(tmp_path):
+    command = [sys.executable, "-m", "pdoc", "-o", str(tmp_path), "-d", "numpy", str(DOCS / "guide.py")]
+    subprocess.run(command, check=True, cwd=ROOT)
+    guide = (tmp_path / "guide.html").read_text(encoding="utf-8")
+    titles = [
+        page.read_text(encoding="utf-8").splitlines()[0].removeprefix("# ") for page in DOCS.glob("*.md")
+    ]
+    assert [title for title in titles if f">{title}</h1>" not in guide] == []
+    linked = re.findall(r'href="[a-z]+\.md(.*?)"', guide)
+    assert [anchor for anchor in linked if f'id="{anchor[1:]}"' not in guide] == []
+
+
 @pytest.mark.parametrize("page", sorted(DOCS.glob("*.md")), ids=lambda page: page.name)
 def test_files_that_a_page_links_to_exist(page):
     links = re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8"))

@@ -158,6 +158,15 @@ class Chain:
         """Growth K V of the tangential load while block 1 sticks [N/s]."""
         return self.drive_stiffness * self.drive_velocity
 
+    def __repr__(self) -> str:
+        return (
+            f"Chain of {self.n_blocks} blocks\n"
+            f"  w_1 = {self.weights[0]:g} N, w_N = {self.weights[-1]:g} N, F_Z = {self.normal_load:g} N, "
+            f"mu_s = {self.mu_s:g}, mu_k = {self.mu_k:g}\n"
+            f"  m = {self.mass:g} kg, k = {self.stiffness:g} N/m, K = {self.drive_stiffness:g} N/m, "
+            f"V = {self.drive_velocity:g} m/s, L = {self.length:g} m"
+        )
+
     def __reduce__(self) -> tuple[type[Chain], tuple[Any, ...]]:
         # A copy is checked and read-only, as the chain itself.
         return type(self), tuple(getattr(self, field.name) for field in fields(self))

@@ -55,6 +55,9 @@ class Run:
     evaluations: float = 0.0
     slider: dict[str, Any] | None = None
 
+    def __repr__(self) -> str:
+        return f"Run of {self.duration:g} s with {len(self.transitions)} transitions\n{self.chain!r}"
+
     @classmethod
     def from_transitions(
         cls,

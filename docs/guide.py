@@ -1,0 +1,9 @@
+"""The pages of docs/ beside the interface, for `make docs`.
+
+.. include:: customise.md
+.. include:: adding.md
+.. include:: models.md
+.. include:: performance.md
+.. include:: reliability.md
+.. include:: troubleshooting.md
+"""
