@@ -3,12 +3,14 @@ CORES ?= 2
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
+# A build takes its packages from wheelhouse/ where there is one, and then needs no network.
+WHEELS := $(if $(wildcard wheelhouse),--no-index --find-links wheelhouse)
 # Caches of uv and Snakemake, which cannot do without, where the home directory cannot be written.
 ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
 
-.PHONY: all test mutants test-cluster results check report golden docs bench lock lint clean
+.PHONY: all test mutants test-cluster results check report golden docs bench lock lint wheelhouse clean
 
 all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures results/provenance.json
@@ -53,6 +55,11 @@ lint: $(READY)
 lock: $(READY)
 	$(BIN)/uv pip compile pyproject.toml --all-extras --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header -q -o requirements.lock
 
+# The locked packages for this Python and this kind of machine, to be kept with the sources: 400 MB.
+wheelhouse: $(READY)
+	$(BIN)/python -m pip download -q --no-deps --no-build-isolation --require-hashes -d wheelhouse.part -r requirements.lock
+	mv wheelhouse.part wheelhouse
+
 clean:
 	rm -rf .venv .snakemake
 	find results -mindepth 1 ! -path results/README.md -delete
@@ -61,8 +68,8 @@ $(READY): requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and f"Python 3.11 or later is needed, and $(PYTHON) is {sys.version.split()[0]}: set PYTHON=")'
 	rm -rf .venv && $(PYTHON) -m venv .venv
 	awk '/^[^ #]/ {wanted = /^uv==/} wanted' requirements.lock > .venv/uv.txt
-	$(BIN)/python -m pip install -q --no-deps --require-hashes -r .venv/uv.txt
-	$(BIN)/uv pip sync -q -p $(BIN)/python --compile-bytecode --require-hashes --build-constraints requirements.lock requirements.lock
+	$(BIN)/python -m pip install -q $(WHEELS) --no-deps --require-hashes -r .venv/uv.txt
+	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --compile-bytecode --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
 	@# Compile the solver and the methods with fixed steps, one on each core.
 	$(BIN)/python -c "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.4).at([0.4])" & \

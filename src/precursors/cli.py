@@ -340,10 +340,15 @@ class PrintVersion(argparse.Action):
     """Look the version up only when it is asked for."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
-        """Print the version."""
+        """Print the version, and in a checkout the commit and its software hash identifiers."""
         from importlib.metadata import version
 
+        from precursors.support.provenance import git_state
+
         print(f"precursors {version('precursors')}")
+        if state := git_state(Path(__file__).parents[2]):
+            print(f"commit {state['commit']}{', and files have changed since' if state['changed'] else ''}")
+            print(state["swh_revision"], state["swh_directory"], sep="\n")
         parser.exit()
 
 
@@ -353,7 +358,7 @@ def parser() -> Parser:
     top = Parser(
         "precursors", description="Simulate stick-slip chains exactly.", epilog=EPILOG, formatter_class=raw
     )
-    top.add_argument("--version", action=PrintVersion, nargs=0, help="show the version and exit")
+    top.add_argument("--version", action=PrintVersion, nargs=0, help="show version, commit and identifiers")
     subparsers = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, (run, meaning) in COMMANDS.items():
         description = f"{meaning[0].upper()}{meaning[1:]}."

@@ -9,6 +9,7 @@ import sys
 import time
 from fractions import Fraction
 from importlib.metadata import version
+from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -27,6 +28,7 @@ from precursors.cli import (
     main,
     parser,
 )
+from precursors.support.provenance import git_state
 
 HEAVY = {"numpy", "numba", "pandas", "h5py", "matplotlib", "scipy", "bokeh"}
 COMMAND = [sys.executable, "-m", "precursors"]
@@ -229,7 +231,11 @@ def test_audit_refuses_a_run_with_one_transition_moved_by_a_nanosecond(cli, tmp_
 
 
 def test_the_version_is_told(cli):
-    assert cli("--version") == (DONE, f"precursors {version('precursors')}\n", "")
+    code, printed, error = cli("--version")
+    name, *commit = printed.splitlines()
+    assert (code, name, error) == (DONE, f"precursors {version('precursors')}", "")
+    state = git_state(Path(__file__).parents[2])
+    assert commit[1:] == ([state["swh_revision"], state["swh_directory"]] if state else [])
 
 
 # Errors

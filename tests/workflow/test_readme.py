@@ -130,6 +130,7 @@ def test_files_that_are_linked_exist():
 def test_the_paper_is_cited_with_its_doi():
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     (paper,) = citation["references"]
+    assert {"title", "authors", "license", "abstract"} <= citation.keys()  # what an archive asks for
     assert [author["family-names"] for author in paper["authors"]] == ["Maegawa", "Suzuki", "Nakano"]
     assert f"doi:{paper['doi']}" in README
 
