@@ -109,7 +109,8 @@ def test_held_out_chains_are_proved(name: str) -> None:
 
 def exact_chain(case: HeldOut) -> ExactChain:
     reference = case.chain
-    numbers = {f.name: getattr(reference, f.name) for f in dataclasses.fields(reference)}
+    names = {f.name for f in dataclasses.fields(ExactChain)} - {"length"}
+    numbers = {name: getattr(reference, name) for name in names}
     return ExactChain(**numbers, length="1/10")
 
 

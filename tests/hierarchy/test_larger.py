@@ -33,9 +33,10 @@ def order(run: Run) -> list[tuple[int, int]]:
 
 def reference_chain(scene) -> LargerChain:
     """The chain of a scene of the reference, each number rounded once."""
-    slider = {name: float(x) for name, x in scene.slider.items() if name not in ("theta", "n_blocks")}
-    slider |= {name: scene.slider[name] for name in ("theta", "n_blocks") if name in scene.slider}
-    return LargerChain(SLIDER(**slider), **{name: float(x) for name, x in scene.additions.items()})
+    numbers = {name: float(x) for name, x in scene.slider.items() if name not in ("theta", "n_blocks")}
+    exact = {name: scene.slider[name] for name in ("theta", "n_blocks") if name in scene.slider}
+    added = {name: numbers.pop(name) for name in ADDITIONS if name in numbers}
+    return LargerChain(SLIDER(**numbers, **exact), **added)
 
 
 @pytest.mark.parametrize(("addition", "name"), SCENES)

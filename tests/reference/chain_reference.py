@@ -1,11 +1,19 @@
-"""The paper's chain to more than 40 digits, by a method and in numbers of its own: the judge of the solver.
+"""The chain to more than 40 digits, by a method and in numbers of its own: the judge of the solver.
 
-Time is counted in T = 2^-s sqrt(m/k) and displacement in newtons (u = k x), both as integers with `bits`
-binary places (see `polynomials`). Motion is a Taylor series of the displacements over windows of length T,
-with s chosen so that the largest angular frequency of the chain is at most 2/T. A transition is the first
-zero, isolated by Bernstein coefficients, of a sliding block's velocity or of a stuck block's margin
-mu_s w_i -+ g_i, where g_i is the net force of its springs. While all blocks stick, the next release is one
-division.
+It may have what the larger models of docs/models.md add to the paper's chain: viscosity between neighbours,
+springs in the interface, a loading head. Time is counted in T = 2^-s sqrt(m/k) and displacement in newtons
+(u = k x), both as integers with `bits` binary places (see `polynomials`). In these units
+
+    u_i'' = 4^-s r_i (g_i + h_i - f_i),   h_i = c (u'_{i-1} - u'_i) - c (u'_i - u'_{i+1}),   c = eta / (k T),
+
+with the net force g_i of the springs, r_1 = m / (m + M_h), the other r_i = 1, and no viscosity between the
+drive point and block 1. The force f_i of the interface is mode_i mu_k w_i on a block that slides, and p_i on
+one that sticks, with p_i' = (kappa_i / k) u_i'. Without interface springs a block that sticks does not move.
+
+Motion is a Taylor series of the displacements over windows of length T, with s chosen so that the largest
+angular frequency of the chain is at most 2/T. A transition is the first zero, isolated by Bernstein
+coefficients, of a sliding block's velocity, or of what the interface's force on a stuck block lacks to
+mu_s w_i. While nothing moves, the next release is one division.
 
 Two zeros so close that only rounding tells them from one (1e-30 T) count as one, at which the function
 touches zero: a block whose velocity touches zero sticks and, where nothing holds it (mu_s = mu_k, or no
@@ -18,8 +26,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from itertools import pairwise
-from math import factorial, isqrt
-from typing import NamedTuple
+from math import factorial, isqrt, sqrt
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +50,11 @@ class Transition(NamedTuple):
 
 @dataclass(frozen=True)
 class ReferenceChain:
-    """The numbers of the equations of motion (Eqs. 2-6), exact: w_i [N], m [kg], k and K [N/m], V [m/s]."""
+    """The numbers of the equations of motion (Eqs. 2-6), exact: w_i [N], m [kg], k and K [N/m], V [m/s].
+
+    Beside them eta of the dashpot between neighbours [N s/m], kappa_i of the spring between each block and
+    the plane [N/m] (None: a rigid interface), and the mass M_h that moves with block 1 [kg].
+    """
 
     weights: tuple[Fraction, ...]
     mass: Fraction
@@ -51,6 +63,9 @@ class ReferenceChain:
     drive_velocity: Fraction
     mu_s: Fraction
     mu_k: Fraction
+    viscosity: Fraction = Fraction(0)
+    interface_springs: tuple[Fraction, ...] | None = None
+    head_mass: Fraction = Fraction(0)
 
     @classmethod
     def from_slider(
@@ -67,8 +82,14 @@ class ReferenceChain:
         cross_section: Number = "1e-4",
         length: Number = "0.1",
         weights: Sequence[Number] | None = None,
+        viscosity: Number = 0,
+        interface_stiffness: Number | None = None,
+        head_mass: Number = 0,
     ) -> ReferenceChain:
-        """Cut a slider into N blocks (Eqs. 7, 9, 10); `weights` [N], if given, replace those of Eq. 7."""
+        """Cut a slider into N blocks (Eqs. 7, 9, 10); `weights` [N], if given, replace those of Eq. 7.
+
+        The blocks share the stiffness of the whole interface [N/m] equally.
+        """
         n, load, slope = n_blocks, Fraction(normal_load), Fraction(theta)
         if weights is None:
             # At N = 1 Eq. 7 is 0/0; the one block carries the whole load.
@@ -84,13 +105,20 @@ class ReferenceChain:
             drive_velocity=Fraction(drive_velocity),
             mu_s=Fraction(mu_s),
             mu_k=Fraction(mu_k),
+            viscosity=Fraction(viscosity),
+            interface_springs=interface_stiffness and (Fraction(interface_stiffness) / n,) * n,
+            head_mass=Fraction(head_mass),
         )
 
     def rounded_to_doubles(self) -> ReferenceChain:
         """Return the chain that a solver in double precision is given: each number rounded once."""
-        numbers = {f.name: getattr(self, f.name) for f in fields(self)}
-        weights = tuple(Fraction(float(w)) for w in numbers.pop("weights"))
-        return ReferenceChain(weights, **{name: Fraction(float(x)) for name, x in numbers.items()})
+
+        def rounded(x: Fraction | tuple[Fraction, ...] | None) -> Any:
+            if isinstance(x, tuple):
+                return tuple(map(rounded, x))
+            return None if x is None else Fraction(float(x))
+
+        return ReferenceChain(*(rounded(getattr(self, field.name)) for field in fields(self)))
 
 
 def reference(
@@ -129,27 +157,19 @@ def reference(
     """
     if until not in (None, "global slip"):
         raise ValueError(f'until must be None or "global slip", but is {until!r}')
-    scaled = _scale(chain, bits)
-    state = _rest(chain, scaled, start_positions)
-    end = _fixed(Fraction(duration) / scaled.time_unit, bits)
-    moving = _start_moving(chain, scaled, state, start_velocities)
-    starting = sorted(dict(_overloaded(scaled, state) + moving).items())
-    transitions = [_release(scaled, state, i, way) for i, way in starting]
+    motion = _Motion(_scale(chain, bits), chain, start_positions, start_velocities)
+    end = _fixed(Fraction(duration) / motion.scaled.time_unit, bits)
+    transitions = motion.start()
     all_slid = False
     while max_transitions is None or len(transitions) < max_transitions:
-        all_slid = all_slid or all(state.modes[1:])
-        if any(state.modes):
-            changes = _slide(scaled, state)
-        elif until == "global slip" and all_slid:
+        all_slid = all_slid or all(motion.modes[1:])
+        if until == "global slip" and all_slid and not any(motion.modes):
             break
-        else:
-            changes, all_slid = _load(scaled, state), False
-        if state.time > end:
+        all_slid = all_slid and any(motion.modes)
+        changes = motion.slide() if motion.moves() else motion.load()
+        if motion.time > end:
             break
-        transitions += [
-            _stop_or_turn(scaled, state, i) if state.modes[i] else _release(scaled, state, i, way)
-            for i, way in changes
-        ]
+        transitions += [motion.change(i, way) for i, way in changes]
     return transitions
 
 
@@ -167,7 +187,6 @@ def as_array(transitions: Sequence[Transition]) -> NDArray[np.void]:
 
 
 Change = tuple[int, int]  # block, and the direction of its release if it is stuck
-Series = list[list[int]]  # Taylor coefficients of the displacements of the drive point and of each block
 
 
 @dataclass(frozen=True)
@@ -182,16 +201,9 @@ class _Scaled:
     drive_velocity: int  # k V T
     strength: tuple[int, ...]  # mu_s w_i
     kinetic: tuple[int, ...]  # mu_k w_i
-
-
-@dataclass
-class _State:
-    """Motion of the drive point (index 0, mode 0) and of the blocks 1..N at one time."""
-
-    time: int
-    positions: list[int]
-    velocities: list[int]
-    modes: list[int]
+    damping: int  # c
+    springs: tuple[int, ...] | None  # kappa_i / k
+    mass_share: int  # r_1
 
 
 def _fixed(x: Fraction, bits: int) -> int:
@@ -200,10 +212,13 @@ def _fixed(x: Fraction, bits: int) -> int:
 
 def _scale(chain: ReferenceChain, bits: int) -> _Scaled:
     ratio = chain.drive_stiffness / chain.stiffness
-    # Gershgorin: the square of the largest angular frequency, in units of k/m.
-    largest = max(Fraction(4), 2 + ratio)
+    springs = chain.interface_springs
+    softest = Fraction(0) if springs is None else max(springs) / chain.stiffness
+    # Gershgorin for |lambda|^2 <= a + b |lambda|, in units of k/m; a power of two above the exact bound.
+    a = max(4.0, 2.0 + float(ratio)) + float(softest)
+    b = 4.0 * float(chain.viscosity) / sqrt(float(chain.mass * chain.stiffness))
     halvings = 0
-    while largest > 4 * 4**halvings:
+    while (b + sqrt(b * b + 4.0 * a)) / 2.0 > 2.0 * 2**halvings * (1.0 + 1e-9):
         halvings += 1
     root = isqrt(int(chain.mass / chain.stiffness * (1 << 4 * bits)))
     time_unit = Fraction(root, 1 << (2 * bits + halvings))
@@ -220,139 +235,161 @@ def _scale(chain: ReferenceChain, bits: int) -> _Scaled:
         drive_velocity=_fixed(chain.stiffness * chain.drive_velocity * time_unit, bits),
         strength=(0, *(_fixed(chain.mu_s * w, bits) for w in chain.weights)),
         kinetic=(0, *(_fixed(chain.mu_k * w, bits) for w in chain.weights)),
+        damping=_fixed(chain.viscosity / (chain.stiffness * time_unit), bits),
+        springs=None if springs is None else (0, *(_fixed(x / chain.stiffness, bits) for x in springs)),
+        mass_share=_fixed(chain.mass / (chain.mass + chain.head_mass), bits),
     )
 
 
-def _rest(chain: ReferenceChain, scaled: _Scaled, start_positions: Sequence[Number] | None) -> _State:
-    n = len(chain.weights)
-    metres = [0] * n if start_positions is None else start_positions
-    if len(metres) != n:
-        raise ValueError(f"{len(metres)} start positions for {n} blocks")
-    positions = [0, *(_fixed(chain.stiffness * Fraction(x), scaled.bits) for x in metres)]
-    return _State(0, positions, [scaled.drive_velocity] + [0] * n, [0] * (n + 1))
+class _Motion:
+    """Positions, velocities, modes and interface forces of the drive point (index 0) and of the blocks."""
 
+    def __init__(
+        self,
+        scaled: _Scaled,
+        chain: ReferenceChain,
+        start_positions: Sequence[Number] | None,
+        start_velocities: Sequence[Number] | None,
+    ) -> None:
+        n, bits = len(chain.weights), scaled.bits
+        metres, speeds = start_positions or [0] * n, start_velocities or [0] * n
+        for name, values in (("positions", metres), ("velocities", speeds)):
+            if len(values) != n:
+                raise ValueError(f"{len(values)} start {name} for {n} blocks")
+        self.scaled = scaled
+        self.time = 0
+        self.positions = [0, *(_fixed(chain.stiffness * Fraction(x), bits) for x in metres)]
+        unit = chain.stiffness * scaled.time_unit
+        self.velocities = [scaled.drive_velocity, *(_fixed(unit * Fraction(v), bits) for v in speeds)]
+        self.modes = [0] * (n + 1)
+        self.plane_force = [0] * (n + 1)  # p_i of the blocks that stick
 
-def _start_moving(
-    chain: ReferenceChain, scaled: _Scaled, state: _State, start_velocities: Sequence[Number] | None
-) -> list[Change]:
-    """Give the blocks their velocities at the start; those that move slide, whatever their force."""
-    n = len(chain.weights)
-    speeds = [0] * n if start_velocities is None else start_velocities
-    if len(speeds) != n:
-        raise ValueError(f"{len(speeds)} start velocities for {n} blocks")
-    for i, speed in enumerate(speeds, 1):
-        state.velocities[i] = _fixed(chain.stiffness * Fraction(speed) * scaled.time_unit, scaled.bits)
-    return [(i, 1 if v > 0 else -1) for i, v in enumerate(state.velocities) if i and v]
+    def start(self) -> list[Transition]:
+        """Let the blocks slide that move, or whose net force exceeds static friction; attach the others."""
+        found = []
+        for i in range(1, len(self.modes)):
+            speed, force = self.velocities[i], self._net(self.positions, self.velocities, i)
+            if speed or abs(force) > self.scaled.strength[i] + NOISE:
+                self.modes[i] = 1 if (speed or force) > 0 else -1
+                found.append(self._transition(i))
+            else:
+                self.plane_force[i] = force
+        return found
 
+    def moves(self) -> bool:
+        """Whether a block may move: with interface springs, one that sticks does."""
+        return self.scaled.springs is not None or any(self.modes)
 
-def _overloaded(scaled: _Scaled, state: _State) -> list[Change]:
-    """Blocks whose net force exceeds static friction at the start."""
-    forces = {i: _net_force(scaled, state.positions, i) for i in range(1, len(state.modes))}
-    return [(i, 1 if g > 0 else -1) for i, g in forces.items() if abs(g) > scaled.strength[i] + NOISE]
+    def load(self) -> list[Change]:
+        """Load the resting chain until block 1 is released: no other block feels the drive."""
+        scaled = self.scaled
+        margin = scaled.strength[1] - self._net(self.positions, self.velocities, 1)
+        if margin > NOISE:
+            loading_rate = scaled.stiffness_ratio * scaled.drive_velocity
+            self._set_time(self.time + (margin << 2 * scaled.bits) // loading_rate)
+        return [(1, 1)]
 
+    def slide(self) -> list[Change]:
+        """Advance to the first transition, but by one window at most; return the blocks that change then."""
+        bits = self.scaled.bits
+        u = self._taylor()
+        du = [derivative(coefficients) for coefficients in u]
+        zeros: dict[Change, int | None] = {}
+        for i in range(1, len(self.modes)):
+            if self.modes[i]:
+                zeros[i, 0] = first_zero(_without_zero_now([self.modes[i] * c for c in du[i]]), bits)
+            elif self._may_let_go(i):
+                for way in (1, -1):
+                    zeros[i, way] = first_zero(self._margin(u, du, i, way), bits)
+        found = {change: zero for change, zero in zeros.items() if zero is not None}
+        # Zeros that coincide come out apart by rounding; no others come as close as half of the places.
+        tie = 1 << bits // 2
+        step = min(found.values(), default=1 << bits)
+        if step >= tie:
+            for i in range(1, len(self.modes)):
+                if not self.modes[i] and self.scaled.springs is not None:
+                    moved = value([0, *u[i][1:]], step, bits)
+                    self.plane_force[i] += self.scaled.springs[i] * moved >> bits
+            for i in range(1, len(self.modes)):
+                self.positions[i] = value(u[i], step, bits)
+                self.velocities[i] = value(du[i], step, bits)
+            self._set_time(self.time + step)
+        return [change for change, zero in found.items() if zero - step < tie]
 
-def _release(scaled: _Scaled, state: _State, i: int, way: int) -> Transition:
-    """Let the stuck block i slide."""
-    state.modes[i] = way
-    return _transition(scaled, state, i)
+    def _may_let_go(self, i: int) -> bool:
+        """Whether the force on a stuck block changes."""
+        nearby = self.modes[max(i - 1, 0) : i + 2]
+        return i == 1 or self.scaled.springs is not None or any(nearby)
 
+    def change(self, i: int, way: int) -> Transition:
+        """Release a block that sticks; stop or turn one that slides, and attach it without a net force."""
+        if self.modes[i]:
+            self.velocities[i] = 0
+            force = self._net(self.positions, self.velocities, i)
+            holds = abs(force) <= self.scaled.strength[i] + NOISE
+            self.modes[i] = 0 if holds else (1 if force > 0 else -1)
+            self.plane_force[i] = force
+        else:
+            self.modes[i] = way
+        return self._transition(i)
 
-def _stop_or_turn(scaled: _Scaled, state: _State, i: int) -> Transition:
-    """Let block i, whose velocity has reached zero, stick if friction holds it, or else follow the force."""
-    state.velocities[i] = 0
-    force = _net_force(scaled, state.positions, i)
-    holds = abs(force) <= scaled.strength[i] + NOISE
-    state.modes[i] = 0 if holds else (1 if force > 0 else -1)
-    return _transition(scaled, state, i)
+    def _taylor(self) -> list[list[int]]:
+        scaled = self.scaled
+        bits = scaled.bits
+        u = [[x, v] + [0] * (scaled.order - 1) for x, v in zip(self.positions, self.velocities, strict=True)]
+        mobile = [i for i in range(1, len(self.modes)) if self.modes[i] or scaled.springs is not None]
+        for n in range(scaled.order - 1):
+            now = [c[n] for c in u]
+            rate = [(n + 1) * c[n + 1] for c in u]
+            for i in mobile:
+                force = self._net(now, rate, i)
+                if n == 0:
+                    force -= self.modes[i] * scaled.kinetic[i] if self.modes[i] else self.plane_force[i]
+                elif not self.modes[i] and scaled.springs is not None:
+                    force -= scaled.springs[i] * now[i] >> bits
+                if i == 1:
+                    force = force * scaled.mass_share >> bits
+                u[i][n + 2] = (force >> 2 * scaled.halvings) // ((n + 1) * (n + 2))
+        return u
 
+    def _margin(self, u: list[list[int]], du: list[list[int]], i: int, way: int) -> list[int]:
+        """What the force of the interface on a stuck block still lacks to its strength."""
+        scaled = self.scaled
+        if scaled.springs is not None:
+            margin = [-way * (scaled.springs[i] * c >> scaled.bits) for c in u[i]]
+            margin[0] = scaled.strength[i] - way * self.plane_force[i]
+        else:
+            padded = [[*c, 0] for c in du]
+            margin = [
+                -way * self._net([c[n] for c in u], [c[n] for c in padded], i) for n in range(len(u[i]))
+            ]
+            margin[0] += scaled.strength[i]
+        return _without_zero_now(margin)
 
-def _transition(scaled: _Scaled, state: _State, i: int) -> Transition:
-    one = 1 << scaled.bits
-    load = _force_behind(scaled, 1, state.positions[0] - state.positions[1])
-    return Transition(Fraction(state.time, one) * scaled.time_unit, i, state.modes[i], Fraction(load, one))
+    def _net(self, u: Sequence[int], du: Sequence[int], i: int) -> int:
+        """g_i + h_i: net force of springs and dashpots on block i, or one order of its series."""
+        scaled = self.scaled
+        behind = u[i - 1] - u[i]
+        if i == 1:
+            force = scaled.stiffness_ratio * behind >> scaled.bits
+        else:
+            force = behind + (scaled.damping * (du[i - 1] - du[i]) >> scaled.bits)
+        if i + 1 < len(u):
+            force -= u[i] - u[i + 1] + (scaled.damping * (du[i] - du[i + 1]) >> scaled.bits)
+        return force
 
+    def _transition(self, i: int) -> Transition:
+        scaled = self.scaled
+        one = 1 << scaled.bits
+        load = scaled.stiffness_ratio * (self.positions[0] - self.positions[1]) >> scaled.bits
+        return Transition(Fraction(self.time, one) * scaled.time_unit, i, self.modes[i], Fraction(load, one))
 
-def _load(scaled: _Scaled, state: _State) -> list[Change]:
-    """Load the resting chain until block 1 is released: no other block feels the drive."""
-    margin = scaled.strength[1] - _net_force(scaled, state.positions, 1)
-    if margin > NOISE:
-        loading_rate = scaled.stiffness_ratio * scaled.drive_velocity  # K V T, with twice the binary places
-        _set_time(scaled, state, state.time + (margin << 2 * scaled.bits) // loading_rate)
-    return [(1, 1)]
-
-
-def _slide(scaled: _Scaled, state: _State) -> list[Change]:
-    """Advance to the first transition, but by one window at most; return the blocks that change then."""
-    series = _taylor(scaled, state)
-    zeros: dict[Change, int | None] = {}
-    for i in range(1, len(state.modes)):
-        if state.modes[i]:
-            zeros[i, 0] = first_zero(_speed(series[i], state.modes[i]), scaled.bits)
-        elif i == 1 or state.modes[i - 1] or any(state.modes[i + 1 : i + 2]):
-            for way in (1, -1):
-                zeros[i, way] = first_zero(_margin(scaled, series, i, way), scaled.bits)
-    found = {change: zero for change, zero in zeros.items() if zero is not None}
-    # Zeros that coincide come out apart by rounding; no others come as close as half of the places.
-    tie = 1 << scaled.bits // 2
-    step = min(found.values(), default=1 << scaled.bits)
-    if step >= tie:
-        _advance(scaled, state, series, step)
-    return [change for change, zero in found.items() if zero - step < tie]
-
-
-def _speed(displacement: list[int], mode: int) -> list[int]:
-    """Velocity of a sliding block in its direction; zero at this instant only where the slip begins."""
-    speed = [mode * coefficient for coefficient in derivative(displacement)]
-    return speed if speed[0] else _without_zero_now(speed)
-
-
-def _margin(scaled: _Scaled, series: Series, i: int, way: int) -> list[int]:
-    """What a stuck block's net force still lacks to its strength, mu_s w_i -+ g_i."""
-    margin = [-way * _net_force(scaled, order, i) for order in zip(*series, strict=True)]
-    margin[0] += scaled.strength[i]
-    return _without_zero_now(margin)
+    def _set_time(self, time: int) -> None:
+        self.time = time
+        self.positions[0] = time * self.scaled.drive_velocity >> self.scaled.bits
 
 
 def _without_zero_now(p: list[int]) -> list[int]:
     """Divide p by the power of time with which it begins, up to rounding: only zeros to come are left."""
     begin = next((k for k, coefficient in enumerate(p) if abs(coefficient) > NOISE), None)
     return [2 * NOISE] if begin is None else p[begin:]
-
-
-def _taylor(scaled: _Scaled, state: _State) -> Series:
-    """Taylor coefficients from Eq. 2: (n + 1)(n + 2) u_{n+2} = 4^-s (g_n + friction)."""
-    unknown = [0] * (scaled.order - 1)
-    series = [[u, v, *unknown] for u, v in zip(state.positions, state.velocities, strict=True)]
-    sliding = [i for i, mode in enumerate(state.modes) if mode]
-    for n in range(scaled.order - 1):
-        now = [coefficients[n] for coefficients in series]
-        for i in sliding:
-            force = _net_force(scaled, now, i)
-            if n == 0:
-                force -= state.modes[i] * scaled.kinetic[i]
-            series[i][n + 2] = (force >> 2 * scaled.halvings) // ((n + 1) * (n + 2))
-    return series
-
-
-def _net_force(scaled: _Scaled, u: Sequence[int], i: int) -> int:
-    """Net force g_i of the springs on block i at displacements u, or one order of its series (Eq. 2)."""
-    ahead = u[i] - u[i + 1] if i + 1 < len(u) else 0
-    return _force_behind(scaled, i, u[i - 1] - u[i]) - ahead
-
-
-def _force_behind(scaled: _Scaled, i: int, compression: int) -> int:
-    """Force of the spring behind block i; F_X for block 1 (Eq. 3)."""
-    return scaled.stiffness_ratio * compression >> scaled.bits if i == 1 else compression
-
-
-def _advance(scaled: _Scaled, state: _State, series: Series, step: int) -> None:
-    _set_time(scaled, state, state.time + step)
-    for i, mode in enumerate(state.modes):
-        if mode:
-            state.positions[i] = value(series[i], step, scaled.bits)
-            state.velocities[i] = value(derivative(series[i]), step, scaled.bits)
-
-
-def _set_time(scaled: _Scaled, state: _State, time: int) -> None:
-    state.time = time
-    state.positions[0] = scaled.drive_velocity * time >> scaled.bits

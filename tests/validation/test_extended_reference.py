@@ -7,18 +7,8 @@ from fractions import Fraction
 
 import pytest
 from mpmath import mp
-from reference import (
-    EXTENDED,
-    Additions,
-    ExtendedScene,
-    ReferenceChain,
-    Transition,
-    extended_reference,
-    read_extended,
-    reference,
-)
-from reference.extended_goldens import DIGITS
-from reference.goldens import GOLDEN, csv_rows
+from reference import EXTENDED, HeldOut, Transition, read_extended, reference
+from reference.goldens import GOLDEN, HELD_OUT_DIGITS, csv_rows
 
 FORTY_DIGITS = mp.mpf(10) ** -40  # relative, what the reference promises
 # A time of up to 10 s has 25 digits; accelerations are below 1e6 m/s^2 and rates of forces below 1e8 N/s.
@@ -61,15 +51,13 @@ def close(a: mp.mpf, b: mp.mpf) -> bool:
 class MatrixMotion:
     """Motion by matrix exponentials of z = (x, v, p, t, 1) [m, m/s, N, s], with the modes as given."""
 
-    def __init__(self, scene: ExtendedScene) -> None:
-        chain, added = scene.chain, scene.added
+    def __init__(self, scene: HeldOut) -> None:
+        chain = scene.chain
         self.n = n = len(chain.weights)
         self.strength = [ratio(chain.mu_s * w) for w in chain.weights]
         self.kinetic = [ratio(chain.mu_k * w) for w in chain.weights]
-        self.kappa = (
-            None if added.interface_stiffness is None else list(map(ratio, added.interface_stiffness))
-        )
-        self.mass = [ratio(chain.mass + (added.head_mass if i == 0 else 0)) for i in range(n)]
+        self.kappa = None if chain.interface_springs is None else list(map(ratio, chain.interface_springs))
+        self.mass = [ratio(chain.mass + (chain.head_mass if i == 0 else 0)) for i in range(n)]
         self.drive_stiffness = ratio(chain.drive_stiffness)
         self.drive_velocity = ratio(chain.drive_velocity)
         # Rows of G, the net force of springs and dashpots.
@@ -77,7 +65,7 @@ class MatrixMotion:
         self.net[0, 0] -= self.drive_stiffness
         self.net[0, 3 * n] += self.drive_stiffness * self.drive_velocity
         for i in range(1, n):
-            for columns, size in ((0, ratio(chain.stiffness)), (n, ratio(added.viscosity))):
+            for columns, size in ((0, ratio(chain.stiffness)), (n, ratio(chain.viscosity))):
                 for row, sign in ((i, 1), (i - 1, -1)):
                     self.net[row, columns + i - 1] += sign * size
                     self.net[row, columns + i] -= sign * size
@@ -159,16 +147,10 @@ def test_the_matrix_exponential_refuses_a_transition_that_is_late_by_a_picosecon
         motion.follow(transitions[1]._replace(time=transitions[1].time + Fraction(1, 10**12)))
 
 
-def test_without_additions_it_is_the_papers_chain() -> None:
-    chain = ReferenceChain.from_slider(n_blocks=4, theta="1/3")
-    plain = reference(chain, 10, until="global slip")
-    assert extended_reference(chain, Additions(), 10, until="global slip") == plain
-
-
 def test_first_slip_with_viscosity_is_that_of_a_damped_oscillator() -> None:
-    scene = EXTENDED["viscous"]["stiff_viscosity"]
-    c, eta = scene.chain, ratio(scene.added.viscosity)
-    release, stop = extended_reference(c, scene.added, 10, max_transitions=2)
+    c = EXTENDED["viscous"]["stiff_viscosity"].chain
+    eta = ratio(c.viscosity)
+    release, stop = reference(c, 10, max_transitions=2)
     mass, stiffness = ratio(c.mass), ratio(c.stiffness + c.drive_stiffness)
     damping = eta / (2 * mass)
     omega = mp.sqrt(stiffness / mass - damping**2)
@@ -191,10 +173,9 @@ def test_beyond_critical_damping_block_1_creeps_without_an_end() -> None:
 
 
 def test_a_head_adds_its_mass_to_the_slip_of_block_1() -> None:
-    scene = EXTENDED["head"]["papers_chain"]
-    c = scene.chain
-    release, stop = extended_reference(c, scene.added, 10, max_transitions=2)
-    mass, stiffness = ratio(c.mass + scene.added.head_mass), ratio(c.stiffness + c.drive_stiffness)
+    c = EXTENDED["head"]["papers_chain"].chain
+    release, stop = reference(c, 10, max_transitions=2)
+    mass, stiffness = ratio(c.mass + c.head_mass), ratio(c.stiffness + c.drive_stiffness)
     omega = mp.sqrt(stiffness / mass)
     drop, rate = ratio((c.mu_s - c.mu_k) * c.weights[0]), ratio(c.drive_stiffness * c.drive_velocity)
     assert close(ratio(stop.time - release.time), (mp.pi + 2 * mp.atan(rate / drop / omega)) / omega)
@@ -206,9 +187,9 @@ def test_a_slider_with_a_head_of_312_g_slips_as_one_body_for_2_ms() -> None:
 
 
 def test_one_block_on_an_interface_spring_is_released_where_its_spring_breaks() -> None:
-    scene = EXTENDED["interface"]["one_block"]
-    c, (kappa,) = scene.chain, map(ratio, scene.added.interface_stiffness or ())
-    (release,) = extended_reference(c, scene.added, 1, max_transitions=1)
+    c = EXTENDED["interface"]["one_block"].chain
+    (kappa,) = map(ratio, c.interface_springs or ())
+    (release,) = reference(c, 1, max_transitions=1)
     start, nearby = ratio(release.time), mp.mpf(10) ** -6
     drive, speed = ratio(c.drive_stiffness), ratio(c.drive_velocity)
     omega = mp.sqrt((drive + kappa) / ratio(c.mass))
@@ -225,7 +206,7 @@ def test_one_block_on_an_interface_spring_is_released_where_its_spring_breaks() 
 def test_golden_digits_are_reproduced_with_64_places_less(addition: str, name: str) -> None:
     with (GOLDEN / f"reference_{addition}.csv").open(newline="") as file:
         rows = [row for chain, *row in csv.reader(file) if chain == name]
-    assert csv_rows(EXTENDED[addition][name].run(bits=192), DIGITS) == rows
+    assert csv_rows(EXTENDED[addition][name].run(bits=192), HELD_OUT_DIGITS) == rows
 
 
 @pytest.mark.parametrize("addition", EXTENDED)
