@@ -17,7 +17,8 @@ from precursors.accuracy.failures.dead_zone import (
 )
 from precursors.accuracy.failures.literal_friction import load_after_limit
 from precursors.methods import METHODS, DivergedError, karnopp
-from precursors.methods.fixed_step import FIRST_ROOM, march, sliding_forward, system_of
+from precursors.methods.columns import sliding_forward, system_of
+from precursors.methods.fixed_step import FIRST_ROOM, march
 from precursors.methods.rk4 import run_rk4
 from precursors.methods.stability import bisect, highest_frequency
 

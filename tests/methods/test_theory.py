@@ -10,7 +10,7 @@ from scipy.linalg import expm
 
 from precursors import Chain, simulate
 from precursors.methods import METHODS, moreau_jean
-from precursors.methods.fixed_step import sliding_forward, system_of
+from precursors.methods.columns import sliding_forward, system_of
 from precursors.methods.stability import (
     bisect,
     energy_left,

@@ -5,7 +5,7 @@ import tabulate_definitions
 from matplotlib.figure import Figure
 
 from precursors.figures.definitions import draw
-from precursors.methods.fixed_step import SWITCHING_RULES
+from precursors.methods.columns import SWITCHING_RULES
 from precursors.model.switching import COULOMB, KINETIC
 from precursors.support.files import read_table
 

@@ -7,13 +7,8 @@ import yaml
 from golden.regenerate import GOLDEN
 
 from precursors import Chain
-from precursors.methods.fixed_step import (
-    SWITCHING_RULES,
-    march,
-    resting_mode,
-    sliding_forward,
-    system_of,
-)
+from precursors.methods.columns import SWITCHING_RULES, resting_mode, sliding_forward, system_of
+from precursors.methods.fixed_step import march
 from precursors.methods.rk4_located import run_located
 from precursors.model.switching import COULOMB
 from precursors.reproduction.random_steps import SIX, draws_table, random_steps_table, six_of_readings

@@ -1,12 +1,4 @@
-"""What the compiled fixed-step methods share: forces, switching, waiting, recording, and the run itself.
-
-The state is the force T_i in the spring behind each block and the block's velocity v_i (Eqs. 2-6):
-
-    dT_i/dt = c_i (v_{i-1} - v_i),    m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides,
-
-with c = K, k, k, ... and v_0 = V. Unlike positions, these numbers do not grow with the drive, so their
-rounding does not grow either. Column 0 of every array is the drive, columns 1..N the blocks, column N + 1
-the free end.
+"""What compiled methods share that walk in steps: switching, waiting, recording, and the run itself.
 
 A method is a compiled function (motion, step, *parameters) -> status. It works in legs: the steps up to
 the next change of a mode. `begin_leg` waits while all blocks stick, and says when the run has ended."""
@@ -16,18 +8,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from precursors.methods.columns import State, System, apart, at_rest, inner, resting_mode, system_of
 from precursors.methods.common import DivergedError, Method, Result, Smooth
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import Chain
 from precursors.model.checks import checked_span, positive
-from precursors.model.switching import COULOMB, FORWARD_ONLY, KINETIC
-from precursors.solver.kernel.compiled import entry
+from precursors.model.switching import COULOMB
 from precursors.solver.run import Run
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 
@@ -35,48 +25,6 @@ FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, MOVING = range(5)
 # A leg has at most so many steps, and a call so many legs, so that Ctrl-C is heard within a second or so.
 STEPS_IN_LEG, LEGS_PER_CALL = 1000, 5000
 FIRST_ROOM = 4096  # transitions
-
-# Numba counts references to all arrays of a tuple at each call, which costs more than a step. So what is
-# called in every step is inlined.
-apart = njit(error_model="numpy", fastmath={"contract"})
-inner = njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
-# Python calls these; their code is kept until a file of this package is edited.
-outer = entry(Path(__file__).parent, error_model="numpy", fastmath={"contract"}, nogil=True)
-
-
-class System(NamedTuple):
-    """What stays: 1/m, V, and for each column the spring behind it [N/m], mu_s w and mu_k w [N].
-
-    `backward` [N] is the largest force that does not release a stuck block backward, `turning` [N] the
-    largest that does not turn a stopping block round: see `SWITCHING_RULES`.
-    """
-
-    inverse_mass: float
-    drive_velocity: float
-    spring: FloatArray
-    strength: FloatArray
-    kinetic_friction: FloatArray
-    backward: FloatArray
-    turning: FloatArray
-
-
-# Rule of switching: from mu_s w and mu_k w to `System.backward` and `System.turning`. The first is ours.
-SWITCHING_RULES: dict[str, Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]] = {
-    COULOMB: lambda strength, _kinetic: (strength, strength),
-    KINETIC: lambda strength, kinetic: (strength, kinetic),
-    FORWARD_ONLY: lambda strength, _kinetic: (np.full_like(strength, np.inf),) * 2,
-}
-
-
-class State(NamedTuple):
-    """What changes: spring force [N], velocity [m/s], mode, 1/m where a block slides, mode_i mu_k w_i [N]."""
-
-    spring_force: FloatArray
-    velocity: FloatArray
-    mode: NDArray[np.int64]
-    mobility: FloatArray
-    friction: FloatArray
-
 
 PROGRESS = np.dtype(
     [
@@ -107,31 +55,6 @@ class Motion(NamedTuple):
     record: NDArray[np.void]
 
 
-def system_of(chain: Chain, rule: str = COULOMB) -> System:
-    """Put a chain into columns, with a rule of switching."""
-    friction = chain.strength, chain.kinetic_friction
-    columns = chain.springs, *friction, *SWITCHING_RULES[rule](*friction)
-    return System(1.0 / chain.mass, chain.drive_velocity, *(np.pad(values, 1) for values in columns))
-
-
-def at_rest(system: System) -> State:
-    """All blocks stick, springs at natural length."""
-    n = len(system.spring)
-    state = State(np.zeros(n), np.zeros(n), np.zeros(n, np.int64), np.zeros(n), np.zeros(n))
-    state.velocity[0] = system.drive_velocity
-    return state
-
-
-def sliding_forward(system: System, velocities: FloatArray) -> State:
-    """All blocks slide forward with the given velocities [m/s], shape (N,), springs at natural length."""
-    state = at_rest(system)
-    state.velocity[1:-1] = velocities
-    state.mode[1:-1] = 1
-    state.mobility[1:-1] = system.inverse_mass
-    state.friction[:] = system.kinetic_friction
-    return state
-
-
 def motion_from_rest(chain: Chain, duration: float, until: str | None, rule: str = COULOMB) -> Motion:
     """A chain at the start of its run."""
     system = system_of(chain, rule)
@@ -140,58 +63,7 @@ def motion_from_rest(chain: Chain, duration: float, until: str | None, rule: str
     return Motion(system, at_rest(system), progress, np.empty(FIRST_ROOM, RECORD))
 
 
-# Forces and motion
-
-
-@inner
-def rates(system, state, last, spring_force, velocity, force_rate, acceleration):
-    """Right-hand side (Eqs. 2-6) of blocks 1..last; the blocks ahead of these are at rest."""
-    spring, mobility, friction = system.spring, state.mobility, state.friction
-    for i in range(1, last + 1):
-        force_rate[i] = spring[i] * (velocity[i - 1] - velocity[i])
-        acceleration[i] = mobility[i] * (spring_force[i] - spring_force[i + 1] - friction[i])
-    force_rate[last + 1] = spring[last + 1] * velocity[last]
-    acceleration[last + 1] = 0.0
-
-
-@inner
-def accelerate(state, last, h):
-    """Change the velocities of blocks 1..last by h times the acceleration (Eqs. 2-4)."""
-    force, velocity, mobility, friction = state.spring_force, state.velocity, state.mobility, state.friction
-    for i in range(1, last + 1):
-        velocity[i] += h * mobility[i] * (force[i] - force[i + 1] - friction[i])
-
-
-@inner
-def stretch(system, state, last, h):
-    """Change the spring forces by what blocks 1..last move in a time h at their velocities."""
-    force, velocity, spring = state.spring_force, state.velocity, system.spring
-    for i in range(1, last + 1):
-        force[i] += h * spring[i] * (velocity[i - 1] - velocity[i])
-    force[last + 1] += h * spring[last + 1] * velocity[last]
-
-
-@inner
-def rows(state, n):
-    """Arrays of n rows to work in; row 3 begins with the drive's velocity, for a trial velocity."""
-    result = np.zeros((n, state.velocity.shape[0]))
-    result[3, 0] = state.velocity[0]
-    return result
-
-
 # Switching between stick and slip
-
-
-@inner
-def resting_mode(system, state, i):
-    """Mode of a block with zero velocity: by the rule of switching it sticks or follows the force."""
-    net = state.spring_force[i] - state.spring_force[i + 1]
-    forward, backward = system.turning[i], system.turning[i]
-    if state.mode[i] == 0:
-        forward, backward = system.strength[i], system.backward[i]
-    if net > forward:
-        return 1
-    return -1 if net < -backward else 0
 
 
 @inner

@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
+from precursors.methods.columns import apart, inner, outer, rows
 from precursors.methods.common import Method, Result
 from precursors.methods.fixed_step import (
     FINISHED,
@@ -24,14 +25,10 @@ from precursors.methods.fixed_step import (
     MOVING,
     PAUSED,
     STEPS_IN_LEG,
-    apart,
-    inner,
     march,
     obstacle,
-    outer,
     record_transition,
     rest,
-    rows,
     step_length,
 )
 from precursors.model.chain import Chain

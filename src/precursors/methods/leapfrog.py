@@ -8,20 +8,17 @@ from __future__ import annotations
 import math
 from functools import partial
 
+from precursors.methods.columns import accelerate, inner, outer, stretch
 from precursors.methods.common import Smooth
 from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
     MOVING,
     PAUSED,
     STEPS_IN_LEG,
-    accelerate,
     all_keep_their_modes,
     begin_leg,
     fixed_step,
-    inner,
-    outer,
     step_length,
-    stretch,
     switch,
 )
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
+from precursors.methods.columns import inner, outer, rows
 from precursors.methods.common import Smooth
 from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
@@ -26,9 +27,6 @@ from precursors.methods.fixed_step import (
     begin_leg,
     change_mode,
     fixed_step,
-    inner,
-    outer,
-    rows,
     step_length,
 )
 

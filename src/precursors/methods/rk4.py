@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from precursors.methods.columns import inner, outer, rates, rows
 from precursors.methods.common import Smooth
 from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
@@ -13,10 +14,6 @@ from precursors.methods.fixed_step import (
     all_keep_their_modes,
     begin_leg,
     fixed_step,
-    inner,
-    outer,
-    rates,
-    rows,
     step_length,
     switch,
 )

@@ -12,20 +12,15 @@ import math
 
 import numpy as np
 
+from precursors.methods.columns import apart, inner, outer, rates, resting_mode, rows
 from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
     MOVING,
     PAUSED,
     STEPS_IN_LEG,
-    apart,
     begin_leg,
     change_mode,
     fixed_step,
-    inner,
-    outer,
-    rates,
-    resting_mode,
-    rows,
     step_length,
 )
 from precursors.methods.rk4 import rk4_from_rates

@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from precursors.methods.fixed_step import State, sliding_forward, system_of
+from precursors.methods.columns import State, sliding_forward, system_of
 from precursors.model.chain import Chain, FloatArray
 
 # Energy that becomes so many times larger within so many steps has no limit. Bounded energy can rise by

@@ -17,7 +17,8 @@ from precursors.analysis.slips import (
     every_definition,
     find_slips,
 )
-from precursors.methods.fixed_step import SWITCHING_RULES, march
+from precursors.methods.columns import SWITCHING_RULES
+from precursors.methods.fixed_step import march
 from precursors.methods.rk4_located import run_located
 from precursors.model.chain import Chain, parse_theta
 from precursors.model.switching import COULOMB

@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike
 from scipy.stats import binomtest
 
 from precursors.analysis.slips import apparent_friction, find_slips
-from precursors.methods.fixed_step import SWITCHING_RULES, march
+from precursors.methods.columns import SWITCHING_RULES
+from precursors.methods.fixed_step import march
 from precursors.methods.rk4 import run_rk4
 from precursors.model.chain import Chain, parse_theta
 from precursors.reproduction.definitions import DIGITS, LAST_DIGIT, READING

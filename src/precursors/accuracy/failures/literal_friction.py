@@ -6,7 +6,7 @@ import numpy as np
 
 from precursors.accuracy.failures.common import Failure, Number, curves
 from precursors.methods import karnopp
-from precursors.methods.fixed_step import at_rest, system_of
+from precursors.methods.columns import at_rest, system_of
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import simulate
 
