@@ -13,7 +13,7 @@ from precursors.accuracy.failures.dead_zone import jumped_over
 from precursors.accuracy.failures.forward_only import solve_forward_only
 from precursors.accuracy.failures.locating import motion_after, solve_merging
 from precursors.accuracy.failures.regularised_friction import RK4_REAL_LIMIT
-from precursors.methods.scipy_events import next_transition
+from precursors.methods.dop853 import next_transition
 
 SCENES = {"fig10": 0.0, "fig11": "-5/6", "fig12": "5/6"}
 # DOP853 at a relative tolerance of 1e-10, after some hundred transitions.

@@ -5,11 +5,13 @@ import math
 import numpy as np
 import pytest
 from reference.goldens import read_golden
-from scipy.integrate import solve_ivp
+from scipy.integrate import DOP853, solve_ivp
 from scipy.linalg import expm
 
 from precursors import Chain, Run, TransitionLimitError, find_slips
+from precursors.methods import dop853
 from precursors.methods.cvode_events import solve_cvode
+from precursors.methods.dop853 import solve_dop853
 from precursors.methods.events import Motion, settle, time_unit
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy, watched
@@ -27,6 +29,7 @@ SHORT_STEP = 1e-6  # s
 # An order is measured over halvings of the step; fewer or larger steps are not yet small, more meet rounding.
 ORDERS = {"RK45": (5, 64), "DOP853": (8, 12)}
 ORDER_TOLERANCE = 0.3
+STEP_ROUNDING = 1e-13  # N and N/tau, of numbers of order 1
 
 
 @pytest.fixture(scope="module")
@@ -51,6 +54,36 @@ def test_scipy_makes_every_transition_of_the_first_global_slip_at_a_tight_tolera
     assert right == len(result.run.transitions) == FIRST_SLIP
     assert error < TIGHT_ERROR
     assert result.evaluations > 10 * FIRST_SLIP
+
+
+@pytest.mark.parametrize("tolerance", [1e-7, 1e-10, 1e-13])
+def test_compiled_dop853_makes_every_transition_also_where_scipys_misses_two_roots(uniform, tolerance):
+    result = solve_dop853(uniform, 10.0, tolerance, "global slip")
+    right, error = right_and_error(result.run, read_golden("fig10"))
+    assert right == len(result.run.transitions) == FIRST_SLIP
+    assert error < 100 * tolerance
+
+
+def test_a_step_of_compiled_dop853_is_scipys_with_its_error_and_its_dense_output(uniform):
+    motion = in_motion(uniform, [1, 1, 0, -1, 0] * 2, [5.0, -3.0] * 5, [0.5, 0.2, 0.0, -0.3, 0.0] * 2)
+    stepper = DOP853(motion.rates, 0.0, motion.state, 9.0, rtol=1e-7, atol=1e-7, first_step=0.4)
+    stepper.step()
+    h = stepper.t
+    k, f = np.empty((16, 20)), np.empty((7, 20))
+    end, trial, values = np.empty((3, 20))
+    k[0] = motion.rates(0.0, motion.state)
+    equations = motion.settings, motion.coupling, motion.drive_velocity
+    dop853.stages(motion.state, *equations, h, k, end, trial)
+    assert end == pytest.approx(stepper.y, abs=STEP_ROUNDING)
+    error = dop853.error_of(motion.state, end, h, k, 1e-7)
+    assert error < 1.0
+    longer = min(dop853.SAFETY * error**dop853.EXPONENT, dop853.LONGER)
+    assert longer == pytest.approx(stepper.h_abs / h, rel=1e-6)
+    dop853.polynomial(motion.state, end, h, k, f)
+    for x in (0.2, 0.7):
+        dop853.functions_at(x, motion.state, motion.settings, motion.strength, f, trial, values)
+        assert trial == pytest.approx(stepper.dense_output()(x * h), abs=STEP_ROUNDING)
+        assert values == pytest.approx(motion.event_functions(trial))
 
 
 @pytest.mark.parametrize("formula", ["Adams", "BDF"])

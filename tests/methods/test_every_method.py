@@ -17,7 +17,9 @@ BACKWARD = {"-5/6": 2.2, "5/6": 1.5}
 # Settings at which a method makes the transitions of a short chain; 1e-8 s for those that are not named.
 FINE = {
     **dict.fromkeys(("exact", "heyoka"), 0.0),
-    **dict.fromkeys(("cvode_adams", "cvode_bdf", "scipy_rk45", "scipy_dop853", "scipy_lsoda"), 1e-9),
+    **dict.fromkeys(
+        ("cvode_adams", "cvode_bdf", "dop853", "scipy_rk45", "scipy_dop853", "scipy_lsoda"), 1e-9
+    ),
     "scipy_radau": 1e-6,
     "rk4": 3e-7,
     "regularised_radau": 1e-7,

@@ -113,8 +113,8 @@ PANELS = {
         Sentence("all are right up to {measured:.2g} {unit}", "zone up to which all is right"),
     ), log="xy", vertical="zone up to which all is right", joined=False),
     "creep": Panel("Regularised friction creeps in stick", r"Load / $\mu_s w$ [-]", "Velocity [m/s]", (
-        Sentence("{setting}:", CREEP),
-        Sentence("creeps at {measured:.2%} of the drive's $V$; theory {predicted:.2%}", CREEP),
+        Sentence("creep at {setting}:", CREEP),
+        Sentence("{measured:.2%} of the drive's $V$; theory {predicted:.2%}", CREEP),
     ), log="y", joined=False, key="lower right", ylim=(1e-13, 3e-4)),
     "stiffness": Panel("Regularised friction is stiff", "Width [m/s]", "Fastest rate [1/s]", (
         Sentence("{setting}: {measured:.0e} /s, chain {exact:.0e}", "fastest rate"),

@@ -33,6 +33,7 @@ MARKS: dict[str, tuple[str, Any]] = {
     "heyoka": (style.VERMILION, "o"),
     "cvode_adams": (style.ORANGE, "s"),
     "cvode_bdf": ("#A87400", "D"),
+    "dop853": ("#000080", "H"),
     "scipy_rk45": ("#00436A", "v"),
     "scipy_dop853": (style.BLUE, "^"),
     "scipy_lsoda": ("#4F9FD0", "<"),
@@ -49,7 +50,7 @@ MARKS: dict[str, tuple[str, Any]] = {
     "regularised_radau": ("#7A5C3E", (6, 1, 0)),
     "regularised_bdf": ("#C4A27A", (8, 1, 0)),
 }
-OTHERS = (style.GREY, "H")
+OTHERS = (style.GREY, "h")
 OPEN: dict[str, Any] = {"markerfacecolor": "none", "markeredgewidth": 0.7, "alpha": 0.75, "linestyle": "none"}
 
 

@@ -10,6 +10,7 @@ MODULES = {
     "exact": None,
     "heyoka_events": "heyoka",
     "cvode_events": "sksundae",
+    "dop853": None,
     "scipy_events": None,
     "rk4": None,
     "rk4_located": None,

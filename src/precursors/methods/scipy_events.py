@@ -3,7 +3,7 @@
 Events are the velocities of the blocks that slide and the margins of the stuck blocks beside them;
 elsewhere no force changes. SciPy looks for an event where its function has changed sign over a step, so a
 velocity that falls below zero and rises again within one step is missed without a warning. A shorter
-`max_step` is one cure; `next_transition`, which looks at more points of each step, is another."""
+`max_step` is one cure; to look at more points of each step, as `dop853` does, is another."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from functools import partial
 from typing import Any, Literal
 
 import numpy as np
-from scipy.integrate import DOP853, solve_ivp
-from scipy.optimize import brentq
+from scipy.integrate import solve_ivp
 
 from precursors.methods.common import Method, Result
 from precursors.methods.events import MODE, NUDGE, Motion, jacobian, march_restarting
@@ -23,9 +22,6 @@ from precursors.model.chain import Chain, FloatArray
 Solver = Literal["RK45", "DOP853", "LSODA", "Radau"]
 IMPLICIT = ("LSODA", "Radau")
 FALLING = -1.0
-# Of `next_transition`: relative tolerance, points of a step at which events are looked for, and error of
-# a root [tau], which is below the rounding of a slip's time.
-TIGHT, PROBES, ROOT_ERROR = 1e-10, 9, 1e-14
 
 EventFunction = Callable[[float, FloatArray], float]
 
@@ -92,35 +88,6 @@ def solve_scipy(
         return float(solution.t[-1]), fired[0] if fired else -1
 
     return march_restarting(motion, next_transition)
-
-
-def next_transition(motion: Motion, time: float) -> tuple[float, int]:
-    """Go on by DOP853 to the next transition: when it is [tau] and its event, or -1 at the end of the run.
-
-    Events are looked for at `PROBES` points of each step, so that two roots in one step are not missed.
-    """
-    stepper = DOP853(motion.rates, time, motion.state, motion.remaining, rtol=TIGHT, atol=TIGHT)
-    while stepper.status == "running":
-        stepper.step()
-        path = stepper.dense_output()
-        times = np.linspace(stepper.t_old, stepper.t, PROBES)
-        below = np.array([motion.event_functions(path(t)) for t in times])[1:] < 0.0
-        if not below.any():
-            continue
-        probe = int(np.argmax(below.any(axis=1)))
-        bracket = float(times[probe]), float(times[probe + 1])
-        root, event = min(
-            (brentq(_event(motion, path, i), *bracket, xtol=ROOT_ERROR), i)
-            for i in np.flatnonzero(below[probe]).tolist()
-        )
-        motion.state[:] = path(root)
-        return root, event
-    motion.state[:] = stepper.y
-    return float(stepper.t), -1
-
-
-def _event(motion: Motion, path: Callable[[float], FloatArray], number: int) -> Callable[[float], float]:
-    return lambda time: float(motion.event_functions(path(time))[number])
 
 
 def watched(motion: Motion, direction: float = FALLING) -> Iterator[tuple[int, EventFunction]]:

@@ -45,7 +45,13 @@ def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
     }
     for start in ("natural", "driven", "front"):
         found[f"cost-relative-{start}"] = rows(cost, kind=start)["relative"].iloc[-1]
-    names = {"exact": "exact", "heyoka": "heyoka", "dop853": "scipy_dop853", "rk4": "rk4_skip"}
+    names = {
+        "exact": "exact",
+        "heyoka": "heyoka",
+        "dop853": "scipy_dop853",
+        "compiled": "dop853",
+        "rk4": "rk4_skip",
+    }
     for chain in CHAINS:
         own = rows(t["work_precision"], scene=chain, until="global slip")
         found[f"theta-{chain}"] = own["theta"].iloc[0]
@@ -53,6 +59,7 @@ def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
         for name, method in names.items():
             for tightest in rows(own, method=method).tail(1).to_dict("records"):
                 found[f"{name}-seconds-{chain}"] = (tightest["seconds"], "s")
+                found[f"{name}-evaluations-{chain}"] = tightest["evaluations"]
                 found[f"{name}-time-error-{chain}"] = (tightest["error_time_s"], "s")
     finest = rows(t["work_precision"], scene="uniform", until="global slip", method="rk4_skip").iloc[-1]
     found["rk4-step"] = (finest["value"], "s")

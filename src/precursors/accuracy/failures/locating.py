@@ -10,8 +10,9 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from precursors.accuracy.failures.common import Failure, Number, curves, transitions_right
+from precursors.methods.dop853 import TIGHT, next_transition
 from precursors.methods.events import NUDGE, Motion, march_events
-from precursors.methods.scipy_events import TIGHT, next_transition, solve_scipy
+from precursors.methods.scipy_events import solve_scipy
 from precursors.methods.stability import bisect
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
