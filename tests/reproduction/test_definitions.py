@@ -1,13 +1,13 @@
 """The table of definitions tells which readings give the paper's numbers, and its figure shows them."""
 
 import pytest
-import tabulate_definitions
 from matplotlib.figure import Figure
 
 from precursors.figures.definitions import draw
 from precursors.methods.columns import SWITCHING_RULES
 from precursors.model.switching import COULOMB, KINETIC
-from precursors.support.files import read_table
+from precursors.reproduction.definitions import definitions_table
+from precursors.support.files import read_table, write_table
 
 SLIDER = {
     "n_blocks": 10,
@@ -29,7 +29,7 @@ AT_ONCE = "in which all blocks slide at the same instant"
 @pytest.fixture(scope="module")
 def path(tmp_path_factory):
     path = tmp_path_factory.mktemp("definitions") / "definitions.csv"
-    tabulate_definitions.main(SLIDER, 4.0, ["5/6", 0.833], [5.0, 10.0], PAPER, path)
+    write_table(definitions_table(SLIDER, 4.0, ["5/6", 0.833], [5.0, 10.0], PAPER), path)
     return path
 
 
@@ -73,7 +73,7 @@ def test_numbers_of_a_reading_are_counted_over_its_three_loadings(table):
 
 
 def test_a_reading_without_a_global_slip_has_empty_numbers(tmp_path):
-    tabulate_definitions.main(SLIDER, 0.4, ["5/6"], [], [{}, {}, {}], tmp_path / "few.csv")
+    write_table(definitions_table(SLIDER, 0.4, ["5/6"], [], [{}, {}, {}]), tmp_path / "few.csv")
     few = read_table(tmp_path / "few.csv")
     assert few["mu_sapp"].isna().all()
     assert not few["numbers_within_a_digit"].any()

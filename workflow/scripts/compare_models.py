@@ -1,7 +1,4 @@
-"""Ask every model what it answers, for the scenes of Fig. 13."""
-
-from collections.abc import Mapping
-from pathlib import Path
+"""Ask every model what it answers, for the scenes of Fig. 13: one row per scene, question and model."""
 
 from job import job
 
@@ -9,24 +6,9 @@ from precursors.hierarchy.compare_models import compare_models
 from precursors.model.chain import Chain
 from precursors.support.files import write_table
 
-
-def main(
-    scenes: Mapping[str, Chain],
-    tolerances: Mapping[str, float],
-    additions: Mapping[str, float],
-    repetitions: int,
-    output: str | Path,
-) -> None:
-    """Write one row for each scene, question and model that answers it."""
-    write_table(compare_models(scenes, tolerances, additions, rounds=repetitions), output)
-
-
 if __name__ == "__main__":
     with job() as snakemake:
-        main(
-            {name: Chain.from_slider(**slider) for name, slider in snakemake.params.sliders.items()},
-            snakemake.params.tolerances,
-            snakemake.params.additions,
-            snakemake.params.repetitions,
-            snakemake.output.table,
-        )
+        params = snakemake.params
+        chains = {name: Chain.from_slider(**slider) for name, slider in params.sliders.items()}
+        table = compare_models(chains, params.tolerances, params.additions, rounds=params.repetitions)
+        write_table(table, snakemake.output.table)
