@@ -38,6 +38,7 @@ report: results
 	$(BIN)/snakemake --report results/report.html -- all
 
 golden: results
+	$(BIN)/snakemake --quiet rules host -c1 mission
 	$(BIN)/python tests/golden/regenerate.py
 
 # Pages of the interface, from the docstrings, and of docs/, in results/docs.

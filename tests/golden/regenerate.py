@@ -3,6 +3,7 @@
 import shutil
 import sys
 from pathlib import Path
+from textwrap import indent
 
 import numpy as np
 import pandas as pd
@@ -30,6 +31,16 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
             new, old = results / kind / name, golden / name
             print(f"{name}: {difference(old, new) if old.exists() else 'new'}")
             shutil.copyfile(new, old)
+    show_mission((results / "figures/mission.svg").read_text(encoding="utf-8"), golden)
+
+
+def show_mission(picture: str, golden: Path) -> None:
+    """Put the picture of the mission beside the golden figures and at the head of the report."""
+    (golden / "mission.svg").write_text(picture, encoding="utf-8")
+    report = golden.parents[1] / "workflow/report/workflow.rst"
+    raw = ".. raw:: html\n\n" + indent(picture, "   ") + "\n"
+    words = report.read_text(encoding="utf-8").rpartition("</svg>\n\n")[2]
+    report.write_text(raw + words, encoding="utf-8")
 
 
 def table_difference(old_path: Path, new_path: Path) -> str:

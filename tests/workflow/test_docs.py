@@ -92,8 +92,11 @@ def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
             outcome = workspace.run("-n", *arguments)
             assert outcome.code == 0, outcome.text
     capsys.readouterr()
-    exec(found["python"][0], {})
+    one, many = found["python"]
+    exec(one, {})
     assert capsys.readouterr().out == found["text"][0]
+    exec(many, {})
+    assert re.fullmatch(r"median mu_sapp = 0\.\d\d\n", capsys.readouterr().out)
 
 
 def test_every_page_is_rendered_with_links_that_the_makefile_can_follow(tmp_path):

@@ -19,6 +19,7 @@ RESULTS = (ROOT / "results/README.md").read_text(encoding="utf-8")
 # What the workflow makes on demand, by rule or by file.
 ON_DEMAND = (
     "accuracy_full",
+    "mission",
     "prove_scenes",
     "results/certificates/fig10.json.gz",
 )
@@ -73,25 +74,17 @@ def rows(header: str) -> list[list[str]]:
 
 def test_the_code_runs_and_prints_what_is_shown(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    one, many = blocks("python")
-    assert len(one.splitlines()) <= 11
-    exec(one, {})
+    exec(block("python"), {})
     assert capsys.readouterr().out == block("text")
     assert (tmp_path / "results/runs/mine.h5").is_file()
-    exec(many, {})
-    assert re.fullmatch(r"median mu_sapp = 0\.\d\d\n", capsys.readouterr().out)
 
 
-def test_the_list_of_results_is_that_of_the_workflow_with_the_scene_to_add(workspace):
-    scene = block("yaml")
-    assert len(scene.splitlines()) == 4
-    (name,) = yaml.safe_load(scene)
-    workspace.edit("config.yaml", "\nfig13: [", f"{scene}{ASKED_SCENE}\nfig13: [")
+def test_the_list_of_results_is_that_of_the_workflow(workspace):
+    workspace.edit("config.yaml", "\nfig13: [", f"{ASKED_SCENE}\nfig13: [")
     config = yaml.safe_load((workspace.path / "config.yaml").read_text(encoding="utf-8"))
     patterns = listed(list(config["scenes"]))
     dry_run = workspace.run("-n", "-F", "all", *ON_DEMAND)
     assert dry_run.code == 0, dry_run.text
-    assert {f"simulate_scene {name}", f"draw_scene {name}"} <= dry_run.jobs
     files = sorted(set().union(*(outputs for _, _, outputs in dry_run.plan)))
     outputs = [file.removeprefix("results/") for file in files]
     assert len(outputs) > 100

@@ -77,6 +77,16 @@ def test_a_rule_that_writes_has_a_log_and_a_name_of_a_verb_and_a_noun():
     assert [name for name, rule in writing.items() if "log:" not in rule] == []
 
 
+def test_a_job_lists_what_it_reads_before_the_code_that_it_runs():
+    inputs = {name: rule.partition("input:")[2].partition("output:")[0] for name, rule in rules().items()}
+    named = {
+        name: re.findall(r"^ {8,12}(?:\*\*)?(\w+)[=.]", text, re.MULTILINE) for name, text in inputs.items()
+    }
+    with_code = [names for names in named.values() if "code" in names]
+    assert len(with_code) > 25
+    assert {names[-1] for names in with_code} == {"code"}
+
+
 def test_a_rule_goes_to_the_queue_or_says_that_it_does_not():
     assert {name for name, rule in rules().items() if "localrule: True" not in rule} == QUEUED
 
@@ -84,7 +94,9 @@ def test_a_rule_goes_to_the_queue_or_says_that_it_does_not():
 def test_an_edit_of_any_module_that_a_script_uses_runs_its_rule_again(untouched):
     """The rooms that a rule names hold what its script imports, directly and through the rooms below."""
     workspace, outcome = untouched
-    asked = workspace.run("-n", "-F", "accuracy_full", "prove_scenes", "results/certificates/fig10.json.gz")
+    asked = workspace.run(
+        "-n", "-F", "mission", "accuracy_full", "prove_scenes", "results/certificates/fig10.json.gz"
+    )
     named: dict[str, set[str]] = {}
     for rule, inputs in re.findall(r"rule (\w+):\n    input: (.+)", outcome.text + asked.text):
         named[rule] = {name.partition("src/precursors/")[2] for name in inputs.split(", ")}
@@ -92,7 +104,7 @@ def test_an_edit_of_any_module_that_a_script_uses_runs_its_rule_again(untouched)
         name: found[1] for name, rule in rules().items() if (found := re.search(r'scripts/(\w+)\.py"', rule))
     }
     drawing = scripts.pop("draw_{name}")
-    scripts |= {name: drawing for name in named if name.startswith("draw_")}
+    scripts = {name: drawing for name in named if name.startswith("draw_")} | scripts
     assert len(scripts) > 35
     missing = {
         rule: used_by(script, named[rule]) - named[rule] for rule, script in scripts.items() if rule in named

@@ -1,3 +1,5 @@
+# methods, proofs
+
 from precursors.accuracy.proof.chains import certificate_path, chain_duration, exact_chain, scene_exact_chain
 from precursors.model.chain import parse_theta
 

@@ -1,3 +1,6 @@
+# slips, mu_sapp
+
+
 rule mu_sapp:
     input:
         "results/tables/mu_sapp.csv",

@@ -1,3 +1,6 @@
+# Eq. 15, readings
+
+
 rule eq15:
     input:
         "results/tables/eq15.csv",

@@ -1,3 +1,5 @@
+# noise, N, maps
+
 from precursors.ensembles.catalogue import MAPS, STUDIES, study_arguments
 from precursors.ensembles.maps import places_of
 from precursors.ensembles.resolution import PREDICTED_UP_TO

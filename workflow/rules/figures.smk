@@ -1,3 +1,5 @@
+# Figs. 9-13, pages
+
 # Every figure that is drawn from tables: what it shows and where it stands in the report, its tables, and its options.
 # The rule is draw_{name}, the caption report/{name}.rst. The file is {name} or "file", and the module of
 # precursors.figures that draws it is {name} or "module"; it "uses" other modules.
@@ -161,6 +163,27 @@ rule paper_figures:
     input:
         collect("results/figures/{figure}.{kind}", figure=["fig09", *SCENES, "fig13"], kind=FORMATS),
     localrule: True
+
+
+# On demand: the graph in README.md and in the report, from the rules themselves.
+rule mission:
+    input:
+        "results/figures/mission.svg",
+    localrule: True
+
+
+rule draw_mission:
+    input:
+        snakefile=ROOT / "Snakefile",
+        rules=sorted(ROOT.glob("workflow/rules/*.smk")),
+        code=[*package("figures/style", "figures/mission"), ROOT / "workflow/scripts/draw_mission.py"],
+    output:
+        "results/figures/mission.svg",
+    log:
+        "results/logs/draw_mission.log",
+    localrule: True
+    script:
+        "../scripts/draw_mission.py"
 
 
 rule explorer:

@@ -1,3 +1,6 @@
+# other models
+
+
 rule hierarchy:
     input:
         collect("results/figures/model_comparison.{kind}", kind=FORMATS),

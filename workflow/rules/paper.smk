@@ -1,3 +1,5 @@
+# claims, paper.pdf
+
 from precursors.reproduction import claims, numbers
 from precursors.reproduction.pages import files_shown
 from precursors.reproduction.tables import SCENES as PAPERS_SCENES
@@ -48,10 +50,10 @@ rule evaluate_claims:
 
 rule write_paper:
     input:
+        tables=collect("results/tables/{table}.csv", table=numbers.TABLES),
+        shown=SHOWN,
         main=PAPER_SOURCE / "main.typ",
         source=sorted([*PAPER_SOURCE.rglob("*.typ"), *PAPER_SOURCE.glob("*.bib")]),
-        shown=SHOWN,
-        tables=collect("results/tables/{table}.csv", table=numbers.TABLES),
         code=package("model", "solver", "analysis", "reproduction"),
     output:
         pdf="results/paper.pdf",

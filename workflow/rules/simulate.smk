@@ -1,3 +1,6 @@
+# every transition
+
+
 rule simulate_scene:
     input:
         code=package("model/chain", "model/checks", "solver"),
