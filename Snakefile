@@ -5,7 +5,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from precursors.model.config import check_config, check_file
+from precursors.model.config import check_config, check_file, read_numbers
 from precursors.model.scenes import (
     scene_additions,
     scene_duration,
@@ -40,6 +40,8 @@ configfile: "config.yaml"
 report: "workflow/report/workflow.rst"
 
 
+if "chain" in config:
+    config["chain"] = read_numbers(config["chain"])
 try:
     check_config(config, ROOT / "workflow/schemas/config.schema.yaml")
 except ValueError as error:

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from precursors.model.chain import Chain
-from precursors.model.config import check_config, check_file
+from precursors.model.config import check_config, check_file, read_numbers
 from precursors.model.scenes import scene_chain, scene_slider, scenes_with
 
 ROOT = Path(__file__).parents[2]
@@ -34,6 +34,7 @@ WRONG = [
     ("chain.length", None, ["a number > 0", "is empty"]),
     ("chain.length", 1e70, ["chain: ", "length", "1e+70"]),
     ("chain.length", MISSING, ["chain: the key 'length' is missing"]),
+    ("mu_k", 0.46, ["'mu_k' belongs to chain: --config chain='{mu_k: 0.46}'"]),
     ("chain.mass", 0.0012, ["chain: 'mass' is not a known key", "slider_mass"]),
     ("speed", 1.0, ["top level: 'speed' is not a known key", "scenes"]),
     ("ensembles", MISSING, ["top level: the key 'ensembles' is missing"]),
@@ -216,3 +217,10 @@ def test_measured_normal_loads_are_those_of_the_blocks_from_a_list_or_a_file(tmp
         slider = scene_slider(config, "steep")
         assert (slider["n_blocks"], slider["normal_load"]) == (3, 120.0)
         assert math.isnan(slider["theta"])
+
+
+def test_numbers_of_the_chain_may_be_text_as_in_config_of_the_command_line():
+    read = read_numbers({"n_blocks": "12", "youngs_modulus": "3e9", "mu_s": 0.7, "mu_k": "low"})
+    assert read == {"n_blocks": 12, "youngs_modulus": 3e9, "mu_s": 0.7, "mu_k": "low"}
+    assert isinstance(read["n_blocks"], int)
+    assert read_numbers(5) == 5

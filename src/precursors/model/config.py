@@ -6,6 +6,7 @@ import math
 import os
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -65,6 +66,20 @@ def check_file(path: str | os.PathLike[str]) -> None:
         raise ValueError(f"{path} must be a table of keys and values")
 
 
+def read_numbers(values: Any) -> Any:
+    """Read the numbers of a section, also as text, which Snakemake makes of --config chain='{mu_k: 0.46}'."""
+    if not isinstance(values, dict):
+        return values
+
+    def read(value: Any) -> Any:
+        for kind in (int, float) if isinstance(value, str) else ():
+            with suppress(ValueError):
+                return kind(value)
+        return value
+
+    return {name: read(value) for name, value in values.items()}
+
+
 def check_config(config: Config, schema_path: str | os.PathLike[str]) -> None:
     """Refuse a configuration that the workflow cannot run.
 
@@ -112,6 +127,8 @@ def _in_words(error: ValidationError) -> str:
     if error.validator == "additionalProperties":
         known = schema["properties"]
         unknown = next(key for key in value if key not in known)
+        if unknown in known.get("chain", {}).get("properties", {}):
+            return f"{unknown!r} belongs to chain: --config chain='{{{unknown}: {value[unknown]}}}'"
         return f"{where or 'top level'}: {unknown!r} is not a known key; known are {', '.join(known)}"
     if error.validator == "required":
         missing = next(key for key in schema["required"] if key not in value)
