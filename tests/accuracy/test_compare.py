@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import gc
 import math
-import time
 from fractions import Fraction
 
 import numpy as np
@@ -37,8 +36,6 @@ TRUE = [
 ONSETS = [0, 2, 6]
 # What doubles reach up to the first global slip [s], ten times what the exact solver's error is.
 ROUNDING = 1e-14
-# A fake method sleeps so long [s]; sleep never ends early.
-SLEEP = 0.002
 
 
 def made_up(rows) -> Run:
@@ -208,18 +205,16 @@ class TestTiming:
         assert "".join(calls) == "ababab"
         assert [len(of.wall) for of in timings.values()] == [3, 3]
 
-    def test_short_tasks_are_repeated_and_the_mean_of_a_round_counts(self):
+    def test_short_tasks_are_repeated_and_the_mean_of_a_round_counts(self, clock):
         calls = []
 
-        def sleep():
+        def take_longer_and_longer():
             calls.append(1)
-            time.sleep(SLEEP)
+            clock.now += len(calls)
 
-        measured = timing.measure({"sleep": sleep}, 3, 40 * SLEEP, {"sleep": SLEEP})["sleep"]
-        assert len(calls) == 3 * 40
-        assert SLEEP <= measured.seconds < 10 * SLEEP
-        assert measured.seconds == sorted(measured.wall)[1]
-        assert max(measured.cpu) < SLEEP
+        measured = timing.measure({"task": take_longer_and_longer}, 3, 40.0, {"task": 10.0})["task"]
+        assert measured.wall == measured.cpu == (2.5, 6.5, 10.5)
+        assert measured.seconds == 6.5
 
     def test_a_ratio_is_the_median_of_the_rounds_ratios(self):
         one, other = (

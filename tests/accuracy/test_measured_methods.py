@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import replace
 from fractions import Fraction
 
@@ -21,9 +20,9 @@ CHAIN = Chain.from_slider(n_blocks=3)
 DURATION = 4.0
 # time [s], block, mode, load [N] of two slips
 TRUE = [(1.0, 1, 1, 50.0), (1.125, 1, 0, 49.0), (2.0, 1, 1, 90.0), (2.125, 2, 1, 88.0), (2.25, 1, 0, 85.0)]
-# A fake method sleeps so long [s]; sleep never ends early.
-SLEEP = 0.002
-# What a call takes on a clock that the test moves [s].
+# A call of a fake method takes so long, on a clock that the test moves [s].
+CALL = 0.002
+# And where it is to be repeated [s].
 WARM_CALL = 0.0005
 
 
@@ -96,32 +95,21 @@ class TestValues:
 
 
 class Fake:
-    """A method that sleeps as long as its setting says, and gives a run."""
+    """A method that takes as long as its setting says, and gives a run."""
 
-    def __init__(self, run: Run) -> None:
-        self.run, self.calls = run, []
+    def __init__(self, run: Run, clock) -> None:
+        self.run, self.clock, self.calls = run, clock, []
 
     def solve(self, _chain: Chain, _duration: float, value: float, _until: str | None) -> Result:
         self.calls.append(value)
-        time.sleep(value)
+        self.clock.now += value
         return Result(self.run, 7)
 
 
-class Clock:
-    """A clock that only its owner moves."""
-
-    now = 0.0
-
-    def perf_counter(self) -> float:
-        return self.now
-
-    process_time = perf_counter
-
-
 @pytest.fixture
-def fake(monkeypatch: pytest.MonkeyPatch) -> Fake:
-    fake = Fake(made_up(TRUE))
-    monkeypatch.setitem(METHODS, "rk4", Method("rk4", "fake", "sleep [s]", fake.solve, (SLEEP, 2 * SLEEP)))
+def fake(monkeypatch: pytest.MonkeyPatch, clock) -> Fake:
+    fake = Fake(made_up(TRUE), clock)
+    monkeypatch.setitem(METHODS, "rk4", Method("rk4", "fake", "time [s]", fake.solve, (CALL, 2 * CALL)))
     return fake
 
 
@@ -132,24 +120,21 @@ def measured(values, longest=1.0, **changes):
 class TestMeasuring:
     def test_a_row_holds_time_work_and_errors(self, fake):
         fake.run = made_up([(t, b, m, f - 1.0) for t, b, m, f in TRUE[:4]])
-        (row,) = measured({"rk4": [SLEEP]}).to_dict("records")
-        assert SLEEP <= row["seconds"] < 10 * SLEEP
-        assert (row["method"], row["label"], row["value"]) == ("rk4", "fake", SLEEP)
+        (row,) = measured({"rk4": [CALL]}).to_dict("records")
+        assert row["seconds"] == pytest.approx(CALL)
+        assert (row["method"], row["label"], row["value"]) == ("rk4", "fake", CALL)
         assert (row["evaluations"], row["error_load_N"], row["error_time_s"]) == (7, 1.0, 0.0)
         assert (row["transitions_right"], row["transitions_found"], row["transitions_true"]) == (4, 4, 5)
         assert (row["slips_right"], row["slips_found"], row["slips_true"]) == (2, 2, 2)
 
     def test_a_method_is_given_up_before_the_first_value_that_takes_too_long(self, fake):
-        table = measured({"rk4": [SLEEP, 40 * SLEEP, 0.5 * SLEEP]}, longest=10 * SLEEP)
-        assert table["value"].tolist() == [SLEEP]
-        assert fake.calls.count(SLEEP) >= 2 + 5
-        assert 0.5 * SLEEP not in fake.calls
+        table = measured({"rk4": [CALL, 40 * CALL, 0.5 * CALL]}, longest=10 * CALL)
+        assert table["value"].tolist() == [CALL]
+        assert fake.calls.count(CALL) >= 2 + 5
+        assert 0.5 * CALL not in fake.calls
 
     @pytest.mark.parametrize("first", [WARM_CALL, 0.05, 0.82, 1.9, 10.0])
-    def test_a_first_call_that_compiles_counts_for_nothing(self, fake, monkeypatch, first):
-        clock = Clock()
-        monkeypatch.setattr(timing, "time", clock)
-
+    def test_a_first_call_that_compiles_counts_for_nothing(self, fake, clock, first):
         def solve(_chain, _duration, value, _until):
             clock.now += WARM_CALL if fake.calls else first
             fake.calls.append(value)
@@ -162,10 +147,11 @@ class TestMeasuring:
 
     def test_a_run_that_breaks_off_is_a_row_with_what_there_is(self, fake):
         def breaks_off(*_arguments):
+            fake.clock.now += CALL
             raise TransitionLimitError("enough", made_up(TRUE[:3]))
 
         METHODS["rk4"] = replace(METHODS["rk4"], solve=breaks_off)
-        table = measured({"rk4": [SLEEP]})
+        table = measured({"rk4": [CALL]})
         assert table["transitions_right"].item() == 3
         assert math.isnan(table["evaluations"].item())
 

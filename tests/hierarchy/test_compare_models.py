@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -73,10 +72,8 @@ def test_the_papers_chain_has_no_error_and_every_answer_a_cost(comparison: pd.Da
     assert (comparison["cost_s"] > 0).all()
 
 
-def test_a_cost_is_that_of_a_warm_answer_repeated_until_it_can_be_measured(monkeypatch) -> None:
-    clock, calls, warm, rounds = SimpleNamespace(now=0.0), [], 0.0005, 3
-    now = SimpleNamespace(perf_counter=lambda: clock.now, process_time=lambda: clock.now)
-    monkeypatch.setattr(timing, "time", now)
+def test_a_cost_is_that_of_a_warm_answer_repeated_until_it_can_be_measured(clock) -> None:
+    calls, warm, rounds = [], 0.0005, 3
     exact = MODELS["chain"]
 
     def prepare(chain: Chain):

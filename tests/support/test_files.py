@@ -14,12 +14,12 @@ import pytest
 from precursors.support.files import read_json, read_table, write_table, write_text, write_whole
 
 WRITE_SLOWLY = """
-import sys, time
+import sys
 from precursors.support.files import write_whole
 with write_whole(sys.argv[1]) as temporary:
     temporary.write_text("half")
     print("writing", flush=True)
-    time.sleep(60)
+    sys.stdin.read()
 """
 
 
@@ -83,9 +83,9 @@ def test_a_directory_without_write_permission_is_refused_by_name(tmp_path):
 
 @pytest.fixture
 def slow_writer(tmp_path):
-    """A process that has begun to write table.csv and goes on for a minute."""
+    """A process that has begun to write table.csv, and waits."""
     command = [sys.executable, "-c", WRITE_SLOWLY, tmp_path / "table.csv"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout.readline() == "writing\n"
         yield process
         process.kill()
