@@ -1,25 +1,34 @@
 """Every check of Eq. 15 holds, and fails where the equation or the chain it is about is broken."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 import sympy
 
-from precursors import Chain
+from precursors import Chain, simulate
 from precursors.reproduction import derivation, eq15
 
 SCENES = {"fig11": "-5/6", "fig10": 0.0, "fig12": "5/6"}
-CHAIN = Chain.from_slider()
+CHAINS = {name: Chain.from_slider(theta=theta) for name, theta in SCENES.items()}
+CHAIN = CHAINS["fig10"]
 # Times of mu_s F_Z in double precision.
 ROUNDING = 1e-12
 
 
 @pytest.fixture(scope="module")
-def table():
-    return eq15.eq15_table({name: Chain.from_slider(theta=theta) for name, theta in SCENES.items()}, 10.0)
+def speeds():
+    return eq15.drive_speeds_table(CHAINS)
+
+
+@pytest.fixture(scope="module")
+def table(speeds):
+    return eq15.eq15_table(CHAINS, 10.0, speeds)
 
 
 def test_every_check_holds(table):
     assert list(table.columns) == ["check", "case", "unit", "expected", "found", "holds"]
-    assert len(table) == 15
+    assert len(table) == 21
     assert table["holds"].all()
 
 
@@ -57,7 +66,40 @@ def test_a_start_slightly_below_maximal_strain_falls_short_by_as_much(table, sce
     assert row["found"].item() == pytest.approx(mu_sapp, rel=ROUNDING)
 
 
+def test_eq_15_breaks_in_motion_where_the_drive_is_fast_and_only_there(speeds):
+    passes = speeds["largest_load_over_normal_load"] > speeds["mu_s"]
+    fast = speeds["drive_velocity_m_per_s"] > 1.25
+    assert (passes == fast).all()
+    assert set(speeds["scene"]) == set(SCENES)
+
+
+def test_the_load_of_a_rigid_slider_is_that_of_the_closed_form():
+    """One block with mu_s = mu_k: at most F_X = mu_k F_Z + V sqrt(K M)."""
+    block = replace(Chain.from_slider(n_blocks=1), mu_s=0.45)
+    speed = 2.0
+    closed = 180.0 + speed * np.sqrt(block.drive_stiffness * block.mass)
+    assert eq15.largest_load(block, speed) == pytest.approx(closed, rel=1e-6)
+
+
 # Each check on something broken.
+
+
+def test_the_state_of_eq_12_is_at_the_limit(monkeypatch):
+    """From maximal strain on all blocks are at their limits at the onset of the first slip."""
+    start = eq15.maximal_strain_positions(CHAIN)
+    strained = simulate(CHAIN, 0.001, start_positions=start)
+    monkeypatch.setattr(eq15, "simulate", lambda *_: strained)
+    row = eq15.below_limit("fig10", CHAIN, 0.001)
+    assert row["found"] == pytest.approx(0.0, abs=ROUNDING)
+
+
+def test_four_times_the_mass_halves_the_speed_at_which_the_bound_breaks(table):
+    heavy = replace(CHAIN, mass=4.0 * CHAIN.mass)
+    loads = [eq15.largest_load(heavy, speed) / heavy.normal_load for speed in eq15.SPEEDS]
+    row = eq15.fast_drive("fig10", heavy, np.array(loads))
+    light = table[(table["check"] == eq15.FAST) & (table["case"] == "fig10")]
+    assert row["holds"]
+    assert row["found"] == pytest.approx(float(light["found"].item()) / 2, rel=0.02)
 
 
 def test_the_symbols_see_a_wrong_sign_in_the_equation_of_motion(monkeypatch):

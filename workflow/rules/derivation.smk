@@ -4,14 +4,16 @@
 rule eq15:
     input:
         "results/tables/eq15.csv",
+        "results/tables/eq15_speeds.csv",
     localrule: True
 
 
 rule check_eq15:
     input:
-        code=package("model", "solver", "analysis", "reproduction/derivation", "reproduction/eq15"),
+        code=package("model", "solver", "analysis", "methods", "reproduction/derivation", "reproduction/eq15"),
     output:
         table=report("results/tables/eq15.csv", category="Tables"),
+        speeds=report("results/tables/eq15_speeds.csv", category="Tables"),
     log:
         "results/logs/check_eq15.log",
     params:

@@ -197,6 +197,41 @@ def begin_leg(motion, waits):
     return status
 
 
+# Methods that switch once a step
+
+
+@inner
+def run_in_steps(motion, step, waits, advance, at_start, work):
+    """Run until the end, a full record or a spent budget of legs.
+
+    `advance(system, state, last, h, work)` makes a step of h [s] and returns the evaluations made; a leg
+    costs `at_start` more. A block whose velocity has changed its sign at the end of a step is stopped there,
+    and sticks or turns round; a stuck block whose force exceeds mu_s w at the end of a step is released
+    there. While all blocks stick each step is made as well, or (`waits`) the wait is in closed form.
+    """
+    system, state, progress = motion.system, motion.state, motion.progress
+    for _ in range(LEGS_PER_CALL):
+        status = begin_leg(motion, waits)
+        if status != MOVING:
+            return status
+        progress.evaluations += at_start
+        for _ in range(STEPS_IN_LEG):
+            h = step_length(progress, step)
+            progress.evaluations += advance(system, state, progress.last, h, work)
+            progress.elapsed += h
+            if h < step or not all_keep_their_modes(system, state, progress.last):
+                break
+        switch(motion)
+    return PAUSED
+
+
+@inner
+def slide_in_steps(system, state, h, n_steps, advance, work):
+    """Make n steps of all blocks as they slide, without switching."""
+    for _ in range(n_steps):
+        advance(system, state, state.mode.shape[0] - 2, h, work)
+
+
 # From Python
 
 

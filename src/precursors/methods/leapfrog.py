@@ -6,21 +6,10 @@ Stick and slip are switched once a step, as with `rk4`; while all blocks stick t
 from __future__ import annotations
 
 import math
-from functools import partial
 
 from precursors.methods.columns import accelerate, inner, outer, stretch
 from precursors.methods.common import Smooth
-from precursors.methods.fixed_step import (
-    LEGS_PER_CALL,
-    MOVING,
-    PAUSED,
-    STEPS_IN_LEG,
-    all_keep_their_modes,
-    begin_leg,
-    fixed_step,
-    step_length,
-    switch,
-)
+from precursors.methods.fixed_step import fixed_step, run_in_steps, slide_in_steps
 
 LIMIT = 2.0  # largest stable omega dt, of both methods
 
@@ -31,73 +20,63 @@ def energy_factor(z: float) -> float:
 
 
 @inner
-def verlet_step(system, state, last, h):
+def verlet_step(system, state, last, h, _work):
     """Half a step of the forces, a step of the motion, half a step of the forces (L. Verlet, 1967)."""
     accelerate(state, last, 0.5 * h)
     stretch(system, state, last, h)
     accelerate(state, last, 0.5 * h)
+    return 1
 
 
 @inner
-def euler_step(system, state, last, h):
+def euler_step(system, state, last, h, _work):
     """A step of the forces, then one of the motion with the new velocities."""
     accelerate(state, last, h)
     stretch(system, state, last, h)
+    return 1
 
 
 @outer
-def slide(system, state, h, n_steps, verlet):
+def slide_verlet(system, state, h, n_steps):
     """Make n steps of all blocks as they slide, without switching."""
-    last = state.mode.shape[0] - 2
-    for _ in range(n_steps):
-        if verlet:
-            verlet_step(system, state, last, h)
-        else:
-            euler_step(system, state, last, h)
+    slide_in_steps(system, state, h, n_steps, verlet_step, 0)
 
 
 @outer
-def run_symplectic(motion, step, verlet):
-    """Run until the end, a full record or a spent budget of legs.
+def slide_euler(system, state, h, n_steps):
+    """The same."""
+    slide_in_steps(system, state, h, n_steps, euler_step, 0)
 
-    The forces at the end of a Verlet step are those at the start of the next: one evaluation a step, and one
-    more where friction has changed in between.
+
+@outer
+def run_verlet(motion, step):
+    """Run with a step [s], see `run_in_steps`.
+
+    The forces at the end of a step are those at the start of the next: one evaluation a step, and one more
+    where friction has changed in between.
     """
-    system, state, progress = motion.system, motion.state, motion.progress
-    for _ in range(LEGS_PER_CALL):
-        status = begin_leg(motion, True)
-        if status != MOVING:
-            return status
-        if verlet:
-            progress.evaluations += 1
-        for _ in range(STEPS_IN_LEG):
-            h = step_length(progress, step)
-            if verlet:
-                verlet_step(system, state, progress.last, h)
-            else:
-                euler_step(system, state, progress.last, h)
-            progress.evaluations += 1
-            progress.elapsed += h
-            if h < step or not all_keep_their_modes(system, state, progress.last):
-                break
-        switch(motion)
-    return PAUSED
+    return run_in_steps(motion, step, True, verlet_step, 1, 0)
+
+
+@outer
+def run_euler(motion, step):
+    """The same with one evaluation a step."""
+    return run_in_steps(motion, step, True, euler_step, 0, 0)
 
 
 METHODS = tuple(
     fixed_step(
         name,
         label,
-        run_symplectic,
-        verlet,
+        run,
         values=(6e-6, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9),
         whole=(1e-6, 1e-7, 3e-8, 1e-8, 3e-9),
         quick=(1e-6, 1e-7, 1e-8, 3e-9),
         quick_whole=(1e-7,),
-        smooth=Smooth(partial(slide, verlet=verlet), order, LIMIT, energy_factor),
+        smooth=Smooth(slide, order, LIMIT, energy_factor),
     )
-    for name, label, verlet, order in (
-        ("leapfrog", "leapfrog", True, 2),
-        ("semi_implicit_euler", "semi-implicit Euler", False, 1),
+    for name, label, run, slide, order in (
+        ("leapfrog", "leapfrog", run_verlet, slide_verlet, 2),
+        ("semi_implicit_euler", "semi-implicit Euler", run_euler, slide_euler, 1),
     )
 )

@@ -6,17 +6,7 @@ import math
 
 from precursors.methods.columns import inner, outer, rates, rows
 from precursors.methods.common import Smooth
-from precursors.methods.fixed_step import (
-    LEGS_PER_CALL,
-    MOVING,
-    PAUSED,
-    STEPS_IN_LEG,
-    all_keep_their_modes,
-    begin_leg,
-    fixed_step,
-    step_length,
-    switch,
-)
+from precursors.methods.fixed_step import fixed_step, run_in_steps, slide_in_steps
 
 STEPS = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
 LIMIT = 2.0 * math.sqrt(2.0)  # largest stable omega dt
@@ -32,6 +22,7 @@ def rk4_step(system, state, last, h, work):
     """One step h [s] of blocks 1..last: four evaluations (W. Kutta, Z. Math. Phys. 46, 1901, 435-453)."""
     rates(system, state, last, state.spring_force, state.velocity, work[4], work[5])
     rk4_from_rates(system, state, last, h, work)
+    return 4
 
 
 @inner
@@ -79,34 +70,13 @@ def stage(system, state, last, share, ahead, work):
 @outer
 def slide(system, state, h, n_steps):
     """Make n steps of all blocks as they slide, without switching."""
-    work = rows(state, 6)
-    for _ in range(n_steps):
-        rk4_step(system, state, state.mode.shape[0] - 2, h, work)
+    slide_in_steps(system, state, h, n_steps, rk4_step, rows(state, 6))
 
 
 @outer
 def run_rk4(motion, step, waits):
-    """Run until the end, a full record or a spent budget of legs.
-
-    A block whose velocity has changed its sign at the end of a step is stopped there, and sticks or turns
-    round; a stuck block whose force exceeds mu_s w at the end of a step is released there. While all blocks
-    stick each step is made as well, or (`waits`) the wait is in closed form.
-    """
-    system, state, progress = motion.system, motion.state, motion.progress
-    work = rows(state, 6)
-    for _ in range(LEGS_PER_CALL):
-        status = begin_leg(motion, waits)
-        if status != MOVING:
-            return status
-        for _ in range(STEPS_IN_LEG):
-            h = step_length(progress, step)
-            rk4_step(system, state, progress.last, h, work)
-            progress.evaluations += 4
-            progress.elapsed += h
-            if h < step or not all_keep_their_modes(system, state, progress.last):
-                break
-        switch(motion)
-    return PAUSED
+    """Run with a step [s], see `run_in_steps`."""
+    return run_in_steps(motion, step, waits, rk4_step, 0, rows(motion.state, 6))
 
 
 SMOOTH = Smooth(slide, 4, LIMIT, energy_factor)

@@ -1,4 +1,8 @@
-"""Eq. 15, mu_sapp <= mu_s: checked in symbols, over all states of rest, and in motion."""
+"""Eq. 15, mu_sapp <= mu_s: checked in symbols, over all states of rest, and in motion.
+
+The equation is about rest. So `drive_speeds_table` drives the chain ever faster, until inertia breaks it, and
+`below_limit` says how far from the state of Eq. 12 a run stays.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +15,10 @@ import numpy as np
 import pandas as pd
 import sympy
 
+from precursors.analysis.load_curve import load_curve
 from precursors.analysis.slip_rows import up_to_first_global
 from precursors.analysis.slips import find_slips
+from precursors.methods.stability import bisect
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import (
     compressions_as_printed,
@@ -27,6 +33,14 @@ from precursors.solver.simulate import simulate
 SYMBOLIC_BLOCKS = 10
 # A start slightly below the maximal strain, as a fraction of it.
 SLIGHTLY_BELOW = 0.999
+# From the paper's speed on, four a decade [m/s]; then halvings of the interval in which the bound is passed.
+SPEEDS, BISECTIONS = 1e-4 * 10.0 ** (np.arange(19) / 4), 7
+# Of the speed at which a rigid slider would pass the bound: the chain bends, and moves before F_X = mu_k F_Z.
+RIGID_TOLERANCE = 0.25
+# Of the distance from the limit: rounding errors that have grown for 10 s do not reach the next one.
+DIGITS = 4
+# A run ends after the drive has advanced so many times what the bound needs, if nothing stops it before.
+ADVANCES = 3
 # Relative. HiGHS is asked for 1e-10 of F_Z; sums of N terms are rounded to 1e-16 each.
 LP_TOLERANCE, ROUNDING = 1e-9, 1e-12
 
@@ -36,9 +50,11 @@ AT_REST = "largest F_X of all states of rest is mu_s F_Z"
 FULL_STRAIN = "mu_sapp = mu_s, pushed from maximal residual strain"
 LESS_STRAIN = f"mu_sapp < mu_s, pushed from {SLIGHTLY_BELOW:g} of maximal residual strain"
 RIGID = "mu_sapp = mu_s for a rigid slider, N = 1"
+FAST = "F_X passes mu_s F_Z in motion from (mu_s - mu_k) F_Z / sqrt(K M) on, to 25 %"
+BELOW = "some block at rest is below its limit (least part at slip onsets, above 0)"
 
 
-def eq15_table(scenes: Mapping[str, Chain], duration: float) -> pd.DataFrame:
+def eq15_table(scenes: Mapping[str, Chain], duration: float, speeds: pd.DataFrame) -> pd.DataFrame:
     """Every check on a row: check, case, unit, expected, found, holds.
 
     Parameters
@@ -47,11 +63,16 @@ def eq15_table(scenes: Mapping[str, Chain], duration: float) -> pd.DataFrame:
         Chains by the name of their scene.
     duration : float
         Time within which a global slip is awaited [s].
+    speeds : DataFrame
+        What `drive_speeds_table` returns for these scenes.
     """
     rows = [*in_symbols(SYMBOLIC_BLOCKS)]
     for check in (as_printed, at_rest):
         rows += [check(scene, chain) for scene, chain in scenes.items()]
     rows += [row for scene, chain in scenes.items() for row in in_motion(scene, chain, duration)]
+    for scene, chain in scenes.items():
+        loads = speeds.loc[speeds["scene"] == scene, "largest_load_over_normal_load"]
+        rows += [fast_drive(scene, chain, loads.to_numpy()), below_limit(scene, chain, duration)]
     first = next(iter(scenes.values()))
     return pd.DataFrame([*rows, rigid(first, duration)])
 
@@ -99,6 +120,62 @@ def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[dict[str, A
         found = apparent_friction(chain, a * full, duration)
         holds = math.isclose(found, expected, rel_tol=ROUNDING)
         yield _row(check, scene, "1", expected, found, holds)
+
+
+def largest_load(chain: Chain, speed: float) -> float:
+    """Largest F_X [N], from natural length, up to the end of the first global slip of a chain driven so fast.
+
+    Driven fast, a chain never stops: its run then has time for a swing of the whole slider on the drive.
+    """
+    driven = replace(chain, drive_velocity=speed)
+    swing = 2.0 * math.pi * math.sqrt(chain.n_blocks * chain.mass / chain.drive_stiffness)
+    duration = ADVANCES * load_bound(chain) / driven.loading_rate + swing
+    return float(load_curve(simulate(driven, duration, "global slip"))[1].max())
+
+
+def drive_speeds_table(scenes: Mapping[str, Chain]) -> pd.DataFrame:
+    """The largest load of Eq. 1 over F_Z against the drive's speed: does Eq. 15 need a chain at rest?"""
+    return pd.DataFrame(
+        {
+            "scene": scene,
+            "drive_velocity_m_per_s": speed,
+            "largest_load_over_normal_load": largest_load(chain, speed) / chain.normal_load,
+            "mu_s": chain.mu_s,
+        }
+        for scene, chain in scenes.items()
+        for speed in SPEEDS
+    )
+
+
+def fast_drive(scene: str, chain: Chain, loads: FloatArray) -> dict[str, Any]:
+    """The lowest speed of the drive that takes F_X beyond mu_s F_Z, and that of a rigid slider.
+
+    `loads` are the largest F_X over F_Z at `SPEEDS`.
+
+    A rigid slider that slides at rest under mu_k F_Z when the drive comes at V has at most
+    F_X = mu_k F_Z + V sqrt(K M).
+    """
+    mass = chain.n_blocks * chain.mass
+    expected = (chain.mu_s - chain.mu_k) * chain.normal_load / math.sqrt(chain.drive_stiffness * mass)
+
+    def passes(speed: float) -> bool:
+        return largest_load(chain, speed) > load_bound(chain)
+
+    fast = int(np.argmax(loads > chain.mu_s))
+    found = bisect(passes, SPEEDS[fast - 1], SPEEDS[fast], BISECTIONS) if fast else math.nan
+    return _row(FAST, scene, "m/s", expected, found, math.isclose(found, expected, rel_tol=RIGID_TOLERANCE))
+
+
+def below_limit(scene: str, chain: Chain, duration: float) -> dict[str, Any]:
+    """How near a run comes to the state of Eq. 12, in which all blocks are at their limits at once.
+
+    At the onset of each slip: what the block farthest from its limit mu_s w_i is below it, over mu_s w_i.
+    """
+    run = simulate(chain, duration)
+    forces = np.pad(run.spring_forces(find_slips(run)["onset"]), ((0, 0), (0, 1)))
+    below = 1.0 - (forces[:, :-1] - forces[:, 1:]) / chain.strength
+    found = round(float(below.max(axis=1).min(initial=math.inf)), DIGITS)
+    return _row(BELOW, scene, "1", 0.0, found, found > 0.0)
 
 
 def rigid(chain: Chain, duration: float) -> dict[str, Any]:

@@ -13,7 +13,7 @@ import pandas as pd
 from scipy.stats import fisher_exact
 
 from precursors.model.switching import COULOMB
-from precursors.reproduction import numbers_of_studies
+from precursors.reproduction import eq15, numbers_of_studies
 from precursors.reproduction.claim import FOLLOWS, FRAGILE, NOT_REPRODUCED, REPRODUCED
 from precursors.reproduction.claims import TABLES as TABLES_OF_CLAIMS
 from precursors.reproduction.claims_results import leading_reading
@@ -113,16 +113,22 @@ def printed(t: Tables, config: Mapping[str, Any]) -> Numbers:
 
 
 def results(t: Tables, config: Mapping[str, Any]) -> Numbers:
-    """The paper's Figs. 10 to 13."""
+    """The paper's Figs. 10 to 13, and its Eq. 15."""
+    fast = rows(t["eq15"], check=eq15.FAST)[["found", "expected"]].astype(float)
     found: Numbers = {
         "events-at-printed-theta": leading_reading(t, "events_kept", degree="0.833"),
         "mu-at-printed-theta": leading_reading(t, "mu_sapp", degree="0.833"),
         "shortest-slip": (min(shortest_slip(t[f"{scene}_slips"]) for scene in SCENES), "s"),
         "eq15-checks": len(t["eq15"]),
         "eq15-holding": t["eq15"]["holds"].sum(),
+        "eq15-below": rows(t["eq15"], check=eq15.BELOW)["found"].astype(float).min(),
         "load-of-printed-eq12": (one(t["claims"], "paper", id="eq12-last-line").split("; ")[1], "N"),
         "load-of-eq12": (one(t["claims"], "ours", id="eq12-last-line"), "N"),
     }
+    if fast["found"].notna().all():
+        least, most = fast["found"].agg(["min", "max"])
+        found |= {"eq15-speed-least": (least, "m/s"), "eq15-speed-most": (most, "m/s")}
+        found["eq15-speed-rigid"] = (fast["expected"].iloc[0], "m/s")
     for scene in SCENES:
         slips, ours = t[f"{scene}_slips"], rows(t["mu_sapp"], scene=scene, is_papers=True).iloc[0]
         partial, last = before_global(t, scene), up_to_global(t, scene).iloc[-1]
