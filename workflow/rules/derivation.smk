@@ -10,7 +10,7 @@ rule eq15:
 
 rule check_eq15:
     input:
-        code=package("model", "solver", "analysis", "methods", "reproduction/derivation", "reproduction/eq15"),
+        code=package("model", "solver", "analysis", "reproduction/derivation", "reproduction/eq15"),
     output:
         table=report("results/tables/eq15.csv", category="Tables"),
         speeds=report("results/tables/eq15_speeds.csv", category="Tables"),
