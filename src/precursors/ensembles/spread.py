@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from precursors.analysis.run_statistics import share_interval
 from precursors.ensembles.study import Study, stack
 from precursors.model.chain import FloatArray
 
@@ -128,7 +129,8 @@ def spread_table(members: pd.DataFrame) -> pd.DataFrame:
     -------
     DataFrame
         One row per scene, question, ensemble and quantity: the value without perturbation, mean and
-        quantiles; the share of members that have it unchanged (see `UNCHANGED`), the share that met a global
+        quantiles; the share of members that have it unchanged (see `UNCHANGED`) and the interval of this
+        probability, share_low to share_high; the share that met a global
         slip, and the number of members n.
     """
     keys = ["scene", "question", "perturbation", "size"]
@@ -150,12 +152,16 @@ def spread_table(members: pd.DataFrame) -> pd.DataFrame:
 def _distribution(values: FloatArray, unperturbed: float, tolerance: float) -> dict[str, float]:
     """What an ensemble makes of a number; a member without global slip has it changed."""
     known = values[~np.isnan(values)]
+    unchanged = np.abs(values - unperturbed) <= tolerance
+    low, high = share_interval(int(unchanged.sum()), len(values))
     quantiles = np.quantile(known, list(QUANTILES.values())) if len(known) else [np.nan] * len(QUANTILES)
     return {
         "unperturbed": unperturbed,
         "mean": np.mean(known) if len(known) else np.nan,
         **dict(zip(QUANTILES, quantiles, strict=True)),
-        "share_unchanged": float(np.mean(np.abs(values - unperturbed) <= tolerance)),
+        "share_unchanged": float(np.mean(unchanged)),
+        "share_low": low,
+        "share_high": high,
     }
 
 
@@ -183,6 +189,8 @@ def robustness_table(spread: pd.DataFrame) -> pd.DataFrame:
                 "changes_at": changes_at,
                 "perturbation": weakest["perturbation"],
                 "share_unchanged": weakest["share_unchanged"],
+                "share_low": weakest["share_low"],
+                "share_high": weakest["share_high"],
                 "rule": RULES[name],
             }
         )
