@@ -39,6 +39,7 @@ COARSE_BITS, CLOSE_TO_REACH = 128, Fraction(99, 100)
 # Rounding of clocks of 300 bits [s].
 CLOCK_ROUNDING = Fraction(1, 2**280)
 AT_ZERO = (Fraction(0),) * 10
+AT_REST = (AT_ZERO, AT_ZERO)
 # Two runs 2^-60 N apart differ from the linear theory by a like part of their distance.
 LINEAR = Fraction(1, 2**30)
 # Seven blocks, the middle one pushed aside: blocks 2 and 6 are released at the same instant, by symmetry.
@@ -114,6 +115,22 @@ def exact_chain(case: HeldOut) -> ExactChain:
     return ExactChain(**numbers, length="1/10")
 
 
+def test_a_proof_may_begin_where_blocks_move(small: Certificate) -> None:
+    run = simulate(small.chain.to_chain(), 4)
+    half = run.transitions["time"][-4:-2].mean()
+    (positions,), (velocities,) = run.at([half])
+    positions -= run.chain.drive_velocity * half
+    rest = certify(small.chain, 4 - half, start_positions=positions, start_velocities=velocities).transitions
+    moving = np.count_nonzero(velocities)
+    assert moving > 0
+    after = [t for t in small.transitions if t.time.midpoint > half]
+    assert [(t.block, t.mode) for t in rest[moving:]] == [(t.block, t.mode) for t in after]
+    times = np.array(
+        [[float(a.time.midpoint), float(b.time.midpoint)] for a, b in zip(rest[moving:], after, strict=True)]
+    )
+    np.testing.assert_allclose(times[:, 0] + half, times[:, 1], rtol=0, atol=DOUBLE_TIME)
+
+
 def test_a_release_is_known_exactly() -> None:
     (release,) = certify(ExactChain.from_slider(theta="5/6"), "0.0584").transitions[:1]
     # mu_s w_1 = 14/3 N at K V = 80 N/s
@@ -158,7 +175,7 @@ def test_a_tie_all_but_true_is_decided_with_more_bits() -> None:
 @pytest.mark.parametrize("displaced", [1, 2])
 def test_a_run_that_starts_within_the_distance_stays_in_the_enclosures(displaced: int) -> None:
     chain = ExactChain.from_slider()
-    reach = fraction(Proof(chain, Fraction(1), False, AT_ZERO, COARSE_BITS, Fraction(1)).least_distance)
+    reach = fraction(Proof(chain, Fraction(1), False, AT_REST, COARSE_BITS, Fraction(1)).least_distance)
     positions = start_at_distance(chain, displaced, CLOSE_TO_REACH * reach)
     closest = Fraction(0)
     pairs = zip(proofs(chain, AT_ZERO, 60, COARSE_BITS), proofs(chain, positions, 60, 300), strict=True)
@@ -223,7 +240,7 @@ def proofs(
     chain: ExactChain, positions: Sequence[Fraction], n: int, bits: int
 ) -> Iterator[tuple[Proof, arb]]:
     """Yield a proof after each of n transitions, and the onset of the event [s]."""
-    proof = Proof(chain, Fraction(10), False, tuple(positions), bits, Fraction(1))
+    proof = Proof(chain, Fraction(10), False, (tuple(positions), AT_ZERO), bits, Fraction(1))
     onset = proof.clock
     for i in range(n):
         while len(proof.transitions) <= i:

@@ -56,7 +56,7 @@ def assert_same(runs: list[Run]) -> None:
     """Summarise all runs together, and compare each row with the tables of its run."""
     for found, run in zip(summarise(runs), runs, strict=True):
         expected = table_path(run)
-        assert set(found.dtype.names) == {*expected, "pulse_blocks", "pulse_speed", "pulse_mu"}
+        assert set(found.dtype.names) == {*expected, "pulse_blocks", "pulse_speed", "pulse_mu", "pulse_time"}
         for name, value in expected.items():
             if name == "crossing_time":  # the only sum, added up in another order here
                 assert found[name] == pytest.approx(value, rel=1e-12, nan_ok=True)

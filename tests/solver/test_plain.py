@@ -25,7 +25,7 @@ LOAD = 1e-12  # of the total strength, for states in plain Python and compiled
 def plain_and_compiled(chain, duration, most, **start):
     """(block, mode) and times of the transitions in plain Python and compiled."""
     at = [start.get(name, np.zeros(chain.n_blocks)) for name in ("start_positions", "start_velocities")]
-    plain, _, _ = fallback.find(chain, (at[0], at[1]), duration, False, most)
+    plain, _, _ = fallback.find(chain, (at[0], at[1]), duration, False, np.inf, most)
     compiled = first_transitions(chain, most, duration=duration, **start).transitions
     order = [run[["block", "mode"]].tolist() for run in (plain, compiled)]
     return *order, plain["time"], compiled["time"]
@@ -95,7 +95,7 @@ def test_without_the_compiler_a_chain_is_run_in_plain_python_with_one_warning():
 
 def test_a_run_in_plain_python_is_a_run_like_any_other():
     chain, at_rest = SLIDER(3), np.zeros(3)
-    transitions, intervals, end = fallback.find(chain, (at_rest, at_rest), 1.0, False, 10)
+    transitions, intervals, end = fallback.find(chain, (at_rest, at_rest), 1.0, False, np.inf, 10)
     states = fallback.first_state(chain, at_rest, at_rest)
     assert intervals.dtype == states.force.dtype == states.velocity.dtype == np.float64
     # From the start through all its transitions: compiled code takes what plain Python found.

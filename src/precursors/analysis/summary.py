@@ -30,9 +30,17 @@ SUMMARY = np.dtype(
         ("pulse_blocks", "f8"),
         ("pulse_speed", "f8"),
         ("pulse_mu", "f8"),
+        ("pulse_time", "f8"),
     ]
 )
-SUMMARY_UNITS = {"load": "N", "time": "s", "end": "s", "crossing_time": "s", "pulse_speed": "m_per_s"}
+SUMMARY_UNITS = {
+    "load": "N",
+    "time": "s",
+    "end": "s",
+    "crossing_time": "s",
+    "pulse_speed": "m_per_s",
+    "pulse_time": "s",
+}
 # A travelling pulse is measured over so many transitions of each block, some five times there and back.
 PULSE_TRANSITIONS = 20
 
@@ -54,7 +62,7 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
         mu_sapp if every block must slide at some time of a global slip, not all at once; sliding_each is the
         most blocks that slid at once in this event (0 without one). A run that ends in an event, without a
         global slip, has pulse_blocks, the mean number of blocks that slide, pulse_mu and pulse_speed (see
-        `pulse`).
+        `pulse`), and pulse_time, for how long the event has lasted [s].
 
     Notes
     -----
@@ -115,6 +123,7 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
         if np.isnan(events["end"][last[i]]):
             for name, value in zip(("pulse_blocks", "pulse_speed", "pulse_mu"), pulse(runs[i]), strict=True):
                 summaries[name][i] = value
+            summaries["pulse_time"][i] = runs[i].duration - events["onset"][last[i]]
     return summaries
 
 

@@ -32,7 +32,7 @@ def endless_study(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> Stu
         duration = MOST_LOAD * added_load(chain) / chain.loading_rate
         draws = {"load_noise": NOISE, "group": group, "draw": np.arange(runs), "duration": duration}
         blocks.append(member | draws)
-    return Study(stack(blocks), seed=settings["seed"])
+    return Study(stack(blocks), longest_slip=settings["longest_slip"], seed=settings["seed"])
 
 
 def endless_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
@@ -42,9 +42,10 @@ def endless_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
     -------
     DataFrame
         One row per number of blocks: runs; endless, those without a global slip that end while blocks slide;
-        their share with its interval; the means of their pulse_blocks, length [m], speed [m/s] and F_X/F_Z
-        (NaN where there are none). earlier: the share of runs, with its interval, in which every block slid
-        in an event before all slid at once.
+        their share with its interval; the means of their pulse_blocks, length [m], speed [m/s] and F_X/F_Z,
+        and pulse_time_s, the shortest time [s] that such a slip has lasted (NaN where there are none).
+        earlier: the share of runs, with its interval, in which every block slid in an event before all slid
+        at once.
     """
     rows = []
     for n, runs in members.groupby("n_blocks"):
@@ -64,6 +65,7 @@ def endless_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
                 "pulse_length_m": endless["pulse_blocks"].mean() * length / float(str(n)),
                 "pulse_speed_m_per_s": endless["pulse_speed_m_per_s"].mean(),
                 "pulse_mu": endless["pulse_mu"].mean(),
+                "pulse_time_s": endless["pulse_time_s"].min(),
                 "earlier": earlier.mean(),
                 "earlier_low": earlier_low,
                 "earlier_high": earlier_high,

@@ -39,12 +39,15 @@ class Study:
         the numbers of the random stream. All other columns are labels.
     until : "global slip" or None
         As in `simulate`.
+    longest_slip : float or None
+        As in `simulate` [s].
     seed : int
         Seed of all random numbers.
     """
 
     members: pd.DataFrame
     until: Until = "global slip"
+    longest_slip: float | None = None
     seed: int = 0
 
     def chunk(self, i: int, n: int) -> Study:
@@ -91,7 +94,7 @@ def run_members(study: Study) -> pd.DataFrame:
         for begin in range(0, len(members), size):
             batch = members.iloc[begin : begin + size]
             starts = [start_of(member, study.seed) for member in batch.to_dict("records")]
-            summary = summarise(_runs(starts, float(batch["duration"].iloc[0]), study.until))
+            summary = summarise(_runs(starts, float(batch["duration"].iloc[0]), study))
             results.append(pd.DataFrame(summary, index=batch.index))
     return study.members.join(pd.concat(results).rename(columns=WITH_UNITS))
 
@@ -113,12 +116,12 @@ def gather(chunks: Iterable[str | PathLike[str]]) -> pd.DataFrame:
     return together.drop(columns=["member", *constant])
 
 
-def _runs(starts: list[tuple[Chain, FloatArray]], duration: float, until: Until) -> list[Run]:
+def _runs(starts: list[tuple[Chain, FloatArray]], duration: float, study: Study) -> list[Run]:
     """Run a batch; a run that meets the limit of transitions is kept as far as it came."""
     chains, positions = zip(*starts, strict=True)
     try:
-        return simulate_many(chains, duration, until, threads=1, start_positions=positions)
+        return simulate_many(chains, duration, study.until, 1, positions, longest_slip=study.longest_slip)
     except TransitionLimitError as limit:
         if len(starts) == 1:
             return [limit.run]
-        return [run for start in starts for run in _runs([start], duration, until)]
+        return [run for start in starts for run in _runs([start], duration, study)]

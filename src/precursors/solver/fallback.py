@@ -11,11 +11,16 @@ from precursors.solver.record import TRANSITION, States
 
 
 def find(
-    chain: Chain, start: tuple[FloatArray, FloatArray], duration: float, until_global: bool, most: int
+    chain: Chain,
+    start: tuple[FloatArray, FloatArray],
+    duration: float,
+    until_global: bool,
+    longest_slip: float,
+    most: int,
 ) -> tuple[NDArray[np.void], FloatArray, float]:
     """Transitions and intervals of a chain from a start (positions, velocities), and the time reached [s]."""
     state = plain.at_start(chain, *start)
-    rows, end, since = plain.find_transitions(chain, state, duration, until_global, most)
+    rows, end, since = plain.find_transitions(chain, state, duration, until_global, longest_slip, most)
     transitions = np.array([(t, block, mode, load) for t, _, block, mode, load in rows], dtype=TRANSITION)
     intervals = np.array([interval for _, interval, *_ in rows] + [since], dtype=np.float64)
     return transitions, intervals, float(end)

@@ -130,13 +130,13 @@ def next_transition(chain: Chain, state: State, window: float, eps: float) -> tu
 
 
 def find_transitions(
-    chain: Chain, state: State, duration: float, until_global: bool, most: int
+    chain: Chain, state: State, duration: float, until_global: bool, longest_slip: float, most: int
 ) -> tuple[list[tuple[float, float, int, int, float]], float, float]:
     """Transitions (time, time since the last, block, mode, load); time of the end, and since the last."""
     rows = [(0.0, 0.0, int(i), int(state.mode[i]), state.force[1]) for i in np.flatnonzero(state.mode)]
     window, is_global, at_once = REACH / chain.fastest_frequency_bound, False, 0
     onset = elapsed = since = 0.0
-    while len(rows) < most and (left := duration - onset - elapsed) > 0.0:
+    while len(rows) < most and elapsed < longest_slip and (left := duration - onset - elapsed) > 0.0:
         is_global = is_global or bool(state.mode[1:-1].all())
         if not state.mode.any():
             if until_global and is_global:
@@ -148,7 +148,8 @@ def find_transitions(
             state.force[1] = max(state.force[1], state.force[2] + chain.strength[0])
             block, new = 1, 1
         else:
-            span, roundings = min(window, left), ROUNDINGS * 2.0 ** (at_once // (4 * chain.n_blocks))
+            roundings = ROUNDINGS * 2.0 ** (at_once // (4 * chain.n_blocks))
+            span = min(window, left, longest_slip - elapsed)
             s, block, new, state = next_transition(chain, state, span, roundings)
             elapsed, since, at_once = elapsed + s * span, since + s * span, at_once + 1 if s == 0.0 else 0
         if block and new != state.mode[block]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import threading
 from collections.abc import Callable, Iterator, Sequence
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.checks import LARGEST, Until, checked_span, number_array, whole
+from precursors.model.checks import LARGEST, Until, checked_span, number_array, positive, whole
 from precursors.solver import fallback
 from precursors.solver.backend import KERNEL
 from precursors.solver.record import TRANSITION, IntArray, States
@@ -36,10 +37,11 @@ COLUMNS: tuple[Any, ...] = (np.float64, np.int64, np.int64, np.float64, np.float
 
 
 class _End(NamedTuple):
-    """Where runs end: time [s], after a global slip, with so many transitions."""
+    """Where runs end: at a time [s], after a global slip, in a slip so long [s], at so many transitions."""
 
     duration: float
     until_global: bool
+    longest_slip: float
     most: int
 
 
@@ -58,6 +60,7 @@ def simulate(
     start_positions: ArrayLike | None = None,
     start_velocities: ArrayLike | None = None,
     max_transitions: int = MAX_TRANSITIONS,
+    longest_slip: float | None = None,
 ) -> Run:
     """Run a chain from rest, or from a given start, through all its transitions (Eqs. 2-6).
 
@@ -73,6 +76,8 @@ def simulate(
         Positions [m] relative to springs at natural length, and velocities [m/s], at time 0; zero by default.
     max_transitions : int
         Cap on the number of transitions.
+    longest_slip : float, optional
+        Stop when one slip event has lasted so long [s]: some runs of many blocks never come to rest again.
 
     Returns
     -------
@@ -89,7 +94,7 @@ def simulate(
         If the cap, or one on the work of chains that hardly ever rest, is met; its attribute `run` holds what
         was computed.
     """
-    end = _end([chain], duration, until, max_transitions)
+    end = _end([chain], duration, until, max_transitions, longest_slip)
     positions = _start("start_positions", start_positions, "m", chain)
     velocities = _start("start_velocities", start_velocities, "m/s", chain)
     return _run_batch([chain], positions[None], velocities[None], end)[0]
@@ -103,6 +108,7 @@ def simulate_many(
     start_positions: Sequence[ArrayLike] | None = None,
     start_velocities: Sequence[ArrayLike] | None = None,
     progress: Callable[[int], object] | None = None,
+    longest_slip: float | None = None,
 ) -> list[Run]:
     """Run an ensemble on all cores; every run is what `simulate` makes of its chain, bit for bit.
 
@@ -110,7 +116,7 @@ def simulate_many(
     ----------
     chains : sequence of Chain
         The chains, of any lengths.
-    duration, until
+    duration, until, longest_slip
         As in `simulate`, for all of them.
     threads : int, optional
         Threads to use; by default as many as there are cores for this process.
@@ -133,7 +139,7 @@ def simulate_many(
     TransitionLimitError
         If a run meets the cap of `simulate`.
     """
-    end = _end(chains, duration, until, MAX_TRANSITIONS)
+    end = _end(chains, duration, until, MAX_TRANSITIONS, longest_slip)
     threads = available_cores() if threads is None else whole("threads", threads, at_least=1)
     positions = _starts("start_positions", start_positions, "m", chains)
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)
@@ -156,13 +162,16 @@ def simulate_many(
     return [runs[j] for j in range(len(chains))]
 
 
-def _end(chains: Sequence[Chain], duration: float, until: Until, max_transitions: int) -> _End:
+def _end(
+    chains: Sequence[Chain], duration: float, until: Until, most: int, longest_slip: float | None
+) -> _End:
     """Check what is simulated and where it ends."""
     for chain in chains:
         if not isinstance(chain, Chain):
             raise TypeError(f"what is simulated must be a Chain, but is {chain!r}")
-    most = whole("max_transitions", max_transitions, at_least=1)
-    return _End(checked_span(duration, until), until is not None, most)
+    longest = math.inf if longest_slip is None else positive("longest_slip", longest_slip, "s")
+    most = whole("max_transitions", most, at_least=1)
+    return _End(checked_span(duration, until), until is not None, longest, most)
 
 
 def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> FloatArray:
@@ -249,6 +258,7 @@ def _run_batch(
     limits = KERNEL.Limits(
         end.duration,
         end.until_global,
+        end.longest_slip,
         min(FIRST_ROOM, end.most),
         max(FIRST_ROOM // work.stride, 2),
         WINDOWS_PER_CALL,
@@ -286,7 +296,7 @@ def _run_batch(
 def _run_plain(chain: Chain, positions: FloatArray, velocities: FloatArray, end: _End) -> Run:
     """Run a chain in plain Python."""
     start = positions, velocities
-    transitions, intervals, time = fallback.find(chain, start, end.duration, end.until_global, end.most)
+    transitions, intervals, time = fallback.find(chain, start, *end)
     states = fallback.first_state(chain, *start)
     run = Run(chain, time, transitions, intervals, *start, states)
     if len(transitions) >= end.most:
@@ -300,12 +310,12 @@ def _unfinished(run: Run, end: _End) -> TransitionLimitError:
     if len(run.transitions) >= end.most:
         return TransitionLimitError(
             f"max_transitions = {end.most} reached {where}, last at block {run.transitions['block'][-1]}: "
-            "raise max_transitions or shorten duration",
+            "raise max_transitions, shorten duration, or give longest_slip",
             run,
         )
     return TransitionLimitError(
         f"{MAX_WINDOWS:g} steps of the motion made {where}, blocks slide nearly all the time: "
-        "shorten duration",
+        "shorten duration, or give longest_slip",
         run,
     )
 

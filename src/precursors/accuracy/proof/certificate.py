@@ -13,7 +13,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from precursors.accuracy.proof.exact_chain import ExactChain, Number, exact_positions
+from precursors.accuracy.proof.exact_chain import ExactChain, Number, exact_start
 from precursors.model.chain import written_fraction
 from precursors.model.checks import Until, checked_until
 from precursors.support.files import write_whole
@@ -108,7 +108,9 @@ class Certificate:
     until : "global slip" or None
         Whether it ends with the first event in which all blocks slide at the same instant.
     start_positions : tuple of Fraction, shape (N,)
-        Positions at time 0 [m], all blocks at rest.
+        Positions at time 0 [m].
+    start_velocities : tuple of Fraction, shape (N,)
+        Velocities at time 0 [m/s].
     width : Fraction
         No time has a radius above this [s].
     transitions : tuple of CertifiedTransition
@@ -125,6 +127,7 @@ class Certificate:
     duration: Fraction
     until: Until
     start_positions: tuple[Fraction, ...]
+    start_velocities: tuple[Fraction, ...]
     width: Fraction
     transitions: tuple[CertifiedTransition, ...] = ()
     tie: Tie | None = None
@@ -178,6 +181,7 @@ def _content(certificate: Certificate) -> dict[str, Any]:
         "claim": CLAIM,
         "chain": certificate.chain.as_text(),
         "start_positions_m": [str(x) for x in certificate.start_positions],
+        "start_velocities_m_per_s": [str(v) for v in certificate.start_velocities],
         "duration_s": str(certificate.duration),
         "until": certificate.until,
         "bits": certificate.bits,
@@ -204,7 +208,10 @@ def _certificate(content: Mapping[str, Any]) -> Certificate:
         chain=chain,
         duration=written_fraction(content["duration_s"]),
         until=checked_until(content["until"]),
-        start_positions=exact_positions(chain, content["start_positions_m"]),
+        start_positions=exact_start("start_positions", chain, content["start_positions_m"], "m"),
+        start_velocities=exact_start(
+            "start_velocities", chain, content.get("start_velocities_m_per_s"), "m/s"
+        ),
         width=written_fraction(content["width_s"]),
         transitions=tuple(
             CertifiedTransition(_enclosure(*row[:2]), int(row[2]), int(row[3]), _enclosure(*row[4:]))

@@ -53,7 +53,7 @@ def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bo
         certificate.chain == chain
         and certificate.duration == Fraction(repr(duration))
         and certificate.until is None
-        and not any(certificate.start_positions)
+        and not any(certificate.start_positions + certificate.start_velocities)
     )
 
 

@@ -133,13 +133,15 @@ def exact(name: str, value: object) -> Fraction:
     raise ValueError(f'{name} must be a finite number, or one in quotes as "5/6", but is {value!r}')
 
 
-def exact_positions(chain: ExactChain, positions: Sequence[Number] | None) -> tuple[Fraction, ...]:
-    """Return N start positions [m]; zero, springs at natural length, if none are given."""
-    if positions is None:
+def exact_start(
+    name: str, chain: ExactChain, values: Sequence[Number] | None, unit: str
+) -> tuple[Fraction, ...]:
+    """Return N start positions or velocities; zero if none are given."""
+    if values is None:
         return (Fraction(0),) * chain.n_blocks
-    if len(positions) != chain.n_blocks:
+    if len(values) != chain.n_blocks:
         raise ValueError(
-            f"start_positions must have one value [m] for each of the {chain.n_blocks} blocks, "
-            f"but has {len(positions)}"
+            f"{name} must have one value [{unit}] for each of the {chain.n_blocks} blocks, "
+            f"but has {len(values)}"
         )
-    return tuple(exact("start_positions", x) for x in positions)
+    return tuple(exact(name, x) for x in values)

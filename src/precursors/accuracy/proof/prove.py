@@ -16,7 +16,7 @@ from precursors.accuracy.proof.certificate import (
     Enclosure,
     Tie,
 )
-from precursors.accuracy.proof.exact_chain import ExactChain, Number, exact, exact_positions
+from precursors.accuracy.proof.exact_chain import ExactChain, Number, exact, exact_start
 from precursors.model.chain import Chain
 from precursors.model.checks import Until, checked_until
 
@@ -44,8 +44,9 @@ def certify(
     start_positions: Sequence[Number] | None = None,
     width: Number = WIDTH,
     max_bits: int = MAX_BITS,
+    start_velocities: Sequence[Number] | None = None,
 ) -> Certificate:
-    """Prove the transitions of a chain from rest (Eqs. 2-6), in ball arithmetic on exact parameters.
+    """Prove the transitions of a chain (Eqs. 2-6), in ball arithmetic on exact parameters.
 
     The proof is begun again with more bits until it is complete.
 
@@ -63,6 +64,8 @@ def certify(
         Largest radius of a time [s].
     max_bits : int
         Largest working precision; a proof that is undecided there within `width` is a tie.
+    start_velocities : sequence of N numbers, optional
+        Velocities at time 0 [m/s]; zero by default.
 
     Raises
     ------
@@ -77,8 +80,11 @@ def certify(
     limit, widest = exact("duration", duration), exact("width", width)
     if limit <= 0 or widest <= 0:
         raise ValueError(f"duration and width must be above 0 s, but are {limit} s and {widest} s")
-    positions = exact_positions(exact_chain, start_positions)
-    certificate = Certificate(exact_chain, limit, checked_until(until), positions, widest)
+    start = (
+        exact_start("start_positions", exact_chain, start_positions, "m"),
+        exact_start("start_velocities", exact_chain, start_velocities, "m/s"),
+    )
+    certificate = Certificate(exact_chain, limit, checked_until(until), *start, widest)
     bits, restarts = FIRST_BITS, 0
     while True:
         proof, failure = _prove(certificate, bits)
@@ -129,7 +135,7 @@ def _prove(certificate: Certificate, bits: int) -> tuple[Proof, Undecided | None
         certificate.chain,
         certificate.duration,
         certificate.until is not None,
-        certificate.start_positions,
+        (certificate.start_positions, certificate.start_velocities),
         bits,
         certificate.width,
     )

@@ -66,14 +66,14 @@ class Proved(NamedTuple):
 
 
 class Proof:
-    """The motion of a chain from rest at given positions, in balls, and the transitions proved so far."""
+    """The motion of a chain from a given start, in balls, and the transitions proved so far."""
 
     def __init__(
         self,
         chain: ExactChain,
         duration: Fraction,
         until_global_slip: bool,
-        start_positions: tuple[Fraction, ...],
+        start: tuple[tuple[Fraction, ...], tuple[Fraction, ...]],
         bits: int,
         width: Fraction,
     ) -> None:
@@ -86,28 +86,30 @@ class Proof:
             self.unit = ball(self.unit_seconds)
             self.duration, self.width = ball(duration), ball(width)
             self.clock = arb(0)
-            self.state = self.at_start(start_positions)
+            self.state = self.at_start(*start)
         with ctx.workprec(BOUND_BITS):
             self.bounds = Constants.of(chain, self.unit_seconds)
         # how far the runs may be ahead or behind at the last transition [T], and who has just begun to slide
         self.gap = arb(0)
-        self.fresh = {i for i in range(1, self.n + 1) if self.state.mode[i]}
+        self.fresh = {i for i in range(1, self.n + 1) if self.state.mode[i] and not start[1][i - 1]}
         self.all_slid = False
 
-    def at_start(self, positions: tuple[Fraction, ...]) -> State:
-        """Rest at given positions, where blocks beyond their strength are released (an exact comparison)."""
+    def at_start(self, positions: tuple[Fraction, ...], velocities: tuple[Fraction, ...]) -> State:
+        """Given positions and velocities; a block slides that moves, or is beyond its strength."""
         chain, n = self.chain, self.n
         x = (Fraction(0), *positions)
         exact = [Fraction(0), *(k * (x[i] - x[i + 1]) for i, k in enumerate(chain.springs)), Fraction(0)]
         state = State([arb(0)] * (n + 2), [arb(0)] * (n + 2), [0] * (n + 2), arb(0))
         constants = self.constants(ctx.prec)
-        state.absorb(constants, [ball(f) for f in exact], state.rate)
+        rate = [Fraction(0), *(v * chain.mass / self.unit_seconds for v in velocities), Fraction(0)]
+        state.absorb(constants, [ball(f) for f in exact], [ball(u) for u in rate])
         self.least_distance = arb(2) ** (log2(max(constants.strength, key=float)) - self.bits)
         state.distance += self.least_distance
         for i in range(1, n + 1):
             force = exact[i] - exact[i + 1]
-            if abs(force) > chain.mu_s * chain.weights[i - 1]:
-                state.mode[i] = 1 if force > 0 else -1
+            push = rate[i] or (force if abs(force) > chain.mu_s * chain.weights[i - 1] else 0)
+            if push:
+                state.mode[i] = 1 if push > 0 else -1
                 self.transitions.append(Proved(arb(0), i, state.mode[i], ball(exact[1])))
         return state
 

@@ -110,13 +110,14 @@ class Batch(NamedTuple):
 class Limits(NamedTuple):
     """Where a run ends or pauses.
 
-    It ends at `duration` [s], or after a global slip. It pauses when it has so many transitions, states, or
-    windows in this call. A state is stored after every `stride` transitions or so. With `goes_on`, the run is
-    one that was paused.
+    It ends at `duration` [s], after a global slip, or when one slip has lasted `longest_slip` [s]. It pauses
+    when it has so many transitions, states, or windows in this call. A state is stored after every `stride`
+    transitions or so. With `goes_on`, the run is one that was paused.
     """
 
     duration: float
     until_global: bool
+    longest_slip: float
     transitions: int
     states: int
     windows: int

@@ -13,7 +13,6 @@ from precursors.solver.kernel.layout import (
     FARTHEST,
     FINISHED,
     GLOBAL,
-    GLOBAL_SLIP,
     LONG,
     LONG_ORDER,
     LONG_WINDOW,
@@ -27,6 +26,7 @@ from precursors.solver.kernel.layout import (
     SINCE,
     SLIDING,
     STATUS,
+    STOPPED,
     STORED,
     TRANSITIONS,
     WIDTH,
@@ -212,7 +212,7 @@ def rest(chain, motion, limits, progress, record):
     """All blocks stick: end the run, or wait in closed form until block 1 lets go."""
     clock, count = progress.clock, progress.counts
     if limits.until_global and count[GLOBAL] != 0:
-        return GLOBAL_SLIP
+        return STOPPED
     force, strength = motion.spring_force, chain.strength
     remaining = time_left(chain, limits, clock)
     loading_rate = chain.coupling[1] * chain.drive_velocity
@@ -268,9 +268,12 @@ def slide(chain, motion, search, limits, progress, record):
     """Go through one window: to the next transition, to all of them in a long chain, or to its end."""
     clock, count = progress.clock, progress.counts
     remaining = time_left(chain, limits, clock)
+    left_of_slip = limits.longest_slip / chain.tau - clock[ELAPSED]
     if remaining <= 0.0:
         return FINISHED
-    window = open_window(remaining, chain, motion, search, count)
+    if left_of_slip <= 0.0:
+        return STOPPED
+    window = open_window(min(remaining, left_of_slip), chain, motion, search, count)
     t = noted = 0.0
     slot = -1
     while True:

@@ -35,7 +35,8 @@ SHORT_ORDER, LONG_ORDER = order_for(SHORT_WINDOW), order_for(LONG_WINDOW)
 # one another without time going on, rounding decides in a circle: the limit is doubled until it does not.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
 
-FINISHED, GLOBAL_SLIP, PAUSED = 0, 1, 2
+# A run reached its duration; it ended before, at rest or in a long slip; or it can go on.
+FINISHED, STOPPED, PAUSED = 0, 1, 2
 
 # `clock`: time of the event's onset and its rounding error [s], time since then [tau], time since the last
 # transition [tau].
