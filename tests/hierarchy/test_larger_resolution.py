@@ -10,6 +10,7 @@ from chains import SLIDER
 from precursors import find_precursors, find_slips, simulate
 from precursors.hierarchy.larger import LargerChain
 from precursors.hierarchy.larger_resolution import (
+    loadings_table,
     numbers,
     resolution_models_table,
     run_models,
@@ -27,7 +28,7 @@ SETTINGS = {
     "models": {
         "plain": {},
         "material": {"relaxation_time": 1e-6},
-        "soft": {"interface_stiffness": 25e6, "n_blocks": [4]},
+        "soft": {"interface_stiffness": 25e6, "most_blocks": 4},
         "both": {"interface_stiffness": 25e6, "viscosity": 54.77},
     },
 }
@@ -96,3 +97,19 @@ def test_a_front_that_starts_at_block_n_has_no_speed():
     found = numbers(Motion(4, slips, 0.5, front_arrival=1.0), length=0.1)
     assert np.isnan(found["front_speed_m_per_s"])
     assert found["time_s"] == 1.0
+
+
+def test_loadings_that_matter_are_told_from_loadings_that_do_not():
+    ask = {"n_blocks": 4, "runs": 6, "models": ["plain"]}
+    same = loadings_table({}, SETTINGS, {**ask, "theta": [0, 1e-12]}).iloc[0]
+    far = loadings_table({}, SETTINGS, {**ask, "theta": [-0.9, 0.9]}).iloc[0]
+    assert (far["model"], far["n_blocks"], far["runs"]) == ("plain", 4, 6)
+    assert far["least_high"] < far["largest_low"]
+    assert far["p"] < 0.01
+    assert same["least"] == pytest.approx(same["largest"], rel=1e-6)
+    assert same["p"] > 0.5
+
+
+def test_loadings_of_an_unknown_model_are_refused():
+    with pytest.raises(ValueError, match=r"names of models of resolution, but are \['none'\]"):
+        loadings_table({}, SETTINGS, {"n_blocks": 4, "runs": 6, "models": ["none"], "theta": [0, 0.5]})

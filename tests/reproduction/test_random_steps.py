@@ -88,7 +88,7 @@ def test_the_same_seed_gives_the_same_steps_within_their_range():
 
 def test_the_printed_theta_is_a_reading_not_a_misprint():
     """Of 200 steps, about as many give the six numbers at 0.833 as at 5/6: the intervals meet."""
-    full = pd.read_csv(GOLDEN / "random_steps_full.csv")
+    full = pd.read_csv(GOLDEN.parents[1] / "paper/tables/random_steps_full.csv")
     ours = full[(full["switching"] == COULOMB) & (full["question"] == "all six")].set_index("degree")
     assert (ours["n"] == 200).all()
     assert ours["low"].max() < ours["high"].min()

@@ -5,6 +5,7 @@ rule hierarchy:
     input:
         collect("results/figures/model_comparison.{kind}", kind=FORMATS),
         "results/figures/resolution_models.svg",
+        "results/tables/models_loadings.csv",
         collect("results/tables/{scene}_answers.csv", scene=ASKED),
     localrule: True
 
@@ -38,6 +39,21 @@ rule run_larger_models:
         settings=config["hierarchy"]["resolution"],
     script:
         "../scripts/run_larger_models.py"
+
+
+rule tabulate_loadings:
+    input:
+        code=package("model", "solver", "analysis", "hierarchy"),
+    output:
+        table=report("results/tables/models_loadings{full}.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_loadings{full}.log",
+    params:
+        slider=config["chain"],
+        settings=config["hierarchy"]["resolution"],
+        loadings=lambda wildcards: config["hierarchy"][f"loadings{wildcards.full}"],
+    script:
+        "../scripts/tabulate_loadings.py"
 
 
 rule answer_scene:

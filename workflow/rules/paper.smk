@@ -53,7 +53,7 @@ rule write_paper:
         tables=collect("results/tables/{table}.csv", table=numbers.TABLES),
         shown=SHOWN,
         main=PAPER_SOURCE / "main.typ",
-        source=sorted([*PAPER_SOURCE.rglob("*.typ"), *PAPER_SOURCE.glob("*.bib")]),
+        source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.is_file()),
         code=package("model", "solver", "analysis", "reproduction"),
     output:
         pdf="results/paper.pdf",

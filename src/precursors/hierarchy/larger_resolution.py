@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from scipy.stats import kruskal
 
-from precursors.analysis.run_statistics import statistics
+from precursors.analysis.run_statistics import median_interval, statistics
 from precursors.hierarchy.larger import LargerChain
 from precursors.hierarchy.models import Motion, events_kept, first_global_slip, move
 from precursors.model.chain import Chain, parse_theta
@@ -36,7 +37,7 @@ def run_models(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> pd.Dat
     settings : mapping
         Settings of the study in the configuration: theta, n_blocks, noise, runs (of each point), seed,
         and models. A model has any of relaxation_time t_v [s] (dashpots eta = k t_v, the stiffer the more
-        blocks), viscosity eta [N s/m], interface_stiffness K_t [N/m], and n_blocks where it differs.
+        blocks), viscosity eta [N s/m], interface_stiffness K_t [N/m], and most_blocks, its largest N.
 
     Returns
     -------
@@ -49,13 +50,63 @@ def run_models(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> pd.Dat
     for name, values in settings["models"].items():
         point = {"model": name, "theta": parse_theta(settings["theta"])}
         point |= {column: values.get(key, 0.0) for key, column in VALUES.items()}
-        for n in values.get("n_blocks", settings["n_blocks"]):
+        for n in settings["n_blocks"]:
+            if n > values.get("most_blocks", n):
+                continue
             chain = Chain.from_slider(**{**slider, "theta": settings["theta"], "n_blocks": n})
             for draw in range(settings["runs"]):
                 motion = move(with_additions(with_noise(chain, draw, settings), values))
                 for quantity, value in numbers(motion, chain.length).items():
                     rows.append(point | {"n_blocks": n, "draw": draw, "quantity": quantity, "value": value})
     return pd.DataFrame(rows).dropna(subset="value")
+
+
+def loadings_table(
+    slider: Mapping[str, Any], settings: Mapping[str, Any], loadings: Mapping[str, Any]
+) -> pd.DataFrame:
+    """Whether mu_sapp of a model is the same for all distributions of the normal load, the paper's question.
+
+    Parameters
+    ----------
+    slider, settings : mapping
+        As in `run_models`.
+    loadings : mapping
+        What differs from the settings: theta (a list), n_blocks (a number), runs (of each theta), models
+        (their names).
+
+    Returns
+    -------
+    DataFrame
+        One row per model and n_blocks: least and largest, the medians of mu_sapp for the loadings, with the
+        95 % interval of each (least_low ...); p, the probability of medians as far apart if mu_sapp had the
+        same distribution for all loadings (test of Kruskal and Wallis); and runs.
+
+    Raises
+    ------
+    ValueError
+        If a model is not among those of the settings.
+    """
+    if unknown := set(loadings["models"]) - set(settings["models"]):
+        raise ValueError(
+            f"models of loadings must be names of models of resolution, but are {sorted(unknown)}"
+        )
+    models = {name: settings["models"][name] for name in loadings["models"]}
+    changes = {"models": models, "n_blocks": [loadings["n_blocks"]], "runs": loadings["runs"]}
+    runs = pd.concat(
+        run_models(slider, {**settings, **changes, "theta": theta}) for theta in loadings["theta"]
+    )
+    rows = []
+    for (model, n), of_model in runs[runs["quantity"] == "mu_sapp"].groupby(
+        ["model", "n_blocks"], sort=False
+    ):
+        samples = [values for _, values in of_model.groupby("theta")["value"]]
+        least, *_, largest = sorted(samples, key=np.median)
+        row = {"model": model, "n_blocks": n}
+        for name, values in (("least", least), ("largest", largest)):
+            low, high = median_interval(values)
+            row |= {name: values.median(), f"{name}_low": low, f"{name}_high": high}
+        rows.append(row | {"p": kruskal(*samples).pvalue, "runs": min(map(len, samples))})
+    return pd.DataFrame(rows)
 
 
 def with_noise(chain: Chain, draw: int, settings: Mapping[str, Any]) -> Chain:

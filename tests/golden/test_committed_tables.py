@@ -1,0 +1,56 @@
+"""The committed tables of long studies: the law, the shares and the short rows in them are computed again."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+import yaml
+from ensembles.studies import study_of
+
+from precursors.analysis.run_statistics import share_interval
+from precursors.ensembles.event_law import event_law_table, predicted_events
+from precursors.ensembles.study import run_members, start_of
+
+ROOT = Path(__file__).parents[2]
+CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+# Tables are written with all digits; sums differ by roundings.
+ROUNDING = 1e-12
+
+
+def committed(name: str) -> pd.DataFrame:
+    return pd.read_csv(ROOT / f"paper/tables/{name}.csv")
+
+
+def test_the_law_of_each_chain_is_that_of_the_library():
+    for row in committed("event_law_full").to_dict("records"):
+        chain, _ = start_of({**CONFIG["chain"], **row})
+        assert row["law"] == pytest.approx(predicted_events(chain), rel=ROUNDING)
+
+
+def test_the_law_is_an_upper_bound_within_a_tenth():
+    assert committed("event_law_full")["ratio"].max() < 1.1
+
+
+def test_the_runs_of_few_blocks_are_those_of_the_library():
+    study = study_of("event_law_full_members", CONFIG["ensembles"]["event_law_full"])
+    few = study.members[(study.members["n_blocks"] <= 10) & (study.members["theta"] == 0.0)]
+    again = event_law_table(run_members(type(study)(few, seed=study.seed)), CONFIG["chain"])
+    assert len(again) > 1
+    keys = ["varied", "loading", "theta", "n_blocks"]
+    there = committed("event_law_full").merge(again[keys], on=keys)
+    pd.testing.assert_frame_equal(there, again, rtol=1e-6)
+
+
+def test_shares_have_their_intervals():
+    for row in committed("endless_full").to_dict("records"):
+        assert row["share"] == row["endless"] / row["runs"]
+        interval = share_interval(row["endless"], row["runs"])
+        assert (row["share_low"], row["share_high"]) == pytest.approx(interval, rel=ROUNDING)
+
+
+def test_the_larger_models_were_asked_with_the_runs_of_the_configuration():
+    table, asked = committed("models_loadings_full"), CONFIG["hierarchy"]["loadings_full"]
+    assert table["model"].tolist() == asked["models"]
+    assert (table["n_blocks"] == asked["n_blocks"]).all()
+    assert (table["runs"] == asked["runs"]).all()
+    assert (table["least_low"] <= table["least"]).all()
