@@ -84,7 +84,7 @@ def test_a_cost_is_that_of_a_warm_answer_repeated_until_it_can_be_measured(clock
     models = {"chain": replace(exact, prepare=prepare)}
     table = compare_models({"even": SCENES["even"]}, TOLERANCES, ADDITIONS, models, rounds)
     assert table["cost_s"].tolist() == pytest.approx([warm] * len(TOLERANCES))
-    noisy = 2 * DRAWS
+    noisy = DRAWS  # both noisy questions of one run
     assert len(calls) == len(TOLERANCES) * (2 + rounds * round(timing.SHORTEST / warm)) + noisy
 
 

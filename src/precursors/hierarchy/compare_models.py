@@ -122,6 +122,11 @@ def compare_models(
         The error of a model with an addition is what the addition makes of the paper's chain.
     """
     rows = []
+    noisy = {
+        (name, scene): noisy_answers(model, name, chain, additions)
+        for name, model in models.items()
+        for scene, chain in chains.items()
+    }
     for quantity, question in QUESTIONS.items():
         tasks = {
             (name, scene): partial(model.ask, with_addition(chain, name, additions), quantity)
@@ -134,12 +139,8 @@ def compare_models(
         given = {key: answer for key, (answer, _) in answers.items()}
         exact = {scene: given[PAPERS_MODEL, scene] for scene in chains}
         if question.noisy:
-            runs = {
-                (name, scene): noisy_answers(models[name], name, chains[scene], additions, quantity)
-                for name, scene in tasks
-            }
-            given = {key: float(np.nanmedian(answers)) for key, answers in runs.items()}
-            known = {scene: median_interval(runs[PAPERS_MODEL, scene]) for scene in chains}
+            given = {key: float(np.nanmedian(noisy[key][quantity])) for key in tasks}
+            known = {scene: median_interval(noisy[PAPERS_MODEL, scene][quantity]) for scene in chains}
         for (name, scene), answer in given.items():
             # The chain's median is known to its interval only: its nearest value to the answer.
             nearest = np.clip(answer, *known[scene]) if question.noisy else exact[scene]
@@ -165,14 +166,20 @@ def compare_models(
 
 
 def noisy_answers(
-    model: Model, name: str, chain: Chain, additions: Mapping[str, float], quantity: str
-) -> FloatArray:
-    """Answers of a model to runs whose normal loads have noise, the same for all models."""
+    model: Model, name: str, chain: Chain, additions: Mapping[str, float]
+) -> dict[str, list[float]]:
+    """Answers to the noisy questions for chains with noise in the normal loads, the same for all models."""
     random = np.random.default_rng(SEED)
     n = DRAWS_OF_LARGER if name in ADDED else DRAWS
     noises = NOISE * random.uniform(-1.0, 1.0, (n, chain.n_blocks))
-    noisy = [replace(chain, weights=chain.weights * (1.0 + noise)) for noise in noises]
-    return np.array([model.ask(with_addition(one, name, additions), quantity) for one in noisy])
+    asked = [quantity for quantity in model.answers if quantity in QUESTIONS and QUESTIONS[quantity].noisy]
+    found: dict[str, list[float]] = {quantity: [] for quantity in asked}
+    for noise in noises if asked else ():
+        noisy = replace(chain, weights=chain.weights * (1.0 + noise))
+        prepared = model.prepare(with_addition(noisy, name, additions))
+        for quantity in asked:
+            found[quantity].append(model.answers[quantity](prepared))
+    return found
 
 
 def with_addition(chain: Chain, model: str, additions: Mapping[str, float]) -> Chain | LargerChain:
