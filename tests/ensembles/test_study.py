@@ -84,7 +84,7 @@ def test_members_are_run_with_their_own_length_start_and_duration():
 
 
 def test_a_member_that_meets_the_limit_of_transitions_is_kept_as_far_as_it_came(spread, rows, monkeypatch):
-    def capped(chains, duration, until, threads, start_positions):
+    def capped(chains, duration, until, threads, start_positions, longest_slip):
         starts = zip(chains, start_positions, strict=True)
         return [simulate(c, duration, until, max_transitions=100, start_positions=x) for c, x in starts]
 
