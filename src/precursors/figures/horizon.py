@@ -15,7 +15,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from precursors.figures import style
 
 COLUMNS = 3
-ROW_MM, KEY_MM = 42.0, 5.0
+ROW_MM, KEY_MM = 36.0, 5.0
 ERROR_RANGE = (1e-18, 1e-2)
 PREDICTED, ACTUAL = style.VERMILION, style.BLACK
 DASHED: dict[str, Any] = {"linewidth": 0.6, "linestyle": (0, (4, 2))}

@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 
 from precursors.figures import style
 
-HEIGHT_MM = 112.0
+HEIGHT_MM = 94.0
 PARTIAL, GLOBAL = style.BLUE, style.VERMILION
 # Black on the colour of the slip that it marks, and above it.
 FIRST_GLOBAL: dict[str, Any] = {"color": style.BLACK, "linewidth": 0.9, "linestyle": (0, (5, 4)), "zorder": 3}

@@ -11,7 +11,7 @@ from matplotlib.ticker import LogLocator, NullLocator, PercentFormatter
 
 from precursors.figures import style
 
-HEIGHT_MM = 215.0
+HEIGHT_MM = 190.0
 FIRST_SLIP, WHOLE_RUN = "global slip", "end"
 EXTENTS = {FIRST_SLIP: "to the end of the first global slip", WHOLE_RUN: "for the whole run"}
 # Columns that measure the work of a method: the factor to what is drawn, and the words.
