@@ -12,7 +12,7 @@ from matplotlib.ticker import NullFormatter
 from precursors.figures import style
 from precursors.figures.resolution import BAND, SCALES, draw_experiments_mu_sapp, finish
 
-HEIGHT_MM = 92.0
+HEIGHT_MM = 108.0
 QUANTITIES = ("events_kept", "mu_sapp", "front_speed_m_per_s")
 PLAIN = "paper's chain"
 # Whether a model has viscosity, whether it has interface springs, and what such models are called.
@@ -57,10 +57,12 @@ def draw(table: pd.DataFrame, runs: pd.DataFrame, papers_n: int) -> Figure:
         for row, kind in zip(axes, kinds, strict=True):
             for panel, quantity in zip(row, QUANTITIES, strict=True):
                 dots = runs[runs["quantity"] == quantity]
-                for models, label in ((table[~damped & ~sprung], PLAIN), (of_kind[kind], "")):
-                    _draw_models(panel, models[models["quantity"] == quantity], dots, quantity, label)
+                for models, is_plain in ((table[~damped & ~sprung], True), (of_kind[kind], False)):
+                    _draw_models(panel, models[models["quantity"] == quantity], dots, quantity, is_plain)
                 finish(panel, quantity, papers_n)
                 panel.yaxis.set_minor_formatter(NullFormatter())
+                if kind != kinds[len(kinds) // 2]:
+                    panel.set_ylabel("")  # the middle row has the labels of all
             row[0].legend(loc="lower right", handlelength=1.4, labelspacing=0.25, borderaxespad=0.2)
             draw_experiments_mu_sapp(row[1])
             row[1].set_title(_title(of_kind[kind], kind))
@@ -68,7 +70,7 @@ def draw(table: pd.DataFrame, runs: pd.DataFrame, papers_n: int) -> Figure:
             panel.set_xlabel(style.BLOCKS_LABEL)
             style.set_ticks(panel.xaxis, sorted(table["n_blocks"].unique()))
         entries = [
-            style.mark("median of the runs", color=style.GREY),
+            style.mark(f"median of the {PLAIN}", color=style.GREY),
             BAND,
             style.mark("one run", **DOTS),
             style.mark("experiment's $\\mu_\\mathrm{sapp}$", color=style.ORANGE, linestyle=":"),
@@ -78,18 +80,18 @@ def draw(table: pd.DataFrame, runs: pd.DataFrame, papers_n: int) -> Figure:
     return figure
 
 
-def _draw_models(axes: Axes, table: pd.DataFrame, runs: pd.DataFrame, quantity: str, label: str) -> None:
-    """Draw a line with its runs for each model and theta; models that have a label are grey."""
+def _draw_models(axes: Axes, table: pd.DataFrame, runs: pd.DataFrame, quantity: str, is_plain: bool) -> None:
+    """Draw a line with its runs for each model and theta; the paper's chain is grey."""
     scale = SCALES.get(quantity, 1.0)
     for i, (name, model) in enumerate(table.groupby("model", sort=False)):
-        color, marker = (style.GREY, "") if label else (COLORS[i % len(COLORS)], MARKERS[i % len(MARKERS)])
+        color, marker = (style.GREY, "") if is_plain else (COLORS[i % len(COLORS)], MARKERS[i % len(MARKERS)])
         for dashes, (theta, chain) in zip(DASHES, model.groupby("theta", sort=False), strict=False):
             style.draw_band(axes, chain, color, scale, where=chain["n"] >= MANY)
             few = runs["n_blocks"].isin(chain.loc[chain["n"] < MANY, "n_blocks"])
             dots = runs[few & (runs["model"] == name) & (runs["theta"] == theta)]
             axes.plot(dots["n_blocks"], dots["value"] * scale, **DOTS, color=color)
             look: dict[str, Any] = {"color": color, "marker": marker, "markersize": 2.8, "linestyle": dashes}
-            shown = (label or _name(model, table)) if dashes == DASHES[0] else None
+            shown = _name(model, table) if dashes == DASHES[0] and not is_plain else None
             axes.plot(chain["n_blocks"], chain["q50"] * scale, **look, label=shown)
 
 
