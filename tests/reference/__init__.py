@@ -2,17 +2,3 @@
 
 from .chain_reference import ReferenceChain, Transition, as_array, interval_lengths, reference
 from .goldens import EXTENDED, HeldOut, read_extended, read_golden, read_held_out, write_goldens
-
-__all__ = [
-    "EXTENDED",
-    "HeldOut",
-    "ReferenceChain",
-    "Transition",
-    "as_array",
-    "interval_lengths",
-    "read_extended",
-    "read_golden",
-    "read_held_out",
-    "reference",
-    "write_goldens",
-]

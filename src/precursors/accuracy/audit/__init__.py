@@ -15,8 +15,6 @@ from precursors.accuracy.audit.checks import ROUNDINGS, Auditor
 from precursors.model.checks import positive
 from precursors.solver.run import Run
 
-__all__ = ["Audit", "audit"]
-
 
 @dataclass(frozen=True)
 class Audit:

@@ -12,14 +12,3 @@ from precursors.accuracy.proof.certificate import (
 )
 from precursors.accuracy.proof.exact_chain import ExactChain
 from precursors.accuracy.proof.prove import certify, verify
-
-__all__ = [
-    "Certificate",
-    "CertificateError",
-    "CertifiedTransition",
-    "Enclosure",
-    "ExactChain",
-    "Tie",
-    "certify",
-    "verify",
-]

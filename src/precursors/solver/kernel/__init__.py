@@ -51,32 +51,3 @@ from precursors.solver.kernel.layout import (
 )
 from precursors.solver.kernel.states import evaluate
 from precursors.solver.kernel.units import parameters, scale
-
-__all__ = [
-    "CLOCK_SIZE",
-    "COUNT_SIZE",
-    "DERIVATIVES",
-    "ELAPSED",
-    "FINISHED",
-    "LONG",
-    "ONSET",
-    "ONSET_ERROR",
-    "PAUSED",
-    "ROOT_STEPS",
-    "ROUNDINGS",
-    "SINCE",
-    "STATUS",
-    "STORED",
-    "TRANSITIONS",
-    "WINDOWS",
-    "Batch",
-    "Limits",
-    "Progress",
-    "Record",
-    "System",
-    "evaluate",
-    "memory_for",
-    "parameters",
-    "run_batch",
-    "scale",
-]
