@@ -122,22 +122,15 @@ class Motion:
         event_functions(state, self.settings, self.strength, result)
         return result
 
-    def overdue(self) -> int:
-        """An event whose function is below zero, or -1."""
-        late = np.flatnonzero(self.event_functions(self.state) < 0.0)
-        return int(late[0]) if late.size else -1
-
-    def settle(self, event: int) -> tuple[int, int, int, int]:
-        """Make one transition, see `settle`."""
-        return settle(self.state, self.settings, self.strength, self.friction, self.nudge, event)
-
     def switch(self, event: int, elapsed: float) -> bool:
         """Make the transition of an event function that has reached zero, and any that is overdue with it.
 
         Returns whether a block still slides; if none does, the slip event has ended.
         """
         while event >= 0:
-            block, old, new, event = self.settle(event)
+            block, old, new, event = settle(
+                self.state, self.settings, self.strength, self.friction, self.nudge, event
+            )
             if new != old:
                 self._record(block + 1, new, elapsed)
                 self.n_sliding += abs(new) - abs(old)

@@ -49,9 +49,8 @@ def merging_slip(motion: Motion, window: float) -> None:
     while sliding and time < motion.remaining:
         after = min(time + window / motion.tau, motion.remaining)
         motion.state[:] = integrate(motion, time, after).y[:, -1]
-        time, event = after, motion.overdue()
-        if event < 0:
-            time, event = next_transition(motion, time)
+        overdue = np.flatnonzero(motion.event_functions(motion.state) < 0.0).tolist()
+        time, event = (after, overdue[0]) if overdue else next_transition(motion, after)
         sliding = motion.switch(event, time)
 
 
