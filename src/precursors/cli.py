@@ -239,22 +239,16 @@ def show_values(values: Mapping[str, Any], as_json: bool) -> None:
 
 
 def give_table(table: pd.DataFrame, arguments: argparse.Namespace, rows: str) -> None:
-    """Write a table to the file that was asked for, or print it."""
+    """Write a table to the file that was asked for, or print it, ten digits a number."""
     if arguments.output:
         from precursors.support.files import write_table
 
         write_table(table, arguments.output)
-    if arguments.output and not arguments.json:
+    if arguments.json:
+        found = table.astype(object).where(table.notna(), None)
+        print(json.dumps(found.to_dict(orient="records"), indent=1))
+    elif arguments.output:
         print(f"{len(table)} {rows}: {arguments.output}")
-    else:
-        show_table(table, arguments.json)
-
-
-def show_table(table: pd.DataFrame, as_json: bool) -> None:
-    """Print a table, ten digits a number."""
-    if as_json:
-        rows = table.astype(object).where(table.notna(), None)
-        print(json.dumps(rows.to_dict(orient="records"), indent=1))
     elif table.empty:
         print("no rows")
     else:
