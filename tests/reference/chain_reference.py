@@ -23,14 +23,11 @@ weight), is released at that instant.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from math import factorial, isqrt, sqrt
-from typing import Any, NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import NamedTuple
 
 from .polynomials import GUARD_BITS, derivative, first_zero, value
 
@@ -110,16 +107,6 @@ class ReferenceChain:
             head_mass=Fraction(head_mass),
         )
 
-    def rounded_to_doubles(self) -> ReferenceChain:
-        """Return the chain that a solver in double precision is given: each number rounded once."""
-
-        def rounded(x: Fraction | tuple[Fraction, ...] | None) -> Any:
-            if isinstance(x, tuple):
-                return tuple(map(rounded, x))
-            return None if x is None else Fraction(float(x))
-
-        return ReferenceChain(*(rounded(getattr(self, field.name)) for field in fields(self)))
-
 
 def reference(
     chain: ReferenceChain,
@@ -177,13 +164,6 @@ def interval_lengths(transitions: Iterable[Transition]) -> list[Fraction]:
     """Return the seconds from the start to the first transition and from each one to the next, exact."""
     times = [Fraction(0), *(transition.time for transition in transitions)]
     return [later - earlier for earlier, later in pairwise(times)]
-
-
-def as_array(transitions: Sequence[Transition]) -> NDArray[np.void]:
-    """Return the transitions as a structured array of doubles, with the fields of Run.transitions."""
-    dtype = [("time", "f8"), ("block", "i8"), ("mode", "i8"), ("tangential_load", "f8")]
-    rows = [(float(t.time), t.block, t.mode, float(t.tangential_load)) for t in transitions]
-    return np.array(rows, dtype=dtype)
 
 
 Change = tuple[int, int]  # block, and the direction of its release if it is stuck

@@ -3,7 +3,6 @@
 # Events kept (Sect. 3.2.2) by the sign of theta: larger load at the trailing edge, none, at the leading edge.
 EVENTS_KEPT = {-1: 11, 0: 19, 1: 27}
 MU_SAPP = 0.49
-SLIP_DURATION_S = 2e-3
 # Fig. 7: F_ZA and F_ZB, and how far the load cells are apart.
 CELL_LOADS_N = (100.0, 300.0)
 CELL_SPACING_M = 0.06

@@ -21,7 +21,6 @@ from precursors.methods.rk4 import run_rk4
 from precursors.model.chain import Chain, parse_theta
 from precursors.reproduction.definitions import DIGITS, LAST_DIGIT, READING
 
-SIGNS = (-1, 0, 1)
 SIX = [f"{name}_{sign}" for name in ("events", "mu_sapp") for sign in ("trailing", "uniform", "leading")]
 # mu_sapp differs by a unit of its last digit at most: the comparison is not to depend on rounding.
 WITHIN = LAST_DIGIT + 1e-12
