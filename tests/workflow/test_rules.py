@@ -19,6 +19,7 @@ QUEUED = {
     "run_larger_models",
     "simulate_scene",
     "tabulate_failures",
+    "tabulate_loadings",
     "tabulate_long_runs",
     "tabulate_lyapunov",
     "tabulate_predictability",
