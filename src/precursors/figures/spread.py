@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 
 from precursors.figures import style
 
-HEIGHT_MM = 72.0
+HEIGHT_MM, SWEEP_MM = 92.0, 72.0
 UNPERTURBED = "none"
 # Space between the ensembles of two parameters, and at the ends of the axis, in ensembles.
 GAP, EDGE = 1.0, 1.2
@@ -47,7 +47,8 @@ def draw(members: pd.DataFrame, spread: pd.DataFrame, question: str) -> Figure:
     """
     members = members[members["question"] == question]
     spread = spread[(spread["question"] == question) & (spread["quantity"] == "mu_sapp")]
-    with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
+    height = SWEEP_MM if question == "theta" else HEIGHT_MM
+    with style.page(style.PAGE_MM, height) as figure:
         axes = _draw_sweep(figure, members) if question == "theta" else _draw_all(figure, members, spread)
         axes[0, 0].set_ylabel(style.MU_SAPP_LABEL)
         axes[1, 0].set_ylabel(style.EVENTS_LABEL)
