@@ -72,9 +72,11 @@ $(READY): requirements.lock
 	$(BIN)/python -m pip install -q $(WHEELS) --no-deps --require-hashes -r .venv/uv.txt
 	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --compile-bytecode --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
-	@# Compile the solver and the methods with fixed steps, one on each core.
-	$(BIN)/python -c "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.4).at([0.4])" & \
+	@# Compile the solver, the larger models and the methods with fixed steps, on two cores.
+	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.hierarchy import larger, models; \
+	  chain = Chain.from_slider(); simulate(chain, 0.4).at([0.4]); models.move(larger.LargerChain(chain, 50.0))" & \
 	$(BIN)/python -c "from precursors import Chain; from precursors.methods import METHODS; \
-	  [METHODS[name].solve(Chain.from_slider(), 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'leapfrog', 'karnopp')]" & \
+	  [METHODS[name].solve(Chain.from_slider(), 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'dop853', \
+	  'leapfrog', 'semi_implicit_euler', 'moreau_jean_half', 'karnopp')]" & \
 	wait
 	touch $(READY)

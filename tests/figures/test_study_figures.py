@@ -271,9 +271,9 @@ def test_counts_and_ratios_beside_the_law_are_the_tables():
 def test_each_larger_model_is_a_line_in_the_row_of_its_kind_beside_the_papers_chain():
     figure = draw("resolution_models")
     assert [key(axes) for axes in figure.axes[::3]] == [
-        ["paper's chain", "$t_v = 1$ µs", r"$\eta = 54.8$ N s/m"],
-        ["paper's chain", "$K_t = 25$ MN/m"],
-        ["paper's chain", r"$K_t = 25$ MN/m, $\eta = 54.8$ N s/m"],
+        ["$t_v = 1$ µs", r"$\eta = 54.8$ N s/m"],
+        ["$K_t = 25$ MN/m"],
+        [r"$K_t = 25$ MN/m, $\eta = 54.8$ N s/m"],
     ]
     # A model that ends early has a line that ends early.
     assert points(figure.axes[3], "$K_t = 25$ MN/m") == [(2.0, 2.0), (10.0, 10.0)]

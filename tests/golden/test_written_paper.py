@@ -24,7 +24,7 @@ PDF = ROOT / "results/paper.pdf"
 SHOWN = files_shown(ROOT / "paper")
 CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
 FEWEST_PAGES, MOST_PAGES = 10, 14
-LEAST_TEXT = 300
+LEAST_TEXT = 500
 
 
 @pytest.fixture

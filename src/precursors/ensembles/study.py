@@ -39,16 +39,16 @@ class Study:
         the numbers of the random stream. All other columns are labels.
     until : "global slip" or None
         As in `simulate`.
-    longest_slip : float or None
-        As in `simulate` [s].
     seed : int
         Seed of all random numbers.
+    longest_slip : float or None
+        As in `simulate` [s].
     """
 
     members: pd.DataFrame
     until: Until = "global slip"
-    longest_slip: float | None = None
     seed: int = 0
+    longest_slip: float | None = None
 
     def chunk(self, i: int, n: int) -> Study:
         """Every n-th member, from member i on: about a n-th of the work."""

@@ -10,7 +10,7 @@ from matplotlib.ticker import StrMethodFormatter
 
 from precursors.figures import style
 
-HEIGHT_MM = 68.0
+HEIGHT_MM = 66.0
 # Colour and marker of each theta, from light to heavy leading block.
 THETA_COLORS = {
     -0.9: (style.VERMILION, "v"),

@@ -15,7 +15,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from precursors.figures import style
 
-HEIGHT_MM = 208.0
+HEIGHT_MM = 207.0
 ROWS, COLUMNS = 4, 3
 TEXT_SIZE = 7.0
 # A layout made for the longest title would leave no room for the panels.

@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 from precursors.figures import style
 from precursors.model.chain import FloatArray
 
-HEIGHT_MM = 50.0
+HEIGHT_MM = 47.0
 LABELS = {
     "theta": r"$\theta$ [-]",
     "n_blocks": style.BLOCKS_LABEL,

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 from precursors.figures import style
 from precursors.model import printed
 
-HEIGHT_MM = 94.0
+HEIGHT_MM = 89.0
 LABELS = {
     "events_kept": style.EVENTS_LABEL,
     "mu_sapp": style.MU_SAPP_LABEL,

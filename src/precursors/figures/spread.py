@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 
 from precursors.figures import style
 
-HEIGHT_MM, SWEEP_MM = 92.0, 72.0
+HEIGHT_MM, SWEEP_MM = 92.0, 69.0
 UNPERTURBED = "none"
 # Space between the ensembles of two parameters, and at the ends of the axis, in ensembles.
 GAP, EDGE = 1.0, 1.2
