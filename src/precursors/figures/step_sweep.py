@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from precursors.figures import style
 
-HEIGHT_MM = 98.0
+HEIGHT_MM = 88.0
 EXACT = "exact"
 EVERY_STEP: dict[str, Any] = {"marker": "+", "markersize": 6, "markeredgewidth": 0.8, "color": style.BLUE}
 RIGHT: dict[str, Any] = {"marker": "o", "markersize": 3, "color": style.GREEN}
