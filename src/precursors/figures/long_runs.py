@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from precursors.figures import style
 
-HEIGHT_MM = 71.0
+HEIGHT_MM = 80.0
 WIDTH = 0.01  # of a bin, in mu
 TRIANGLE: dict[str, Any] = {"marker": "^", "markersize": 5, "linestyle": "none"}
 
