@@ -62,7 +62,7 @@ def endless_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
                 "share_low": low,
                 "share_high": high,
                 "pulse_blocks": endless["pulse_blocks"].mean(),
-                "pulse_length_m": endless["pulse_blocks"].mean() * length / float(str(n)),
+                "pulse_length_m": (endless["pulse_blocks"] / endless["n_blocks"]).mean() * length,
                 "pulse_speed_m_per_s": endless["pulse_speed_m_per_s"].mean(),
                 "pulse_mu": endless["pulse_mu"].mean(),
                 "pulse_time_s": endless["pulse_time_s"].min(),

@@ -63,7 +63,7 @@ def draw(table: pd.DataFrame, runs: pd.DataFrame, papers_n: int) -> Figure:
                 panel.yaxis.set_minor_formatter(NullFormatter())
                 if kind != kinds[len(kinds) // 2]:
                     panel.set_ylabel("")  # the middle row has the labels of all
-            row[0].legend(loc="lower right", handlelength=1.4, labelspacing=0.25, borderaxespad=0.2)
+            row[0].legend(loc="upper left", handlelength=1.4, labelspacing=0.25, borderaxespad=0.2)
             draw_experiments_mu_sapp(row[1])
             row[1].set_title(_title(of_kind[kind], kind))
         for panel in axes[-1]:

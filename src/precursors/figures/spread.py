@@ -105,7 +105,10 @@ def _label_ensembles(axes: Axes, ensembles: pd.DataFrame) -> None:
         axes.set_xticks(middles, [SYMBOLS.get(name, name) for name in middles.index])
         axes.tick_params(axis="x", length=0)
     else:
-        shown = ensembles.iloc[1 - len(ensembles) % 2 :: 2]
+        # Sizes between two powers of ten have no room for a label.
+        exponents = np.log10(ensembles["size"])
+        whole = ensembles[np.isclose(exponents, exponents.round())]
+        shown = (whole if len(whole) else ensembles).iloc[::-2]
         axes.set_xticks(shown["place"], [_power(size) for size in shown["size"]])
 
 

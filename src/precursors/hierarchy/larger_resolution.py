@@ -77,7 +77,7 @@ def loadings_table(
     Returns
     -------
     DataFrame
-        One row per model and n_blocks: least and largest, the medians of mu_sapp for the loadings, with the
+        One row per model: n_blocks; least and largest, the medians of mu_sapp for the loadings, with the
         95 % interval of each (least_low ...); p, the probability of medians as far apart if mu_sapp had the
         same distribution for all loadings (test of Kruskal and Wallis); and runs.
 
@@ -96,12 +96,10 @@ def loadings_table(
         run_models(slider, {**settings, **changes, "theta": theta}) for theta in loadings["theta"]
     )
     rows = []
-    for (model, n), of_model in runs[runs["quantity"] == "mu_sapp"].groupby(
-        ["model", "n_blocks"], sort=False
-    ):
+    for model, of_model in runs[runs["quantity"] == "mu_sapp"].groupby("model", sort=False):
         samples = [values for _, values in of_model.groupby("theta")["value"]]
         least, *_, largest = sorted(samples, key=np.median)
-        row = {"model": model, "n_blocks": n}
+        row = {"model": model, "n_blocks": loadings["n_blocks"]}
         for name, values in (("least", least), ("largest", largest)):
             low, high = median_interval(values)
             row |= {name: values.median(), f"{name}_low": low, f"{name}_high": high}
