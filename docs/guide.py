@@ -1,6 +1,7 @@
 """The pages of docs/ beside the interface, for `make docs`.
 
 .. include:: customise.md
+.. include:: numbers.md
 .. include:: adding.md
 .. include:: models.md
 .. include:: performance.md

@@ -84,7 +84,8 @@ def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
     (workspace.path / "mine.yaml").write_text(found["yaml"][0], encoding="utf-8")
     (workspace.path / "loads.csv").write_text("50\n" * 8, encoding="utf-8")
     (workspace.path / "measured.csv").write_text("t,F_X\n0,0\n2,150\n", encoding="utf-8")
-    for program, *arguments in map(shlex.split, "".join(found["sh"]).splitlines()):
+    for line in "".join(found["sh"]).splitlines():
+        program, *arguments = shlex.split(line, comments=True)
         if program == "precursors":
             assert cli.main(arguments) == cli.DONE
             assert (workspace.path / arguments[-1]).stat().st_size > 0
@@ -92,9 +93,10 @@ def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
             outcome = workspace.run("-n", *arguments)
             assert outcome.code == 0, outcome.text
     capsys.readouterr()
-    one, many = found["python"]
-    exec(one, {})
-    assert capsys.readouterr().out == found["text"][0]
+    *printing, many = found["python"]
+    for code, text in zip(printing, found["text"], strict=True):
+        exec(code, {})
+        assert capsys.readouterr().out == text
     exec(many, {})
     assert re.fullmatch(r"median mu_sapp = 0\.\d\d\n", capsys.readouterr().out)
 

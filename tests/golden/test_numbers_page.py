@@ -1,4 +1,4 @@
-"""What README.md says of chaos, robustness, resolution and speed is what the tables say."""
+"""What docs/numbers.md says of chaos, robustness and resolution is what the tables say."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from precursors.model.switching import COULOMB
 
 ROOT = Path(__file__).parents[2]
 TABLES = ROOT / "results/tables"
-README = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+PAGE = " ".join((ROOT / "docs/numbers.md").read_text(encoding="utf-8").split())
 # Exponents differ from one processor to another by some hundredths: to this they are what is said.
 EXPONENT = 0.1
 
 
 def said(pattern: str) -> list[float]:
-    """The numbers in a sentence of the README."""
-    found = re.search(pattern, README)
+    """The numbers in a sentence of the page."""
+    found = re.search(pattern, PAGE)
     assert found, pattern
     return [float(text) for text in found.groups()]
 
