@@ -77,6 +77,6 @@ $(READY): requirements.lock
 	  chain = Chain.from_slider(); simulate(chain, 0.4).at([0.4]); models.move(larger.LargerChain(chain, 50.0))" & \
 	$(BIN)/python -c "from precursors import Chain; from precursors.methods import METHODS; \
 	  [METHODS[name].solve(Chain.from_slider(), 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'dop853', \
-	  'leapfrog', 'semi_implicit_euler', 'moreau_jean_half', 'karnopp')]" & \
+	  'leapfrog', 'forward_euler', 'newmark', 'moreau_jean_half', 'karnopp')]" & \
 	wait
 	touch $(READY)

@@ -9,7 +9,7 @@ import pytest
 from scipy.linalg import expm
 
 from precursors import Chain, simulate
-from precursors.methods import METHODS, moreau_jean
+from precursors.methods import METHODS, moreau_jean, newmark
 from precursors.methods.columns import sliding_forward, system_of
 from precursors.methods.stability import (
     bisect,
@@ -22,7 +22,7 @@ from precursors.methods.stability import (
 )
 
 SMOOTH = {name: method.smooth for name, method in METHODS.items() if method.smooth}
-UNSTABLE = [name for name, smooth in SMOOTH.items() if np.isfinite(smooth.limit)]
+UNSTABLE = [name for name, smooth in SMOOTH.items() if 0.0 < smooth.limit < np.inf]
 # So much beyond RK4's limit energy becomes a millionfold within 4000 steps; a wrong drive spring would
 # move the limit by 1e-3.
 LIMIT_TOLERANCE = 5e-4
@@ -51,6 +51,9 @@ def test_the_table_says_what_is_known_of_each_method():
         "rk4_skip": (4, np.sqrt(8.0)),
         "leapfrog": (2, 2.0),
         "semi_implicit_euler": (1, 2.0),
+        "forward_euler": (1, 0.0),
+        "newmark": (2, np.inf),
+        "hht": (2, np.inf),
         "moreau_jean_half": (2, np.inf),
         "moreau_jean_one": (1, np.inf),
     }
@@ -125,6 +128,9 @@ def test_the_drive_spring_lowers_the_limit_where_it_is_the_stiffest(free):
         ("rk4", 2.6, 8),
         ("rk4", 3.0, 20),
         ("leapfrog", 2.2, 20),
+        ("forward_euler", 0.1, 20),
+        ("forward_euler", 3.0, 20),
+        ("newmark", 3.0, 200),
         ("moreau_jean_half", 3.0, 200),
         ("moreau_jean_one", 0.1, 200),
     ],
@@ -134,6 +140,17 @@ def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(free, 
     # Once the energy swings no more: leapfrog's second root fades meanwhile.
     once, twice = (energy_left(free, smooth.slide, step, n, mode) for n in (n_steps, 2 * n_steps))
     assert (twice / once) ** (1 / n_steps) == pytest.approx(smooth.energy_factor(z), rel=FACTOR_TOLERANCE)
+
+
+def test_hht_damps_a_mode_by_the_largest_eigenvalue_of_a_step(free):
+    hht, omega, mode = SMOOTH["hht"], highest_frequency(free), highest_mode(free)
+    # Its energy swings meanwhile, by a few per cent in all.
+    left = energy_left(free, hht.slide, 3.0 / omega, 40, mode)
+    assert left ** (1 / 40) == pytest.approx(hht.energy_factor(3.0), rel=5e-3)
+    assert hht.energy_factor(3.0) < 0.9
+    # At infinite frequency: J. Chung and G. M. Hulbert, J. Appl. Mech. 60 (1993) 371, Eq. 23.
+    alpha = newmark.HHT
+    assert hht.energy_factor(1e7) == pytest.approx(((1 + alpha) / (1 - alpha)) ** 2, rel=1e-6)
 
 
 def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free):

@@ -15,6 +15,7 @@ MODULES = {
     "rk4": None,
     "rk4_located": None,
     "leapfrog": None,
+    "newmark": None,
     "moreau_jean": None,
     "karnopp": None,
     "regularised": None,

@@ -118,6 +118,25 @@ def stretch(system, state, last, h):
 
 
 @inner
+def solve_springs(system, state, last, weight, result, factor):
+    """Solve x_i = r_i + weight / m (c_i (x_{i-1} - x_i) - c_{i+1} (x_i - x_{i+1})) for blocks 1..last.
+
+    `result` is r and becomes x, by elimination of the tridiagonal system; x_0 is given, and x_i = r_i where
+    block i sticks.
+    """
+    spring, mobility = system.spring, state.mobility
+    factor[0] = 0.0
+    for i in range(1, last + 1):
+        behind, ahead = weight * mobility[i] * spring[i], weight * mobility[i] * spring[i + 1]
+        pivot = 1.0 / (1.0 + behind + ahead - behind * factor[i - 1])
+        factor[i] = ahead * pivot
+        result[i] = (result[i] + behind * result[i - 1]) * pivot
+    result[last + 1] = 0.0
+    for i in range(last, 0, -1):
+        result[i] += factor[i] * result[i + 1]
+
+
+@inner
 def rows(state, n):
     """Arrays of n rows to work in; row 3 begins with the drive's velocity, for a trial velocity."""
     result = np.zeros((n, state.velocity.shape[0]))

@@ -201,20 +201,22 @@ def begin_leg(motion, waits):
 
 
 @inner
-def run_in_steps(motion, step, waits, advance, at_start, work):
+def run_in_steps(motion, step, waits, advance, starts, work):
     """Run until the end, a full record or a spent budget of legs.
 
-    `advance(system, state, last, h, work)` makes a step of h [s] and returns the evaluations made; a leg
-    costs `at_start` more. A block whose velocity has changed its sign at the end of a step is stopped there,
-    and sticks or turns round; a stuck block whose force exceeds mu_s w at the end of a step is released
-    there. While all blocks stick each step is made as well, or (`waits`) the wait is in closed form.
+    `advance(system, state, last, h, work)` makes a step of h [s] and returns the evaluations made. If it
+    `starts`, a leg begins with a step of no length, which evaluates the forces. A block whose velocity has
+    changed its sign at the end of a step is stopped there, and sticks or turns round; a stuck block whose
+    force exceeds mu_s w at the end of a step is released there. While all blocks stick each step is made as
+    well, or (`waits`) the wait is in closed form.
     """
     system, state, progress = motion.system, motion.state, motion.progress
     for _ in range(LEGS_PER_CALL):
         status = begin_leg(motion, waits)
         if status != MOVING:
             return status
-        progress.evaluations += at_start
+        if starts:
+            progress.evaluations += advance(system, state, progress.last, 0.0, work)
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
             progress.evaluations += advance(system, state, progress.last, h, work)

@@ -1,17 +1,22 @@
-"""Symplectic methods with a fixed step: velocity Verlet (leapfrog) and semi-implicit Euler.
+"""Fixed steps of one evaluation: velocity Verlet (leapfrog), semi-implicit Euler and forward Euler.
 
 Stick and slip are switched once a step, as with `rk4`; while all blocks stick the wait is in closed form.
+The first two are symplectic: they keep a mode's energy up to their limit. Forward Euler has no limit, as it
+makes energy at any step.
 """
 
 from __future__ import annotations
 
 import math
+from functools import partial
 
 from precursors.methods.columns import accelerate, inner, outer, stretch
 from precursors.methods.common import Smooth
 from precursors.methods.fixed_step import fixed_step, run_in_steps, slide_in_steps
 
-LIMIT = 2.0  # largest stable omega dt, of both methods
+LIMIT = 2.0  # largest stable omega dt, of both symplectic methods
+# Share of a step of the forces that is made before the step of the motion.
+VERLET, SEMI_IMPLICIT = 0.5, 1.0
 
 
 def energy_factor(z: float) -> float:
@@ -19,27 +24,40 @@ def energy_factor(z: float) -> float:
     return math.exp(2.0 * math.acosh(max(0.5 * z * z - 1.0, 1.0)))
 
 
+def euler_energy_factor(z: float) -> float:
+    """Factor of forward Euler on the energy in a step, z = omega dt: |1 + iz|^2."""
+    return 1.0 + z * z
+
+
 @inner
-def verlet_step(system, state, last, h, _work):
-    """Half a step of the forces, a step of the motion, half a step of the forces (L. Verlet, 1967)."""
-    accelerate(state, last, 0.5 * h)
+def symplectic_step(system, state, last, h, before):
+    """A part of a step of the forces, a step of the motion, the rest of the forces (L. Verlet, 1967)."""
+    accelerate(state, last, before * h)
     stretch(system, state, last, h)
-    accelerate(state, last, 0.5 * h)
+    if before < 1.0:
+        accelerate(state, last, (1.0 - before) * h)
     return 1
 
 
 @inner
 def euler_step(system, state, last, h, _work):
-    """A step of the forces, then one of the motion with the new velocities."""
-    accelerate(state, last, h)
-    stretch(system, state, last, h)
+    """A step of the forces and of the motion, both from where the step begins."""
+    force, velocity, spring = state.spring_force, state.velocity, system.spring
+    mobility, friction = state.mobility, state.friction
+    behind = velocity[0]
+    for i in range(1, last + 1):
+        here = velocity[i]
+        velocity[i] += h * mobility[i] * (force[i] - force[i + 1] - friction[i])
+        force[i] += h * spring[i] * (behind - here)
+        behind = here
+    force[last + 1] += h * spring[last + 1] * behind
     return 1
 
 
 @outer
-def slide_verlet(system, state, h, n_steps):
+def slide_symplectic(system, state, h, n_steps, before):
     """Make n steps of all blocks as they slide, without switching."""
-    slide_in_steps(system, state, h, n_steps, verlet_step, 0)
+    slide_in_steps(system, state, h, n_steps, symplectic_step, before)
 
 
 @outer
@@ -49,34 +67,46 @@ def slide_euler(system, state, h, n_steps):
 
 
 @outer
-def run_verlet(motion, step):
+def run_symplectic(motion, step, before):
     """Run with a step [s], see `run_in_steps`.
 
-    The forces at the end of a step are those at the start of the next: one evaluation a step, and one more
-    where friction has changed in between.
+    The forces at the end of a step of Verlet are those at the start of the next: one evaluation a step, and
+    one more where friction has changed in between.
     """
-    return run_in_steps(motion, step, True, verlet_step, 1, 0)
+    return run_in_steps(motion, step, True, symplectic_step, before < 1.0, before)
 
 
 @outer
 def run_euler(motion, step):
     """The same with one evaluation a step."""
-    return run_in_steps(motion, step, True, euler_step, 0, 0)
+    return run_in_steps(motion, step, True, euler_step, False, 0)
 
 
-METHODS = tuple(
+METHODS = (
+    *(
+        fixed_step(
+            name,
+            label,
+            run_symplectic,
+            before,
+            values=(6e-6, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9),
+            whole=(1e-6, 1e-7, 3e-8, 1e-8, 3e-9),
+            quick=(1e-6, 1e-7, 1e-8, 3e-9),
+            quick_whole=(1e-7,),
+            smooth=Smooth(partial(slide_symplectic, before=before), order, LIMIT, energy_factor),
+        )
+        for name, label, before, order in (
+            ("leapfrog", "leapfrog", VERLET, 2),
+            ("semi_implicit_euler", "semi-implicit Euler", SEMI_IMPLICIT, 1),
+        )
+    ),
     fixed_step(
-        name,
-        label,
-        run,
-        values=(6e-6, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9),
-        whole=(1e-6, 1e-7, 3e-8, 1e-8, 3e-9),
-        quick=(1e-6, 1e-7, 1e-8, 3e-9),
-        quick_whole=(1e-7,),
-        smooth=Smooth(slide, order, LIMIT, energy_factor),
-    )
-    for name, label, run, slide, order in (
-        ("leapfrog", "leapfrog", run_verlet, slide_verlet, 2),
-        ("semi_implicit_euler", "semi-implicit Euler", run_euler, slide_euler, 1),
-    )
+        "forward_euler",
+        "forward Euler",
+        run_euler,
+        values=(1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9),
+        whole=(1e-7, 1e-8),
+        quick=(1e-7, 1e-8),
+        smooth=Smooth(slide_euler, 1, 0.0, euler_energy_factor),
+    ),
 )

@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from precursors.methods.columns import inner, outer, rows
+from precursors.methods.columns import inner, outer, rows, solve_springs
 from precursors.methods.common import Smooth
 from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
@@ -53,20 +53,13 @@ def explicit_forces(system, state, last, h, theta, known):
 
 @inner
 def solve_velocities(system, state, last, h, theta, work):
-    """New velocities of the blocks 1..last that slide, by elimination of the tridiagonal system."""
-    known, factor, value, new = work[0], work[1], work[2], work[3]
-    spring, velocity, mobility, friction = system.spring, state.velocity, state.mobility, state.friction
-    factor[0], value[0] = 0.0, new[0]
+    """New velocities of the blocks 1..last that slide."""
+    known, factor, new = work[0], work[1], work[3]
     for i in range(1, last + 1):
-        a = h * mobility[i]
-        behind, ahead = a * theta * theta * h * spring[i], a * theta * theta * h * spring[i + 1]
-        right = (velocity[i] if a > 0.0 else 0.0) + a * (known[i] - known[i + 1] - friction[i])
-        pivot = 1.0 / (1.0 + behind + ahead - behind * factor[i - 1])
-        factor[i] = ahead * pivot
-        value[i] = (right + behind * value[i - 1]) * pivot
-    new[last + 1] = 0.0
-    for i in range(last, 0, -1):
-        new[i] = value[i] + factor[i] * new[i + 1]
+        slides = h * state.mobility[i]
+        net = known[i] - known[i + 1] - state.friction[i]
+        new[i] = state.velocity[i] + slides * net if slides > 0.0 else 0.0
+    solve_springs(system, state, last, (theta * h) ** 2, new, factor)
 
 
 @inner

@@ -76,7 +76,7 @@ def slide(system, state, h, n_steps):
 @outer
 def run_rk4(motion, step, waits):
     """Run with a step [s], see `run_in_steps`."""
-    return run_in_steps(motion, step, waits, rk4_step, 0, rows(motion.state, 6))
+    return run_in_steps(motion, step, waits, rk4_step, False, rows(motion.state, 6))
 
 
 SMOOTH = Smooth(slide, 4, LIMIT, energy_factor)
