@@ -35,7 +35,7 @@ check: $(READY)
 
 # Every figure with its caption, the rule that made it and its time, in one file for a browser.
 report: results
-	$(BIN)/snakemake --report results/report.html -- all
+	$(BIN)/snakemake --report results/report.html --report-stylesheet workflow/report/report.css -- all
 
 golden: results
 	$(BIN)/snakemake --quiet rules host -c1 mission

@@ -41,7 +41,9 @@ def results_in(report):
 
 
 def write_report(workspace, *targets):
-    outcome = workspace.run("--report", "report.html", *targets)
+    style = "workflow/report/report.css"
+    assert f"--report-stylesheet {style}" in (ROOT / "Makefile").read_text(encoding="utf-8")
+    outcome = workspace.run("--report", "report.html", "--report-stylesheet", style, "--", *targets)
     assert outcome.code == 0, outcome.text
     return workspace.path / "report.html"
 
@@ -127,6 +129,21 @@ def page(open_page, finished):
     page = open_page()
     page.open(write_report(finished, *FIGURES).as_uri())
     return page
+
+
+@pytest.mark.parametrize("width", [1400, 390])
+def test_the_report_opens_with_the_mission_and_no_graph_of_rules(page, width):
+    page.call(
+        "Emulation.setDeviceMetricsOverride", width=width, height=844, deviceScaleFactor=1, mobile=False
+    )
+    page.settle()
+    left, right, top, bottom = page.evaluate(
+        "(box => [box.left, box.right, box.top, box.bottom])"
+        "(document.querySelector('.prose svg').getBoundingClientRect())"
+    )
+    assert 0 <= left < left + 300 < right <= width
+    assert 0 <= top < bottom <= 844
+    assert page.evaluate("document.querySelector('#rulegraph').getBoundingClientRect().height") == 0
 
 
 def menu(page, name):
