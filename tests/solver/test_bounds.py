@@ -3,23 +3,31 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from chains import first_transitions
+from numba import njit
 from random_chains import trial
+from scipy.linalg import expm
 
 from precursors import Chain
 from precursors.methods.stability import stiffness_matrix
-from precursors.solver.kernel import bounds, roots
-from precursors.solver.kernel.arrays import Search
-from precursors.solver.kernel.layout import FINAL, LEVELS, NEGLIGIBLE, REACH, ROWS, WHOLE, order_for
+from precursors.solver.kernel import bounds, events, roots, units, watch
+from precursors.solver.kernel.arrays import Search, System, Window, divide, memory_for
+from precursors.solver.kernel.friction import start_from
+from precursors.solver.kernel.layout import FINAL, LEVELS, NEGLIGIBLE, REACH, ROWS, WHOLE, WIDTH, order_for
+from precursors.solver.kernel.series import expand, powers
 from precursors.solver.kernel.units import scale
 
-WINDOWS = 400
+WINDOWS, HARD_WINDOWS = 400, 200
 ROUNDING = 1e-12  # of a window; numpy.roots knows a simple root to some roundings
 # A bound that is far too small costs time. In a typical window one step reaches this part of the way to
 # the root, and the four steps of the cubic this part.
 ONE_STEP, FOUR_STEPS = 0.3, 0.8
+# What a series has beyond its eighth term is, in a typical window of this length, this part of its bound.
+SPAN, TAIL_SHARE = 0.5, 0.6
 # Gershgorin's bound over the largest frequency: the ends of a short chain make it loose.
 LOOSEST = 1.35
 
@@ -99,6 +107,113 @@ def test_the_search_ends_at_the_first_root_or_proves_that_there_is_none(windows,
             assert search.stage[0] == WHOLE
             bound = roots.refine.py_func(0, bound, search)
         assert bound == pytest.approx(root, abs=1e-9) if root <= 1.0 else bound > 1.0
+
+
+def rate_of(chain: Chain, modes: np.ndarray) -> np.ndarray:
+    """Matrix of d/dt (T, v, 1): spring forces and velocities, with the blocks in their modes (Eqs. 2-6)."""
+    n = chain.n_blocks
+    bonds, rate = np.eye(n) - np.eye(n, k=-1), np.zeros((2 * n + 1, 2 * n + 1))
+    rate[:n, n:-1] = -chain.springs[:, None] * bonds
+    rate[0, -1] = chain.loading_rate
+    rate[n:-1, :n] = abs(modes)[:, None] * bonds.T / chain.mass
+    rate[n:-1, -1] = -modes * chain.kinetic_friction / chain.mass
+    return rate
+
+
+def event_functions(chain: Chain, modes: np.ndarray, states: np.ndarray) -> np.ndarray:
+    """Speed of each block that slides [m/s], and how far the others are from mu_s w, over mu_s w."""
+    force, velocity = states[: chain.n_blocks], states[chain.n_blocks : -1]
+    distance = 1.0 - abs(force - np.append(force[1:], 0.0 * force[:1], axis=0)) / chain.strength[:, None]
+    return np.where(modes[:, None], modes[:, None] * velocity, distance)
+
+
+def hard_window(seed: int) -> tuple[Chain, np.ndarray, np.ndarray, np.ndarray]:
+    """A chain, modes, times and states in which functions dip below zero, by as little as 1e-5."""
+    random = np.random.default_rng(seed)
+    n, dip = int(random.choice([1, 2, 3, 7, 12, 30])), 10 ** random.uniform(-5, -1)
+    modes, drive_stiffness = random.integers(-1, 2, n), 25e6 * 10 ** random.uniform(-2, 1)
+    modes[i := random.integers(n)] = 1
+    chain = Chain(random.uniform(1, 100, n), 1e-3, 25e6, drive_stiffness, 1e-4, 0.7, 0.7 * random.uniform())
+    speeds = 10 ** random.uniform(-4, 0, n)
+    state = np.concatenate([50 * random.normal(size=n), modes * speeds, [1.0]])
+    times = np.linspace(0.0, 1.3 * math.sqrt(chain.mass / (50e6 + 2 * max(25e6, drive_stiffness))), 513)
+    step = expm(rate_of(chain, modes) * times[1])
+    states = np.array([state, state + np.eye(2 * n + 1)[n + i]]).T[:, None]
+    while states.shape[1] < len(times):
+        states, step = np.hstack([states, np.tensordot(step, states, 1)]), step @ step
+    states, per_speed = states[:, : len(times), 0], np.diff(states[:, : len(times)])[:, :, 0]
+    # Block i starts with such a speed that it stops nearly, or for a moment; it may start at rest nearly.
+    slower = (states[n + i] / per_speed[n + i])[per_speed[n + i] > 0.2].min()
+    states += (max((1 - dip) * (state[n + i] - slower), 1e-4) - state[n + i]) * per_speed
+    # Blocks that stick have limits that they reach for a moment, or not at all.
+    net = 1.0 - event_functions(replace(chain, mu_s=1.0, mu_k=0.0, weights=np.ones(n)), 0 * modes, states)
+    limits = np.maximum(
+        np.where(random.random(n) < 0.3, 1 - dip, 1.5) * net.max(axis=1), 1.000001 * net[:, 0]
+    )
+    return replace(chain, weights=np.where(modes, chain.weights, limits / chain.mu_s)), modes, times, states
+
+
+def test_no_transition_of_a_chain_is_passed_over():
+    """The first one is a root of the function of its block, and no function has been below zero before."""
+    for chain, modes, times, states in map(hard_window, range(HARD_WINDOWS)):
+        n, n_sliding = chain.n_blocks, np.count_nonzero(modes)
+        start = {
+            "start_positions": -np.cumsum(states[:n, 0] / chain.springs),
+            "start_velocities": states[n:-1, 0],
+        }
+        run = first_transitions(chain, n_sliding + 1, duration=times[-1], **start)
+        below = times[(event_functions(chain, modes, states) < -ROUNDING).any(axis=0)]
+        assert (run.transitions["time"][:n_sliding] == 0.0).all()
+        if len(run.transitions) > n_sliding:
+            time, block, *_ = run.transitions[n_sliding]
+            then = expm(rate_of(chain, modes) * time) @ states[:, :1]
+            assert abs(event_functions(chain, modes, then)[block - 1]) < 1e-9
+            below = below[below < time]
+        assert not below.size
+
+
+@njit(error_model="numpy")
+def bounds_of_terms(parameters, weights, positions, velocities, window, memory, fastest):
+    """What the kernel takes for the largest sum of terms 8, 9, ..., its curvature, and all velocities."""
+    n_blocks, first = weights.shape[0], 1
+    columns, motion, _ = divide(memory, n_blocks)
+    tau, speed, drive = units.set_up(parameters, weights, n_blocks, columns)
+    chain = System(n_blocks, tau, speed, drive, columns[0], columns[1], columns[2])
+    start_from(positions, velocities, parameters, chain, motion)
+    events.lay_out(chain, motion)
+    expand(first, window.end, window.order, chain, motion)
+    powers(window.span, window.order, motion.weight)
+    tails = watch.tail_bounds(window, motion.rate)
+    for i in range(window.first, window.final + 1, WIDTH):
+        watch.may_stop(i, tails[0], motion)
+    for i in range(n_blocks):
+        fastest[i] = motion.fastest[i + 1] * speed
+    return tails[0] * speed, tails[1] * speed
+
+
+def test_the_bounds_of_a_series_hold_for_all_its_terms_and_are_not_far_too_large():
+    """Also for a part of a chain, whose neighbours move; the terms come from the equations of motion."""
+    share, n_terms = [], 40
+    orders = np.arange(n_terms)[:, None]
+    for seed in range(200):
+        random = np.random.default_rng(seed)
+        n, *part = random.choice([(5, 1, 8), (12, 1, 12), (12, 5, 8)])
+        modes = random.choice([-1, 0, 1], n, p=[0.4, 0.2, 0.4])
+        chain = Chain(np.ones(n), 1e-3, 25e6, 25e6 * 10 ** random.uniform(-1, 0.5), 1e-4, 999.0, 0.45)
+        state = np.concatenate([100 * random.normal(size=n), modes * random.uniform(1e-3, 1, n), [1.0]])
+        start, fastest = (-np.cumsum(state[:n] / chain.springs), state[n:-1]), np.zeros(n)
+        window = Window(0.0, SPAN, SPAN, order_for(SPAN), *part, n, 8 if n == 5 else 12, False, 0.0)
+        of_chain = np.array(units.parameters(chain)), chain.weights
+        tails = bounds_of_terms(*of_chain, *start, window, memory_for(n), fastest)
+        terms, rate = np.zeros((n_terms, n)), rate_of(chain, modes) * (SPAN * scale(chain).tau)
+        for order in range(n_terms):
+            terms[order], state = abs(state[n:-1]), rate @ state / (order + 1)
+        mine = slice(part[0] - 1, part[1])
+        assert (fastest[mine] >= (1 - ROUNDING) * terms.sum(axis=0)[mine]).all()
+        rest = terms[8:, mine].sum(axis=0).max(), (orders * (orders - 1) * terms)[8:, mine].sum(axis=0).max()
+        share.append(np.divide(rest, tails))
+    assert np.max(share) <= 1.0
+    assert np.median(share) > TAIL_SHARE
 
 
 @pytest.mark.parametrize("n_blocks", [1, 2, 3, 10, 60])

@@ -219,15 +219,6 @@ def test_a_missing_file_and_an_unwritable_place_are_named(run, tmp_path):
         run.save(tmp_path / "file" / "run.h5")
 
 
-def test_a_long_run_keeps_few_states_and_still_evaluates_everywhere():
-    long = simulate(Chain.from_slider(n_blocks=40), duration=3.0)
-    assert sum(s.nbytes for s in long.states) < 64e6
-    rng = np.random.default_rng(1)
-    pick = np.sort(rng.choice(len(long.transitions), 200, replace=False))
-    times, loads = long.transitions["time"][pick], long.transitions["tangential_load"][pick]
-    np.testing.assert_allclose(long.tangential_load(times), loads, rtol=0, atol=1e-8)
-
-
 def test_a_run_prints_its_size_and_its_chain_in_a_few_lines():
     run = simulate(Chain.from_slider(theta="5/6"), 1.0)
     lines = repr(run).splitlines()

@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from precursors import Chain, Run, simulate, simulate_many
-from precursors.solver.simulate import FIRST_ROOM, SHARED_ROOM
+from precursors.solver import simulate as solver
 
 SLIDER = Chain.from_slider
+# Transitions that the record of a thread has room for, and bytes for stored states that a long run exceeds.
+SHARED_ROOM, ROOM = solver.SHARED_ROOM, 2**19
+ROUNDING = 1e-12  # of the largest position or velocity
 
 
 def same(one: Run, other: Run) -> bool:
@@ -23,23 +26,36 @@ def same(one: Run, other: Run) -> bool:
 
 
 def mixed() -> list[Chain]:
-    """Chains of several lengths and loads, more than one batch."""
-    return [SLIDER(n_blocks=n, theta=theta / 40) for theta in range(40) for n in (1, 10, 30, 3)]
+    """64 chains of several lengths and loads; four have more transitions than a thread's record."""
+    fast = {(10, j): 2e-2 for j in range(2, 16, 4)}
+    return [
+        SLIDER(n, theta=j / 16, drive_velocity=fast.get((n, j), 1e-4))
+        for j in range(16)
+        for n in (1, 10, 30, 3)
+    ]
 
 
-@pytest.mark.parametrize("threads", [1, 4, None])
-def test_an_ensemble_is_what_its_chains_are_one_by_one(threads):
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("until", [None, "global slip"])
+def test_an_ensemble_is_what_its_chains_are_one_by_one(threads, until):
     chains = mixed()
-    runs = simulate_many(chains, until="global slip", threads=threads)
-    alone = [simulate(chain, until="global slip") for chain in chains]
-    assert all(map(same, runs, alone))
+    runs = simulate_many(chains, duration=1.0, until=until, threads=threads)
+    assert until or max(len(run.transitions) for run in runs) > SHARED_ROOM
+    assert all(same(run, simulate(chain, 1.0, until)) for run, chain in zip(runs, chains, strict=True))
 
 
-def test_runs_longer_than_the_shared_record_are_whole():
-    chains = [SLIDER(drive_velocity=v) for v in (1e-2, 1e-4, 2e-2)]
-    runs = simulate_many(chains, duration=1.0, threads=2)
-    assert max(len(run.transitions) for run in runs) > SHARED_ROOM > FIRST_ROOM
-    assert all(same(run, simulate(run.chain, duration=1.0)) for run in runs)
+def test_states_of_long_runs_are_thinned_to_the_room_they_may_take_and_known_everywhere(monkeypatch):
+    chains = [chain for chain in mixed() if chain.drive_velocity > 1e-4]
+    runs, times = simulate_many(chains, 1.0, threads=2), np.linspace(0.0, 1.0, 200)
+    assert all(len(run.states.after) > len(run.transitions) > SHARED_ROOM for run in runs)
+    monkeypatch.setattr(solver, "STATES_BYTES", ROOM)
+    for run, thin in zip(runs, simulate_many(chains, 1.0, threads=2), strict=True):
+        assert sum(column.nbytes for column in thin.states) <= ROOM
+        apart = np.diff(thin.states.after)
+        assert 1 < apart.max() <= 2 * apart.min()
+        np.testing.assert_array_equal(thin.transitions, run.transitions)
+        for found, known in zip(thin.at(times), run.at(times), strict=True):
+            np.testing.assert_allclose(found, known, rtol=0, atol=ROUNDING * abs(known).max())
 
 
 def test_each_chain_starts_from_its_own_start():

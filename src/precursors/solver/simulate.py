@@ -367,7 +367,7 @@ def _go_on(batch: Any, limits: Any, progress: Any, part: _Part, most: int) -> _P
             rows = max(FIRST_ROOM // stride, 2 * len(states.after))
             if rows * sum(column[0].nbytes for column in states) > STATES_BYTES:
                 states, stride = _rows(states, slice(None, None, 2)), 2 * stride
-                count[KERNEL.STORED] = len(states.after)
+                count[KERNEL.STORED], rows = len(states.after), rows // 2
             states = States._make(_enlarged(column, rows) for column in states)
         limits = limits._replace(
             transitions=len(record.time), states=len(states.after), stride=stride, goes_on=True
