@@ -39,7 +39,7 @@ report: results
 
 golden: results
 	$(BIN)/snakemake --quiet rules host -c1 mission
-	$(BIN)/python tests/golden/regenerate.py
+	PYTHONPATH=tests $(BIN)/python -m golden.regenerate
 
 # Pages of the interface, from the docstrings, and of docs/, in results/docs.
 docs: $(READY)

@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from golden import small_tables
 
 from precursors import Chain, simulate
 from precursors.accuracy.compare import Truth, compare
@@ -64,6 +65,11 @@ def test_what_is_measured_is_what_theory_predicts(mode):
         if np.isfinite(n.predicted):
             tolerance = THRESHOLDS.get((mode, n.quantity), THEORY_TOLERANCE)
             assert n.measured == pytest.approx(n.predicted, rel=tolerance, abs=0.0), n
+
+
+def test_numbers_and_curves_are_those_that_are_kept():
+    small_tables.assert_kept("failures", small_tables.failures(measured))
+    small_tables.assert_kept("failure_curves", small_tables.failure_curves(measured))
 
 
 def test_rk4_beyond_its_limit_finishes_with_friction_and_is_wrong_at_every_step():

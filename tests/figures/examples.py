@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from importlib import import_module
 from itertools import product
+from pathlib import Path
+from unittest import mock
 
 import numpy as np
 import pandas as pd
 
+from precursors.figures import style
 from precursors.figures.failure_gallery import PANELS
 
 THETAS = {"fig11": -5 / 6, "fig10": 0.0, "fig12": 5 / 6}
@@ -247,6 +250,7 @@ def model_comparison() -> dict:
         ("b", "mu_sapp", "paper's chain", 0.48, 0.0, True, True, 1e-3, "none"),
         ("b", "mu_sapp", "front law", 0.45, 0.07, False, False, 2e-6, "none"),
         ("a", "slip_duration", "paper's chain", 5e-4, 0.0, True, True, 2e-3, "none"),
+        ("a", "slip_duration", "front law", 4e-4, 0.02, True, False, 1e-7, "none"),
         ("a", "slip_duration", "with head mass", 2e-3, 3.0, False, False, 2e-3, "0.3122 kg"),
     ]
     columns = [
@@ -279,7 +283,7 @@ def definitions() -> dict:
     return {
         "table": table.assign(
             events_kept_is_papers=table["events_kept"] == 7,
-            mu_sapp_is_papers_within_a_digit=False,
+            mu_sapp_is_papers_within_a_digit=table["theta"] > 0.8,
             numbers_within_a_digit=np.where(table["events_kept"] == 7, 6, 2),
             switching="one rule",
         )
@@ -312,3 +316,9 @@ def draw(name, **changes):
     """Draw the example of a figure, with other tables or options where they are given."""
     module, tables = EXAMPLES[name]
     return import_module(f"precursors.figures.{module}").draw(**{**tables(), **changes})
+
+
+def save_small(figure, path: Path) -> None:
+    """Write a figure with so few pixels that another word, colour or point is a large part of them."""
+    with mock.patch.object(style, "PNG_DPI", 60):
+        style.save(figure, path)

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import matplotlib
 import pytest
-from figures.examples import EXAMPLES, draw
+from figures.examples import EXAMPLES, draw, save_small
 from matplotlib import image
+from matplotlib.testing.compare import compare_images
 from matplotlib.text import Text
 
 from precursors import figures
@@ -18,6 +19,39 @@ SMALLEST_PT = 7.0  # what journals ask for at the width on paper; indices and ex
 # Boxes of text are as high as the tallest letter of a font: so much of it may lie in another box.
 SLACK_PX = 6.0
 WITHOUT_KEY = {"fig09"}
+SMALL = Path(__file__).parents[1] / "golden/small"
+# Root mean square over all pixels and colours, of 255. The same release of Matplotlib draws the same picture.
+SMALL_RMS = 0.3
+# Columns of which a figure could show one in the place of the other.
+ALIKE = [
+    ("scene", "slips", "load_before_N", "load_after_N"),
+    ("scene", "slips", "is_global", "kept"),
+    ("fig13", "slips", "load_before_N", "load_after_N"),
+    ("definitions", "table", "events_kept", "mu_sapp"),
+    ("work_precision", "table", "error_load_N", "error_time_s"),
+    ("work_precision", "table", "transitions_right", "slips_right"),
+    ("cost_per_event", "table", "n_blocks", "seconds_per_transition"),
+    ("step_sweep", "table", "events_kept", "transitions_right"),
+    ("step_sweep", "table", "events_kept", "mu_sapp"),
+    ("failure_gallery", "numbers", "measured", "exact"),
+    ("failure_gallery", "numbers", "exact", "predicted"),
+    ("horizon", "errors", "predicted_error_s", "actual_error_s"),
+    ("horizon", "overview", "horizon_s", "right_until_s"),
+    ("horizon", "exponents", "exponent_per_s", "uncertainty_per_s"),
+    ("spread", "spread", "q05", "q25"),
+    ("spread", "spread", "q50", "q75"),
+    ("sweep", "members", "events_kept", "mu_sapp"),
+    ("resolution", "table", "q05", "q50"),
+    ("resolution", "table", "without_noise", "estimate"),
+    ("event_law", "table", "law", "events"),
+    ("event_law", "table", "law", "rise"),
+    ("resolution_models", "table", "viscosity_N_s_per_m", "interface_stiffness_N_per_m"),
+    ("resolution_models", "table", "q50", "q95"),
+    ("map", "table", "mu_sapp", "events_kept"),
+    ("long_runs", "statistics", "mean", "deviation"),
+    ("model_comparison", "table", "value", "error"),
+    ("model_comparison", "table", "is_answer", "is_smallest"),
+]
 
 
 @pytest.fixture(scope="module", params=EXAMPLES)
@@ -74,6 +108,27 @@ def test_drawing_twice_gives_the_same_bytes(named, tmp_path):
     style.save(figure, tmp_path / "first.svg")
     style.save(draw(name), tmp_path / "second.svg")
     assert (tmp_path / "first.svg").read_bytes() == (tmp_path / "second.svg").read_bytes()
+
+
+def difference(name, figure, tmp_path):
+    """How a figure differs from its picture that is kept; None where it does not."""
+    save_small(figure, tmp_path / f"{name}.png")
+    return compare_images(str(SMALL / f"{name}.png"), str(tmp_path / f"{name}.png"), tol=SMALL_RMS)
+
+
+def test_the_picture_is_the_one_that_is_kept(named, tmp_path):
+    assert difference(*named, tmp_path) is None
+
+
+@pytest.mark.parametrize(("name", "table", "column", "other"), ALIKE)
+def test_a_figure_with_two_columns_of_its_table_swapped_is_another(name, table, column, other, tmp_path):
+    tables = EXAMPLES[name][1]()[table]
+    swapped = [
+        t.rename(columns={column: other, other: column})
+        for t in (tables if isinstance(tables, list) else [tables])
+    ]
+    changed = draw(name, **{table: swapped if isinstance(tables, list) else swapped[0]})
+    assert difference(name, changed, tmp_path) is not None
 
 
 def test_every_format_has_the_same_bytes_whichever_file_is_first(tmp_path):

@@ -1,12 +1,16 @@
-"""Replace the golden tables and figures by what the workflow wrote to results, and print what changed."""
+"""Replace the golden tables and figures by what the workflow and the library give, and print what changed."""
 
 import shutil
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from textwrap import indent
 
 import numpy as np
 import pandas as pd
+from figures import examples
+from golden import small_tables
 from matplotlib import image
 
 GOLDEN = Path(__file__).parent
@@ -22,16 +26,24 @@ FIGURES = tuple(f"{figure}.png" for figure in ("fig09", *PAPERS_SCENES, "fig13")
 
 
 def main(results: Path, golden: Path = GOLDEN) -> None:
-    """Copy every golden file from `results` to `golden`."""
-    for kind, names, difference in (
-        ("tables", TABLES, table_difference),
-        ("figures", FIGURES, figure_difference),
-    ):
+    """Copy golden files from `results` to `golden`, and make the small ones."""
+    for kind, names in (("tables", TABLES), ("figures", FIGURES)):
         for name in names:
-            new, old = results / kind / name, golden / name
-            print(f"{name}: {difference(old, new) if old.exists() else 'new'}")
-            shutil.copyfile(new, old)
+            replace(golden / name, partial(shutil.copyfile, results / kind / name))
+    for name, make in {**small_tables.TABLES, **small_tables.ELSEWHERE}.items():
+        replace(golden / f"small/{name}.csv", partial(small_tables.write, make()))
+    for name in examples.EXAMPLES:
+        replace(golden / f"small/{name}.png", partial(examples.save_small, examples.draw(name)))
     show_mission((results / "figures/mission.svg").read_text(encoding="utf-8"), golden)
+
+
+def replace(path: Path, write: Callable[[Path], object]) -> None:
+    """Write a golden file anew, and print what changed."""
+    new = path.with_stem(f"new_{path.stem}")
+    write(new)
+    difference = table_difference if path.suffix == ".csv" else figure_difference
+    print(f"{path.name}: {difference(path, new) if path.exists() else 'new'}")
+    new.replace(path)
 
 
 def show_mission(picture: str, golden: Path) -> None:

@@ -7,6 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
+from golden import small_tables
+from golden.small_tables import CONFIG, SCENES
 
 from precursors import Chain
 from precursors.figures import model_comparison, style
@@ -17,21 +19,16 @@ from precursors.model.scenes import ADDED
 from precursors.support import timing
 from precursors.support.files import read_table
 
-SCENES = {name: Chain.from_slider(theta=theta) for name, theta in (("lead", "5/6"), ("even", 0.0))}
-TOLERANCES = {
-    "first_load": 1e-6,
-    "events_kept": 1,
-    "mu_sapp": 0.05,
-    "front_loads": 0.02,
-    "slip_duration": 0.1,
-    "waveform": 0.02,
-}
-ADDITIONS = {"viscosity": 54.77, "interface_stiffness": 25e6, "head_mass": 0.3122}
+TOLERANCES, ADDITIONS = (CONFIG["hierarchy"][name] for name in ("tolerances", "additions"))
 
 
 @pytest.fixture(scope="module")
 def comparison() -> pd.DataFrame:
-    return compare_models(SCENES, TOLERANCES, ADDITIONS, rounds=1)
+    return small_tables.model_comparison()
+
+
+def test_every_answer_is_the_one_that_is_kept(comparison: pd.DataFrame) -> None:
+    small_tables.assert_kept("model_comparison", comparison)
 
 
 def smallest(comparison: pd.DataFrame) -> dict[str, str]:

@@ -1,0 +1,159 @@
+"""The tables of the studies at a small size, made by the library's own functions, without costs and times.
+
+`regenerate.py` writes them to `small/`; tests compare what the functions give with what is kept there. Runs
+end with the first global slip, after which errors have grown by 1e7.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import yaml
+from ensembles.studies import spread_of, study_of
+
+from precursors import Chain
+from precursors.accuracy.failures import FAILURE_MODES, Failure
+from precursors.ensembles import digits, resolution, spread
+from precursors.ensembles.study import run_members
+from precursors.hierarchy.compare_models import compare_models
+from precursors.hierarchy.larger_resolution import loadings_table, resolution_models_table, run_models
+from precursors.reproduction.definitions import definitions_table
+
+SMALL = Path(__file__).parent / "small"
+CONFIG = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8"))
+SCENES = {name: Chain.from_slider(theta=theta) for name, theta in (("lead", "5/6"), ("even", 0.0))}
+# Times and loads of a run are right to 1e-9 s and 1e-6 N whatever the processor, and so are their statistics.
+# A method with steps is off by the roundings of some 1e6 steps, a bisection by none or by a step of its own.
+ROUNDING, STEPS = 1e-8, 1e-6
+RELATIVE = {"failures": STEPS, "failure_curves": STEPS, "definitions": STEPS}
+# Errors relative to the paper's chain are differences of numbers near one.
+ABSOLUTE = {"model_comparison": 1e-12}
+# Beyond its limit RK4 multiplies roundings without bound: where its runs end differs with the processor.
+CHAOTIC = "silent_instability"
+
+
+def failures(measured: Callable[[str], Failure]) -> pd.DataFrame:
+    """The numbers of all failure modes but the chaotic one."""
+    rows = [
+        {"failure_mode": name, **vars(number)}
+        for name in FAILURE_MODES
+        if name != CHAOTIC
+        for number in measured(name).numbers
+    ]
+    return pd.DataFrame(rows)
+
+
+def failure_curves(measured: Callable[[str], Failure]) -> pd.DataFrame:
+    """Of each of their curves the number of points; of both columns the ends, the mean and the largest."""
+    rows = []
+    for name in FAILURE_MODES:
+        if name == CHAOTIC:
+            continue
+        for curve, points in measured(name).curves.groupby("curve", sort=False):
+            row = {"failure_mode": name, "curve": curve, "n": len(points)}
+            for axis, column in zip("xy", points.columns[1:], strict=True):
+                values = points[column].to_numpy(float)
+                ends = {
+                    "first": values[0],
+                    "last": values[-1],
+                    "mean": values.mean(),
+                    "largest": values.max(),
+                }
+                row |= {axis: column} | {f"{axis}_{which}": value for which, value in ends.items()}
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def definitions() -> pd.DataFrame:
+    """All readings for theta = 5/6, with one drop of the load."""
+    slider, paper = CONFIG["chain"], [{"events_kept": kept, "mu_sapp": 0.49} for kept in (6, 9, 14)]
+    table = definitions_table(slider, 3.0, ["5/6"], [5.0], paper)
+    return table.drop(columns=[column for column in table if column.endswith("_paper")])
+
+
+@cache
+def spread_members() -> pd.DataFrame:
+    """A small study of the spread, with its runs."""
+    return run_members(spread_of())
+
+
+@cache
+def resolution_members() -> pd.DataFrame:
+    """Few runs of few blocks, with an octave and the paper's number of blocks."""
+    settings = {"seed": 1, "noise": 1e-3, "n_blocks": [2, 4, 10], "runs": [6, 6, 6]}
+    return run_members(study_of("resolution_members", settings))
+
+
+def resolution_table() -> pd.DataFrame:
+    """Statistics for each number of blocks, with what is expected."""
+    table = resolution.resolution_table(resolution_members(), CONFIG["chain"]["length"])
+    return resolution.with_estimates(table, CONFIG["chain"])
+
+
+def models() -> pd.DataFrame:
+    """Larger models with few blocks."""
+    settings = {**CONFIG["hierarchy"]["resolution"], "n_blocks": [4], "runs": 6, "theta": "1/3"}
+    return resolution_models_table(run_models(CONFIG["chain"], settings))
+
+
+def loadings() -> pd.DataFrame:
+    """Whether the loading matters, in two models."""
+    asked = {"theta": ["-5/6", "5/6"], "n_blocks": 4, "runs": 6, "models": ["plain", "both_25"]}
+    return loadings_table(CONFIG["chain"], CONFIG["hierarchy"]["resolution"], asked)
+
+
+def model_comparison() -> pd.DataFrame:
+    """All answers of all models, timed once."""
+    settings = CONFIG["hierarchy"]
+    return compare_models(SCENES, settings["tolerances"], settings["additions"], rounds=1)
+
+
+TABLES: dict[str, Callable[[], pd.DataFrame]] = {
+    "definitions": definitions,
+    "spread": lambda: spread.spread_table(spread_members()),
+    "robustness": lambda: spread.robustness_table(spread.spread_table(spread_members())).drop(columns="rule"),
+    "digits": lambda: digits.digits_table(run_members(study_of("digits_members", {"seed": 1, "draws": 8}))),
+    "resolution": resolution_table,
+    "resolution_limits": lambda: resolution.extrapolation_table(resolution_members(), 0.1, 2),
+    "resolution_exponents": lambda: resolution.exponents_table(resolution_members()),
+    "resolution_readings": lambda: resolution.readings_table(resolution_members()),
+    "resolution_models": models,
+    "models_loadings": loadings,
+}
+# These take seconds and are compared where other tests need them, too.
+ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
+    "failures": lambda: failures(_measured),
+    "failure_curves": lambda: failure_curves(_measured),
+    "model_comparison": model_comparison,
+}
+
+
+@cache
+def _measured(name: str) -> Failure:
+    return FAILURE_MODES[name]()
+
+
+def write(table: pd.DataFrame, path: Path) -> None:
+    """Keep a table, without its costs, with all digits that matter."""
+    kept = table.drop(columns=[column for column in table if column.startswith("cost")])
+    kept.to_csv(path, index=False, float_format="%.12g")
+
+
+def assert_kept(name: str, table: pd.DataFrame) -> None:
+    """The table is the one that is kept: words and counts exactly, numbers within a tolerance."""
+    kept = pd.read_csv(SMALL / f"{name}.csv")
+    found = table.drop(columns=[column for column in table if column.startswith("cost")])
+    assert list(found.columns) == list(kept.columns)
+    assert len(found) == len(kept)
+    for column in kept:
+        if any(pd.api.types.is_float_dtype(numbers) for numbers in (found[column], kept[column])):
+            numbers = found[column].astype(float)
+            np.testing.assert_allclose(
+                numbers, kept[column], RELATIVE.get(name, ROUNDING), ABSOLUTE.get(name, 0.0), err_msg=column
+            )
+        else:
+            assert found[column].astype(str).tolist() == kept[column].astype(str).tolist(), column
