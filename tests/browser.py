@@ -10,7 +10,6 @@ import select
 import shutil
 import signal
 import tempfile
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -90,12 +89,14 @@ class Page:
         return result["result"].get("value")
 
     def wait_for(self, expression: str) -> None:
-        """Wait until an expression is true."""
-        deadline = time.monotonic() + TIMEOUT
-        while not self.evaluate(f"Boolean({expression})"):
-            if time.monotonic() > deadline:
-                raise TimeoutError(f"{expression} did not become true; complaints: {self.complaints}")
-            time.sleep(0.02)
+        """Wait until an expression is true: the page looks at it before each of its frames."""
+        look = (
+            f"done => {{ const look = () => ({expression}) ? done() : requestAnimationFrame(look); look() }}"
+        )
+        try:
+            self.evaluate(f"new Promise({look})")
+        except TimeoutError as error:
+            raise TimeoutError(f"{expression} did not become true; complaints: {self.complaints}") from error
 
     def settle(self) -> None:
         """Wait until what was asked for is drawn."""
@@ -166,7 +167,10 @@ def browser(path: str) -> Iterator[Callable[[], Page]]:
             yield lambda: Page(send, receive)
         finally:
             os.close(send)  # the browser ends when nobody can write to it
-            _wait_or_kill(process)
+            while select.select([receive], [], [], TIMEOUT)[0] and os.read(receive, 1 << 20):
+                pass
+            os.kill(process, signal.SIGKILL)  # unless it has ended
+            os.waitpid(process, 0)
             os.close(receive)
 
 
@@ -177,13 +181,3 @@ def _pipe() -> list[int]:
     for end in low:
         os.close(end)
     return high
-
-
-def _wait_or_kill(process: int) -> None:
-    deadline = time.monotonic() + 5.0
-    while os.waitpid(process, os.WNOHANG) == (0, 0):
-        if time.monotonic() > deadline:
-            os.kill(process, signal.SIGKILL)
-            os.waitpid(process, 0)
-            break
-        time.sleep(0.02)

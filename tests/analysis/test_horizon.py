@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from reference import HeldOut, Transition, read_held_out
 from precursors import Chain, Run, simulate
 from precursors.accuracy.proof import Certificate
 from precursors.accuracy.solver_vs_proof import Validation, error_table, summary, validate
-from precursors.analysis import neighbours
+from precursors.analysis import lyapunov, neighbours
 from precursors.analysis.horizon import horizon, predicted_errors
 from precursors.analysis.lyapunov import lyapunov_exponent
 from precursors.analysis.tangent import Motion, Tangent
@@ -293,6 +294,22 @@ def test_the_exponent_is_a_rate() -> None:
     one, other = lyapunov_exponent(simulate(chain, 2.0)), lyapunov_exponent(simulate(slow, 4.0))
     assert other.per_second == pytest.approx(one.per_second / 2, rel=1e-12)
     assert other.per_transition == pytest.approx(one.per_transition, rel=1e-12)
+
+
+def test_the_interval_of_an_exponent_holds_it_in_95_of_100_cases(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On made-up events: differences grow by a half on average, while a second and 21 transitions pass."""
+    random, cases, n = np.random.default_rng(3), 1000, 400
+    held = []
+    for _ in range(cases):
+        onset, growth = np.cumsum(1 + random.poisson(20, n)), np.cumsum(random.normal(0.5, 1.0, n))
+        time = np.zeros(onset[-1] + 1)
+        time[onset] = np.cumsum(random.exponential(size=n))
+        monkeypatch.setattr(lyapunov, "_growth", lambda _, found=(onset, growth): found)
+        found = lyapunov_exponent(SimpleNamespace(transitions={"time": time}))  # type: ignore[arg-type]
+        held.append(abs(found.per_second - 0.5) <= found.per_second_uncertainty)
+        held.append(abs(found.per_transition - 0.5 / 21) <= found.per_transition_uncertainty)
+    # Three standard errors of so many cases: both rates share their growth.
+    assert np.mean(held) == pytest.approx(0.95, abs=3 * np.sqrt(0.95 * 0.05 / cases))
 
 
 def test_one_block_has_no_exponent() -> None:

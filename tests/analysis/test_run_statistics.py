@@ -1,12 +1,13 @@
-"""The interval of a median has the ends and the share of cases that order statistics promise."""
+"""Intervals of a median and of a share hold what they are about in 95 % of cases, and in not many more."""
 
 from __future__ import annotations
 
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.stats import binom
 
-from precursors.analysis.run_statistics import median_interval, statistics
+from precursors.analysis.run_statistics import median_interval, share_interval, statistics
 
 
 @pytest.mark.parametrize(
@@ -24,6 +25,17 @@ def test_the_interval_of_a_median_holds_it_as_often_as_it_says_whatever_the_dist
     held = [low <= np.log(2) <= high for low, high in map(median_interval, draws)]
     # By the binomial distribution, to three standard errors of so many draws.
     assert np.mean(held) == pytest.approx(0.9614, abs=3 * np.sqrt(0.04 * 0.96 / n_draws))
+
+
+@pytest.mark.parametrize(("n", "largest_mean"), [(6, 0.99), (41, 0.975), (200, 0.965)])
+def test_the_interval_of_a_share_holds_every_probability_in_at_least_95_of_100_cases(n, largest_mean):
+    """Summed over all numbers of hits. It is longer than it must be, the less so the larger n."""
+    hits, probability = np.arange(n + 1), np.linspace(0.005, 0.995, 199)
+    low, high = np.transpose([share_interval(k, n) for k in hits])[:, :, None]
+    held = (low <= probability) & (probability <= high)
+    covered = (binom.pmf(hits[:, None], n, probability) * held).sum(axis=0)
+    assert covered.min() >= 0.95
+    assert covered.mean() < largest_mean
 
 
 def test_values_that_are_not_known_do_not_count():

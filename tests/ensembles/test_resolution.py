@@ -63,6 +63,27 @@ def test_an_exact_law_is_carried_on_exactly_and_has_an_interval():
     assert found["n_points"] == 4
 
 
+def test_bootstrap_intervals_hold_limits_and_exponents_in_95_of_100_cases(monkeypatch):
+    """On made-up runs whose medians obey the laws. Of medians, such intervals are a little too long."""
+    monkeypatch.setattr(resolution, "SAMPLES", 500)
+    scenes, runs, n_blocks = 300, 15, np.array([20, 40, 80, 160])
+    n = np.repeat(np.tile(n_blocks, scenes), runs)
+    noise = np.random.default_rng(2).normal(size=(4, len(n)))
+    made_up = {"mu_sapp": 0.45 + 0.5 / n + 0.01 * noise[0], "time_s": 2.0 + 3.0 / n + 0.1 * noise[1]}
+    made_up |= {"events_kept": n**1.5 * np.exp(0.2 * noise[2]), "n_events": n * np.exp(0.2 * noise[3])}
+    members = pd.DataFrame({"scene": np.arange(len(n)) // (4 * runs), "n_blocks": n, **made_up})
+    members = members.assign(crossing_time_s=1e-4, reached=True)
+    true = {"mu_sapp": 0.45, "time_s": 2.0, "events_kept": 1.5, "n_events": 1.0}
+    limits = resolution.extrapolation_table(members, 0.1, 20).rename(
+        columns={"a_low": "low", "a_high": "high"}
+    )
+    found = pd.concat([limits, resolution.exponents_table(members)]).query("quantity in @true")
+    held = found["quantity"].map(true).between(found["low"], found["high"])
+    assert len(held) == scenes * (2 + 2 * 3)
+    # Three standard errors of so many cases.
+    assert 0.95 - 3 * np.sqrt(0.95 * 0.05 / len(held)) < held.mean() < 0.985
+
+
 def test_an_exponent_is_that_of_each_octave_and_runs_without_a_global_slip_do_not_count():
     n_blocks = np.array([5, 10, 15, 20])
     counts = np.array([10.0, 20.0, 20.0, 20.0])

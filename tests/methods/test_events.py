@@ -156,12 +156,6 @@ def test_a_block_that_stops_under_too_large_a_force_turns_round():
     assert state[1] == -1e-3
 
 
-def test_intervals_and_times_tell_the_same_story(uniform):
-    run = solve_scipy(uniform, 3.0, 1e-9).run
-    np.testing.assert_allclose(np.cumsum(run.intervals)[:-1], run.transitions["time"], rtol=0, atol=1e-13)
-    assert math.fsum(run.intervals) == pytest.approx(run.duration, abs=1e-13)
-
-
 def test_a_run_that_ends_within_a_slip_ends_at_its_duration(uniform):
     golden = read_golden("fig10")
     end = float(golden[0].time + golden[1].time) / 2

@@ -150,6 +150,8 @@ def test_eq_4_taken_literally_never_sticks_again(theta):
     run = METHODS["literal"].solve(Chain.from_slider(theta=theta), 1.0, 1e-6, None).run
     assert not (run.transitions["mode"] == 0).any()
     assert len(find_slips(run)) == 1
+    ends = np.append(run.transitions["time"], run.duration)
+    np.testing.assert_allclose(np.cumsum(run.intervals), ends, rtol=CLOCK_ROUNDING)
 
 
 def test_eq_4_taken_literally_creeps_by_the_step_not_by_the_model(chain):

@@ -91,6 +91,7 @@ def test_the_state_of_eq_12_is_at_the_limit(monkeypatch):
     monkeypatch.setattr(eq15, "simulate", lambda *_: strained)
     row = eq15.below_limit("fig10", CHAIN, 0.001)
     assert row["found"] == pytest.approx(0.0, abs=ROUNDING)
+    assert not row["holds"]
 
 
 def test_four_times_the_mass_halves_the_speed_at_which_the_bound_breaks(table):
@@ -137,6 +138,28 @@ def test_the_motion_sees_a_start_at_less_strain(monkeypatch):
     full = eq15.maximal_strain_positions
     monkeypatch.setattr(eq15, "maximal_strain_positions", lambda chain: 0.99 * full(chain))
     assert not any(row["holds"] for row in eq15.in_motion("fig10", CHAIN, 10.0))
+
+
+@pytest.mark.parametrize(
+    ("name", "factor", "failing"),
+    [
+        ("mu_s", 1.0 + 1e-9, [eq15.FULL_STRAIN, eq15.LESS_STRAIN, eq15.RIGID]),
+        ("stiffness", 1.01, [eq15.LESS_STRAIN]),
+        ("mu_k", 0.5, [eq15.FAST]),
+    ],
+)
+def test_the_motion_sees_another_chain_than_the_one_it_is_about(monkeypatch, name, factor, failing):
+    def of_another(chain, *arguments, **options):
+        return simulate(replace(chain, **{name: factor * getattr(chain, name)}), *arguments, **options)
+
+    monkeypatch.setattr(eq15, "simulate", of_another)
+    loads = np.array([eq15.largest_load(CHAIN, speed) for speed in eq15.SPEEDS]) / CHAIN.normal_load
+    rows = [
+        *eq15.in_motion("fig10", CHAIN, 10.0),
+        eq15.rigid(CHAIN, 10.0),
+        eq15.fast_drive("fig10", CHAIN, loads),
+    ]
+    assert [row["check"] for row in rows if not row["holds"]] == failing
 
 
 def test_a_chain_without_a_global_slip_shows_nothing():

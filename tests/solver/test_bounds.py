@@ -14,11 +14,9 @@ from scipy.linalg import expm
 
 from precursors import Chain
 from precursors.methods.stability import stiffness_matrix
-from precursors.solver.kernel import bounds, events, roots, units, watch
-from precursors.solver.kernel.arrays import Search, System, Window, divide, memory_for
-from precursors.solver.kernel.friction import start_from
+from precursors.solver.kernel import bounds, roots, watch
+from precursors.solver.kernel.arrays import Search, Window, divide, memory_for
 from precursors.solver.kernel.layout import FINAL, LEVELS, NEGLIGIBLE, REACH, ROWS, WHOLE, WIDTH, order_for
-from precursors.solver.kernel.series import expand, powers
 from precursors.solver.kernel.units import scale
 
 WINDOWS, HARD_WINDOWS = 400, 200
@@ -173,45 +171,45 @@ def test_no_transition_of_a_chain_is_passed_over():
 
 
 @njit(error_model="numpy")
-def bounds_of_terms(parameters, weights, positions, velocities, window, memory, fastest):
-    """What the kernel takes for the largest sum of terms 8, 9, ..., its curvature, and all velocities."""
-    n_blocks, first = weights.shape[0], 1
-    columns, motion, _ = divide(memory, n_blocks)
-    tau, speed, drive = units.set_up(parameters, weights, n_blocks, columns)
-    chain = System(n_blocks, tau, speed, drive, columns[0], columns[1], columns[2])
-    start_from(positions, velocities, parameters, chain, motion)
-    events.lay_out(chain, motion)
-    expand(first, window.end, window.order, chain, motion)
-    powers(window.span, window.order, motion.weight)
+def bounds_of_terms(rows, weight, modes, window, memory):
+    """What the kernel takes for the largest sum of terms 8, 9, ..., for its curvature, and for all speeds."""
+    n_blocks = len(modes)
+    motion, fastest = divide(memory, n_blocks)[1], np.zeros(n_blocks)
+    for n in range(len(rows)):
+        motion.weight[n] = weight[n]
+        for i in range(n_blocks + 1):
+            motion.rate[n, i] = rows[n, i]
+    for i in range(n_blocks):
+        motion.sense[i + 1] = modes[i]
     tails = watch.tail_bounds(window, motion.rate)
     for i in range(window.first, window.final + 1, WIDTH):
         watch.may_stop(i, tails[0], motion)
     for i in range(n_blocks):
-        fastest[i] = motion.fastest[i + 1] * speed
-    return tails[0] * speed, tails[1] * speed
+        fastest[i] = motion.fastest[i + 1]
+    return tails, fastest
 
 
 def test_the_bounds_of_a_series_hold_for_all_its_terms_and_are_not_far_too_large():
     """Also for a part of a chain, whose neighbours move; the terms come from the equations of motion."""
-    share, n_terms = [], 40
-    orders = np.arange(n_terms)[:, None]
+    order, share = order_for(SPAN), []
+    orders = np.arange(order + 1)[:, None]
+    weight = np.array([SPAN**n / math.factorial(n) for n in range(order + 1)])
     for seed in range(200):
         random = np.random.default_rng(seed)
-        n, *part = random.choice([(5, 1, 8), (12, 1, 12), (12, 5, 8)])
+        n, first, final, end = random.choice([(5, 1, 8, 8), (12, 1, 12, 12), (12, 5, 8, 12)])
         modes = random.choice([-1, 0, 1], n, p=[0.4, 0.2, 0.4])
-        chain = Chain(np.ones(n), 1e-3, 25e6, 25e6 * 10 ** random.uniform(-1, 0.5), 1e-4, 999.0, 0.45)
+        chain = Chain(np.ones(n), 1e-3, 25e6, 25e6 * 10 ** random.uniform(-1, 0.5), 1e-4, 0.7, 0.45)
+        rows, rate = np.zeros((order + 1, n + 1)), rate_of(chain, modes) * scale(chain).tau
         state = np.concatenate([100 * random.normal(size=n), modes * random.uniform(1e-3, 1, n), [1.0]])
-        start, fastest = (-np.cumsum(state[:n] / chain.springs), state[n:-1]), np.zeros(n)
-        window = Window(0.0, SPAN, SPAN, order_for(SPAN), *part, n, 8 if n == 5 else 12, False, 0.0)
-        of_chain = np.array(units.parameters(chain)), chain.weights
-        tails = bounds_of_terms(*of_chain, *start, window, memory_for(n), fastest)
-        terms, rate = np.zeros((n_terms, n)), rate_of(chain, modes) * (SPAN * scale(chain).tau)
-        for order in range(n_terms):
-            terms[order], state = abs(state[n:-1]), rate @ state / (order + 1)
-        mine = slice(part[0] - 1, part[1])
-        assert (fastest[mine] >= (1 - ROUNDING) * terms.sum(axis=0)[mine]).all()
-        rest = terms[8:, mine].sum(axis=0).max(), (orders * (orders - 1) * terms)[8:, mine].sum(axis=0).max()
-        share.append(np.divide(rest, tails))
+        rows[0, 0] = chain.drive_velocity
+        for k in range(order + 1):
+            rows[k, 1:], state = state[n:-1], rate @ state
+        window = Window(0.0, SPAN, SPAN, order, first, final, n, end, False, 0.0)
+        tails, fastest = bounds_of_terms(rows, weight, modes, window, memory_for(n))
+        terms = abs(rows * weight[:, None])[:, first : final + 1]
+        assert (fastest[first - 1 : final] >= (1 - ROUNDING) * terms.sum(axis=0)).all()
+        bend = orders * (orders - 1) * terms
+        share.append([terms[8:].sum(axis=0).max() / tails[0], bend[8:].sum(axis=0).max() / tails[1]])
     assert np.max(share) <= 1.0
     assert np.median(share) > TAIL_SHARE
 
