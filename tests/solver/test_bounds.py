@@ -133,7 +133,7 @@ def hard_window(seed: int) -> tuple[Chain, np.ndarray, np.ndarray, np.ndarray]:
     modes[i := random.integers(n)] = 1
     chain = Chain(random.uniform(1, 100, n), 1e-3, 25e6, drive_stiffness, 1e-4, 0.7, 0.7 * random.uniform())
     speeds = 10 ** random.uniform(-4, 0, n)
-    state = np.concatenate([50 * random.normal(size=n), modes * speeds, [1.0]])
+    state = np.concatenate([10 ** random.uniform(-2, 2) * random.normal(size=n), modes * speeds, [1.0]])
     times = np.linspace(0.0, 1.3 * math.sqrt(chain.mass / (50e6 + 2 * max(25e6, drive_stiffness))), 513)
     step = expm(rate_of(chain, modes) * times[1])
     states = np.array([state, state + np.eye(2 * n + 1)[n + i]]).T[:, None]
