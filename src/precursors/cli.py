@@ -146,7 +146,8 @@ def plot(arguments: argparse.Namespace) -> None:
     if arguments.figure == "lengths":
         figure = precursor_lengths.draw([slips])
     else:
-        figure = scene.draw(slips, load_trace(run), f"N = {run.chain.n_blocks}", data=data)
+        trace = load_trace(run, tolerance=1e-3)  # [N]; half the points, and a page shows the same
+        figure = scene.draw(slips, trace, f"N = {run.chain.n_blocks}", data=data)
     style.save(figure, arguments.output)
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
 

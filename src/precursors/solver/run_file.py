@@ -10,7 +10,6 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import h5py
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,6 +18,8 @@ from precursors.solver.record import TRANSITION, States
 from precursors.support.files import write_whole
 
 if TYPE_CHECKING:
+    import h5py
+
     from precursors.solver.run import Run
 
 FORMAT = "precursors run 4"
@@ -47,6 +48,8 @@ class RunFileError(ValueError):
 
 def write_run(run: Run, path: str | PathLike[str]) -> None:
     """Write a run to an HDF5 file, whole or not at all."""
+    import h5py  # here, as a run needs no file
+
     # HDF5 may end the interpreter when the disk is full, so the file is made in memory first.
     memory = BytesIO()
     with h5py.File(memory, "w", libver="v110") as file:
@@ -85,6 +88,8 @@ def read_run(path: str | PathLike[str]) -> dict[str, Any]:
     RunFileError
         In one line that names the file, if it is not a whole run of this format.
     """
+    import h5py
+
     if not Path(path).is_file():
         raise FileNotFoundError(f"{path}: no such file")
     try:

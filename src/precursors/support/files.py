@@ -8,9 +8,10 @@ import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import pandas as pd
+if TYPE_CHECKING:
+    import pandas as pd
 
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
@@ -83,6 +84,8 @@ def read_table(
     ValueError
         If it is not a table, or a column is missing or has the wrong type.
     """
+    import pandas as pd  # here, as a run needs no tables
+
     try:
         table = pd.read_csv(path, **how)
         missing = [name for name in columns or {} if name not in table.columns]
