@@ -2,7 +2,10 @@
 
 import ast
 import re
+import subprocess
+import sys
 
+import pytest
 from conftest import ROOT
 
 # One environment, built from requirements.lock by the Makefile, serves all rules.
@@ -120,3 +123,22 @@ def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(un
     outcome = workspace.run("-n", "-s", "workflow/Snakefile", *targets)
     assert outcome.code == 0, outcome.text
     assert targets | {"simulate_scene fig10"} <= outcome.jobs
+
+
+@pytest.mark.parametrize(
+    ("code", "unwanted"),
+    [
+        (
+            "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.1)",
+            "h5py pandas matplotlib",
+        ),
+        (
+            "from precursors.ensembles import catalogue; from precursors.reproduction import claims, numbers",
+            "h5py matplotlib numba scipy.optimize scipy.stats sympy",
+        ),
+    ],
+    ids=["a run", "reading the rules"],
+)
+def test_slow_packages_are_imported_where_they_are_used_only(code, unwanted):
+    shown = f"{code}; import sys; print(*sorted(set('{unwanted}'.split()) & sys.modules.keys()))"
+    assert subprocess.run([sys.executable, "-c", shown], capture_output=True, text=True).stdout == "\n"

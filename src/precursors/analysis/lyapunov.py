@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import t as student_t
+import scipy
 
 from precursors.analysis.tangent import Tangent
 from precursors.model.checks import whole
@@ -122,4 +122,4 @@ def _mean_rate(log: np.ndarray, length: np.ndarray) -> tuple[float, float]:
     """Total growth over total length, and half the width of its confidence interval."""
     n, rate = len(log), log.sum() / length.sum()
     left = (log - rate * length) / length.mean()
-    return float(rate), float(student_t.ppf((1 + CONFIDENCE) / 2, n - 1) * left.std(ddof=1) / np.sqrt(n))
+    return float(rate), float(scipy.stats.t.ppf((1 + CONFIDENCE) / 2, n - 1) * left.std(ddof=1) / np.sqrt(n))

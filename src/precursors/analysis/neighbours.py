@@ -11,7 +11,7 @@ import numpy as np
 
 from precursors.analysis.tangent import IntArray, Tangent
 from precursors.model.chain import FloatArray
-from precursors.solver.kernel import ROUNDINGS
+from precursors.solver.plain import ROUNDINGS
 from precursors.solver.run import Run
 
 EPS = float(np.finfo(float).eps)

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pandas as pd
+import scipy
 from numpy.typing import ArrayLike
-from scipy.stats import beta, binom
 
 QUANTILES = {"q05": 0.05, "q25": 0.25, "q50": 0.5, "q75": 0.75, "q95": 0.95}
 
@@ -34,7 +34,7 @@ def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, floa
     largest value will do: for 95 %, below six values.
     """
     values = np.sort(np.asarray(values, float))
-    left_out = int(binom.ppf((1.0 - share) / 2.0, len(values), 0.5)) if len(values) else 0
+    left_out = int(scipy.stats.binom.ppf((1.0 - share) / 2.0, len(values), 0.5)) if len(values) else 0
     if not left_out:
         return math.nan, math.nan
     return float(values[left_out - 1]), float(values[-left_out])
@@ -43,6 +43,6 @@ def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, floa
 def share_interval(hits: int, of: int, share: float = 0.95) -> tuple[float, float]:
     """Interval of a probability of which so many hits were seen (Clopper and Pearson): never too short."""
     tail = (1.0 - share) / 2.0
-    low = beta.ppf(tail, hits, of - hits + 1) if hits else 0.0
-    high = beta.ppf(1.0 - tail, hits + 1, of - hits) if hits < of else 1.0
+    low = scipy.stats.beta.ppf(tail, hits, of - hits + 1) if hits else 0.0
+    high = scipy.stats.beta.ppf(1.0 - tail, hits + 1, of - hits) if hits < of else 1.0
     return float(low), float(high)

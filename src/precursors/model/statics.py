@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import linprog
+import scipy
 
 from precursors.model.chain import Chain, FloatArray
 
@@ -63,7 +63,7 @@ def largest_load_at_rest(chain: Chain) -> tuple[float, FloatArray]:
     limit = chain.strength / chain.normal_load
     load = np.zeros(chain.n_blocks)
     load[0] = 1.0
-    found = linprog(
+    found = scipy.optimize.linprog(
         -load,
         A_ub=np.concatenate([net, -net]),
         b_ub=np.concatenate([limit, limit]),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
-from scipy.stats import kendalltau
+import scipy
 
 from precursors.model.switching import COULOMB
 from precursors.reproduction.claim import (
@@ -95,7 +95,9 @@ def variation_of_steps(values: pd.Series) -> float:
 
 def chance_of_rise(values: pd.Series) -> float:
     """Probability that values in random order rise as much: one-sided test of Kendall's tau."""
-    return float(kendalltau(range(len(values)), values.astype(float), alternative="greater").pvalue)
+    return float(
+        scipy.stats.kendalltau(range(len(values)), values.astype(float), alternative="greater").pvalue
+    )
 
 
 def noisy(t: Tables, quantity: str, column: str) -> list[float]:

@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import sympy
-from scipy.optimize import brentq
+import scipy
 
 from precursors.analysis.load_curve import load_curve
 from precursors.analysis.slip_rows import up_to_first_global
@@ -27,7 +26,6 @@ from precursors.model.statics import (
     maximal_compressions,
     maximal_strain_positions,
 )
-from precursors.reproduction import derivation
 from precursors.solver.simulate import simulate
 
 SYMBOLIC_BLOCKS = 10
@@ -79,6 +77,10 @@ def eq15_table(scenes: Mapping[str, Chain], duration: float, speeds: pd.DataFram
 
 def in_symbols(n: int) -> Iterator[dict[str, Any]]:
     """The load of Eq. 12 for N blocks with any normal loads, as it follows from Eq. 2 and as printed."""
+    import sympy  # slow, and the names of the checks are wanted without it
+
+    from precursors.reproduction import derivation
+
     w, bound = derivation.weights(n), derivation.bound(n)
     excess = (derivation.k / derivation.K - 1) * derivation.mu_s * w[-1]
     for check, equations, expected in (
@@ -163,7 +165,7 @@ def fast_drive(scene: str, chain: Chain, loads: FloatArray) -> dict[str, Any]:
 
     fast = int(np.argmax(loads > chain.mu_s))
     below, above = SPEEDS[fast - 1], SPEEDS[fast]
-    found = round(brentq(excess, below, above, xtol=1e-6), DIGITS) if fast else math.nan
+    found = round(scipy.optimize.brentq(excess, below, above, xtol=1e-6), DIGITS) if fast else math.nan
     return _row(FAST, scene, "m/s", expected, found, math.isclose(found, expected, rel_tol=RIGID_TOLERANCE))
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy.stats import fisher_exact
+import scipy
 
 from precursors.model.switching import COULOMB
 from precursors.reproduction import eq15, numbers_of_studies
@@ -188,7 +188,7 @@ def random_steps(t: Tables, config: Mapping[str, Any]) -> Numbers:
         found |= {name: row["share"], f"{name}-low": row["low"], f"{name}-high": row["high"]}
     six = rows(ours, question="all six", degree=["5/6", "0.833"])
     share = rows(ours, degree="5/6").set_index("question")["share"]
-    p = fisher_exact(np.column_stack([six["k"], six["n"] - six["k"]])).pvalue
+    p = scipy.stats.fisher_exact(np.column_stack([six["k"], six["n"] - six["k"]])).pvalue
     return found | {
         "six-p": p,
         "six-shares": "may be equal" if p > SIGNIFICANT else "differ",

@@ -22,4 +22,9 @@ def _kernel() -> Any:
     return None
 
 
-KERNEL = _kernel()
+def __getattr__(name: str) -> Any:
+    """Make KERNEL when it is first asked for: who only reads a run waits for no compiler."""
+    if name != "KERNEL":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = kernel = _kernel()
+    return kernel

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import number_array
-from precursors.solver import fallback
-from precursors.solver.backend import KERNEL
+from precursors.solver import backend, fallback
 from precursors.solver.record import TRANSITION, States
 from precursors.solver.run_file import RunFileError, read_run, write_run
 
@@ -138,19 +137,19 @@ class Run:
         if len(self.states.after) == 0:
             raise ValueError("the run has no stored states: only a run that simulate made can be evaluated")
         order = np.argsort(when, kind="stable")
-        if KERNEL is None:
+        if backend.KERNEL is None:
             force, velocity = fallback.evaluate(
                 self.chain, when[order], self.transitions, self.intervals, self.states
             )
         else:
-            record = KERNEL.Record(
+            record = backend.KERNEL.Record(
                 np.ascontiguousarray(self.transitions["time"]),
                 self.transitions["block"].astype(np.int64),
                 self.transitions["mode"].astype(np.int64),
                 np.ascontiguousarray(self.transitions["tangential_load"]),
                 self.intervals,
             )
-            force, velocity = KERNEL.evaluate(self.chain, when[order], record, self.states)
+            force, velocity = backend.KERNEL.evaluate(self.chain, when[order], record, self.states)
         back = np.argsort(order, kind="stable")
         return force[back], velocity[back]
 

@@ -14,8 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import LARGEST, Until, checked_span, number_array, positive, whole
-from precursors.solver import fallback
-from precursors.solver.backend import KERNEL
+from precursors.solver import backend, fallback
 from precursors.solver.record import TRANSITION, IntArray, States
 from precursors.solver.run import Run
 
@@ -226,8 +225,10 @@ class _Workspace(threading.local):
         if n_blocks == self.n_blocks:
             return
         self.stride = 1 + n_blocks // BLOCKS_PER_STRIDE
-        self.memory = KERNEL.memory_for(n_blocks)
-        self.record = KERNEL.Record._make(np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in COLUMNS)
+        self.memory = backend.KERNEL.memory_for(n_blocks)
+        self.record = backend.KERNEL.Record._make(
+            np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in COLUMNS
+        )
         self.states = States.empty(max(SHARED_ROOM // self.stride, 2), n_blocks)
         self.n_blocks = n_blocks
 
@@ -247,15 +248,20 @@ def _run_batch(
     chains: Sequence[Chain], positions: FloatArray, velocities: FloatArray, end: _End
 ) -> list[Run]:
     """Run chains of equal length one after the other, in as few calls of the kernel as it takes."""
-    if KERNEL is None:
+    if backend.KERNEL is None:
         return [_run_plain(*each, end) for each in zip(chains, positions, velocities, strict=True)]
     work, n = _workspace, len(chains)
     work.prepare(chains[0].n_blocks)
-    parameters = np.array([KERNEL.parameters(chain) for chain in chains])
-    batch = KERNEL.Batch(parameters, np.array([chain.weights for chain in chains]), positions, velocities)
-    clock, count = np.zeros((n, KERNEL.CLOCK_SIZE)), np.zeros((n, KERNEL.COUNT_SIZE), np.int64)
-    progress = KERNEL.Progress(np.empty(n), clock, count)
-    limits = KERNEL.Limits(
+    parameters = np.array([backend.KERNEL.parameters(chain) for chain in chains])
+    batch = backend.KERNEL.Batch(
+        parameters, np.array([chain.weights for chain in chains]), positions, velocities
+    )
+    clock, count = (
+        np.zeros((n, backend.KERNEL.CLOCK_SIZE)),
+        np.zeros((n, backend.KERNEL.COUNT_SIZE), np.int64),
+    )
+    progress = backend.KERNEL.Progress(np.empty(n), clock, count)
+    limits = backend.KERNEL.Limits(
         end.duration,
         end.until_global,
         end.longest_slip,
@@ -269,25 +275,27 @@ def _run_batch(
     while len(runs) < n:
         left = slice(len(runs), None)
         here, reached = (_rows(batch, left), _rows(progress, left)) if runs else (batch, progress)
-        n_finished, is_paused = KERNEL.run_batch(here, limits, reached, work.record, work.states, work.memory)
+        n_finished, is_paused = backend.KERNEL.run_batch(
+            here, limits, reached, work.record, work.states, work.memory
+        )
         for part in _parts(work, count[left][: n_finished + is_paused]):
             j = len(runs)
             mine = slice(j, j + 1)
-            if count[j, KERNEL.STATUS] == KERNEL.PAUSED:
+            if count[j, backend.KERNEL.STATUS] == backend.KERNEL.PAUSED:
                 part = _go_on(_rows(batch, mine), limits, _rows(progress, mine), part, end.most)
             onset, error, elapsed, _ = clock[j].tolist()
             time = onset + (error + elapsed * float(progress.tau[j]))
             run = Run(
                 chain=chains[j],
-                duration=end.duration if count[j, KERNEL.STATUS] == KERNEL.FINISHED else time,
+                duration=end.duration if count[j, backend.KERNEL.STATUS] == backend.KERNEL.FINISHED else time,
                 transitions=part.transitions,
                 intervals=part.intervals,
                 start_positions=positions[j],
                 start_velocities=velocities[j],
                 states=part.states,
-                evaluations=float(count[j, KERNEL.DERIVATIVES]) / chains[j].n_blocks,
+                evaluations=float(count[j, backend.KERNEL.DERIVATIVES]) / chains[j].n_blocks,
             )
-            if count[j, KERNEL.STATUS] == KERNEL.PAUSED:
+            if count[j, backend.KERNEL.STATUS] == backend.KERNEL.PAUSED:
                 raise _unfinished(run, end)
             runs.append(run)
     return runs
@@ -327,7 +335,7 @@ def _rows(columns: Any, rows: slice) -> Any:
 
 def _parts(work: _Workspace, count: IntArray) -> Iterator[_Part]:
     """Cut the record of several runs, as `count` has them, into one part a run."""
-    used, stored = count[:, KERNEL.TRANSITIONS].tolist(), count[:, KERNEL.STORED].tolist()
+    used, stored = count[:, backend.KERNEL.TRANSITIONS].tolist(), count[:, backend.KERNEL.STORED].tolist()
     transitions = _transitions(work.record, sum(used))
     intervals: FloatArray = work.record.intervals[: sum(used) + len(used)].copy()
     n_states = sum(stored)
@@ -350,33 +358,33 @@ def _go_on(batch: Any, limits: Any, progress: Any, part: _Part, most: int) -> _P
     """Run on a chain that the kernel left unfinished, in a record of its own that grows as needed."""
     [clock], [count] = progress.clock, progress.counts
     values = [part.transitions[name] for name in TRANSITION.names or ()]
-    record = KERNEL.Record._make(
+    record = backend.KERNEL.Record._make(
         column.astype(kind) for column, kind in zip([*values, part.intervals], COLUMNS, strict=True)
     )
     states, stride = part.states, limits.stride
     while (
-        count[KERNEL.STATUS] == KERNEL.PAUSED
-        and count[KERNEL.TRANSITIONS] < most
-        and count[KERNEL.WINDOWS] < MAX_WINDOWS
+        count[backend.KERNEL.STATUS] == backend.KERNEL.PAUSED
+        and count[backend.KERNEL.TRANSITIONS] < most
+        and count[backend.KERNEL.WINDOWS] < MAX_WINDOWS
     ):
-        used = int(count[KERNEL.TRANSITIONS])
+        used = int(count[backend.KERNEL.TRANSITIONS])
         if used >= len(record.time) or len(record.time) < len(record.intervals):
             room = min(max(FIRST_ROOM, 2 * used), most)
-            record = KERNEL.Record._make(_enlarged(column[:used], room) for column in record)
-        if count[KERNEL.STORED] >= len(states.after):
+            record = backend.KERNEL.Record._make(_enlarged(column[:used], room) for column in record)
+        if count[backend.KERNEL.STORED] >= len(states.after):
             rows = max(FIRST_ROOM // stride, 2 * len(states.after))
             if rows * sum(column[0].nbytes for column in states) > STATES_BYTES:
                 states, stride = _rows(states, slice(None, None, 2)), 2 * stride
-                count[KERNEL.STORED], rows = len(states.after), rows // 2
+                count[backend.KERNEL.STORED], rows = len(states.after), rows // 2
             states = States._make(_enlarged(column, rows) for column in states)
         limits = limits._replace(
             transitions=len(record.time), states=len(states.after), stride=stride, goes_on=True
         )
-        KERNEL.run_batch(batch, limits, progress, record, states, _workspace.memory)
-    n, stored = int(count[KERNEL.TRANSITIONS]), int(count[KERNEL.STORED])
+        backend.KERNEL.run_batch(batch, limits, progress, record, states, _workspace.memory)
+    n, stored = int(count[backend.KERNEL.TRANSITIONS]), int(count[backend.KERNEL.STORED])
     return _Part(
         _transitions(record, n),
-        np.append(record.intervals[:n], clock[KERNEL.SINCE] * progress.tau[0]),
+        np.append(record.intervals[:n], clock[backend.KERNEL.SINCE] * progress.tau[0]),
         _rows(states, slice(stored)),
     )
 
