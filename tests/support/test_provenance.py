@@ -56,6 +56,8 @@ def test_the_commit_and_its_software_hash_identifiers_are_those_of_git(tmp_path)
     assert git_state(tmp_path) is None
     git("init")
     (tmp_path / "Snakefile").write_text("")
+    git("commit", "--allow-empty", "-m", "Without the sources")
+    assert git_state(tmp_path) is None
     git("add", "Snakefile")
     git("commit", "-m", "Begin")
     state = git_state(tmp_path)
