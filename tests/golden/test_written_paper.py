@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 from collections.abc import Mapping
@@ -58,6 +59,11 @@ def test_the_paper_has_the_length_of_a_paper_and_every_page_says_something():
     pages = pages_of(PDF.read_bytes())
     assert FEWEST_PAGES <= len(pages) <= MOST_PAGES
     assert min(map(len, pages)) > LEAST_TEXT
+
+
+def test_the_numbers_beside_the_paper_are_what_the_tables_give():
+    written = (ROOT / "results/numbers.json").read_text(encoding="utf-8")
+    assert json.loads(json.dumps(numbers(Tables(ROOT / "results/tables"), CONFIG))) == json.loads(written)
 
 
 def test_captions_name_the_rule_that_made_what_they_show():
