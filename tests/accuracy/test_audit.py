@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import mpmath
 import numpy as np
@@ -357,6 +358,19 @@ def test_no_function_is_below_its_bound_in_a_cell(radians):
         # In a cell of a radian it is close: the remainder is d^4/384, and the cubic is bounded to d^2/12.
         if radians == 1.0:
             assert bound > lowest - (1 / 384 + 1 / 12)
+
+
+def test_no_cubic_is_below_its_bound_in_a_cell():
+    """A cubic is known by its values and slopes at both ends, and has no remainder."""
+    cells, width = np.random.default_rng(4).normal(size=(4, 2000)), 0.3
+    (low, *_, high), s = cells, np.linspace(0.0, 1.0, 101)[:, None]
+    slopes = 3.0 * np.diff(cells, axis=0)[[0, 2]] / width
+    edges = np.tile([[0.0], [width]], 2000)
+    bound = Conditions._bound(
+        SimpleNamespace(fourth=0.0), edges, np.array([low, high])[:, :, None], slopes[:, :, None]
+    )
+    values = sum(math.comb(3, k) * s**k * (1 - s) ** (3 - k) * cells[k] for k in range(4))
+    assert (bound[0, :, 0] <= values.min(axis=0) + 1e-12).all()
 
 
 def test_energy_that_a_late_stop_destroys_is_found(uniform):

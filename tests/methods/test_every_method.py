@@ -12,8 +12,9 @@ from precursors.methods import METHODS
 from precursors.methods.events import SLIDES, Motion, jacobian, scaled
 from precursors.methods.regularised import equations
 
-# theta, and a time [s] after the first block has slid backward: block 3 of 3, and block 1.
-BACKWARD = {"-5/6": 2.2, "5/6": 1.5}
+# theta, mu_k, and a time [s] after a block has slid backward: block 3 of 3 and block 1, which turn round, and
+# block 2, which is released backward from rest.
+BACKWARD = [("-5/6", 0.45, 2.2), ("5/6", 0.45, 1.5), ("-5/6", 0.1, 2.13945)]
 # Settings at which a method makes the transitions of a short chain; 1e-8 s for those that are not named.
 FINE = {
     **dict.fromkeys(("exact", "heyoka"), 0.0),
@@ -33,6 +34,8 @@ TURN = 1e-7
 CLOCK = 1e-13  # s; roundings of a sum of some ten intervals
 # Eq. 4 taken literally never sticks, so that it makes other transitions.
 NAMES = [name for name in METHODS if name != "literal"]
+# Blocks at rest creep in those with an error of their own, so that all comes later than the last of these ends.
+CASES = [(name, *case) for name in NAMES for case in BACKWARD[: 2 if name in LOAD_ERROR else 3]]
 
 
 def without_short_stops(transitions) -> list[tuple[int, int, float]]:
@@ -46,12 +49,13 @@ def without_short_stops(transitions) -> list[tuple[int, int, float]]:
     return [(block, mode, load) for k, (_, block, mode, load) in enumerate(rows) if k not in turns]
 
 
-@pytest.mark.parametrize("theta", BACKWARD)
-@pytest.mark.parametrize("name", NAMES)
-def test_a_method_slides_backward_where_the_exact_solver_does_and_its_intervals_are_its_times(name, theta):
-    chain = Chain.from_slider(n_blocks=3, theta=theta)
-    run = METHODS[name].solve(chain, BACKWARD[theta], FINE.get(name, 1e-8), None).run
-    exact = without_short_stops(simulate(chain, BACKWARD[theta]).transitions)
+@pytest.mark.parametrize(("name", "theta", "mu_k", "end"), CASES)
+def test_a_method_slides_backward_where_the_exact_solver_does_and_its_intervals_are_its_times(
+    name, theta, mu_k, end
+):
+    chain = Chain.from_slider(n_blocks=3, theta=theta, mu_k=mu_k)
+    run = METHODS[name].solve(chain, end, FINE.get(name, 1e-8), None).run
+    exact = without_short_stops(simulate(chain, end).transitions)
     found = without_short_stops(run.transitions)
     assert [row[:2] for row in found] == [row[:2] for row in exact]
     assert exact[-2][1] == -1

@@ -200,7 +200,8 @@ def test_the_bounds_of_a_series_hold_for_all_its_terms_and_are_not_far_too_large
         modes = random.choice([-1, 0, 1], n, p=[0.4, 0.2, 0.4])
         chain = Chain(np.ones(n), 1e-3, 25e6, 25e6 * 10 ** random.uniform(-1, 0.5), 1e-4, 0.7, 0.45)
         rows, rate = np.zeros((order + 1, n + 1)), rate_of(chain, modes) * scale(chain).tau
-        state = np.concatenate([100 * random.normal(size=n), modes * random.uniform(1e-3, 1, n), [1.0]])
+        force, speed = 10 ** random.uniform(-2, 2, n) * random.normal(size=n), 10 ** random.uniform(-4, 0, n)
+        state = np.concatenate([force, modes * speed, [1.0]])
         rows[0, 0] = chain.drive_velocity
         for k in range(order + 1):
             rows[k, 1:], state = state[n:-1], rate @ state
