@@ -34,7 +34,7 @@ TURN = 1e-7
 CLOCK = 1e-13  # s; roundings of a sum of some ten intervals
 # Eq. 4 taken literally never sticks, so that it makes other transitions.
 NAMES = [name for name in METHODS if name != "literal"]
-# Blocks at rest creep in those with an error of their own, so that all comes later than the last of these ends.
+# In methods with a larger error blocks creep at rest, and slide only after the last of these ends.
 CASES = [(name, *case) for name in NAMES for case in BACKWARD[: 2 if name in LOAD_ERROR else 3]]
 
 
