@@ -121,13 +121,22 @@ def step_sweep() -> dict:
 
 
 def failure_gallery() -> dict:
-    """Numbers from 1.25, exact ones from 2.75, predicted ones from 3.75; the same curves in all panels."""
+    """Numbers from 1.25, exact ones from 2.75, predicted ones from 3.75; the same curves in all panels.
+
+    Thresholds are the same in the units of the axes, for 10 blocks and wrong ones for 2.
+    """
+    lines = [(mode, panel.scale[0], line) for mode, panel in PANELS.items() for line in panel.sentences]
     addresses = dict.fromkeys(
         (mode, line.method or "a method", line.setting or "dt = 1e-07 s", line.quantity)
-        for mode, panel in PANELS.items()
-        for line in panel.sentences
+        for mode, _, line in lines
+        if "{at" not in line.text
     )
     numbers = pd.DataFrame(list(addresses), columns=["failure_mode", "method", "setting", "quantity"])
+    limits = [(line.method or "a method", line.quantity, s) for _, s, line in lines if "{at" in line.text]
+    thresholds = pd.DataFrame(limits, columns=["method", "fails", "scale"]).assign(unit="1", n_blocks=10)
+    place = np.arange(len(thresholds))
+    thresholds["measured"] = (place + 1.25) / thresholds["scale"]
+    thresholds["predicted"] = (place + 3.75) / thresholds.pop("scale")
     row = np.arange(len(numbers))
     curves = []
     for panel in PANELS.values():
@@ -135,7 +144,8 @@ def failure_gallery() -> dict:
         lines = [pd.DataFrame({"curve": name, "x": x, "y": n * y}) for n, name in ((1, "exact"), (2, "bad"))]
         curves.append(pd.concat(lines))
     numbers = numbers.assign(unit="1", measured=row + 1.25, exact=row + 2.75, predicted=row + 3.75)
-    return {"numbers": numbers, "curves": curves}
+    thresholds = pd.concat([thresholds, thresholds.assign(n_blocks=2, measured=0.0)])
+    return {"numbers": numbers, "thresholds": thresholds, "curves": curves}
 
 
 def horizon() -> dict:

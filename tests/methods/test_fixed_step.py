@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from precursors import Chain, Run, TransitionLimitError, find_slips, simulate
-from precursors.accuracy.failures.common import transitions_right
+from precursors.accuracy.failures.common import FIVE_SLIPS, transitions_right
 from precursors.accuracy.failures.dead_zone import (
-    FIVE_SLIPS,
     first_excess,
     largest_dead_zone,
     smallest_dead_zone,

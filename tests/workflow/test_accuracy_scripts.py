@@ -7,6 +7,7 @@ import tabulate_failures
 import tabulate_step_sweep
 
 from precursors.accuracy.cost_per_event import measure_cost
+from precursors.accuracy.failures.common import Threshold
 from precursors.accuracy.failures.locating import SMALLEST
 from precursors.accuracy.proof import ExactChain, certify
 from precursors.accuracy.work_precision import COLUMNS
@@ -70,10 +71,15 @@ def test_the_step_sweep_is_a_table_that_the_figure_reads(tmp_path, monkeypatch):
     assert len(step_sweep.draw(table).axes) == 3
 
 
-def test_failure_modes_are_tabulated_with_their_curves(tmp_path):
-    modes = ("stiffness", "restart_on_root")
-    tabulate_failures.main(tmp_path / "failures.csv", {mode: tmp_path / f"{mode}.csv" for mode in modes})
-    numbers = read_table(tmp_path / "failures.csv")
-    assert numbers["failure_mode"].tolist() == ["stiffness"] * 2 + ["restart_on_root"] * 2
-    assert numbers["measured"].tolist()[2:] == [82, SMALLEST]
+def test_failure_modes_are_tabulated_with_their_curves_and_thresholds(tmp_path, monkeypatch):
+    monkeypatch.setattr(
+        tabulate_failures, "thresholds", lambda: [Threshold("a", 2, "fails", "s", "b", 2.0, 3.0)]
+    )
+    modes, files = ("stiffness", "restart_on_root"), (tmp_path / "failures.csv", tmp_path / "thresholds.csv")
+    tabulate_failures.main(*files, {mode: tmp_path / f"{mode}.csv" for mode in modes})
+    numbers, thresholds = map(read_table, files)
+    assert numbers["failure_mode"].tolist() == ["stiffness"] + ["restart_on_root"] * 2
+    assert numbers["measured"].tolist()[1:] == [82, SMALLEST]
+    assert thresholds["n_blocks"].tolist() == [2, 10]
+    assert thresholds["ratio"].tolist() == [1.5, pytest.approx(1.0, rel=0.02)]
     assert len(read_table(tmp_path / "stiffness.csv")) == 24

@@ -232,7 +232,8 @@ rule tabulate_failures:
             "accuracy/proof",
         ),
     output:
-        table=report("results/tables/failures.csv", category="Tables"),
+        numbers=report("results/tables/failures.csv", category="Tables"),
+        thresholds=report("results/tables/thresholds.csv", category="Tables"),
         curves=collect("results/tables/failures/{mode}.csv", mode=FAILURE_MODES),
     log:
         "results/logs/tabulate_failures.log",

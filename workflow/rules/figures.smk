@@ -70,6 +70,7 @@ FIGURES = {
         "category": "Speed and accuracy",
         "tables": {
             "numbers": "results/tables/failures.csv",
+            "thresholds": "results/tables/thresholds.csv",
             "curves": collect("results/tables/failures/{mode}.csv", mode=FAILURE_MODES),
         },
     },

@@ -40,7 +40,10 @@ THEORY_OF = "theory, "
 
 
 class Sentence(NamedTuple):
-    """A line above a panel, and the number in it: its quantity begins so, with this setting and method."""
+    """A line above a panel, and the number in it: its quantity begins so, with this setting and method.
+
+    A threshold is written by `at` and `theory`, in the unit of the x axis.
+    """
 
     text: str
     quantity: str
@@ -52,9 +55,9 @@ class Sentence(NamedTuple):
 class Panel:
     """A panel: its title, its axes, and the sentences with its numbers.
 
-    `scale` is from the table's x and y to the axes, `log` names the logarithmic axes, `vertical` is a
-    quantity whose measured (dotted) and predicted (dashed) values are marked on the x axis. What fails is
-    drawn by a line if `joined`, and by markers if `marked`.
+    `scale` is from the table's x and y to the axes, and `log` names the logarithmic axes. Thresholds in its
+    sentences are marked on the x axis if `vertical`: measured ones dotted, predicted ones dashed. What fails
+    is drawn by a line if `joined`, and by markers if `marked`.
     """
 
     title: str
@@ -63,7 +66,7 @@ class Panel:
     sentences: Sequence[Sentence]
     scale: tuple[float, float] = (1.0, 1.0)
     log: str = ""
-    vertical: str = ""
+    vertical: bool = True
     joined: bool = True
     marked: bool = True
     drawstyle: str = "default"
@@ -72,24 +75,23 @@ class Panel:
     ylim: tuple[float | None, float | None] = (None, None)
 
 
-OMEGA_DT = r"$\omega_\mathrm{max}\,\Delta t$ [-]"
-LIMIT, FINISH = "largest stable omega dt", "omega dt up to which runs finish"
-RIGHT_ZONE, MERGED = "zone from which all is right", "window up to which all are right"
-STABLE = r"{method}: up to $\omega\Delta t$ = {measured:.3f}; theory {predicted:.3f}"
+STEP = r"Step $\Delta t$ [$\mu$s]"
+LIMIT, LOST = "energy grows without bound, no friction", "no global slip, or numbers overflow"
+STABLE = r"{method}: up to {at:.3f} $\mu$s; theory {theory:.3f}"
 RIGHT_OF_ALL = "{setting}: {measured:.0f} of {exact:.0f} transitions right"
 F_X, TIME = "$F_X$ [N]", "Time [s]"
 MU_SAPP = r"$\mu_\mathrm{sapp}$ [-]"
 CREEP = "velocity in stick, of the drive's"
 
 PANELS = {
-    "unstable": Panel("Steps above the stability limit", OMEGA_DT, "Energy factor per step [-]", (
+    "unstable": Panel("Steps above the stability limit", STEP, "Energy factor per step [-]", (
         Sentence(STABLE, LIMIT, method="RK4"),
         Sentence(STABLE, LIMIT, method="leapfrog"),
-    ), vertical=LIMIT, joined=False),
-    "silent_instability": Panel("The same with friction: no warning", OMEGA_DT, MU_SAPP, (
-        Sentence(r"RK4 finishes up to $\omega\Delta t$ = {measured:.2f}; stable to {predicted:.2f}", FINISH),
+    ), scale=(MICRO, 1.0), joined=False),
+    "silent_instability": Panel("The same with friction: no warning", STEP, MU_SAPP, (
+        Sentence(r"{method} finishes up to {at:.1f} $\mu$s; theory {theory:.1f}", LOST, method="RK4"),
         Sentence(r"largest $\mu_\mathrm{{sapp}}$ = {measured:.3f}; exact {exact:.3f}", "largest mu_sapp"),
-    ), vertical=FINISH, joined=False),
+    ), scale=(MICRO, 1.0), joined=False),
     "numerical_damping": Panel("Implicit Moreau-Jean damps motion", r"Time [$\mu$s]", "Energy left [-]", (
         Sentence("{setting}: energy {measured:.3f}; theory {predicted:.3f}", "energy left", "dt = 1e-07 s",
                  "Moreau-Jean, implicit"),
@@ -105,27 +107,27 @@ PANELS = {
         r"Zone / safe width $(\mu_s+\mu_k)\,w\,\Delta t/2m$ [-]", "Transitions right [-]", (
         Sentence("{setting}: {measured:.0f} of {exact:.0f}", "transitions right",
                  "dt = 4e-08 s, zone = 0.05 safe"),
-        Sentence("right from {measured:.2g} {unit} on; theory {predicted:.2g}", RIGHT_ZONE),
-    ), log="x", vertical=RIGHT_ZONE, key="lower right", ylim=(0.0, None)),
+        Sentence("right from {at:.2g} {unit} on; theory {theory:.2g}", "a narrower zone"),
+    ), log="x", key="lower right", ylim=(0.0, None)),
     "dead_zone_too_large": Panel(
         "Dead zone too large: creep inside", "Width of the zone [m/s]", r"$F_X - \mu_s w_1$ at release [N]", (
         Sentence(RIGHT_OF_ALL, "transitions right"),
-        Sentence("all are right up to {measured:.2g} {unit}", "zone up to which all is right"),
-    ), log="xy", vertical="zone up to which all is right", joined=False),
+        Sentence("right up to {at:.1e} {unit}; theory {theory:.1e}", "creep in a wider zone"),
+    ), log="xy", joined=False),
     "creep": Panel("Regularised friction creeps in stick", r"Load / $\mu_s w$ [-]", "Velocity [m/s]", (
         Sentence("creep at {setting}:", CREEP),
         Sentence("{measured:.2%} of the drive's $V$; theory {predicted:.2%}", CREEP),
     ), log="y", joined=False, key="lower right", ylim=(1e-13, 3e-4)),
     "stiffness": Panel("Regularised friction is stiff", "Width [m/s]", "Fastest rate [1/s]", (
         Sentence("{setting}: {measured:.0e} /s, chain {exact:.0e}", "fastest rate"),
-        Sentence("RK4: {measured:.0e} s at most, chain {exact:.0e} s", "longest stable step of RK4"),
-    ), log="xy", joined=False),
+        Sentence("RK4 up to {at:.2e} s; theory {theory:.2e} s", "creep becomes"),
+    ), log="xy", vertical=False, joined=False),
     "missed_roots": Panel(
         "DOP853 misses two roots in a step",
         r"Time since the last transition [$\mu$s]", "Block's velocity [mm/s]", (
         Sentence(RIGHT_OF_ALL, "transitions right"),
-        Sentence("safe steps: {measured:.1e} s; theory {predicted:.1e}", "longest step"),
-    ), scale=(MICRO, MILLI)),
+        Sentence(r"safe steps: {at:.1f} $\mu$s; theory {theory:.1f} $\mu$s", "two roots of a velocity"),
+    ), scale=(MICRO, MILLI), vertical=False),
     "restart_on_root": Panel("Restart on a root: time stands still", TIME, "Transitions [-]", (
         Sentence("{quantity}: {measured:.0f}, no end; exact {exact:.0f}", "transitions at t"),
         Sentence("not from v = {measured:.0e}; theory {predicted:.0e}", "smallest start"),
@@ -133,8 +135,8 @@ PANELS = {
     "merged_transitions": Panel(
         "Transitions closer than a step merged", "Merged within [s]", "Transitions right [-]", (
         Sentence(RIGHT_OF_ALL, "transitions right"),
-        Sentence("right up to {measured:.1e} s; theory {predicted:.1e} s", MERGED),
-    ), log="x", vertical=MERGED, ylim=(0.0, None)),
+        Sentence("right up to {at:.1e} s; theory {theory:.1e} s", "two of three"),
+    ), log="x", ylim=(0.0, None)),
     "forward_only": Panel(r"No backward sliding ($\theta$ = 5/6)", TIME, F_X, (
         Sentence(r"{setting}: $\mu_\mathrm{{sapp}}$ = {measured:.4f}; exact {exact:.4f}", "mu_sapp",
                  "theta = 5/6"),
@@ -142,16 +144,19 @@ PANELS = {
                  "transitions right", "theta = 5/6"),
     ), marked=False, xmin=2.0, ylim=(125.0, None)),
 }  # fmt: skip
+CHARTED_BLOCKS = 10
 N_LINES = max(len(panel.sentences) for panel in PANELS.values())
 
 
-def draw(numbers: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
+def draw(numbers: pd.DataFrame, thresholds: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
     """Draw the failure modes.
 
     Parameters
     ----------
     numbers : DataFrame
         failures.csv: columns failure_mode, method, setting, quantity, unit, measured, exact, predicted.
+    thresholds : DataFrame
+        thresholds.csv: columns method, n_blocks, fails, unit, measured, predicted.
     curves : sequence of DataFrame
         failures/{mode}.csv in the order of `PANELS`: the curve's name, x and y in the first three columns.
 
@@ -160,6 +165,8 @@ def draw(numbers: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
     ValueError
         If a number of a sentence is missing, or not the only one.
     """
+    limits = thresholds[thresholds["n_blocks"] == CHARTED_BLOCKS].rename(columns={"fails": "quantity"})
+    numbers = pd.concat([numbers, limits.assign(setting="")], ignore_index=True)
     with style.page(style.PAGE_MM, HEIGHT_MM, lay_out=False) as figure:
         grid = figure.subplots(ROWS, COLUMNS).flat
         for letter, axes, mode, table in zip("abcdefghijkl", grid, PANELS, curves, strict=True):
@@ -171,10 +178,11 @@ def draw(numbers: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
 def _draw_panel(axes: Axes, letter: str, mode: str, numbers: pd.DataFrame, curves: pd.DataFrame) -> None:
     panel = PANELS[mode]
     _draw_curves(axes, panel, curves)
-    of_mode = numbers[numbers["failure_mode"] == mode]
-    for _, number in of_mode[of_mode["quantity"] == panel.vertical].iterrows():
-        axes.axvline(number["predicted"] * panel.scale[0], **DASHED | {"color": style.GREY})
-        axes.axvline(number["measured"] * panel.scale[0], **style.DOTTED)
+    found = [find_number(numbers, mode, *which) for _, *which in panel.sentences]
+    for limit in found if panel.vertical else ():
+        if pd.notna(limit.get("n_blocks")):
+            axes.axvline(limit["predicted"] * panel.scale[0], **DASHED | {"color": style.GREY})
+            axes.axvline(limit["measured"] * panel.scale[0], **style.DOTTED)
     axes.set_xscale("log" if "x" in panel.log else "linear")
     axes.set_yscale("log" if "y" in panel.log else "linear")
     axes.set(xlim=(panel.xmin, None), ylim=panel.ylim)
@@ -184,7 +192,9 @@ def _draw_panel(axes: Axes, letter: str, mode: str, numbers: pd.DataFrame, curve
     axes.set_ylabel(panel.y, fontsize=TEXT_SIZE)
     axes.tick_params(labelsize=TEXT_SIZE)
     axes.legend(loc=panel.key, fontsize=TEXT_SIZE, handlelength=1.4, labelspacing=0.2, borderaxespad=0.3)
-    lines = [sentence(text, find_number(numbers, mode, *which)) for text, *which in panel.sentences]
+    lines = [
+        sentence(x.text, number, panel.scale[0]) for x, number in zip(panel.sentences, found, strict=True)
+    ]
     title = f"{letter}  {panel.title}"
     low, high = (TEXT_LEFT_PT, TEXT_BOTTOM_PT), (TEXT_LEFT_PT, TEXT_BOTTOM_PT + 1 + N_LINES * LINE_PT)
     axes.annotate("\n".join(lines), (0, 1), low, **ABOVE, fontsize=TEXT_SIZE, color=style.VERMILION)
@@ -219,8 +229,12 @@ def _label_decades(axis: Axis) -> None:
 def find_number(
     numbers: pd.DataFrame, mode: str, quantity: str, setting: str = "", method: str = ""
 ) -> pd.Series:
-    """The only number of a mode whose quantity begins so, with a setting and a method if these are given."""
-    found = numbers[(numbers["failure_mode"] == mode) & numbers["quantity"].str.startswith(quantity)]
+    """The only number of a mode whose quantity begins so, with a setting and a method if these are given.
+
+    A threshold is of no mode.
+    """
+    of_mode = numbers["failure_mode"].isna() | (numbers["failure_mode"] == mode)
+    found = numbers[of_mode & numbers["quantity"].str.startswith(quantity)]
     for column, wanted in (("setting", setting), ("method", method)):
         found = found[found[column] == wanted] if wanted else found
     if len(found) != 1:
@@ -228,9 +242,11 @@ def find_number(
     return found.iloc[0]
 
 
-def sentence(text: str, number: pd.Series) -> str:
+def sentence(text: str, number: pd.Series, scale: float) -> str:
     """Put a number into its sentence, with powers of ten and the names of variables as mathematics."""
-    written = pretty(text.format(**{str(key): value for key, value in number.items()}))
+    values = {str(key): value for key, value in number.items()}
+    values |= {"at": scale * number["measured"], "theory": scale * number["predicted"]}
+    written = pretty(text.format(**values))
     return written.replace("mu_s w", r"$\mu_s w$").replace(" F_X ", " $F_X$ ")
 
 

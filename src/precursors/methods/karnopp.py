@@ -33,6 +33,7 @@ from precursors.methods.fixed_step import (
 )
 from precursors.model.chain import Chain
 from precursors.model.checks import not_negative, positive
+from precursors.solver.simulate import MAX_TRANSITIONS
 
 # Part of the width that is certainly safe, found by trial: below 0.1 blocks jump over the zone, above 0.2 the
 # error grows for nothing.
@@ -58,7 +59,12 @@ def release_delay(chain: Chain, dead_zone: float) -> float:
 
 
 def solve(
-    chain: Chain, duration: float, step: float, until: str | None = None, dead_zone: float | None = None
+    chain: Chain,
+    duration: float,
+    step: float,
+    until: str | None = None,
+    dead_zone: float | None = None,
+    max_transitions: int = MAX_TRANSITIONS,
 ) -> Result:
     """Integrate with a dead zone of some velocity [m/s], by default `PART_OF_SAFE_WIDTH` of `safe_width`.
 
@@ -72,7 +78,7 @@ def solve(
     if dead_zone is None:
         dead_zone = PART_OF_SAFE_WIDTH * safe_width(chain, positive("step", step, "s"))
     width = not_negative("dead_zone", dead_zone, "m/s")
-    return march(run_karnopp, (width,), chain, duration, step, until)
+    return march(run_karnopp, (width,), chain, duration, step, until, max_transitions)
 
 
 solve_literally = partial(solve, dead_zone=0.0)

@@ -20,6 +20,7 @@ TABLES = (
     "work_precision",
     "step_sweep",
     "cost_per_event",
+    "thresholds",
     "spread",
     "model_comparison",
     "resolution",
@@ -87,29 +88,33 @@ def failures(t: Tables, config: Mapping[str, Any]) -> Numbers:
         found = rows(t["failures"], failure_mode=mode, quantity=quantity)
         return float((rows(found, method=method) if method else found)[column].iloc[-1])
 
-    found: Numbers = {}
-    for name, method in (("rk4", "RK4"), ("leapfrog", "leapfrog")):
-        found |= {
-            f"{name}-limit": of("unstable", "largest stable omega dt", method=method),
-            f"{name}-limit-theory": of("unstable", "largest stable omega dt", "predicted", method),
-            f"{name}-limit-step": (of("unstable", "largest stable dt", method=method), "s"),
-        }
-    for name, mode, quantity, unit in (
-        ("zone", "dead_zone_too_small", "zone from which all is right", "1"),
-        ("silent-step", "silent_instability", "dt up to which runs finish", "s"),
-        ("missed-step", "missed_roots", "longest step with which all are right", "s"),
-        ("merged-window", "merged_transitions", "window up to which all are right", "s"),
-        ("forward-right", "forward_only", "transitions right", "1"),
+    limits = t["thresholds"]
+    found: Numbers = {
+        "forward-right": of("forward_only", "transitions right"),
+        "forward-right-theory": of("forward_only", "transitions right", "predicted"),
+    }
+    for name, fails, method, unit in (
+        ("silent-step", "no global slip", "RK4", "s"),
+        ("zone", "a narrower zone", "Karnopp's dead zone", "1"),
+        ("stiff-step", "creep becomes", "RK4, friction", "s"),
+        ("missed-step", "two roots", "SciPy DOP853", "s"),
+        ("merged-window", "two of three", "DOP853", "s"),
     ):
-        found[name] = (of(mode, quantity), unit)
-        found[f"{name}-theory"] = (of(mode, quantity, "predicted"), unit)
+        chosen = limits["fails"].str.startswith(fails) & limits["method"].str.startswith(method)
+        limit = limits[chosen & (limits["n_blocks"] == 10)].iloc[0]
+        found[name], found[f"{name}-theory"] = (limit["measured"], unit), (limit["predicted"], unit)
+    ratios = {
+        "lost": rows(limits, fails="no global slip, or numbers overflow")["ratio"],
+        "interval": rows(limits, theory="shortest time between two transitions")["ratio"],
+    }
+    for name, ratio in ratios.items():
+        found |= {f"least-ratio-{name}": ratio.min(), f"most-ratio-{name}": ratio.max()}
     return found | {
         "silent-least-mu": of("silent_instability", "least mu_sapp of these"),
         "silent-most-mu": of("silent_instability", "largest mu_sapp of these"),
         "silent-right": of("silent_instability", "most transitions right of these"),
         "damping-left": rows(t["failures"], quantity="energy left after 100 us")["measured"].min(),
         "creep-share": of("creep", "velocity in stick, of the drive's"),
-        "stiff-step": (of("stiffness", "longest stable step of RK4"), "s"),
         "missed-right": of("missed_roots", "transitions right"),
         "missed-true": of("missed_roots", "transitions right", "exact"),
         "merged-close": of("merged_transitions", "transitions merged"),

@@ -11,6 +11,9 @@ from numpy.typing import ArrayLike
 from precursors.accuracy.compare import Truth, compare
 from precursors.solver.run import Run
 
+# The first five slips of theta = 0, with 30 transitions [s].
+FIVE_SLIPS = 1.25
+
 
 @dataclass(frozen=True)
 class Number:
@@ -40,11 +43,39 @@ class Number:
 
 
 @dataclass(frozen=True)
+class Threshold:
+    """A value of a method's setting from which it fails.
+
+    Attributes
+    ----------
+    method : str
+        Its label.
+    n_blocks : int
+        N of the chain.
+    fails, unit : str
+        What happens there; the unit of both values.
+    theory : str
+        The formula that predicts it.
+    predicted, measured : float
+        Both values; infinity where it never fails.
+    """
+
+    method: str
+    n_blocks: int
+    fails: str
+    unit: str
+    theory: str
+    predicted: float
+    measured: float
+
+
+@dataclass(frozen=True)
 class Failure:
-    """A failure, measured: at least one number, and a table of curves (columns: curve, x, y with units)."""
+    """A failure, measured: its numbers, curves (columns: curve, x, y with units) and thresholds."""
 
     numbers: tuple[Number, ...]
     curves: pd.DataFrame
+    thresholds: tuple[Threshold, ...] = ()
 
 
 def curves(x: str, y: str, **points: tuple[ArrayLike, ArrayLike]) -> pd.DataFrame:

@@ -1,0 +1,195 @@
+"""From which step or tolerance each method fails: predicted and measured, for chains of 1 to 50 blocks.
+
+While nothing switches, the energy of the fastest mode grows without bound beyond the limit of a method; a
+dissipative one, or one that makes energy, changes it at any step. With friction, a block that starts from
+rest turns back within a step beyond the limit and is stopped at its end: from stop to stop its distance from
+the middle is multiplied by Re R(omega dt), where R is what a step makes of an oscillation. So a slip ends,
+although the step is unstable, up to where this factor exceeds 1 in size.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+
+from precursors.accuracy.failures.common import FIVE_SLIPS, Threshold, transitions_right
+from precursors.methods import METHODS, DivergedError
+from precursors.methods.common import Smooth
+from precursors.methods.stability import (
+    bisect,
+    energy_left,
+    highest_frequency,
+    highest_mode,
+    is_unstable,
+    largest_stable_step,
+    without_friction,
+)
+from precursors.model.chain import Chain
+from precursors.solver.run import Run
+from precursors.solver.simulate import TransitionLimitError, simulate
+
+SIZES = (1, 2, 10, 50)
+GROWS = "energy grows without bound, no friction"
+CHANGES = "energy doubles or halves in five periods, no friction"
+LOST = "no global slip, or numbers overflow"
+WRONG = "a transition of the first five slips is wrong"
+
+# Names of the formulas, omega being the chain's highest angular frequency.
+RK4_THEORY, TWO, NONE = "2 sqrt 2 / omega", "2 / omega", "none"
+GROWING = {
+    "rk4_skip": RK4_THEORY,
+    "leapfrog": TWO,
+    "semi_implicit_euler": TWO,
+    "newmark": NONE,
+    "moreau_jean_half": NONE,
+}
+CHANGING = {
+    "forward_euler": "factor 1 + (omega dt)^2 a step",
+    "moreau_jean_one": "factor 1 / (1 + (omega dt)^2) a step",
+    "hht": "largest eigenvalue of a step",
+}
+# Limits of omega dt from stop to stop. Where a method locates its stops, or friction acts within a step, it
+# is the limit without friction.
+STOPPING = {
+    "rk4_skip": (2.0 * math.sqrt(3.0), "2 sqrt 3 / omega"),
+    "rk4_located": (2.0 * math.sqrt(2.0), RK4_THEORY),
+    "karnopp": (2.0 * math.sqrt(2.0), RK4_THEORY),
+    "leapfrog": (2.0, TWO),
+    "semi_implicit_euler": (math.sqrt(3.0), "sqrt 3 / omega"),
+}
+INTERVAL, MARGIN = "shortest time between two transitions", "margin of mu_s and mu_k"
+SCIPY = ("scipy_rk45", "scipy_dop853", "scipy_lsoda", "scipy_radau")
+LOCATED = ("heyoka", "cvode_adams", "cvode_bdf", "dop853", *SCIPY)
+ONCE_A_STEP = ("rk4_skip", "leapfrog", "semi_implicit_euler", "newmark", "hht", "moreau_jean_half", "karnopp")
+
+# Five periods of the fastest mode [rad], and steps over which the change of its energy in one is an average.
+PERIODS, STEPS = 10.0 * math.pi, 200
+# With friction: parts of the limit, and where a run ends, in times to the first global slip and transitions.
+PARTS, LATER = 0.8 * 1.02 ** np.arange(50), 2.0
+MOST: Any = {"max_transitions": 20_000}
+# Steps [s] and tolerances with which the first five slips are run, from loose to tight.
+COARSE_STEPS = 1e-5 * 10.0 ** -np.arange(0.0, 4.0, 0.25)
+BISECTIONS = 10  # of the margin, to 1 %
+TOLERANCES = 10.0 ** -np.arange(0.5, 8.0, 0.5)
+
+
+def thresholds() -> Iterator[Threshold]:
+    """All but those of friction laws and of locating, which are measured with these failures."""
+    for n_blocks in SIZES:
+        chain = Chain.from_slider(n_blocks=n_blocks)
+        yield from without(without_friction(chain))
+        yield from with_friction(chain)
+    yield from five_slips(simulate(Chain.from_slider(), FIVE_SLIPS))
+
+
+def without(free: Chain) -> Iterator[Threshold]:
+    """Steps [s] from which energy grows without bound or changes too much, in a chain without friction."""
+    omega = highest_frequency(free)
+    for name, theory in GROWING.items():
+        smooth, bounds = _smooth(name), (1e-2 / omega, 1e2 / omega)
+        grows = is_unstable(free, smooth.slide, bounds[1])
+        found = largest_stable_step(free, smooth.slide, *bounds) if grows else math.inf
+        yield _threshold(name, free, GROWS, theory, smooth.limit / omega, found)
+    for name, theory in CHANGING.items():
+        yield _threshold(name, free, CHANGES, theory, *changing_step(free, _smooth(name)))
+
+
+def changing_step(free: Chain, smooth: Smooth) -> tuple[float, float]:
+    """Step [s] from which the energy of the fastest mode doubles or halves: predicted and measured."""
+    omega, mode = highest_frequency(free), highest_mode(free)
+
+    def change(factor: float, z: float) -> float:
+        return abs(math.log2(factor)) * PERIODS / z
+
+    def changes(z: float) -> bool:
+        left = energy_left(free, smooth.slide, z / omega, STEPS, mode)
+        return change(left ** (1.0 / STEPS), z) > 1.0
+
+    bounds = 1e-3, 2.0
+    predicted = brentq(lambda z: change(smooth.energy_factor(z), z) - 1.0, *bounds)
+    return predicted / omega, bisect(changes, *bounds) / omega
+
+
+def with_friction(chain: Chain) -> Iterator[Threshold]:
+    """Steps [s] from which a run from rest has no global slip, or its numbers overflow."""
+    omega, end = highest_frequency(chain), LATER * simulate(chain, 10.0, "global slip").duration
+    for name, (limit, theory) in STOPPING.items():
+        if name == "rk4_located" and chain.n_blocks != 10:
+            continue  # Of few blocks one stops in nearly every step, and many blocks take minutes.
+        if name == "leapfrog" and chain.n_blocks == 1:
+            # Block 1 turns back and forth where a stop lies beyond the limit of static friction.
+            limit = 2.0 * math.sqrt(chain.mu_s / (chain.mu_s - chain.mu_k))
+            theory = "2 sqrt(mu_s / (mu_s - mu_k)) / omega"
+        found = first(partial(gets_lost, chain, name, end), PARTS * limit / omega)
+        yield _threshold(name, chain, LOST, theory, limit / omega, found)
+
+
+def gets_lost(chain: Chain, name: str, end: float, step: float) -> bool:
+    """Whether a run has no global slip, or its numbers overflow, or it makes transitions without end."""
+    try:
+        return METHODS[name].solve(chain, end, step, "global slip", **MOST).run.duration >= end
+    except (DivergedError, TransitionLimitError):
+        return True
+
+
+def five_slips(exact: Run) -> Iterator[Threshold]:
+    """Longest steps [s] and loosest tolerances with which all transitions of a run are the exact one's."""
+    chain, free = exact.chain, without_friction(exact.chain)
+    shortest = float(exact.intervals[1:-1].min())
+    expected = dict.fromkeys(ONCE_A_STEP, (INTERVAL, shortest))
+    for name in ("forward_euler", "moreau_jean_one"):
+        expected[name] = (CHANGING[name], changing_step(free, _smooth(name))[0])
+    expected["rk4_located"] = (RK4_THEORY, STOPPING["rk4_located"][0] / highest_frequency(chain))
+    expected |= dict.fromkeys((name for name in LOCATED if name in METHODS), (MARGIN, margin(exact)))
+    for name, (theory, predicted) in expected.items():
+        values = TOLERANCES if theory == MARGIN else COARSE_STEPS
+        found = first(partial(is_right, exact, name), values)
+        yield _threshold(name, chain, WRONG, theory, predicted, found)
+
+
+def is_right(exact: Run, name: str, value: float) -> bool:
+    """Whether a method with a value of its setting has all transitions right."""
+    try:
+        run = METHODS[name].solve(exact.chain, exact.duration, value, None).run
+    except (DivergedError, TransitionLimitError):
+        return False
+    return transitions_right(run, exact) == len(exact.transitions)
+
+
+def margin(exact: Run) -> float:
+    """Smallest relative change of mu_s or mu_k from which transitions of the exact run change."""
+
+    def changes(name: str, sign: float, part: float) -> bool:
+        chain = replace(exact.chain, **{name: (1.0 + sign * part) * getattr(exact.chain, name)})
+        return transitions_right(simulate(chain, 2.0 * exact.duration), exact) < len(exact.transitions)
+
+    return min(
+        bisect(partial(changes, name, sign), 1e-6, 0.1, BISECTIONS)
+        for name in ("mu_s", "mu_k")
+        for sign in (1.0, -1.0)
+    )
+
+
+def first(holds: Callable[[float], bool], values: Iterable[float]) -> float:
+    """First of some values for which something holds; infinity if there is none."""
+    return next((float(value) for value in values if holds(float(value))), math.inf)
+
+
+def _smooth(name: str) -> Smooth:
+    smooth = METHODS[name].smooth
+    assert smooth
+    return smooth
+
+
+def _threshold(
+    name: str, chain: Chain, fails: str, theory: str, predicted: float, measured: float
+) -> Threshold:
+    method = METHODS[name]
+    unit = "s" if method.setting.startswith("step") else "1"
+    return Threshold(method.label, chain.n_blocks, fails, unit, theory, predicted, measured)
