@@ -21,6 +21,8 @@ ON_DEMAND = (
     "mission",
     "prove_scenes",
     "results/certificates/fig10.json.gz",
+    "results/tables/endless.csv",
+    "results/tables/models_loadings.csv",
 )
 OF_MAKE = ("tables/bench.csv", "report.html")
 ASKED_SCENE = """\
