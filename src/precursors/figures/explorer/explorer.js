@@ -238,7 +238,7 @@
     element("play").disabled = element("moment").disabled = chosen === null;
     profile.x_range.setv({ start: 0.4, end: parameters.n_blocks + 0.6 });
     const fastest = motion ? motion.flatMap((state) => state.velocity) : [];
-    const high = fastest.reduce((a, b) => Math.max(a, b), 1e-9), low = fastest.reduce((a, b) => Math.min(a, b), 0);
+    const high = fastest.reduce((a, b) => Math.max(a, b), motion ? 1e-9 : 1), low = fastest.reduce((a, b) => Math.min(a, b), 0);
     profile.y_range.setv({ start: 1.05 * low, end: 1.05 * high });
     showMoment(Number(element("moment").value));
     if (chosen !== null && jump) {
