@@ -42,8 +42,7 @@ def balances(n: int) -> list[Expr]:
 def balances_as_printed(n: int) -> list[Expr]:
     """Left-hand sides of Eq. 12 as the paper prints them, with K y_N in the last line."""
     y, w = compressions(n), weights(n)
-    stiffness = [K] + [k] * (n - 1)
-    lines = [stiffness[i] * y[i] - k * y[i + 1] - mu_s * w[i] for i in range(n - 1)]
+    lines = [(K if i == 0 else k) * y[i] - k * y[i + 1] - mu_s * w[i] for i in range(n - 1)]
     return [*lines, K * y[-1] - mu_s * w[-1]]
 
 
