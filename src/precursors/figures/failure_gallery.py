@@ -190,7 +190,6 @@ def _draw_panel(axes: Axes, letter: str, mode: str, numbers: pd.DataFrame, curve
         _label_decades(axes.xaxis if name == "x" else axes.yaxis)
     axes.set_xlabel(panel.x, fontsize=TEXT_SIZE)
     axes.set_ylabel(panel.y, fontsize=TEXT_SIZE)
-    axes.tick_params(labelsize=TEXT_SIZE)
     axes.legend(loc=panel.key, fontsize=TEXT_SIZE, handlelength=1.4, labelspacing=0.2, borderaxespad=0.3)
     lines = [
         sentence(x.text, number, panel.scale[0]) for x, number in zip(panel.sentences, found, strict=True)
