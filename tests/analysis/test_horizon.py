@@ -185,8 +185,8 @@ def test_what_comes_later_does_not_change_the_horizon() -> None:
 
 def test_the_horizon_ends_where_the_first_error_beyond_the_tolerance_may_begin() -> None:
     errors = PredictedErrors(np.array([1.0, 2.0, 2.1]), np.array([1e-12, 1e-3, 0.5]), 3.0, NEVER)
-    ends = [errors.horizon(tolerance) for tolerance in (1e-13, 1e-9, 1e-2, 1.0)]
-    assert ends == pytest.approx([1.0 - 1e-12, 2.0 - 1e-3, 2.0, 3.0], rel=1e-15)
+    ends = [errors.horizon(tolerance) for tolerance in (1e-13, 1e-9, 1e-3, 1e-2, 1.0)]
+    assert ends == pytest.approx([1.0 - 1e-12, 2.0 - 1e-3, 2.0, 2.0, 3.0], rel=1e-15)
 
 
 def test_the_horizon_of_a_run_is_that_of_its_predicted_errors() -> None:
