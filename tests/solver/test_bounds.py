@@ -16,7 +16,17 @@ from precursors import Chain
 from precursors.methods.stability import stiffness_matrix
 from precursors.solver.kernel import bounds, roots, watch
 from precursors.solver.kernel.arrays import Search, Window, divide, memory_for
-from precursors.solver.kernel.layout import FINAL, LEVELS, NEGLIGIBLE, REACH, ROWS, WHOLE, WIDTH, order_for
+from precursors.solver.kernel.layout import (
+    FINAL,
+    LEVELS,
+    NEGLIGIBLE,
+    REACH,
+    ROWS,
+    WHOLE,
+    WIDTH,
+    WINDOW,
+    order_for,
+)
 from precursors.solver.kernel.units import scale
 
 WINDOWS, HARD_WINDOWS = 400, 200
@@ -205,7 +215,7 @@ def test_the_bounds_of_a_series_hold_for_all_its_terms_and_are_not_far_too_large
         rows[0, 0] = chain.drive_velocity
         for k in range(order + 1):
             rows[k, 1:], state = state[n:-1], rate @ state
-        window = Window(0.0, SPAN, SPAN, order, first, final, n, end, False, 0.0)
+        window = Window(0.0, SPAN, SPAN, first, final, n, end, False, 0.0)
         tails, fastest = bounds_of_terms(rows, weight, modes, window, memory_for(n))
         terms = abs(rows * weight[:, None])[:, first : final + 1]
         assert (fastest[first - 1 : final] >= (1 - ROUNDING) * terms.sum(axis=0)).all()
@@ -233,8 +243,8 @@ def test_any_chain_is_within_the_reach_too(number):
     assert omega * scale(chain).tau <= REACH * (1 + 1e-14)
 
 
-@pytest.mark.parametrize("length", [0.25, 0.5, 0.6875, 1.0])
+@pytest.mark.parametrize("length", [0.25, 0.5, WINDOW, 1.0])
 def test_the_order_leaves_out_less_than_a_rounding(length):
     n = order_for(length)
-    assert (REACH * length) ** n / math.factorial(n) <= NEGLIGIBLE
-    assert n == 8 or (REACH * length) ** (n - 1) / math.factorial(n - 1) > NEGLIGIBLE
+    assert (REACH * length) ** (n + 1) / math.factorial(n + 1) <= NEGLIGIBLE
+    assert n == 8 or (REACH * length) ** n / math.factorial(n) > NEGLIGIBLE

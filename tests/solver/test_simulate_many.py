@@ -47,10 +47,10 @@ def test_an_ensemble_is_what_its_chains_are_one_by_one(threads, until):
 def test_states_of_long_runs_are_thinned_to_the_room_they_may_take_and_known_everywhere(monkeypatch):
     chains = [chain for chain in mixed() if chain.drive_velocity > 1e-4]
     runs, times = simulate_many(chains, 1.0, threads=2), np.linspace(0.0, 1.0, 200)
-    assert all(len(run.states.after) > len(run.transitions) > SHARED_ROOM for run in runs)
+    assert all(len(run.transitions) > SHARED_ROOM for run in runs)
     monkeypatch.setattr(solver, "STATES_BYTES", ROOM)
     for run, thin in zip(runs, simulate_many(chains, 1.0, threads=2), strict=True):
-        assert sum(column.nbytes for column in thin.states) <= ROOM
+        assert sum(column.nbytes for column in thin.states) <= ROOM < sum(c.nbytes for c in run.states)
         apart = np.diff(thin.states.after)
         assert 1 < apart.max() <= 2 * apart.min()
         np.testing.assert_array_equal(thin.transitions, run.transitions)

@@ -22,7 +22,7 @@ MAX_TRANSITIONS = 10_000_000
 # Stored states are thinned out so that they never take more room than this.
 STATES_BYTES = 64 * 2**20
 # A state is stored after so many transitions that storing takes little time beside finding them.
-BLOCKS_PER_STRIDE = 16
+BLOCKS_PER_STRIDE = 3
 # The kernel returns after so many windows, so that Ctrl-C is heard within about a second.
 WINDOWS_PER_CALL = 500_000
 # Blocks that slide without end would keep the kernel busy for ever: some 10 minutes at N = 10.

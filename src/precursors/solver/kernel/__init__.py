@@ -13,6 +13,7 @@ Units: forces are in N and times in tau, chosen so that the highest frequency of
 most `REACH`. Displacements are multiplied by m/tau^2, so that velocities are in N/tau and a block's
 acceleration is the force on it. The state is the force T_i in the spring behind each block and the block's
 velocity v_i, and not its position: slips of a micrometre after a millimetre of drive keep all their digits.
+Forces are carried in two doubles, as their rounding from window to window would be the largest error.
 In these units the motion is
 
     dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides.

@@ -17,7 +17,7 @@ Vector = Any
 Table = Any
 
 # Vectors with a column for each block, and with a row for each term of a series.
-BY_COLUMN, BY_TERM = 15, 4
+BY_COLUMN, BY_TERM = 18, 4
 
 
 class System(NamedTuple):
@@ -40,14 +40,16 @@ class Motion(NamedTuple):
     """The state and the motion within a window.
 
     `rate` has the derivatives of the velocities, row 0 the velocities themselves. `velocity` is the state at
-    the start and at the end. `slides` is 1 or 0, `sense` the mode as a float, `push` the friction against the
-    motion. `slip` is the way of each block since the window began, `force_before` the spring forces then,
-    `origins` the time about which its series is, `fastest` a bound of its speed. `suspects` has blocks that
-    may stop as bits, `weight` the terms s^n / n!. The others are room to work in.
+    the start and at the end. `spring_force` is carried in two doubles, the second in `force_rest`. `slides`
+    is 1 or 0, `sense` the mode as a float, `push` the friction against the motion. `slip` is the way of each
+    block since the window began, `force_before` and `rest_before` the spring forces then, `origins` the time
+    about which its series is, `fastest` a bound of its speed. `suspects` has blocks that may stop as bits.
+    `weight` has the terms s^n / n! for the length of the window. The others are room to work in.
     """
 
     velocity: Vector
     spring_force: Vector
+    force_rest: Vector
     mode: Vector
     slides: Vector
     sense: Vector
@@ -55,9 +57,11 @@ class Motion(NamedTuple):
     slip: Vector
     origins: Vector
     force_before: Vector
+    rest_before: Vector
     fastest: Vector
     suspects: Vector
     kept_force: Vector
+    kept_rest: Vector
     weight: Vector
     spare: Vector
     behind: Vector
@@ -80,7 +84,7 @@ class Search(NamedTuple):
 
 
 class Window(NamedTuple):
-    """What is looked at: blocks first..final, from `origin` to `limit` [tau], by series of that order.
+    """What is looked at: blocks first..final, from `origin` to `limit` [tau].
 
     Block `last` is the farthest that may change its mode, `end` the last column of a whole group of four. A
     value counts as zero below the relative size `roundings`.
@@ -89,7 +93,6 @@ class Window(NamedTuple):
     origin: float
     span: float
     limit: float
-    order: int
     first: int
     final: int
     last: int
@@ -163,16 +166,19 @@ def divide(memory, n_blocks):
     motion = Motion(
         shifted(start, 3 * wide),
         shifted(start, 4 * wide),
-        whole_numbers(shifted(start, 5 * wide)),
-        shifted(start, 6 * wide),
+        shifted(start, 5 * wide),
+        whole_numbers(shifted(start, 6 * wide)),
         shifted(start, 7 * wide),
         shifted(start, 8 * wide),
         shifted(start, 9 * wide),
         shifted(start, 10 * wide),
         shifted(start, 11 * wide),
         shifted(start, 12 * wide),
-        whole_numbers(shifted(start, 13 * wide)),
+        shifted(start, 13 * wide),
         shifted(start, 14 * wide),
+        whole_numbers(shifted(start, 15 * wide)),
+        shifted(start, 16 * wide),
+        shifted(start, 17 * wide),
         by_term,
         shifted(by_term, long),
         shifted(by_term, 2 * long),

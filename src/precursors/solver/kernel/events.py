@@ -9,20 +9,18 @@ from precursors.solver.kernel.layout import (
     AT_ONCE,
     BEYOND,
     DERIVATIVES,
+    EDGE,
     ELAPSED,
     FARTHEST,
     FINISHED,
     GLOBAL,
     LONG,
-    LONG_ORDER,
-    LONG_WINDOW,
     ONSET,
     ONSET_ERROR,
+    ORDER,
     PAUSED,
     ROUNDINGS,
     ROWS,
-    SHORT_ORDER,
-    SHORT_WINDOW,
     SINCE,
     SLIDING,
     STATUS,
@@ -30,6 +28,7 @@ from precursors.solver.kernel.layout import (
     STORED,
     TRANSITIONS,
     WIDTH,
+    WINDOW,
     WINDOWS,
 )
 from precursors.solver.kernel.pointers import pointer, shifted, table
@@ -41,7 +40,7 @@ from precursors.solver.kernel.series import (
     powers,
     settle,
 )
-from precursors.solver.kernel.springs import load_at, stretch
+from precursors.solver.kernel.springs import begin, load_at, net_force, stretch, two_sum
 from precursors.solver.kernel.units import set_up
 from precursors.solver.kernel.watch import next_transition, watch
 from precursors.solver.record import States
@@ -90,6 +89,7 @@ def forget(columns, n_blocks, motion):
         clear(values, n_blocks)
     clear(motion.velocity, n_blocks)
     clear(motion.spring_force, n_blocks)
+    clear(motion.force_rest, n_blocks)
     for i in range(n_blocks + 1 + BEYOND):
         motion.mode[i] = 0
 
@@ -213,19 +213,19 @@ def rest(chain, motion, limits, progress, record):
     clock, count = progress.clock, progress.counts
     if limits.until_global and count[GLOBAL] != 0:
         return STOPPED
-    force, strength = motion.spring_force, chain.strength
+    force, rest = motion.spring_force, motion.force_rest
+    first = 1
     remaining = time_left(chain, limits, clock)
     loading_rate = chain.coupling[1] * chain.drive_velocity
-    wait = max((strength[1] - (force[1] - force[2])) / loading_rate, 0.0)
+    wait = max((chain.strength[1] - net_force(first, motion)) / loading_rate, 0.0)
     if wait >= remaining:
         remaining = max(remaining, 0.0)
-        force[1] += loading_rate * remaining
+        force[1], rest[1] = two_sum(force[1], loading_rate * remaining + rest[1])
         start_clock(clock, remaining, chain.tau)
         return FINISHED
     if wait > 0.0:
-        force[1] = force[2] + strength[1]
+        force[1], rest[1] = two_sum(force[2], chain.strength[1] + rest[2])
     start_clock(clock, wait, chain.tau)
-    first = 1
     set_mode(first, first, chain, motion)
     count[FARTHEST] = 1
     count_sliding(1, chain, count)
@@ -284,7 +284,7 @@ def slide(chain, motion, search, limits, progress, record):
             break
         i = slot // 2
         window = around(i, t, window, chain, motion, count)
-        settle(t, window.first, window.final, window.order, motion)
+        settle(t, window.first, window.final, motion)
         stretch(window.first, window.final, chain, motion)
         old = motion.mode[i]
         new = resting_mode(i, window.roundings, chain, motion) if old != 0 else 1 - 2 * (slot % 2)
@@ -292,7 +292,7 @@ def slide(chain, motion, search, limits, progress, record):
         count[FARTHEST] = max(count[FARTHEST], i)
         if new != old:
             count_sliding(abs(new) - abs(old), chain, count)
-            load = load_at(t, window.order, chain, motion) if window.first > 1 else motion.spring_force[1]
+            load = load_at(t, chain, motion) if window.first > 1 else motion.spring_force[1]
             note_transition(i, new, t, clock[SINCE] + (t - noted), load, progress, record)
             noted = t
         if not window.is_long:
@@ -302,7 +302,7 @@ def slide(chain, motion, search, limits, progress, record):
             break
     if window.is_long or slot < 0:
         first = 1
-        settle(t, first, window.end, window.order, motion)
+        settle(t, first, window.end, motion)
         stretch(first, window.end, chain, motion)
     clock[ELAPSED] += t
     clock[SINCE] += t - noted
@@ -316,16 +316,15 @@ def open_window(remaining, chain, motion, search, count):
     last = min(count[FARTHEST] + 1, chain.n_blocks)
     end = WIDTH * ((last + WIDTH - 1) // WIDTH)
     is_long = last > LONG
-    order = LONG_ORDER if is_long else SHORT_ORDER
-    limit = min(LONG_WINDOW if is_long else SHORT_WINDOW, remaining)
-    for i in range(end + 2):
-        motion.force_before[i] = motion.spring_force[i]
-        motion.slip[i] = motion.origins[i] = 0.0
-    for n in range(order + 1):
-        motion.rate[n, end + 1] = 0.0
+    limit = min(WINDOW, remaining)
+    begin(end, motion)
+    if count[EDGE] != end:
+        count[EDGE] = end
+        for n in range(ORDER + 1):
+            motion.rate[n, end + 1] = 0.0
     motion.fastest[end + 1] = 0.0
     search.active[0] = 0
-    return Window(0.0, limit, limit, order, 1, end, last, end, is_long, roundings_now(chain, count))
+    return Window(0.0, limit, limit, 1, end, last, end, is_long, roundings_now(chain, count))
 
 
 @inner_unfused
@@ -339,9 +338,10 @@ def roundings_now(chain, count):
 @inner_unfused
 def look_ahead(window, chain, motion, search, count):
     """The next transition of the window: (time in it, slot); (limit, -1) where there is none."""
-    expand(window.first, window.final, window.order, chain, motion)
-    count[DERIVATIVES] += window.order * (window.final - window.first + 1)
-    powers(window.span, window.order, motion.weight)
+    expand(window.first, window.final, chain, motion)
+    count[DERIVATIVES] += ORDER * (window.final - window.first + 1)
+    if motion.weight[1] != window.span:
+        powers(window.span, motion.weight)
     watch(window, chain, motion, search)
     return_neighbours(window, motion)
     return next_transition(window, chain, motion, search, count)
@@ -350,40 +350,40 @@ def look_ahead(window, chain, motion, search, count):
 @inner_unfused
 def around(i, t, window, chain, motion, count):
     """The rest of the window, in which only blocks near block i feel its transition at time t."""
-    span, order, last, end = window.limit - t, window.order, window.last, window.end
+    span, last, end = window.limit - t, window.last, window.end
     first, final = window.first, window.final
     if window.is_long:
         if i == last and last < chain.n_blocks:
             last += 1
             if last > end:
-                widen(end, t, order, motion)
+                widen(end, t, motion)
+                count[EDGE] = 0
                 end += WIDTH
         distance = distance_reached(span)
         first = WIDTH * ((max(i - distance, 1) - 1) // WIDTH) + 1
         final = min(WIDTH * ((i + distance + WIDTH - 1) // WIDTH), end)
         if first > 1:
-            lend(first - 1, t, order, motion, motion.behind)
+            lend(first - 1, t, motion, motion.behind)
         if final < end:
-            lend(final + 1, t, order, motion, motion.ahead)
-    return Window(
-        t, span, window.limit, order, first, final, last, end, window.is_long, roundings_now(chain, count)
-    )
+            lend(final + 1, t, motion, motion.ahead)
+    return Window(t, span, window.limit, first, final, last, end, window.is_long, roundings_now(chain, count))
 
 
 @inner_unfused
 def return_neighbours(window, motion):
     """Give the neighbours of blocks first..final their own series back."""
     if window.first > 1:
-        give_back(window.first - 1, window.order, motion, motion.behind)
+        give_back(window.first - 1, motion, motion.behind)
     if window.final < window.end:
-        give_back(window.final + 1, window.order, motion, motion.ahead)
+        give_back(window.final + 1, motion, motion.ahead)
 
 
 @seldom
-def widen(end, t, order, motion):
+def widen(end, t, motion):
     """Let four more columns beyond `end` take part from time t of the window on."""
     for j in range(end + 1, end + WIDTH + 2):
-        for n in range(order + 1):
+        for n in range(ORDER + 1):
             motion.rate[n, j] = 0.0
-        motion.slip[j], motion.origins[j], motion.force_before[j] = 0.0, t, motion.spring_force[j]
+        motion.slip[j], motion.origins[j] = 0.0, t
+        motion.force_before[j], motion.rest_before[j] = motion.spring_force[j], motion.force_rest[j]
         motion.fastest[j] = 0.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 from precursors.solver.kernel.bounds import zero_below
 from precursors.solver.kernel.compiled import inner, seldom, unfused
 from precursors.solver.kernel.layout import ROUNDINGS
+from precursors.solver.kernel.springs import net_force
 
 
 @inner
@@ -31,7 +32,7 @@ def resting_mode(i, roundings, chain, motion):
 
     A block that sticks at the limit lets go at once where its force grows: its margin decides, not rounding.
     """
-    net = motion.spring_force[i] - motion.spring_force[i + 1]
+    net = net_force(i, motion)
     if abs(net) <= chain.strength[i] + zero_below(i, roundings, chain, motion):
         return 0
     return 1 if net > 0.0 else -1

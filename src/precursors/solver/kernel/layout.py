@@ -7,33 +7,35 @@ import math
 import numpy as np
 
 REACH = 2.0
-# Rows of the Taylor arrays; the series of a window of length r is cut where (REACH r)^n / n! < NEGLIGIBLE.
-ROWS = 30
 # Blocks are worked on four at a time.
 WIDTH = 4
 # Columns beyond block N: the free end, and room for up to three blocks that are not there.
 BEYOND = WIDTH
-NEGLIGIBLE = 1e-19
-# Where more than LONG blocks move, a transition renews its neighbourhood only, in windows of LONG_WINDOW.
+# The series of a window of length r is cut before (REACH r)^n / n! < NEGLIGIBLE.
+NEGLIGIBLE = 2e-17
+# Where more than LONG blocks move, a transition renews its neighbourhood only.
 LONG = 24
-SHORT_WINDOW, LONG_WINDOW = 0.6875, 0.5
+# Longest window [tau].
+WINDOW = 0.6
 
 
 def order_for(length: float) -> int:
     """Order at which the series of a window of a length [tau] may be cut."""
-    n, term = 8, 1.0
-    for m in range(1, n + 1):
-        term *= REACH * length / m
-    while term > NEGLIGIBLE and n < ROWS - 1:
+    n, beyond = 0, REACH * length
+    while n < 8 or beyond > NEGLIGIBLE:
         n += 1
-        term *= REACH * length / n
+        beyond *= REACH * length / (n + 1)
     return n
 
 
-SHORT_ORDER, LONG_ORDER = order_for(SHORT_WINDOW), order_for(LONG_WINDOW)
+ORDER = order_for(WINDOW)
+# Last row of the Taylor arrays.
+ROWS = ORDER + 1
 # A value below so many roundings of the forces it was computed from counts as zero. Where transitions follow
 # one another without time going on, rounding decides in a circle: the limit is doubled until it does not.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
+# A root is found where what is left of the function is so small a share of that.
+AT_ROOT = 2.0**-12
 
 # A run reached its duration; it ended before, at rest or in a long slip; or it can go on.
 FINISHED, STOPPED, PAUSED = 0, 1, 2
@@ -43,9 +45,11 @@ FINISHED, STOPPED, PAUSED = 0, 1, 2
 ONSET, ONSET_ERROR, ELAPSED, SINCE = range(4)
 # `counts`: transitions, sliding blocks, whether all slid at once, stored states, windows, derivatives of
 # single blocks that were computed, steps of the root search, how the run ended, the farthest block that may
-# slide, and transitions on end at one instant.
-TRANSITIONS, SLIDING, GLOBAL, STORED, WINDOWS, DERIVATIVES, ROOT_STEPS, STATUS, FARTHEST, AT_ONCE = range(10)
-CLOCK_SIZE, COUNT_SIZE = 4, 10
+# slide, transitions on end at one instant, and the column before one that is known not to move.
+TRANSITIONS, SLIDING, GLOBAL, STORED, WINDOWS, DERIVATIVES, ROOT_STEPS, STATUS, FARTHEST, AT_ONCE, EDGE = (
+    range(11)
+)
+CLOCK_SIZE, COUNT_SIZE = 4, 11
 
 # What a bound comes from: nothing yet, though the series is there; one step; the cubic; the whole series; or
 # it is the root itself.

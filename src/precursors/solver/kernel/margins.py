@@ -12,6 +12,7 @@ from precursors.solver.kernel.layout import (
     C1,
     C2,
     C3,
+    ORDER,
     ORIGIN,
     POWER,
     REST,
@@ -21,16 +22,17 @@ from precursors.solver.kernel.layout import (
     ZERO_BELOW,
 )
 from precursors.solver.kernel.roots import keep
+from precursors.solver.kernel.springs import net_force
 
 
 @inner
-def margin_series(slot, i, order, chain, motion, series):
+def margin_series(slot, i, chain, motion, series):
     """Series of the margin of stuck block i against letting go forward (even slot) or backward (odd slot)."""
-    rate, weight, force = motion.rate, motion.weight, motion.spring_force
+    rate, weight = motion.rate, motion.weight
     side = 1.0 - 2.0 * (slot % 2)
     b, a = chain.coupling[i], chain.coupling[i + 1]
-    series[slot, 0] = chain.strength[i] - side * (force[i] - force[i + 1])
-    for n in range(1, order + 1):
+    series[slot, 0] = chain.strength[i] - side * net_force(i, motion)
+    for n in range(1, ORDER + 1):
         faster = b * rate[n - 1, i - 1] + a * rate[n - 1, i + 1]
         series[slot, n] = -side * faster * weight[n]
 
@@ -53,7 +55,7 @@ def watch_margins(i, window, zero, tails, chain, motion, search):
 
     `tails` bounds the rest of the neighbours' series, and its curvature.
     """
-    rate, weight, fastest, force = motion.rate, motion.weight, motion.fastest, motion.spring_force
+    rate, weight, fastest = motion.rate, motion.weight, motion.fastest
     level, stage, bound = search.level, search.stage, search.bound
     origin, span = window.origin, window.span
     tail, tail_bend = tails
@@ -61,7 +63,7 @@ def watch_margins(i, window, zero, tails, chain, motion, search):
     b, a = chain.coupling[i], chain.coupling[far]
     if b * fastest[near] + a * fastest[far] == 0.0:
         return
-    net = force[i] - force[far]
+    net = net_force(i, motion)
     # The net force grows with the velocities of the neighbours.
     g1 = (b * rate[0, near] + a * rate[0, far]) * weight[1]
     g2 = (b * rate[1, near] + a * rate[1, far]) * weight[2]
@@ -90,7 +92,7 @@ def watch_margins(i, window, zero, tails, chain, motion, search):
             bound[slot] = origin + safe_step(c0, c1, downward(c2, c3) + 12.0 * rest) * span
         else:
             # The series of the neighbours may get other origins before this one is looked at again.
-            margin_series(slot, i, window.order, chain, motion, search.series)
+            margin_series(slot, i, chain, motion, search.series)
             stage[slot], bound[slot] = BUILT, origin
         if bound[slot] < origin + span:
             keep(slot, search)

@@ -7,6 +7,7 @@ import numpy as np
 from precursors.solver.kernel.bounds import cubic_bound, downward, safe_step, surely_positive, turning
 from precursors.solver.kernel.compiled import inner, seldom
 from precursors.solver.kernel.layout import (
+    AT_ROOT,
     BEND,
     FINAL,
     ORIGIN,
@@ -86,22 +87,23 @@ def refine(slot, t, search):
     g = even + x * odd
     slope = odd + 2.0 * x * (even_slope + x * odd_slope)
     if slope < 0.0:
-        # Newton's step, where it ends so near to the root that the value there counts as zero.
+        # Newton's step, where it ends at the root.
         step = max(-g / slope, -1e-9)
-        if g <= level[slot, ZERO_BELOW] or 0.5 * level[slot, TURN] * step * step <= level[slot, ZERO_BELOW]:
+        close = AT_ROOT * level[slot, ZERO_BELOW]
+        if g <= close or 0.5 * level[slot, TURN] * step * step <= close:
             stage[slot] = FINAL
             return level[slot, ORIGIN] + max(x + step, 0.0) * span
     step = safe_step(max(g, 0.0), slope, level[slot, BEND])
     if g <= level[slot, ZERO_BELOW] or x + step <= x:
         stage[slot] = FINAL
-        step = 0.0
+        step = step if slope < 0.0 else 0.0
     return level[slot, ORIGIN] + max(x + step, 0.0) * span
 
 
 @seldom
 def examine_from(slot, t, search):
     """Examine the rest of the window beyond t, which no root lies before, with the series moved there."""
-    series, level, terms, stage = search.series, search.level, search.terms, search.stage
+    series, level, terms = search.series, search.level, search.terms
     count = terms[slot]
     x = (t - level[slot, ORIGIN]) / level[slot, SPAN]
     for first in range(count - 1):
@@ -116,7 +118,9 @@ def examine_from(slot, t, search):
     level[slot, ORIGIN] = t
     level[slot, SPAN] *= rest
     if series[slot, 0] <= level[slot, ZERO_BELOW]:
-        stage[slot] = FINAL
+        level[slot, BEND] *= rest * rest
+        level[slot, TURN] *= rest * rest
+        level[slot, STEPS] = 0.0
         return t
     return examine(slot, terms[slot], search)
 

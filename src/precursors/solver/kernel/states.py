@@ -8,9 +8,9 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.solver.kernel.arrays import Record, System, divide, memory_for
 from precursors.solver.kernel.compiled import inner, outer, unfused
 from precursors.solver.kernel.friction import farthest_sliding, set_mode, take_mode
-from precursors.solver.kernel.layout import SHORT_ORDER, SHORT_WINDOW, WIDTH
+from precursors.solver.kernel.layout import ORDER, WIDTH, WINDOW
 from precursors.solver.kernel.series import expand, settle
-from precursors.solver.kernel.springs import stretch
+from precursors.solver.kernel.springs import begin, stretch
 from precursors.solver.kernel.units import parameters, set_up
 from precursors.solver.record import States
 
@@ -51,12 +51,18 @@ def go_through(parameters, weights, sorted_times, found, record, states, memory)
             set_mode(record.block[done], record.mode[done], chain, motion)
             done += 1
             offset = 0.0
+        # Whole windows are gone through once, so that many times in one slip cost no more than the slip.
+        while since - offset > WINDOW * tau and motion.mode[farthest_sliding(n_blocks, motion.mode)] != 0:
+            propagate(WINDOW, chain, motion)
+            offset += WINDOW * tau
         for i in range(1, n_blocks + 1):
             motion.velocity[i], motion.kept_force[i] = motion.rate[0, i], motion.spring_force[i]
+            motion.kept_rest[i] = motion.force_rest[i]
         propagate(max(since - offset, 0.0) / tau, chain, motion)
         for i in range(1, n_blocks + 1):
             found[0, q, i - 1], found[1, q, i - 1] = motion.spring_force[i], motion.rate[0, i] * speed
             motion.rate[0, i], motion.spring_force[i] = motion.velocity[i], motion.kept_force[i]
+            motion.force_rest[i] = motion.kept_rest[i]
 
 
 @inner
@@ -75,7 +81,7 @@ def take_state(row, states, chain, motion):
     """Take a stored state."""
     for i in range(1, chain.n_blocks + 1):
         motion.rate[0, i] = states.velocity[row, i - 1] / chain.speed
-        motion.spring_force[i] = states.force[row, i - 1]
+        motion.spring_force[i], motion.force_rest[i] = states.force[row, i - 1], 0.0
         motion.mode[i] = states.mode[row, i - 1]
         take_mode(i, chain, motion)
 
@@ -91,14 +97,12 @@ def propagate(span, chain, motion):
     last = min(farthest + 1, n_blocks)
     first, end = 1, WIDTH * ((last + WIDTH - 1) // WIDTH)
     while span > 0.0:
-        s = min(span, SHORT_WINDOW)
-        for i in range(end + 2):
-            motion.force_before[i] = force[i]
-            slip[i] = motion.origins[i] = 0.0
+        s = min(span, WINDOW)
+        begin(end, motion)
         slip[0] = chain.drive_velocity * s
-        for n in range(SHORT_ORDER + 1):
+        for n in range(ORDER + 1):
             motion.rate[n, end + 1] = 0.0
-        expand(first, end, SHORT_ORDER, chain, motion)
-        settle(s, first, end, SHORT_ORDER, motion)
+        expand(first, end, chain, motion)
+        settle(s, first, end, motion)
         stretch(first, end, chain, motion)
         span -= s

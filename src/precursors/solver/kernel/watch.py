@@ -22,6 +22,7 @@ from precursors.solver.kernel.layout import (
     CUBIC,
     FINAL,
     INVERSE_FACTORIAL,
+    ORDER,
     ORIGIN,
     POWER,
     REACH_SQUARED,
@@ -130,7 +131,7 @@ def watch_velocity(i, window, sign, zero, tails, motion, search):
         level[slot, POWER] = 1.0
         bend = 12.0 * r5 + 20.0 * r6 + 30.0 * r7 + tail_bend
     else:
-        for n in range(window.order + 1):
+        for n in range(ORDER + 1):
             series[slot, n] = sign * rate[n, i] * weight[n]
         stage[slot], bound[slot] = BUILT, origin
         keep(slot, search)
@@ -156,7 +157,7 @@ def next_transition(window, chain, motion, search, count):
         if slot < 0 or stage[slot] == FINAL:
             return t, slot
         if stage[slot] == BUILT:
-            bound[slot] = examine(slot, window.order + 1, search)
+            bound[slot] = examine(slot, ORDER + 1, search)
             continue
         if stage[slot] == ROUGH:
             s = cubic_bound(
@@ -178,21 +179,20 @@ def next_transition(window, chain, motion, search, count):
 @inner
 def build(slot, window, chain, motion, search):
     """Fill the whole series of a watched function, a root at its start divided out."""
-    order = window.order
     series, level = search.series, search.level
     i = slot // 2
     mode, rate, weight = motion.mode[i], motion.rate, motion.weight
     if mode == 0:
-        margin_series(slot, i, order, chain, motion, series)
+        margin_series(slot, i, chain, motion, series)
     else:
         if level[slot, ORIGIN] != window.origin:
             weight = motion.spare
-            powers(level[slot, SPAN], order, weight)
-        for n in range(order + 1):
+            powers(level[slot, SPAN], weight)
+        for n in range(ORDER + 1):
             series[slot, n] = mode * rate[n, i] * weight[n]
     p = int(level[slot, POWER])
-    divide_out(slot, p, order + 1, series)
-    search.terms[slot] = order + 1 - p
+    divide_out(slot, p, ORDER + 1, series)
+    search.terms[slot] = ORDER + 1 - p
     level[slot, STEPS] = 0.0
     search.stage[slot] = WHOLE
 
@@ -204,7 +204,7 @@ def tail_bounds(window, rate):
     Row n + 2 of a block is at most REACH^2 times the largest of row n (Gershgorin); moving neighbours
     outside, in columns first - 1 and final + 1, enter with all their rows, which follow from others.
     """
-    first, final, order, span = window.first, window.final, window.order, window.span
+    first, final, span = window.first, window.final, window.span
     sixth_row = seventh_row = lanes.spread(0.0)
     for i in range(first, final + 1, 4):
         sixth_row = lanes.larger(sixth_row, lanes.magnitude(lanes.load_row(rate, 6, i)))
@@ -213,7 +213,7 @@ def tail_bounds(window, rate):
     odd = max(lanes.largest(seventh_row), abs(rate[7, first - 1]), abs(rate[7, final + 1]))
     if first > 1 or final < window.end:
         shrink = 1.0
-        for n in range(8, order + 1):
+        for n in range(8, ORDER + 1):
             if n % 2 == 0:
                 shrink /= REACH_SQUARED
                 even = max(even, shrink * abs(rate[n, first - 1]), shrink * abs(rate[n, final + 1]))
