@@ -225,10 +225,9 @@ class _Workspace(threading.local):
         if n_blocks == self.n_blocks:
             return
         self.stride = 1 + n_blocks // BLOCKS_PER_STRIDE
-        self.memory = backend.KERNEL.memory_for(n_blocks)
-        self.record = backend.KERNEL.Record._make(
-            np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in COLUMNS
-        )
+        kernel = backend.KERNEL
+        self.memory = kernel.memory_for(n_blocks)
+        self.record = kernel.Record._make(np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in COLUMNS)
         self.states = States.empty(max(SHARED_ROOM // self.stride, 2), n_blocks)
         self.n_blocks = n_blocks
 
@@ -248,20 +247,19 @@ def _run_batch(
     chains: Sequence[Chain], positions: FloatArray, velocities: FloatArray, end: _End
 ) -> list[Run]:
     """Run chains of equal length one after the other, in as few calls of the kernel as it takes."""
-    if backend.KERNEL is None:
+    kernel = backend.KERNEL
+    if kernel is None:
         return [_run_plain(*each, end) for each in zip(chains, positions, velocities, strict=True)]
     work, n = _workspace, len(chains)
     work.prepare(chains[0].n_blocks)
-    parameters = np.array([backend.KERNEL.parameters(chain) for chain in chains])
-    batch = backend.KERNEL.Batch(
-        parameters, np.array([chain.weights for chain in chains]), positions, velocities
-    )
+    parameters = np.array([kernel.parameters(chain) for chain in chains])
+    batch = kernel.Batch(parameters, np.array([chain.weights for chain in chains]), positions, velocities)
     clock, count = (
-        np.zeros((n, backend.KERNEL.CLOCK_SIZE)),
-        np.zeros((n, backend.KERNEL.COUNT_SIZE), np.int64),
+        np.zeros((n, kernel.CLOCK_SIZE)),
+        np.zeros((n, kernel.COUNT_SIZE), np.int64),
     )
-    progress = backend.KERNEL.Progress(np.empty(n), clock, count)
-    limits = backend.KERNEL.Limits(
+    progress = kernel.Progress(np.empty(n), clock, count)
+    limits = kernel.Limits(
         end.duration,
         end.until_global,
         end.longest_slip,
@@ -275,27 +273,25 @@ def _run_batch(
     while len(runs) < n:
         left = slice(len(runs), None)
         here, reached = (_rows(batch, left), _rows(progress, left)) if runs else (batch, progress)
-        n_finished, is_paused = backend.KERNEL.run_batch(
-            here, limits, reached, work.record, work.states, work.memory
-        )
+        n_finished, is_paused = kernel.run_batch(here, limits, reached, work.record, work.states, work.memory)
         for part in _parts(work, count[left][: n_finished + is_paused]):
             j = len(runs)
             mine = slice(j, j + 1)
-            if count[j, backend.KERNEL.STATUS] == backend.KERNEL.PAUSED:
+            if count[j, kernel.STATUS] == kernel.PAUSED:
                 part = _go_on(_rows(batch, mine), limits, _rows(progress, mine), part, end.most)
             onset, error, elapsed, _ = clock[j].tolist()
             time = onset + (error + elapsed * float(progress.tau[j]))
             run = Run(
                 chain=chains[j],
-                duration=end.duration if count[j, backend.KERNEL.STATUS] == backend.KERNEL.FINISHED else time,
+                duration=end.duration if count[j, kernel.STATUS] == kernel.FINISHED else time,
                 transitions=part.transitions,
                 intervals=part.intervals,
                 start_positions=positions[j],
                 start_velocities=velocities[j],
                 states=part.states,
-                evaluations=float(count[j, backend.KERNEL.DERIVATIVES]) / chains[j].n_blocks,
+                evaluations=float(count[j, kernel.DERIVATIVES]) / chains[j].n_blocks,
             )
-            if count[j, backend.KERNEL.STATUS] == backend.KERNEL.PAUSED:
+            if count[j, kernel.STATUS] == kernel.PAUSED:
                 raise _unfinished(run, end)
             runs.append(run)
     return runs
@@ -335,7 +331,8 @@ def _rows(columns: Any, rows: slice) -> Any:
 
 def _parts(work: _Workspace, count: IntArray) -> Iterator[_Part]:
     """Cut the record of several runs, as `count` has them, into one part a run."""
-    used, stored = count[:, backend.KERNEL.TRANSITIONS].tolist(), count[:, backend.KERNEL.STORED].tolist()
+    kernel = backend.KERNEL
+    used, stored = count[:, kernel.TRANSITIONS].tolist(), count[:, kernel.STORED].tolist()
     transitions = _transitions(work.record, sum(used))
     intervals: FloatArray = work.record.intervals[: sum(used) + len(used)].copy()
     n_states = sum(stored)
@@ -358,33 +355,34 @@ def _go_on(batch: Any, limits: Any, progress: Any, part: _Part, most: int) -> _P
     """Run on a chain that the kernel left unfinished, in a record of its own that grows as needed."""
     [clock], [count] = progress.clock, progress.counts
     values = [part.transitions[name] for name in TRANSITION.names or ()]
-    record = backend.KERNEL.Record._make(
+    kernel = backend.KERNEL
+    record = kernel.Record._make(
         column.astype(kind) for column, kind in zip([*values, part.intervals], COLUMNS, strict=True)
     )
     states, stride = part.states, limits.stride
     while (
-        count[backend.KERNEL.STATUS] == backend.KERNEL.PAUSED
-        and count[backend.KERNEL.TRANSITIONS] < most
-        and count[backend.KERNEL.WINDOWS] < MAX_WINDOWS
+        count[kernel.STATUS] == kernel.PAUSED
+        and count[kernel.TRANSITIONS] < most
+        and count[kernel.WINDOWS] < MAX_WINDOWS
     ):
-        used = int(count[backend.KERNEL.TRANSITIONS])
+        used = int(count[kernel.TRANSITIONS])
         if used >= len(record.time) or len(record.time) < len(record.intervals):
             room = min(max(FIRST_ROOM, 2 * used), most)
-            record = backend.KERNEL.Record._make(_enlarged(column[:used], room) for column in record)
-        if count[backend.KERNEL.STORED] >= len(states.after):
+            record = kernel.Record._make(_enlarged(column[:used], room) for column in record)
+        if count[kernel.STORED] >= len(states.after):
             rows = max(FIRST_ROOM // stride, 2 * len(states.after))
             if rows * sum(column[0].nbytes for column in states) > STATES_BYTES:
                 states, stride = _rows(states, slice(None, None, 2)), 2 * stride
-                count[backend.KERNEL.STORED], rows = len(states.after), rows // 2
+                count[kernel.STORED], rows = len(states.after), rows // 2
             states = States._make(_enlarged(column, rows) for column in states)
         limits = limits._replace(
             transitions=len(record.time), states=len(states.after), stride=stride, goes_on=True
         )
-        backend.KERNEL.run_batch(batch, limits, progress, record, states, _workspace.memory)
-    n, stored = int(count[backend.KERNEL.TRANSITIONS]), int(count[backend.KERNEL.STORED])
+        kernel.run_batch(batch, limits, progress, record, states, _workspace.memory)
+    n, stored = int(count[kernel.TRANSITIONS]), int(count[kernel.STORED])
     return _Part(
         _transitions(record, n),
-        np.append(record.intervals[:n], clock[backend.KERNEL.SINCE] * progress.tau[0]),
+        np.append(record.intervals[:n], clock[kernel.SINCE] * progress.tau[0]),
         _rows(states, slice(stored)),
     )
 
