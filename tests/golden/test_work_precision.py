@@ -6,8 +6,10 @@ work_precision_full.png then replace the two golden files.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from golden.regenerate import GOLDEN
 from golden.test_golden import FIGURE_RMS, MOST_BYTES
@@ -18,6 +20,7 @@ from precursors.support.files import read_table
 
 TABLE, CHART = GOLDEN / "work_precision_full.csv", GOLDEN / "work_precision_full.png"
 MADE = Path(__file__).parents[2] / "results/tables/work_precision.csv"
+DOCS = Path(__file__).parents[2] / "docs/performance.md"
 PEERS = {"heyoka", "cvode_adams", "cvode_bdf", "scipy_dop853", "scipy_rk45", "scipy_lsoda", "scipy_radau"}
 
 
@@ -29,6 +32,26 @@ def table(request):
 def test_the_published_chart_is_the_published_table_drawn(tmp_path):
     style.save(work_precision.draw(read_table(TABLE)), tmp_path / CHART.name)
     assert compare_images(str(CHART), str(tmp_path / CHART.name), tol=FIGURE_RMS) is None
+
+
+@pytest.mark.parametrize(
+    ("row", "method", "value"),
+    [
+        ("exact", "exact", 0.0),
+        ("heyoka.py, 2.2e-16", "heyoka", 2.2e-16),
+        ("DOP853, compiled, 1e-11", "dop853", 1e-11),
+        ("DOP853, SciPy, 1e-11", "scipy_dop853", 1e-11),
+    ],
+)
+def test_the_table_in_the_docs_is_of_the_published_one(row, method, value):
+    table = read_table(TABLE).query("scene == 'uniform' and until == 'global slip' and method == @method")
+    [found] = table[np.isclose(table["value"], value, rtol=0.01, atol=0)].to_dict("records")
+    said = re.search(rf"\| {row} \| (\d+) \| (\S+) ms \| (\S+) us \| (\S+) s \|", DOCS.read_text())
+    evaluations, time, each, error = [float(number) for number in said.groups()]
+    assert evaluations == found["evaluations"]
+    assert time == float(f"{1e3 * found['seconds']:.{3 if time > 100 else 2}g}")
+    assert each == float(f"{1e6 * found['seconds'] / evaluations:.2g}")
+    assert error == float(f"{found['error_time_s']:.0e}")
 
 
 def test_both_published_files_are_small():
