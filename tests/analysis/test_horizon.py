@@ -335,3 +335,10 @@ def test_one_block_has_no_exponent() -> None:
 def test_a_run_too_short_or_a_bad_argument_is_named(argument: dict[str, float], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         lyapunov_exponent(simulate(Chain.from_slider(), 1.0), **argument)  # type: ignore[arg-type]
+
+
+def test_what_moves_at_the_start_has_no_error():
+    run = simulate(Chain.from_slider(), 0.01, start_velocities=np.full(10, 1e-3))
+    error = predicted_errors(run).time_error
+    assert (error[:10] == 0.0).all()
+    assert (error[10:] > 0.0).all()

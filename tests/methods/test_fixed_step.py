@@ -15,7 +15,7 @@ from precursors.accuracy.failures.dead_zone import (
     smallest_dead_zone,
 )
 from precursors.accuracy.failures.literal_friction import load_after_limit
-from precursors.methods import METHODS, DivergedError, karnopp
+from precursors.methods import METHODS, DivergedError, karnopp, rk4_located
 from precursors.methods.columns import sliding_forward, system_of
 from precursors.methods.fixed_step import FIRST_ROOM, march
 from precursors.methods.rk4 import run_rk4
@@ -197,3 +197,18 @@ def test_a_dead_zone_is_too_large_from_a_width_on_that_no_step_changes(five_slip
 def test_a_dead_zone_lets_the_load_creep_beyond_the_first_limit(chain, dead_zone):
     delay = karnopp.release_delay(chain, dead_zone)
     assert first_excess(chain, dead_zone) == pytest.approx(chain.loading_rate * delay, rel=CREEP_TOLERANCE)
+
+
+def test_located_steps_see_every_dip_of_a_cubic():
+    """Also a dip within a step whose ends are positive; the zero is where the cubic first is negative."""
+    s = np.linspace(0.0, 1.0, 2001)
+    dips = 0
+    for g0, b0, g1, b1 in np.random.default_rng(1).normal(size=(500, 4)) * [1.0, 6.0, 1.0, 6.0]:
+        cubic = rk4_located.cubic_at(s, abs(g0), b0, g1, b1)
+        found = rk4_located.first_zero(abs(g0), b0, g1, b1, 1e-12)
+        if cubic.min() < 0.0:
+            dips += g1 > 0.0
+            assert found == pytest.approx(s[np.argmax(cubic < 0.0)], abs=1e-3)
+        elif cubic.min() > 1e-3:
+            assert found == rk4_located.NEVER
+    assert dips > 20
