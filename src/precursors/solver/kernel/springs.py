@@ -12,7 +12,7 @@ from precursors.solver.kernel.series import powers
 def begin(end, motion):
     """Begin a window: no slips yet, and the spring forces of blocks 1..end + 1 as they are."""
     slip, origins, nothing = motion.slip, motion.origins, lanes.spread(0.0)
-    slip[0] = origins[0] = slip[end + 1] = origins[end + 1] = 0.0
+    slip[end + 1] = 0.0
     for i in range(1, end + 1, 4):
         lanes.store(slip, i, nothing)
         lanes.store(origins, i, nothing)
