@@ -205,7 +205,8 @@ def test_located_steps_see_every_dip_of_a_cubic():
     random = np.random.default_rng(1)
     for p1, p2, g1 in random.uniform(-1.5, 1.0, (1000, 3)) * [1.0, 0.1, 0.1]:
         b0, b1 = 3.0 * (p1 - 1.0), 3.0 * (g1 - p2)
-        cubic = rk4_located.cubic_at(s, 1.0, b0, g1, b1)
+        r = 1.0 - s
+        cubic = r**3 + 3.0 * s * r * (p1 * r + p2 * s) + g1 * s**3
         found = rk4_located.first_zero(1.0, b0, g1, b1, 1e-12)
         if cubic.min() < 0.0:
             dips += g1 > 0.0
