@@ -254,10 +254,7 @@ def _run_batch(
     work.prepare(chains[0].n_blocks)
     parameters = np.array([kernel.parameters(chain) for chain in chains])
     batch = kernel.Batch(parameters, np.array([chain.weights for chain in chains]), positions, velocities)
-    clock, count = (
-        np.zeros((n, kernel.CLOCK_SIZE)),
-        np.zeros((n, kernel.COUNT_SIZE), np.int64),
-    )
+    clock, count = np.zeros((n, kernel.CLOCK_SIZE)), np.zeros((n, kernel.COUNT_SIZE), np.int64)
     progress = kernel.Progress(np.empty(n), clock, count)
     limits = kernel.Limits(
         end.duration,

@@ -213,18 +213,18 @@ def rest(chain, motion, limits, progress, record):
     clock, count = progress.clock, progress.counts
     if limits.until_global and count[GLOBAL] != 0:
         return STOPPED
-    force, rest = motion.spring_force, motion.force_rest
+    force, second = motion.spring_force, motion.force_rest
     first = 1
     remaining = time_left(chain, limits, clock)
     loading_rate = chain.coupling[1] * chain.drive_velocity
     wait = max((chain.strength[1] - net_force(first, motion)) / loading_rate, 0.0)
     if wait >= remaining:
         remaining = max(remaining, 0.0)
-        force[1], rest[1] = two_sum(force[1], loading_rate * remaining + rest[1])
+        force[1], second[1] = two_sum(force[1], loading_rate * remaining + second[1])
         start_clock(clock, remaining, chain.tau)
         return FINISHED
     if wait > 0.0:
-        force[1], rest[1] = two_sum(force[2], chain.strength[1] + rest[2])
+        force[1], second[1] = two_sum(force[2], chain.strength[1] + second[2])
     start_clock(clock, wait, chain.tau)
     set_mode(first, first, chain, motion)
     count[FARTHEST] = 1
