@@ -376,6 +376,7 @@ def join_negative_values(argv: Iterable[str]) -> list[str]:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; an error is one line on standard error."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # starting threads costs more than any matrix here
     arguments = parser().parse_args(join_negative_values(sys.argv[1:] if argv is None else argv))
     try:
         arguments.run(arguments)

@@ -11,6 +11,7 @@ def test_the_cost_is_relative_to_ten_blocks_of_the_same_kind():
         "front": [50],
     }
     assert (table["seconds_per_transition"] > 0).all()
+    assert (table["seconds_per_evaluation"] < table["seconds_per_transition"]).all()
     assert table[table["n_blocks"] == 10]["relative"].tolist() == [1.0, 1.0]
     assert table[table["kind"] != "front"]["transitions"].tolist() == 2 * [60, 60, 150]
 

@@ -83,8 +83,9 @@ def measure_cost(
     -------
     DataFrame
         A row per kind and size: n_blocks, transitions, mean_front (farthest sliding block
-        over N, mean over the transitions), seconds_per_transition [s] of processor time, and that relative
-        to the same kind's with `BASE_SIZE` blocks, for fronts to the driven one's (NaN without that size).
+        over N, mean over the transitions), seconds_per_transition [s] of processor time,
+        seconds_per_evaluation [s] of the force on one block, and the time per transition relative to the
+        same kind's with `BASE_SIZE` blocks, for fronts to the driven one's (NaN without that size).
     """
     tasks = {
         (name, n): partial(kind.run, n, max(least_transitions, transitions_per_block * n))
@@ -94,18 +95,20 @@ def measure_cost(
     }
     runs = {key: task() for key, task in tasks.items()}
     timings = timing.measure(tasks, rounds, shortest)
-    table = pd.DataFrame(
-        [
+    rows = []
+    for (name, n), run in runs.items():
+        seconds = float(np.median(timings[name, n].cpu))
+        rows.append(
             {
                 "kind": name,
                 "n_blocks": n,
                 "transitions": len(run.transitions),
                 "mean_front": mean_front(run) / n,
-                "seconds_per_transition": float(np.median(timings[name, n].cpu)) / len(run.transitions),
+                "seconds_per_transition": seconds / len(run.transitions),
+                "seconds_per_evaluation": seconds / (n * run.evaluations),
             }
-            for (name, n), run in runs.items()
-        ]
-    )
+        )
+    table = pd.DataFrame(rows)
     base = table[table["n_blocks"] == BASE_SIZE].set_index("kind")["seconds_per_transition"]
     bases = table["kind"].map(lambda kind: base.get(kind, base.get("driven", math.nan)))
     return table.assign(relative=table["seconds_per_transition"] / bases)

@@ -113,7 +113,8 @@ def _against_schema(config: Config, schema_path: str | os.PathLike[str]) -> Iter
     types = draft.TYPE_CHECKER.redefine(
         "number", lambda _, x: isinstance(x, int | float) and not isinstance(x, bool) and math.isfinite(x)
     ).redefine("integer", lambda _, x: isinstance(x, int) and not isinstance(x, bool))
-    schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # ten times faster, where it was built
+    schema = yaml.load(Path(schema_path).read_text(encoding="utf-8"), loader)
     for error in jsonschema.validators.extend(draft, type_checker=types)(schema).iter_errors(config):
         yield _in_words(error)
 

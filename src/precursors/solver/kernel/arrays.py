@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba.extending import register_jitable
 
 from precursors.model.chain import FloatArray
 from precursors.solver.kernel.compiled import inner
@@ -18,6 +19,8 @@ Table = Any
 
 # Vectors with a column for each block, and with a row for each term of a series.
 BY_COLUMN, BY_TERM = 18, 4
+# Doubles in a line of the cache.
+LINE = 8
 
 
 class System(NamedTuple):
@@ -147,20 +150,28 @@ class Record(NamedTuple):
 
 
 def memory_for(n_blocks: int) -> FloatArray:
-    """Memory that `divide` divides."""
-    wide = n_blocks + 1 + BEYOND
+    """Memory that `divide` divides, in which no group of four blocks lies across two lines of the cache."""
+    wide = n_columns(n_blocks)
     by_slot = 2 * wide * (ROWS + 1 + LEVELS + 4) + 1
-    return np.zeros(BY_COLUMN * wide + BY_TERM * (ROWS + WIDTH) + (ROWS + 1) * wide + by_slot)
+    memory = np.zeros((BY_COLUMN + ROWS + 1) * wide + 1 + BY_TERM * (ROWS + WIDTH) + by_slot + LINE)
+    block_1 = 1 + memory.ctypes.data // memory.itemsize
+    return memory[-block_1 % LINE :]
+
+
+@register_jitable
+def n_columns(n_blocks):
+    """Columns of a row: the drive, the blocks and what is beyond them, in whole groups of four."""
+    return WIDTH * ((n_blocks + BEYOND + WIDTH) // WIDTH)
 
 
 @inner
 def divide(memory, n_blocks):
     """Divide memory into the vectors of a system (coupling, strength, friction), a motion and a search."""
-    wide, slots, long = n_blocks + 1 + BEYOND, 2 * (n_blocks + 1 + BEYOND), ROWS + WIDTH
+    wide, slots, long = n_columns(n_blocks), 2 * n_columns(n_blocks), ROWS + WIDTH
     start = pointer(memory)
-    by_term = shifted(start, BY_COLUMN * wide)
-    rates = shifted(by_term, BY_TERM * long)
-    series = shifted(rates, (ROWS + 1) * wide)
+    rates = shifted(start, BY_COLUMN * wide)
+    by_term = shifted(rates, (ROWS + 1) * wide + 1)
+    series = shifted(by_term, BY_TERM * long)
     levels = shifted(series, slots * (ROWS + 1))
     by_slot = shifted(levels, slots * LEVELS)
     motion = Motion(

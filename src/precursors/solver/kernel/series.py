@@ -20,10 +20,16 @@ def expand(first, final, chain, motion):
     rate, coupling, slides = motion.rate, chain.coupling, motion.slides
     force, rest = motion.spring_force, motion.force_rest
     start, stop = first, final + 1
+    # A value that was just stored is not loaded across two groups, which would wait for the store.
+    here, here_rest = lanes.load(force, start), lanes.load(rest, start)
     for i in range(start, stop, 4):
-        net = lanes.load(force, i) - lanes.load(force, i + 1)
-        net = net + (lanes.load(rest, i) - lanes.load(rest, i + 1))
+        if i + 4 < stop:
+            after, after_rest = lanes.load(force, i + 4), lanes.load(rest, i + 4)
+        else:
+            after, after_rest = lanes.spread(force[stop]), lanes.spread(rest[stop])
+        net = (here - lanes.ahead(here, after)) + (here_rest - lanes.ahead(here_rest, after_rest))
         lanes.store_row(rate, 1, i, lanes.load(slides, i) * net - lanes.load(motion.push, i))
+        here, here_rest = after, after_rest
     groups = (stop - start) // 4
     if groups == 1:
         b1, a1, c1 = pulls(start, coupling, slides)

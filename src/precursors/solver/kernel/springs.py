@@ -29,8 +29,11 @@ def stretch(first, final, chain, motion):
     They are carried in two doubles: the rounding of one, window after window, is the largest error of a run.
     """
     coupling, slip, before, rest_before = chain.coupling, motion.slip, motion.force_before, motion.rest_before
+    left = lanes.spread(slip[first - 1])
     for i in range(first, final + 1, 4):
-        longer = lanes.load(slip, i - 1) - lanes.load(slip, i)
+        here = lanes.load(slip, i)
+        longer = lanes.behind(left, here) - here
+        left = here
         change = lanes.load(coupling, i) * longer + lanes.load(rest_before, i)
         force, rest = two_sum(lanes.load(before, i), change)
         lanes.store(motion.spring_force, i, force)
