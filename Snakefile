@@ -5,9 +5,6 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-# Threads of BLAS would only wait for each other: no job has matrices that are worth one.
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-
 from precursors.model.config import check_config, check_file, read_numbers
 from precursors.model.scenes import (
     scene_additions,

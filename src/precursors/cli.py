@@ -356,8 +356,7 @@ def parser() -> Parser:
     top.add_argument("--version", action=PrintVersion, nargs=0, help="show version, commit and identifiers")
     subparsers = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, (run, meaning) in COMMANDS.items():
-        description = f"{meaning[0].upper()}{meaning[1:]}."
-        command = subparsers.add_parser(name, help=meaning, description=description)
+        command = subparsers.add_parser(name, help=meaning, description=f"{meaning[0].upper()}{meaning[1:]}.")
         add_options(command, name)
         command.set_defaults(run=run)
     return top
