@@ -14,14 +14,25 @@ from scipy.linalg import expm
 
 from precursors import Chain
 from precursors.methods.stability import stiffness_matrix
-from precursors.solver.kernel import bounds, roots, watch
-from precursors.solver.kernel.arrays import Search, Window, divide, memory_for
+from precursors.solver.kernel import bounds, events, roots, units, watch
+from precursors.solver.kernel import series as kernel_series
+from precursors.solver.kernel.arrays import Search, System, Window, divide, memory_for
 from precursors.solver.kernel.layout import (
+    BEND,
+    C0,
+    C1,
+    C2,
+    C3,
     FINAL,
     LEVELS,
     NEGLIGIBLE,
+    POWER,
     REACH,
+    REST,
+    ROUGH,
+    ROUNDINGS,
     ROWS,
+    TURN,
     WHOLE,
     WIDTH,
     WINDOW,
@@ -36,6 +47,8 @@ ROUNDING = 1e-12  # of a window; numpy.roots knows a simple root to some roundin
 ONE_STEP, FOUR_STEPS = 0.3, 0.8
 # What a series has beyond its eighth term is, in a typical window of this length, this part of its bound.
 SPAN, TAIL_SHARE = 0.5, 0.6
+# The same of all beyond the fourth term, of which the kernel has four one by one.
+REST_SHARE = 0.9
 # Gershgorin's bound over the largest frequency: the ends of a short chain make it loose.
 LOOSEST = 1.35
 
@@ -223,6 +236,65 @@ def test_the_bounds_of_a_series_hold_for_all_its_terms_and_are_not_far_too_large
         share.append([terms[8:].sum(axis=0).max() / tails[0], bend[8:].sum(axis=0).max() / tails[1]])
     assert np.max(share) <= 1.0
     assert np.median(share) > TAIL_SHARE
+
+
+@njit(error_model="numpy")
+def watched_functions(numbers, weights, modes, force, velocity, memory):
+    """What the root search is told of the functions that may vanish in a window, and their whole series."""
+    n = len(modes)
+    columns, motion, search = divide(memory, n)
+    tau, speed, drive_velocity = units.set_up(numbers, weights, n, columns)
+    chain = System(n, tau, speed, drive_velocity, columns[0], columns[1], columns[2])
+    for i in range(n):
+        motion.spring_force[i + 1], motion.velocity[i + 1] = force[i], velocity[i]
+        motion.mode[i + 1] = modes[i]
+    events.lay_out(chain, motion)
+    end = WIDTH * ((n + WIDTH - 1) // WIDTH)
+    window = Window(0.0, WINDOW, WINDOW, 1, end, n, end, False, ROUNDINGS)
+    kernel_series.expand(1, end, chain, motion)
+    kernel_series.powers(WINDOW, motion.weight)
+    search.active[0] = 0
+    watch.watch(window, chain, motion, search)
+    told = np.zeros((search.active[0], LEVELS + ROWS + 1))
+    for k in range(search.active[0]):
+        slot = search.active[k + 1]
+        if search.stage[slot] == ROUGH:
+            for j in range(LEVELS):
+                told[k, j] = search.level[slot, j]
+            watch.build(slot, window, chain, motion, search)
+            for j in range(ROWS + 1):
+                told[k, LEVELS + j] = search.series[slot, j]
+    return told
+
+
+def test_what_the_search_is_told_of_a_function_holds_for_its_whole_series():
+    """Its first four terms, and bounds of the sum and of the curvature of all the others."""
+    told = []
+    for seed in range(300):
+        random = np.random.default_rng(seed)
+        n = int(random.choice([2, 5, 12]))
+        modes, force = random.choice([-1, 0, 1], n, p=[0.3, 0.4, 0.3]), random.normal(size=n)
+        weights = abs(force - np.append(force[1:], 0.0)) * random.uniform(1.0, 1.6, n) / 0.7 + 1e-3
+        chain = Chain(weights, 1e-3, 25e6, 25e6 * 10 ** random.uniform(-1, 0.5), 1e-4, 0.7, 0.45)
+        # Some have just begun to move: their root at the start is divided out.
+        velocity = modes * random.uniform(0.0, 0.5, n) * (random.random(n) < 0.6)
+        numbers = np.array(units.parameters(chain))
+        told.append(watched_functions(numbers, weights, modes, force, velocity, memory_for(n)))
+    known = np.concatenate(told)
+    level, series = np.split(known[known.any(axis=1)], [LEVELS], axis=1)
+    just_begun = (level[:, POWER] == 1.0).sum()
+    assert len(level) - just_begun > 500
+    assert just_begun > 20
+    orders = np.arange(4, series.shape[1])
+    assert series[:, :4] == pytest.approx(level[:, [C0, C1, C2, C3]], rel=1e-13, abs=1e-15)
+    rest, c2, c3 = abs(series[:, 4:]), level[:, C2], level[:, C3]
+    rests = rest.sum(axis=1) / level[:, REST]
+    bend = (orders * (orders - 1) * rest).sum(axis=1)
+    downward = 2.0 * np.maximum(-c2, 0.0) + 6.0 * np.maximum(-c3, 0.0)
+    bends = bend / (level[:, BEND] - downward), bend / (level[:, TURN] - 2.0 * abs(c2) - 6.0 * abs(c3))
+    for share in (rests, *bends):
+        assert share.max() <= 1.0 + ROUNDING
+        assert np.median(share) > REST_SHARE
 
 
 @pytest.mark.parametrize("n_blocks", [1, 2, 3, 10, 60])
