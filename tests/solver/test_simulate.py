@@ -471,6 +471,15 @@ class TestEdgesOfTheModel:
         assert run.transitions["time"][n_blocks - 1] < 1e-6
         audited(run)
 
+    @pytest.mark.parametrize("block", [2, 4, 10])
+    def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks(self, block):
+        """Its limit is 28 N; its positions are known to their roundings, 1e-10 N."""
+        chain, push = SLIDER(), np.full(10, 14.0)
+        for over, expected in ((1e-9, [(block, 1)]), (0.0, []), (-1e-9, [])):
+            push[block - 1] = (1.0 + over) * chain.strength[block - 1]
+            run = simulate(chain, duration=1e-12, start_positions=positions_under(chain, push))
+            assert order(run) == expected
+
     def test_blocks_that_move_at_the_start_slide_from_time_0(self):
         velocities = np.linspace(-0.2, 0.3, 10)
         run = simulate(SLIDER(), duration=0.1, start_velocities=velocities)
