@@ -7,6 +7,7 @@ import pytest
 from precursors.reproduction import claim as rules
 from precursors.reproduction.claim import KINDS, VERDICTS, claim, shown
 from precursors.reproduction.claims import CLAIMS, differences, evaluate
+from precursors.reproduction.claims_discussion import growth
 from precursors.reproduction.tables import Tables, one
 
 NAN = float("nan")
@@ -50,6 +51,13 @@ NAN = float("nan")
 )
 def test_a_rule_holds_or_not(finding, holds):
     assert finding.holds is holds
+
+
+def test_the_length_grows_at_two_rates_before_and_after_seven_tenths():
+    """From 0.2 to 0.6 in 20 N, and from there to the first event of the whole length in 5 N."""
+    loads, fronts = [0.0, 15.0, 20.0, 22.0, 25.0, 90.0], [2, 5, 6, 8, 10, 10]
+    slips = pd.DataFrame({"kept": True, "front": fronts, "n_blocks": 10, "load_before_N": loads})
+    assert growth(slips) == pytest.approx((0.02, 0.08))
 
 
 @pytest.mark.parametrize(
