@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
-from scipy.stats import binomtest
 
+from precursors.analysis.run_statistics import share_interval
 from precursors.analysis.slips import apparent_friction, find_slips
 from precursors.methods.columns import SWITCHING_RULES
 from precursors.methods.fixed_step import march
@@ -96,8 +96,8 @@ def random_steps_table(
     -------
     DataFrame
         One row for each size of theta, rule of switching and question: n draws, k of them, share, and
-        the ends low and high of its 95 % interval (Wilson). "any reading" takes each draw for a paper, whose
-        numbers are a matter of its step: has one of the readings in `definitions` all six of them?
+        the ends low and high of its 95 % interval. "any reading" takes each draw for a paper, whose numbers
+        are a matter of its step: has one of the readings in `definitions` all six of them?
     """
     return pd.DataFrame(
         {"degree": degree, "switching": rule, **row}
@@ -119,5 +119,5 @@ def _shares(own: pd.DataFrame, readings: pd.DataFrame, papers: Sequence[float]) 
     }
     for question, hits in questions.items():
         k, n = int(np.sum(np.asarray(hits))), len(own)
-        low, high = binomtest(k, n).proportion_ci(method="wilson")
+        low, high = share_interval(k, n)
         yield {"question": question, "n": n, "k": k, "share": k / n, "low": low, "high": high}
