@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,11 +12,6 @@ from precursors.model.chain import Chain, FloatArray
 
 # Corners of the half wave that draws a slip; straight lines between them are within 0.3 % of its height.
 WAVE_POINTS = 33
-
-
-def as_rigid(chain: Chain) -> Chain:
-    """One block with the weight and the mass of the whole chain."""
-    return replace(chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass)
 
 
 def onset_load(chain: Chain) -> float:
