@@ -172,6 +172,10 @@ def test_theta_of_a_scene_is_not_rounded() -> None:
     assert scene_exact_chain(config, "number") == ExactChain.from_slider(theta=Fraction(1, 2))
 
 
+def test_one_block_has_the_whole_load_whatever_theta_is():
+    assert ExactChain.from_slider(n_blocks=1, theta="5/6").weights == (400,)
+
+
 @pytest.mark.parametrize(
     ("argument", "message"),
     [

@@ -193,6 +193,21 @@ def test_a_run_that_starts_within_the_distance_stays_in_the_enclosures(displaced
     assert closest > Fraction(2, 3)
 
 
+def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy() -> None:
+    """sum T_i^2 / c_i + u_i^2, here of one force in each spring and one rate; the drive's spring is soft."""
+    *_, (proof, _) = proofs(ExactChain.from_slider(), AT_ZERO, 5, 256)
+    with ctx.workprec(256):
+        constants, state = proof.constants(256), copy.copy(proof.state)
+        assert constants.coupling[1] < constants.coupling[2] / 10
+        for i in range(1, 11):
+            force, rate = [list(state.force) for _ in range(2)]
+            force[i], rate[i] = force[i] + arb(0, 3e-9), rate[i] + arb(0, 1e-10)
+            before = state.distance
+            state.absorb(constants, force, rate)
+            added = float((state.distance - before).mid())
+            assert added == pytest.approx(math.hypot(3e-9 / float(constants.coupling[i]) ** 0.5, 1e-10))
+
+
 @pytest.mark.parametrize("derivative", [0, 1, 2])
 def test_the_taylor_remainder_is_within_its_bound(derivative: int) -> None:
     *_, (proof, _) = proofs(ExactChain.from_slider(theta="-5/6"), AT_ZERO, 45, 256)

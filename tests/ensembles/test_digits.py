@@ -28,14 +28,15 @@ def test_the_scene_as_it_is_has_the_papers_numbers():
 
 
 def test_the_probability_of_agreement_by_hand():
-    mu = {"a": [0.5, 0.50, 0.50, 0.50, np.nan], "b": [0.5, 0.504, 0.52, 0.491, 0.5]}
+    """Draw 4 has no global slip in one scene, draw 5 in none: they do not agree."""
+    mu = {"a": [0.5, 0.50, 0.50, 0.50, np.nan, np.nan], "b": [0.5, 0.504, 0.52, 0.491, 0.5, np.nan]}
     members = pd.concat(
-        pd.DataFrame({"scene": name, "draw": range(5), "mu_sapp": values, "events_kept": 3, "n_events": 4})
+        pd.DataFrame({"scene": name, "draw": range(6), "mu_sapp": values, "events_kept": 3, "n_events": 4})
         for name, values in mu.items()
     )
     table = digits_table(members).set_index(["scene", "quantity"])
-    assert table.loc[("a", "mu_sapp"), "probability"] == 0.75
-    assert table.loc[("b", "mu_sapp"), "probability"] == 0.5
+    assert table.loc[("a", "mu_sapp"), "probability"] == 0.6
+    assert table.loc[("b", "mu_sapp"), "probability"] == 0.4
     same = table.loc[("all, same slider", "range of mu_sapp")]
-    assert (same["probability"], same["n"]) == (0.5, 4)
+    assert (same["probability"], same["n"]) == (0.4, 5)
     assert same["largest"] == pytest.approx(0.02)

@@ -315,6 +315,13 @@ def test_any_chain_is_within_the_reach_too(number):
     assert omega * scale(chain).tau <= REACH * (1 + 1e-14)
 
 
+@pytest.mark.parametrize("span", [0.01, 0.1, 0.3, WINDOW, 1.0])
+def test_a_transition_is_felt_at_the_distance_that_is_renewed_and_no_farther(span):
+    """It is felt d blocks away in order 2 d + 1 of the time since."""
+    felt = [span ** (2 * d + 1) / math.factorial(2 * d + 1) > NEGLIGIBLE for d in range(40)]
+    assert kernel_series.distance_reached.py_func(span) == max(felt.index(False), 1)
+
+
 @pytest.mark.parametrize("length", [0.25, 0.5, WINDOW, 1.0])
 def test_the_order_leaves_out_less_than_a_rounding(length):
     n = order_for(length)

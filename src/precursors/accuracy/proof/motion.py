@@ -183,7 +183,7 @@ def expand(constants: Constants, state: State, order: int) -> Series:
     return series
 
 
-def tail(constants: Constants, series: Series, span: arb, derivative: int = 0) -> arb:
+def tail(constants: Constants, series: Series, span: arb, derivative: int) -> arb:
     """Bound what lies beyond the last order of all u_i, or of a derivative, for times up to +-`span` [T].
 
     With a_n the largest coefficient, a_{n+2} <= omega^2 a_n / ((n+1)(n+2)); derivatives obey the same.

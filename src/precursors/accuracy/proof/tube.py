@@ -199,7 +199,7 @@ class Proof:
         with ctx.workprec(self.precision()):
             constants, exact_step = self.constants(ctx.prec), arb(step)
             series = expand(constants, self.state, order_for(float(exact_step), ctx.prec))
-            rest = tail(constants, series, exact_step)
+            rest = tail(constants, series, exact_step, 0)
             advance(constants, self.state, {i: arb_poly(row) for i, row in series.items()}, rest, exact_step)
             self.clock += self.unit * exact_step
             self.gap = arb(0)
@@ -214,7 +214,7 @@ class Proof:
             constants = self.constants(ctx.prec)
             span = root.upper()
             series = expand(constants, state, order_for(float(span), ctx.prec))
-            rest = tail(constants, series, span)
+            rest = tail(constants, series, span, 0)
             polynomials = {j: arb_poly(row) for j, row in series.items()}
             if event.direction:
                 rate = arb_poly(force_rate_series(constants, series, i))
