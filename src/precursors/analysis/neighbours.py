@@ -67,7 +67,7 @@ class Neighbours:
         self.z = self._draw(2 * n) * np.append(forces, self.path.state[0, n:])[:, None]
         self.clock = np.zeros(N_NEIGHBOURS)
         self.rounding = self._roundings()
-        self.drawn: FloatArray = np.empty((0, 0, 0))
+        self.drawn: FloatArray
 
     def _draw(self, *shape: int) -> FloatArray:
         return ROUNDING * self.random.standard_normal((*shape, N_NEIGHBOURS))

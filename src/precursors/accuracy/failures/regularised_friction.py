@@ -71,15 +71,15 @@ def fastest_rate(chain: Chain, width: float) -> float:
 
 def creep_grows(chain: Chain, width: float, step: float) -> bool:
     """Whether RK4 with a step [s] raises a velocity far below the width, which friction should brake."""
-    right_hand_side, _ = equations(chain, width)
+    rate = partial(equations(chain, width)[0], 0.0)
     h, n = step / time_unit(chain), chain.n_blocks
     state = np.append(np.zeros(n), START * width * chain.mass / time_unit(chain) * (-1.0) ** np.arange(n))
     start = abs(state).max()
     for _ in range(STEPS):
-        k1 = right_hand_side(0.0, state)
-        k2 = right_hand_side(0.0, state + 0.5 * h * k1)
-        k3 = right_hand_side(0.0, state + 0.5 * h * k2)
-        state = state + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + right_hand_side(0.0, state + h * k3))
+        k1 = rate(state)
+        k2 = rate(state + 0.5 * h * k1)
+        k3 = rate(state + 0.5 * h * k2)
+        state = state + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + rate(state + h * k3))
     return bool(abs(state[n:]).max() > start)
 
 
