@@ -14,7 +14,7 @@ from precursors.accuracy.failures.dead_zone import jumped_over
 from precursors.accuracy.failures.forward_only import solve_forward_only
 from precursors.accuracy.failures.locating import motion_after, solve_merging
 from precursors.accuracy.failures.regularised_friction import RK4_REAL_LIMIT
-from precursors.accuracy.failures.stability import MARGIN, thresholds
+from precursors.accuracy.failures.stability import LOST, MARGIN, STOPPING, thresholds
 from precursors.methods import METHODS
 from precursors.methods.dop853 import next_transition
 from precursors.methods.scipy_events import solve_scipy
@@ -42,6 +42,9 @@ FACTORS = {
     "two roots": (0.7, 1.5),
     "two of three": (0.8, 1.2),
 }
+# The mean of the factors with friction over the numbers of blocks: chance is less of it, and the limits that
+# might be taken for each other are 1.15 to 1.41 apart.
+MEAN_FACTOR = (0.9, 1.1)
 # The error of a step may be less than the tolerance allows, and much less with methods of high order.
 TOLERANCES = (0.5, 100.0)
 SIZES = [1, 2, 10, 50]
@@ -100,6 +103,14 @@ def test_a_threshold_is_where_theory_says(fails):
             assert np.isinf(t.measured), t
         else:
             assert low * t.predicted < t.measured < high * t.predicted, t
+
+
+@pytest.mark.parametrize("name", STOPPING)
+def test_the_limit_with_friction_is_that_of_its_formula_and_of_no_other(name):
+    factors = [
+        t.measured / t.predicted for t in limits() if (t.method, t.fails) == (METHODS[name].label, LOST)
+    ]
+    assert MEAN_FACTOR[0] < np.mean(factors) < MEAN_FACTOR[1]
 
 
 def test_every_threshold_has_a_stated_factor_and_is_there_once():
