@@ -10,7 +10,7 @@ from precursors.solver import simulate as solver
 
 SLIDER = Chain.from_slider
 # Transitions that the record of a thread has room for, and bytes for stored states that a long run exceeds.
-SHARED_ROOM, ROOM = solver.SHARED_ROOM, 2**19
+SHARED_ROOM, ROOM = solver.SHARED_ROOM, 2**18
 ROUNDING = 1e-12  # of the largest position or velocity
 
 

@@ -21,8 +21,6 @@ from precursors.solver.run import Run
 MAX_TRANSITIONS = 10_000_000
 # Stored states are thinned out so that they never take more room than this.
 STATES_BYTES = 64 * 2**20
-# A state is stored after so many transitions that storing takes little time beside finding them.
-BLOCKS_PER_STRIDE = 3
 # The kernel returns after so many windows, so that Ctrl-C is heard within about a second.
 WINDOWS_PER_CALL = 500_000
 # Blocks that slide without end would keep the kernel busy for ever: some 10 minutes at N = 10.
@@ -224,7 +222,8 @@ class _Workspace(threading.local):
         """Make room for chains of `n_blocks`, if it is not there yet."""
         if n_blocks == self.n_blocks:
             return
-        self.stride = 1 + n_blocks // BLOCKS_PER_STRIDE
+        # A state is stored after so many transitions that storing takes little time beside finding them.
+        self.stride = max(10, 1 + n_blocks // 3)
         kernel = backend.KERNEL
         self.memory = kernel.memory_for(n_blocks)
         self.record = kernel.Record._make(np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in COLUMNS)
