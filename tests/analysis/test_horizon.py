@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, replace
 from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
@@ -67,6 +67,11 @@ def test_up_to_the_horizon_all_transitions_hold(validation: Validation, toleranc
     before = np.count_nonzero(run.transitions["time"] < predictions.horizon(tolerance))
     assert before <= compared.transitions_right
     assert (compared.time_errors[:before] <= OPTIMISM * tolerance).all()
+
+
+def test_what_is_predicted_cannot_be_changed(validation: Validation) -> None:
+    with pytest.raises(FrozenInstanceError):
+        validation.predicted.duration = 0.0  # type: ignore[misc]
 
 
 def test_a_larger_tolerance_never_shortens_the_horizon(validation: Validation) -> None:
