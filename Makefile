@@ -70,7 +70,8 @@ $(READY): requirements.lock
 	rm -rf .venv && $(PYTHON) -m venv .venv
 	awk '/^[^ #]/ {wanted = /^uv==/} wanted' requirements.lock > .venv/uv.txt
 	$(BIN)/python -m pip install -q $(WHEELS) --no-deps --require-hashes -r .venv/uv.txt
-	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --require-hashes --build-constraints requirements.lock requirements.lock
+	@# With bytecode: where PYTHONDONTWRITEBYTECODE is set, every job would compile its imports again.
+	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --compile-bytecode --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
 	@# Compile the solver, the larger models and the methods with fixed steps, on two cores.
 	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.hierarchy import larger, models; \
