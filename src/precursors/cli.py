@@ -27,7 +27,7 @@ examples:
   precursors simulate --theta 5/6                     10 s of the paper's chain, summarised
   precursors simulate --theta 5/6 --output run.h5     the same, and the run is saved
   precursors simulate --theta -5/6 --ensemble 1000 --noise 1e-3 --output ensemble.csv
-  precursors slips run.h5 --kept                      the events counted in Fig. 13
+  precursors slips run.h5 --counted                   the events counted in Fig. 13
   precursors plot --theta 5/6 --blocks 20             a figure, on the screen or in a file
   precursors audit results/runs/*.h5                  is each run a motion of the model?
 
@@ -55,7 +55,7 @@ CHAIN = (
 SUMMARY = {
     "transitions": "transitions",
     "n_events": "events",
-    "events_kept": "events_kept",
+    "events_counted": "events_counted",
     "mu_sapp": "mu_sapp",
     "load": "largest_load_N",
     "time": "global_slip_s",
@@ -128,8 +128,8 @@ def slips(arguments: argparse.Namespace) -> None:
     from precursors.analysis.slips import slip_table
 
     table = slip_table(run_of(arguments))
-    if arguments.kept:
-        table = table[table["kept"]]
+    if arguments.counted:
+        table = table[table["counted"]]
     give_table(table, arguments, "events")
 
 
@@ -303,7 +303,7 @@ def add_options(command: argparse.ArgumentParser, name: str) -> None:
         add("--seed", type=whole_number, metavar="N", help="seed of the noise (0)")
         output(help="save the run (HDF5) or the ensemble (CSV)")
     elif name == "slips":
-        command.add_argument("--kept", action="store_true", help="only the events counted in Fig. 13")
+        command.add_argument("--counted", action="store_true", help="only the events counted in Fig. 13")
         output(help="write the table with every digit (CSV)")
     else:
         kinds, meaning = ["load", "lengths"], "as Figs. 10 to 12 (load), or as Fig. 13 (lengths)"

@@ -36,11 +36,11 @@ def test_a_sweep_gives_the_papers_numbers_where_the_transitions_are_right(theta,
     assert fine.transitions_right == right
     is_all = right == exact.transitions_true
     assert (fine.mu_sapp == pytest.approx(exact.mu_sapp, abs=1e-4)) == is_all
-    assert fine.events_kept == exact.events_kept
+    assert fine.events_counted == exact.events_counted
 
 
 def test_a_step_far_beyond_the_limit_makes_a_global_slip_of_the_first_event():
     exact, broken = rows_of(0.0, 3e-5)
-    assert (broken.events_kept, broken.transitions_right) == (1, 1)
+    assert (broken.events_counted, broken.transitions_right) == (1, 1)
     assert broken.mu_sapp == pytest.approx(28.0 / 400.0, rel=1e-9)
-    assert exact.events_kept == 9
+    assert exact.events_counted == 9

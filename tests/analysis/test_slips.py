@@ -113,7 +113,7 @@ def test_without_a_global_slip_mu_sapp_is_not_defined():
 def test_mu_sapp_under_every_definition_is_that_of_the_stated_event():
     run = simulate(Chain.from_slider(theta="-5/6"), duration=3.0)
     found = [apparent_friction(run, find_slips(run), definition) for definition in DEFINITIONS]
-    assert [(f.event, f.events_kept) for f in found] == [(7, 6), (7, 6), (6, 5), (6, 5)]
+    assert [(f.event, f.events_counted) for f in found] == [(7, 6), (7, 6), (6, 5), (6, 5)]
     assert [round(f.mu_sapp, 4) for f in found] == [0.4845, 0.4845, 0.4336, 0.4336]
     assert found[0].load == pytest.approx(found[0].mu_sapp * 400.0, rel=1e-15)
 
@@ -132,7 +132,7 @@ EVENTS = pd.DataFrame(
 
 
 @pytest.mark.parametrize(
-    ("definition", "global_slip", "kept"),
+    ("definition", "global_slip", "counted"),
     [
         (Definition(), 4, [0, 2, 3, 4]),
         (Definition("each"), 3, [0, 2, 3]),
@@ -143,10 +143,10 @@ EVENTS = pd.DataFrame(
         (Definition("each", "n_simultaneous", "not longer"), 3, [0, 2]),
     ],
 )
-def test_a_reading_decides_which_event_is_global_and_which_are_short(definition, global_slip, kept):
+def test_a_reading_decides_which_event_is_global_and_which_are_short(definition, global_slip, counted):
     slips = definition.read(EVENTS, n_blocks=3)
     assert first_global(slips) == global_slip
-    assert find_precursors(slips, definition.short).index.tolist() == kept
+    assert find_precursors(slips, definition.short).index.tolist() == counted
 
 
 def test_the_first_definition_reads_slips_as_find_slips_does():

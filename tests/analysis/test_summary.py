@@ -24,7 +24,7 @@ def table_path(run: Run) -> dict[str, float]:
     of_each = first_global(each) if friction_each else len(slips) - 1
     return {
         "n_events": len(up_to),
-        "events_kept": len(find_precursors(slips)),
+        "events_counted": len(find_precursors(slips)),
         "mu_sapp": friction.mu_sapp if friction else np.nan,
         "load": friction.load if friction else np.nan,
         "time": start,
@@ -68,8 +68,7 @@ def assert_same(runs: list[Run]) -> None:
 def test_the_papers_three_runs_have_the_known_summary(theta):
     chain = Chain.from_slider(theta=theta)
     row = summarise([simulate(chain, until="global slip")])[0]
-    kept, mu_sapp, time = PAPERS[theta]
-    assert (row["events_kept"], round(row["mu_sapp"], 4), round(row["time"], 3)) == (kept, mu_sapp, time)
+    assert (row["events_counted"], round(row["mu_sapp"], 4), round(row["time"], 3)) == PAPERS[theta]
 
 
 def test_random_chains_have_the_summary_of_their_slip_table():

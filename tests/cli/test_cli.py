@@ -91,7 +91,7 @@ def test_simulate_tells_the_papers_numbers(cli):
     code, out, err = cli("simulate", "--theta", "-5/6")
     assert (code, err) == (DONE, "")
     values = dict(line.split() for line in out.splitlines())
-    assert (values["events_kept"], values["transitions"]) == ("6", "1871")
+    assert (values["events_counted"], values["transitions"]) == ("6", "1871")
     assert float(values["mu_sapp"]) == pytest.approx(0.4845, abs=5e-5)
 
 
@@ -105,7 +105,7 @@ def test_simulate_keeps_the_run_and_tells_machines_the_same(cli, tmp_path):
     assert run.chain == Chain.from_slider(n_blocks=5, mu_k=1 / 3)
     assert run.duration == told["duration_s"] == 4.0
     assert told["transitions"] == len(run.transitions)
-    assert told["events_kept"] == len(find_precursors(find_slips(run)))
+    assert told["events_counted"] == len(find_precursors(find_slips(run)))
 
 
 def test_simulate_stops_at_the_global_slip_if_it_is_told_to(cli):
@@ -150,10 +150,10 @@ def test_slips_lists_the_events_of_a_run_file(cli, run_file):
 
 def test_slips_of_a_chain_may_be_those_of_fig_13_only_and_go_to_a_file(cli, tmp_path):
     path = tmp_path / "slips.csv"
-    code, out, _ = cli("slips", "--theta=5/6", "--until-global-slip", "--kept", "--output", path)
+    code, out, _ = cli("slips", "--theta=5/6", "--until-global-slip", "--counted", "--output", path)
     assert code == DONE
     assert str(path) in out
-    assert pd.read_csv(path)["kept"].tolist() == [True] * 14
+    assert pd.read_csv(path)["counted"].tolist() == [True] * 14
 
 
 def test_a_reader_that_has_enough_is_no_error():

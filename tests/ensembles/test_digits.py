@@ -23,7 +23,7 @@ def test_every_draw_prints_as_the_paper_does_and_is_the_same_slider_in_each_scen
 
 def test_the_scene_as_it_is_has_the_papers_numbers():
     members = run_members(study_of("digits_members", {"seed": 1, "draws": 2}))
-    assert members.loc[members["draw"] == 0, "events_kept"].tolist() == [6, 9, 14]
+    assert members.loc[members["draw"] == 0, "events_counted"].tolist() == [6, 9, 14]
     assert members["reached"].all()
 
 
@@ -31,7 +31,7 @@ def test_the_probability_of_agreement_by_hand():
     """Draw 4 has no global slip in one scene, draw 5 in none: they do not agree."""
     mu = {"a": [0.5, 0.50, 0.50, 0.50, np.nan, np.nan], "b": [0.5, 0.504, 0.52, 0.491, 0.5, np.nan]}
     members = pd.concat(
-        pd.DataFrame({"scene": name, "draw": range(6), "mu_sapp": values, "events_kept": 3, "n_events": 4})
+        pd.DataFrame({"scene": name, "draw": range(6), "mu_sapp": values, "events_counted": 3, "n_events": 4})
         for name, values in mu.items()
     )
     table = digits_table(members).set_index(["scene", "quantity"])

@@ -70,10 +70,10 @@ def test_bootstrap_intervals_hold_limits_and_exponents_in_95_of_100_cases(monkey
     n = np.repeat(np.tile(n_blocks, scenes), runs)
     noise = np.random.default_rng(2).normal(size=(4, len(n)))
     made_up = {"mu_sapp": 0.45 + 0.5 / n + 0.01 * noise[0], "time_s": 2.0 + 3.0 / n + 0.1 * noise[1]}
-    made_up |= {"events_kept": n**1.5 * np.exp(0.2 * noise[2]), "n_events": n * np.exp(0.2 * noise[3])}
+    made_up |= {"events_counted": n**1.5 * np.exp(0.2 * noise[2]), "n_events": n * np.exp(0.2 * noise[3])}
     members = pd.DataFrame({"scene": np.arange(len(n)) // (4 * runs), "n_blocks": n, **made_up})
     members = members.assign(crossing_time_s=1e-4, reached=True)
-    true = {"mu_sapp": 0.45, "time_s": 2.0, "events_kept": 1.5, "n_events": 1.0}
+    true = {"mu_sapp": 0.45, "time_s": 2.0, "events_counted": 1.5, "n_events": 1.0}
     limits = resolution.extrapolation_table(members, 0.1, 20).rename(
         columns={"a_low": "low", "a_high": "high"}
     )
@@ -87,7 +87,7 @@ def test_bootstrap_intervals_hold_limits_and_exponents_in_95_of_100_cases(monkey
 def test_an_exponent_is_that_of_each_octave_and_runs_without_a_global_slip_do_not_count():
     n_blocks = np.array([5, 10, 15, 20])
     counts = np.array([10.0, 20.0, 20.0, 20.0])
-    runs = runs_of({"n_events": counts, "events_kept": counts}, n_blocks)
+    runs = runs_of({"n_events": counts, "events_counted": counts}, n_blocks)
     table = resolution.exponents_table(runs).query("quantity == 'n_events'").set_index("n_blocks")
     assert table["exponent"].to_dict() == pytest.approx({5: 1.0, 10: 0.0})
     assert (table["low"] < table["exponent"]).all()

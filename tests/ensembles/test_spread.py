@@ -51,7 +51,7 @@ def test_the_spread_tells_unchanged_members_from_changed_ones():
 def members_with(changes: dict[float, list[float]]) -> pd.DataFrame:
     """Members of one scene whose mu_sapp is as given for each size, all else unchanged."""
     alone = {"scene": "s", "question": "loads", "perturbation": "none", "size": 0.0, "mu_sapp": 0.5}
-    rest = {"events_kept": 4, "n_events": 5, "time_s": 2.0, "reached": True}
+    rest = {"events_counted": 4, "n_events": 5, "time_s": 2.0, "reached": True}
     changed = [
         {**alone, **rest, "perturbation": "noise", "size": size, "mu_sapp": mu}
         for size, values in changes.items()
@@ -75,7 +75,7 @@ def test_a_number_is_classed_by_the_smallest_change_that_it_does_not_survive(cha
     classified = robustness_table(spread_table(members_with(changes))).set_index("quantity")
     assert classified.loc["mu_sapp", "class"] == expected
     assert classified.loc["mu_sapp", "rule"] == RULES[expected]
-    assert classified.loc["events_kept", "class"] == "robust"
+    assert classified.loc["events_counted", "class"] == "robust"
 
 
 def test_the_scene_with_the_load_at_the_leading_edge_is_fragile():
@@ -86,4 +86,4 @@ def test_the_scene_with_the_load_at_the_leading_edge_is_fragile():
     table = spread_table(run_members(Study(few, study.until, study.seed)))
     classified = robustness_table(table).set_index(["scene", "quantity"])
     assert classified.loc[("fig12", "mu_sapp"), "class"] == "fragile"
-    assert classified.loc[("fig10", "events_kept"), "class"] != "fragile"
+    assert classified.loc[("fig10", "events_counted"), "class"] != "fragile"

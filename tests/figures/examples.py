@@ -36,7 +36,7 @@ def slips(fronts=FRONTS, loads_N=LOADS_N, theta=0.0, drop_N=1.5, **columns) -> p
             "load_after_N": load - drop_N,
             "front": front,
             "is_global": is_global,
-            "kept": (front >= np.maximum.accumulate(front)) & before if len(front) else front > 0,
+            "counted": (front >= np.maximum.accumulate(front)) & before if len(front) else front > 0,
         }
     )
     slider = {"theta": theta, "n_blocks": N_BLOCKS, "normal_load_N": NORMAL_LOAD_N, "length_m": LENGTH_M}
@@ -115,9 +115,9 @@ def step_sweep() -> dict:
         ("rk4", 1e-5, 8, 2),
     ]
     rows = [(name, theta, *point) for (name, theta), point in product(THETAS.items(), points)]
-    columns = ["scene", "theta", "method", "step_s", "events_kept", "transitions_right"]
+    columns = ["scene", "theta", "method", "step_s", "events_counted", "transitions_right"]
     table = pd.DataFrame(rows, columns=columns)
-    return {"table": table.assign(mu_sapp=0.1 * table["events_kept"], transitions_true=10)}
+    return {"table": table.assign(mu_sapp=0.1 * table["events_counted"], transitions_true=10)}
 
 
 def failure_gallery() -> dict:
@@ -167,10 +167,10 @@ def horizon() -> dict:
 
 def spread(question="loads") -> dict:
     """The quantiles are not those of the members: the figure must draw the table's."""
-    alone = {"scene": "s", "theta": 0.5, "events_kept": 4, "mu_sapp": 0.5, "size": 0.0}
+    alone = {"scene": "s", "theta": 0.5, "events_counted": 4, "mu_sapp": 0.5, "size": 0.0}
     alone |= {"perturbation": "none"}
     loads = [
-        {**alone, "perturbation": "normal loads", "question": "loads", "size": size, "events_kept": 4 + k}
+        {**alone, "perturbation": "normal loads", "question": "loads", "size": size, "events_counted": 4 + k}
         for size in (1e-4, 1e-2)
         for k in range(3)
     ]
@@ -186,7 +186,7 @@ def spread(question="loads") -> dict:
 
 
 def resolution() -> dict:
-    quantities = {"events_kept": 100.0, "mu_sapp": 0.5, "time_s": 2.7, "front_speed_m_per_s": 1000.0}
+    quantities = {"events_counted": 100.0, "mu_sapp": 0.5, "time_s": 2.7, "front_speed_m_per_s": 1000.0}
     rows = [
         {"scene": "s", "theta": 0.0, "n_blocks": n, "quantity": quantity, "q50": value}
         for (quantity, value), n in product(quantities.items(), (2, 20, 200))
@@ -225,7 +225,7 @@ def resolution_models() -> dict:
         "both": (0.0, 54.77, 25e6),
     }
     columns = ["viscous_time_s", "viscosity_N_s_per_m", "interface_stiffness_N_per_m"]
-    quantities = ("events_kept", "mu_sapp", "front_speed_m_per_s")
+    quantities = ("events_counted", "mu_sapp", "front_speed_m_per_s")
     rows = [
         {"model": model, "theta": 0.0, **dict(zip(columns, value, strict=True)), "n_blocks": n}
         | {"quantity": quantity, "q05": 0.9 * n, "q50": 1.0 * n, "q95": 1.1 * n, "n": 12 if n < 100 else 6}
@@ -241,7 +241,7 @@ def map_of(y="friction_ratio", ys=(1.0, 2.0, 3.0)) -> dict:
     rows = [
         {"theta": theta, y: value, "mu_sapp": 0.1 * value + theta} for theta in (-0.5, 0.5) for value in ys
     ]
-    table = pd.DataFrame(rows).assign(events_kept=3, n_global=1, n_all_events=4, reached=True)
+    table = pd.DataFrame(rows).assign(events_counted=3, n_global=1, n_all_events=4, reached=True)
     table.loc[0, "reached"] = False
     return {"table": table, "x": "theta", "y": y, "scenes": [(0.25, 2.0)]}
 
@@ -285,16 +285,16 @@ def definitions() -> dict:
     ]
     rows = [
         {"global_slip": global_slip, "short": "shorter than one before it", "front": front, "theta": theta}
-        | {"events_kept": 7 + (front == lengths[2]), "mu_sapp": 0.5 if theta else np.nan}
+        | {"events_counted": 7 + (front == lengths[2]), "mu_sapp": 0.5 if theta else np.nan}
         for global_slip in ("in which F_X drops by more than 3 N", "in which every block slides at some time")
         for front, theta in product(lengths, (-0.9, -0.8, -0.7, -0.5, 0.0, 0.5, 0.7, 0.8, 0.9))
     ]
     table = pd.DataFrame(rows)
     return {
         "table": table.assign(
-            events_kept_is_papers=table["events_kept"] == 7,
+            events_counted_is_papers=table["events_counted"] == 7,
             mu_sapp_is_papers_within_a_digit=table["theta"] > 0.8,
-            numbers_within_a_digit=np.where(table["events_kept"] == 7, 6, 2),
+            numbers_within_a_digit=np.where(table["events_counted"] == 7, 6, 2),
             switching="one rule",
         )
     }

@@ -25,26 +25,26 @@ SMALL_RMS = 0.3
 # Columns of which a figure could show one in the place of the other.
 ALIKE = [
     ("scene", "slips", "load_before_N", "load_after_N"),
-    ("scene", "slips", "is_global", "kept"),
+    ("scene", "slips", "is_global", "counted"),
     ("fig13", "slips", "load_before_N", "load_after_N"),
-    ("definitions", "table", "events_kept", "mu_sapp"),
+    ("definitions", "table", "events_counted", "mu_sapp"),
     ("work_precision", "table", "error_load_N", "error_time_s"),
     ("cost_per_event", "table", "n_blocks", "seconds_per_transition"),
-    ("step_sweep", "table", "events_kept", "transitions_right"),
+    ("step_sweep", "table", "events_counted", "transitions_right"),
     ("failure_gallery", "numbers", "measured", "exact"),
     ("failure_gallery", "numbers", "exact", "predicted"),
     ("horizon", "errors", "predicted_error_s", "actual_error_s"),
     ("horizon", "overview", "horizon_s", "right_until_s"),
     ("horizon", "exponents", "exponent_per_s", "uncertainty_per_s"),
     ("spread", "spread", "q05", "q25"),
-    ("sweep", "members", "events_kept", "mu_sapp"),
+    ("sweep", "members", "events_counted", "mu_sapp"),
     ("resolution", "table", "q05", "q50"),
     ("resolution", "table", "without_noise", "estimate"),
     ("event_law", "table", "law", "events"),
     ("event_law", "table", "law", "rise"),
     ("resolution_models", "table", "viscosity_N_s_per_m", "interface_stiffness_N_per_m"),
     ("resolution_models", "table", "q50", "q95"),
-    ("map", "table", "mu_sapp", "events_kept"),
+    ("map", "table", "mu_sapp", "events_counted"),
     ("long_runs", "statistics", "mean", "deviation"),
     ("model_comparison", "table", "value", "error"),
     ("model_comparison", "table", "is_answer", "is_smallest"),
@@ -108,7 +108,7 @@ def test_drawing_twice_gives_the_same_bytes(named, tmp_path):
 
 
 def difference(name, figure, tmp_path):
-    """How a figure differs from its picture that is kept; None where it does not."""
+    """How a figure differs from its picture that is counted; None where it does not."""
     save_small(figure, tmp_path / f"{name}.png")
     return compare_images(str(SMALL / f"{name}.png"), str(tmp_path / f"{name}.png"), tol=SMALL_RMS)
 

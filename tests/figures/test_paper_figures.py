@@ -17,7 +17,7 @@ from precursors.figures.scene import GLOBAL, MOST_ARROWS, PARTIAL
 ROUNDING = 1e-12
 FIRST_GLOBAL_S = slips()["onset_s"].iloc[-1]
 # An event that never ends.
-ENDLESS = {"end_s": np.nan, "load_after_N": np.nan, "kept": False}
+ENDLESS = {"end_s": np.nan, "load_after_N": np.nan, "counted": False}
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +75,7 @@ def test_each_event_is_a_line_from_the_trailing_edge_as_long_as_its_front(figure
 
 
 def test_a_dashed_line_marks_the_first_global_slip_in_both_panels_and_the_inset():
-    later = slips().iloc[[-1]].assign(onset_s=5.0, end_s=5.0005, kept=False)
+    later = slips().iloc[[-1]].assign(onset_s=5.0, end_s=5.0005, counted=False)
     upper, lower = draw_scene(pd.concat([slips(), later], ignore_index=True)).axes
     (inset,) = upper.child_axes
     assert dashed_lines(upper) == dashed_lines(lower) == dashed_lines(inset) == [FIRST_GLOBAL_S]
@@ -192,7 +192,7 @@ def test_a_dollar_sign_in_a_title_is_a_dollar_sign():
 def test_a_circle_stands_for_each_event_counted(lengths):
     circles = markers(lengths, "o")
     assert [len(points) for points in circles] == [3, N_COUNTED, 4]
-    counted = slips()[lambda table: table["kept"]]
+    counted = slips()[lambda table: table["counted"]]
     np.testing.assert_allclose(circles[1][:, 0], counted["load_before_N"], rtol=ROUNDING)
     np.testing.assert_allclose(circles[1][:, 1], counted["front"] / N_BLOCKS, rtol=ROUNDING)
 
@@ -206,7 +206,7 @@ def test_circles_are_solid_dotted_and_open_as_in_the_paper(lengths):
 
 
 def test_short_events_up_to_the_global_slip_are_crosses():
-    after = slips().iloc[[0]].assign(onset_s=9.0, kept=False)
+    after = slips().iloc[[0]].assign(onset_s=9.0, counted=False)
     (crosses,) = markers(draw("fig13", slips=[pd.concat([slips(), after], ignore_index=True)]), "x")
     assert len(crosses) == len(slips()) - N_COUNTED
 

@@ -70,7 +70,7 @@ def failure_curves(measured: Callable[[str], Failure]) -> pd.DataFrame:
 
 def definitions() -> pd.DataFrame:
     """All readings for theta = 5/6, with one drop of the load."""
-    slider, paper = CONFIG["chain"], [{"events_kept": kept, "mu_sapp": 0.49} for kept in (6, 9, 14)]
+    slider, paper = CONFIG["chain"], [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)]
     table = definitions_table(slider, 3.0, ["5/6"], [5.0], paper)
     return table.drop(columns=[column for column in table if column.endswith("_paper")])
 

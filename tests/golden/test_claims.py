@@ -86,8 +86,8 @@ def test_no_claim_stays_the_same_on_other_numbers():
 @pytest.mark.parametrize(
     ("table", "column", "row", "name"),
     [
-        ("fig10_slips", "kept", 0, "count-uniform"),
-        ("fig12_slips", "kept", 3, "count-leading"),
+        ("fig10_slips", "counted", 0, "count-uniform"),
+        ("fig12_slips", "counted", 3, "count-leading"),
         ("fig10_slips", "is_global", 3, "load-of-the-experiment"),
         ("mu_sapp", "mu_sapp", 0, "friction-uniform"),
         ("fig11_slips", "n_slid", 6, "vertical-lines"),

@@ -66,12 +66,12 @@ def test_slip_may_not_end():
 
 def test_the_printed_digits_do_not_settle_the_coefficient():
     table = pd.read_csv(TABLES / "digits.csv").set_index("scene")
-    kept = table[table["quantity"] == "mu_sapp"].loc[["fig11", "fig10", "fig12"], "probability"]
+    counted = table[table["quantity"] == "mu_sapp"].loc[["fig11", "fig10", "fig12"], "probability"]
     percent = said(r"0.705\), (\d+), (\d+) and (\d+) % keep mu_sapp")
     agree = said(r"In ([\d.]+) % \(95 % interval: ([\d.]+) to ([\d.]+) %\) the three")
     ours = table.loc["all, same slider", ["probability", "probability_low", "probability_high"]]
     # Draws near a jump fall on other sides on other processors.
-    assert (kept * 100).tolist() == pytest.approx(percent, abs=1.5)
+    assert (counted * 100).tolist() == pytest.approx(percent, abs=1.5)
     assert (ours * 100).tolist() == pytest.approx(agree, abs=0.6)
 
 

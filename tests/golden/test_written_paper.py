@@ -88,7 +88,7 @@ def test_the_same_results_give_the_same_bytes_and_others_another_sentence(here):
     assert "we find 6, 9 and 14. It gives" in pages_of(first)[0]
     claims = pd.read_csv("results/tables/claims.csv")
     not_reproduced = (claims[claims["kind"] == "result"]["verdict"] == "not reproduced").sum()
-    change("fig11_slips", "kept", True, kept=False, is_global=False, front=1)
+    change("fig11_slips", "counted", True, counted=False, is_global=False, front=1)
     change("claims", "verdict", "not reproduced", id="count-trailing")
     change("resolution_models", "q50", 0.4444, model="both_25", quantity="mu_sapp", n_blocks=20)
     text = " ".join(pages_of(write()))

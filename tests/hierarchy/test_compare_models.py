@@ -39,7 +39,7 @@ def smallest(comparison: pd.DataFrame) -> dict[str, str]:
 def test_the_smallest_model_for_each_question_is_named(comparison: pd.DataFrame) -> None:
     assert smallest(comparison) == {
         "first_load": "statics",
-        "events_kept": "quasistatic",
+        "events_counted": "quasistatic",
         "mu_sapp": "overdamped",
         "front_loads": "quasistatic",
         "slip_duration": "chain",

@@ -66,7 +66,7 @@ def test_the_runs_of_the_papers_chain_are_those_of_the_exact_solver(runs):
     run = simulate(SLIDER(10, theta="1/3", mu_k=0.4), until="global slip")
     slips = find_slips(run)
     found = runs.query("model == 'plain' and n_blocks == 10 and draw == 0").set_index("quantity")["value"]
-    assert found["events_kept"] == len(find_precursors(slips))
+    assert found["events_counted"] == len(find_precursors(slips))
     assert found["time_s"] == slips["onset"].iloc[-1]
     assert found["mu_sapp"] == run.transitions["tangential_load"].max() / 400.0
     last = run.transitions[run.transitions["time"] >= found["time_s"]]

@@ -157,9 +157,9 @@ def test_the_quasistatic_chain_answers_within_its_stated_errors(theta) -> None:
         for name in ("chain", "quasistatic", "overdamped", "law")
     )
     assert (
-        abs(small["events_kept"] - exact["events_kept"])
+        abs(small["events_counted"] - exact["events_counted"])
         <= EVENTS_ERROR
-        < abs(damped["events_kept"] - exact["events_kept"])
+        < abs(damped["events_counted"] - exact["events_counted"])
     )
     assert small["mu_sapp"] == pytest.approx(exact["mu_sapp"], rel=MU_SAPP_ERROR)
     assert rms(small["front_loads"] - exact["front_loads"]) < FRONT_ERROR
@@ -215,7 +215,7 @@ def test_additions_may_be_combined() -> None:
 
 def test_answers_are_a_table_with_a_row_for_each_number() -> None:
     table = answers_table(SLIDER(theta="5/6"), "quasistatic").set_index("quantity")
-    assert table.loc["events_kept", "value"] == 14.0
+    assert table.loc["events_counted", "value"] == 14.0
     assert list(table.loc["front_loads", "block"]) == list(range(1, 11))
     assert table.loc[["first_load", "mu_sapp"], "block"].isna().all()
     assert set(table["unit"]) == {"1", "N"}
@@ -228,6 +228,6 @@ def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(monkeypat
     monkeypatch.setattr("precursors.hierarchy.models.LIMIT", 0.1)
     motion = move(SLIDER())
     answers = MODELS["chain"].answers
-    assert all(np.isnan(answers[name](motion)) for name in ("events_kept", "mu_sapp", "slip_duration"))
+    assert all(np.isnan(answers[name](motion)) for name in ("events_counted", "mu_sapp", "slip_duration"))
     assert np.isnan(answers["front_loads"](motion)[-1])
     assert answers["first_load"](motion) == pytest.approx(28.0)

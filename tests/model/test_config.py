@@ -51,9 +51,9 @@ WRONG = [
     ("scenes.fig10.load_cell_b", 5000.0, ["scenes.fig10: ", "-1"]),
     ("scenes.fig10.normal_load", 500.0, ["scenes.fig10: normal_load must not be given", "sum"]),
     (
-        "scenes.fig10.paper.events_kept",
+        "scenes.fig10.paper.events_counted",
         "nine",
-        ["scenes.fig10.paper.events_kept", "a whole number >= 1", "'nine'"],
+        ["scenes.fig10.paper.events_counted", "a whole number >= 1", "'nine'"],
     ),
     ("scenes.steep", {"title": "steep"}, ["scenes.steep: ", "is neither"]),
     ("scenes.steep", STEEP | {"title": ""}, ["scenes.steep.title", "1 to 120 printable characters"]),

@@ -56,7 +56,7 @@ def test_a_rule_holds_or_not(finding, holds):
 def test_the_length_grows_at_two_rates_before_and_after_seven_tenths():
     """From 0.2 to 0.6 in 20 N, and from there to the first event of the whole length in 5 N."""
     loads, fronts = [0.0, 15.0, 20.0, 22.0, 25.0, 90.0], [2, 5, 6, 8, 10, 10]
-    slips = pd.DataFrame({"kept": True, "front": fronts, "n_blocks": 10, "load_before_N": loads})
+    slips = pd.DataFrame({"counted": True, "front": fronts, "n_blocks": 10, "load_before_N": loads})
     assert growth(slips) == pytest.approx((0.02, 0.08))
 
 

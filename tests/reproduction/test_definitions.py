@@ -21,7 +21,7 @@ SLIDER = {
     "cross_section": 1e-4,
     "length": 0.1,
 }
-PAPER = [{"events_kept": kept, "mu_sapp": 0.49} for kept in (6, 9, 14)]
+PAPER = [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)]
 READING = ["degree", "switching", "global_slip", "short", "front"]
 AT_ONCE = "in which all blocks slide at the same instant"
 
@@ -65,7 +65,7 @@ def test_no_reading_gives_six_numbers_as_printed_because_0_4845_rounds_to_0_48(t
 
 
 def test_numbers_of_a_reading_are_counted_over_its_three_loadings(table):
-    agree = table["events_kept_is_papers"].astype(int) + table["mu_sapp_is_papers_within_a_digit"]
+    agree = table["events_counted_is_papers"].astype(int) + table["mu_sapp_is_papers_within_a_digit"]
     counted = agree.groupby([table[key].astype(str) for key in READING]).sum()
     given = table.groupby([table[key].astype(str) for key in READING])["numbers_within_a_digit"]
     assert (given.nunique() == 1).all()

@@ -59,7 +59,7 @@ def test_the_rule_of_the_solver_is_the_same_forward_and_backward():
 def test_draws_that_are_the_papers_are_counted_with_an_interval():
     draws = pd.DataFrame([PAPERS, PAPERS, [6, 9, 15, 0.49, 0.47, 0.4999]], columns=SIX)
     definitions = pd.DataFrame(
-        [{**READING, "theta": t, "events_kept": n, "mu_sapp": 0.48} for t, n in ((-1, 6), (0, 9), (1, 15))]
+        [{**READING, "theta": t, "events_counted": n, "mu_sapp": 0.48} for t, n in ((-1, 6), (0, 9), (1, 15))]
     )
     assert six_of_readings(definitions).to_numpy().tolist() == [[6, 9, 15, 0.48, 0.48, 0.48]]
     table = random_steps_table(draws.assign(degree="5/6", switching=COULOMB), definitions, PAPERS)

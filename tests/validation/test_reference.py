@@ -226,16 +226,16 @@ def test_golden_scenes_are_complete_and_in_order(scene: str, count: int) -> None
 
 
 @pytest.mark.parametrize(
-    ("scene", "events", "kept", "mu_sapp", "time"),
+    ("scene", "events", "counted", "mu_sapp", "time"),
     [("fig11", 7, 6, 0.4845, 2.632), ("fig10", 16, 9, 0.4858, 2.739), ("fig12", 56, 14, 0.4883, 2.890)],
 )
 def test_golden_scenes_give_the_papers_counts(
-    scene: str, events: int, kept: int, mu_sapp: float, time: float
+    scene: str, events: int, counted: int, mu_sapp: float, time: float
 ) -> None:
     fronts, onsets, largest_load = events_to_global_slip(read_golden(scene), 10)
     longest = [max(fronts[: i + 1]) for i in range(len(fronts))]
     assert len(fronts) == events
-    assert sum(front == reached for front, reached in zip(fronts, longest, strict=True)) == kept
+    assert sum(front == reached for front, reached in zip(fronts, longest, strict=True)) == counted
     assert round(float(largest_load) / 400, 4) == mu_sapp
     assert round(float(onsets[-1]), 3) == time
 

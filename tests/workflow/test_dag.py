@@ -156,7 +156,7 @@ def test_an_edit_of_a_scene_runs_that_scene_only_and_another_model_answers_its_o
 
 def test_a_new_title_and_a_new_number_of_the_paper_simulate_nothing(finished):
     finished.edit("config.yaml", "title: uniform normal loading", "title: same load on every block")
-    finished.edit("config.yaml", "events_kept: 9", "events_kept: 8")
+    finished.edit("config.yaml", "events_counted: 9", "events_counted: 8")
     of_title = {"draw_scene fig10", "write_explorer"}
     of_definitions = {"tabulate_definitions", "draw_definitions", "tabulate_random_steps"}
     of_number = {"tabulate_reproduction", "evaluate_claims"} | of_definitions

@@ -82,9 +82,9 @@ def test_the_reproduction_shown_is_the_golden_one():
     golden = pd.read_csv(ROOT / "tests/golden/reproduction.csv")
     for scene, _, events_paper, events, mu_paper, mu_sapp, time in rows(README, "scene | theta"):
         table = golden[golden["scene"] == scene].set_index("quantity")
-        kept = table.loc["events counted in Fig. 13, the first global slip included"]
+        counted = table.loc["events counted in Fig. 13, the first global slip included"]
         friction = table.loc["apparent static friction coefficient mu_sapp"]
-        assert [int(events_paper), int(events)] == [kept["paper"], kept["reproduced"]]
+        assert [int(events_paper), int(events)] == [counted["paper"], counted["reproduced"]]
         assert float(mu_paper) == friction["paper"]
         assert mu_sapp == f"{friction['reproduced']:.4f}"
         assert time == f"{table.loc['time of the first global slip', 'reproduced']:.3f}"

@@ -53,7 +53,7 @@ def test_the_slip_table_holds_every_event_with_every_digit(run, files):
         "n_slid",
         "n_simultaneous",
         "is_global",
-        "kept",
+        "counted",
         "theta",
         "n_blocks",
         "normal_load_N",
@@ -63,8 +63,8 @@ def test_the_slip_table_holds_every_event_with_every_digit(run, files):
     assert slider.to_numpy().tolist() == [[0, 10, 400, 0.1]]
     np.testing.assert_array_equal(table["onset_s"], slips["onset"])
     np.testing.assert_array_equal(table["load_after_N"], slips["load_after"])
-    assert table["kept"].sum() == 9
-    assert table.loc[table["is_global"], "kept"].tolist() == [True]
+    assert table["counted"].sum() == 9
+    assert table.loc[table["is_global"], "counted"].tolist() == [True]
 
 
 def test_the_trace_goes_through_every_transition_from_start_to_end(run, files):
@@ -91,7 +91,7 @@ def test_mu_sapp_is_tabulated_under_every_definition_and_one_is_the_papers(files
     papers = table[table["is_papers"]]
     assert len(papers) == 1
     assert papers["mu_sapp"].item() == pytest.approx(0.4858, abs=5e-5)
-    assert papers["events_kept"].item() == 9
+    assert papers["events_counted"].item() == 9
     assert papers["load_N"].item() == pytest.approx(400 * papers["mu_sapp"].item())
 
 
@@ -116,7 +116,7 @@ def test_the_reproduction_stands_beside_the_paper(files, tmp_path, capsys):
     tabulate_reproduction.main(
         {"fig10": files / "slips.csv"},
         files / "mu_sapp.csv",
-        {"fig10": {"events_kept": 9, "mu_sapp": 0.49}},
+        {"fig10": {"events_counted": 9, "mu_sapp": 0.49}},
         tmp_path / "reproduction.csv",
     )
     table = read_table(tmp_path / "reproduction.csv")

@@ -12,7 +12,7 @@ from precursors.analysis.slips import DEFINITIONS, apparent_friction, find_slips
 from precursors.solver.run import Run
 from precursors.support.files import write_table
 
-COLUMNS = ["scene", "definition", "mu_sapp", "load_N", "time_s", "event", "events_kept", "is_papers"]
+COLUMNS = ["scene", "definition", "mu_sapp", "load_N", "time_s", "event", "events_counted", "is_papers"]
 
 
 def main(runs: Mapping[str, str | Path], output: str | Path) -> None:

@@ -10,6 +10,8 @@ if __name__ == "__main__":
         params, settings = snakemake.params, snakemake.params.settings
         n = settings["draws_full"] if snakemake.wildcards.full else settings["draws"]
         draws = draws_table(params.slider, params.duration, settings["theta"], settings, n)
-        papers = [row.get(name, float("nan")) for name in ("events_kept", "mu_sapp") for row in params.paper]
+        papers = [
+            row.get(name, float("nan")) for name in ("events_counted", "mu_sapp") for row in params.paper
+        ]
         table = random_steps_table(draws, read_table(snakemake.input.definitions), papers)
         write_table(table, snakemake.output.table)

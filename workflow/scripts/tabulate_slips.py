@@ -10,7 +10,7 @@ from precursors.support.files import write_table
 
 
 def main(run: str | Path, output: str | Path) -> None:
-    """Write every slip event; `kept` tells the rows of Fig. 13."""
+    """Write every slip event; `counted` tells the rows of Fig. 13."""
     write_table(slip_table(Run.load(run)), output)
 
 

@@ -63,7 +63,7 @@ def row(method: str, step: float, run: Run, truth: Truth) -> dict[str, object]:
     Returns
     -------
     dict
-        method; step_s [s], NaN for the exact solver; events_kept, the number of events in Fig. 13; mu_sapp
+        method; step_s [s], NaN for the exact solver; events_counted, the number of events in Fig. 13; mu_sapp
         (Eq. 1) and global_slip_time_s, the onset of the first global slip [s], NaN without one;
         transitions_right before the first wrong one, and transitions_true, all there are.
     """
@@ -72,7 +72,7 @@ def row(method: str, step: float, run: Run, truth: Truth) -> dict[str, object]:
     return {
         "method": method,
         "step_s": step,
-        "events_kept": len(find_precursors(slips)),
+        "events_counted": len(find_precursors(slips)),
         "mu_sapp": friction.mu_sapp if friction else math.nan,
         "global_slip_time_s": math.nan if first is None else float(slips["onset"].iloc[first]),
         "transitions_right": compared.transitions_right,

@@ -64,12 +64,12 @@ def find_slips(run: Run) -> pd.DataFrame:
 def slip_table(run: Run) -> pd.DataFrame:
     """Every slip event of a run, with units in the names of the columns.
 
-    `kept` marks the rows of Fig. 13. theta, n_blocks, normal_load_N (F_Z) and length_m (L) say which slider
-    it was, the same in every row; theta is NaN where the run does not know its slider.
+    `counted` marks the rows of Fig. 13. theta, n_blocks, normal_load_N (F_Z) and length_m (L) say which
+    slider it was, the same in every row; theta is NaN where the run does not know its slider.
     """
     slips = find_slips(run)
     return slips.rename(columns=WITH_UNITS).assign(
-        kept=slips.index.isin(find_precursors(slips).index),
+        counted=slips.index.isin(find_precursors(slips).index),
         theta=run.slider["theta"] if run.slider else np.nan,
         n_blocks=run.chain.n_blocks,
         normal_load_N=run.slider["normal_load"] if run.slider else run.chain.normal_load,
@@ -80,19 +80,19 @@ def slip_table(run: Run) -> pd.DataFrame:
 def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame:
     """Events of Fig. 13: short ones left out, up to and including the first global slip.
 
-    An event is short if its front is strictly less than the farthest front before it; equal ones are kept.
+    An event is short if its front is strictly less than the farthest front before it; equal ones are counted.
     `short` may name another reading, a key of SHORT_EVENTS. Without a global slip all events that are not
     short are returned.
     """
     until_global = up_to_first_global(slips)
     front = until_global["front"]
     farthest_before = front.cummax().shift(fill_value=0)
-    kept = {
+    counted = {
         "shorter": front >= farthest_before,
         "not longer": front > farthest_before,
         "shorter than the last": front >= front.shift(fill_value=0),
     }
-    return until_global[kept[short]]
+    return until_global[counted[short]]
 
 
 @dataclass(frozen=True)
@@ -168,7 +168,7 @@ class ApparentFriction:
     event : int
         Number of the event that begins then, that it lies in, or that is the last before it, from 1; 0
         where there is none.
-    events_kept : int
+    events_counted : int
         Events of Fig. 13 up to and including the first global slip of this definition.
     """
 
@@ -176,7 +176,7 @@ class ApparentFriction:
     load: float
     time: float
     event: int
-    events_kept: int
+    events_counted: int
 
 
 def apparent_friction(
@@ -210,5 +210,5 @@ def apparent_friction(
         load=float(load),
         time=float(time),
         event=int(np.searchsorted(slips["onset"], time, side="right")),
-        events_kept=len(find_precursors(slips, definition.short)),
+        events_counted=len(find_precursors(slips, definition.short)),
     )

@@ -13,7 +13,7 @@ from precursors.solver.run import Run
 SUMMARY = np.dtype(
     [
         ("n_events", "i8"),
-        ("events_kept", "i8"),
+        ("events_counted", "i8"),
         ("mu_sapp", "f8"),
         ("load", "f8"),
         ("time", "f8"),
@@ -53,7 +53,7 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     Returns
     -------
     structured array, one row per run
-        Up to and including the first global slip: n_events, events_kept (those of Fig. 13), transitions;
+        Up to and including the first global slip: n_events, events_counted (those of Fig. 13), transitions;
         mu_sapp [1] (Eq. 1) and the load F_X [N] that it stands for. Of the first global slip: time (its
         onset), end and crossing_time (from its onset until block N first slides) [s]. Where reached is False
         there was no global slip: these are NaN, and the counts are those of the whole run. n_global and
@@ -84,14 +84,14 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     global_slips = np.flatnonzero(events["is_global"])
     reached, first = np.unique(events["run"][global_slips], return_index=True)
     last_counted[reached] = global_slips[first]
-    counted = np.arange(len(events)) <= last_counted[events["run"]]
-    summaries["n_events"] = np.bincount(events["run"], counted, minlength=len(runs))
-    alone = counted & (events["n_slid"] == 1)
+    until_global = np.arange(len(events)) <= last_counted[events["run"]]
+    summaries["n_events"] = np.bincount(events["run"], until_global, minlength=len(runs))
+    alone = until_global & (events["n_slid"] == 1)
     summaries["n_alone"] = np.bincount(events["run"], alone, minlength=len(runs))
     # Fronts of later runs are raised above all earlier ones, so that the running maximum begins anew.
     front = events["front"] + events["run"] * (events["front"].max(initial=0) + 1)
-    kept = counted & (front == np.maximum.accumulate(front))
-    summaries["events_kept"] = np.bincount(events["run"], kept, minlength=len(runs))
+    counted = until_global & (front == np.maximum.accumulate(front))
+    summaries["events_counted"] = np.bincount(events["run"], counted, minlength=len(runs))
 
     slips = events[last_counted[reached]]
     found = [_load_and_crossing(runs[i], slip) for i, slip in zip(reached, slips, strict=True)]

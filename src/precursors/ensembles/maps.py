@@ -1,4 +1,4 @@
-"""Maps: events kept, mu_sapp and the share of global slips over any two parameters."""
+"""Maps: events counted, mu_sapp and the share of global slips over any two parameters."""
 
 from __future__ import annotations
 

@@ -15,11 +15,11 @@ from precursors.ensembles.study import Study, stack
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import simulate
 
-QUANTITIES = ("events_kept", "mu_sapp", "time_s", "front_speed_m_per_s")
+QUANTITIES = ("events_counted", "mu_sapp", "time_s", "front_speed_m_per_s")
 # Numbers that are carried on to infinite N as a + b/N.
 CARRIED_ON = ("mu_sapp", "time_s", "front_speed_m_per_s")
 # Numbers whose growth with N is told octave by octave.
-COUNTS = ("events_kept", "n_events")
+COUNTS = ("events_counted", "n_events")
 # Samples of a bootstrap, and the ends of its 95 % interval.
 SAMPLES, ENDS = 1000, (0.025, 0.975)
 # Largest N for which the predictability time is part of every run of the workflow: its work grows as N^2.

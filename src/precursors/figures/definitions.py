@@ -17,7 +17,7 @@ from precursors.figures import style
 
 ROW_MM, MARGIN_MM = 6.0, 36.0
 READING = ["global_slip", "short", "front"]
-RESULTS = ["events_kept", "mu_sapp"]
+RESULTS = ["events_counted", "mu_sapp"]
 # Shades by how many of the two numbers of a cell, or of the six of a reading and |theta|, are the paper's.
 OF_TWO = ListedColormap(["white", "#D6EAF7", style.SKY])
 OF_SIX = ListedColormap(["white", "#EDF5FA", "#D6EAF7", "#B5D9F0", "#8AC6EA", style.SKY, style.BLUE])
@@ -49,7 +49,8 @@ def draw(table: pd.DataFrame) -> Figure:
     """
     table = table[table["switching"] == table["switching"].iloc[0]]
     table = _merge_lengths(table).assign(size=table["theta"].abs())
-    table["of_two"] = table["events_kept_is_papers"] + table["mu_sapp_is_papers_within_a_digit"].astype(int)
+    counts_agree = table["events_counted_is_papers"].astype(int)
+    table["of_two"] = counts_agree + table["mu_sapp_is_papers_within_a_digit"]
     rows = pd.MultiIndex.from_frame(table[READING].drop_duplicates())
     of_two, counts, mu_sapp = (
         table.pivot_table(value, READING, "theta", "first", dropna=False).loc[rows]

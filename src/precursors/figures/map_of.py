@@ -23,7 +23,7 @@ LABELS = {
     "drive_velocity": "$V$ [m/s]",
 }
 LOGARITHMIC = ("stiffness_ratio", "drive_velocity")
-EVENTS = "events_kept"
+EVENTS = "events_counted"
 PANELS = {
     EVENTS: style.EVENTS_LABEL,
     "mu_sapp": style.MU_SAPP_LABEL,

@@ -20,7 +20,7 @@ ANSWERED, MISSED, SILENT = "#CDE7DC", "#F6DDD0", "#F2F2F2"
 SMALLEST: dict[str, Any] = {"fill": False, "edgecolor": style.GREEN, "linewidth": 1.4}
 QUESTIONS = {
     "first_load": "First precursor,\nload [N]",
-    "events_kept": style.EVENTS_LABEL,
+    "events_counted": style.EVENTS_LABEL,
     "mu_sapp": style.MU_SAPP_LABEL,
     "front_loads": "$L_p$ against $F_X$,\nload at $L/2$ [N]",
     "slip_duration": "Global slip,\nduration [ms]",

@@ -78,7 +78,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> tuple[Line2D,
     sign, color = int(theta > 0) - int(theta < 0), style.theta_color(theta)
     short = _short_events(slips)
     axes.plot(short["load_before_N"], short["front"] / short["n_blocks"], **SHORT, color=color, zorder=1.5)
-    counted = slips[slips["kept"]]
+    counted = slips[slips["counted"]]
     points = counted["load_before_N"], counted["front"] / counted["n_blocks"]
     look: dict[str, Any] = {"linestyle": "none", "color": color, "markeredgewidth": 0.8}
     fill = color if sign < 0 else "none"
@@ -90,7 +90,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> tuple[Line2D,
 
 def _short_events(slips: pd.DataFrame) -> pd.DataFrame:
     """Events before the first global slip that Fig. 13 does not count."""
-    return slips[~slips["is_global"].cummax() & ~slips["kept"]]
+    return slips[~slips["is_global"].cummax() & ~slips["counted"]]
 
 
 def _label(slips: pd.DataFrame, others: Sequence[pd.DataFrame]) -> str:
@@ -99,7 +99,7 @@ def _label(slips: pd.DataFrame, others: Sequence[pd.DataFrame]) -> str:
     for column, text in (("n_blocks", ", $N = {:g}$"), ("normal_load_N", ", $F_Z = {:g}$ N")):
         if len({table[column].iloc[0] for table in others}) > 1:
             name += text.format(first[column])
-    n = int(slips["kept"].sum())
+    n = int(slips["counted"].sum())
     note = "" if slips["is_global"].any() else ", no global slip"
     return f"{name}: {n} event{'' if n == 1 else 's'}{note}"
 

@@ -14,7 +14,7 @@ from precursors.model import printed
 
 HEIGHT_MM = 89.0
 LABELS = {
-    "events_kept": style.EVENTS_LABEL,
+    "events_counted": style.EVENTS_LABEL,
     "mu_sapp": style.MU_SAPP_LABEL,
     "time_s": "Time of the first global slip [s]",
     "front_speed_m_per_s": "Front speed [km/s]",
@@ -54,7 +54,7 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame
                 _draw_scene(panel, of_scene, limit.assign(n_blocks=beyond), foreseen, quantity)
             finish(panel, quantity, papers_n)
             _draw_estimate(panel, rows, quantity)
-        for sign, count in printed.EVENTS_KEPT.items():
+        for sign, count in printed.EVENTS_COUNTED.items():
             axes[0, 0].plot(beyond, count, **EXPERIMENT, color=style.theta_color(sign))
         draw_experiments_mu_sapp(axes[0, 1])
         for panel in axes[1]:
@@ -81,7 +81,7 @@ def _draw_scene(
 ) -> None:
     theta, scale = table["theta"].iloc[0], SCALES.get(quantity, 1.0)
     color = style.theta_color(theta)
-    label = style.theta_text(theta) if quantity == "events_kept" else None
+    label = style.theta_text(theta) if quantity == "events_counted" else None
     style.draw_band(axes, table, color, scale)
     axes.plot(table["n_blocks"], table["q50"] * scale, color=color, label=label)
     right = table[table["n_blocks"].isin(foreseen.loc[foreseen["predictable"], "n_blocks"])]
@@ -97,7 +97,7 @@ def finish(axes: Axes, quantity: str, papers_n: int) -> None:
     axes.set_ylabel(LABELS[quantity])
     axes.set_xscale("log")
     axes.axvline(papers_n, **style.DOTTED)
-    if quantity == "events_kept":
+    if quantity == "events_counted":
         axes.set_yscale("log")
         style.set_ticks(axes.yaxis, [1, 2, 5, 10, 20, 50, 100])
 

@@ -13,7 +13,7 @@ from precursors.figures import style
 from precursors.figures.resolution import BAND, SCALES, draw_experiments_mu_sapp, finish
 
 HEIGHT_MM = 100.0
-QUANTITIES = ("events_kept", "mu_sapp", "front_speed_m_per_s")
+QUANTITIES = ("events_counted", "mu_sapp", "front_speed_m_per_s")
 PLAIN = "paper's chain"
 # Whether a model has viscosity, whether it has interface springs, and what such models are called.
 KINDS = {

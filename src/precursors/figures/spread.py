@@ -27,7 +27,7 @@ SIZE_LABELS = {
     "start": r"Noise in the initial positions, in units of $\mu_s F_Z/(Nk)$ [-]",
     "parameters": "Parameter that is changed, by up to {} from left to right ($\\theta$: absolute)",
 }
-BINS = {"mu_sapp": 0.005, "events_kept": 1.0}  # their widths
+BINS = {"mu_sapp": 0.005, "events_counted": 1.0}  # their widths
 MEDIAN: dict[str, Any] = {"marker": "_", "markersize": 5, "markeredgewidth": 1.0, "linestyle": "none"}
 RUN: dict[str, Any] = {"color": style.BLUE, "marker": ".", "markersize": 1.5, "linestyle": "none"}
 ALONE: dict[str, Any] = {"color": style.VERMILION, "marker": "o", "markersize": 3.5, "linestyle": "none"}
@@ -70,8 +70,8 @@ def _draw_all(figure: Figure, members: pd.DataFrame, spread: pd.DataFrame) -> np
         _draw_bars(friction, ensembles, alone["mu_sapp"])
         for _, ensemble in ensembles.iterrows():
             same = (runs["perturbation"] == ensemble["perturbation"]) & (runs["size"] == ensemble["size"])
-            _draw_counts(counts, ensemble["place"], runs.loc[same, "events_kept"])
-        counts.axhline(alone["events_kept"], **style.DOTTED)
+            _draw_counts(counts, ensemble["place"], runs.loc[same, "events_counted"])
+        counts.axhline(alone["events_counted"], **style.DOTTED)
         _label_ensembles(counts, ensembles)
     shades = figure.colorbar(ScalarMappable(Normalize(0, 100), SHADES), ax=axes, aspect=40, pad=0.015)
     shades.set_label("Share of the runs [%]", fontsize=7)

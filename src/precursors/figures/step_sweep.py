@@ -27,7 +27,7 @@ def draw(table: pd.DataFrame) -> Figure:
         ("all transitions right", waiting & right, RIGHT),
     )
     percentage = 100 * table["transitions_right"] / table["transitions_true"]
-    values = (table["events_kept"], table["mu_sapp"], percentage)
+    values = (table["events_counted"], table["mu_sapp"], percentage)
     scenes = table.groupby("scene", sort=False)
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         grid = figure.subplots(len(values), len(scenes), sharex=True, sharey="row", squeeze=False)

@@ -79,7 +79,7 @@ def root_mean_square(values: FloatArray) -> float:
 
 QUESTIONS = {
     "first_load": Question(float, relative),
-    "events_kept": Question(float, difference, "events", noisy=True),
+    "events_counted": Question(float, difference, "events", noisy=True),
     "mu_sapp": Question(float, relative, noisy=True),
     # The load at which the front reaches the middle stands for all.
     "front_loads": Question(lambda loads: float(loads[(len(loads) - 1) // 2]), front_error),
@@ -115,7 +115,7 @@ def compare_models(
     -------
     DataFrame
         One row for each scene, question and model that answers it: model_number (1, 2, ...), name and label
-        of the model, value and its unit (of events_kept and mu_sapp the median of runs with noise in the
+        of the model, value and its unit (of events_counted and mu_sapp the median of runs with noise in the
         normal loads), error against the paper's chain, tolerance, is_answer (the error is
         within it), is_smallest (the first model that answers in every scene), cost_s (median time from the
         chain to the answer [s]), addition (what the model adds to the paper's chain, with value and unit).

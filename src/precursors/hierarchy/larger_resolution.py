@@ -12,7 +12,7 @@ from scipy.stats import kruskal
 
 from precursors.analysis.run_statistics import median_interval, statistics
 from precursors.hierarchy.larger import LargerChain
-from precursors.hierarchy.models import Motion, events_kept, first_global_slip, move
+from precursors.hierarchy.models import Motion, events_counted, first_global_slip, move
 from precursors.model.chain import Chain, parse_theta
 
 # What makes a model, and how the tables call it.
@@ -43,7 +43,7 @@ def run_models(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> pd.Dat
     -------
     DataFrame
         One row per run and quantity that the run has: `POINT`, draw, quantity, value. The quantities are
-        events_kept, mu_sapp, time_s (onset of the first global slip [s]) and front_speed_m_per_s (its mean
+        events_counted, mu_sapp, time_s (onset of the first global slip [s]) and front_speed_m_per_s (its mean
         speed from block 1 to block N [m/s]).
     """
     rows = []
@@ -129,7 +129,7 @@ def numbers(motion: Motion, length: float) -> dict[str, float]:
     distance = length * (motion.n_blocks - 1) / motion.n_blocks
     crossing = motion.front_arrival - onset  # 0 if the event begins at block N, as it may on springs
     return {
-        "events_kept": events_kept(motion),
+        "events_counted": events_counted(motion),
         "mu_sapp": motion.mu_sapp,
         "time_s": onset,
         "front_speed_m_per_s": distance / crossing if crossing > 0 else np.nan,

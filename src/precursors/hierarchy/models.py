@@ -26,7 +26,7 @@ LIMIT = 10.0
 UNITS = {
     "load_bound": "N",  # largest load of any state of rest (Eq. 13)
     "first_load": "N",  # load at the onset of the first event
-    "events_kept": "1",  # number of events counted in Fig. 13
+    "events_counted": "1",  # number of events counted in Fig. 13
     "mu_sapp": "1",  # apparent static friction coefficient (Eq. 1)
     "front_loads": "N",  # load at which the front first reaches each block 1..N
     "slip_duration": "s",  # of the first global slip
@@ -137,14 +137,14 @@ def slip_duration(motion: Motion) -> float:
     return float(slip["end"] - slip["onset"])
 
 
-def events_kept(motion: Motion) -> float:
+def events_counted(motion: Motion) -> float:
     """Number of events counted in Fig. 13; NaN without a global slip."""
     return np.nan if first_global(motion.slips) is None else float(len(find_precursors(motion.slips)))
 
 
 _EVENTS: dict[str, Callable[[Motion], Any]] = {
     "first_load": lambda motion: float(motion.slips["load_before"].iloc[0]),
-    "events_kept": events_kept,
+    "events_counted": events_counted,
     "mu_sapp": lambda motion: motion.mu_sapp,
     "front_loads": front_loads,
 }

@@ -57,7 +57,7 @@ def waveform(chain: Chain) -> FloatArray:
 
 ANSWERS: dict[str, Callable[[Chain], Any]] = {
     "first_load": onset_load,
-    "events_kept": lambda chain: 1.0,
+    "events_counted": lambda chain: 1.0,
     "mu_sapp": lambda chain: chain.mu_s,
     "front_loads": lambda chain: np.full(chain.n_blocks, onset_load(chain)),
     "slip_duration": rigid_slip_duration,

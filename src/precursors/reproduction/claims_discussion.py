@@ -57,8 +57,8 @@ def growth(slips: pd.DataFrame) -> tuple[float, float]:
 
     It ends with the first event of the whole length: from there on the length cannot grow.
     """
-    kept = rows(slips, kept=True)
-    length, load = (kept["front"] / kept["n_blocks"]).to_numpy(), kept["load_before_N"].to_numpy()
+    counted = rows(slips, counted=True)
+    length, load = (counted["front"] / counted["n_blocks"]).to_numpy(), counted["load_before_N"].to_numpy()
     until = int(np.argmax(length == length.max())) + 1
     length, load = length[:until], load[:until]
     kink = np.flatnonzero(length <= KINK)[-1]
@@ -94,15 +94,15 @@ def checked(t: Tables, check: str, column: str = "found") -> np.ndarray:
 @claim("Sects. 5.2 and 6.1")
 def short_events(t: Tables) -> Finding:
     """The simulation has short events before the first global slip, which Fig. 13 leaves out."""
-    return above([len(rows(before_global(t, scene), kept=False)) for scene in SCENES], 0)
+    return above([len(rows(before_global(t, scene), counted=False)) for scene in SCENES], 0)
 
 
 @claim("Sect. 6.1")
 def static_and_kinetic_friction(t: Tables) -> Finding:
     """The difference between static and kinetic friction is the essence of the precursors: their number
     depends on it (median of the events in Fig. 13 over theta, at the least and the largest difference)."""
-    grid = t["map_theta_friction_ratio"].dropna(subset=["events_kept"])
-    medians = grid.groupby("friction_ratio")["events_kept"].median().sort_index(ascending=False)
+    grid = t["map_theta_friction_ratio"].dropna(subset=["events_counted"])
+    medians = grid.groupby("friction_ratio")["events_counted"].median().sort_index(ascending=False)
     return decreasing(medians.iloc[[0, -1]])
 
 
@@ -264,7 +264,7 @@ def fig8_caption(t: Tables) -> Finding:
 def latter_figure(t: Tables) -> Finding:
     """Printed: the latter figure, which is Fig. 8, leaves short events out. Right: Fig. 13 does; the
     experiment has none (short events of the three scenes)."""
-    return instead_of(0, sum(len(rows(before_global(t, scene), kept=False)) for scene in SCENES))
+    return instead_of(0, sum(len(rows(before_global(t, scene), counted=False)) for scene in SCENES))
 
 
 @claim("Eqs. 1 and 5", kind="misprint")
@@ -281,7 +281,7 @@ def global_slip(t: Tables) -> Finding:
     """Global slip is not defined. Taken: all blocks slide at the same instant. As printed: every block may
     slide at some time (events in Fig. 13, theta = -0.833)."""
     each = "largest F_X up to the first event in which every block slides at some time"
-    other = one(t["mu_sapp"], "events_kept", scene=TRAILING, definition=each)
+    other = one(t["mu_sapp"], "events_counted", scene=TRAILING, definition=each)
     return instead_of(other, counted(t, TRAILING))
 
 
@@ -289,7 +289,7 @@ def global_slip(t: Tables) -> Finding:
 def short_events_of_equal_length(t: Tables) -> Finding:
     """Short event is not defined for equal lengths. Taken: they stay. As printed: they may be dropped (events
     in Fig. 13, theta = 0.833)."""
-    other = leading_reading(t, "events_kept", short="not longer than all before it")
+    other = leading_reading(t, "events_counted", short="not longer than all before it")
     return instead_of(other, counted(t, LEADING))
 
 
@@ -297,7 +297,7 @@ def short_events_of_equal_length(t: Tables) -> Finding:
 def short_events_by_the_previous_one(t: Tables) -> Finding:
     """A short event is "smaller than that of the previous precursors". Taken: shorter than one before. As
     printed: it may be shorter than the last one (events in Fig. 13, theta = 0.833)."""
-    other = leading_reading(t, "events_kept", short="shorter than the one just before it")
+    other = leading_reading(t, "events_counted", short="shorter than the one just before it")
     return instead_of(other, counted(t, LEADING))
 
 
@@ -305,7 +305,7 @@ def short_events_by_the_previous_one(t: Tables) -> Finding:
 def global_slip_counted(t: Tables) -> Finding:
     """The "number of precursor events (including one global slip)" is counted as printed. Precursors of a
     global slip would be counted without it."""
-    without = [int((rows(up_to_global(t, s), kept=True)["is_global"] == 0).sum()) for s in SCENES]
+    without = [int((rows(up_to_global(t, s), counted=True)["is_global"] == 0).sum()) for s in SCENES]
     return instead_of(counted(t, *SCENES), without)
 
 

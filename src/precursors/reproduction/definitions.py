@@ -52,7 +52,7 @@ def definitions_table(
     load_drops : iterable of float
         Drops of F_X [N]; an event with a larger drop is a global slip in this reading.
     paper : sequence of mapping
-        The paper's events_kept and mu_sapp for theta < 0, theta = 0 and theta > 0, as far as it has them.
+        The paper's events_counted and mu_sapp for theta < 0, theta = 0 and theta > 0, as far as it has them.
 
     Notes
     -----
@@ -68,7 +68,7 @@ def definitions_table(
             if (rule, theta) not in found:
                 run = solve(Chain.from_slider(**{**slider, "theta": theta}), duration, rule)
                 found[rule, theta] = list(readings(run, definitions))
-            papers = {f"{name}_paper": printed.get(name) for name in ("events_kept", "mu_sapp")}
+            papers = {f"{name}_paper": printed.get(name) for name in ("events_counted", "mu_sapp")}
             first = {"degree": degree, "switching": rule, "theta": theta}
             rows += [{**first, **row, **papers} for row in found[rule, theta]]
     return compared(pd.DataFrame(rows))
@@ -91,7 +91,7 @@ def readings(run: Run, definitions: Iterable[Definition]) -> Iterator[dict[str, 
             "global_slip": definition.global_slip_text,
             "short": SHORT_EVENTS[definition.short],
             "front": FRONTS[definition.front],
-            "events_kept": largest.events_kept if largest else None,
+            "events_counted": largest.events_counted if largest else None,
             "mu_sapp": largest.mu_sapp if largest else None,
             "mu_sapp_at_onset": onset.mu_sapp if onset else None,
             "global_slip_time_s": onset.time if onset else None,
@@ -101,11 +101,11 @@ def readings(run: Run, definitions: Iterable[Definition]) -> Iterator[dict[str, 
 def compared(table: pd.DataFrame) -> pd.DataFrame:
     """The table with columns that say which numbers are the paper's, and how many of the six of a reading."""
     friction, papers = (table[name].astype(float) for name in ("mu_sapp", "mu_sapp_paper"))
-    table["events_kept_is_papers"] = table["events_kept"].astype(float) == table["events_kept_paper"]
+    table["events_counted_is_papers"] = table["events_counted"].astype(float) == table["events_counted_paper"]
     table["mu_sapp_is_papers_as_printed"] = friction.round(DIGITS) == papers
     table["mu_sapp_is_papers_within_a_digit"] = (friction - papers).abs() <= LAST_DIGIT
     reading = [table[name].astype(str) for name in READING]
     for kind in ("as_printed", "within_a_digit"):
-        agree = table["events_kept_is_papers"].astype(int) + table[f"mu_sapp_is_papers_{kind}"]
+        agree = table["events_counted_is_papers"].astype(int) + table[f"mu_sapp_is_papers_{kind}"]
         table[f"numbers_{kind}"] = agree.groupby(reading).transform("sum")
     return table

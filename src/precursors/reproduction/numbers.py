@@ -116,7 +116,7 @@ def results(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """The paper's Figs. 10 to 13, and its Eq. 15."""
     fast = rows(t["eq15"], check=eq15.FAST)[["found", "expected"]].astype(float)
     found: Numbers = {
-        "events-at-printed-theta": leading_reading(t, "events_kept", degree="0.833"),
+        "events-at-printed-theta": leading_reading(t, "events_counted", degree="0.833"),
         "mu-at-printed-theta": leading_reading(t, "mu_sapp", degree="0.833"),
         "shortest-slip": (min(shortest_slip(t[f"{scene}_slips"]) for scene in SCENES), "s"),
         "eq15-checks": len(t["eq15"]),
@@ -133,9 +133,9 @@ def results(t: Tables, config: Mapping[str, Any]) -> Numbers:
         slips, ours = t[f"{scene}_slips"], rows(t["mu_sapp"], scene=scene, is_papers=True).iloc[0]
         partial, last = before_global(t, scene), up_to_global(t, scene).iloc[-1]
         found |= {
-            f"events-{scene}": slips["kept"].sum(),
+            f"events-{scene}": slips["counted"].sum(),
             f"all-events-{scene}": len(partial) + 1,
-            f"short-events-{scene}": len(rows(partial, kept=False)),
+            f"short-events-{scene}": len(rows(partial, counted=False)),
             f"not-at-once-{scene}": (partial["n_slid"] > partial["n_simultaneous"]).sum(),
             f"slips-{scene}": len(slips),
             f"mu-{scene}": ours["mu_sapp"],
@@ -169,7 +169,7 @@ def readings(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "best-readings-printed": uniform["numbers_as_printed"].max(),
         "readings-that-do": len(rows(uniform, numbers_within_a_digit=6)),
         "switching-that-do": rows(uniform, numbers_within_a_digit=6)["switching"].nunique(),
-        "other-global-events": other["events_kept"],
+        "other-global-events": other["events_counted"],
         "other-global-mu": other["mu_sapp"],
     }
 

@@ -66,17 +66,17 @@ def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
     found["rk4-step"] = (charted["value"].min(), "s")
     steps = rows(sweep, scene=LEADING, method="rk4_skip")
     others = rows(sweep[sweep["scene"] != LEADING], method="rk4_skip")
-    counts = rows(sweep, method="exact").set_index("scene")["events_kept"]
+    counts = rows(sweep, method="exact").set_index("scene")["events_counted"]
     last = others.sort_values("step_s").groupby("scene").first()
     found["sweep-finest-right"] = yes_or_no(
         bool((last["transitions_right"] == last["transitions_true"]).all())
     )
-    right_count = others["events_kept"] == others["scene"].map(counts)
+    right_count = others["events_counted"] == others["scene"].map(counts)
     wrong_early = 2 * others["transitions_right"] < others["transitions_true"]
     found["sweep-lucky-counts"] = (right_count & wrong_early).sum()
     found["sweep-true"] = one(sweep, "transitions_true", scene=LEADING, method="exact")
     found["sweep-most-right"] = steps["transitions_right"].max()
-    for name, column in (("mu", "mu_sapp"), ("events", "events_kept")):
+    for name, column in (("mu", "mu_sapp"), ("events", "events_counted")):
         found |= {f"sweep-least-{name}": steps[column].min(), f"sweep-most-{name}": steps[column].max()}
     return found
 
@@ -123,7 +123,7 @@ def failures(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "dead-zone-true": of("dead_zone_too_large", "transitions right", "exact"),
         "forward-theta": rows(t["failures"], failure_mode="forward_only")["setting"].iloc[-1],
         "forward-mu-leading": of("forward_only", "mu_sapp"),
-        "forward-events-leading": of("forward_only", "events kept"),
+        "forward-events-leading": of("forward_only", "events counted"),
     }
 
 
@@ -163,7 +163,7 @@ def hierarchy(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Smaller and larger models beside the paper's chain."""
     table = t["model_comparison"]
     head = rows(table, question="slip_duration", model="head")
-    counts = rows(table, question="events_kept").set_index(["model", "scene"])["value"]
+    counts = rows(table, question="events_counted").set_index(["model", "scene"])["value"]
     return {
         **{f"{m}-events-{scene}": counts[m, scene] for m in ("quasistatic", "chain") for scene in SCENES},
         "quasistatic-lengths-worst": rows(table, question="front_loads", model="quasistatic")["error"].max(),
@@ -192,7 +192,7 @@ def spread(t: Tables, config: Mapping[str, Any]) -> Numbers:
         found[f"window-mu-unchanged-{scene}"] = window["share_unchanged"]
         for name, quantile in (("low", "q05"), ("mid", "q50"), ("high", "q95")):
             found[f"window-mu-{name}-{scene}"] = window[quantile]
-        for name, quantity in (("events", "events_kept"), ("mu", "mu_sapp")):
+        for name, quantity in (("events", "events_counted"), ("mu", "mu_sapp")):
             row = rows(t["robustness"], scene=scene, quantity=quantity).iloc[0]
             found |= {
                 f"class-{name}-{scene}": row["class"],
@@ -225,12 +225,12 @@ def resolution(t: Tables, config: Mapping[str, Any]) -> Numbers:
             rows(limits, scene=scene, quantity=quantity).iloc[0]
             for quantity in ("mu_sapp", "front_speed_m_per_s")
         )
-        counts = rows(t["resolution_exponents"], scene=scene, quantity="events_kept").iloc[-1]
-        medians = {q: rows(table, scene=scene, quantity=q) for q in ("mu_sapp", "events_kept")}
+        counts = rows(t["resolution_exponents"], scene=scene, quantity="events_counted").iloc[-1]
+        medians = {q: rows(table, scene=scene, quantity=q) for q in ("mu_sapp", "events_counted")}
         found |= {
             f"noisy-mu-{scene}": one(medians["mu_sapp"], "q50", n_blocks=noisy_n),
             f"most-mu-{scene}": medians["mu_sapp"]["q50"].iloc[-1],
-            f"most-events-{scene}": medians["events_kept"]["q50"].iloc[-1],
+            f"most-events-{scene}": medians["events_counted"]["q50"].iloc[-1],
             f"limit-mu-{scene}": friction["a"],
             f"limit-mu-error-{scene}": (friction["a_high"] - friction["a_low"]) / 2,
             f"slope-mu-{scene}": friction["b"],
@@ -242,7 +242,7 @@ def resolution(t: Tables, config: Mapping[str, Any]) -> Numbers:
             f"limit-speed-error-{scene}": ((speeds["a_high"] - speeds["a_low"]) / 2, "m/s"),
         }
         experiment = float(one(t["claims"], "paper", id="counts-of-the-experiment").split("; ")[i])
-        medians_of_counts = medians["events_kept"]["q50"]
+        medians_of_counts = medians["events_counted"]["q50"]
         counts_met.append(medians_of_counts.min() <= experiment <= medians_of_counts.max())
     return found | {"experiment-counts-met": sum(counts_met)}
 

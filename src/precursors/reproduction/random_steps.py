@@ -64,13 +64,13 @@ def six_part(
     chain = Chain.from_slider(**{**slider, "theta": theta})
     run = march(run_rk4, (True,), chain, duration, step, "global slip", rule=rule).run
     found = apparent_friction(run, find_slips(run))
-    return (found.events_kept, found.mu_sapp) if found else (np.nan, np.nan)
+    return (found.events_counted, found.mu_sapp) if found else (np.nan, np.nan)
 
 
 def six_of_readings(definitions: pd.DataFrame) -> pd.DataFrame:
     """The six numbers of every reading in definitions.csv, on a row each."""
     wide = definitions.assign(sign=np.sign(definitions["theta"])).pivot_table(
-        index=READING, columns="sign", values=["events_kept", "mu_sapp"], dropna=False
+        index=READING, columns="sign", values=["events_counted", "mu_sapp"], dropna=False
     )
     return pd.DataFrame(wide.to_numpy(), columns=SIX).dropna()
 

@@ -25,7 +25,7 @@ def reproduction_table(
     mu_sapp : DataFrame
         tables/mu_sapp.csv, of all scenes.
     paper : mapping
-        What the paper prints of each scene: events_kept and mu_sapp, or nothing.
+        What the paper prints of each scene: events_counted and mu_sapp, or nothing.
     """
     papers = mu_sapp[mu_sapp["is_papers"].astype(bool)].set_index("scene")["mu_sapp"]
     rows = [
@@ -38,7 +38,7 @@ def reproduction_table(
 
 def quantities(slips: pd.DataFrame, mu_sapp: float | None) -> Iterator[tuple[str, str, str, float | None]]:
     """Quantity, unit, key in `paper` (empty: none), and value (None without a global slip)."""
-    yield COUNTED, "1", "events_kept", float(slips["kept"].sum())
+    yield COUNTED, "1", "events_counted", float(slips["counted"].sum())
     yield FRICTION, "1", "mu_sapp", mu_sapp
     number = first_global(slips)
     time, load = (None, None) if number is None else slips[["onset_s", "load_before_N"]].iloc[number]

@@ -38,7 +38,7 @@ def forward_only() -> Failure:
         true, found = (apparent_friction(r, find_slips(r)) for r in (exact, run))
         assert true
         assert found
-        numbers.append(number("events kept", "1", found.events_kept, true.events_kept))
+        numbers.append(number("events counted", "1", found.events_counted, true.events_counted))
         numbers.append(number("mu_sapp", "1", found.mu_sapp, true.mu_sapp))
         # The curves of the last theta are the ones that stay.
         for name, r in (("exact", exact), ("v < 0 forbidden", run)):

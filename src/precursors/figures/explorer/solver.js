@@ -166,14 +166,14 @@ function simulate(chain, duration, most = 200000) {
 
 // The rows of Fig. 13: up to the first global slip, without events shorter than one before.
 function precursors(events) {
-  const kept = [];
+  const counted = [];
   let longest = 0;
   for (const event of events) {
-    if (event.front >= longest) kept.push(event);
+    if (event.front >= longest) counted.push(event);
     longest = Math.max(longest, event.front);
     if (event.isGlobal) break;
   }
-  return kept;
+  return counted;
 }
 
 if (typeof module !== "undefined") module.exports = { chainOf, simulate, slipEvent, precursors };
