@@ -73,10 +73,10 @@ $(READY): requirements.lock
 	@# With bytecode: where PYTHONDONTWRITEBYTECODE is set, every job would compile its imports again.
 	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --compile-bytecode --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
-	@# Compile the solver, the larger models and the methods with fixed steps, on two cores.
-	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.hierarchy import larger, models; \
+	@# Compile the solver, the cascades and the methods with fixed steps, on two cores.
+	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.hierarchy.quasistatic import quasistatic_slips; \
 	  from precursors.methods import METHODS; chain = Chain.from_slider(); simulate(chain, 0.4).at([0.4]); \
-	  models.move(larger.LargerChain(chain, 50.0)); \
+	  quasistatic_slips(chain); \
 	  [METHODS[name].solve(chain, 0.4, 1e-6, None) for name in ('moreau_jean_half', 'karnopp')]" & \
 	$(BIN)/python -c "from precursors import Chain; from precursors.methods import METHODS; \
 	  [METHODS[name].solve(Chain.from_slider(), 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'dop853', \

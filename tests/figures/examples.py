@@ -216,27 +216,6 @@ def event_law() -> dict:
     return {"table": table.assign(**law)}
 
 
-def resolution_models() -> dict:
-    values = {
-        "plain": (0.0, 0.0, 0.0),
-        "slow": (1e-6, 0.0, 0.0),
-        "viscous": (0.0, 54.77, 0.0),
-        "soft": (0.0, 0.0, 25e6),
-        "both": (0.0, 54.77, 25e6),
-    }
-    columns = ["viscous_time_s", "viscosity_N_s_per_m", "interface_stiffness_N_per_m"]
-    quantities = ("events_counted", "mu_sapp", "front_speed_m_per_s")
-    rows = [
-        {"model": model, "theta": 0.0, **dict(zip(columns, value, strict=True)), "n_blocks": n}
-        | {"quantity": quantity, "q05": 0.9 * n, "q50": 1.0 * n, "q95": 1.1 * n, "n": 12 if n < 100 else 6}
-        for (model, value), quantity, n in product(values.items(), quantities, (2, 10, 100))
-        if (model, n) != ("soft", 100)
-    ]
-    table = pd.DataFrame(rows)
-    runs = pd.concat([table.assign(value=share * table["n_blocks"]) for share in (0.8, 1.2)])
-    return {"table": table, "runs": runs, "papers_n": 10}
-
-
 def map_of(y="friction_ratio", ys=(1.0, 2.0, 3.0)) -> dict:
     rows = [
         {"theta": theta, y: value, "mu_sapp": 0.1 * value + theta} for theta in (-0.5, 0.5) for value in ys
@@ -255,13 +234,12 @@ def long_runs() -> dict:
 
 def model_comparison() -> dict:
     rows = [
-        ("a", "mu_sapp", "paper's chain", 0.49, 0.0, True, True, 3e-3, "none"),
-        ("a", "mu_sapp", "front law", 0.45, 0.08, False, False, 1e-7, "none"),
-        ("b", "mu_sapp", "paper's chain", 0.48, 0.0, True, True, 1e-3, "none"),
-        ("b", "mu_sapp", "front law", 0.45, 0.07, False, False, 2e-6, "none"),
-        ("a", "slip_duration", "paper's chain", 5e-4, 0.0, True, True, 2e-3, "none"),
-        ("a", "slip_duration", "front law", 4e-4, 0.02, True, False, 1e-7, "none"),
-        ("a", "slip_duration", "with head mass", 2e-3, 3.0, False, False, 2e-3, "0.3122 kg"),
+        ("a", "mu_sapp", "paper's chain", 0.49, 0.0, True, True, 3e-3),
+        ("a", "mu_sapp", "front law", 0.45, 0.08, False, False, 1e-7),
+        ("b", "mu_sapp", "paper's chain", 0.48, 0.0, True, True, 1e-3),
+        ("b", "mu_sapp", "front law", 0.45, 0.07, False, False, 2e-6),
+        ("a", "slip_duration", "paper's chain", 5e-4, 0.0, True, True, 2e-3),
+        ("a", "slip_duration", "front law", 4e-4, 0.02, True, False, 1e-7),
     ]
     columns = [
         "scene",
@@ -272,7 +250,6 @@ def model_comparison() -> dict:
         "is_answer",
         "is_smallest",
         "cost_s",
-        "addition",
     ]
     return {"table": pd.DataFrame(rows, columns=columns).assign(error_unit="1", tolerance=0.05)}
 
@@ -315,7 +292,6 @@ EXAMPLES = {
     "sweep": ("spread", lambda: spread("theta")),
     "resolution": ("resolution", resolution),
     "event_law": ("event_law", event_law),
-    "resolution_models": ("resolution_models", resolution_models),
     "map": ("map_of", map_of),
     "long_runs": ("long_runs", long_runs),
     "model_comparison": ("model_comparison", model_comparison),

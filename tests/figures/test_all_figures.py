@@ -42,8 +42,6 @@ ALIKE = [
     ("resolution", "table", "without_noise", "estimate"),
     ("event_law", "table", "law", "events"),
     ("event_law", "table", "law", "rise"),
-    ("resolution_models", "table", "viscosity_N_s_per_m", "interface_stiffness_N_per_m"),
-    ("resolution_models", "table", "q50", "q95"),
     ("map", "table", "mu_sapp", "events_counted"),
     ("long_runs", "statistics", "mean", "deviation"),
     ("model_comparison", "table", "value", "error"),

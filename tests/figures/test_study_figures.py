@@ -270,26 +270,6 @@ def test_counts_and_ratios_beside_the_law_are_the_tables():
     assert rises.lines[0].get_ydata().tolist() == [1.25, 1.25]
 
 
-def test_each_larger_model_is_a_line_in_the_row_of_its_kind_beside_the_papers_chain():
-    figure = draw("resolution_models")
-    assert [key(axes) for axes in figure.axes[::3]] == [
-        ["$t_v = 1$ µs", r"$\eta = 54.8$ N s/m"],
-        ["$K_t = 25$ MN/m"],
-        [r"$K_t = 25$ MN/m, $\eta = 54.8$ N s/m"],
-    ]
-    # A model that ends early has a line that ends early.
-    assert points(figure.axes[3], "$K_t = 25$ MN/m") == [(2.0, 2.0), (10.0, 10.0)]
-
-
-def test_few_runs_are_dots_and_many_a_band():
-    axes = draw("resolution_models").axes[0]
-    dots = [line for line in axes.lines if line.get_marker() == "."]
-    assert [sorted(map(tuple, line.get_xydata())) for line in dots] == [[(100, 80.0), (100, 120.0)]] * 3
-    for band in axes.collections:
-        corners = np.concatenate([path.vertices for path in band.get_paths()])
-        assert (corners[:, 0].min(), corners[:, 0].max()) == (2, 10)
-
-
 def test_the_histogram_of_a_long_run_leaves_the_first_slip_out_and_its_numbers_are_the_tables():
     above, axes = draw("long_runs").axes
     assert [outline.get_xy()[:, 1].max() for outline in axes.patches] == pytest.approx([25.0, 75.0])
@@ -306,9 +286,8 @@ def test_a_cell_of_the_model_comparison_has_range_largest_error_and_median_time(
     (axes,) = draw("model_comparison").axes
     texts = [text.get_text() for text in axes.texts]
     assert texts[:6] == ["0.45", "8 %", "1.1 µs", "0.48\N{EN DASH}0.49", "exact", "2 ms"]
-    assert texts[-3:] == ["2", "300 %", "2 ms"]
     heads = [label.get_text() for label in axes.get_xticklabels()]
-    assert heads == ["front\nlaw", "paper's\nchain", "with\nhead mass\n0.312 kg"]
+    assert heads == ["front\nlaw", "paper's\nchain"]
     assert len([patch for patch in axes.patches if not patch.get_fill()]) == 2  # a frame for each question
 
 

@@ -20,7 +20,6 @@ from precursors.accuracy.failures import FAILURE_MODES, Failure
 from precursors.ensembles import digits, resolution, spread
 from precursors.ensembles.study import run_members
 from precursors.hierarchy.compare_models import compare_models
-from precursors.hierarchy.larger_resolution import loadings_table, resolution_models_table, run_models
 from precursors.reproduction.definitions import definitions_table
 
 SMALL = Path(__file__).parent / "small"
@@ -94,22 +93,10 @@ def resolution_table() -> pd.DataFrame:
     return resolution.with_estimates(table, CONFIG["chain"])
 
 
-def models() -> pd.DataFrame:
-    """Larger models with few blocks."""
-    settings = {**CONFIG["hierarchy"]["resolution"], "n_blocks": [4], "runs": 6, "theta": "1/3"}
-    return resolution_models_table(run_models(CONFIG["chain"], settings))
-
-
-def loadings() -> pd.DataFrame:
-    """Whether the loading matters, in two models."""
-    asked = {"theta": ["-5/6", "5/6"], "n_blocks": 4, "runs": 6, "models": ["plain", "both_25"]}
-    return loadings_table(CONFIG["chain"], CONFIG["hierarchy"]["resolution"], asked)
-
-
 def model_comparison() -> pd.DataFrame:
     """All answers of all models, timed once."""
     settings = CONFIG["hierarchy"]
-    return compare_models(SCENES, settings["tolerances"], settings["additions"], rounds=1)
+    return compare_models(SCENES, settings["tolerances"], rounds=1)
 
 
 TABLES: dict[str, Callable[[], pd.DataFrame]] = {
@@ -121,8 +108,6 @@ TABLES: dict[str, Callable[[], pd.DataFrame]] = {
     "resolution_limits": lambda: resolution.extrapolation_table(resolution_members(), 0.1, 2),
     "resolution_exponents": lambda: resolution.exponents_table(resolution_members()),
     "resolution_readings": lambda: resolution.readings_table(resolution_members()),
-    "resolution_models": models,
-    "models_loadings": loadings,
 }
 # These take seconds and are compared where other tests need them, too.
 ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {

@@ -47,14 +47,11 @@ OF_THE_PAPER = (
 # A conclusion of the text, and a change of a table that contradicts it: table, column, value, rows.
 CONCLUSIONS: tuple[tuple[str, tuple[str, str, object, dict[str, object]]], ...] = (
     ("rests on one draw", ("robustness", "class", "robust", {"scene": "fig12"})),
-    ("Springs in the interface keep", ("resolution_models", "q50", 0.44, {"model": "both_25"})),
-    ("stays above", ("resolution_models", "q50", 0.44, {"model": "both_250"})),
     ("of the three scenes up to", ("certificates", "proved_until_s", 9.0, {"chain": "uniform"})),
     ("does not round to", ("mu_sapp", "mu_sapp", 0.491, {"scene": "fig11", "is_papers": True})),
     ("sequence is right at the finest", ("step_sweep", "transitions_right", 3, {"scene": "fig10"})),
     ("So it may be luck", ("step_sweep", "transitions_right", 338, {"scene": "fig12"})),
     ("does not mean a right run", ("step_sweep", "events_counted", 1, {"method": "rk4_skip"})),
-    ("Each changes some of", ("model_comparison", "is_answer", True, {"model": "head"})),
     ("no wave is needed", ("model_comparison", "error", 0.2, {"model": "overdamped"})),
     ("has no single value", ("spread", "q95", 0.48, {"scene": "fig12", "question": "theta"})),
     ("is a low draw", ("spread", "q50", 0.48, {"scene": "fig12", "question": "theta"})),

@@ -46,11 +46,3 @@ def test_shares_have_their_intervals():
         assert row["share"] == row["endless"] / row["runs"]
         interval = share_interval(row["endless"], row["runs"])
         assert (row["share_low"], row["share_high"]) == pytest.approx(interval, rel=ROUNDING)
-
-
-def test_the_larger_models_were_asked_with_the_runs_of_the_configuration():
-    table, asked = committed("models_loadings_full"), CONFIG["hierarchy"]["loadings_full"]
-    assert table["model"].tolist() == asked["models"]
-    assert (table["n_blocks"] == asked["n_blocks"]).all()
-    assert (table["runs"] == asked["runs"]).all()
-    assert (table["least_low"] <= table["least"]).all()

@@ -13,13 +13,11 @@ from golden.small_tables import CONFIG, SCENES
 from precursors import Chain
 from precursors.figures import model_comparison, style
 from precursors.hierarchy.compare_models import DRAWS, compare_models, waveform_error, with_smallest
-from precursors.hierarchy.larger import LargerChain, simulate_larger
 from precursors.hierarchy.models import MODELS
-from precursors.model.scenes import ADDED
 from precursors.support import timing
 from precursors.support.files import read_table
 
-TOLERANCES, ADDITIONS = (CONFIG["hierarchy"][name] for name in ("tolerances", "additions"))
+TOLERANCES = CONFIG["hierarchy"]["tolerances"]
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +77,7 @@ def test_a_cost_is_that_of_a_warm_answer_repeated_until_it_can_be_measured(clock
         return exact.prepare(chain)
 
     models = {"chain": replace(exact, prepare=prepare)}
-    table = compare_models({"even": SCENES["even"]}, TOLERANCES, ADDITIONS, models, rounds)
+    table = compare_models({"even": SCENES["even"]}, TOLERANCES, models, rounds)
     assert table["cost_s"].tolist() == pytest.approx([warm] * len(TOLERANCES))
     noisy = DRAWS  # both noisy questions of one run
     assert len(calls) == len(TOLERANCES) * (2 + rounds * round(timing.SHORTEST / warm)) + noisy
@@ -92,38 +90,10 @@ def test_waveforms_are_compared_over_the_same_time() -> None:
     assert waveform_error(short, exact, SCENES["even"]) == pytest.approx(np.sqrt(0.5) * 100 / 400, rel=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("model", "addition", "text"),
-    [
-        ("viscous", {"viscosity": 54.77}, "54.77 N s/m"),
-        ("interface", {"interface_stiffness": 25e6}, "2.5e+07 N/m"),
-        ("head", {"head_mass": 0.3122}, "0.3122 kg"),
-    ],
-)
-def test_an_addition_has_its_value_for_the_whole_slider(comparison, model, addition, text) -> None:
-    run = simulate_larger(LargerChain(SCENES["lead"], **addition), 10.0, until="global slip").run
-    rows = comparison[(comparison["model"] == model) & (comparison["scene"] == "lead")].set_index("question")
-    assert rows.loc["waveform", "value"] == run.transitions["tangential_load"].max()
-    assert set(rows["addition"]) == {text}
-
-
-def test_an_addition_is_never_the_smallest_model(comparison: pd.DataFrame) -> None:
-    added = comparison[comparison["model"].isin(ADDED)]
-    assert set(added["model"]) == set(ADDED)
-    assert not added["is_smallest"].any()
-    assert (comparison.loc[~comparison["model"].isin(ADDED), "addition"] == "none").all()
-
-
 def test_the_figure_frames_the_smallest_models(comparison: pd.DataFrame, tmp_path) -> None:
     comparison.to_csv(tmp_path / "comparison.csv", index=False)
     figure = model_comparison.draw(read_table(tmp_path / "comparison.csv"))
     frames = [p for p in figure.axes[0].patches if not p.get_fill()]
     assert len(frames) == len(TOLERANCES)
-    heads = [label.get_text() for label in figure.axes[0].get_xticklabels()]
-    assert heads[-3:] == [
-        "with\nviscosity\n54.8 N s/m",
-        "with\ninterface\nsprings\n25 MN/m",
-        "with\nhead mass\n0.312 kg",
-    ]
     style.save(figure, tmp_path / "comparison.png")
     assert (tmp_path / "comparison.png").stat().st_size > 10_000

@@ -207,12 +207,6 @@ def test_the_schema_of_the_configuration_knows_the_names_of_the_models() -> None
     assert all(set(model.answers) <= set(UNITS) for model in MODELS.values())
 
 
-def test_additions_may_be_combined() -> None:
-    additions = {"viscosity": 54.77, "interface_stiffness": 25e6}
-    viscous, interface = (answers_table(SLIDER(), name, additions) for name in ("viscous", "interface"))
-    assert viscous["value"].equals(interface["value"])
-
-
 def test_answers_are_a_table_with_a_row_for_each_number() -> None:
     table = answers_table(SLIDER(theta="5/6"), "quasistatic").set_index("quantity")
     assert table.loc["events_counted", "value"] == 14.0

@@ -80,13 +80,6 @@ WRONG = [
         STEEP | {"model": "dynamic"},
         ["scenes.steep.model", "one of statics, law, rigid", "'dynamic'"],
     ),
-    ("scenes.steep", STEEP | {"viscosity": 54.77}, ["scenes.steep: viscosity", "'chain'", "viscous"]),
-    ("scenes.steep", STEEP | {"model": "head", "viscosity": 1.0}, ["the model 'head' needs head_mass"]),
-    (
-        "scenes.steep",
-        STEEP | {"model": "head", "head_mass": 0},
-        ["scenes.steep.head_mass", "a number > 0", "[kg]"],
-    ),
     ("scenes.fig10.weights", [40.0] * 10, ["load_cell_a must not be given beside weights"]),
     ("scenes.steep", MEASURED | {"n_blocks": 3}, ["n_blocks must not be given beside weights"]),
     ("scenes.steep", MEASURED | {"weights": "none.csv"}, ["none.csv cannot be read: No such file"]),
@@ -112,7 +105,6 @@ WRONG = [
     ("ensembles.spread.loads", [], ["a list of up to 1000 different numbers between 0 and 1", "is []"]),
     ("ensembles.spread.members", 10**7, ["a whole number from 1 to 1000000", "is 10000000"]),
     ("hierarchy.repetitions", 10**6, ["a whole number >= 5 and up to 1000"]),
-    ("hierarchy.resolution.n_blocks", list(range(1, 1002)), ["a list of 2 to 1000 different"]),
     ("duration", 1e7, ["up to 1e+6", "is 10000000.0"]),
     ("ensembles.spread.seed", 20.5, ["a whole number >= 0", "is 20.5"]),
 ]
@@ -158,10 +150,10 @@ def test_a_scene_may_give_theta_as_a_number_or_a_fraction(theta):
 
 
 def test_a_scene_that_names_a_model_is_answered_and_not_run():
-    config = changed("scenes.soft", STEEP | {"model": "viscous", "viscosity": 54.77})
+    config = changed("scenes.rough", STEEP | {"model": "quasistatic"})
     config["scenes"]["quick"] = STEEP | {"model": "chain"}
     check_config(config, SCHEMA)
-    assert scenes_with(config, "answers") == ["soft", "quick"]
+    assert scenes_with(config, "answers") == ["rough", "quick"]
 
 
 @pytest.mark.parametrize(("key", "value", "words"), WRONG)

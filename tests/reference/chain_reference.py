@@ -1,19 +1,17 @@
 """The chain to more than 40 digits, by a method and in numbers of its own: the judge of the solver.
 
-It may have what the larger models of docs/models.md add to the paper's chain: viscosity between neighbours,
-springs in the interface, a loading head. Time is counted in T = 2^-s sqrt(m/k) and displacement in newtons
+It may have viscosity between neighbours. Time is counted in T = 2^-s sqrt(m/k) and displacement in newtons
 (u = k x), both as integers with `bits` binary places (see `polynomials`). In these units
 
-    u_i'' = 4^-s r_i (g_i + h_i - f_i),   h_i = c (u'_{i-1} - u'_i) - c (u'_i - u'_{i+1}),   c = eta / (k T),
+    u_i'' = 4^-s (g_i + h_i - f_i),   h_i = c (u'_{i-1} - u'_i) - c (u'_i - u'_{i+1}),   c = eta / (k T),
 
-with the net force g_i of the springs, r_1 = m / (m + M_h), the other r_i = 1, and no viscosity between the
-drive point and block 1. The force f_i of the interface is mode_i mu_k w_i on a block that slides, and p_i on
-one that sticks, with p_i' = (kappa_i / k) u_i'. Without interface springs a block that sticks does not move.
+with the net force g_i of the springs, no viscosity between the drive point and block 1, and the friction
+f_i = mode_i mu_k w_i of a block that slides. A block that sticks does not move.
 
 Motion is a Taylor series of the displacements over windows of length T, with s chosen so that the largest
 angular frequency of the chain is at most 2/T. A transition is the first zero, isolated by Bernstein
-coefficients, of a sliding block's velocity, or of what the interface's force on a stuck block lacks to
-mu_s w_i. While nothing moves, the next release is one division.
+coefficients, of a sliding block's velocity, or of what the net force on a stuck block lacks to mu_s w_i.
+While nothing moves, the next release is one division.
 
 Two zeros so close that only rounding tells them from one (1e-30 T) count as one, at which the function
 touches zero: a block whose velocity touches zero sticks and, where nothing holds it (mu_s = mu_k, or no
@@ -49,8 +47,7 @@ class Transition(NamedTuple):
 class ReferenceChain:
     """The numbers of the equations of motion (Eqs. 2-6), exact: w_i [N], m [kg], k and K [N/m], V [m/s].
 
-    Beside them eta of the dashpot between neighbours [N s/m], kappa_i of the spring between each block and
-    the plane [N/m] (None: a rigid interface), and the mass M_h that moves with block 1 [kg].
+    Beside them eta of the dashpot between neighbours [N s/m].
     """
 
     weights: tuple[Fraction, ...]
@@ -61,8 +58,6 @@ class ReferenceChain:
     mu_s: Fraction
     mu_k: Fraction
     viscosity: Fraction = Fraction(0)
-    interface_springs: tuple[Fraction, ...] | None = None
-    head_mass: Fraction = Fraction(0)
 
     @classmethod
     def from_slider(
@@ -80,13 +75,8 @@ class ReferenceChain:
         length: Number = "0.1",
         weights: Sequence[Number] | None = None,
         viscosity: Number = 0,
-        interface_stiffness: Number | None = None,
-        head_mass: Number = 0,
     ) -> ReferenceChain:
-        """Cut a slider into N blocks (Eqs. 7, 9, 10); `weights` [N], if given, replace those of Eq. 7.
-
-        The blocks share the stiffness of the whole interface [N/m] equally.
-        """
+        """Cut a slider into N blocks (Eqs. 7, 9, 10); `weights` [N], if given, replace those of Eq. 7."""
         n, load, slope = n_blocks, Fraction(normal_load), Fraction(theta)
         if weights is None:
             # At N = 1 Eq. 7 is 0/0; the one block carries the whole load.
@@ -103,8 +93,6 @@ class ReferenceChain:
             mu_s=Fraction(mu_s),
             mu_k=Fraction(mu_k),
             viscosity=Fraction(viscosity),
-            interface_springs=interface_stiffness and (Fraction(interface_stiffness) / n,) * n,
-            head_mass=Fraction(head_mass),
         )
 
 
@@ -153,7 +141,7 @@ def reference(
         if until == "global slip" and all_slid and not any(motion.modes):
             break
         all_slid = all_slid and any(motion.modes)
-        changes = motion.slide() if motion.moves() else motion.load()
+        changes = motion.slide() if any(motion.modes) else motion.load()
         if motion.time > end:
             break
         transitions += [motion.change(i, way) for i, way in changes]
@@ -182,8 +170,6 @@ class _Scaled:
     strength: tuple[int, ...]  # mu_s w_i
     kinetic: tuple[int, ...]  # mu_k w_i
     damping: int  # c
-    springs: tuple[int, ...] | None  # kappa_i / k
-    mass_share: int  # r_1
 
 
 def _fixed(x: Fraction, bits: int) -> int:
@@ -192,10 +178,8 @@ def _fixed(x: Fraction, bits: int) -> int:
 
 def _scale(chain: ReferenceChain, bits: int) -> _Scaled:
     ratio = chain.drive_stiffness / chain.stiffness
-    springs = chain.interface_springs
-    softest = Fraction(0) if springs is None else max(springs) / chain.stiffness
     # Gershgorin for |lambda|^2 <= a + b |lambda|, in units of k/m; a power of two above the exact bound.
-    a = max(4.0, 2.0 + float(ratio)) + float(softest)
+    a = max(4.0, 2.0 + float(ratio))
     b = 4.0 * float(chain.viscosity) / sqrt(float(chain.mass * chain.stiffness))
     halvings = 0
     while (b + sqrt(b * b + 4.0 * a)) / 2.0 > 2.0 * 2**halvings * (1.0 + 1e-9):
@@ -216,13 +200,11 @@ def _scale(chain: ReferenceChain, bits: int) -> _Scaled:
         strength=(0, *(_fixed(chain.mu_s * w, bits) for w in chain.weights)),
         kinetic=(0, *(_fixed(chain.mu_k * w, bits) for w in chain.weights)),
         damping=_fixed(chain.viscosity / (chain.stiffness * time_unit), bits),
-        springs=None if springs is None else (0, *(_fixed(x / chain.stiffness, bits) for x in springs)),
-        mass_share=_fixed(chain.mass / (chain.mass + chain.head_mass), bits),
     )
 
 
 class _Motion:
-    """Positions, velocities, modes and interface forces of the drive point (index 0) and of the blocks."""
+    """Positions, velocities and modes of the drive point (index 0) and of the blocks."""
 
     def __init__(
         self,
@@ -242,23 +224,16 @@ class _Motion:
         unit = chain.stiffness * scaled.time_unit
         self.velocities = [scaled.drive_velocity, *(_fixed(unit * Fraction(v), bits) for v in speeds)]
         self.modes = [0] * (n + 1)
-        self.plane_force = [0] * (n + 1)  # p_i of the blocks that stick
 
     def start(self) -> list[Transition]:
-        """Let the blocks slide that move, or whose net force exceeds static friction; attach the others."""
+        """Let the blocks slide that move, or whose net force exceeds static friction."""
         found = []
         for i in range(1, len(self.modes)):
             speed, force = self.velocities[i], self._net(self.positions, self.velocities, i)
             if speed or abs(force) > self.scaled.strength[i] + NOISE:
                 self.modes[i] = 1 if (speed or force) > 0 else -1
                 found.append(self._transition(i))
-            else:
-                self.plane_force[i] = force
         return found
-
-    def moves(self) -> bool:
-        """Whether a block may move: with interface springs, one that sticks does."""
-        return self.scaled.springs is not None or any(self.modes)
 
     def load(self) -> list[Change]:
         """Load the resting chain until block 1 is released: no other block feels the drive."""
@@ -287,10 +262,6 @@ class _Motion:
         step = min(found.values(), default=1 << bits)
         if step >= tie:
             for i in range(1, len(self.modes)):
-                if not self.modes[i] and self.scaled.springs is not None:
-                    moved = value([0, *u[i][1:]], step, bits)
-                    self.plane_force[i] += self.scaled.springs[i] * moved >> bits
-            for i in range(1, len(self.modes)):
                 self.positions[i] = value(u[i], step, bits)
                 self.velocities[i] = value(du[i], step, bits)
             self._set_time(self.time + step)
@@ -299,51 +270,38 @@ class _Motion:
     def _may_let_go(self, i: int) -> bool:
         """Whether the force on a stuck block changes."""
         nearby = self.modes[max(i - 1, 0) : i + 2]
-        return i == 1 or self.scaled.springs is not None or any(nearby)
+        return i == 1 or any(nearby)
 
     def change(self, i: int, way: int) -> Transition:
-        """Release a block that sticks; stop or turn one that slides, and attach it without a net force."""
+        """Release a block that sticks; stop or turn one that slides."""
         if self.modes[i]:
             self.velocities[i] = 0
             force = self._net(self.positions, self.velocities, i)
             holds = abs(force) <= self.scaled.strength[i] + NOISE
             self.modes[i] = 0 if holds else (1 if force > 0 else -1)
-            self.plane_force[i] = force
         else:
             self.modes[i] = way
         return self._transition(i)
 
     def _taylor(self) -> list[list[int]]:
         scaled = self.scaled
-        bits = scaled.bits
         u = [[x, v] + [0] * (scaled.order - 1) for x, v in zip(self.positions, self.velocities, strict=True)]
-        mobile = [i for i in range(1, len(self.modes)) if self.modes[i] or scaled.springs is not None]
+        mobile = [i for i in range(1, len(self.modes)) if self.modes[i]]
         for n in range(scaled.order - 1):
             now = [c[n] for c in u]
             rate = [(n + 1) * c[n + 1] for c in u]
             for i in mobile:
                 force = self._net(now, rate, i)
                 if n == 0:
-                    force -= self.modes[i] * scaled.kinetic[i] if self.modes[i] else self.plane_force[i]
-                elif not self.modes[i] and scaled.springs is not None:
-                    force -= scaled.springs[i] * now[i] >> bits
-                if i == 1:
-                    force = force * scaled.mass_share >> bits
+                    force -= self.modes[i] * scaled.kinetic[i]
                 u[i][n + 2] = (force >> 2 * scaled.halvings) // ((n + 1) * (n + 2))
         return u
 
     def _margin(self, u: list[list[int]], du: list[list[int]], i: int, way: int) -> list[int]:
-        """What the force of the interface on a stuck block still lacks to its strength."""
-        scaled = self.scaled
-        if scaled.springs is not None:
-            margin = [-way * (scaled.springs[i] * c >> scaled.bits) for c in u[i]]
-            margin[0] = scaled.strength[i] - way * self.plane_force[i]
-        else:
-            padded = [[*c, 0] for c in du]
-            margin = [
-                -way * self._net([c[n] for c in u], [c[n] for c in padded], i) for n in range(len(u[i]))
-            ]
-            margin[0] += scaled.strength[i]
+        """What the net force on a stuck block still lacks to its strength."""
+        padded = [[*c, 0] for c in du]
+        margin = [-way * self._net([c[n] for c in u], [c[n] for c in padded], i) for n in range(len(u[i]))]
+        margin[0] += self.scaled.strength[i]
         return _without_zero_now(margin)
 
     def _net(self, u: Sequence[int], du: Sequence[int], i: int) -> int:

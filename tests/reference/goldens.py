@@ -3,7 +3,7 @@
 reference_{scene}.csv      time_s, block, mode, tangential_load_N with 40 significant digits, 0 to 10 s
 reference_heldout.csv      the same with 25 digits and the chain's name in the first column
 reference_heldout.json     the held-out chains: every number as an exact fraction or decimal in a string
-reference_{addition}.csv   as reference_heldout.csv, of chains with what a larger model adds
+reference_viscous.csv      as reference_heldout.csv, of chains with viscosity between neighbours
 """
 
 from __future__ import annotations
@@ -77,63 +77,13 @@ HELD_OUT = {
 
 SLIP = "global slip"
 # eta = sqrt(0.1 k m) is 54.77 N s/m and sqrt(k m) is 173.2 N s/m for every N (see docs/models.md).
-EXTENDED: dict[str, dict[str, HeldOut]] = {
-    "viscous": {
-        "papers_chain": HeldOut({"viscosity": "54.77"}, "5", until=SLIP),
-        "little_viscosity": HeldOut({"theta": "5/6", "viscosity": "1"}, "2.1"),
-        "backward": HeldOut({"n_blocks": 3, "theta": "1/2", "mu_k": "0.05", "viscosity": "3"}, "3"),
-        "stiff_viscosity": HeldOut({"n_blocks": 3, "theta": "1/3", "viscosity": "300"}, "8"),
-        "creep": HeldOut({"n_blocks": 3, "theta": "1/3", "viscosity": "400"}, "0.778"),
-        "many_blocks": HeldOut({"n_blocks": 26, "theta": "-2/5", "viscosity": "17.3"}, "1.6"),
-    },
-    "interface": {
-        "backward": HeldOut(
-            {
-                "n_blocks": 3,
-                "theta": "-1/2",
-                "mu_k": "0.05",
-                "drive_velocity": "0.1",
-                "interface_stiffness": "4e8",
-            },
-            "0.003",
-        ),
-        "one_block": HeldOut({"n_blocks": 1, "drive_velocity": "0.02", "interface_stiffness": "4e8"}, "0.06"),
-        "three_blocks": HeldOut(
-            {"n_blocks": 3, "theta": "1/3", "drive_velocity": "0.02", "interface_stiffness": "4e8"},
-            "0.02",
-            until=SLIP,
-        ),
-        "papers_chain": HeldOut(
-            {"drive_velocity": "0.02", "interface_stiffness": "4e8", "viscosity": "54.77"}, "0.03", until=SLIP
-        ),
-        "soft_interface": HeldOut(
-            {"n_blocks": 5, "theta": "-1/2", "drive_velocity": "0.05", "interface_stiffness": "2.5e7"},
-            "0.02",
-            until=SLIP,
-        ),
-        "many_blocks": HeldOut(
-            {"n_blocks": 26, "drive_velocity": "0.1", "interface_stiffness": "4e8", "viscosity": "54.77"},
-            "0.001",
-        ),
-    },
-    "head": {
-        "papers_chain": HeldOut({"head_mass": "0.3122"}, "5", until=SLIP),
-        "backward": HeldOut({"n_blocks": 3, "theta": "-1/2", "mu_k": "0.05", "head_mass": "0.004"}, "1.8"),
-        "two_blocks": HeldOut({"n_blocks": 2, "theta": "1/2", "head_mass": "0.01"}, "10"),
-        "one_block": HeldOut({"n_blocks": 1, "head_mass": "0.3122"}, "10"),
-        "all_additions": HeldOut(
-            {
-                "n_blocks": 4,
-                "theta": "1/4",
-                "drive_velocity": "0.02",
-                "head_mass": "0.02",
-                "viscosity": "54.77",
-                "interface_stiffness": "4e8",
-            },
-            "0.03",
-            until=SLIP,
-        ),
-    },
+VISCOUS: dict[str, HeldOut] = {
+    "papers_chain": HeldOut({"viscosity": "54.77"}, "5", until=SLIP),
+    "little_viscosity": HeldOut({"theta": "5/6", "viscosity": "1"}, "2.1"),
+    "backward": HeldOut({"n_blocks": 3, "theta": "1/2", "mu_k": "0.05", "viscosity": "3"}, "3"),
+    "stiff_viscosity": HeldOut({"n_blocks": 3, "theta": "1/3", "viscosity": "300"}, "8"),
+    "creep": HeldOut({"n_blocks": 3, "theta": "1/3", "viscosity": "400"}, "0.778"),
+    "many_blocks": HeldOut({"n_blocks": 26, "theta": "-2/5", "viscosity": "17.3"}, "1.6"),
 }
 
 
@@ -150,9 +100,8 @@ def write_goldens(directory: Path = GOLDEN) -> None:
         descriptions[name] = _describe(case, len(transitions))
     _write_csv(directory / "reference_heldout.csv", ["chain"], rows)
     (directory / "reference_heldout.json").write_text(json.dumps(descriptions, indent=1) + "\n")
-    for addition, cases in EXTENDED.items():
-        rows = [[name, *row] for name, case in cases.items() for row in csv_rows(case.run(), HELD_OUT_DIGITS)]
-        _write_csv(directory / f"reference_{addition}.csv", ["chain"], rows)
+    rows = [[name, *row] for name, case in VISCOUS.items() for row in csv_rows(case.run(), HELD_OUT_DIGITS)]
+    _write_csv(directory / "reference_viscous.csv", ["chain"], rows)
 
 
 def read_golden(scene: str, directory: Path = GOLDEN) -> list[Transition]:
@@ -171,9 +120,9 @@ def read_held_out(directory: Path = GOLDEN) -> dict[str, tuple[HeldOut, list[Tra
     return _with_transitions(cases, directory / "reference_heldout.csv")
 
 
-def read_extended(addition: str, directory: Path = GOLDEN) -> dict[str, tuple[HeldOut, list[Transition]]]:
-    """Return the chains of "viscous", "interface" or "head" by name, each with its golden transitions."""
-    return _with_transitions(EXTENDED[addition], directory / f"reference_{addition}.csv")
+def read_viscous(directory: Path = GOLDEN) -> dict[str, tuple[HeldOut, list[Transition]]]:
+    """Return the chains with viscosity by name, each with its golden transitions."""
+    return _with_transitions(VISCOUS, directory / "reference_viscous.csv")
 
 
 def _with_transitions(

@@ -22,7 +22,6 @@ ON_DEMAND = (
     "prove_scenes",
     "results/certificates/fig10.json.gz",
     "results/tables/endless.csv",
-    "results/tables/models_loadings.csv",
 )
 OF_MAKE = ("tables/bench.csv", "report.html")
 ASKED_SCENE = """\

@@ -111,16 +111,6 @@ FIGURES = {
         "category": "Sensitivity",
         "tables": {"table": "results/tables/event_law{full}.csv"},
     },
-    "resolution_models": {
-        "shows": "the same with viscosity and interface springs",
-        "category": "Sensitivity",
-        "uses": ["figures/resolution", "model/printed"],
-        "tables": {
-            "table": "results/tables/resolution_models.csv",
-            "runs": "results/tables/resolution_models_runs.csv",
-        },
-        "options": {"papers_n": config["chain"]["n_blocks"]},
-    },
     "map": {
         "file": "{map}",
         "shows": "two parameters",

@@ -9,5 +9,4 @@ from precursors.support.files import write_table
 if __name__ == "__main__":
     with job() as snakemake:
         chain = Chain.from_slider(**snakemake.params.slider)
-        answers = answers_table(chain, snakemake.params.model, snakemake.params.additions)
-        write_table(answers, snakemake.output.table)
+        write_table(answers_table(chain, snakemake.params.model), snakemake.output.table)

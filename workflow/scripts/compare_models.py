@@ -10,5 +10,5 @@ if __name__ == "__main__":
     with job() as snakemake:
         params = snakemake.params
         chains = {name: Chain.from_slider(**slider) for name, slider in params.sliders.items()}
-        table = compare_models(chains, params.tolerances, params.additions, rounds=params.repetitions)
+        table = compare_models(chains, params.tolerances, rounds=params.repetitions)
         write_table(table, snakemake.output.table)

@@ -14,7 +14,6 @@ from precursors.figures import style
 
 WIDTH_MM = 178.0
 ROW_MM, HEAD_MM = 14.0, 31.0
-GAP = 0.2  # between the models up to the paper's chain and those beyond it, in widths of a column
 DIM = "#5A5A5A"
 ANSWERED, MISSED, SILENT = "#CDE7DC", "#F6DDD0", "#F2F2F2"
 SMALLEST: dict[str, Any] = {"fill": False, "edgecolor": style.GREEN, "linewidth": 1.4}
@@ -34,19 +33,13 @@ MODELS = {
     "overdamped chain": "over-\ndamped\nchain",
     "quasi-static chain": "quasi-\nstatic\nchain",
     "paper's chain": "paper's\nchain",
-    "with viscosity": "with\nviscosity",
-    "with interface springs": "with\ninterface\nsprings",
-    "with head mass": "with\nhead mass",
 }
-
-
-ORDER = {label: place for place, label in enumerate(MODELS)}
 
 
 def draw(table: pd.DataFrame) -> Figure:
     """Draw the values over the scenes, the largest error and the median cost of each model.
 
-    The table is model_comparison.csv. Models that add something to the paper's chain stand apart.
+    The table is model_comparison.csv.
     """
     cells = table.groupby(["question", "label"]).agg(
         low=("value", "min"),
@@ -58,19 +51,18 @@ def draw(table: pd.DataFrame) -> Figure:
         is_smallest=("is_smallest", "any"),
     )
     questions = table.drop_duplicates("question")
-    models = table.drop_duplicates("label").sort_values("label", key=lambda label: label.map(ORDER))
-    places = np.arange(len(models)) + GAP * (models["addition"] != "none").to_numpy()
+    models = sorted(table["label"].unique(), key=list(MODELS).index)
     with style.page(WIDTH_MM, HEAD_MM + ROW_MM * len(questions)) as figure:
         axes = figure.subplots()
         for y, question in enumerate(questions["question"]):
-            for x, model in zip(places, models["label"], strict=True):
+            for x, model in enumerate(models):
                 if (question, model) in cells.index:
                     _draw_cell(axes, x, y, cells.loc[question, model], SCALES.get(question, 1.0))
                 else:
                     axes.add_patch(_box(x, y, facecolor=SILENT))
                     axes.text(x, y, "\N{EN DASH}", ha="center", va="center", color=style.GREY)
-        axes.set(xlim=(places[0] - 0.5, places[-1] + 0.5), ylim=(len(questions) - 0.5, -0.5))
-        axes.set_xticks(places, [_head(model) for _, model in models.iterrows()], fontsize=7)
+        axes.set(xlim=(-0.5, len(models) - 0.5), ylim=(len(questions) - 0.5, -0.5))
+        axes.set_xticks(range(len(models)), [MODELS[model] for model in models], fontsize=7)
         axes.set_yticks(range(len(questions)), [_row_label(row) for _, row in questions.iterrows()])
         axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False)
         axes.spines[:].set_visible(False)
@@ -99,16 +91,6 @@ def _draw_cell(axes: Axes, x: float, y: int, cell: pd.Series, scale: float) -> N
 
 def _box(x: float, y: int, **look: Any) -> Rectangle:
     return Rectangle((x - 0.48, y - 0.46), 0.96, 0.92, **{"edgecolor": "none", **look})
-
-
-def _head(model: pd.Series) -> str:
-    """Name of a model, and the value of what it adds."""
-    name = MODELS[model["label"]]
-    if model["addition"] == "none":
-        return name
-    value, _, unit = model["addition"].partition(" ")
-    number, unit = (float(value) * 1e-6, f"M{unit}") if float(value) >= 1e6 else (float(value), unit)
-    return f"{name}\n{number:.3g} {unit}"
 
 
 def _row_label(row: pd.Series) -> str:

@@ -1,1 +1,1 @@
-"""Smaller and larger models than the paper's chain, and which of them answers which question."""
+"""Smaller models than the paper's chain, and which of them answers which question."""

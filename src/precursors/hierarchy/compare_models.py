@@ -11,17 +11,15 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.run_statistics import median_interval
-from precursors.hierarchy.larger import UNITS as ADDITION_UNITS
-from precursors.hierarchy.larger import LargerChain
 from precursors.hierarchy.models import MODELS, UNITS, Model
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.scenes import ADDED, PAPERS_MODEL
+from precursors.model.scenes import PAPERS_MODEL
 from precursors.support import timing
 
 WAVEFORM_SAMPLES = 2001
 # Of runs with noise in the normal loads: its relative size, well below what an experiment knows of them; the
-# seed; and how many runs, of the larger models as few as have a 95 % interval of their median.
-NOISE, SEED, DRAWS, DRAWS_OF_LARGER = 1e-3, 2014, 80, 6
+# seed; and how many runs.
+NOISE, SEED, DRAWS = 1e-3, 2014, 80
 
 
 @dataclass(frozen=True)
@@ -92,7 +90,6 @@ QUESTIONS = {
 def compare_models(
     chains: Mapping[str, Chain],
     tolerances: Mapping[str, float],
-    additions: Mapping[str, float],
     models: Mapping[str, Model] = MODELS,
     rounds: int = timing.ROUNDS,
 ) -> pd.DataFrame:
@@ -104,8 +101,6 @@ def compare_models(
         Scene to chain.
     tolerances : mapping
         Largest error that counts as an answer, for each of `QUESTIONS`, in the unit of the question's error.
-    additions : mapping
-        What the larger models add to the paper's chain: all fields of `LargerChain` but the chain.
     models : mapping
         The models, from the smallest to the largest; the paper's chain is among them.
     rounds : int
@@ -118,18 +113,17 @@ def compare_models(
         of the model, value and its unit (of events_counted and mu_sapp the median of runs with noise in the
         normal loads), error against the paper's chain, tolerance, is_answer (the error is
         within it), is_smallest (the first model that answers in every scene), cost_s (median time from the
-        chain to the answer [s]), addition (what the model adds to the paper's chain, with value and unit).
-        The error of a model with an addition is what the addition makes of the paper's chain.
+        chain to the answer [s]).
     """
     rows = []
     noisy = {
-        (name, scene): noisy_answers(model, name, chain, additions)
+        (name, scene): noisy_answers(model, chain)
         for name, model in models.items()
         for scene, chain in chains.items()
     }
     for quantity, question in QUESTIONS.items():
         tasks = {
-            (name, scene): partial(model.ask, with_addition(chain, name, additions), quantity)
+            (name, scene): partial(model.ask, chain, quantity)
             for name, model in models.items()
             if quantity in model.answers
             for scene, chain in chains.items()
@@ -159,39 +153,22 @@ def compare_models(
                     "tolerance": tolerances[quantity],
                     "is_answer": error <= tolerances[quantity],
                     "cost_s": costs[name, scene].seconds,
-                    "addition": addition_text(name, additions),
                 }
             )
     return with_smallest(pd.DataFrame(rows))
 
 
-def noisy_answers(
-    model: Model, name: str, chain: Chain, additions: Mapping[str, float]
-) -> dict[str, list[float]]:
+def noisy_answers(model: Model, chain: Chain) -> dict[str, list[float]]:
     """Answers to the noisy questions for chains with noise in the normal loads, the same for all models."""
     random = np.random.default_rng(SEED)
-    n = DRAWS_OF_LARGER if name in ADDED else DRAWS
-    noises = NOISE * random.uniform(-1.0, 1.0, (n, chain.n_blocks))
+    noises = NOISE * random.uniform(-1.0, 1.0, (DRAWS, chain.n_blocks))
     asked = [quantity for quantity in model.answers if quantity in QUESTIONS and QUESTIONS[quantity].noisy]
     found: dict[str, list[float]] = {quantity: [] for quantity in asked}
     for noise in noises if asked else ():
-        noisy = replace(chain, weights=chain.weights * (1.0 + noise))
-        prepared = model.prepare(with_addition(noisy, name, additions))
+        prepared = model.prepare(replace(chain, weights=chain.weights * (1.0 + noise)))
         for quantity in asked:
             found[quantity].append(model.answers[quantity](prepared))
     return found
-
-
-def with_addition(chain: Chain, model: str, additions: Mapping[str, float]) -> Chain | LargerChain:
-    """The chain with the one addition that the model is named after, or as it is."""
-    return LargerChain(chain, **{ADDED[model]: additions[ADDED[model]]}) if model in ADDED else chain
-
-
-def addition_text(model: str, additions: Mapping[str, float]) -> str:
-    """What a model adds to the paper's chain, with its unit."""
-    if model not in ADDED:
-        return "none"
-    return f"{additions[ADDED[model]]:g} {ADDITION_UNITS[ADDED[model]]}"
 
 
 def with_smallest(table: pd.DataFrame) -> pd.DataFrame:

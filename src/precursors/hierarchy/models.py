@@ -12,10 +12,9 @@ import pandas as pd
 from precursors.analysis.slip_rows import first_global
 from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
 from precursors.hierarchy import rigid, statics
-from precursors.hierarchy.larger import LargerChain, simulate_larger
 from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.scenes import ADDED, PAPERS_MODEL
+from precursors.model.scenes import PAPERS_MODEL
 from precursors.model.statics import load_bound
 from precursors.solver.simulate import simulate
 
@@ -45,14 +44,14 @@ class Model:
     answers : mapping
         From a quantity, a key of `UNITS`, to the function that computes it from what `prepare` returns.
     prepare : callable
-        From a chain to what the answers need; a model of `ADDED` takes a `LargerChain`.
+        From a chain to what the answers need.
     """
 
     label: str
     answers: Mapping[str, Callable[[Any], Any]]
     prepare: Callable[[Any], Any] = field(default=lambda chain: chain)
 
-    def ask(self, chain: Chain | LargerChain, quantity: str) -> Any:
+    def ask(self, chain: Chain, quantity: str) -> Any:
         """Answer one question about a chain."""
         return self.answers[quantity](self.prepare(chain))
 
@@ -82,21 +81,15 @@ class Motion:
     waveform: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
 
 
-def move(chain: Chain | LargerChain) -> Motion:
+def move(chain: Chain) -> Motion:
     """Follow a chain through time to the end of its first global slip."""
-    if isinstance(chain, LargerChain):
-        larger = simulate_larger(chain, longest_run(chain.chain), until="global slip")
-        run = larger.run
-    else:
-        run = simulate(chain, longest_run(chain), until="global slip")
+    run = simulate(chain, longest_run(chain), until="global slip")
     slips, transitions = find_slips(run), run.transitions
     mu_sapp = front_arrival = np.nan
     first, friction = first_global(slips), apparent_friction(run, slips)
     if first is not None and friction is not None:
         onset = slips["onset"].iloc[first]
         mu_sapp = friction.mu_sapp
-        if isinstance(chain, LargerChain):  # its load may be largest between two transitions
-            mu_sapp = larger.largest_load_until(onset) / run.chain.normal_load
         arrives = (transitions["block"] == run.chain.n_blocks) & (transitions["mode"] != 0)
         front_arrival = float(transitions["time"][arrives & (transitions["time"] >= onset)][0])
     times, loads = transitions["time"], transitions["tangential_load"]
@@ -160,13 +153,10 @@ MODELS: dict[str, Model] = {
     "overdamped": Model("overdamped chain", _EVENTS, _cascade(OVERDAMPED)),
     "quasistatic": Model("quasi-static chain", _EVENTS, _cascade(ENERGY_CONSERVED)),
     PAPERS_MODEL: Model("paper's chain", _MOTION, move),
-    "viscous": Model("with viscosity", _MOTION, move),
-    "interface": Model("with interface springs", _MOTION, move),
-    "head": Model("with head mass", _MOTION, move),
 }
 
 
-def answers_table(chain: Chain, model: str, additions: Mapping[str, float] | None = None) -> pd.DataFrame:
+def answers_table(chain: Chain, model: str) -> pd.DataFrame:
     """Ask a model all that it answers about a chain, up to the end of the first global slip.
 
     Parameters
@@ -175,8 +165,6 @@ def answers_table(chain: Chain, model: str, additions: Mapping[str, float] | Non
         The paper's chain.
     model : str
         A key of `MODELS`.
-    additions : mapping, optional
-        What a model of `ADDED` adds to the chain, fields of `LargerChain`.
 
     Returns
     -------
@@ -184,7 +172,7 @@ def answers_table(chain: Chain, model: str, additions: Mapping[str, float] | Non
         One row per number: model, quantity, value and its unit; block (1..N) for the load at which the front
         first reaches each block; time_s [s] for the tangential load over time.
     """
-    prepared = MODELS[model].prepare(LargerChain(chain, **(additions or {})) if model in ADDED else chain)
+    prepared = MODELS[model].prepare(chain)
     tables = []
     for quantity, answer in MODELS[model].answers.items():
         value = np.asarray(answer(prepared))

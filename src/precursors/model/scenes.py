@@ -17,8 +17,6 @@ Config = Mapping[str, Any]
 # Arguments of `Chain.from_slider` and their defaults, the paper's.
 SLIDER = {name: p.default for name, p in inspect.signature(Chain.from_slider).parameters.items()}
 PAPERS_MODEL = "chain"
-# Models that add to the paper's chain, and the field of `hierarchy.larger.LargerChain` that each one needs.
-ADDED = {"viscous": "viscosity", "interface": "interface_stiffness", "head": "head_mass"}
 
 
 def scenes_with(config: Config, output: str) -> list[str]:
@@ -73,25 +71,6 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
     if "weights" in slider:
         return measured(slider, slider["weights"])
     return slider | {"theta": parse_theta(slider["theta"]), "normal_load": float(slider["normal_load"])}
-
-
-def scene_additions(config: Config, name: str) -> dict[str, float]:
-    """What a larger model adds to the paper's chain, by its key in the scene.
-
-    Raises
-    ------
-    ValueError
-        If the model needs an addition that the scene does not give, or has none and the scene gives one.
-    """
-    model, scene = scene_model(config, name), config["scenes"][name]
-    given = {key: float(scene[key]) for key in ADDED.values() if key in scene}
-    if model in ADDED and ADDED[model] not in given:
-        raise ValueError(f"the model {model!r} needs {ADDED[model]}")
-    if given and model not in ADDED:
-        raise ValueError(
-            f"{', '.join(given)} must not be given for the model {model!r}, only for {', '.join(ADDED)}"
-        )
-    return given
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from precursors.model.scenes import ADDED
 from precursors.reproduction.subject import scenes_are_proved
 from precursors.reproduction.tables import LEADING, SCENES, Tables, one, rows
 
@@ -26,7 +25,6 @@ TABLES = (
     "resolution",
     "resolution_limits",
     "resolution_exponents",
-    "resolution_models",
     "long_runs_statistics",
     "map_theta_friction_ratio",
 )
@@ -160,9 +158,8 @@ def proof(t: Tables, config: Mapping[str, Any]) -> Numbers:
 
 
 def hierarchy(t: Tables, config: Mapping[str, Any]) -> Numbers:
-    """Smaller and larger models beside the paper's chain."""
+    """Smaller models beside the paper's chain."""
     table = t["model_comparison"]
-    head = rows(table, question="slip_duration", model="head")
     counts = rows(table, question="events_counted").set_index(["model", "scene"])["value"]
     return {
         **{f"{m}-events-{scene}": counts[m, scene] for m in ("quasistatic", "chain") for scene in SCENES},
@@ -170,12 +167,8 @@ def hierarchy(t: Tables, config: Mapping[str, Any]) -> Numbers:
         "overdamped-worst": rows(table, question="mu_sapp", model="overdamped")["error"].max(),
         "law-worst": rows(table, question="mu_sapp", model="law")["error"].max(),
         "law-lengths-worst": rows(table, question="front_loads", model="law")["error"].max(),
-        "larger-that-differ": (~rows(table, model=list(ADDED)).groupby("model")["is_answer"].all()).sum(),
         "rigid-mu": rows(table, question="mu_sapp", model="rigid")["value"].mean(),
         "hierarchy-mu-tolerance": rows(table, question="mu_sapp")["tolerance"].iloc[0],
-        "head-mass": (head["addition"].iloc[0].removesuffix(" kg"), "kg"),
-        "head-slip-shortest": (head["value"].min(), "s"),
-        "head-slip-longest": (head["value"].max(), "s"),
     }
 
 
@@ -247,36 +240,6 @@ def resolution(t: Tables, config: Mapping[str, Any]) -> Numbers:
     return found | {"experiment-counts-met": sum(counts_met)}
 
 
-def larger_models(t: Tables, config: Mapping[str, Any]) -> Numbers:
-    """Viscosity and interface springs with more blocks, from the paper's ten on."""
-    table = t["resolution_models"]
-    fine = table[table["n_blocks"] >= config["chain"]["n_blocks"]]
-    found: Numbers = {
-        "models-runs": fine["n"].max(),
-        "viscous-n": rows(table, model=["viscous", "viscous_strong", "material"])["n_blocks"].max(),
-    }
-    friction = rows(fine, quantity="mu_sapp")
-    for name, model_name in (
-        ("plain", "plain"),
-        ("viscous", "viscous"),
-        ("strong", "viscous_strong"),
-        ("material", "material"),
-    ):
-        own = rows(friction, model=model_name)
-        found[f"{name}-mu"] = own["q50"].iloc[-1]
-        found[f"{name}-eta"] = (own["viscosity_N_s_per_m"].iloc[0], "N s/m")
-    for springs in (25, 250, 2500):
-        own = rows(friction, model=f"both_{springs}")
-        found |= {
-            f"springs-stiffness-{springs}": (own["interface_stiffness_N_per_m"].iloc[0], "N/m"),
-            f"springs-n-{springs}": own["n_blocks"].max(),
-            f"springs-low-{springs}": own["q50"].min(),
-            f"springs-high-{springs}": own["q50"].max(),
-            f"springs-mu-{springs}": own["q50"].iloc[-1],
-        }
-    return found
-
-
 def long_runs(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Many global slips of a scene, and the map over theta and friction."""
     found: Numbers = {
@@ -294,4 +257,4 @@ def long_runs(t: Tables, config: Mapping[str, Any]) -> Numbers:
     return found
 
 
-PARTS = (speed, failures, proof, hierarchy, spread, resolution, larger_models, long_runs)
+PARTS = (speed, failures, proof, hierarchy, spread, resolution, long_runs)

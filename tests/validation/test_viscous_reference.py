@@ -1,4 +1,4 @@
-"""The reference with viscosity, interface springs and a head is right, by closed forms and exponentials."""
+"""The reference with viscosity is right, by closed forms and exponentials."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 from mpmath import mp
-from reference import EXTENDED, HeldOut, Transition, read_extended, reference
+from reference import VISCOUS, HeldOut, Transition, read_viscous, reference
 from reference.goldens import GOLDEN, HELD_OUT_DIGITS, csv_rows
 
 FORTY_DIGITS = mp.mpf(10) ** -40  # relative, what the reference promises
@@ -16,22 +16,6 @@ LOAD_ROUNDING = mp.mpf(10) ** -15  # N
 SPEED_ROUNDING = mp.mpf(10) ** -15  # m/s
 CHECKED_TRANSITIONS = 9
 SAMPLES = 5  # times between two transitions at which the rules are checked
-QUICK = [
-    ("viscous", "stiff_viscosity"),
-    ("head", "two_blocks"),
-    ("head", "one_block"),
-    ("interface", "one_block"),
-]
-CHECKED = [
-    ("viscous", "stiff_viscosity"),
-    ("viscous", "backward"),
-    ("interface", "one_block"),
-    ("interface", "three_blocks"),
-    ("interface", "backward"),
-    ("head", "two_blocks"),
-    ("head", "backward"),
-    ("head", "all_additions"),
-]
 
 
 @pytest.fixture(autouse=True)
@@ -49,68 +33,58 @@ def close(a: mp.mpf, b: mp.mpf) -> bool:
 
 
 class MatrixMotion:
-    """Motion by matrix exponentials of z = (x, v, p, t, 1) [m, m/s, N, s], with the modes as given."""
+    """Motion by matrix exponentials of z = (x, v, t, 1) [m, m/s, s], with the modes as given."""
 
     def __init__(self, scene: HeldOut) -> None:
         chain = scene.chain
         self.n = n = len(chain.weights)
         self.strength = [ratio(chain.mu_s * w) for w in chain.weights]
         self.kinetic = [ratio(chain.mu_k * w) for w in chain.weights]
-        self.kappa = None if chain.interface_springs is None else list(map(ratio, chain.interface_springs))
-        self.mass = [ratio(chain.mass + (chain.head_mass if i == 0 else 0)) for i in range(n)]
+        self.mass = ratio(chain.mass)
         self.drive_stiffness = ratio(chain.drive_stiffness)
         self.drive_velocity = ratio(chain.drive_velocity)
         # Rows of G, the net force of springs and dashpots.
-        self.net = mp.zeros(n, 3 * n + 2)
+        self.net = mp.zeros(n, 2 * n + 2)
         self.net[0, 0] -= self.drive_stiffness
-        self.net[0, 3 * n] += self.drive_stiffness * self.drive_velocity
+        self.net[0, 2 * n] += self.drive_stiffness * self.drive_velocity
         for i in range(1, n):
             for columns, size in ((0, ratio(chain.stiffness)), (n, ratio(chain.viscosity))):
                 for row, sign in ((i, 1), (i - 1, -1)):
                     self.net[row, columns + i - 1] += sign * size
                     self.net[row, columns + i] -= sign * size
-        self.state = mp.zeros(3 * n + 2, 1)
-        self.state[3 * n + 1] = 1
+        self.state = mp.zeros(2 * n + 2, 1)
+        self.state[2 * n + 1] = 1
         self.modes = [0] * n
 
     def rate(self) -> mp.matrix:
         """F of dz/dt = F z between transitions."""
         n = self.n
-        rate = mp.zeros(3 * n + 2)
-        rate[3 * n, 3 * n + 1] = 1
+        rate = mp.zeros(2 * n + 2)
+        rate[2 * n, 2 * n + 1] = 1
         for i, mode in enumerate(self.modes):
-            if mode == 0 and self.kappa is None:
-                continue
-            rate[i, n + i] = 1
-            rate[n + i, :] = self.net[i, :] / self.mass[i]
             if mode:
-                rate[n + i, 3 * n + 1] -= mode * self.kinetic[i] / self.mass[i]
-            else:
-                rate[n + i, 2 * n + i] -= 1 / self.mass[i]
-                rate[2 * n + i, n + i] = self.kappa[i]
+                rate[i, n + i] = 1
+                rate[n + i, :] = self.net[i, :] / self.mass
+                rate[n + i, 2 * n + 1] -= mode * self.kinetic[i] / self.mass
         return rate
-
-    def interface_force(self, i: int) -> mp.mpf:
-        """Force of the interface on a block that sticks."""
-        return self.net_force(i) if self.kappa is None else self.state[2 * self.n + i]
 
     def net_force(self, i: int) -> mp.mpf:
         return (self.net[i, :] * self.state)[0]
 
     def load(self) -> mp.mpf:
-        return self.drive_stiffness * (self.drive_velocity * self.state[3 * self.n] - self.state[0])
+        return self.drive_stiffness * (self.drive_velocity * self.state[2 * self.n] - self.state[0])
 
     def obey_the_rules(self) -> bool:
         """No block that slides has turned, none that sticks is beyond its strength."""
         return all(
-            mode * self.state[self.n + i] > 0 if mode else abs(self.interface_force(i)) < self.strength[i]
+            mode * self.state[self.n + i] > 0 if mode else abs(self.net_force(i)) < self.strength[i]
             for i, mode in enumerate(self.modes)
         )
 
     def follow(self, t: Transition) -> None:
         """Go to the next transition and demand that it is one, and the first."""
         i = t.block - 1
-        wait = ratio(t.time) - self.state[3 * self.n]
+        wait = ratio(t.time) - self.state[2 * self.n]
         step = mp.expm(self.rate() * (wait / SAMPLES))
         for sample in range(SAMPLES):
             self.state = step * self.state
@@ -122,25 +96,24 @@ class MatrixMotion:
             self.state[self.n + i] = 0
             force = self.net_force(i)
             assert t.mode == (0 if abs(force) <= self.strength[i] else mp.sign(force))
-            self.state[2 * self.n + i] = force
         else:
-            force = self.interface_force(i)
+            force = self.net_force(i)
             assert abs(abs(force) - self.strength[i]) < LOAD_ROUNDING
             assert t.mode == mp.sign(force)
             assert speed * t.mode > -SPEED_ROUNDING
         self.modes[i] = t.mode
 
 
-@pytest.mark.parametrize(("addition", "name"), CHECKED)
-def test_each_transition_is_the_first_by_the_matrix_exponential(addition: str, name: str) -> None:
-    scene, transitions = read_extended(addition)[name]
+@pytest.mark.parametrize("name", ["stiff_viscosity", "backward"])
+def test_each_transition_is_the_first_by_the_matrix_exponential(name: str) -> None:
+    scene, transitions = read_viscous()[name]
     motion = MatrixMotion(scene)
     for t in transitions[:CHECKED_TRANSITIONS]:
         motion.follow(t)
 
 
 def test_the_matrix_exponential_refuses_a_transition_that_is_late_by_a_picosecond() -> None:
-    scene, transitions = read_extended("viscous")["stiff_viscosity"]
+    scene, transitions = read_viscous()["stiff_viscosity"]
     motion = MatrixMotion(scene)
     motion.follow(transitions[0])
     with pytest.raises(AssertionError):
@@ -148,7 +121,7 @@ def test_the_matrix_exponential_refuses_a_transition_that_is_late_by_a_picosecon
 
 
 def test_first_slip_with_viscosity_is_that_of_a_damped_oscillator() -> None:
-    c = EXTENDED["viscous"]["stiff_viscosity"].chain
+    c = VISCOUS["stiff_viscosity"].chain
     eta = ratio(c.viscosity)
     release, stop = reference(c, 10, max_transitions=2)
     mass, stiffness = ratio(c.mass), ratio(c.stiffness + c.drive_stiffness)
@@ -168,49 +141,17 @@ def test_first_slip_with_viscosity_is_that_of_a_damped_oscillator() -> None:
 
 
 def test_beyond_critical_damping_block_1_creeps_without_an_end() -> None:
-    _, transitions = read_extended("viscous")["creep"]
+    _, transitions = read_viscous()["creep"]
     assert [(t.block, t.mode) for t in transitions] == [(1, 1)]
 
 
-def test_a_head_adds_its_mass_to_the_slip_of_block_1() -> None:
-    c = EXTENDED["head"]["papers_chain"].chain
-    release, stop = reference(c, 10, max_transitions=2)
-    mass, stiffness = ratio(c.mass + c.head_mass), ratio(c.stiffness + c.drive_stiffness)
-    omega = mp.sqrt(stiffness / mass)
-    drop, rate = ratio((c.mu_s - c.mu_k) * c.weights[0]), ratio(c.drive_stiffness * c.drive_velocity)
-    assert close(ratio(stop.time - release.time), (mp.pi + 2 * mp.atan(rate / drop / omega)) / omega)
+def test_golden_digits_are_reproduced_with_64_places_less() -> None:
+    with (GOLDEN / "reference_viscous.csv").open(newline="") as file:
+        rows = [row for chain, *row in csv.reader(file) if chain == "stiff_viscosity"]
+    assert csv_rows(VISCOUS["stiff_viscosity"].run(bits=192), HELD_OUT_DIGITS) == rows
 
 
-def test_a_slider_with_a_head_of_312_g_slips_as_one_body_for_2_ms() -> None:
-    _, (release, stop, *_) = read_extended("head")["one_block"]
-    assert abs(float(stop.time - release.time) - 2e-3) < 1e-6
-
-
-def test_one_block_on_an_interface_spring_is_released_where_its_spring_breaks() -> None:
-    c = EXTENDED["interface"]["one_block"].chain
-    (kappa,) = map(ratio, c.interface_springs or ())
-    (release,) = reference(c, 1, max_transitions=1)
-    start, nearby = ratio(release.time), mp.mpf(10) ** -6
-    drive, speed = ratio(c.drive_stiffness), ratio(c.drive_velocity)
-    omega = mp.sqrt((drive + kappa) / ratio(c.mass))
-
-    def lacking(t: mp.mpf) -> mp.mpf:
-        return ratio(c.mu_s * c.weights[0]) - kappa * drive * speed / (drive + kappa) * (
-            t - mp.sin(omega * t) / omega
-        )
-
-    assert close(ratio(release.time), mp.findroot(lacking, (start * (1 - nearby), start * (1 + nearby))))
-
-
-@pytest.mark.parametrize(("addition", "name"), QUICK)
-def test_golden_digits_are_reproduced_with_64_places_less(addition: str, name: str) -> None:
-    with (GOLDEN / f"reference_{addition}.csv").open(newline="") as file:
-        rows = [row for chain, *row in csv.reader(file) if chain == name]
-    assert csv_rows(EXTENDED[addition][name].run(bits=192), HELD_OUT_DIGITS) == rows
-
-
-@pytest.mark.parametrize("addition", EXTENDED)
-def test_golden_scenes_are_complete_and_hold_backward_slip(addition: str) -> None:
-    scenes = read_extended(addition)
+def test_golden_scenes_are_complete_and_hold_backward_slip() -> None:
+    scenes = read_viscous()
     assert all(transitions for _, transitions in scenes.values())
     assert any(t.mode == -1 for t in scenes["backward"][1])
