@@ -21,6 +21,7 @@ import argparse
 import csv
 import sys
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from fractions import Fraction
 from functools import cache, partial
 from importlib.util import find_spec
@@ -34,7 +35,8 @@ from precursors.accuracy.compare import TrueTransition, Truth, compare
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy
 from precursors.model.checks import Until
-from precursors.solver.simulate import available_cores
+from precursors.model.statics import maximal_strain_positions
+from precursors.solver.simulate import TransitionLimitError, available_cores
 from precursors.support import timing
 from precursors.support.files import write_table
 
@@ -46,6 +48,9 @@ DOP853_TOLERANCE = 1e-13
 SCENES = {"0": "fig10", "-5/6": "fig11", "5/6": "fig12"}
 ENDS: dict[str, Until] = {"to the first global slip": "global slip", "10 s": None}
 ENSEMBLE = 2000
+# A strained chain is driven so fast that it goes on slipping over its whole length.
+LONG_CHAIN, SHORT_CHAIN, STRAIN, FAST_DRIVE = 200, 10, 0.9, 0.02  # blocks, blocks, of the maximal one, m/s
+GROWTH_TRANSITIONS = 6000
 
 Row = dict[str, Any]
 
@@ -58,7 +63,13 @@ def main() -> None:
     arguments = parser.parse_args()
     measure = partial(timing.measure, rounds=2, shortest=0.0) if arguments.quick else timing.measure
     rows: list[Row] = []
-    for benchmark in (against_heyoka(measure), against_dop853(measure), ensemble(measure, arguments.quick)):
+    benchmarks = (
+        against_heyoka(measure),
+        against_dop853(measure),
+        ensemble(measure, arguments.quick),
+        long_chains(measure),
+    )
+    for benchmark in benchmarks:
         for row in benchmark:
             print(
                 f"{row['benchmark']:9} {row['case']:38} {row['quantity']:46} "
@@ -120,6 +131,21 @@ def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
         faster, _ = timings[str(n)].times_faster_than(timings["1"])
         yield row("first-slip runs a second and thread", "1/s", len(chains) / timings[str(n)].seconds / n)
         yield row("of linear scaling", "1", faster / n)
+
+
+def long_chains(measure: Callable[..., Any]) -> Iterable[Row]:
+    """How many times as long a transition of a long chain takes as one of ten blocks."""
+
+    def run(n_blocks: int) -> None:
+        chain = Chain.from_slider(n_blocks=n_blocks, drive_velocity=FAST_DRIVE)
+        start = STRAIN * maximal_strain_positions(chain)
+        with suppress(TransitionLimitError):
+            simulate(chain, DURATION, start_positions=start, max_transitions=GROWTH_TRANSITIONS)
+
+    timings = measure({str(n): partial(run, n) for n in (LONG_CHAIN, SHORT_CHAIN)})
+    _, cpu = timings[str(SHORT_CHAIN)].times_faster_than(timings[str(LONG_CHAIN)])
+    case = f"N = {LONG_CHAIN}, strained, driven at {FAST_DRIVE:g} m/s"
+    yield _row("growth", case, f"time of a transition / at N = {SHORT_CHAIN}", "1", cpu)
 
 
 def _row(benchmark: str, case: str, quantity: str, unit: str, value: float) -> Row:

@@ -101,11 +101,6 @@ def work_precision(thetas=(-5 / 6, 0.0, 5 / 6), extents=("global slip", "end")) 
     return {"table": pd.DataFrame(rows).assign(**true)}
 
 
-def cost_per_event() -> dict:
-    rows = [("natural", 10, 2e-6), ("driven", 100, 5e-6), ("driven", 10, 3e-6), ("front", 100, 9e-6)]
-    return {"table": pd.DataFrame(rows, columns=["kind", "n_blocks", "seconds_per_transition"])}
-
-
 def step_sweep() -> dict:
     points = [
         ("exact", np.nan, 5, 10),
@@ -121,31 +116,21 @@ def step_sweep() -> dict:
 
 
 def failure_gallery() -> dict:
-    """Numbers from 1.25, exact ones from 2.75, predicted ones from 3.75; the same curves in all panels.
-
-    Thresholds are the same in the units of the axes, for 10 blocks and wrong ones for 2.
-    """
-    lines = [(mode, panel.scale[0], line) for mode, panel in PANELS.items() for line in panel.sentences]
-    addresses = dict.fromkeys(
-        (mode, line.method or "a method", line.setting or "dt = 1e-07 s", line.quantity)
-        for mode, _, line in lines
-        if "{at" not in line.text
-    )
-    numbers = pd.DataFrame(list(addresses), columns=["failure_mode", "method", "setting", "quantity"])
-    limits = [(line.method or "a method", line.quantity, s) for _, s, line in lines if "{at" in line.text]
-    thresholds = pd.DataFrame(limits, columns=["method", "fails", "scale"]).assign(unit="1", n_blocks=10)
+    """The same curves in all panels; thresholds from 1.25, predicted ones from 3.75, for 10 blocks."""
+    limits = [(*limit, panel.scale[0]) for panel in PANELS.values() for limit in panel.limits]
+    thresholds = pd.DataFrame(limits, columns=["fails", "method", "scale"]).assign(n_blocks=10)
     place = np.arange(len(thresholds))
     thresholds["measured"] = (place + 1.25) / thresholds["scale"]
     thresholds["predicted"] = (place + 3.75) / thresholds.pop("scale")
-    row = np.arange(len(numbers))
     curves = []
     for panel in PANELS.values():
         x, y = np.array([0.1, 0.2, 0.4]) / np.reshape(panel.scale, (2, 1))
         lines = [pd.DataFrame({"curve": name, "x": x, "y": n * y}) for n, name in ((1, "exact"), (2, "bad"))]
         curves.append(pd.concat(lines))
-    numbers = numbers.assign(unit="1", measured=row + 1.25, exact=row + 2.75, predicted=row + 3.75)
-    thresholds = pd.concat([thresholds, thresholds.assign(n_blocks=2, measured=0.0)])
-    return {"numbers": numbers, "thresholds": thresholds, "curves": curves}
+    return {
+        "thresholds": pd.concat([thresholds, thresholds.assign(n_blocks=2, measured=0.0)]),
+        "curves": curves,
+    }
 
 
 def horizon() -> dict:
@@ -284,7 +269,6 @@ EXAMPLES = {
     "fig13": ("precursor_lengths", precursor_lengths),
     "definitions": ("definitions", definitions),
     "work_precision": ("work_precision", work_precision),
-    "cost_per_event": ("cost_per_event", cost_per_event),
     "step_sweep": ("step_sweep", step_sweep),
     "failure_gallery": ("failure_gallery", failure_gallery),
     "horizon": ("horizon", horizon),

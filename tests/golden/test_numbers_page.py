@@ -9,8 +9,6 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from precursors.model.switching import COULOMB
-
 ROOT = Path(__file__).parents[2]
 TABLES = ROOT / "results/tables"
 PAGE = " ".join((ROOT / "docs/numbers.md").read_text(encoding="utf-8").split())
@@ -46,14 +44,6 @@ def test_errors_of_times_at_ten_seconds():
 def test_the_scene_at_theta_plus_is_fragile():
     table = pd.read_csv(TABLES / "robustness.csv").set_index(["scene", "quantity"])
     assert set(table.loc["fig12"]["class"]) == {"fragile"}
-
-
-def test_few_random_steps_give_the_six_numbers():
-    table = pd.read_csv(ROOT / "paper/tables/random_steps_full.csv")
-    own = table[(table["switching"] == COULOMB) & (table["question"] == "all six")].set_index("degree")
-    runs, hits, as_printed = said(r"Of (\d+) runs of RK4 with random steps, (\d+) give .* and (\d+) at 0.833")
-    assert own.loc[["5/6", "0.833"], ["n", "k"]].to_numpy().tolist() == [[runs, hits], [runs, as_printed]]
-    assert own.loc["0.833", "high"] > own.loc["5/6", "low"]
 
 
 def test_slip_may_not_end():

@@ -6,13 +6,12 @@ import pytest
 import tabulate_failures
 import tabulate_step_sweep
 
-from precursors.accuracy.cost_per_event import measure_cost
 from precursors.accuracy.failures.common import Threshold
 from precursors.accuracy.failures.locating import SMALLEST
 from precursors.accuracy.proof import ExactChain, certify
 from precursors.accuracy.work_precision import COLUMNS
 from precursors.figures import step_sweep
-from precursors.support.files import read_table, write_table
+from precursors.support.files import read_table
 
 VALUES = {
     "global slip": {"exact": [0.0], "leapfrog": [1e-6, 1e-7]},
@@ -29,7 +28,6 @@ def files(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(measure_methods, "charted_values", lambda case, _full: VALUES[case.until])
         measure_methods.main({"two": certificate}, {"two": 0.25}, False, directory / "methods.csv")
-    write_table(measure_cost((5, 10), 5, 20, 1), directory / "cost.csv")
     return directory
 
 
@@ -56,10 +54,8 @@ def test_the_charts_are_drawn_from_the_tables(files):
     )
     draw.main("work_precision", {"table": methods}, {}, [time])
     draw.main("work_precision", {"table": methods}, {"work": "evaluations"}, [evaluations])
-    draw.main("cost_per_event", {"table": str(files / "cost.csv")}, {}, [str(files / "cost.svg")])
     assert (files / "time.png").read_bytes().startswith(b"\x89PNG")
-    for name in ("evaluations.svg", "cost.svg"):
-        assert (files / name).read_text(encoding="utf-8").rstrip().endswith("</svg>")
+    assert (files / "evaluations.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>")
 
 
 def test_the_step_sweep_is_a_table_that_the_figure_reads(tmp_path, monkeypatch):

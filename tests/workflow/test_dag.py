@@ -122,7 +122,7 @@ def test_an_edit_of_the_style_draws_all_figures_and_computes_nothing(untouched):
 def test_an_edit_of_a_method_measures_again_and_simulates_nothing(untouched):
     jobs = untouched[1].after("src/precursors/methods/moreau_jean.py")
     assert {"measure_methods", "draw_work_precision"} <= jobs
-    assert not ({"take_certificates", "measure_cost_per_event", "run_chunk"} | of(*PAPERS)) & jobs
+    assert not ({"take_certificates", "run_chunk"} | of(*PAPERS)) & jobs
 
 
 def test_an_edit_of_the_solver_simulates_again(untouched):
@@ -157,7 +157,7 @@ def test_a_new_title_and_a_new_number_of_the_paper_simulate_nothing(finished):
     finished.edit("config.yaml", "title: uniform normal loading", "title: same load on every block")
     finished.edit("config.yaml", "events_counted: 9", "events_counted: 8")
     of_title = {"draw_scene fig10", "write_explorer"}
-    of_definitions = {"tabulate_definitions", "draw_definitions", "tabulate_random_steps"}
+    of_definitions = {"tabulate_definitions", "draw_definitions"}
     of_number = {"tabulate_reproduction", "evaluate_claims"} | of_definitions
     assert finished.would_run() == of_title | of_number | PAPER
 
@@ -166,7 +166,7 @@ def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(fi
     finished.edit("config.yaml", "n_blocks: 10\n  mu_s", "n_blocks: 20\n  mu_s")
     jobs = finished.would_run()
     assert "simulate_scene fig10" in jobs
-    assert not {"measure_methods", "measure_cost_per_event"} & jobs
+    assert "measure_methods" not in jobs
 
 
 def test_the_full_comparison_of_methods_is_a_target_of_its_own(untouched):

@@ -15,7 +15,6 @@ QUEUED = {
     "certify_scene",
     "check_eq15",
     "compare_models",
-    "measure_cost_per_event",
     "measure_methods",
     "prove_again",
     "run_chunk",
@@ -24,7 +23,6 @@ QUEUED = {
     "tabulate_long_runs",
     "tabulate_lyapunov",
     "tabulate_predictability",
-    "tabulate_random_steps",
     "tabulate_step_sweep",
 }
 # These make the parameters of rules, which Snakemake compares itself; `support` has no physics.

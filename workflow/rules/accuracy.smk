@@ -35,7 +35,6 @@ rule accuracy:
             figure=[
                 "work_precision",
                 "work_precision_evaluations",
-                "cost_per_event",
                 "step_sweep",
                 "failure_gallery",
                 "horizon",
@@ -182,17 +181,6 @@ rule measure_methods:
         thetas={name: parse_theta(CHAINS[name].get("theta", 0)) for name in COMPARED},
     script:
         "../scripts/measure_methods.py"
-
-
-rule measure_cost_per_event:
-    input:
-        code=package("model/chain", "model/checks", "model/statics", "solver", "accuracy/cost_per_event"),
-    output:
-        table="results/tables/cost_per_event.csv",
-    log:
-        "results/logs/measure_cost_per_event.log",
-    script:
-        "../scripts/measure_cost_per_event.py"
 
 
 rule tabulate_step_sweep:

@@ -39,23 +39,3 @@ rule tabulate_definitions:
         paper=[config["scenes"][scene].get("paper", {}) for scene in config["fig13"]],
     script:
         "../scripts/tabulate_definitions.py"
-
-
-# `random_steps_full` on demand: half a minute.
-rule tabulate_random_steps:
-    input:
-        definitions="results/tables/definitions.csv",
-        code=package(
-            "model", "solver", "analysis", "methods", "reproduction/definitions", "reproduction/random_steps"
-        ),
-    output:
-        table=report("results/tables/random_steps{full}.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_random_steps{full}.log",
-    params:
-        slider=config["chain"],
-        duration=config["duration"],
-        settings=config["reproduction"]["random_steps"],
-        paper=[config["scenes"][scene].get("paper", {}) for scene in config["fig13"]],
-    script:
-        "../scripts/tabulate_random_steps.py"

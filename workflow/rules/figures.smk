@@ -54,11 +54,6 @@ FIGURES = {
         "tables": {"table": "results/tables/work_precision{full}.csv"},
         "options": {"work": "evaluations"},
     },
-    "cost_per_event": {
-        "shows": "time per transition against N",
-        "category": "Speed and accuracy",
-        "tables": {"table": "results/tables/cost_per_event.csv"},
-    },
     "step_sweep": {
         "file": "step_sweep{full}",
         "shows": "the paper's numbers against the step",
@@ -69,7 +64,6 @@ FIGURES = {
         "shows": "how methods fail",
         "category": "Speed and accuracy",
         "tables": {
-            "numbers": "results/tables/failures.csv",
             "thresholds": "results/tables/thresholds.csv",
             "curves": collect("results/tables/failures/{mode}.csv", mode=FAILURE_MODES),
         },

@@ -10,9 +10,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import scipy
 
-from precursors.model.switching import COULOMB
 from precursors.reproduction import eq15, numbers_of_studies
 from precursors.reproduction.claim import FOLLOWS, FRAGILE, NOT_REPRODUCED, REPRODUCED
 from precursors.reproduction.claims import TABLES as TABLES_OF_CLAIMS
@@ -33,14 +31,10 @@ from precursors.reproduction.tables import (
 TABLES = (
     *TABLES_OF_CLAIMS,
     "claims",
-    "random_steps",
     *numbers_of_studies.TABLES,
 )
 # Keys of the configuration that the text has numbers of.
 KEYS = ("chain", "load_cells", "scenes", "duration", "reproduction", "accuracy", "ensembles")
-
-# Shares whose test gives a larger p value may be equal.
-SIGNIFICANT = 0.05
 
 
 def numbers(t: Tables, config: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -174,30 +168,6 @@ def readings(t: Tables, config: Mapping[str, Any]) -> Numbers:
     }
 
 
-def random_steps(t: Tables, config: Mapping[str, Any]) -> Numbers:
-    """How often random steps of RK4 give the printed numbers."""
-    ours = rows(t["random_steps"], switching=COULOMB)
-    least, most = config["reproduction"]["random_steps"]["steps"]
-    found: Numbers = {"draws": ours["n"].iloc[0], "step-least": (least, "s"), "step-most": (most, "s")}
-    for name, degree, question in (
-        ("six-ours", "5/6", "all six"),
-        ("six-printed", "0.833", "all six"),
-        ("any-reading", "5/6", "any reading"),
-    ):
-        row = rows(ours, degree=degree, question=question).iloc[0]
-        found |= {name: row["share"], f"{name}-low": row["low"], f"{name}-high": row["high"]}
-    six = rows(ours, question="all six", degree=["5/6", "0.833"])
-    share = rows(ours, degree="5/6").set_index("question")["share"]
-    p = scipy.stats.fisher_exact(np.column_stack([six["k"], six["n"] - six["k"]])).pvalue
-    return found | {
-        "six-p": p,
-        "six-shares": "may be equal" if p > SIGNIFICANT else "differ",
-        "sure-counts": min(share["events_trailing"], share["events_uniform"]),
-        "events-leading-share": share["events_leading"],
-        "mu-leading-share": share["mu_sapp_leading"],
-    }
-
-
 def claims(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Verdicts, and how many results have which."""
     table = t["claims"]
@@ -212,7 +182,7 @@ def claims(t: Tables, config: Mapping[str, Any]) -> Numbers:
     }
 
 
-PARTS = (model, printed, results, readings, random_steps, *numbers_of_studies.PARTS, claims)
+PARTS = (model, printed, results, readings, *numbers_of_studies.PARTS, claims)
 
 
 def _plain(name: str, number: Any) -> dict[str, Any]:

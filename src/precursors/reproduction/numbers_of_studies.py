@@ -18,7 +18,6 @@ TABLES = (
     "solver_vs_proof",
     "work_precision",
     "step_sweep",
-    "cost_per_event",
     "thresholds",
     "spread",
     "model_comparison",
@@ -37,13 +36,8 @@ def yes_or_no(answer: bool) -> str:
 
 def speed(t: Tables, config: Mapping[str, Any]) -> Numbers:
     """Speed against accuracy; heyoka's numbers only where it is installed."""
-    sweep, cost = t["step_sweep"], t["cost_per_event"]
-    found: Numbers = {
-        "finest-step": (sweep["step_s"].min(), "s"),
-        "cost-largest-n": cost["n_blocks"].max(),
-    }
-    for start in ("natural", "driven", "front"):
-        found[f"cost-relative-{start}"] = rows(cost, kind=start)["relative"].iloc[-1]
+    sweep = t["step_sweep"]
+    found: Numbers = {"finest-step": (sweep["step_s"].min(), "s")}
     names = {
         "exact": "exact",
         "heyoka": "heyoka",
