@@ -14,6 +14,7 @@ from precursors.analysis.slips import (
     apparent_friction,
     every_definition,
     first_global,
+    slip_table,
 )
 
 
@@ -25,10 +26,13 @@ def run_of(n_blocks, transitions, duration):
 
 def events_one_by_one(run):
     """Slip events as a plain loop over the transitions finds them."""
-    events, slides, goes_on = [], set(), False
+    events, slides, goes_on, largest = [], set(), False, 0.0
     for (time, block, mode, load), pause in zip(run.transitions, run.intervals[1:], strict=True):
+        largest = max(largest, load)
         if not goes_on:
-            events.append({"onset": time, "load_before": load, "slid": set(), "most": 0})
+            events.append(
+                {"onset": time, "load_before": load, "largest_load": largest, "slid": set(), "most": 0}
+            )
         event = events[-1]
         slides = slides | {block} if mode else slides - {block}
         event["slid"] |= slides
@@ -37,7 +41,7 @@ def events_one_by_one(run):
         goes_on = slides or pause == 0.0
     return [
         {
-            **{name: event[name] for name in ("onset", "end", "load_before", "load_after")},
+            **{name: event[name] for name in ("onset", "end", "load_before", "load_after", "largest_load")},
             "front": max(event["slid"], default=0),
             "n_slid": len(event["slid"]),
             "n_simultaneous": event["most"],
@@ -107,15 +111,25 @@ def test_short_events_are_dropped_equal_ones_kept_and_nothing_after_the_global_s
 
 def test_without_a_global_slip_mu_sapp_is_not_defined():
     run = simulate(Chain.from_slider(), duration=1.0)
-    assert apparent_friction(run, find_slips(run)) is None
+    assert apparent_friction(slip_table(run)) is None
 
 
 def test_mu_sapp_under_every_definition_is_that_of_the_stated_event():
     run = simulate(Chain.from_slider(theta="-5/6"), duration=3.0)
-    found = [apparent_friction(run, find_slips(run), definition) for definition in DEFINITIONS]
+    found = [apparent_friction(slip_table(run), definition) for definition in DEFINITIONS]
     assert [(f.event, f.events_counted) for f in found] == [(7, 6), (7, 6), (6, 5), (6, 5)]
     assert [round(f.mu_sapp, 4) for f in found] == [0.4845, 0.4845, 0.4336, 0.4336]
     assert found[0].load == pytest.approx(found[0].mu_sapp * 400.0, rel=1e-15)
+
+
+def test_mu_sapp_is_the_largest_load_before_the_global_slip_though_an_earlier_event_reached_it():
+    """Block 1 slides backward in the first event, so that F_X is largest at its end."""
+    back = [(1, 1, -1, 90.0), (2, 1, 0, 120.0)]
+    both = [(3, 1, 1, 100.0), (4, 2, 1, 130.0), (5, 1, 0, 80.0), (6, 2, 0, 70.0)]
+    table = slip_table(run_of(2, back + both, 9.0))
+    assert table["largest_load_N"].tolist() == [90.0, 120.0]
+    assert apparent_friction(table).mu_sapp == pytest.approx(120.0 / 400.0, rel=1e-15)
+    assert apparent_friction(table, Definition(largest=False)).mu_sapp == pytest.approx(0.25, rel=1e-15)
 
 
 # Front, blocks that slid, most at once, load before and after, of five events of a chain of three blocks.
@@ -127,8 +141,8 @@ EVENTS = pd.DataFrame(
         (3, 3, 2, 12.0, 10.0),
         (3, 3, 3, 11.0, 5.0),
     ],
-    columns=["front", "n_slid", "n_simultaneous", "load_before", "load_after"],
-)
+    columns=["front", "n_slid", "n_simultaneous", "load_before_N", "load_after_N"],
+).assign(n_blocks=3)
 
 
 @pytest.mark.parametrize(
@@ -144,14 +158,14 @@ EVENTS = pd.DataFrame(
     ],
 )
 def test_a_reading_decides_which_event_is_global_and_which_are_short(definition, global_slip, counted):
-    slips = definition.read(EVENTS, n_blocks=3)
+    slips = definition.read(EVENTS)
     assert first_global(slips) == global_slip
     assert find_precursors(slips, definition.short).index.tolist() == counted
 
 
 def test_the_first_definition_reads_slips_as_find_slips_does():
-    slips = find_slips(simulate(Chain.from_slider(), duration=3.0))
-    pd.testing.assert_frame_equal(DEFINITIONS[0].read(slips, 10), slips)
+    slips = slip_table(simulate(Chain.from_slider(), duration=3.0))
+    pd.testing.assert_frame_equal(DEFINITIONS[0].read(slips), slips)
 
 
 def test_every_definition_is_tried_once():

@@ -5,7 +5,7 @@ import pytest
 from analysis.random_runs import random_chain, random_transitions
 
 from precursors import Chain, Run, find_precursors, find_slips, simulate
-from precursors.analysis.slips import Definition, apparent_friction, first_global
+from precursors.analysis.slips import Definition, apparent_friction, first_global, slip_table
 from precursors.analysis.summary import summarise
 
 PAPERS = {"-5/6": (6, 0.4845, 2.632), 0: (9, 0.4858, 2.739), "5/6": (14, 0.4883, 2.890)}
@@ -13,14 +13,14 @@ PAPERS = {"-5/6": (6, 0.4845, 2.632), 0: (9, 0.4858, 2.739), "5/6": (14, 0.4883,
 
 def table_path(run: Run) -> dict[str, float]:
     """The summary by way of the slip table."""
-    slips = find_slips(run)
-    friction = apparent_friction(run, slips)
+    slips, table = find_slips(run), slip_table(run)
+    friction = apparent_friction(table)
     reached = friction is not None
     up_to = slips.iloc[: first_global(slips) + 1] if reached else slips
     start, end = (up_to.onset.iloc[-1], up_to.end.iloc[-1]) if reached else (np.nan, np.nan)
     later = slips.onset.iloc[len(up_to)] if len(up_to) < len(slips) else np.inf
-    each = Definition("each").read(slips, run.chain.n_blocks)
-    friction_each = apparent_friction(run, slips, Definition("each"))
+    each = Definition("each").read(table)
+    friction_each = apparent_friction(table, Definition("each"))
     of_each = first_global(each) if friction_each else len(slips) - 1
     return {
         "n_events": len(up_to),

@@ -50,7 +50,7 @@ def assert_same(found: pd.DataFrame, golden: pd.DataFrame, columns: list[str]) -
 @pytest.mark.parametrize("scene", PAPERS_SCENES)
 def test_slips_are_the_golden_ones(scene):
     found, golden = tables(f"{scene}_slips.csv")
-    measured = ["onset_s", "end_s", "load_before_N", "load_after_N"]
+    measured = ["onset_s", "end_s", "load_before_N", "load_after_N", "largest_load_N"]
     assert_same(found, golden, [column for column in golden if column not in measured])
     n = int(np.argmax(golden["is_global"])) + 1
     for column in measured:

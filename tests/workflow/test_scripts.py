@@ -37,7 +37,7 @@ def files(run, tmp_path_factory):
     run.save(directory / "run.h5", slider={"theta": 0.0, "normal_load": 400.0})
     tabulate_slips.main(directory / "run.h5", directory / "slips.csv")
     tabulate_trace.main(directory / "run.h5", directory / "trace.csv")
-    tabulate_mu_sapp.main({"fig10": directory / "run.h5"}, directory / "mu_sapp.csv")
+    tabulate_mu_sapp.main({"fig10": directory / "slips.csv"}, directory / "mu_sapp.csv")
     return directory
 
 
@@ -49,6 +49,7 @@ def test_the_slip_table_holds_every_event_with_every_digit(run, files):
         "end_s",
         "load_before_N",
         "load_after_N",
+        "largest_load_N",
         "front",
         "n_slid",
         "n_simultaneous",
@@ -99,7 +100,7 @@ def test_a_run_without_a_slip_gives_tables_without_rows(tmp_path):
     simulate(Chain.from_slider(), duration=0.1).save(tmp_path / "run.h5")
     tabulate_slips.main(tmp_path / "run.h5", tmp_path / "slips.csv")
     tabulate_trace.main(tmp_path / "run.h5", tmp_path / "trace.csv")
-    tabulate_mu_sapp.main({"calm": tmp_path / "run.h5"}, tmp_path / "mu_sapp.csv")
+    tabulate_mu_sapp.main({"calm": tmp_path / "slips.csv"}, tmp_path / "mu_sapp.csv")
     tabulate_reproduction.main(
         {"calm": tmp_path / "slips.csv"},
         tmp_path / "mu_sapp.csv",

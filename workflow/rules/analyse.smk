@@ -37,7 +37,7 @@ rule tabulate_trace:
 
 rule tabulate_mu_sapp:
     input:
-        runs=collect("results/runs/{scene}.h5", scene=SCENES),
+        slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
         code=package("model/chain", "model/checks", "solver", "analysis"),
     output:
         table=report("results/tables/mu_sapp.csv", category="Tables"),

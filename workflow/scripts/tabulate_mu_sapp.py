@@ -8,23 +8,21 @@ from typing import Any
 import pandas as pd
 from job import job
 
-from precursors.analysis.slips import DEFINITIONS, apparent_friction, find_slips
-from precursors.solver.run import Run
-from precursors.support.files import write_table
+from precursors.analysis.slips import DEFINITIONS, apparent_friction
+from precursors.support.files import read_table, write_table
 
 COLUMNS = ["scene", "definition", "mu_sapp", "load_N", "time_s", "event", "events_counted", "is_papers"]
 
 
-def main(runs: Mapping[str, str | Path], output: str | Path) -> None:
-    """Write one row per scene and definition, none where a run has no global slip in that sense."""
-    table = pd.DataFrame([row for scene, path in runs.items() for row in rows(scene, Run.load(path))])
+def main(slips: Mapping[str, str | Path], output: str | Path) -> None:
+    """Write one row per scene and definition, none where a scene has no global slip in that sense."""
+    table = pd.DataFrame([row for scene, path in slips.items() for row in rows(scene, read_table(path))])
     write_table(table.rename(columns={"load": "load_N", "time": "time_s"}).reindex(columns=COLUMNS), output)
 
 
-def rows(scene: str, run: Run) -> list[dict[str, Any]]:
-    """What each definition gives for a run."""
-    slips = find_slips(run)
-    found = [(definition, apparent_friction(run, slips, definition)) for definition in DEFINITIONS]
+def rows(scene: str, slips: pd.DataFrame) -> list[dict[str, Any]]:
+    """What each definition gives for a slip table."""
+    found = [(definition, apparent_friction(slips, definition)) for definition in DEFINITIONS]
     return [
         {
             "scene": scene,
@@ -39,4 +37,4 @@ def rows(scene: str, run: Run) -> list[dict[str, Any]]:
 
 if __name__ == "__main__":
     with job() as snakemake:
-        main(dict(zip(snakemake.params.scenes, snakemake.input.runs, strict=True)), snakemake.output.table)
+        main(dict(zip(snakemake.params.scenes, snakemake.input.slips, strict=True)), snakemake.output.table)

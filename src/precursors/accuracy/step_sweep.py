@@ -9,7 +9,7 @@ import numpy as np
 
 from precursors.accuracy.compare import Truth, compare
 from precursors.analysis.slip_rows import first_global
-from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
+from precursors.analysis.slips import apparent_friction, find_precursors, find_slips, slip_table
 from precursors.methods import METHODS, DivergedError
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
@@ -68,7 +68,7 @@ def row(method: str, step: float, run: Run, truth: Truth) -> dict[str, object]:
         transitions_right before the first wrong one, and transitions_true, all there are.
     """
     slips = find_slips(run)
-    first, friction, compared = first_global(slips), apparent_friction(run, slips), compare(run, truth)
+    first, friction, compared = first_global(slips), apparent_friction(slip_table(run)), compare(run, truth)
     return {
         "method": method,
         "step_s": step,

@@ -18,6 +18,7 @@ EVENT = np.dtype(
         ("end", "f8"),  # [s]
         ("load_before", "f8"),  # F_X at the onset [N]
         ("load_after", "f8"),  # F_X at the end [N]
+        ("largest_load", "f8"),  # largest F_X up to the onset [N]
         ("front", "i8"),  # farthest block that slid, 1..N
         ("n_slid", "i8"),  # blocks that slid at some time
         ("n_simultaneous", "i8"),  # most blocks that slid at the same instant
@@ -68,6 +69,8 @@ def slip_events(runs: Sequence[Run]) -> NDArray[np.void]:
     events["run"] = run[firsts]
     events["first"], events["last"] = firsts - starts[events["run"]], lasts - starts[events["run"]]
     events["onset"], events["load_before"] = time[firsts], load[firsts]
+    so_far = [np.maximum.accumulate(run.transitions["tangential_load"]) for run in runs]
+    events["largest_load"] = np.concatenate([load[:0], *so_far])[firsts]
     finished = n_sliding[lasts] == 0
     events["end"] = np.where(finished, time[lasts], np.nan)
     events["load_after"] = np.where(finished, load[lasts], np.nan)

@@ -5,19 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import product
+from typing import TypeVar
 
 import numpy as np
 import pandas as pd
 
 from precursors.analysis.events import slip_events
 from precursors.analysis.slip_rows import first_global, up_to_first_global
+from precursors.model.chain import FloatArray
 from precursors.solver.run import Run
 
+Loads = TypeVar("Loads", float, FloatArray)
 COLUMNS = [
     "onset",
     "end",
     "load_before",
     "load_after",
+    "largest_load",
     "front",
     "n_slid",
     "n_simultaneous",
@@ -28,6 +32,7 @@ WITH_UNITS = {
     "end": "end_s",
     "load_before": "load_before_N",
     "load_after": "load_after_N",
+    "largest_load": "largest_load_N",
 }
 
 SHORT_EVENTS = {
@@ -52,10 +57,10 @@ def find_slips(run: Run) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        One row per event: onset, end [s], load_before, load_after (F_X at onset and end) [N], front
-        (farthest block that slid, 1..N), n_slid (blocks that slid at some time), n_simultaneous (most
-        blocks that slid at the same instant), is_global (all N at the same instant). The event that the
-        end of the run cuts off has end and load_after NaN.
+        One row per event: onset, end [s], load_before, load_after (F_X at onset and end), largest_load (F_X
+        up to the onset) [N], front (farthest block that slid, 1..N), n_slid (blocks that slid at some time),
+        n_simultaneous (most blocks that slid at the same instant), is_global (all N at the same instant).
+        The event that the end of the run cuts off has end and load_after NaN.
     """
     events = slip_events([run])
     return pd.DataFrame({name: events[name] for name in COLUMNS})
@@ -129,14 +134,14 @@ class Definition:
             return GLOBAL_SLIPS[self.global_slip]
         return f"in which F_X drops by more than {self.global_slip:g} N"
 
-    def read(self, slips: pd.DataFrame, n_blocks: int) -> pd.DataFrame:
-        """The slips of a chain of N blocks with `front` and `is_global` as this reading has them."""
+    def read(self, slips: pd.DataFrame) -> pd.DataFrame:
+        """A slip table with `front` and `is_global` in this reading."""
         if self.global_slip == "at once":
-            is_global = slips["n_simultaneous"] == n_blocks
+            is_global = slips["n_simultaneous"] == slips["n_blocks"]
         elif self.global_slip == "each":
-            is_global = slips["n_slid"] == n_blocks
+            is_global = slips["n_slid"] == slips["n_blocks"]
         else:
-            is_global = slips["load_before"] - slips["load_after"] > self.global_slip
+            is_global = slips["load_before_N"] - slips["load_after_N"] > self.global_slip
         return slips.assign(front=slips[self.front], is_global=is_global)
 
 
@@ -155,21 +160,20 @@ def every_definition(load_drops: Iterable[float]) -> Iterator[Definition]:
 
 @dataclass(frozen=True)
 class ApparentFriction:
-    """mu_sapp and the event that sets it.
+    """mu_sapp and the first global slip, which ends the loading.
 
     Attributes
     ----------
     mu_sapp : float
-        F_X / F_Z [1].
+        Apparent static friction coefficient [1].
     load : float
-        F_X [N].
+        The F_X that it stands for [N].
     time : float
-        When F_X had this value [s].
+        Onset of the first global slip [s].
     event : int
-        Number of the event that begins then, that it lies in, or that is the last before it, from 1; 0
-        where there is none.
+        Number of the first global slip among all events, from 1.
     events_counted : int
-        Events of Fig. 13 up to and including the first global slip of this definition.
+        Events of Fig. 13, the first global slip included.
     """
 
     mu_sapp: float
@@ -180,35 +184,28 @@ class ApparentFriction:
 
 
 def apparent_friction(
-    run: Run, slips: pd.DataFrame, definition: Definition = DEFINITIONS[0]
+    slips: pd.DataFrame, definition: Definition = DEFINITIONS[0]
 ) -> ApparentFriction | None:
-    """Apparent static friction coefficient F_Xmax / F_Z of a run (Eq. 1); None without a global slip.
-
-    F_X is largest where block 1 begins to slide, or sticks after it slid backward: dF_X/dt = K (V - v_1).
-    So the largest load is that of a transition, to within V.
-
-    Parameters
-    ----------
-    run : Run
-        The run.
-    slips : DataFrame
-        Its slip events, see `find_slips`.
-    definition : Definition
-        What the words mean.
-    """
-    slips = definition.read(slips, run.chain.n_blocks)
+    """Apparent static friction coefficient (Eq. 1) of a slip table; None without a global slip."""
+    slips = definition.read(slips)
     first = first_global(slips)
     if first is None:
         return None
-    time, load = slips["onset"].iloc[first], slips["load_before"].iloc[first]
-    if definition.largest:
-        before = run.transitions[run.transitions["time"] <= time]
-        peak = before[np.argmax(before["tangential_load"])]
-        time, load = peak["time"], peak["tangential_load"]
+    slip = slips.iloc[first]
+    load = slip["largest_load_N" if definition.largest else "load_before_N"]
     return ApparentFriction(
-        mu_sapp=float(load) / run.chain.normal_load,
+        mu_sapp=float(mu_sapp(load, slip["normal_load_N"])),
         load=float(load),
-        time=float(time),
-        event=int(np.searchsorted(slips["onset"], time, side="right")),
+        time=float(slip["onset_s"]),
+        event=first + 1,
         events_counted=len(find_precursors(slips, definition.short)),
     )
+
+
+def mu_sapp(largest_load: Loads, normal_load: Loads) -> Loads:
+    """Eq. 1: the largest F_X [N] up to the first global slip over F_Z [N].
+
+    F_X is largest where block 1 begins to slide, or sticks after it slid backward: dF_X/dt = K (V - v_1).
+    So the largest load is that of a transition, to within V.
+    """
+    return largest_load / normal_load

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from precursors.analysis.events import slip_events
+from precursors.analysis.slips import mu_sapp
 from precursors.solver.run import Run
 
 SUMMARY = np.dtype(
@@ -94,12 +95,11 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     summaries["events_counted"] = np.bincount(events["run"], counted, minlength=len(runs))
 
     slips = events[last_counted[reached]]
-    found = [_load_and_crossing(runs[i], slip) for i, slip in zip(reached, slips, strict=True)]
-    load, crossing_time = np.array(found).reshape(-1, 2).T
-    normal_load = np.array([runs[i].chain.normal_load for i in reached])
+    crossing_time = [_crossing_time(runs[i], slip) for i, slip in zip(reached, slips, strict=True)]
+    normal_load = np.array([run.chain.normal_load for run in runs])
     first_global = {
-        "load": load,
-        "mu_sapp": load / normal_load,
+        "load": slips["largest_load"],
+        "mu_sapp": mu_sapp(slips["largest_load"], normal_load[reached]),
         "time": slips["onset"],
         "end": slips["end"],
         "crossing_time": crossing_time,
@@ -115,9 +115,9 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     summaries["n_events_each"][reached] -= (
         np.cumsum(summaries["n_all_events"])[reached] - 1 - every_block[first]
     )
-    for i, slip in zip(reached, events[every_block[first]], strict=True):
-        summaries["mu_sapp_each"][i] = _load_and_crossing(runs[i], slip)[0] / runs[i].chain.normal_load
-        summaries["sliding_each"][i] = slip["n_simultaneous"]
+    slips = events[every_block[first]]
+    summaries["mu_sapp_each"][reached] = mu_sapp(slips["largest_load"], normal_load[reached])
+    summaries["sliding_each"][reached] = slips["n_simultaneous"]
     last = np.cumsum(summaries["n_all_events"]) - 1
     for i in np.flatnonzero(~summaries["reached"] & (summaries["n_all_events"] > 0)):
         if np.isnan(events["end"][last[i]]):
@@ -151,11 +151,8 @@ def pulse(run: Run) -> tuple[float, float, float]:
     return float(np.average(sliding, weights=time)), float(speed), float(mu)
 
 
-def _load_and_crossing(run: Run, slip: np.void) -> tuple[float, float]:
-    """Largest F_X up to the onset of a slip [N], and time from the onset until block N first slides [s]."""
-    transitions = run.transitions
-    until = np.searchsorted(transitions["time"], slip["onset"], side="right")
-    of_slip = transitions[slip["first"] : slip["last"] + 1]
+def _crossing_time(run: Run, slip: np.void) -> float:
+    """Time from the onset of a slip until block N first slides [s]."""
+    of_slip = run.transitions[slip["first"] : slip["last"] + 1]
     arrival = np.argmax((of_slip["block"] == run.chain.n_blocks) & (of_slip["mode"] != 0))
-    crossing_time = run.intervals[slip["first"] + 1 : slip["first"] + arrival + 1].sum()
-    return transitions["tangential_load"][:until].max(), crossing_time
+    return float(run.intervals[slip["first"] + 1 : slip["first"] + arrival + 1].sum())

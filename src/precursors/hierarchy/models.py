@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.slip_rows import first_global
-from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
+from precursors.analysis.slips import find_precursors, find_slips, mu_sapp
 from precursors.hierarchy import rigid, statics
 from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
 from precursors.model.chain import Chain, FloatArray
@@ -85,16 +85,16 @@ def move(chain: Chain) -> Motion:
     """Follow a chain through time to the end of its first global slip."""
     run = simulate(chain, longest_run(chain), until="global slip")
     slips, transitions = find_slips(run), run.transitions
-    mu_sapp = front_arrival = np.nan
-    first, friction = first_global(slips), apparent_friction(run, slips)
-    if first is not None and friction is not None:
-        onset = slips["onset"].iloc[first]
-        mu_sapp = friction.mu_sapp
+    friction = front_arrival = np.nan
+    first = first_global(slips)
+    if first is not None:
+        onset, largest_load = slips[["onset", "largest_load"]].iloc[first]
+        friction = mu_sapp(largest_load, run.chain.normal_load)
         arrives = (transitions["block"] == run.chain.n_blocks) & (transitions["mode"] != 0)
         front_arrival = float(transitions["time"][arrives & (transitions["time"] >= onset)][0])
     times, loads = transitions["time"], transitions["tangential_load"]
     waveform = np.column_stack([np.append(0.0, times), np.append(0.0, loads)])
-    return Motion(run.chain.n_blocks, slips, mu_sapp, front_arrival, waveform)
+    return Motion(run.chain.n_blocks, slips, friction, front_arrival, waveform)
 
 
 def longest_run(chain: Chain) -> float:
@@ -106,7 +106,7 @@ def longest_run(chain: Chain) -> float:
 def _cascade(overshoot: float) -> Callable[[Chain], Motion]:
     def move_without_inertia(chain: Chain) -> Motion:
         slips = quasistatic_slips(chain, overshoot)
-        return Motion(chain.n_blocks, slips, float(slips["load_before"].max()) / chain.normal_load)
+        return Motion(chain.n_blocks, slips, mu_sapp(slips["largest_load"].iloc[-1], chain.normal_load))
 
     return move_without_inertia
 

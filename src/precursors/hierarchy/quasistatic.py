@@ -85,7 +85,7 @@ def quasistatic_slips(
     limit = chain.strength + ROUNDING * chain.normal_load
     cascade = Cascade(chain.springs, limit, chain.kinetic_friction, 1.0 + overshoot)
     strength, stiffness, n = float(chain.strength[0]), chain.drive_stiffness, chain.n_blocks
-    net, load, moved, rows = np.zeros(n), 0.0, 0.0, []
+    net, load, largest, moved, rows = np.zeros(n), 0.0, 0.0, 0.0, []
     for event in range(1, max_events + 1):
         load += strength - net[0]
         net[0] = strength
@@ -98,7 +98,8 @@ def quasistatic_slips(
         load -= stiffness * slip[0]
         moved += slip[0]
         slid = np.flatnonzero(slip)
-        rows.append((time, time, before, load, slid[-1] + 1, len(slid), at_once, len(slid) == n))
+        largest = max(largest, before)
+        rows.append((time, time, before, load, largest, slid[-1] + 1, len(slid), at_once, len(slid) == n))
         if len(slid) == n:
             return pd.DataFrame(rows, columns=COLUMNS)
     raise RuntimeError(f"no global slip within {max_events} events: raise max_events")

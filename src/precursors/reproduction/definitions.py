@@ -15,7 +15,7 @@ from precursors.analysis.slips import (
     Definition,
     apparent_friction,
     every_definition,
-    find_slips,
+    slip_table,
 )
 from precursors.methods.columns import SWITCHING_RULES
 from precursors.methods.fixed_step import march
@@ -83,10 +83,10 @@ def solve(chain: Chain, duration: float, rule: str) -> Run:
 
 def readings(run: Run, definitions: Iterable[Definition]) -> Iterator[dict[str, Any]]:
     """What each reading gives for a run; empty where it has no global slip in this sense."""
-    slips = find_slips(run)
+    slips = slip_table(run)
     for definition in definitions:
-        largest = apparent_friction(run, slips, definition)
-        onset = apparent_friction(run, slips, replace(definition, largest=False))
+        largest = apparent_friction(slips, definition)
+        onset = apparent_friction(slips, replace(definition, largest=False))
         yield {
             "global_slip": definition.global_slip_text,
             "short": SHORT_EVENTS[definition.short],

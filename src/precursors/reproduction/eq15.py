@@ -16,8 +16,7 @@ import pandas as pd
 import scipy
 
 from precursors.analysis.load_curve import load_curve
-from precursors.analysis.slip_rows import up_to_first_global
-from precursors.analysis.slips import find_slips
+from precursors.analysis.slips import apparent_friction, find_slips, slip_table
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import (
     compressions_as_printed,
@@ -119,7 +118,7 @@ def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[dict[str, A
     share = float(chain.weights[0]) / chain.normal_load
     for check, a in ((FULL_STRAIN, 1.0), (LESS_STRAIN, SLIGHTLY_BELOW)):
         expected = chain.mu_s * (a + (1 - a) * share)
-        found = apparent_friction(chain, a * full, duration)
+        found = pushed(chain, a * full, duration)
         holds = math.isclose(found, expected, rel_tol=ROUNDING)
         yield _row(check, scene, "1", expected, found, holds)
 
@@ -184,16 +183,14 @@ def below_limit(scene: str, chain: Chain, duration: float) -> dict[str, Any]:
 def rigid(chain: Chain, duration: float) -> dict[str, Any]:
     """mu_sapp of one block with the weight and the mass of the whole chain, pushed from natural length."""
     block = replace(chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass)
-    found = apparent_friction(block, None, duration)
+    found = pushed(block, None, duration)
     return _row(RIGID, "N = 1", "1", chain.mu_s, found, math.isclose(found, chain.mu_s, rel_tol=ROUNDING))
 
 
-def apparent_friction(chain: Chain, start: FloatArray | None, duration: float) -> float:
+def pushed(chain: Chain, start: FloatArray | None, duration: float) -> float:
     """mu_sapp (Eq. 1) of a chain pushed from rest at some positions [m]; NaN without a global slip."""
-    slips = find_slips(simulate(chain, duration, until="global slip", start_positions=start))
-    if not slips["is_global"].any():
-        return math.nan
-    return float(up_to_first_global(slips)["load_before"].max()) / chain.normal_load
+    found = apparent_friction(slip_table(simulate(chain, duration, "global slip", start_positions=start)))
+    return found.mu_sapp if found else math.nan
 
 
 def _row(check: str, case: str, unit: str, expected: Any, found: Any, holds: bool) -> dict[str, Any]:

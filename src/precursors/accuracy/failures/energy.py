@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from precursors.accuracy.failures.common import Failure, Number, curves, transitions_right
-from precursors.analysis.slips import apparent_friction, find_slips
+from precursors.analysis.slips import apparent_friction, slip_table
 from precursors.methods import METHODS, DivergedError
 from precursors.methods.rk4 import LIMIT as RK4_LIMIT
 from precursors.methods.stability import (
@@ -55,7 +55,7 @@ def silent_instability() -> Failure:
     """RK4 above its limit with friction: stops take the energy away, so that no number overflows at first."""
     chain = Chain.from_slider()
     omega, exact = highest_frequency(chain), simulate(chain, END, "global slip")
-    true = apparent_friction(exact, find_slips(exact))
+    true = apparent_friction(slip_table(exact))
     assert true
     finished, mu_sapp, right = [], [], 0
     for z in BEYOND:
@@ -63,7 +63,7 @@ def silent_instability() -> Failure:
             run = METHODS["rk4_skip"].solve(chain, END, z / omega, "global slip").run
         except DivergedError:
             break
-        if (found := apparent_friction(run, find_slips(run))) is None:
+        if (found := apparent_friction(slip_table(run))) is None:
             break
         finished.append(z)
         mu_sapp.append(found.mu_sapp)

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from precursors.accuracy.failures.common import Failure, Number, curves, transitions_right
-from precursors.analysis.slips import apparent_friction, find_slips
+from precursors.analysis.slips import apparent_friction, slip_table
 from precursors.methods.fixed_step import march
 from precursors.methods.rk4_located import run_located
 from precursors.model.chain import Chain
@@ -35,7 +35,7 @@ def forward_only() -> Failure:
         backward = int(np.argmax(exact.transitions["mode"] < 0))
         n_right = transitions_right(run, exact)
         numbers.append(number("transitions right", "1", n_right, len(exact.transitions), backward))
-        true, found = (apparent_friction(r, find_slips(r)) for r in (exact, run))
+        true, found = (apparent_friction(slip_table(r)) for r in (exact, run))
         assert true
         assert found
         numbers.append(number("events counted", "1", found.events_counted, true.events_counted))
