@@ -26,8 +26,14 @@ mutants: results
 test-cluster: $(READY)
 	@CORES=$(CORES) tests/cluster/run
 
-results: $(READY)
+results: $(READY) .snakemake/metadata
 	$(BIN)/snakemake --quiet rules host -c$(CORES) all
+
+# Snakemake's records of the jobs lie beside the results, so that both are copied together: what fits the code of another
+# clone is not made again there.
+.snakemake/metadata:
+	mkdir -p .snakemake results/records
+	ln -s ../results/records $@
 
 # Checks the existing results without recomputing them.
 check: $(READY)

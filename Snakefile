@@ -13,15 +13,15 @@ from precursors.model.scenes import (
     scenes_with,
     scenes_with_theta,
 )
-from precursors.support.package import files_of
+from precursors.support.digest import digest_code
 
 min_version("9.20")
 
 # As seen from the working directory; `workflow.basedir` would be another workflow's that uses this one as a module.
 ROOT = Path(os.path.relpath(workflow.current_basedir.get_path_or_uri(secret_free=True)))
 LIBRARY = ROOT / "src/precursors"
-# Files of the rooms that a rule uses: package("solver", "analysis").
-package = partial(files_of, LIBRARY)
+# What a script computes: its rule has it as a parameter, and its jobs run again when it changes.
+digest = partial(digest_code, ROOT)
 
 
 if not workflow.modifier.skip_configfile:

@@ -58,7 +58,6 @@ rule accuracy_full:
 rule take_certificates:
     input:
         committed=[path for chain in CHAINS for path in certificate_path(COMMITTED, chain)],
-        code=package("model", "accuracy/proof"),
     output:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
     log:
@@ -67,6 +66,7 @@ rule take_certificates:
     params:
         chains=[exact_chain(values).as_text() for values in CHAINS.values()],
         durations=[chain_duration(values) for values in CHAINS.values()],
+        code=digest("take_certificates"),
     script:
         "../scripts/take_certificates.py"
 
@@ -81,19 +81,18 @@ rule prove_scenes:
 rule prove_again:
     input:
         certificate="results/certificates/chains/{chain}.json.gz",
-        code=package("model", "accuracy/proof"),
     output:
         table="results/tables/proved/{chain}.csv",
     log:
         "results/logs/prove_again/{chain}.log",
+    params:
+        code=digest("prove_again"),
     script:
         "../scripts/prove_again.py"
 
 
 # On demand: the proof of one scene of the configuration.
 rule certify_scene:
-    input:
-        code=package("model", "accuracy/proof"),
     output:
         certificate="results/certificates/{scene}.json.gz",
     log:
@@ -101,6 +100,7 @@ rule certify_scene:
     params:
         chains=lambda wildcards: [scene_exact_chain(config, wildcards.scene).as_text()],
         durations=lambda wildcards: [scene_duration(config, wildcards.scene)],
+        code=digest("take_certificates"),
     script:
         "../scripts/take_certificates.py"
 
@@ -109,7 +109,6 @@ rule tabulate_certificates:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
         effort=COMMITTED / "effort.csv",
-        code=package("model", "accuracy/proof"),
     output:
         table=report("results/tables/certificates.csv", category="Tables"),
     log:
@@ -117,6 +116,7 @@ rule tabulate_certificates:
     localrule: True
     params:
         chains=list(CHAINS),
+        code=digest("tabulate_certificates"),
     script:
         "../scripts/tabulate_certificates.py"
 
@@ -124,15 +124,6 @@ rule tabulate_certificates:
 rule tabulate_horizon:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
-        code=package(
-            "model/chain",
-            "model/checks",
-            "solver",
-            "analysis",
-            "accuracy/proof",
-            "accuracy/compare",
-            "accuracy/solver_vs_proof",
-        ),
     output:
         horizon="results/tables/horizon.csv",
         summary=report("results/tables/solver_vs_proof.csv", category="Tables"),
@@ -142,13 +133,12 @@ rule tabulate_horizon:
     params:
         chains=list(CHAINS),
         tolerance=config["accuracy"]["tolerance"],
+        code=digest("tabulate_horizon"),
     script:
         "../scripts/tabulate_horizon.py"
 
 
 rule tabulate_lyapunov:
-    input:
-        code=package("model/chain", "model/checks", "solver", "analysis"),
     output:
         table=report("results/tables/lyapunov.csv", category="Tables"),
     log:
@@ -156,6 +146,7 @@ rule tabulate_lyapunov:
     params:
         sliders=SLIDERS,
         duration=config["accuracy"]["lyapunov_duration"],
+        code=digest("tabulate_lyapunov"),
     script:
         "../scripts/tabulate_lyapunov.py"
 
@@ -163,38 +154,18 @@ rule tabulate_lyapunov:
 rule measure_methods:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=COMPARED),
-        code=package(
-            "model/chain",
-            "model/checks",
-            "solver",
-            "analysis",
-            "methods",
-            "accuracy/compare",
-            "accuracy/proof",
-            "accuracy/work_precision",
-        ),
     output:
         table=report("results/tables/work_precision{full}.csv", category="Tables"),
     log:
         "results/logs/measure_methods{full}.log",
     params:
         thetas={name: parse_theta(CHAINS[name].get("theta", 0)) for name in COMPARED},
+        code=digest("measure_methods"),
     script:
         "../scripts/measure_methods.py"
 
 
 rule tabulate_step_sweep:
-    input:
-        code=package(
-            "model/chain",
-            "model/checks",
-            "solver",
-            "analysis",
-            "methods",
-            "accuracy/compare",
-            "accuracy/proof",
-            "accuracy/step_sweep",
-        ),
     output:
         table=report("results/tables/step_sweep{full}.csv", category="Tables"),
     log:
@@ -202,28 +173,19 @@ rule tabulate_step_sweep:
     params:
         sliders=SLIDERS,
         durations={scene: scene_duration(config, scene) for scene in config["fig13"]},
+        code=digest("tabulate_step_sweep"),
     script:
         "../scripts/tabulate_step_sweep.py"
 
 
 rule tabulate_failures:
-    input:
-        code=package(
-            "model/chain",
-            "model/checks",
-            "model/switching",
-            "solver",
-            "analysis",
-            "methods",
-            "accuracy/compare",
-            "accuracy/failures",
-            "accuracy/proof",
-        ),
     output:
         numbers=report("results/tables/failures.csv", category="Tables"),
         thresholds=report("results/tables/thresholds.csv", category="Tables"),
         curves=collect("results/tables/failures/{mode}.csv", mode=FAILURE_MODES),
     log:
         "results/logs/tabulate_failures.log",
+    params:
+        code=digest("tabulate_failures"),
     script:
         "../scripts/tabulate_failures.py"

@@ -12,12 +12,13 @@ rule mu_sapp:
 rule tabulate_slips:
     input:
         run="results/runs/{scene}.h5",
-        code=package("model/chain", "model/checks", "solver", "analysis"),
     output:
         table=report("results/tables/{scene}_slips.csv", category="Tables"),
     log:
         "results/logs/tabulate_slips/{scene}.log",
     localrule: True
+    params:
+        code=digest("tabulate_slips"),
     script:
         "../scripts/tabulate_slips.py"
 
@@ -25,12 +26,13 @@ rule tabulate_slips:
 rule tabulate_trace:
     input:
         run="results/runs/{scene}.h5",
-        code=package("model/chain", "model/checks", "solver", "analysis"),
     output:
         table="results/tables/{scene}_trace.csv",
     log:
         "results/logs/tabulate_trace/{scene}.log",
     localrule: True
+    params:
+        code=digest("tabulate_trace"),
     script:
         "../scripts/tabulate_trace.py"
 
@@ -38,7 +40,6 @@ rule tabulate_trace:
 rule tabulate_mu_sapp:
     input:
         slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
-        code=package("model/chain", "model/checks", "solver", "analysis"),
     output:
         table=report("results/tables/mu_sapp.csv", category="Tables"),
     log:
@@ -46,6 +47,7 @@ rule tabulate_mu_sapp:
     localrule: True
     params:
         scenes=SCENES,
+        code=digest("tabulate_mu_sapp"),
     script:
         "../scripts/tabulate_mu_sapp.py"
 
@@ -54,7 +56,6 @@ rule tabulate_reproduction:
     input:
         slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
         mu_sapp="results/tables/mu_sapp.csv",
-        code=package("analysis/slip_rows", "reproduction/summary_table"),
     output:
         table=report("results/tables/reproduction.csv", category="Tables"),
     log:
@@ -62,5 +63,6 @@ rule tabulate_reproduction:
     localrule: True
     params:
         paper={scene: config["scenes"][scene].get("paper", {}) for scene in SCENES},
+        code=digest("tabulate_reproduction"),
     script:
         "../scripts/tabulate_reproduction.py"

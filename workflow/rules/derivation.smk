@@ -9,8 +9,6 @@ rule eq15:
 
 
 rule check_eq15:
-    input:
-        code=package("model", "solver", "analysis", "reproduction/derivation", "reproduction/eq15"),
     output:
         table=report("results/tables/eq15.csv", category="Tables"),
         speeds=report("results/tables/eq15_speeds.csv", category="Tables"),
@@ -19,13 +17,12 @@ rule check_eq15:
     params:
         sliders=SLIDERS,
         duration=config["duration"],
+        code=digest("check_eq15"),
     script:
         "../scripts/check_eq15.py"
 
 
 rule tabulate_definitions:
-    input:
-        code=package("model", "solver", "analysis", "methods", "reproduction/definitions"),
     output:
         table=report("results/tables/definitions.csv", category="Tables"),
     log:
@@ -37,5 +34,6 @@ rule tabulate_definitions:
         degrees=config["reproduction"]["theta"],
         load_drops=config["reproduction"]["load_drop"],
         paper=[config["scenes"][scene].get("paper", {}) for scene in config["fig13"]],
+        code=digest("tabulate_definitions"),
     script:
         "../scripts/tabulate_definitions.py"

@@ -28,14 +28,13 @@ rule ensembles:
 
 
 rule run_chunk:
-    input:
-        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         chunk="results/ensembles/{study}/{chunk}.csv",
     log:
         "results/logs/run_chunk/{study}_{chunk}.log",
     params:
         arguments=lambda wildcards: study_arguments(config, wildcards.study),
+        code=digest("run_chunk"),
     script:
         "../scripts/run_chunk.py"
 
@@ -43,12 +42,13 @@ rule run_chunk:
 rule gather_members:
     input:
         chunks=collect("results/ensembles/{{study}}/{chunk}.csv", chunk=CHUNKS),
-        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table="results/tables/{study}.csv",
     log:
         "results/logs/gather_members/{study}.log",
     localrule: True
+    params:
+        code=digest("gather_members"),
     script:
         "../scripts/gather_members.py"
 
@@ -56,13 +56,14 @@ rule gather_members:
 rule tabulate_spread:
     input:
         members="results/tables/spread_members.csv",
-        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         spread=report("results/tables/spread.csv", category="Tables"),
         robustness=report("results/tables/robustness.csv", category="Tables"),
     log:
         "results/logs/tabulate_spread.log",
     localrule: True
+    params:
+        code=digest("tabulate_spread"),
     script:
         "../scripts/tabulate_spread.py"
 
@@ -70,7 +71,6 @@ rule tabulate_spread:
 rule tabulate_resolution:
     input:
         members="results/tables/resolution_members.csv",
-        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/resolution.csv", category="Tables"),
         readings=report("results/tables/resolution_readings.csv", category="Tables"),
@@ -82,13 +82,12 @@ rule tabulate_resolution:
     params:
         slider=config["chain"],
         fit_from=config["ensembles"]["resolution"]["fit_from"],
+        code=digest("tabulate_resolution"),
     script:
         "../scripts/tabulate_resolution.py"
 
 
 rule tabulate_predictability:
-    input:
-        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/predictability{full}.csv", category="Tables"),
     log:
@@ -102,6 +101,7 @@ rule tabulate_predictability:
         ],
         duration=config["duration"],
         tolerance=config["accuracy"]["tolerance"],
+        code=digest("tabulate_predictability"),
     script:
         "../scripts/tabulate_predictability.py"
 
@@ -109,12 +109,13 @@ rule tabulate_predictability:
 rule tabulate_digits:
     input:
         members="results/tables/digits_members.csv",
-        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/digits.csv", category="Tables"),
     log:
         "results/logs/tabulate_digits.log",
     localrule: True
+    params:
+        code=digest("tabulate_digits"),
     script:
         "../scripts/tabulate_digits.py"
 
@@ -123,7 +124,6 @@ rule tabulate_digits:
 rule tabulate_endless:
     input:
         members="results/tables/endless{full}_members.csv",
-        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/endless{full}.csv", category="Tables"),
     log:
@@ -131,6 +131,7 @@ rule tabulate_endless:
     localrule: True
     params:
         length=config["chain"]["length"],
+        code=digest("tabulate_endless"),
     script:
         "../scripts/tabulate_endless.py"
 
@@ -138,7 +139,6 @@ rule tabulate_endless:
 rule tabulate_event_law:
     input:
         members="results/tables/event_law{full}_members.csv",
-        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         table=report("results/tables/event_law{full}.csv", category="Tables"),
     log:
@@ -146,13 +146,12 @@ rule tabulate_event_law:
     localrule: True
     params:
         slider=config["chain"],
+        code=digest("tabulate_event_law"),
     script:
         "../scripts/tabulate_event_law.py"
 
 
 rule tabulate_long_runs:
-    input:
-        code=package("model/chain", "model/checks", "solver", "analysis", "ensembles"),
     output:
         slips="results/tables/long_runs.csv",
         statistics=report("results/tables/long_runs_statistics.csv", category="Tables"),
@@ -161,5 +160,6 @@ rule tabulate_long_runs:
     params:
         sliders=SLIDERS,
         duration=config["ensembles"]["long_runs"]["duration"],
+        code=digest("tabulate_long_runs"),
     script:
         "../scripts/tabulate_long_runs.py"

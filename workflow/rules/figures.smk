@@ -2,7 +2,7 @@
 
 # Every figure that is drawn from tables: what it shows and where it stands in the report, its tables, and its options.
 # The rule is draw_{name}, the caption report/{name}.rst. The file is {name} or "file", and the module of
-# precursors.figures that draws it is {name} or "module"; it "uses" other modules.
+# precursors.figures that draws it is {name} or "module".
 FIGURES = {
     "fig09": {
         "shows": "the chain",
@@ -91,7 +91,6 @@ FIGURES = {
     "resolution": {
         "shows": "what the number of blocks does",
         "category": "Sensitivity",
-        "uses": ["model/printed"],
         "tables": {
             "table": "results/tables/resolution.csv",
             "limits": "results/tables/resolution_limits.csv",
@@ -110,7 +109,6 @@ FIGURES = {
         "shows": "two parameters",
         "category": "Sensitivity",
         "module": "map_of",
-        "uses": ["model/chain", "model/checks"],
         "tables": {"table": "results/tables/{map}.csv"},
         "options": {
             "x": lambda wildcards: MAPS[wildcards.map][0],
@@ -161,12 +159,13 @@ rule draw_mission:
     input:
         snakefile=ROOT / "Snakefile",
         rules=sorted(ROOT.glob("workflow/rules/*.smk")),
-        code=[*package("figures/style", "figures/mission"), ROOT / "workflow/scripts/draw_mission.py"],
     output:
         "results/figures/mission.svg",
     log:
         "results/logs/draw_mission.log",
     localrule: True
+    params:
+        code=digest("draw_mission"),
     script:
         "../scripts/draw_mission.py"
 
@@ -179,14 +178,12 @@ rule explorer:
 
 for name, about in FIGURES.items():
     file, module = about.get("file", name), about.get("module", name)
-    used = package("figures/style", f"figures/{module}", *about.get("uses", []))
 
     rule:
         name:
             f"draw_{name}"
         input:
             **about.get("tables", {}),
-            code=[*used, ROOT / "workflow/scripts/draw.py"],
         output:
             report(
                 f"results/figures/{file}.svg",
@@ -201,6 +198,7 @@ for name, about in FIGURES.items():
         params:
             **about.get("options", {}),
             figure=module,
+            code=digest("draw", f"figures.{module}"),
         script:
             "../scripts/draw.py"
 
@@ -211,7 +209,6 @@ rule write_explorer:
             f"{LIBRARY}/figures/explorer/{{file}}",
             file=["explorer.css", "explorer.js", "page.html", "solver.js"],
         ),
-        code=package("figures/style", "figures/explorer", "support/files"),
     output:
         page="results/explorer.html",
     log:
@@ -221,5 +218,6 @@ rule write_explorer:
         titles={scene: config["scenes"][scene]["title"] for scene in scenes_with_theta(config)},
         sliders={scene: scene_slider(config, scene) for scene in scenes_with_theta(config)},
         duration=config["duration"],
+        code=digest("write_explorer"),
     script:
         "../scripts/write_explorer.py"

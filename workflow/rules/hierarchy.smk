@@ -9,8 +9,6 @@ rule hierarchy:
 
 
 rule compare_models:
-    input:
-        code=package("model", "solver", "analysis", "hierarchy"),
     output:
         table=report("results/tables/model_comparison.csv", category="Tables"),
     log:
@@ -19,13 +17,12 @@ rule compare_models:
         sliders=SLIDERS,
         tolerances=config["hierarchy"]["tolerances"],
         repetitions=config["hierarchy"]["repetitions"],
+        code=digest("compare_models"),
     script:
         "../scripts/compare_models.py"
 
 
 rule answer_scene:
-    input:
-        code=package("model", "solver", "analysis", "hierarchy"),
     output:
         table=report("results/tables/{scene}_answers.csv", category="Tables"),
     log:
@@ -36,5 +33,6 @@ rule answer_scene:
     params:
         slider=lambda wildcards: scene_slider(config, wildcards.scene),
         model=lambda wildcards: scene_model(config, wildcards.scene),
+        code=digest("answer_scene"),
     script:
         "../scripts/answer_scene.py"

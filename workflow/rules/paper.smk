@@ -23,7 +23,6 @@ rule paper:
 rule tabulate_measures:
     input:
         runs=collect("results/runs/{scene}.h5", scene=FIG13),
-        code=package("model", "solver", "analysis", "reproduction/measures"),
     output:
         table="results/tables/measures.csv",
     log:
@@ -31,6 +30,7 @@ rule tabulate_measures:
     localrule: True
     params:
         scenes=FIG13,
+        code=digest("tabulate_measures"),
     script:
         "../scripts/tabulate_measures.py"
 
@@ -38,12 +38,13 @@ rule tabulate_measures:
 rule evaluate_claims:
     input:
         tables=collect("results/tables/{table}.csv", table=claims.TABLES),
-        code=package("model", "solver", "analysis", "reproduction"),
     output:
         table=report("results/tables/claims.csv", category="Tables"),
     log:
         "results/logs/evaluate_claims.log",
     localrule: True
+    params:
+        code=digest("evaluate_claims"),
     script:
         "../scripts/evaluate_claims.py"
 
@@ -54,7 +55,6 @@ rule write_paper:
         shown=SHOWN,
         main=PAPER_SOURCE / "main.typ",
         source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.is_file()),
-        code=package("model", "solver", "analysis", "reproduction"),
     output:
         pdf="results/paper.pdf",
         numbers="results/numbers.json",
@@ -67,6 +67,7 @@ rule write_paper:
         rules=lambda wildcards: {
             file: made_by.name for file in SHOWN for made_by in workflow.rules if made_by.is_producer(file)
         },
+        code=digest("write_paper"),
     script:
         "../scripts/write_paper.py"
 
@@ -87,7 +88,6 @@ RESULTS = [
 rule write_provenance:
     input:
         RESULTS,
-        code=package("support"),
     output:
         json="results/provenance.json",
     log:
@@ -96,5 +96,6 @@ rule write_provenance:
     params:
         root=str(ROOT),
         config=config,
+        code=digest("write_provenance"),
     script:
         "../scripts/write_provenance.py"

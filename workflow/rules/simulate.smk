@@ -2,8 +2,6 @@
 
 
 rule simulate_scene:
-    input:
-        code=package("model/chain", "model/checks", "solver"),
     output:
         run="results/runs/{scene}.h5",
     log:
@@ -11,5 +9,6 @@ rule simulate_scene:
     params:
         slider=lambda wildcards: scene_slider(config, wildcards.scene),
         duration=lambda wildcards: scene_duration(config, wildcards.scene),
+        code=digest("simulate_scene"),
     script:
         "../scripts/simulate_scene.py"

@@ -16,7 +16,7 @@ from typing import Any
 # What the results depend on, seen from the directory of the Snakefile.
 SOURCES = ("Snakefile", "config.yaml", "requirements.lock", "paper/**/*", "src/**/*", "workflow/**/*")
 # In the directory of the results, but not results.
-NOT_RESULTS = ("README.md", "benchmarks", "logs", "provenance.json", "report.html")
+NOT_RESULTS = ("README.md", "benchmarks", "logs", "provenance.json", "records", "report.html")
 
 
 def provenance(config: Mapping[str, Any], root: Path, results: Path) -> dict[str, Any]:

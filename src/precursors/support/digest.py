@@ -1,0 +1,80 @@
+"""What a job computes: a digest of the syntax trees of its script and of all that this imports."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+from functools import cache
+from pathlib import Path
+
+
+def digest_code(root: str | Path, script: str, *modules: str) -> str:
+    """Digest of a script of the workflow, of some modules, and of all modules that these import.
+
+    Comments, docstrings and the format of the code are left out, and so is what only a type checker imports.
+
+    Parameters
+    ----------
+    root : path
+        Directory of the Snakefile.
+    script : str
+        Name of the script: "simulate_scene".
+    *modules : str
+        Modules of the library that the script imports by a name that it is given: "figures.scene".
+
+    Raises
+    ------
+    OSError
+        If a file cannot be read.
+    """
+    library, scripts = Path(root, "src/precursors"), Path(root, "workflow/scripts")
+    waiting = [
+        scripts / f"{script}.py",
+        *(library.joinpath(*name.split(".")).with_suffix(".py") for name in modules),
+    ]
+    found: dict[Path, str] = {}
+    while waiting:
+        if (path := waiting.pop()) not in found:
+            found[path], imported = _read(library, path)
+            waiting += imported
+    trees = sorted((path.relative_to(root).as_posix(), tree) for path, tree in found.items())
+    return hashlib.sha256(repr(trees).encode()).hexdigest()[:16]
+
+
+@cache
+def _read(library: Path, path: Path) -> tuple[str, list[Path]]:
+    """Digest of one file, and the files that it imports."""
+    source = path.read_bytes()
+    tree = ast.parse(source)
+    tree.body = [part for part in tree.body if not _is_for_type_checkers(part)]
+    names: list[str] = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            names += [f"{node.module}.{alias.name}" for alias in node.names]
+        elif isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and ast.get_docstring(node, False):
+            node.body = node.body[1:]
+    imported = {file for name in names if (file := _file_of(library, path.parent, name))}
+    if path.name == "__init__.py" and b"import_module(" in source:
+        imported |= set(path.parent.glob("*.py"))  # by names that only a run knows
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), sorted(imported)
+
+
+def _is_for_type_checkers(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.If) and ast.unparse(statement.test) == "TYPE_CHECKING"
+
+
+@cache
+def _file_of(library: Path, beside: Path, name: str) -> Path | None:
+    """The module of that name, or the one that defines it; None outside the library and the directory."""
+    *parents, last = name.split(".")
+    start = library.parent if parents[:1] == [library.name] else beside
+    package = start.joinpath(*parents)
+    files = (
+        package / f"{last}.py",
+        package / last / "__init__.py",
+        package.with_suffix(".py"),
+        package / "__init__.py",
+    )
+    return next((file for file in files if file.is_file()), None)
