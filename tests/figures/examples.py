@@ -12,6 +12,7 @@ import pandas as pd
 
 from precursors.figures import style
 from precursors.figures.failure_gallery import PANELS
+from precursors.methods import METHODS
 
 THETAS = {"fig11": -5 / 6, "fig10": 0.0, "fig12": 5 / 6}
 N_BLOCKS, LENGTH_M, NORMAL_LOAD_N = 10, 0.1, 400.0
@@ -88,6 +89,8 @@ def work_precision(thetas=(-5 / 6, 0.0, 5 / 6), extents=("global slip", "end")) 
             "until": until,
             "method": method,
             "label": f"label of {method}",
+            "color": METHODS[method].color,
+            "marker": METHODS[method].marker,
             "evaluations": np.nan if method == "exact" else 1e5 * seconds,
             "seconds": seconds if until == "global slip" else 5 * seconds,
             "error_load_N": load,

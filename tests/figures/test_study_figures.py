@@ -16,8 +16,7 @@ from matplotlib.patches import Rectangle
 from precursors.accuracy.failures import FAILURE_MODES
 from precursors.figures import style
 from precursors.figures.failure_gallery import PANELS, pretty
-from precursors.figures.work_precision import MARKS
-from precursors.methods import METHODS
+from precursors.methods import METHODS, Method, with_looks
 
 RULES = Path(__file__).parents[2] / "workflow/rules"
 
@@ -98,29 +97,28 @@ class TestWorkPrecision:
         assert points(draw("work_precision", table=table).axes[1], "exact right") == []
 
     def test_every_method_has_a_colour_and_a_marker_of_its_own(self):
-        assert METHODS.keys() <= MARKS.keys()
-        for looks in zip(*MARKS.values(), strict=True):
-            assert len(set(looks)) == len(MARKS)
+        new = (Method(name, name, "step [s]", METHODS["rk4"].solve, (1e-6,)) for name in ("first", "second"))
+        every = [*METHODS.values(), *with_looks(new)]
+        for looks in zip(*((method.color, method.marker) for method in every), strict=True):
+            assert len(set(looks)) == len(every)
 
     def test_evaluations_are_drawn_where_they_are_counted(self):
         load = draw("work_precision", work="evaluations").axes[3]
         assert points(load, "rk4 right") == [(2e3, 1e-1), (2e4, 1e-2), (2e5, 1e-3)]
         assert "exact right" not in [line.get_gid() for line in load.lines]
 
-    def test_the_key_names_the_methods_of_the_table_known_here_or_not(self, figure):
+    def test_the_key_names_the_methods_of_the_table(self, figure):
         assert key(figure) == [
             "label of exact",
-            "label of scipy_rk45",
             "label of rk4",
+            "label of scipy_rk45",
             "open: wrong sequence",
         ]
-        own = examples.work_precision()["table"].replace({"method": {"rk4": "mine"}})
-        assert len(points(draw("work_precision", table=own).axes[3], "mine right")) == 3
 
     def test_all_methods_fit_into_the_key(self):
         (row,) = examples.work_precision((0.0,), ("end",))["table"].head(1).to_dict("records")
-        names = {method.name: method.label for method in METHODS.values()}
-        rows = [row | {"method": name, "label": label} for name, label in names.items()]
+        looks = [(m.name, m.label, m.color, m.marker) for m in METHODS.values()]
+        rows = [row | dict(zip(("method", "label", "color", "marker"), look, strict=True)) for look in looks]
         figure = draw("work_precision", table=pd.DataFrame(rows))
         box, (width, height) = figure.get_tightbbox(), figure.get_size_inches()
         assert min(box.x0, box.y0) >= 0

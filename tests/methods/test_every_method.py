@@ -15,16 +15,14 @@ from precursors.methods.regularised import equations
 # theta, mu_k, and a time [s] after a block has slid backward: block 3 of 3 and block 1, which turn round, and
 # block 2, which is released backward from rest.
 BACKWARD = [("-5/6", 0.45, 2.2), ("5/6", 0.45, 1.5), ("-5/6", 0.1, 2.13945)]
-# Settings at which a method makes the transitions of a short chain; 1e-8 s for those that are not named.
+# Settings at which a method makes the transitions of a short chain: by its name, or by what the setting is.
 FINE = {
-    **dict.fromkeys(("exact", "heyoka"), 0.0),
-    **dict.fromkeys(
-        ("cvode_adams", "cvode_bdf", "dop853", "scipy_rk45", "scipy_dop853", "scipy_lsoda"), 1e-9
-    ),
-    "scipy_radau": 1e-6,
+    "exact": 0.0,
+    "heyoka": 0.0,
     "rk4": 3e-7,
-    "regularised_radau": 1e-7,
-    "regularised_bdf": 1e-7,
+    "relative tolerance": 1e-6,
+    "step [s]": 1e-8,
+    "width [m/s]": 1e-7,
 }
 # Error of F_X at a transition [N]: steps are worth 0.02 N, a dead zone 0.14 N, a width of friction 0.7 N.
 LOAD_ERROR = {"karnopp": 0.3, "regularised_radau": 2.0, "regularised_bdf": 2.0}
@@ -54,7 +52,8 @@ def test_a_method_slides_backward_where_the_exact_solver_does_and_its_intervals_
     name, theta, mu_k, end
 ):
     chain = Chain.from_slider(n_blocks=3, theta=theta, mu_k=mu_k)
-    run = METHODS[name].solve(chain, end, FINE.get(name, 1e-8), None).run
+    method = METHODS[name]
+    run = method.solve(chain, end, FINE.get(name, FINE.get(method.setting)), None).run
     exact = without_short_stops(simulate(chain, end).transitions)
     found = without_short_stops(run.transitions)
     assert [row[:2] for row in found] == [row[:2] for row in exact]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Mapping
 from typing import Any
 
 import pandas as pd
@@ -27,34 +28,8 @@ ERRORS = (
 PART_LABEL = "(c) Transitions right\nbefore the first wrong one"
 # Of the rows: wrong sequences and errors twice, and the part that is right.
 HEIGHTS = (1.0, 2.4, 1.0, 2.4, 2.8)
-# Every method has its own colour and marker; shades of one hue are a family of methods.
-MARKS: dict[str, tuple[str, Any]] = {
-    "exact": (style.BLACK, "*"),
-    "heyoka": (style.VERMILION, "o"),
-    "cvode_adams": (style.ORANGE, "s"),
-    "cvode_bdf": ("#A87400", "D"),
-    "dop853": ("#000080", "H"),
-    "scipy_rk45": ("#00436A", "v"),
-    "scipy_dop853": (style.BLUE, "^"),
-    "scipy_lsoda": ("#4F9FD0", "<"),
-    "scipy_radau": ("#8FBFE0", ">"),
-    "rk4": ("#00573F", "p"),
-    "rk4_skip": (style.GREEN, "h"),
-    "rk4_located": ("#63C9A8", "d"),
-    "leapfrog": (style.SKY, "X"),
-    "semi_implicit_euler": ("#2B7FB0", "P"),
-    "forward_euler": ("#C2185B", (3, 1, 180)),
-    "newmark": ("#6B8E23", (4, 1, 45)),
-    "hht": ("#A9C25D", (10, 1, 0)),
-    "moreau_jean_half": ("#8C3A6B", "8"),
-    "moreau_jean_one": (style.PURPLE, (4, 1, 0)),
-    "karnopp": ("#5A5A5A", (3, 1, 0)),
-    "literal": ("#B5B5B5", (5, 1, 36)),
-    "regularised_radau": ("#7A5C3E", (6, 1, 0)),
-    "regularised_bdf": ("#C4A27A", (8, 1, 0)),
-}
-OTHERS = (style.GREY, "h")
-OPEN: dict[str, Any] = {"markerfacecolor": "none", "markeredgewidth": 0.7, "alpha": 0.75, "linestyle": "none"}
+Look = dict[str, Any]
+OPEN: Look = {"markerfacecolor": "none", "markeredgewidth": 0.7, "alpha": 0.75, "linestyle": "none"}
 
 
 def draw(table: pd.DataFrame, work: str = "seconds") -> Figure:
@@ -79,6 +54,7 @@ def draw(table: pd.DataFrame, work: str = "seconds") -> Figure:
     extent = WHOLE_RUN if (rows["until"] == WHOLE_RUN).any() else FIRST_SLIP
     first, whole = rows[rows["until"] == FIRST_SLIP], rows[rows["until"] == extent]
     thetas = sorted(rows["theta"].unique())
+    looks = {row["method"]: _look(row) for row in table.to_dict("records")}
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         panels = figure.subplots(
             5, len(thetas), sharex="col", sharey="row", squeeze=False, height_ratios=HEIGHTS
@@ -87,9 +63,9 @@ def draw(table: pd.DataFrame, work: str = "seconds") -> Figure:
             column[0].set_title(style.theta_text(theta), pad=4)
             of_theta = first[first["theta"] == theta]
             for i, (error, sequence, _) in enumerate(ERRORS):
-                _draw_errors(column[2 * i], column[2 * i + 1], of_theta, error, sequence)
+                _draw_errors(column[2 * i], column[2 * i + 1], of_theta, error, sequence, looks)
             of_theta = whole[whole["theta"] == theta]
-            _draw_right(column[-1], of_theta)
+            _draw_right(column[-1], of_theta, looks)
             for n in of_theta["transitions_true"][:1]:
                 column[-1].set_title(f"{n} transitions", fontsize=7, pad=3)
         for i, (*_, label) in enumerate(ERRORS):
@@ -105,33 +81,35 @@ def draw(table: pd.DataFrame, work: str = "seconds") -> Figure:
                 axes.tick_params(labelbottom=True)
             panels[row, len(thetas) // 2].set_xlabel(words.format(EXTENTS[until]))
         figure.align_ylabels(panels[:, 0])
-        _draw_key(figure, dict(zip(table["method"], table["label"], strict=True)))
+        _draw_key(figure, {row["label"]: looks[row["method"]] for row in table.to_dict("records")})
     return figure
 
 
-def _draw_errors(band: Axes, axes: Axes, rows: pd.DataFrame, error: str, sequence: str) -> None:
+def _draw_errors(
+    band: Axes, axes: Axes, rows: pd.DataFrame, error: str, sequence: str, looks: Mapping[str, Look]
+) -> None:
     """Draw the errors of right sequences, joined, and above them the wrong sequences."""
     is_right, part = _right(rows, sequence)
     for method in reversed(rows["method"].unique()):
         of_method = rows["method"] == method
         right = rows[of_method & is_right & (rows[error] > 0)]
-        axes.plot(right["work"], right[error], **_look(method), gid=f"{method} right")
+        axes.plot(right["work"], right[error], **looks[method], gid=f"{method} right")
         wrong = of_method & ~is_right
-        band.plot(rows["work"][wrong], 1 - part[wrong], **_look(method) | OPEN, gid=f"{method} wrong")
+        band.plot(rows["work"][wrong], 1 - part[wrong], **looks[method] | OPEN, gid=f"{method} wrong")
     axes.set_yscale("log")
     axes.yaxis.set_major_locator(LogLocator(numticks=12))
     band.set_ylim(-0.12, 1.12)
     band.yaxis.set_major_formatter(PercentFormatter(1.0))
 
 
-def _draw_right(axes: Axes, rows: pd.DataFrame) -> None:
+def _draw_right(axes: Axes, rows: pd.DataFrame, looks: Mapping[str, Look]) -> None:
     """Draw the part of the transitions that comes before the first wrong one."""
     is_right, part = _right(rows, "transitions")
     for method in reversed(rows["method"].unique()):
         for chosen, look, name in ((is_right, {}, "right"), (~is_right, OPEN, "wrong")):
             of_method = chosen & (rows["method"] == method)
             axes.plot(
-                rows["work"][of_method], part[of_method], **_look(method) | look, gid=f"{method} {name}"
+                rows["work"][of_method], part[of_method], **looks[method] | look, gid=f"{method} {name}"
             )
     axes.set_ylim(-0.03, 1.06)
     axes.yaxis.set_major_formatter(PercentFormatter(1.0))
@@ -143,17 +121,17 @@ def _right(rows: pd.DataFrame, sequence: str) -> tuple[pd.Series, pd.Series]:
     return (right == true) & (found == true), right / true
 
 
-def _look(method: str) -> dict[str, Any]:
-    color, marker = MARKS.get(method, OTHERS)
-    size, zorder = (8.0, 4.0) if method == "exact" else (4.2, 2.5)
-    look: dict[str, Any] = {"color": color, "marker": marker, "markersize": size, "zorder": zorder}
+def _look(row: Mapping[Hashable, Any]) -> Look:
+    """How a method is drawn, from its row's colour and marker ("3,1,180" is a tuple)."""
+    marker = tuple(map(int, row["marker"].split(","))) if "," in row["marker"] else row["marker"]
+    size, zorder = (8.0, 4.0) if row["method"] == "exact" else (4.2, 2.5)
+    look = {"color": row["color"], "marker": marker, "markersize": size, "zorder": zorder}
     return look | {"markeredgewidth": 0.0, "linewidth": 0.9}
 
 
-def _draw_key(figure: Figure, labels: dict[str, str]) -> None:
-    ordered = [*filter(labels.__contains__, MARKS), *(name for name in labels if name not in MARKS)]
-    entries = [style.mark(style.plain(labels[method]), **_look(method)) for method in ordered]
-    wrong = _look("karnopp") | OPEN | {"color": style.BLACK}
+def _draw_key(figure: Figure, looks: Mapping[str, Look]) -> None:
+    entries = [style.mark(style.plain(label), **look) for label, look in looks.items()]
+    wrong = {"color": style.BLACK, "marker": "o", "markersize": 4.2} | OPEN
     entries.append(style.mark("open: wrong sequence", **wrong))
     spaces = {"handlelength": 2.0, "handletextpad": 0.5, "columnspacing": 1.2}
     style.draw_key(figure, entries, ncols=4, **spaces)

@@ -1,7 +1,10 @@
 """The methods a user would otherwise pick: one file each, one interface, one table."""
 
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from importlib import import_module
 from importlib.util import find_spec
+from itertools import cycle
 
 from precursors.methods.common import DivergedError, Method, Result
 
@@ -21,11 +24,34 @@ MODULES = {
     "regularised": None,
 }
 
-METHODS: dict[str, Method] = {
-    method.name: method
+# Colours and markers of methods that have none of their own, in turn.
+SPARE = (
+    ("#E4007F", "7,1,0"),
+    ("#7B2CBF", "5,1,0"),
+    ("#B00020", "12,1,0"),
+    ("#00A6A6", "3,0,90"),
+    ("#5C4033", "7,0,0"),
+    ("#FF8A65", "9,1,0"),
+)
+
+
+def with_looks(methods: Iterable[Method]) -> Iterator[Method]:
+    """Give methods without a colour and a marker those of `SPARE`."""
+    spare = cycle(SPARE)
+    for method in methods:
+        if method.color and method.marker:
+            yield method
+        else:
+            color, marker = next(spare)
+            yield replace(method, color=method.color or color, marker=method.marker or marker)
+
+
+_ALL = (
+    method
     for module, package in MODULES.items()
     if package is None or find_spec(package)
     for method in import_module(f"{__name__}.{module}").METHODS
-}
+)
+METHODS: dict[str, Method] = {method.name: method for method in with_looks(_ALL)}
 
 __all__ = ["METHODS", "DivergedError", "Method", "Result"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from precursors.model.chain import Chain
 from precursors.solver.run import Run
@@ -48,6 +48,11 @@ class Smooth:
     energy_factor: Callable[[float], float]
 
 
+# How a method finds its transitions: as roots, at the end of each step, or not at all, where friction is a
+# function of the velocity.
+Kind = Literal["located", "once a step", "friction law"]
+
+
 @dataclass(frozen=True)
 class Method:
     """A row of the table of methods.
@@ -68,6 +73,11 @@ class Method:
         The same in the default chart, which takes seconds.
     smooth : Smooth or None
         The method without switching, where theory says something about it.
+    kind : Kind
+        How it finds its transitions.
+    color, marker : str
+        Its colour and Matplotlib's name of its marker in charts ("3,1,180" is a tuple); by default what no
+        other has.
     """
 
     name: str
@@ -79,6 +89,9 @@ class Method:
     quick: tuple[float, ...] = ()
     quick_whole: tuple[float, ...] = ()
     smooth: Smooth | None = None
+    kind: Kind = "located"
+    color: str = ""
+    marker: str = ""
 
     def values_of(self, until: Any, full: bool) -> tuple[float, ...]:
         """Values to chart up to the first global slip (`until`) or for the whole run (None)."""

@@ -97,6 +97,8 @@ METHODS = (
         values=(1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
         whole=(1e-8, 1e-12),
         quick=(1e-8,),
+        color="#E69F00",
+        marker="s",
     ),
     Method(
         "cvode_bdf",
@@ -104,5 +106,7 @@ METHODS = (
         "relative tolerance",
         partial(solve_cvode, formula="BDF"),
         values=(1e-3, 1e-5, 1e-7, 1e-9),
+        color="#A87400",
+        marker="D",
     ),
 )

@@ -177,5 +177,7 @@ METHODS = (
         whole=(1e-7, 1e-9, 1e-11, 1e-13),
         quick=(1e-5, 1e-7, 1e-9, 1e-11),
         quick_whole=(1e-11,),
+        color="#000080",
+        marker="H",
     ),
 )

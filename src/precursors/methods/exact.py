@@ -16,5 +16,16 @@ def solve(chain: Chain, duration: float, _value: float = 0.0, until: str | None 
 
 
 METHODS = (
-    Method("exact", "exact", "none", solve, values=(0.0,), whole=(0.0,), quick=(0.0,), quick_whole=(0.0,)),
+    Method(
+        "exact",
+        "exact",
+        "none",
+        solve,
+        values=(0.0,),
+        whole=(0.0,),
+        quick=(0.0,),
+        quick_whole=(0.0,),
+        color="#000000",
+        marker="*",
+    ),
 )

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from precursors.methods.columns import State, System, apart, at_rest, inner, resting_mode, system_of
-from precursors.methods.common import DivergedError, Method, Result, Smooth
+from precursors.methods.common import DivergedError, Kind, Method, Result
 from precursors.model.chain import Chain
 from precursors.model.checks import checked_span, positive
 from precursors.model.switching import COULOMB
@@ -311,8 +311,8 @@ def fixed_step(
     label: str,
     method: Callable[..., int],
     *parameters: Any,
-    smooth: Smooth | None = None,
-    **values: tuple[float, ...],
+    kind: Kind = "once a step",
+    **others: Any,
 ) -> Method:
     """Make the row of a compiled fixed-step method; `method` and its parameters are those of `march`."""
-    return Method(name, label, "step [s]", partial(march, method, parameters), smooth=smooth, **values)
+    return Method(name, label, "step [s]", partial(march, method, parameters), kind=kind, **others)

@@ -213,7 +213,19 @@ METHODS = (
         whole=(1e-6, 1e-7, 1e-8),
         quick=(1e-6, 1e-7),
         quick_whole=(1e-7,),
+        kind="friction law",
+        color="#5A5A5A",
+        marker="3,1,0",
     ),
     # At finer steps it records more than ten million changes of sign.
-    Method("literal", "Eq. 4 taken literally", "step [s]", solve_literally, values=(3e-6,)),
+    Method(
+        "literal",
+        "Eq. 4 taken literally",
+        "step [s]",
+        solve_literally,
+        values=(3e-6,),
+        kind="friction law",
+        color="#B5B5B5",
+        marker="5,1,36",
+    ),
 )

@@ -94,10 +94,12 @@ METHODS = (
             quick=(1e-6, 1e-7, 1e-8, 3e-9),
             quick_whole=(1e-7,),
             smooth=Smooth(partial(slide_symplectic, before=before), order, LIMIT, energy_factor),
+            color=color,
+            marker=marker,
         )
-        for name, label, before, order in (
-            ("leapfrog", "leapfrog", VERLET, 2),
-            ("semi_implicit_euler", "semi-implicit Euler", SEMI_IMPLICIT, 1),
+        for name, label, before, order, color, marker in (
+            ("leapfrog", "leapfrog", VERLET, 2, "#56B4E9", "X"),
+            ("semi_implicit_euler", "semi-implicit Euler", SEMI_IMPLICIT, 1, "#2B7FB0", "P"),
         )
     ),
     fixed_step(
@@ -108,5 +110,7 @@ METHODS = (
         whole=(1e-7, 1e-8),
         quick=(1e-7, 1e-8),
         smooth=Smooth(slide_euler, 1, 0.0, euler_energy_factor),
+        color="#C2185B",
+        marker="3,1,180",
     ),
 )

@@ -175,10 +175,21 @@ METHODS = tuple(
         whole=(1e-6, 1e-7, 1e-8),
         quick=quick,
         quick_whole=quick_whole,
+        color=color,
+        marker=marker,
         smooth=Smooth(partial(slide, theta=theta), order, math.inf, partial(energy_factor, theta=theta)),
     )
-    for name, label, theta, order, quick, quick_whole in (
-        ("moreau_jean_half", "Moreau-Jean, trapezoidal", TRAPEZOIDAL, 2, (1e-6, 1e-7, 1e-8), (1e-7,)),
-        ("moreau_jean_one", "Moreau-Jean, implicit", IMPLICIT, 1, (1e-6, 1e-7), ()),
+    for name, label, theta, order, quick, quick_whole, color, marker in (
+        (
+            "moreau_jean_half",
+            "Moreau-Jean, trapezoidal",
+            TRAPEZOIDAL,
+            2,
+            (1e-6, 1e-7, 1e-8),
+            (1e-7,),
+            "#8C3A6B",
+            "8",
+        ),
+        ("moreau_jean_one", "Moreau-Jean, implicit", IMPLICIT, 1, (1e-6, 1e-7), (), "#CC79A7", "4,1,0"),
     )
 )

@@ -174,6 +174,7 @@ def _crossing(dense, column: int, threshold: float, start: float, end: float) ->
     return brentq(excess, start, end)
 
 
+_LOOKS: dict[Solver, tuple[str, str]] = {"Radau": ("#7A5C3E", "6,1,0"), "BDF": ("#C4A27A", "8,1,0")}
 METHODS = tuple(
     Method(
         f"regularised_{solver.lower()}",
@@ -181,6 +182,9 @@ METHODS = tuple(
         "width [m/s]",
         partial(solve_regularised, solver=solver),
         values=(1e-5,),
+        kind="friction law",
+        color=color,
+        marker=marker,
     )
-    for solver in SOLVERS
+    for solver, (color, marker) in _LOOKS.items()
 )

@@ -81,7 +81,9 @@ def run_rk4(motion, step, waits):
 
 SMOOTH = Smooth(slide, 4, LIMIT, energy_factor)
 METHODS = (
-    fixed_step("rk4", "RK4, every step", run_rk4, False, values=STEPS[:5], smooth=SMOOTH),
+    fixed_step(
+        "rk4", "RK4, every step", run_rk4, False, values=STEPS[:5], smooth=SMOOTH, color="#00573F", marker="p"
+    ),
     fixed_step(
         "rk4_skip",
         "RK4",
@@ -92,5 +94,7 @@ METHODS = (
         quick=(1e-6, 1e-7, 1e-8, 3e-9),
         quick_whole=(1e-6, 1e-7),
         smooth=SMOOTH,
+        color="#009E73",
+        marker="h",
     ),
 )
