@@ -1,6 +1,7 @@
 """The exact solver compared with heyoka.py and DOP853 in time, each with its error against 40 digits.
 
     make bench                                            everything, in a minute or two
+    make bench METHOD=name                                one method, in seconds
     .venv/bin/python benchmarks/bench.py --quick          a reduced size, to see that it runs
 
 Ratios are what counts: all that is compared runs in turn in one process on one thread (see
@@ -32,6 +33,8 @@ import pandas as pd
 
 from precursors import Chain, Run, simulate, simulate_many
 from precursors.accuracy.compare import TrueTransition, Truth, compare
+from precursors.accuracy.work_precision import REPETITIONS, Case, measure_methods
+from precursors.methods import METHODS
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy
 from precursors.model.checks import Until
@@ -52,6 +55,8 @@ ENSEMBLE = 2000
 LONG_CHAIN, SHORT_CHAIN, STRAIN, FAST_DRIVE = 200, 10, 0.9, 0.02  # blocks, blocks, of the maximal one, m/s
 GROWTH_TRANSITIONS = 6000
 
+SHOWN = ["method", "value", "seconds", "evaluations", "error_time_s", "transitions_right", "transitions_true"]
+
 Row = dict[str, Any]
 
 
@@ -60,7 +65,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--quick", action="store_true", help="a reduced size, to see that it runs")
     parser.add_argument("--output", type=Path, default=TABLE, help="the CSV file (%(default)s)")
+    parser.add_argument("--method", choices=METHODS, metavar="NAME", help="measure only this method")
     arguments = parser.parse_args()
+    if arguments.method:
+        table = one_method(arguments.method, rounds=1 if arguments.quick else REPETITIONS)
+        print(table[SHOWN].to_string(index=False))
+        return
     measure = partial(timing.measure, rounds=2, shortest=0.0) if arguments.quick else timing.measure
     rows: list[Row] = []
     benchmarks = (
@@ -78,6 +88,16 @@ def main() -> None:
             )
             rows.append(row)
     write_table(pd.DataFrame(rows), arguments.output)
+
+
+def one_method(name: str, rounds: int) -> pd.DataFrame:
+    """Measure a method, the exact solver and heyoka.py at theta = 0 to the end of the first global slip."""
+    truth = reference("0").until_global_slip()
+    case = Case("uniform", 0.0, truth.run.chain, DURATION, "global slip", truth, is_proved=True)
+    beside = {other: METHODS[other].quick[-1:] for other in ("exact", "heyoka") if other in METHODS}
+    method = METHODS[name]
+    values = {**beside, name: method.values_of(case.until, full=not method.quick)}
+    return measure_methods(case, values, rounds)
 
 
 def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:

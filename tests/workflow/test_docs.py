@@ -66,6 +66,39 @@ def test_the_model_and_the_method_shown_give_what_is_shown(documented, section):
     assert done.stdout + done.stderr == shown
 
 
+CHART_OF_THE_METHOD = """
+from matplotlib.colors import to_hex
+from precursors import Chain, simulate
+from precursors.accuracy.compare import Truth
+from precursors.accuracy.work_precision import Case, charted_values, measure_methods
+from precursors.figures import work_precision
+from precursors.methods import METHODS
+
+chain = Chain.from_slider(drive_velocity=0.01)
+truth = Truth.of_run(simulate(chain, 0.01))
+case = Case("fast", 0.0, chain, 0.01, "global slip", truth, False)
+table = measure_methods(case, {"scipy_rk23": charted_values(case)["scipy_rk23"]}, 1)
+lines = [line for axes in work_precision.draw(table).axes for line in axes.lines if len(line.get_xdata())]
+print(len(table), *{to_hex(line.get_color()).upper() for line in lines})
+print(*(method.color for name, method in METHODS.items() if name != "scipy_rk23"))
+"""
+
+
+def test_the_method_shown_has_its_points_in_the_default_chart_in_a_colour_of_its_own(documented):
+    environment = {**os.environ, "PYTHONPATH": str(documented.path / "src")}
+    done = subprocess.run(
+        [sys.executable, "-c", CHART_OF_THE_METHOD],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    drawn, others = done.stdout.splitlines()[-2:]
+    points, color = drawn.split()
+    assert int(points) == 2
+    assert color not in others.split()
+
+
 def test_the_workflow_shown_uses_this_one_as_a_module(documented):
     outer = type(documented)(documented.path / "elsewhere")
     outcome = outer.run("-n", "precursors_all")
