@@ -85,7 +85,7 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
         ),
         "horizon_s": predictions.horizon(tolerance),
         "order_lost_s": compared.first_difference,
-        "order_known_until_s": predictions.unknown.time,
+        "order_known_until_s": predictions.order_known_until,
         "largest_ratio": _largest(ratio),
     }
 

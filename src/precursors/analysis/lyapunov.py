@@ -10,10 +10,14 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
+from numpy.typing import NDArray
 
-from precursors.analysis.tangent import Tangent
+from precursors.analysis.events import slip_events
+from precursors.model.chain import FloatArray
 from precursors.model.checks import whole
+from precursors.model.statics import positions_from_compressions
 from precursors.solver.run import Run
+from precursors.solver.simulate import simulate
 
 # Uncertainties come from means over so many stretches of the run.
 N_STRETCHES = 20
@@ -21,6 +25,10 @@ CONFIDENCE = 0.95
 # Part of the run left out at its start, before stick-slip has become steady.
 TRANSIENT = 0.1
 SEED = 2010
+# Distance of two runs in units of mu_s F_Z: far above rounding, and so small that it grows linearly.
+DISTANCE = 1e-9
+# A distance that shrinks to less than this in one event is lost in rounding.
+LEAST = 1e-4
 
 
 @dataclass(frozen=True)
@@ -52,7 +60,7 @@ class LyapunovExponent:
 def lyapunov_exponent(
     run: Run, n_stretches: int = N_STRETCHES, transient: float = TRANSIENT
 ) -> LyapunovExponent:
-    """Largest Lyapunov exponent of a run, from the growth of one tangent vector (Benettin et al. 1980).
+    """Largest Lyapunov exponent of a run, from the distance of a second one (Benettin et al. 1980).
 
     A run in double precision follows the exact one only for a while. After that it is another typical run,
     which serves a mean as well. The uncertainty comes from the means over stretches of equally many events,
@@ -96,26 +104,32 @@ def lyapunov_exponent(
     )
 
 
-def _growth(run: Run) -> tuple[np.ndarray, np.ndarray]:
-    """Number of the first transition of each event, and the logarithm of how far a difference has grown."""
-    tangent, n = Tangent(run), run.chain.n_blocks
-    path = tangent.path
-    z = np.zeros((2 * n, 1))
-    z[:n, 0] = np.random.default_rng(SEED).standard_normal(n)
-    unchanged = np.zeros((n, 1))
-    onset, growth, total = [], [], 0.0
-    for k in range(path.n_started, len(path.block)):
-        tangent.advance(k, z, unchanged, unchanged)
-        if path.mode[k].any():
-            continue
-        size = tangent.size(k + 1, z)
-        if not 0.0 < size < np.inf:
-            raise ValueError(f"all differences die out at t = {run.transitions['time'][k]:g} s: N = {n}")
-        total += np.log(size)
-        z /= size
-        onset.append(k)
-        growth.append(total)
-    return np.array(onset), np.array(growth)
+def _growth(run: Run) -> tuple[NDArray[np.int64], FloatArray]:
+    """Number of the first transition of each event, and the logarithm of how far a difference has grown.
+
+    Between two events the chain rests, and the drive changes nothing but the force in its own spring. So the
+    forces in the others say what will happen. From one rest to the next a second run starts `DISTANCE` beside
+    the run; how far it is off then is the growth, and the direction in which it is off is the next start.
+    """
+    chain, events = run.chain, slip_events([run])
+    if chain.n_blocks == 1:
+        raise ValueError("all differences die out: every event of one block ends in the same state")
+    finished = events[np.isfinite(events["end"])]
+    rests = (finished["end"][:-1] + finished["onset"][1:]) / 2.0
+    forces = run.spring_forces(rests)
+    distance = DISTANCE * chain.strength.sum()
+    direction = np.random.default_rng(SEED).standard_normal(chain.n_blocks - 1)
+    growth = []
+    for before, after, span in zip(forces, forces[1:], np.diff(rests), strict=False):
+        start = before.copy()
+        start[1:] += distance * direction / np.linalg.norm(direction)
+        beside = simulate(chain, span, start_positions=positions_from_compressions(start / chain.springs))
+        direction = beside.spring_forces([span])[0, 1:] - after[1:]
+        factor = float(np.linalg.norm(direction)) / distance
+        if factor < LEAST:
+            raise ValueError(f"all differences die out within {span:g} s: N = {chain.n_blocks}")
+        growth.append(np.log(factor))
+    return finished["first"][2:], np.cumsum(growth)
 
 
 def _mean_rate(log: np.ndarray, length: np.ndarray) -> tuple[float, float]:
