@@ -10,15 +10,15 @@ import json
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from difflib import get_close_matches
 from fractions import Fraction
-from functools import partial
 from pathlib import Path
+from threading import Timer
 from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from precursors.solver.run import Run
 
 DONE, REFUSED, WRONG_USE, FILE, NOT_INSTALLED, INTERRUPTED = 0, 1, 2, 3, 4, 130
@@ -26,9 +26,8 @@ EPILOG = """\
 examples:
   precursors simulate --theta 5/6                     10 s of the paper's chain, summarised
   precursors simulate --theta 5/6 --output run.h5     the same, and the run is saved
-  precursors simulate --theta -5/6 --ensemble 1000 --noise 1e-3 --output ensemble.csv
   precursors slips run.h5 --counted                   the events counted in Fig. 13
-  precursors plot --theta 5/6 --blocks 20             a figure, on the screen or in a file
+  precursors plot --weights loads.csv --width 85 --font-size 9 --output fig.pdf
   precursors audit results/runs/*.h5                  is each run a motion of the model?
 
 exit codes:
@@ -51,20 +50,23 @@ CHAIN = (
     ("--cross-section", "cross_section", "1e-4", "cross section S [m^2]"),
     ("--length", "length", "0.1", "length L of the contact [m]"),
 )
-# Columns of a summary, and the names under which they are shown.
-SUMMARY = {
-    "transitions": "transitions",
-    "n_events": "events",
-    "events_counted": "events_counted",
-    "mu_sapp": "mu_sapp",
-    "load": "largest_load_N",
-    "time": "global_slip_s",
-    "end": "global_slip_end_s",
+# Columns of the slip table as they are printed; what is the same in every row stays in the file.
+PRINTED = {
+    "onset_s": "onset_s",
+    "end_s": "end_s",
+    "load_before_N": "before_N",
+    "load_after_N": "after_N",
+    "largest_load_N": "largest_N",
+    "front": "front",
+    "n_slid": "n_slid",
+    "n_simultaneous": "at_once",
+    "is_global": "global",
+    "counted": "counted",
 }
 DURATION = 10.0  # s
-NOISE = 1e-3
-ENSEMBLE_BATCH = 64  # runs that are in memory at once
+SECONDS_OF_SILENCE = 2.0
 FIGURE_FILE = Path("precursors.png")
+FIGURE_ENDINGS = (".png", ".svg", ".pdf", ".eps")
 
 
 class Refused(Exception):
@@ -72,55 +74,44 @@ class Refused(Exception):
 
 
 def simulate(arguments: argparse.Namespace) -> None:
-    """Run a chain, or an ensemble of chains, and print its summary."""
-    if arguments.ensemble is not None:
-        simulate_ensemble(arguments)
-        return
-    if arguments.noise is not None or arguments.seed is not None:
-        raise ValueError("--noise and --seed need --ensemble N")
-    from precursors.analysis.summary import summarise
+    """Run a chain, and print a sentence and a summary."""
+    from precursors.analysis.slips import mu_sapp, slip_table
 
     run = run_of_options(arguments)
-    summary = summarise([run])[0]
-    values = {
+    slips = slip_table(run)
+    counted, in_all = int(slips["counted"].sum()), len(slips)
+    values: dict[str, Any] = {
         "blocks": run.chain.n_blocks,
         "duration_s": run.duration,
-        **{label: summary[name].item() for name, label in SUMMARY.items()},
-        "transitions": len(run.transitions),  # of the whole run; the summary ends with the first global slip
+        "transitions": len(run.transitions),
+        "events": in_all,
+        "events_counted": counted,
+        "mu_sapp": None,
+        "largest_load_N": None,
+        "global_slip_s": None,
+        "global_slip_end_s": None,
     }
+    sentence = f"{counted} events counted in Fig. 13, {in_all} in all; no global slip in {run.duration:g} s"
+    for _, slip in slips[slips["is_global"]][:1].iterrows():
+        values |= {
+            "events": int(slips["is_global"].argmax()) + 1,
+            "mu_sapp": mu_sapp(slip["largest_load_N"], slip["normal_load_N"]),
+            "largest_load_N": slip["largest_load_N"],
+            "global_slip_s": slip["onset_s"],
+            "global_slip_end_s": slip["end_s"],
+        }
+        sentence = (
+            f"{counted} events counted in Fig. 13, {values['events']} in all; "
+            f"mu_sapp = {values['mu_sapp']:.3f} = {slip['largest_load_N']:.1f} N / "
+            f"{slip['normal_load_N']:g} N; "
+            f"first global slip at {slip['onset_s']:.3f} s"
+        )
     if arguments.output:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
+    if not arguments.json:
+        print(f"{sentence}.\n")
     show_values(values, arguments.json)
-
-
-def simulate_ensemble(arguments: argparse.Namespace) -> None:
-    """Run chains whose normal loads differ by uniform noise; one row for each chain."""
-    if arguments.max_transitions is not None:
-        raise ValueError("--max-transitions cannot be combined with --ensemble")
-    from dataclasses import replace
-
-    import numpy as np
-    import pandas as pd
-
-    from precursors.analysis.summary import summarise
-    from precursors.model.chain import Chain
-    from precursors.model.checks import not_negative, whole
-    from precursors.solver.simulate import simulate_many
-
-    count = whole("ensemble", arguments.ensemble, at_least=1)
-    noise = not_negative("noise", NOISE if arguments.noise is None else arguments.noise, "1")
-    rng = np.random.default_rng(whole("seed", arguments.seed or 0, at_least=0))
-    chain = Chain.from_slider(**slider_of(arguments))
-    noises = 1 + noise * rng.uniform(-1, 1, (count, chain.n_blocks))
-    chains = [replace(chain, weights=chain.weights * of_one) for of_one in noises]
-    rows = []
-    for first in range(0, count, ENSEMBLE_BATCH):
-        runs = simulate_many(chains[first : first + ENSEMBLE_BATCH], duration_of(arguments), arguments.until)
-        rows.append(pd.DataFrame(summarise(runs))[list(SUMMARY)])
-    table = pd.concat(rows, ignore_index=True).rename(columns=SUMMARY)
-    table.insert(0, "member", np.arange(1, count + 1))
-    give_table(table, arguments, "runs")
 
 
 def slips(arguments: argparse.Namespace) -> None:
@@ -130,7 +121,20 @@ def slips(arguments: argparse.Namespace) -> None:
     table = slip_table(run_of(arguments))
     if arguments.counted:
         table = table[table["counted"]]
-    give_table(table, arguments, "events")
+    if arguments.output:
+        from precursors.support.files import write_table
+
+        write_table(table, arguments.output)
+    if arguments.json:
+        found = table.astype(object).where(table.notna(), None)
+        print(json.dumps(found.to_dict(orient="records"), indent=1))
+    elif arguments.output:
+        print(f"{len(table)} events: {arguments.output}")
+    elif table.empty:
+        print("no slip event")
+    else:
+        shown = table[list(PRINTED)].rename(columns=PRINTED)
+        print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
 
 
 def plot(arguments: argparse.Namespace) -> None:
@@ -138,17 +142,20 @@ def plot(arguments: argparse.Namespace) -> None:
     from precursors.analysis.load_curve import load_trace
     from precursors.analysis.slips import slip_table
     from precursors.figures import precursor_lengths, scene, style
-    from precursors.support.files import read_table
+    from precursors.support.spreadsheet import read_columns
 
-    data = read_table(arguments.data) if arguments.data else None
+    look = style.Look(arguments.width, arguments.font_size, arguments.font)
+    columns = ["F_X [N]", "L_p/L [-]"] if arguments.figure == "lengths" else ["t [s]", "F_X [N]"]
+    data = read_columns(arguments.data, columns, exactly=True) if arguments.data else None
     run = run_of(arguments)
     slips = slip_table(run)
     if arguments.figure == "lengths":
-        figure = precursor_lengths.draw([slips])
+        figure = precursor_lengths.draw([slips], data=data, title=arguments.title, look=look)
     else:
         trace = load_trace(run, tolerance=1e-3)  # [N]; half the points, and a page shows the same
-        figure = scene.draw(slips, trace, f"N = {run.chain.n_blocks}", data=data)
-    style.save(figure, arguments.output)
+        title = f"N = {run.chain.n_blocks}" if arguments.title is None else arguments.title
+        figure = scene.draw(slips, trace, title, data=data, inset=arguments.inset, look=look)
+    style.save(figure, arguments.output, look)
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
 
 
@@ -178,7 +185,7 @@ def run_of(arguments: argparse.Namespace) -> Run:
     if arguments.file is None:
         return run_of_options(arguments)
     options = {"duration", "until", "max_transitions"}
-    if slider_of(arguments) or any(getattr(arguments, name) for name in options):
+    if slider_of(arguments) or any(getattr(arguments, name) is not None for name in options):
         raise ValueError(f"{arguments.file}: a run file cannot be combined with options of a chain")
     from precursors.solver.run import Run, RunFileError
 
@@ -202,11 +209,30 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
         del slider["weights"]
     chain = Chain.from_slider(**slider)
     limit = MAX_TRANSITIONS if arguments.max_transitions is None else arguments.max_transitions
+    duration = DURATION if arguments.duration is None else arguments.duration
     try:
-        run = simulate(chain, duration_of(arguments), arguments.until, max_transitions=limit)
+        with telling(f"running {chain.n_blocks} blocks for {duration:g} s; Ctrl-C stops"):
+            run = simulate(chain, duration, arguments.until, max_transitions=limit)
     except TransitionLimitError as error:
-        raise Refused(str(error)) from error
+        kept = ""
+        if arguments.command == "simulate" and arguments.output:
+            replace(error.run, slider=slider).save(arguments.output)
+            kept = f"; the run so far is in {arguments.output}"
+        raise Refused(f"{error}{kept}") from error
     return replace(run, slider=slider)
+
+
+@contextmanager
+def telling(message: str) -> Iterator[None]:
+    """Tell who waits at a terminal, once, what is being done for more than two seconds."""
+    timer = Timer(SECONDS_OF_SILENCE, lambda: print(message, file=sys.stderr, flush=True))
+    timer.daemon = True
+    if sys.stderr.isatty():
+        timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 def slider_of(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -222,14 +248,9 @@ def slider_of(arguments: argparse.Namespace) -> dict[str, Any]:
     return measured(given, arguments.weights)
 
 
-def duration_of(arguments: argparse.Namespace) -> float:
-    """Time to run [s]."""
-    return DURATION if arguments.duration is None else arguments.duration
-
-
 def show_values(values: Mapping[str, Any], as_json: bool) -> None:
     """Print named values, one a line, ten digits a number; JSON has null for NaN."""
-    values = {name: None if value != value else value for name, value in values.items()}
+    values = {name: None if value != value else value for name, value in values.items()}  # NaN
     if as_json:
         print(json.dumps(values, indent=1))
         return
@@ -237,23 +258,6 @@ def show_values(values: Mapping[str, Any], as_json: bool) -> None:
     for name, value in values.items():
         text = f"{value:.10g}" if isinstance(value, float) else value
         print(f"{name:<{width}}  {'-' if text is None else text}")
-
-
-def give_table(table: pd.DataFrame, arguments: argparse.Namespace, rows: str) -> None:
-    """Write a table to the file that was asked for, or print it, ten digits a number."""
-    if arguments.output:
-        from precursors.support.files import write_table
-
-        write_table(table, arguments.output)
-    if arguments.json:
-        found = table.astype(object).where(table.notna(), None)
-        print(json.dumps(found.to_dict(orient="records"), indent=1))
-    elif arguments.output:
-        print(f"{len(table)} {rows}: {arguments.output}")
-    elif table.empty:
-        print("no rows")
-    else:
-        print(table.to_string(index=False, na_rep="-", float_format="{:.10g}".format))
 
 
 def number(text: str) -> float:
@@ -272,63 +276,82 @@ def whole_number(text: str) -> int:
         raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
 
 
-def add_chain(command: argparse.ArgumentParser) -> None:
-    """Add the options of a chain and of its run; those that are not given are None."""
-    add = command.add_argument_group("the chain", "the defaults are the paper's").add_argument
-    add("--theta", metavar="X", help='non-uniformity of the normal loading, for example "5/6" (0)')
-    add("--blocks", dest="n_blocks", type=whole_number, metavar="N", help="number of blocks (10)")
-    add("--weights", metavar="FILE", help="normal load of each block [N], instead of the options above")
+def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
+    """Add the options of a chain and of its run, which stand in the help of `simulate` only."""
+
+    def add(group: Any, *names: str, help: str, **how: Any) -> None:
+        group.add_argument(*names, help=help if is_shown else argparse.SUPPRESS, **how)
+
+    chain = command.add_argument_group("the chain", "the defaults are the paper's") if is_shown else command
+    add(chain, "--theta", metavar="X", help='non-uniformity of the normal loading, for example "5/6" (0)')
+    add(chain, "--blocks", dest="n_blocks", type=whole_number, metavar="N", help="number of blocks (10)")
+    text = "table with the normal load of each block [N]; replaces --theta, --blocks and --normal-load"
+    add(chain, "--weights", metavar="FILE", help=text)
     for option, name, default, meaning in CHAIN:
-        add(option, dest=name, type=number, metavar="X", help=f"{meaning} ({default})")
-    add = command.add_argument_group("the run").add_argument
-    add("--duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
-    help_ = "stop at the end of the first global slip"
-    add("--until-global-slip", dest="until", action="store_const", const="global slip", help=help_)
-    add("--max-transitions", type=whole_number, metavar="N", help="limit of transitions")
+        add(chain, option, dest=name, type=number, metavar="X", help=f"{meaning} ({default})")
+    run = command.add_argument_group("the run") if is_shown else command
+    add(run, "--duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
+    until: dict[str, Any] = {"dest": "until", "action": "store_const", "const": "global slip"}
+    add(run, "--until-global-slip", help="stop at the end of the first global slip", **until)
+    add(run, "--max-transitions", type=whole_number, metavar="N", help="limit of transitions")
 
 
 def add_options(command: argparse.ArgumentParser, name: str) -> None:
     """Add the options of a command."""
-    output = partial(command.add_argument, "--output", type=Path, metavar="FILE")
+    add = command.add_argument
     if name == "audit":
-        command.add_argument("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
+        add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
         return
-    if name != "simulate":
-        command.add_argument("file", nargs="?", type=Path, metavar="RUN.h5", help="a run file")
-    add_chain(command)
+    output: dict[str, Any] = {"type": Path, "metavar": "FILE"}
+    add_chain(command, is_shown=name == "simulate")
     if name == "simulate":
-        add = command.add_argument_group("an ensemble").add_argument
-        add("--ensemble", type=whole_number, metavar="N", help="run N chains that differ by noise")
-        add("--noise", type=number, metavar="X", help=f"largest relative change of a load ({NOISE:g})")
-        add("--seed", type=whole_number, metavar="N", help="seed of the noise (0)")
-        output(help="save the run (HDF5) or the ensemble (CSV)")
-    elif name == "slips":
-        command.add_argument("--counted", action="store_true", help="only the events counted in Fig. 13")
-        output(help="write the table with every digit (CSV)")
+        add("--output", help="save the run (HDF5)", **output)
     else:
+        add("file", nargs="?", type=Path, metavar="RUN.h5", help="a run file; else the options of a chain")
+        command.epilog = "The options of the chain and of its run are those of `precursors simulate --help`."
+    if name == "slips":
+        add("--counted", action="store_true", help="only the events counted in Fig. 13")
+        add("--output", help="write the table with every digit (CSV)", **output)
+    elif name == "plot":
         kinds, meaning = ["load", "lengths"], "as Figs. 10 to 12 (load), or as Fig. 13 (lengths)"
-        command.add_argument("--figure", choices=kinds, default="load", help=meaning)
-        command.add_argument(
-            "--data", metavar="FILE", help="draw a measured load over it: CSV with t [s], F_X [N]"
-        )
-        output(default=FIGURE_FILE, help=f"a .png, .svg, .pdf or .eps file ({FIGURE_FILE})")
-    command.add_argument("--json", action="store_true", help="print one JSON value")
+        add("--figure", choices=kinds, default="load", help=meaning)
+        text = "draw a measurement over it: a table with t [s] and F_X [N], or with F_X [N] and L_p/L"
+        add("--data", metavar="FILE", help=text)
+        add("--width", type=number, metavar="MM", help="width of the figure [mm] (178, or 85 for lengths)")
+        add("--font-size", type=number, default=8.0, metavar="PT", help="size of the text [pt] (8)")
+        add("--font", default="DejaVu Sans", metavar="NAME", help="an installed font (DejaVu Sans)")
+        add("--title", metavar="TEXT", help="title of the figure")
+        add("--no-inset", dest="inset", action="store_false", help="without the magnified view")
+        text = f"a {', '.join(FIGURE_ENDINGS)} file ({FIGURE_FILE})"
+        add("--output", default=FIGURE_FILE, help=text, **output)
+    add("--json", action="store_true", help="print one JSON value")
 
 
-COMMANDS: dict[str, tuple[Callable[[argparse.Namespace], None], str]] = {
-    "simulate": (simulate, "run a chain, or an ensemble of chains, and summarise it"),
-    "slips": (slips, "list the slip events of a run"),
-    "plot": (plot, "draw a run"),
-    "audit": (audit, "check that runs are motions of the model, without the solver's code"),
+COMMANDS: dict[str, tuple[Callable[[argparse.Namespace], None], str, tuple[str, ...]]] = {
+    "simulate": (simulate, "run a chain and summarise it", ()),
+    "slips": (slips, "list the slip events of a run", ()),
+    "plot": (plot, "draw a run", FIGURE_ENDINGS),
+    "audit": (audit, "check that runs are motions of the model, without the solver's code", ()),
 }
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser that says in one line what is wrong."""
+    """An argument parser that says in one line what is wrong, and what was probably meant."""
 
     def error(self, message: str) -> NoReturn:
         """Exit with one line on standard error."""
-        self.exit(WRONG_USE, f"{self.prog}: {message} (see {self.prog} --help)\n")
+        known = [*COMMANDS, *re.findall(r"--[a-z][a-z-]+", " ".join(map(help_of, COMMANDS)))]
+        wrong = re.search(r"(?:arguments: |choice: ')([\w-]+)", message)
+        near = get_close_matches(wrong[1], known, 1) if wrong else []
+        hint = f"; did you mean {near[0]}?" if near else ""
+        self.exit(WRONG_USE, f"{self.prog}: {message}{hint} (see {self.prog} --help)\n")
+
+
+def help_of(name: str) -> str:
+    """The options of a command, in words."""
+    command = Parser()
+    add_options(command, name)
+    return command.format_help()
 
 
 class PrintVersion(argparse.Action):
@@ -355,10 +378,14 @@ def parser() -> Parser:
     )
     top.add_argument("--version", action=PrintVersion, nargs=0, help="show version, commit and identifiers")
     subparsers = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, (run, meaning) in COMMANDS.items():
+    for name, (run, meaning, endings) in COMMANDS.items():
         command = subparsers.add_parser(name, help=meaning, description=f"{meaning[0].upper()}{meaning[1:]}.")
         add_options(command, name)
-        command.set_defaults(run=run)
+        command.set_defaults(run=run, endings=endings)
+    with suppress(ModuleNotFoundError):
+        import shtab
+
+        shtab.add_argument_to(top, "--print-completion")
     return top
 
 
@@ -378,8 +405,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # starting threads costs more than any matrix here
     arguments = parser().parse_args(join_negative_values(sys.argv[1:] if argv is None else argv))
     try:
+        if getattr(arguments, "output", None):
+            from precursors.support.files import check_writable
+
+            check_writable(arguments.output, arguments.endings)
         arguments.run(arguments)
-        sys.stdout.flush()
+        if sys.stdout:  # None where it was closed
+            sys.stdout.flush()
         return DONE
     except BrokenPipeError:  # the reader has enough, as in `precursors slips | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -11,6 +11,7 @@ from matplotlib.collections import FillBetweenPolyCollection, LineCollection
 from matplotlib.colors import to_hex
 from matplotlib.text import Annotation
 
+from precursors.figures import style
 from precursors.figures.scene import GLOBAL, MOST_ARROWS, PARTIAL
 
 # Positions pass through no arithmetic but a unit conversion.
@@ -54,7 +55,8 @@ def arrows(axes):
 
 
 def key(figure):
-    return [text.get_text() for text in figure.axes[-1].get_legend().get_texts()]
+    legend = figure.legends[0] if figure.legends else figure.axes[0].get_legend()
+    return [text.get_text() for text in legend.get_texts()]
 
 
 def markers(figure, marker):
@@ -74,11 +76,10 @@ def test_each_event_is_a_line_from_the_trailing_edge_as_long_as_its_front(figure
         np.testing.assert_allclose(list(drawn.values()), reached_mm, rtol=ROUNDING)
 
 
-def test_a_dashed_line_marks_the_first_global_slip_in_both_panels_and_the_inset():
+def test_a_dashed_line_marks_the_first_global_slip_in_all_panels():
     later = slips().iloc[[-1]].assign(onset_s=5.0, end_s=5.0005, counted=False)
-    upper, lower = draw_scene(pd.concat([slips(), later], ignore_index=True)).axes
-    (inset,) = upper.child_axes
-    assert dashed_lines(upper) == dashed_lines(lower) == dashed_lines(inset) == [FIRST_GLOBAL_S]
+    panels = draw_scene(pd.concat([slips(), later], ignore_index=True)).axes
+    assert [dashed_lines(axes) for axes in panels] == [[FIRST_GLOBAL_S]] * 4
 
 
 def test_the_dashed_line_lies_on_the_slip_that_it_marks_in_another_colour(figure):
@@ -107,8 +108,12 @@ def test_scenes_that_are_compared_have_one_load_axis():
     assert limits[0][1] > traces[0]["tangential_load_N"].max()
 
 
-def test_arrows_in_the_inset_point_at_the_drops_before_the_global_slip(figure):
-    (inset,) = figure.axes[0].child_axes
+def test_the_load_axis_ends_at_the_next_tick(figure):
+    assert figure.axes[0].get_ylim()[1] in figure.axes[0].get_yticks()
+
+
+def test_arrows_in_the_magnified_view_point_at_the_drops_before_the_global_slip(figure):
+    inset = figure.axes[2]
     start, end = inset.get_xlim()
     assert start < FIRST_GLOBAL_S < end
     seen = slips()[lambda table: (table["onset_s"] > start) & ~table["is_global"]]
@@ -121,20 +126,13 @@ def test_of_hundreds_of_events_the_largest_drops_have_the_arrows():
     events = slips([*rng.integers(1, N_BLOCKS, n), N_BLOCKS], np.linspace(1, 190, n + 1), drop_N=0.01)
     events["load_after_N"] = events["load_before_N"] - rng.random(n + 1)
     figure = draw_scene(events)
-    (inset,) = figure.axes[0].child_axes
+    inset = figure.axes[2]
     seen = events[(events["onset_s"] > inset.get_xlim()[0]) & ~events["is_global"]]
     drop = seen["load_before_N"] - seen["load_after_N"]
     marked = seen["onset_s"].isin([time for time, _ in arrows(inset)])
     assert marked.sum() == MOST_ARROWS < len(seen)
     assert drop[marked].min() > drop[~marked].max()
     assert len(events_drawn(figure.axes[1], PARTIAL)) == n
-
-
-def test_the_inset_hides_no_part_of_the_load(figure):
-    upper = figure.axes[0]
-    (inset,) = upper.child_axes
-    highest = trace(slips())["tangential_load_N"].max()
-    assert upper.transData.transform((0, highest))[1] < inset.get_tightbbox().y0
 
 
 @pytest.mark.parametrize("duration", [0.7, 1000.0])
@@ -149,11 +147,10 @@ def test_a_run_that_stops_at_the_global_slip_keeps_its_line_off_the_frame():
     assert draw_scene(slips(), slips()["end_s"].iloc[-1]).axes[1].get_xlim()[1] > 1.03 * FIRST_GLOBAL_S
 
 
-def test_a_run_without_a_global_slip_says_so_and_has_no_inset():
+def test_a_run_without_a_global_slip_says_so_and_has_no_magnified_view():
     figure = draw_scene(slips()[lambda table: ~table["is_global"]])
     upper, lower = figure.axes
     assert upper.get_title(loc="left") == r"$\theta = 0$: uniform (no global slip)"
-    assert not upper.child_axes
     assert dashed_lines(upper) == dashed_lines(lower) == []
     assert key(figure) == ["partial slip"]
 
@@ -187,6 +184,32 @@ def test_a_chain_of_one_block_slips_over_the_whole_length():
 
 def test_a_dollar_sign_in_a_title_is_a_dollar_sign():
     assert draw("scene", title="$5").axes[0].get_title(loc="left").endswith(r": \$5")
+
+
+@pytest.mark.parametrize(("width", "columns"), [(85.0, 1), (178.0, 2)])
+def test_a_narrow_figure_has_its_panels_below_each_other_in_the_asked_size(width, columns):
+    figure = draw("scene", look=style.Look(width, 9.0))
+    assert figure.get_size_inches()[0] == pytest.approx(width / style.MM_PER_INCH)
+    assert len({round(axes.get_position().x0, 2) for axes in figure.axes}) == columns
+    assert {axes.xaxis.label.get_size() for axes in figure.axes} == {9.0}
+
+
+def test_a_measurement_lies_over_the_load_and_over_the_lengths():
+    data = np.array([[1.0, 90.0], [2.0, 120.0]])
+    load, magnified = (draw("scene", data=data).axes[i].lines for i in (0, 2))
+    assert any(np.array_equal(line.get_xydata(), data) for line in load)
+    assert any(np.array_equal(line.get_xydata(), data) for line in magnified)
+    lengths = np.array([[50.0, 0.3], [90.0, 0.5]])
+    (points,) = markers(draw("fig13", data=lengths), "+")
+    np.testing.assert_array_equal(points, lengths)
+    with pytest.raises(ValueError, match="between 0 and 1"):
+        draw("fig13", data=100 * lengths)
+
+
+@pytest.mark.parametrize("wrong", [{"width_mm": 8.5}, {"font_size": 90.0}, {"font": "No Such Font"}])
+def test_a_look_that_cannot_be_drawn_is_refused(wrong):
+    with pytest.raises(ValueError, match=r"must be between|not installed"):
+        style.Look(**wrong)
 
 
 def test_a_circle_stands_for_each_event_counted(lengths):

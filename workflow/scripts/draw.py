@@ -26,5 +26,5 @@ def main(
 if __name__ == "__main__":
     with job() as snakemake:
         tables, options = dict(snakemake.input.items()), dict(snakemake.params.items())
-        tables.pop("code")
+        options.pop("code")
         main(options.pop("figure"), tables, options, snakemake.output)

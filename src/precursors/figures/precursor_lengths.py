@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from precursors.figures import style
 
@@ -22,10 +24,16 @@ OUTLINES = "osD^vh"
 SIZES = {-1: 4.2, 0: 5.2, 1: 6.6}
 SHORT: dict[str, Any] = {"linestyle": "none", "marker": "x", "markersize": 2.5, "alpha": 0.5}
 SHORT |= {"markeredgewidth": 0.6}
+MEASURED: dict[str, Any] = {"linestyle": "none", "marker": "+", "markersize": 5.0, "color": style.ORANGE}
 
 
 def draw(
-    slips: Sequence[pd.DataFrame], mu_sapp: pd.DataFrame | None = None, scenes: Sequence[str] = ()
+    slips: Sequence[pd.DataFrame],
+    mu_sapp: pd.DataFrame | None = None,
+    scenes: Sequence[str] = (),
+    data: NDArray[np.float64] | None = None,
+    title: str | None = None,
+    look: style.Look | None = None,
 ) -> Figure:
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
 
@@ -37,6 +45,17 @@ def draw(
         mu_sapp.csv: a line marks the mean of its scenes, if all scenes have the same normal load.
     scenes : sequence of str
         The scenes of `mu_sapp` that count.
+    data : array_like, shape (n, 2), optional
+        An experiment: load F_X [N] at the onset and length L_p/L.
+    title : str, optional
+        A title.
+    look : Look, optional
+        Width and text.
+
+    Raises
+    ------
+    ValueError
+        If a measured length is not between 0 and 1.
 
     Notes
     -----
@@ -44,19 +63,26 @@ def draw(
     the short events, which Fig. 13 does not count.
     """
     slips = [table for table in slips if len(table)]
-    with style.page(style.COLUMN_MM, HEIGHT_MM) as figure:
+    look = look or style.Look()
+    if data is not None and not ((data[:, 1] >= 0) & (data[:, 1] <= 1)).all():
+        raise ValueError("measured lengths must be L_p/L, between 0 and 1")
+    with style.page(style.COLUMN_MM, HEIGHT_MM, look=look) as figure:
         axes = figure.subplots()
+        axes.set_title(fill(style.plain(title or ""), 48), loc="left")
         entries = [_draw_events(axes, table, outline) for table, outline in _outlined(slips)]
         labels = [_label(table, slips) for table in slips]
         if any(len(_short_events(table)) for table in slips):
             entries.append((Line2D([], [], **SHORT, color=style.GREY),))
             labels.append("short events, not counted")
+        if data is not None:
+            entries.append(tuple(axes.plot(*data.T, **MEASURED)))
+            labels.append("measured")
         axes.set(xlim=(0, None), ylim=(0, 1.06))
         axes.set_xlabel("Tangential load $F_X$ [N]")
         axes.set_ylabel("Propagation length $L_p/L$ [-]")
         normal_loads = [table["normal_load_N"].iloc[0] for table in slips]
         if len(set(normal_loads)) == 1:
-            _draw_friction_coefficient(axes, normal_loads[0], mu_sapp, scenes)
+            _draw_friction_coefficient(axes, normal_loads[0], mu_sapp, scenes, look.small)
         axes.legend(entries, labels, loc="best", handler_map={tuple: HandlerTuple(ndivide=1)}, handlelength=1)
     return figure
 
@@ -105,7 +131,7 @@ def _label(slips: pd.DataFrame, others: Sequence[pd.DataFrame]) -> str:
 
 
 def _draw_friction_coefficient(
-    axes: Axes, normal_load: float, mu_sapp: pd.DataFrame | None, scenes: Sequence[str]
+    axes: Axes, normal_load: float, mu_sapp: pd.DataFrame | None, scenes: Sequence[str], font_size: float
 ) -> None:
     """Draw F_X/F_Z as upper axis, and the mean apparent static friction coefficient (Eq. 1) as a line."""
     scale = (lambda load: np.divide(load, normal_load), lambda mu: np.multiply(mu, normal_load))
@@ -124,6 +150,6 @@ def _draw_friction_coefficient(
         textcoords="offset points",
         rotation=90,
         va="center",
-        fontsize=7,
+        fontsize=font_size,
         color=style.GREY,
     )

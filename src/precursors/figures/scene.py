@@ -13,10 +13,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
 
 from precursors.figures import style
 
-HEIGHT_MM = 94.0
+HEIGHT_MM = 80.0
+NARROW_MM = 120.0  # below this width the magnified view stands below, not beside
 PARTIAL, GLOBAL = style.BLUE, style.VERMILION
 # Black on the colour of the slip that it marks, and above it.
 FIRST_GLOBAL: dict[str, Any] = {"color": style.BLACK, "linewidth": 0.9, "linestyle": (0, (5, 4)), "zorder": 3}
@@ -26,17 +28,14 @@ TO_THE_EDGE |= {"markerfacecolor": "white", "markeredgewidth": 0.9, "clip_on": F
 MEASURED: dict[str, Any] = {"color": style.ORANGE, "linewidth": 0.8, "zorder": 1.8, "label": "measured"}
 UNFINISHED: dict[str, Any] = {"alpha": 0.2, "linewidth": 0}
 
-# The inset shows the last stretch before the first global slip, as fractions of the time of that slip.
-INSET_START, INSET_END = 0.68, 1.05
-INSET_BOX = (0.58, 0.41)  # its width and height, as fractions of the upper panel
-# Fraction of the upper panel that stays free above the load, with and without the inset.
-HEADROOM = {True: 0.54, False: 0.12}
+# The magnified view is the last stretch before the first global slip, as fractions of the time of that slip.
+ZOOM_START, ZOOM_END = 0.68, 1.05
 # The paper marks some of the drops with arrows; more than this many run into each other.
 MOST_ARROWS = 24
 ARROW = {"arrowstyle": "-|>,head_width=0.14,head_length=0.28", "color": PARTIAL, "linewidth": 0.8}
 # Lines of the lower panel are thinner if there are more events than this.
 THIN_OUT_FROM = 200
-CHARACTERS_OF_TITLE = 100
+CHARACTERS_PER_MM = 0.56  # of a title of 8 pt
 
 
 def draw(
@@ -44,9 +43,11 @@ def draw(
     trace: pd.DataFrame,
     title: str = "",
     others: Sequence[pd.DataFrame] = (),
-    data: pd.DataFrame | None = None,
+    data: NDArray[np.float64] | None = None,
+    inset: bool = True,
+    look: style.Look | None = None,
 ) -> Figure:
-    """Draw F_X(t) with a magnified view before the first global slip, and below it all slip events.
+    """Draw F_X(t), below it all slip events, and both magnified before the first global slip.
 
     Parameters
     ----------
@@ -58,60 +59,89 @@ def draw(
         Name of the scene.
     others : sequence of DataFrame
         Traces of scenes to compare with: the load axis holds them, too.
-    data : DataFrame, optional
-        An experiment: time [s] and tangential load [N] in the first two columns.
+    data : array_like, shape (n, 2), optional
+        An experiment: time [s] and tangential load [N].
+    inset : bool
+        Whether to draw the magnified view.
+    look : Look, optional
+        Width and text.
 
     Notes
     -----
     An event extends from the trailing edge (0) to L_p = front L / N. An event that goes on when the run ends
     is a band from its onset to the end of the run.
     """
+    look = look or style.Look()
+    width_mm = look.width_mm or style.PAGE_MM
     slips = slips.astype({"is_global": bool})
+    loads = [table["tangential_load_N"] for table in (trace, *others)]
     if data is not None:
-        data = data.iloc[:, :2].set_axis(["time_s", "tangential_load_N"], axis=1).astype(float)
-        others = [*others, data]
-    first_s = slips.loc[slips["is_global"], "onset_s"].min()
-    has_global = bool(slips["is_global"].any())
-    end = trace["time_s"].iloc[-1]
-    with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[2.2, 1])
-        _draw_load(upper, trace, others, HEADROOM[has_global or len(others) > 0])
-        upper.set_title(fill(_title(slips, title), CHARACTERS_OF_TITLE), loc="left", pad=3)
-        _draw_events(lower, slips, end)
-        lower.set_xlabel("Time $t$ [s]")
-        lower.set_xlim(0, max(end, INSET_END * first_s) if has_global else end)
-        if has_global:
-            for axes in (upper, lower):
-                axes.axvline(first_s, **FIRST_GLOBAL)
-        if has_global and first_s > 0:
-            _draw_inset(upper, slips, trace, first_s)
-        if data is not None:
-            for axes in (upper, *upper.child_axes):
-                axes.plot(data["time_s"], data["tangential_load_N"], **MEASURED, scaley=False)
-            upper.legend(handles=[Line2D([], [], **MEASURED)], loc="lower right")
-        _draw_key(lower, slips)
-        figure.align_ylabels([upper, lower])
+        loads.append(pd.Series(data[:, 1]))
+    first_s, end = slips.loc[slips["is_global"], "onset_s"].min(), trace["time_s"].iloc[-1]
+    spans = [(0.0, float(np.nanmax([end, ZOOM_END * first_s])))]
+    if inset and first_s > 0:
+        spans.append((ZOOM_START * first_s, ZOOM_END * first_s))
+    stacked = len(spans) > 1 and width_mm < NARROW_MM
+    with style.page(width_mm, HEIGHT_MM * (1.9 if stacked else 1.0), look=look) as figure:
+        panels = _panels(figure, len(spans), stacked)
+        for column, axes in enumerate(panels):
+            upper, lower = axes
+            start, stop = spans[column]
+            upper.plot(trace["time_s"], trace["tangential_load_N"], color=style.BLACK, linewidth=0.6)
+            _draw_events(lower, slips[slips["onset_s"].between(start, stop)], end)
+            lower.set(xlim=(start, stop), xlabel="Time $t$ [s]")
+            if first_s >= 0:
+                for panel in axes:
+                    panel.axvline(first_s, **FIRST_GLOBAL)
+            if data is not None:
+                upper.plot(*data.T, **MEASURED)
+            if column == 0:
+                _set_load_axis(upper, pd.concat(loads))
+                upper.set_title(_title(slips, title, width_mm, look.font_size), loc="left", pad=3)
+            else:
+                _magnify(upper, slips, trace, spans[1])
+            if column == 0 or stacked:
+                upper.set_ylabel("Tangential load $F_X$ [N]")
+                lower.set_ylabel("$L_p$ [mm]")
+                figure.align_ylabels([upper, lower])
+        if len(spans) > 1:
+            for panel in panels[0]:
+                panel.axvspan(*spans[1], color=style.PALE, linewidth=0, zorder=0)
+            panels[1][0].set_title("the grey stretch, magnified", loc="left", pad=3)
+        _draw_key(figure, slips, data is not None, width_mm, look)
     return figure
 
 
-def _title(slips: pd.DataFrame, title: str) -> str:
+def _panels(figure: Figure, n: int, stacked: bool) -> list[tuple[Axes, Axes]]:
+    """Load and events over the same time, n times beside or below each other."""
+    rows, columns = (2 * n, 1) if stacked else (2, n)
+    ratios = {"height_ratios": [2.2, 1] * (rows // 2), "width_ratios": [5, 3][:columns]}
+    grid = figure.add_gridspec(rows, columns, **ratios)
+    pairs = []
+    for j in range(n):
+        upper = figure.add_subplot(grid[2 * j, 0] if stacked else grid[0, j])
+        lower = figure.add_subplot(grid[2 * j + 1, 0] if stacked else grid[1, j], sharex=upper)
+        upper.tick_params(labelbottom=False)
+        pairs.append((upper, lower))
+    return pairs
+
+
+def _title(slips: pd.DataFrame, title: str, width_mm: float, font_size: float) -> str:
     parts = [style.theta_text(slips["theta"].iloc[0])] if slips["theta"].notna().any() else []
     note = " (no global slip)" if len(slips) and not slips["is_global"].any() else ""
-    return ": ".join([*parts, style.plain(title)]).removesuffix(": ") + note
+    text = ": ".join([*parts, style.plain(title)]).removesuffix(": ") + note
+    return fill(text, max(20, int(CHARACTERS_PER_MM * width_mm * 8 / font_size)))
 
 
-def _draw_load(axes: Axes, trace: pd.DataFrame, others: Sequence[pd.DataFrame], headroom: float) -> None:
-    axes.plot(trace["time_s"], trace["tangential_load_N"], color=style.BLACK, linewidth=0.6)
-    loads = pd.concat([trace, *others])["tangential_load_N"]
+def _set_load_axis(axes: Axes, loads: pd.Series) -> None:
+    """From zero, or below it if need be, to the next tick."""
+    locator = MaxNLocator(6, steps=[1, 2, 5, 10])
     lowest = min(0.0, loads.min())
-    highest = max(loads.max(), lowest + 1e-9)
-    axes.set_ylim(lowest, lowest + (highest - lowest) / (1 - headroom))
-    axes.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
-    axes.set_ylabel("Tangential load $F_X$ [N]")
+    axes.yaxis.set_major_locator(locator)
+    axes.set_ylim(lowest, locator.tick_values(lowest, max(loads.max(), lowest + 1e-9))[-1])
 
 
 def _draw_events(axes: Axes, slips: pd.DataFrame, end_s: float) -> None:
-    axes.set_ylabel("Propagation\nlength $L_p$ [mm]")
     if slips.empty:
         axes.text(0.5, 0.5, "no slip event", transform=axes.transAxes, ha="center", color=style.GREY)
         axes.set_yticks([])
@@ -125,41 +155,28 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, end_s: float) -> None:
         for _, event in chosen[chosen["end_s"].isna()].iterrows():
             axes.fill_between([event["onset_s"], end_s], 0, event["reached_mm"], color=color, **UNFINISHED)
     to_the_edge = events[~events["is_global"] & (events["front"] == events["n_blocks"])]
-    axes.plot(to_the_edge["onset_s"], to_the_edge["reached_mm"], **TO_THE_EDGE)
+    if len(to_the_edge):  # an empty line that is not clipped has no place, and upsets the layout
+        axes.plot(to_the_edge["onset_s"], to_the_edge["reached_mm"], **TO_THE_EDGE)
     axes.set_ylim(0, 1.08 * length_mm)
-    edges = axes.secondary_yaxis("right")
-    edges.set_yticks([0, length_mm], ["trailing\nedge", "leading\nedge"])
-    edges.tick_params(length=0)
-    trailing, leading = edges.get_yticklabels()
-    trailing.set_verticalalignment("bottom")
-    leading.set_verticalalignment("top")
 
 
-def _draw_inset(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, first_s: float) -> None:
-    start, end = INSET_START * first_s, INSET_END * first_s
-    on_the_right = first_s < 0.6 * axes.get_xlim()[1]
-    inset = axes.inset_axes((0.36 if on_the_right else 0.06, 0.56, *INSET_BOX))
-    if on_the_right:
-        inset.yaxis.tick_right()
-    inset.plot(trace["time_s"], trace["tangential_load_N"], color=style.BLACK)
-    inset.axvline(first_s, **FIRST_GLOBAL)
-    inset.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
-    load_at_start = np.interp(start, trace["time_s"], trace["tangential_load_N"])
+def _magnify(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, span: tuple[float, float]) -> None:
+    """Fit the load axis to a stretch of time, and mark the largest drops in it."""
+    start, first_s = span[0], span[1] / ZOOM_END
+    axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
     seen = trace["time_s"].between(start, first_s)
-    load = np.append(trace.loc[seen, "tangential_load_N"], load_at_start)
-    span = np.ptp(load) or 1.0
-    inset.set(xlim=(start, end), ylim=(load.min() - 0.08 * span, load.max() + 0.22 * span))
+    at_start = np.interp(start, trace["time_s"], trace["tangential_load_N"])
+    load = np.append(trace.loc[seen, "tangential_load_N"], at_start)
+    room = np.ptp(load) or 1.0
+    axes.set_ylim(load.min() - 0.08 * room, load.max() + 0.22 * room)
     for _, event in _largest_drops(slips, start, first_s).iterrows():
-        inset.annotate(
+        axes.annotate(
             "",
             xy=(event["onset_s"], event["load_before_N"]),
             xytext=(0, 13),
             textcoords="offset points",
             arrowprops={**ARROW, "shrinkA": 0, "shrinkB": 2},
         )
-    frame = axes.indicate_inset_zoom(inset, edgecolor=style.GREY, alpha=1.0, linewidth=0.6)
-    for connector, is_shown in zip(frame.connectors or (), (False, True, False, True), strict=False):
-        connector.set_visible(is_shown)
 
 
 def _largest_drops(slips: pd.DataFrame, start: float, first_s: float) -> pd.DataFrame:
@@ -168,9 +185,9 @@ def _largest_drops(slips: pd.DataFrame, start: float, first_s: float) -> pd.Data
     return inside.loc[drop.sort_values(ascending=False, kind="stable").index[:MOST_ARROWS]].sort_index()
 
 
-def _draw_key(axes: Axes, slips: pd.DataFrame) -> None:
+def _draw_key(figure: Figure, slips: pd.DataFrame, has_data: bool, width_mm: float, look: style.Look) -> None:
     is_global = slips["is_global"]
-    entries: list[Line2D | Patch] = []
+    entries: list[Line2D | Patch] = [Line2D([], [], **MEASURED)] if has_data else []
     if (~is_global).any():
         entries.append(Line2D([], [], color=PARTIAL, linewidth=1.2, label="partial slip"))
     if (~is_global & (slips["front"] == slips["n_blocks"])).any():
@@ -181,6 +198,5 @@ def _draw_key(axes: Axes, slips: pd.DataFrame) -> None:
     for one in is_global[slips["end_s"].isna()][:1]:
         color = GLOBAL if one else PARTIAL
         entries.append(Patch(color=color, **UNFINISHED, label="not over when the run ends"))
-    axes.legend(
-        handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=len(entries), borderaxespad=0.1
-    )
+    columns = max(1, min(len(entries), int(width_mm / 38 * 8 / look.font_size)))
+    style.draw_key(figure, entries, ncols=columns)

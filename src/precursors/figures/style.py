@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass
 from fractions import Fraction
 from io import BytesIO
 from pathlib import Path
@@ -17,6 +18,7 @@ from matplotlib.axis import Axis
 from matplotlib.collections import Collection
 from matplotlib.colors import to_rgba_array
 from matplotlib.figure import Figure
+from matplotlib.font_manager import findfont
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
@@ -46,22 +48,15 @@ MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
 COLORS_OF_AN_ARTIST = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
 DOTTED: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "linestyle": (0, (1, 2)), "zorder": 1}
 
-_SETTINGS = {
-    "font.family": "DejaVu Sans",
-    "font.size": 8,
-    "axes.labelsize": 8,
-    "axes.titlesize": 8,
+_SETTINGS: dict[str, Any] = {
     "axes.linewidth": 0.6,
     "axes.axisbelow": True,
-    "xtick.labelsize": 7,
-    "ytick.labelsize": 7,
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,
     "xtick.major.size": 3,
     "ytick.major.size": 3,
     "xtick.direction": "in",
     "ytick.direction": "in",
-    "legend.fontsize": 7,
     "legend.frameon": False,
     "lines.linewidth": 0.8,
     "hatch.linewidth": 0.6,
@@ -83,23 +78,65 @@ _METADATA: dict[str, dict[str, str | None]] = {
 }
 
 
+@dataclass(frozen=True)
+class Look:
+    """What a journal asks of a figure: its width [mm], None for the figure's own, and its text.
+
+    Raises
+    ------
+    ValueError
+        If the width or the size is none that can be drawn, or the font is not installed.
+    """
+
+    width_mm: float | None = None
+    font_size: float = 8.0
+    font: str = "DejaVu Sans"
+
+    def __post_init__(self) -> None:
+        if self.width_mm is not None and not 40 <= self.width_mm <= 400:
+            raise ValueError(f"the width must be between 40 and 400 mm, but is {self.width_mm:g}")
+        if not 4 <= self.font_size <= 24:
+            raise ValueError(f"the font size must be between 4 and 24 pt, but is {self.font_size:g}")
+        try:
+            findfont(self.font, fallback_to_default=False)
+        except ValueError:
+            raise ValueError(f"the font {self.font!r} is not installed") from None
+
+    @property
+    def small(self) -> float:
+        """Size of ticks, keys and notes [pt]."""
+        return 7 / 8 * self.font_size
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """The settings of Matplotlib that follow."""
+        sizes = dict.fromkeys(("font.size", "axes.labelsize", "axes.titlesize"), self.font_size)
+        small = dict.fromkeys(("xtick.labelsize", "ytick.labelsize", "legend.fontsize"), self.small)
+        return _SETTINGS | sizes | small | {"font.family": self.font}
+
+
 @contextmanager
-def page(width_mm: float, height_mm: float, lay_out: bool = True) -> Iterator[Figure]:
+def page(
+    width_mm: float, height_mm: float, lay_out: bool = True, look: Look | None = None
+) -> Iterator[Figure]:
     """Make a figure of a given size on paper [mm], with room for its labels when the block ends.
 
     The settings of a user's matplotlibrc have no effect. The layout is done once, because a layout for each
     file would make the files differ slightly.
     """
-    with matplotlib.style.context(_SETTINGS, after_reset=True):
-        size = (width_mm / MM_PER_INCH, height_mm / MM_PER_INCH)
+    look = look or Look()
+    with matplotlib.style.context(look.settings, after_reset=True):
+        size = ((look.width_mm or width_mm) / MM_PER_INCH, height_mm / MM_PER_INCH)
         figure = Figure(figsize=size, dpi=PNG_DPI, facecolor="white")
         yield figure
         if lay_out:
             ConstrainedLayoutEngine().execute(figure)
 
 
-def save(figure: Figure, path: str | Path) -> None:
+def save(figure: Figure, path: str | Path, look: Look | None = None) -> None:
     """Write a figure as PNG (300 dpi), SVG, PDF or EPS, complete or not at all, always the same bytes.
+
+    `look` is that of its page.
 
     EPS knows no transparency: what is transparent in the other formats has its colour on white there.
 
@@ -115,7 +152,7 @@ def save(figure: Figure, path: str | Path) -> None:
             f"a figure must be a {', '.join(others)} or {last} file, but {path} ends in {ending!r}"
         )
     with (
-        matplotlib.style.context(_SETTINGS, after_reset=True),
+        matplotlib.style.context((look or Look()).settings, after_reset=True),
         _opaque(figure) if ending == ".eps" else nullcontext(),
         write_whole(path) as temporary,
     ):

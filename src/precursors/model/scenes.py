@@ -7,10 +7,12 @@ import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from precursors.model.chain import Chain, exact_theta_from_load_cells, parse_theta
+from precursors.support.spreadsheet import read_columns
 
 Config = Mapping[str, Any]
 
@@ -40,18 +42,23 @@ def scene_duration(config: Config, name: str) -> float:
 
 
 def read_weights(path: str | PathLike[str]) -> list[float]:
-    """Normal loads [N] from a text file with a number for each block, in one line or one a line.
+    """Normal loads [N] from a table with a number for each block, or with the block's number before it.
 
     Raises
     ------
-    ValueError
-        In one line, if the file cannot be read.
+    OSError, ValueError
+        In one line, if the file cannot be read or understood.
     """
-    try:
-        return [float(text) for text in Path(path).read_text(encoding="utf-8").replace(",", " ").split()]
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise ValueError(f"the weights in {path} cannot be read: {reason}") from None
+    table = read_columns(path, ["normal load of each block [N]"])
+    n, width = table.shape
+    if width == 1 or (n == 1 and width != 2):
+        return [float(load) for load in table.flat]
+    if width == 2 and np.array_equal(table[:, 0], np.arange(1, n + 1)):
+        return [float(load) for load in table[:, 1]]
+    raise ValueError(
+        f"{path}: columns: {width}; needed is the normal load of each block [N], one a line, "
+        "alone or after the number of its block, 1, 2, 3, ..."
+    )
 
 
 def measured(slider: Mapping[str, Any], weights: str | PathLike[str] | Sequence[float]) -> dict[str, Any]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import errno
 import json
 import os
-from collections.abc import Iterator, Mapping
+import shutil
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas as pd
 
+LEAST_ROOM = 10_000_000  # bytes; a run of 10 s and its figure take less
 NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
@@ -49,6 +51,28 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 def _cannot_write(path: str | os.PathLike[str], error: OSError) -> OSError:
     return OSError(f"cannot write {path}: {error.strerror}")
+
+
+def check_writable(path: str | os.PathLike[str], endings: Sequence[str] = ()) -> None:
+    """Refuse a file that could not be written, before the work that it is to hold.
+
+    Raises
+    ------
+    ValueError
+        If its name has none of the endings.
+    OSError
+        If it is a directory, or its directory cannot be made or written to, or has no room.
+    """
+    target = Path(path).resolve()
+    if endings and target.suffix.lower() not in endings:
+        raise ValueError(f"{path} must end in {', '.join(endings[:-1])} or {endings[-1]}")
+    parent = next(above for above in target.parents if above.exists())
+    if target.is_dir():
+        raise OSError(f"cannot write {path}: it is a directory")
+    if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
+        raise OSError(f"cannot write {path}: {parent} is not a directory that can be written to")
+    if shutil.disk_usage(parent).free < LEAST_ROOM:
+        raise OSError(f"cannot write {path}: no room in {parent}")
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
