@@ -44,7 +44,6 @@ report: results
 	$(BIN)/snakemake --report results/report.html --report-stylesheet workflow/report/report.css -- all
 
 golden: results
-	$(BIN)/snakemake --quiet rules host -c1 mission
 	PYTHONPATH=tests $(BIN)/python -m golden.regenerate
 
 # Pages of the interface, from the docstrings, and of docs/, in results/docs.

@@ -45,7 +45,7 @@ LIBRARY = Path("src/precursors")
 LEFT = ("results", "wheelhouse", ".venv", ".git", ".snakemake", ".*_cache")
 # These compare files that are already there, or run the workflow.
 ASIDE = ("tests/cluster/*", "tests/golden/test_golden.py", "tests/workflow/test_[dfr]*")
-WARM = "tests/ensembles/test_endless.py"  # compiles the kernel for all others
+WARM = "tests/ensembles/test_study.py"  # compiles the kernel for all others
 # What takes long to import: loaded once, before a process is forked for each fault.
 HEAVY = (
     "bokeh.plotting", "flint", "h5py", "hypothesis", "jsonschema", "matplotlib.pyplot", "numba", "pandas",

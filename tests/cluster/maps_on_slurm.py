@@ -23,10 +23,10 @@ from cluster.single_node import DAEMONS, SlurmNode, daemon_pid, slurm_node
 ROOT = Path(__file__).parents[2]
 CORES = int(os.environ.get("CORES", "2"))
 SOURCE = "source"  # the copy of the workflow
-MAPS = [f"map_theta_{y}" for y in ("friction_ratio", "n_blocks", "stiffness_ratio", "drive_velocity")]
+MAPS = ["map_theta_friction_ratio"]
 TABLES = [f"results/tables/{name}.csv" for name in MAPS]
-CHUNKS = 3
-SMALL = {"ensembles": {"chunks": CHUNKS, "maps": {"points": 1000}}}
+CHUNKS = 12
+SMALL = {"ensembles": {"chunks": CHUNKS, "map": {"points": 4000}}}
 # What a machine of one node need not wait for; and a failed job shall stay failed until the next call.
 IMPATIENT = ["--slurm-init-seconds-before-status-checks=3", "--latency-wait=5", "--retries=0"]
 # A chunk in the middle of its work has loaded its compiler.

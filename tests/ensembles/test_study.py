@@ -1,26 +1,24 @@
 """The rows of a study are those of its runs one by one, however it is cut into chunks."""
 
-import itertools
-
 import numpy as np
 import pandas as pd
 import pytest
-from ensembles.studies import spread_of
+from ensembles.studies import noise_of
 
 from precursors import simulate
 from precursors.analysis.summary import SUMMARY, summarise
-from precursors.ensembles.study import LEFT_OUT, WITH_UNITS, Study, gather, run_members, start_of
+from precursors.ensembles.study import LEFT_OUT, WITH_UNITS, Study, chain_of, gather, run_members
 from precursors.support.files import write_table
 
 
 @pytest.fixture(scope="module")
-def spread() -> Study:
-    return spread_of()
+def noise() -> Study:
+    return noise_of(runs=12)
 
 
 @pytest.fixture(scope="module")
-def rows(spread) -> pd.DataFrame:
-    return run_members(spread)
+def rows(noise) -> pd.DataFrame:
+    return run_members(noise)
 
 
 def chunk_files(study: Study, n: int, directory) -> list:
@@ -34,8 +32,7 @@ def one_by_one(study: Study) -> np.ndarray:
     """Summaries of the members of a study, each run alone."""
     runs = []
     for member in study.members.to_dict("records"):
-        chain, start = start_of(member, study.seed)
-        runs.append(simulate(chain, member["duration"], study.until, start_positions=start))
+        runs.append(simulate(chain_of(member, study.seed), member["duration"], study.until))
     return summarise(runs)
 
 
@@ -44,37 +41,37 @@ def assert_rows(found: pd.DataFrame, expected: np.ndarray) -> None:
         np.testing.assert_array_equal(found[WITH_UNITS.get(name, name)], expected[name], err_msg=name)
 
 
-def test_every_row_is_that_of_its_run_alone_to_the_last_bit(spread, rows):
-    some = spread.chunk(0, 7)
+def test_every_row_is_that_of_its_run_alone_to_the_last_bit(noise, rows):
+    some = noise.chunk(0, 7)
     assert_rows(rows.loc[some.members.index], one_by_one(some))
 
 
 @pytest.mark.parametrize("n", [2, 5])
-def test_the_gathered_table_is_the_same_to_the_last_bit_however_a_study_is_cut(spread, rows, n, tmp_path):
-    paths = chunk_files(spread, n, tmp_path)
+def test_the_gathered_table_is_the_same_to_the_last_bit_however_a_study_is_cut(noise, rows, n, tmp_path):
+    paths = chunk_files(noise, n, tmp_path)
     table = gather(paths[::-1])
     pd.testing.assert_frame_equal(table, rows[list(table)], check_exact=True)
     assert set(rows) - set(table) <= LEFT_OUT
 
 
-def test_more_chunks_than_members_leave_some_empty(spread, tmp_path):
-    few = Study(spread.members.iloc[:2], spread.until, spread.seed)
+def test_more_chunks_than_members_leave_some_empty(noise, tmp_path):
+    few = Study(noise.members.iloc[:2], noise.until, noise.seed)
     assert len(gather(chunk_files(few, 3, tmp_path))) == 2
 
 
-def test_a_missing_and_a_doubled_chunk_are_noticed(spread, tmp_path):
-    few = Study(spread.members.iloc[:4], spread.until, spread.seed)
+def test_a_missing_and_a_doubled_chunk_are_noticed(noise, tmp_path):
+    few = Study(noise.members.iloc[:4], noise.until, noise.seed)
     a, b = chunk_files(few, 2, tmp_path)
     for paths in ([a], [b], [a, a], [a, b, b]):
         with pytest.raises(ValueError, match="each once"):
             gather(paths)
 
 
-def test_members_are_run_with_their_own_length_start_and_duration():
+def test_members_are_run_with_their_own_number_of_blocks_noise_and_duration():
     table = {
         "n_blocks": [4, 4, 6],
         "theta": 0.0,
-        "start_noise": [0.0, 0.5, 0.5],
+        "load_noise": [0.0, 0.5, 0.5],
         "duration": [1.0, 2.0, 1.0],
         "group": 0,
         "draw": [0, 1, 2],
@@ -83,25 +80,21 @@ def test_members_are_run_with_their_own_length_start_and_duration():
     assert_rows(run_members(study), one_by_one(study))
 
 
-def test_a_member_that_meets_the_limit_of_transitions_is_kept_as_far_as_it_came(spread, rows, monkeypatch):
-    def capped(chains, duration, until, threads, start_positions, longest_slip):
-        starts = zip(chains, start_positions, strict=True)
-        return [simulate(c, duration, until, max_transitions=100, start_positions=x) for c, x in starts]
+def test_a_member_that_meets_the_limit_of_transitions_is_kept_as_far_as_it_came(noise, rows, monkeypatch):
+    def capped(chains, duration, until, threads):
+        return [simulate(chain, duration, until, max_transitions=100) for chain in chains]
 
     monkeypatch.setattr("precursors.ensembles.study.simulate_many", capped)
-    found = run_members(Study(spread.members.query("scene == 'fig11'"), spread.until, spread.seed))
+    found = run_members(Study(noise.members.query("scene == 'fig12'"), noise.until, noise.seed))
     longer = rows.loc[found.index, "transitions"] > 100
     assert (found["transitions"] == rows.loc[found.index, "transitions"].clip(upper=100)).all()
     assert (found["end_s"].isna() == longer).all()
     assert longer.sum() > 0
 
 
-def test_a_larger_ensemble_contains_the_smaller(spread):
-    larger = spread_of(members=5)
-    for label, value in (("question", "loads"), ("perturbation", "mu_s")):
-        few, many = (s.members.query("scene == 'fig10' and size == 0.01") for s in (spread, larger))
-        few, many = few[few[label] == value], many[many[label] == value]
-        for a, b in itertools.zip_longest(few.to_dict("records"), many.to_dict("records")[:3]):
-            (chain_a, start_a), (chain_b, start_b) = start_of(a, spread.seed), start_of(b, larger.seed)
-            assert chain_a == chain_b
-            np.testing.assert_array_equal(start_a, start_b)
+def test_a_larger_ensemble_contains_the_smaller(noise):
+    for few, many in zip(
+        noise.members.groupby("scene"), noise_of(runs=20).members.groupby("scene"), strict=True
+    ):
+        small, large = (table.head(13).to_dict("records") for _, table in (few, many))
+        assert [chain_of(member, 1) for member in small] == [chain_of(member, 1) for member in large]

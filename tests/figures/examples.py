@@ -153,48 +153,34 @@ def horizon() -> dict:
     }
 
 
-def spread(question="loads") -> dict:
-    """The quantiles are not those of the members: the figure must draw the table's."""
-    alone = {"scene": "s", "theta": 0.5, "events_counted": 4, "mu_sapp": 0.5, "size": 0.0}
-    alone |= {"perturbation": "none"}
-    loads = [
-        {**alone, "perturbation": "normal loads", "question": "loads", "size": size, "events_counted": 4 + k}
-        for size in (1e-4, 1e-2)
-        for k in range(3)
-    ]
-    sweep = [
-        {**alone, "question": "theta", "perturbation": "sweep", "size": 0.1, "theta": 0.4 + 0.05 * k}
-        for k in range(5)
-    ]
-    row = {"scene": "s", "question": "loads", "perturbation": "normal loads", "quantity": "mu_sapp"}
-    row |= {"q05": 0.41, "q25": 0.42, "q50": 0.43, "q75": 0.44, "q95": 0.45}
-    quantiles = [{**row, "size": 1e-4}, {**row, "size": 1e-2}, {**row, "size": 1e-4, "quantity": "load"}]
-    members = [{**alone, "question": name} for name in ("loads", "theta")] + loads + sweep
-    return {"members": pd.DataFrame(members), "spread": pd.DataFrame(quantiles), "question": question}
+def noise() -> dict:
+    counts = [14, 14, 15, 15, 15]
+    runs = pd.DataFrame({"scene": "s", "theta": 0.5, "draw": range(5), "events_counted": counts})
+    runs = runs.assign(mu_sapp=[0.5, 0.48, 0.5, 0.52, np.nan])
+    return {"noise": runs, "digits": runs.assign(theta=-0.5, events_counted=9)}
+
+
+def theta_window() -> dict:
+    theta = [0.5, *(0.4 + 0.05 * k for k in range(5))]
+    members = pd.DataFrame({"scene": "s", "theta": theta, "point": range(6), "mu_sapp": 0.5})
+    return {"members": members.assign(events_counted=4)}
 
 
 def resolution() -> dict:
-    quantities = {"events_counted": 100.0, "mu_sapp": 0.5, "time_s": 2.7, "front_speed_m_per_s": 1000.0}
+    quantities = {"events_to_global_slip": 300.0, "events_counted": 100.0, "mu_sapp": 0.5, "time_s": 2.7}
+    quantities |= {"front_speed_m_per_s": 1000.0}
     rows = [
         {"scene": "s", "theta": 0.0, "n_blocks": n, "quantity": quantity, "q50": value}
         for (quantity, value), n in product(quantities.items(), (2, 20, 200))
     ]
     table = pd.DataFrame(rows)
     table = table.assign(q05=0.9 * table["q50"], q95=1.1 * table["q50"], without_noise=table["q50"])
-    has_estimate = table["quantity"].isin(["mu_sapp", "front_speed_m_per_s"])
-    limits = pd.DataFrame(
-        {"scene": ["s"], "quantity": ["mu_sapp"], "a": [0.45], "a_low": 0.44, "a_high": 0.46}
-    )
+    limits = {"scene": ["s"], "quantity": ["mu_sapp"], "a": [0.45], "a_low": 0.44, "a_high": 0.46}
+    limits |= {"wave_speed_m_per_s": 1440.0}
     foreseen = pd.DataFrame(
         {"scene": "s", "n_blocks": [2, 20], "horizon_s": 2.5, "predictable": [True, False]}
     )
-    estimate = (1.2 * table["q50"]).where(has_estimate)
-    return {
-        "table": table.assign(estimate=estimate),
-        "limits": limits,
-        "predictability": foreseen,
-        "papers_n": 12,
-    }
+    return {"table": table, "limits": pd.DataFrame(limits), "predictability": foreseen, "papers_n": 12}
 
 
 def event_law() -> dict:
@@ -204,20 +190,15 @@ def event_law() -> dict:
     return {"table": table.assign(**law)}
 
 
-def map_of(y="friction_ratio", ys=(1.0, 2.0, 3.0)) -> dict:
+def friction_map() -> dict:
     rows = [
-        {"theta": theta, y: value, "mu_sapp": 0.1 * value + theta} for theta in (-0.5, 0.5) for value in ys
+        {"theta": theta, "friction_ratio": ratio, "mu_sapp": 0.1 * ratio + theta}
+        for theta in (-0.5, 0.5)
+        for ratio in (1.0, 2.0, 3.0)
     ]
     table = pd.DataFrame(rows).assign(events_counted=3, n_global=1, n_all_events=4, reached=True)
     table.loc[0, "reached"] = False
-    return {"table": table, "x": "theta", "y": y, "scenes": [(0.25, 2.0)]}
-
-
-def long_runs() -> dict:
-    mu = {"s": [0.6, 0.50, 0.51, 0.52, 0.53], "t": [0.6, 0.50, 0.50, 0.50, 0.51]}
-    runs = [pd.DataFrame({"scene": name, "theta": 0.5 * (name == "t"), "mu": mu[name]}) for name in mu]
-    statistics = [{"scene": name, "mu_first": 0.6, "n": 4, "mean": 0.55, "deviation": 0.02} for name in mu]
-    return {"slips": pd.concat(runs), "statistics": pd.DataFrame(statistics)}
+    return {"table": table, "scenes": [(0.25, 2.0)]}
 
 
 def model_comparison() -> dict:
@@ -275,12 +256,11 @@ EXAMPLES = {
     "step_sweep": ("step_sweep", step_sweep),
     "failure_gallery": ("failure_gallery", failure_gallery),
     "horizon": ("horizon", horizon),
-    "spread": ("spread", spread),
-    "sweep": ("spread", lambda: spread("theta")),
+    "noise": ("noise", noise),
+    "theta_window": ("theta_window", theta_window),
     "resolution": ("resolution", resolution),
     "event_law": ("event_law", event_law),
-    "map": ("map_of", map_of),
-    "long_runs": ("long_runs", long_runs),
+    "friction_map": ("friction_map", friction_map),
     "model_comparison": ("model_comparison", model_comparison),
 }
 

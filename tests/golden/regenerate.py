@@ -5,7 +5,6 @@ import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from textwrap import indent
 
 import numpy as np
 import pandas as pd
@@ -34,7 +33,6 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
         replace(golden / f"small/{name}.csv", partial(small_tables.write, make()))
     for name in examples.EXAMPLES:
         replace(golden / f"small/{name}.png", partial(examples.save_small, examples.draw(name)))
-    show_mission((results / "figures/mission.svg").read_text(encoding="utf-8"), golden)
 
 
 def replace(path: Path, write: Callable[[Path], object]) -> None:
@@ -44,15 +42,6 @@ def replace(path: Path, write: Callable[[Path], object]) -> None:
     difference = table_difference if path.suffix == ".csv" else figure_difference
     print(f"{path.name}: {difference(path, new) if path.exists() else 'new'}")
     new.replace(path)
-
-
-def show_mission(picture: str, golden: Path) -> None:
-    """Put the picture of the mission beside the golden figures and at the head of the report."""
-    (golden / "mission.svg").write_text(picture, encoding="utf-8")
-    report = golden.parents[1] / "workflow/report/workflow.rst"
-    raw = ".. raw:: html\n\n" + indent(picture, "   ") + "\n"
-    words = report.read_text(encoding="utf-8").rpartition("</svg>\n\n")[2]
-    report.write_text(raw + words, encoding="utf-8")
 
 
 def table_difference(old_path: Path, new_path: Path) -> str:

@@ -13,11 +13,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import yaml
-from ensembles.studies import spread_of, study_of
+from ensembles.studies import PAPER, noise_of, study_of
 
 from precursors import Chain
 from precursors.accuracy.failures import FAILURE_MODES, Failure
-from precursors.ensembles import digits, resolution, spread
+from precursors.ensembles import noise, resolution
+from precursors.ensembles.printed_digits import digits_table
 from precursors.ensembles.study import run_members
 from precursors.hierarchy.compare_models import compare_models
 from precursors.reproduction.definitions import definitions_table
@@ -75,22 +76,16 @@ def definitions() -> pd.DataFrame:
 
 
 @cache
-def spread_members() -> pd.DataFrame:
-    """A small study of the spread, with its runs."""
-    return run_members(spread_of())
+def noise_members() -> pd.DataFrame:
+    """A small noise ensemble, with its runs."""
+    return run_members(noise_of(runs=8))
 
 
 @cache
 def resolution_members() -> pd.DataFrame:
-    """Few runs of few blocks, with an octave and the paper's number of blocks."""
-    settings = {"seed": 1, "noise": 1e-3, "n_blocks": [2, 4, 10], "runs": [6, 6, 6]}
-    return run_members(study_of("resolution_members", settings))
-
-
-def resolution_table() -> pd.DataFrame:
-    """Statistics for each number of blocks, with what is expected."""
-    table = resolution.resolution_table(resolution_members(), CONFIG["chain"]["length"])
-    return resolution.with_estimates(table, CONFIG["chain"])
+    """Few runs of few blocks, with an octave."""
+    settings = {"seed": 1, "n_blocks": [2, 4], "runs": [6, 6]}
+    return resolution.with_front_speed(run_members(study_of("resolution_members", settings)), 0.1)
 
 
 def model_comparison() -> pd.DataFrame:
@@ -101,13 +96,13 @@ def model_comparison() -> pd.DataFrame:
 
 TABLES: dict[str, Callable[[], pd.DataFrame]] = {
     "definitions": definitions,
-    "spread": lambda: spread.spread_table(spread_members()),
-    "robustness": lambda: spread.robustness_table(spread.spread_table(spread_members())).drop(columns="rule"),
-    "digits": lambda: digits.digits_table(run_members(study_of("digits_members", {"seed": 1, "draws": 8}))),
-    "resolution": resolution_table,
-    "resolution_limits": lambda: resolution.extrapolation_table(resolution_members(), 0.1, 2),
+    "noise": lambda: noise.noise_table(noise_members()),
+    "noise_differences": lambda: noise.differences_table(noise_members()),
+    "digits": lambda: digits_table(run_members(study_of("digits_members", {"seed": 1, "draws": 8})), PAPER),
+    "resolution": lambda: resolution.resolution_table(resolution_members()),
+    "counts_by_n": lambda: resolution.counts_table(resolution_members(), "fig10"),
+    "resolution_limits": lambda: resolution.extrapolation_table(resolution_members(), 2),
     "resolution_exponents": lambda: resolution.exponents_table(resolution_members()),
-    "resolution_readings": lambda: resolution.readings_table(resolution_members()),
 }
 # These take seconds and are compared where other tests need them, too.
 ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {

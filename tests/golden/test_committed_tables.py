@@ -7,9 +7,8 @@ import pytest
 import yaml
 from ensembles.studies import study_of
 
-from precursors.analysis.run_statistics import share_interval
 from precursors.ensembles.event_law import event_law_table, predicted_events
-from precursors.ensembles.study import run_members, start_of
+from precursors.ensembles.study import chain_of, run_members
 
 ROOT = Path(__file__).parents[2]
 CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
@@ -23,7 +22,7 @@ def committed(name: str) -> pd.DataFrame:
 
 def test_the_law_of_each_chain_is_that_of_the_library():
     for row in committed("event_law_full").to_dict("records"):
-        chain, _ = start_of({**CONFIG["chain"], **row})
+        chain = chain_of({**CONFIG["chain"], **row})
         assert row["law"] == pytest.approx(predicted_events(chain), rel=ROUNDING)
 
 
@@ -39,10 +38,3 @@ def test_the_runs_of_few_blocks_are_those_of_the_library():
     keys = ["varied", "loading", "theta", "n_blocks"]
     there = committed("event_law_full").merge(again[keys], on=keys)
     pd.testing.assert_frame_equal(there, again, rtol=1e-6)
-
-
-def test_shares_have_their_intervals():
-    for row in committed("endless_full").to_dict("records"):
-        assert row["share"] == row["endless"] / row["runs"]
-        interval = share_interval(row["endless"], row["runs"])
-        assert (row["share_low"], row["share_high"]) == pytest.approx(interval, rel=ROUNDING)

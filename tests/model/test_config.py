@@ -95,18 +95,11 @@ WRONG = [
     ("accuracy.compared", ["none"], ["holds 'none'", "trailing"]),
     ("hierarchy.tolerances.waveforms", 0.1, ["the name 'waveforms'", "waveform"]),
     ("ensembles.chunks", 0, ["ensembles.chunks", "a whole number from 1 to 10000", "is 0"]),
-    (
-        "ensembles.maps.pairs",
-        [["theta", "length"]],
-        ["pairs[0][1]", "one of theta, friction_ratio", "'length'"],
-    ),
-    ("ensembles.maps.pairs", [["theta", "theta"]], ["pairs[0]", "two different parameters"]),
     ("ensembles.resolution.runs", [40], ["resolution.runs", "one number for each of n_blocks"]),
-    ("ensembles.spread.loads", [], ["a list of up to 1000 different numbers between 0 and 1", "is []"]),
-    ("ensembles.spread.members", 10**7, ["a whole number from 1 to 1000000", "is 10000000"]),
+    ("ensembles.noise.runs", 10**7, ["a whole number from 1 to 1000000", "is 10000000"]),
     ("hierarchy.repetitions", 10**6, ["a whole number >= 5 and up to 1000"]),
     ("duration", 1e7, ["up to 1e+6", "is 10000000.0"]),
-    ("ensembles.spread.seed", 20.5, ["a whole number >= 0", "is 20.5"]),
+    ("ensembles.noise.seed", 20.5, ["a whole number >= 0", "is 20.5"]),
 ]
 
 

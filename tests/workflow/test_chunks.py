@@ -3,8 +3,8 @@
 import re
 from collections import Counter
 
-MAP, OTHER_MAP, SPREAD = "map_theta_friction_ratio", "map_theta_n_blocks", "spread_members"
-TABLES = [f"results/tables/{study}.csv" for study in (MAP, OTHER_MAP, SPREAD)]
+MAP, NOISE = "map_theta_friction_ratio", "noise_members"
+TABLES = [f"results/tables/{study}.csv" for study in (MAP, NOISE)]
 
 
 def chunks_to_run(workspace) -> Counter:
@@ -23,8 +23,8 @@ def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_to
     (workspace.path / TABLES[0]).unlink()
     assert chunks_to_run(workspace) == {MAP: 1}
     workspace.edit("config.yaml", "seed: 2010", "seed: 2011")
-    assert chunks_to_run(workspace) == {MAP: 1, SPREAD: 2}
+    assert chunks_to_run(workspace) == {MAP: 1, NOISE: 2}
     workspace.edit("config.yaml", "points: 2000", "points: 2001")
-    assert chunks_to_run(workspace) == {MAP: 2, OTHER_MAP: 2, SPREAD: 2}
+    assert chunks_to_run(workspace) == {MAP: 2, NOISE: 2}
     workspace.edit("config.yaml", "chunks: 2", "chunks: 7")
-    assert chunks_to_run(workspace) == {MAP: 7, OTHER_MAP: 7, SPREAD: 7}
+    assert chunks_to_run(workspace) == {MAP: 7, NOISE: 7}

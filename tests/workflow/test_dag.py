@@ -16,9 +16,7 @@ SCENE_JOBS = {"simulate_scene", "tabulate_slips", "tabulate_trace", "draw_scene"
 ON_DEMAND = {
     "answer_scene",
     "certify_scene",
-    "draw_mission",
     "prove_again",
-    "tabulate_endless",
     "write_provenance",
 }
 # The paper shows nearly all tables and figures, and is set again when one of them may change.
@@ -122,6 +120,7 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(fi
     ("module", "jobs"),
     [
         ("figures/scene", {f"draw_scene {scene}" for scene in (*PAPERS, "steep")}),
+        ("figures/theta_window", {"draw_theta_window"}),
         ("figures/definitions", {"draw_definitions"}),
         ("reproduction/claims_results", {"evaluate_claims"}),
     ],

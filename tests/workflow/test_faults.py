@@ -39,7 +39,7 @@ class Project:
         config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
         config["duration"] = 4.0
         config["ensembles"]["chunks"] = 2
-        config["ensembles"]["maps"]["points"] = 40
+        config["ensembles"]["map"]["points"] = 40
         (directory / "config.yaml").write_text(yaml.safe_dump(config, sort_keys=False), encoding="utf-8")
 
     def start(self, *arguments: str) -> subprocess.Popen[str]:

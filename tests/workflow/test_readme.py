@@ -18,10 +18,8 @@ RESULTS = (ROOT / "results/README.md").read_text(encoding="utf-8")
 # What the workflow makes on demand, by rule or by file.
 ON_DEMAND = (
     "accuracy_full",
-    "mission",
     "prove_scenes",
     "results/certificates/fig10.json.gz",
-    "results/tables/endless.csv",
 )
 OF_MAKE = ("tables/bench.csv", "report.html")
 ASKED_SCENE = """\

@@ -5,10 +5,8 @@ import json
 import re
 import shutil
 from collections import Counter
-from textwrap import indent
 from types import SimpleNamespace
 
-import draw_mission
 import jinja2
 import pytest
 from browser import browser, find_browser
@@ -54,16 +52,6 @@ def whole(_finished, tmp_path_factory):
     workspace = Workspace(tmp_path_factory.mktemp("whole") / "copy")
     shutil.copytree(_finished.path, workspace.path)
     return workspace.path, write_report(workspace, "all")
-
-
-def test_the_mission_at_the_head_is_that_of_the_rules(untouched):
-    workspace, _ = untouched
-    picture = draw_mission.picture(
-        workspace.run("all", "--rulegraph", "mermaid-js").text, workspace.path / "Snakefile"
-    )
-    assert (ROOT / "tests/golden/mission.svg").read_text(encoding="utf-8") == picture
-    head = (ROOT / "workflow/report/workflow.rst").read_text(encoding="utf-8")
-    assert head.startswith(".. raw:: html\n\n" + indent(picture, "   "))
 
 
 def test_every_figure_and_the_main_tables_of_the_workflow_are_in_the_report(whole):

@@ -1,9 +1,7 @@
-# noise, N, maps
+# noise, printed digits, N, map
 
-from precursors.ensembles.catalogue import MAPS, STUDIES, study_arguments
-from precursors.ensembles.maps import places_of
+from precursors.ensembles.catalogue import STUDIES, study_arguments
 from precursors.ensembles.resolution import PREDICTED_UP_TO
-from precursors.ensembles.spread import QUESTIONS
 
 NUMBER_OF_CHUNKS = config["ensembles"]["chunks"]
 CHUNKS = [f"{i}of{NUMBER_OF_CHUNKS}" for i in range(1, NUMBER_OF_CHUNKS + 1)]
@@ -11,19 +9,16 @@ CHUNKS = [f"{i}of{NUMBER_OF_CHUNKS}" for i in range(1, NUMBER_OF_CHUNKS + 1)]
 
 wildcard_constraints:
     study="|".join(STUDIES),
-    map="|".join(MAPS),
     chunk="[0-9]+of[0-9]+",
 
 
 rule ensembles:
     input:
-        collect("results/figures/spread_{question}.svg", question=QUESTIONS),
-        [f"results/figures/map_{x}_{y}.svg" for x, y in config["ensembles"]["maps"]["pairs"]],
-        collect("results/figures/{figure}.svg", figure=["resolution", "event_law", "long_runs"]),
         collect(
-            "results/tables/{table}.csv",
-            table=["spread", "robustness", "resolution_limits", "digits"],
+            "results/figures/{figure}.svg",
+            figure=["noise", "theta_window", "resolution", "event_law", "map_theta_friction_ratio"],
         ),
+        "results/tables/digits.csv",
     localrule: True
 
 
@@ -53,27 +48,42 @@ rule gather_members:
         "../scripts/gather_members.py"
 
 
-rule tabulate_spread:
+rule tabulate_noise:
     input:
-        members="results/tables/spread_members.csv",
+        members="results/tables/noise_members.csv",
     output:
-        spread=report("results/tables/spread.csv", category="Tables"),
-        robustness=report("results/tables/robustness.csv", category="Tables"),
+        table=report("results/tables/noise.csv", category="Tables"),
+        differences=report("results/tables/noise_differences.csv", category="Tables"),
     log:
-        "results/logs/tabulate_spread.log",
+        "results/logs/tabulate_noise.log",
     localrule: True
     params:
-        code=digest("tabulate_spread"),
+        code=digest("tabulate_noise"),
     script:
-        "../scripts/tabulate_spread.py"
+        "../scripts/tabulate_noise.py"
+
+
+rule tabulate_theta_window:
+    input:
+        members="results/tables/theta_window_members.csv",
+    output:
+        table=report("results/tables/theta_window.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_theta_window.log",
+    localrule: True
+    params:
+        code=digest("tabulate_theta_window"),
+    script:
+        "../scripts/tabulate_theta_window.py"
 
 
 rule tabulate_resolution:
     input:
         members="results/tables/resolution_members.csv",
+        noise="results/tables/noise_members.csv",
     output:
         table=report("results/tables/resolution.csv", category="Tables"),
-        readings=report("results/tables/resolution_readings.csv", category="Tables"),
+        counts=report("results/tables/counts_by_n.csv", category="Tables"),
         limits=report("results/tables/resolution_limits.csv", category="Tables"),
         exponents=report("results/tables/resolution_exponents.csv", category="Tables"),
     log:
@@ -81,7 +91,8 @@ rule tabulate_resolution:
     localrule: True
     params:
         slider=config["chain"],
-        fit_from=config["ensembles"]["resolution"]["fit_from"],
+        uniform=min(SLIDERS, key=lambda scene: abs(SLIDERS[scene]["theta"])),
+        extrapolate_from=config["ensembles"]["resolution"]["extrapolate_from"],
         code=digest("tabulate_resolution"),
     script:
         "../scripts/tabulate_resolution.py"
@@ -96,7 +107,7 @@ rule tabulate_predictability:
         sliders=SLIDERS,
         n_blocks=lambda wildcards: [
             n
-            for n in config["ensembles"]["resolution"]["n_blocks"]
+            for n in sorted({*config["ensembles"]["resolution"]["n_blocks"], config["chain"]["n_blocks"]})
             if n <= PREDICTED_UP_TO or wildcards.full
         ],
         duration=config["duration"],
@@ -115,25 +126,10 @@ rule tabulate_digits:
         "results/logs/tabulate_digits.log",
     localrule: True
     params:
+        paper={scene: config["scenes"][scene].get("paper", {}) for scene in config["fig13"]},
         code=digest("tabulate_digits"),
     script:
         "../scripts/tabulate_digits.py"
-
-
-# On demand: the paper shows the committed table of `endless_full`.
-rule tabulate_endless:
-    input:
-        members="results/tables/endless{full}_members.csv",
-    output:
-        table=report("results/tables/endless{full}.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_endless{full}.log",
-    localrule: True
-    params:
-        length=config["chain"]["length"],
-        code=digest("tabulate_endless"),
-    script:
-        "../scripts/tabulate_endless.py"
 
 
 rule tabulate_event_law:
@@ -149,17 +145,3 @@ rule tabulate_event_law:
         code=digest("tabulate_event_law"),
     script:
         "../scripts/tabulate_event_law.py"
-
-
-rule tabulate_long_runs:
-    output:
-        slips="results/tables/long_runs.csv",
-        statistics=report("results/tables/long_runs_statistics.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_long_runs.log",
-    params:
-        sliders=SLIDERS,
-        duration=config["ensembles"]["long_runs"]["duration"],
-        code=digest("tabulate_long_runs"),
-    script:
-        "../scripts/tabulate_long_runs.py"

@@ -78,15 +78,18 @@ FIGURES = {
         },
         "options": {"chains": CHAINS, "tolerance": config["accuracy"]["tolerance"]},
     },
-    "spread": {
-        "file": "spread_{question}",
-        "shows": "changes of {question}",
+    "noise": {
+        "shows": "mu_sapp and counts over noise and printed digits",
         "category": "Sensitivity",
         "tables": {
-            "members": "results/tables/spread_members.csv",
-            "spread": "results/tables/spread.csv",
+            "noise": "results/tables/noise_members.csv",
+            "digits": "results/tables/digits_members.csv",
         },
-        "options": {"question": "{question}"},
+    },
+    "theta_window": {
+        "shows": "a window of theta",
+        "category": "Sensitivity",
+        "tables": {"members": "results/tables/theta_window_members.csv"},
     },
     "resolution": {
         "shows": "what the number of blocks does",
@@ -104,24 +107,13 @@ FIGURES = {
         "category": "Sensitivity",
         "tables": {"table": "results/tables/event_law{full}.csv"},
     },
-    "map": {
-        "file": "{map}",
-        "shows": "two parameters",
+    "map_theta_friction_ratio": {
+        "shows": "theta and mu_k/mu_s",
         "category": "Sensitivity",
-        "module": "map_of",
-        "tables": {"table": "results/tables/{map}.csv"},
+        "module": "friction_map",
+        "tables": {"table": "results/tables/map_theta_friction_ratio.csv"},
         "options": {
-            "x": lambda wildcards: MAPS[wildcards.map][0],
-            "y": lambda wildcards: MAPS[wildcards.map][1],
-            "scenes": lambda wildcards: places_of(SLIDERS.values(), *MAPS[wildcards.map]),
-        },
-    },
-    "long_runs": {
-        "shows": "peak loads of hundreds of global slips",
-        "category": "Sensitivity",
-        "tables": {
-            "slips": "results/tables/long_runs.csv",
-            "statistics": "results/tables/long_runs_statistics.csv",
+            "scenes": [(slider["theta"], slider["mu_k"] / slider["mu_s"]) for slider in SLIDERS.values()]
         },
     },
     "model_comparison": {
@@ -130,10 +122,6 @@ FIGURES = {
         "tables": {"table": "results/tables/model_comparison.csv"},
     },
 }
-
-
-wildcard_constraints:
-    question="|".join(QUESTIONS),
 
 
 rule fig13:
@@ -146,28 +134,6 @@ rule paper_figures:
     input:
         collect("results/figures/{figure}.{kind}", figure=["fig09", *SCENES, "fig13"], kind=FORMATS),
     localrule: True
-
-
-# On demand: the graph in README.md and in the report, from the rules themselves.
-rule mission:
-    input:
-        "results/figures/mission.svg",
-    localrule: True
-
-
-rule draw_mission:
-    input:
-        snakefile=ROOT / "Snakefile",
-        rules=sorted(ROOT.glob("workflow/rules/*.smk")),
-    output:
-        "results/figures/mission.svg",
-    log:
-        "results/logs/draw_mission.log",
-    localrule: True
-    params:
-        code=digest("draw_mission"),
-    script:
-        "../scripts/draw_mission.py"
 
 
 rule explorer:

@@ -1,5 +1,6 @@
-"""Tabulate what the number of blocks does to the paper's numbers, and where they go as it grows."""
+"""Tabulate convergence with N: each number, both counts of events, limits and local exponents."""
 
+import pandas as pd
 from job import job
 
 from precursors.ensembles import resolution
@@ -7,10 +8,14 @@ from precursors.support.files import read_table, write_table
 
 if __name__ == "__main__":
     with job() as snakemake:
-        runs, slider, output = read_table(snakemake.input.members), snakemake.params.slider, snakemake.output
-        table = resolution.resolution_table(runs, slider["length"])
-        limits = resolution.extrapolation_table(runs, slider["length"], snakemake.params.fit_from)
-        write_table(resolution.with_estimates(table, slider), output.table)
-        write_table(resolution.readings_table(runs), output.readings)
+        params, output = snakemake.params, snakemake.output
+        runs = pd.concat([read_table(path) for path in (snakemake.input.noise, snakemake.input.members)])
+        members = resolution.with_front_speed(
+            runs.sort_values("n_blocks", kind="stable"), params.slider["length"]
+        )
+        write_table(resolution.resolution_table(members), output.table)
+        write_table(resolution.counts_table(members, params.uniform), output.counts)
+        limits = resolution.extrapolation_table(members, params.extrapolate_from)
+        limits["wave_speed_m_per_s"] = resolution.wave_speed(params.slider)
         write_table(limits, output.limits)
-        write_table(resolution.exponents_table(runs), output.exponents)
+        write_table(resolution.exponents_table(members), output.exponents)

@@ -34,14 +34,13 @@ import pandas as pd
 
 from precursors.analysis.run_statistics import median_interval
 from precursors.ensembles.loadings import LOADINGS
-from precursors.ensembles.study import Study, stack, start_of
+from precursors.ensembles.study import NOISE, Study, chain_of, stack
 from precursors.model.chain import Chain
 
 THETAS = (-0.9, -5 / 6, 0.0, 5 / 6, 0.95)
 FRICTION = ((0.7, 0.2), (0.7, 0.3), (0.7, 0.6), (0.5, 0.45), (1.2, 0.45))
 # Stiffness K of the drive [N/m]; that of the paper's slider, E S/L, is 2.5e6 N/m.
 DRIVES = (0.8e4, 0.8e5, 0.8e6, 2.5e6)
-NOISE = 1e-3
 # Runs last until the drive has added so many times what the law says.
 MOST_LOAD = 1.5
 # The law is said to hold where the interval of the median is within a tenth. Without the term of the springs,
@@ -67,7 +66,7 @@ def event_law_study(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> S
     blocks = []
     for group, case in enumerate(_cases(settings)):
         member = {"theta": 0.0, **slider, "loading": "linear", "load_noise": NOISE, **case}
-        chain, _ = start_of(member | {"load_noise": 0.0})
+        chain = chain_of(member | {"load_noise": 0.0})
         duration = MOST_LOAD * added_load(chain) / chain.loading_rate
         draws = {"group": group, "draw": np.arange(settings["runs"]), "duration": duration}
         blocks.append(member | draws)
@@ -103,28 +102,28 @@ def event_law_table(members: pd.DataFrame, slider: Mapping[str, Any]) -> pd.Data
             members = members.assign(**{name: value})
     rows = []
     for case, runs in members.groupby(CASE, sort=False):
-        chain, _ = start_of(runs.iloc[0].to_dict() | {"load_noise": 0.0})
+        chain = chain_of(runs.iloc[0].to_dict() | {"load_noise": 0.0})
         step, law = (chain.mu_s - chain.mu_k) * chain.weights[0], predicted_events(chain)
         soft_drive = chain.mu_k * chain.normal_load / step
         done = runs[runs["reached"]]
-        ratio = done["n_events"] / law
+        ratio = done["events_to_global_slip"] / law
         low, high = median_interval(ratio)
         load = chain.loading_rate * done["time_s"]
-        rise = (load - chain.mu_s * chain.weights[0]) / (done["n_events"] - 1) / step
+        rise = (load - chain.mu_s * chain.weights[0]) / (done["events_to_global_slip"] - 1) / step
         found = {
             "stiffness_ratio": chain.drive_stiffness * chain.n_blocks / chain.stiffness,
             "law": law,
             "soft_drive": soft_drive,
             "n_runs": len(runs),
             "n_reached": len(done),
-            "events": done["n_events"].median(),
+            "events": done["events_to_global_slip"].median(),
             "ratio": ratio.median(),
             "ratio_low": low,
             "ratio_high": high,
-            "ratio_soft_drive": (done["n_events"] / soft_drive).median(),
+            "ratio_soft_drive": (done["events_to_global_slip"] / soft_drive).median(),
             "rise": rise.median(),
             "path": (load / added_load(chain)).median(),
-            "alone": (done["n_alone"] / done["n_events"]).median(),
+            "alone": (done["n_alone"] / done["events_to_global_slip"]).median(),
             "holds": bool(low >= 1 - TOLERANCE and high <= 1 + TOLERANCE),
         }
         rows.append(dict(zip(CASE, case, strict=True)) | found)

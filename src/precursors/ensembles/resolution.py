@@ -1,29 +1,30 @@
-"""Resolution: which numbers of the paper depend on how finely the slider is cut into blocks."""
+"""Convergence with N: which numbers of the paper depend on how finely the slider is cut into blocks."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import ArrayLike
 
 from precursors.analysis.horizon import horizon
-from precursors.analysis.run_statistics import share_interval, statistics
-from precursors.ensembles.study import Study, stack
+from precursors.analysis.run_statistics import median_interval, statistics
+from precursors.ensembles.study import NOISE, Study, stack
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import simulate
 
-QUANTITIES = ("events_counted", "mu_sapp", "time_s", "front_speed_m_per_s")
-# Numbers that are carried on to infinite N as a + b/N.
-CARRIED_ON = ("mu_sapp", "time_s", "front_speed_m_per_s")
-# Numbers whose growth with N is told octave by octave.
-COUNTS = ("events_counted", "n_events")
+# All slip events up to the first global slip, and those of Fig. 13, which are never shorter than one before.
+COUNTS = ("events_to_global_slip", "events_counted")
+# Numbers that are extrapolated to infinite N as a + b/N.
+EXTRAPOLATED = ("mu_sapp", "time_s", "front_speed_m_per_s")
+QUANTITIES = (*COUNTS, *EXTRAPOLATED)
 # Samples of a bootstrap, and the ends of its 95 % interval.
 SAMPLES, ENDS = 1000, (0.025, 0.975)
 # Largest N for which the predictability time is part of every run of the workflow: its work grows as N^2.
 PREDICTED_UP_TO = 30
+POINT = ["scene", "theta", "n_blocks"]
 
 
 def resolution_study(
@@ -31,7 +32,8 @@ def resolution_study(
 ) -> Study:
     """Chains of more and more blocks with the loading of some scenes.
 
-    The first member of each chain has the normal loads of Eq. 7, the others have them with noise.
+    The first member of each chain has the normal loads of Eq. 7, the others have them with noise. Chains with
+    as many blocks as the scene are those of `noise_study`.
 
     Parameters
     ----------
@@ -45,89 +47,80 @@ def resolution_study(
     blocks: list[dict[str, Any]] = []
     for scene, slider in sliders.items():
         for n_blocks, n_runs in zip(settings["n_blocks"], settings["runs"], strict=True):
-            draw = np.arange(n_runs)
-            noise = np.where(draw == 0, 0.0, settings["noise"])
+            if n_blocks == slider["n_blocks"]:
+                continue
+            draw = np.arange(n_runs + 1)
+            noise = np.where(draw == 0, 0.0, NOISE)
             block = {**slider, "n_blocks": n_blocks, "duration": duration, "scene": scene}
             blocks.append(block | {"load_noise": noise, "draw": draw, "group": len(blocks)})
     return Study(stack(blocks), seed=settings["seed"])
 
 
-def estimated_mu_sapp(n_blocks: ArrayLike, mu_s: float, mu_k: float) -> FloatArray:
-    """Estimate mu_k + 2 (mu_s - mu_k) / N of the apparent static friction coefficient [1].
+def with_front_speed(members: pd.DataFrame, length: float) -> pd.DataFrame:
+    """Add the mean speed of the front of the first global slip from block 1 to block N [m/s].
 
-    The load is the kinetic friction of all blocks, and above it the drop of the load when one block slides.
-    """
-    return mu_k + 2.0 * (mu_s - mu_k) / np.asarray(n_blocks, float)
-
-
-def front_speed(members: pd.DataFrame, length: float) -> pd.Series:
-    """Mean speed of the front of the first global slip from block 1 to block N [m/s]; NaN without one.
-
-    Parameters
-    ----------
-    members : DataFrame
-        Columns n_blocks and crossing_time_s.
-    length : float
-        Length L of the contact [m].
+    It is NaN without such a front. `length` is that of the contact, L [m].
     """
     distance = length * (members["n_blocks"] - 1) / members["n_blocks"]
-    return distance / members["crossing_time_s"].where(members["crossing_time_s"] > 0)
+    speed = distance / members["crossing_time_s"].where(members["crossing_time_s"] > 0)
+    return members.assign(front_speed_m_per_s=speed)
 
 
-def resolution_table(members: pd.DataFrame, length: float) -> pd.DataFrame:
+def wave_speed(slider: Mapping[str, float]) -> float:
+    """Speed of long waves in a slider, sqrt(E S L/M) [m/s]."""
+    stiffness = slider["youngs_modulus"] * slider["cross_section"]
+    return math.sqrt(stiffness * slider["length"] / slider["slider_mass"])
+
+
+def resolution_table(members: pd.DataFrame) -> pd.DataFrame:
     """Statistics of each number over the runs with the same scene and number of blocks.
-
-    Parameters
-    ----------
-    members : DataFrame
-        The gathered study.
-    length : float
-        Length L of the contact [m].
 
     Returns
     -------
     DataFrame
         One row per scene, theta, n_blocks and quantity: the value without noise; what `statistics` has of the
-        runs with a global slip; how many runs there are, n_runs.
+        runs with noise that have a global slip; how many with noise there are, n_runs.
     """
-    members = members.assign(front_speed_m_per_s=front_speed(members, length))
     rows = []
-    for (scene, theta, n_blocks), runs in members.groupby(["scene", "theta", "n_blocks"], sort=False):
+    for point, runs in members.groupby(POINT, sort=False):
+        noisy = runs["load_noise"] > 0.0
         for quantity in QUANTITIES:
-            point = {"scene": scene, "theta": theta, "n_blocks": n_blocks, "quantity": quantity}
-            without_noise = runs.loc[runs["load_noise"] == 0.0, quantity].item()
-            reached = runs.loc[runs["reached"], quantity]
-            rows.append(point | {"without_noise": without_noise, "n_runs": len(runs)} | statistics(reached))
+            number = dict(zip(POINT, point, strict=True)) | {"quantity": quantity, "n_runs": noisy.sum()}
+            number["without_noise"] = runs.loc[~noisy, quantity].item()
+            rows.append(number | statistics(runs.loc[noisy & runs["reached"], quantity]))
     return pd.DataFrame(rows)
 
 
-def readings_table(members: pd.DataFrame) -> pd.DataFrame:
-    """The two readings of global slip: all blocks at the same instant, or each at some time.
+def noisy_runs(members: pd.DataFrame) -> pd.DataFrame:
+    """The runs with noise that have a global slip."""
+    return members[(members["load_noise"] > 0.0) & members["reached"]]
+
+
+def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
+    """Both counts of events against N, and their ratio to those of the uniformly loaded scene.
+
+    A counted event is a record of the propagation length, ties included.
 
     Returns
     -------
     DataFrame
-        One row per scene, theta and n_blocks: runs; without_global_slip, how many never have all blocks slide
-        at once; earlier, the share (with its interval) of runs in which every block slid in an event before
-        all slid at once; medians of events and mu_sapp by each reading, and of pulse_share, the share of the
-        blocks that slide at once in the first event in which every block slides.
+        One row per n_blocks and scene: noisy runs with a global slip; the median of each count with its
+        interval, and over that of the scene `uniform`; the median share of the events that are counted; the
+        events counted per block.
     """
+    runs = noisy_runs(members)
     rows = []
-    for (scene, theta, n_blocks), runs in members.groupby(["scene", "theta", "n_blocks"], sort=False):
-        each = runs["sliding_each"] > 0
-        earlier = each & (runs["sliding_each"] < n_blocks)
-        low, high = share_interval(int(earlier.sum()), len(runs))
-        medians = {
-            "events_at_once": runs.loc[runs["reached"], "n_events"].median(),
-            "events_each": runs.loc[each, "n_events_each"].median(),
-            "mu_sapp_at_once": runs["mu_sapp"].median(),
-            "mu_sapp_each": runs["mu_sapp_each"].median(),
-            "pulse_share": (runs["sliding_each"] / runs["n_blocks"])[each].median(),
-        }
-        counted = {"runs": len(runs), "without_global_slip": int((~runs["reached"]).sum())}
-        shares = {"earlier": earlier.mean(), "earlier_low": low, "earlier_high": high}
-        rows.append({"scene": scene, "theta": theta, "n_blocks": n_blocks} | counted | shares | medians)
-    return pd.DataFrame(rows)
+    for (n_blocks, scene, theta), own in runs.groupby(["n_blocks", "scene", "theta"], sort=False):
+        even = runs[(runs["n_blocks"] == n_blocks) & (runs["scene"] == uniform)]
+        row = {"n_blocks": n_blocks, "scene": scene, "theta": theta, "runs": len(own)}
+        for count in COUNTS:
+            low, high = median_interval(own[count])
+            row |= {count: own[count].median(), f"{count}_low": low, f"{count}_high": high}
+            row[f"{count}_over_uniform"] = own[count].median() / even[count].median()
+        row["share_counted"] = (own["events_counted"] / own["events_to_global_slip"]).median()
+        row["counted_per_block"] = (own["events_counted"] / own["n_blocks"]).median()
+        rows.append(row)
+    return pd.DataFrame(rows).sort_values(["n_blocks", "theta"], ignore_index=True)
 
 
 def predictability_table(
@@ -151,30 +144,10 @@ def predictability_table(
     return pd.DataFrame(rows)
 
 
-def with_estimates(table: pd.DataFrame, slider: Mapping[str, Any]) -> pd.DataFrame:
-    """A table of `resolution_table` with a column estimate: of mu_sapp, and of the front's speed [m/s].
+def extrapolation_table(members: pd.DataFrame, from_n_blocks: int) -> pd.DataFrame:
+    """Extrapolate numbers to an infinite number of blocks as a + b/N, by least squares over the medians.
 
-    The front of a global slip is about as fast as long waves in the chain, sqrt(E S L/M); NaN for numbers
-    that nothing is expected of.
-    """
-    friction = estimated_mu_sapp(table["n_blocks"], slider["mu_s"], slider["mu_k"])
-    modulus, section = slider["youngs_modulus"], slider["cross_section"]
-    wave_speed = np.sqrt(modulus * section * slider["length"] / slider["slider_mass"])
-    is_friction, is_speed = (table["quantity"] == name for name in ("mu_sapp", "front_speed_m_per_s"))
-    return table.assign(estimate=np.where(is_friction, friction, np.where(is_speed, wave_speed, np.nan)))
-
-
-def extrapolation_table(members: pd.DataFrame, length: float, from_n_blocks: int) -> pd.DataFrame:
-    """Carry numbers on to an infinite number of blocks as a + b/N, by least squares over the medians.
-
-    Parameters
-    ----------
-    members : DataFrame
-        The gathered study.
-    length : float
-        Length L of the contact [m].
-    from_n_blocks : int
-        Smallest number of blocks that takes part.
+    Chains with fewer than `from_n_blocks` blocks are left out.
 
     Returns
     -------
@@ -182,11 +155,10 @@ def extrapolation_table(members: pd.DataFrame, length: float, from_n_blocks: int
         One row per scene and quantity: a (the limit) and b, with the ends of their bootstrap intervals;
         n_points, how many N took part.
     """
-    members = members.assign(front_speed_m_per_s=front_speed(members, length))
-    members = members[(members["n_blocks"] >= from_n_blocks) & members["reached"]]
+    members = noisy_runs(members[members["n_blocks"] >= from_n_blocks])
     rows = []
     for scene, of_scene in members.groupby("scene", sort=False):
-        for quantity in CARRIED_ON:
+        for quantity in EXTRAPOLATED:
             n_blocks, medians, samples = bootstrap_medians(of_scene, quantity)
             (b, a), (b_all, a_all) = (np.polyfit(1.0 / n_blocks, y, 1) for y in (medians, samples))
             (a_low, a_high), (b_low, b_high) = np.quantile(a_all, ENDS), np.quantile(b_all, ENDS)
@@ -205,7 +177,7 @@ def exponents_table(members: pd.DataFrame) -> pd.DataFrame:
         bootstrap interval.
     """
     rows = []
-    for scene, of_scene in members[members["reached"]].groupby("scene", sort=False):
+    for scene, of_scene in noisy_runs(members).groupby("scene", sort=False):
         for quantity in COUNTS:
             n_blocks, medians, samples = bootstrap_medians(of_scene, quantity)
             for i, n in enumerate(n_blocks):

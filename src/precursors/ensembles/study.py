@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from typing import Any
@@ -13,7 +13,7 @@ import pandas as pd
 
 from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
 from precursors.ensembles.loadings import loaded
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import Chain
 from precursors.model.checks import Until
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate_many
@@ -24,6 +24,8 @@ ARGUMENTS = tuple(inspect.signature(Chain.from_slider).parameters)
 LEFT_OUT = {*ARGUMENTS, "duration"} - {"theta", "n_blocks"}
 # Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
 BLOCKS_PER_BATCH = 2000
+# Relative noise in the normal loads: a tenth of what an experiment knows of them, and well above rounding.
+NOISE = 1e-3
 WITH_UNITS = {name: f"{name}_{unit}" for name, unit in SUMMARY_UNITS.items()}
 
 
@@ -35,20 +37,17 @@ class Study:
     ----------
     members : DataFrame
         One row per run. Its columns are arguments of `Chain.from_slider`; duration, the time limit of the run
-        [s]; loading, a key of `LOADINGS`; load_noise and start_noise (see `start_of`) with group and draw,
-        the numbers of the random stream. All other columns are labels.
+        [s]; loading, a key of `LOADINGS`; load_noise (see `chain_of`) with group and draw, the numbers of the
+        random stream. All other columns are labels.
     until : "global slip" or None
         As in `simulate`.
     seed : int
         Seed of all random numbers.
-    longest_slip : float or None
-        As in `simulate` [s].
     """
 
     members: pd.DataFrame
     until: Until = "global slip"
     seed: int = 0
-    longest_slip: float | None = None
 
     def chunk(self, i: int, n: int) -> Study:
         """Every n-th member, from member i on: about a n-th of the work."""
@@ -60,23 +59,19 @@ def stack(blocks: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
     return pd.concat([pd.DataFrame(block) for block in blocks], ignore_index=True)
 
 
-def start_of(member: Mapping[Any, Any], seed: int = 0) -> tuple[Chain, FloatArray]:
-    """Chain and start positions [m] of a member; they depend on nothing but the member and the seed.
+def chain_of(member: Mapping[Any, Any], seed: int = 0) -> Chain:
+    """Chain of a member; it depends on nothing but the member and the seed.
 
-    Noise of size s changes each normal load to w_i (1 + s u_i), and puts block i at s u_i times
-    mu_s F_Z / (N k), the compression of a spring that holds a mean block. u_i is uniform in -1..1.
+    Noise of size s changes each normal load to w_i (1 + s u_i) with u_i uniform in -1..1.
     """
     chain = Chain.from_slider(**{name: member[name] for name in ARGUMENTS if name in member})
     chain = loaded(chain, member.get("loading", "linear"))
-    load_noise, start_noise = member.get("load_noise", 0.0), member.get("start_noise", 0.0)
-    if load_noise == start_noise == 0.0:
-        return chain, np.zeros(chain.n_blocks)
+    size = member.get("load_noise", 0.0)
+    if size == 0.0:
+        return chain
     stream = np.random.SeedSequence(seed, spawn_key=(member["group"], member["draw"]))
-    random = np.random.default_rng(stream)
-    change = load_noise * random.uniform(-1, 1, chain.n_blocks)
-    compression = start_noise * random.uniform(-1, 1, chain.n_blocks)
-    scale = chain.mu_s * chain.normal_load / (chain.n_blocks * chain.stiffness)
-    return replace(chain, weights=chain.weights * (1 + change)), compression * scale
+    change = size * np.random.default_rng(stream).uniform(-1, 1, chain.n_blocks)
+    return replace(chain, weights=chain.weights * (1 + change))
 
 
 def run_members(study: Study) -> pd.DataFrame:
@@ -93,8 +88,8 @@ def run_members(study: Study) -> pd.DataFrame:
     for _, members in study.members.groupby("duration", sort=False):
         for begin in range(0, len(members), size):
             batch = members.iloc[begin : begin + size]
-            starts = [start_of(member, study.seed) for member in batch.to_dict("records")]
-            summary = summarise(_runs(starts, float(batch["duration"].iloc[0]), study))
+            chains = [chain_of(member, study.seed) for member in batch.to_dict("records")]
+            summary = summarise(_runs(chains, float(batch["duration"].iloc[0]), study.until))
             results.append(pd.DataFrame(summary, index=batch.index))
     return study.members.join(pd.concat(results).rename(columns=WITH_UNITS))
 
@@ -116,12 +111,11 @@ def gather(chunks: Iterable[str | PathLike[str]]) -> pd.DataFrame:
     return together.drop(columns=["member", *constant])
 
 
-def _runs(starts: list[tuple[Chain, FloatArray]], duration: float, study: Study) -> list[Run]:
+def _runs(chains: Sequence[Chain], duration: float, until: Until) -> list[Run]:
     """Run a batch; a run that meets the limit of transitions is kept as far as it came."""
-    chains, positions = zip(*starts, strict=True)
     try:
-        return simulate_many(chains, duration, study.until, 1, positions, longest_slip=study.longest_slip)
+        return simulate_many(chains, duration, until, 1)
     except TransitionLimitError as limit:
-        if len(starts) == 1:
+        if len(chains) == 1:
             return [limit.run]
-        return [run for start in starts for run in _runs([start], duration, study)]
+        return [run for chain in chains for run in _runs([chain], duration, until)]

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 from precursors.figures import style
 from precursors.model import printed
 
-HEIGHT_MM = 89.0
+HEIGHT_MM = 96.0
 LABELS = {
     "events_counted": style.EVENTS_LABEL,
     "mu_sapp": style.MU_SAPP_LABEL,
@@ -20,10 +20,10 @@ LABELS = {
     "front_speed_m_per_s": "Front speed [km/s]",
 }
 SCALES = {"front_speed_m_per_s": 1e-3}
-ESTIMATES = {"mu_sapp": r"$\mu_k + 2(\mu_s-\mu_k)/N$", "front_speed_m_per_s": r"$c=\sqrt{ESL/M}$"}
 BEYOND = 1.35  # where marks stand beyond the last N, in units of it
 WITHOUT_NOISE: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 3}
 HORIZON: dict[str, Any] = {"linestyle": ":", "linewidth": 1.2}
+ALL_EVENTS: dict[str, Any] = {"linestyle": "--", "linewidth": 0.8}
 LIMIT: dict[str, Any] = {"linestyle": "none", "marker": "D", "markersize": 3}
 EXPERIMENT: dict[str, Any] = {"linestyle": "none", "marker": "<", "markersize": 5}
 BAND = Patch(color=style.GREY, alpha=0.3, linewidth=0, label="5 to 95 %")
@@ -35,9 +35,11 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame
     Parameters
     ----------
     table : DataFrame
-        resolution.csv: medians are lines, 5 to 95 % of the runs are bands, and estimates are dashed.
+        resolution.csv: medians are lines, 5 to 95 % of the runs are bands. All events up to the first global
+        slip are dashed.
     limits : DataFrame
         resolution_limits.csv: limits for large N are diamonds beyond the last N, with their intervals.
+        Its wave_speed_m_per_s is a green line.
     predictability : DataFrame
         predictability.csv: a run without noise is a dot where it is predictable up to its global slip.
     papers_n : int
@@ -53,7 +55,11 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame
                 foreseen = predictability[predictability["scene"] == scene]
                 _draw_scene(panel, of_scene, limit.assign(n_blocks=beyond), foreseen, quantity)
             finish(panel, quantity, papers_n)
-            _draw_estimate(panel, rows, quantity)
+        for _, events in table[table["quantity"] == "events_to_global_slip"].groupby("scene", sort=False):
+            color = style.theta_color(events["theta"].iloc[0])
+            axes[0, 0].plot(events["n_blocks"], events["q50"], color=color, **ALL_EVENTS)
+        speed = limits["wave_speed_m_per_s"].iloc[0] * SCALES["front_speed_m_per_s"]
+        axes[1, 1].axhline(speed, color=style.GREEN, linestyle="--", label=r"$c=\sqrt{ESL/M}$")
         for sign, count in printed.EVENTS_COUNTED.items():
             axes[0, 0].plot(beyond, count, **EXPERIMENT, color=style.theta_color(sign))
         draw_experiments_mu_sapp(axes[0, 1])
@@ -66,6 +72,7 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame
         entries = [
             style.mark("median of the runs"),
             BAND,
+            style.mark("all events (median)", **ALL_EVENTS),
             style.mark("without noise", **WITHOUT_NOISE),
             style.mark("predictability time", **HORIZON),
             style.mark(r"limit $N \to \infty$", **LIMIT),
@@ -99,19 +106,10 @@ def finish(axes: Axes, quantity: str, papers_n: int) -> None:
     axes.axvline(papers_n, **style.DOTTED)
     if quantity == "events_counted":
         axes.set_yscale("log")
-        style.set_ticks(axes.yaxis, [1, 2, 5, 10, 20, 50, 100])
+        style.set_ticks(axes.yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000])
 
 
 def draw_experiments_mu_sapp(axes: Axes) -> None:
     """Draw mu_sapp of the experiment as a line."""
     label = f"experiment, {printed.MU_SAPP:g}"
     axes.axhline(printed.MU_SAPP, color=style.ORANGE, linestyle=":", linewidth=1.2, label=label)
-
-
-def _draw_estimate(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
-    """Draw what theory expects, the same for every scene."""
-    expected = table.dropna(subset="estimate").drop_duplicates("n_blocks").sort_values("n_blocks")
-    if quantity in ESTIMATES:
-        value = expected["estimate"] * SCALES.get(quantity, 1.0)
-        label = ESTIMATES[quantity]
-        axes.plot(expected["n_blocks"], value, color=style.GREEN, linestyle="--", label=label)

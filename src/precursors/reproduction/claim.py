@@ -74,7 +74,7 @@ class Claim:
     find : callable
         Compares the statement with the tables.
     fragile : tuple of (scene, quantity)
-        Rows of robustness.csv: where one of them is of class fragile, so is the claim.
+        Rows of digits.csv: where one of them is of class fragile, so is the claim.
     """
 
     id: str
@@ -92,7 +92,10 @@ class Claim:
         kind = KINDS[self.kind]
         if not finding.holds:
             return kind.fails
-        classes = [one(tables["robustness"], "class", scene=s, quantity=q) for s, q in self.fragile]
+        classes = [
+            one(tables["digits"], "class", scene=s, quantity=q, question="as in the run")
+            for s, q in self.fragile
+        ]
         return FRAGILE if "fragile" in classes else kind.holds
 
 

@@ -24,9 +24,9 @@ TABLES = (
     "definitions",
     "eq15",
     "failures",
-    "robustness",
-    "spread",
-    "long_runs_statistics",
+    "digits",
+    "noise",
+    "noise_differences",
     "model_comparison",
     "map_theta_friction_ratio",
 )

@@ -19,13 +19,7 @@ TABLES = (
     "work_precision",
     "step_sweep",
     "thresholds",
-    "spread",
     "model_comparison",
-    "resolution",
-    "resolution_limits",
-    "resolution_exponents",
-    "long_runs_statistics",
-    "map_theta_friction_ratio",
 )
 
 
@@ -166,89 +160,4 @@ def hierarchy(t: Tables, config: Mapping[str, Any]) -> Numbers:
     }
 
 
-def spread(t: Tables, config: Mapping[str, Any]) -> Numbers:
-    """What small changes of the parameters make of the numbers."""
-    study = config["ensembles"]["spread"]
-    found: Numbers = {
-        "window": study["theta"]["window"],
-        "window-points": study["theta"]["points"],
-        "members": study["members"],
-    }
-    for scene in SCENES:
-        window = rows(t["spread"], scene=scene, question="theta", quantity="mu_sapp").iloc[0]
-        found[f"window-mu-unchanged-{scene}"] = window["share_unchanged"]
-        for name, quantile in (("low", "q05"), ("mid", "q50"), ("high", "q95")):
-            found[f"window-mu-{name}-{scene}"] = window[quantile]
-        for name, quantity in (("events", "events_counted"), ("mu", "mu_sapp")):
-            row = rows(t["robustness"], scene=scene, quantity=quantity).iloc[0]
-            found |= {
-                f"class-{name}-{scene}": row["class"],
-                f"changes-{name}-{scene}": row["changes_at"],
-                f"by-{name}-{scene}": row["perturbation"],
-            }
-    return found
-
-
-def resolution(t: Tables, config: Mapping[str, Any]) -> Numbers:
-    """The numbers with more blocks."""
-    table, limits = t["resolution"], t["resolution_limits"]
-    # The number of blocks of the scenes, or the nearest that was tried.
-    noisy_n = min(table["n_blocks"], key=lambda n: abs(n - config["chain"]["n_blocks"]))
-    finest_speed = rows(table, scene=LEADING, quantity="front_speed_m_per_s").iloc[-1]
-    found: Numbers = {
-        "resolution-most": table["n_blocks"].max(),
-        "resolution-least": table["n_blocks"].min(),
-        "noisy-n": noisy_n,
-        "resolution-noise": config["ensembles"]["resolution"]["noise"],
-        "resolution-fit-from": config["ensembles"]["resolution"]["fit_from"],
-        "resolution-runs-most": table["n"].max(),
-        "resolution-runs-least": table["n"].min(),
-        "scattered-speed-low": (finest_speed["q05"], "m/s"),
-        "scattered-speed-high": (finest_speed["q95"], "m/s"),
-    }
-    counts_met = []
-    for i, scene in enumerate(SCENES):
-        friction, speeds = (
-            rows(limits, scene=scene, quantity=quantity).iloc[0]
-            for quantity in ("mu_sapp", "front_speed_m_per_s")
-        )
-        counts = rows(t["resolution_exponents"], scene=scene, quantity="events_counted").iloc[-1]
-        medians = {q: rows(table, scene=scene, quantity=q) for q in ("mu_sapp", "events_counted")}
-        found |= {
-            f"noisy-mu-{scene}": one(medians["mu_sapp"], "q50", n_blocks=noisy_n),
-            f"most-mu-{scene}": medians["mu_sapp"]["q50"].iloc[-1],
-            f"most-events-{scene}": medians["events_counted"]["q50"].iloc[-1],
-            f"limit-mu-{scene}": friction["a"],
-            f"limit-mu-error-{scene}": (friction["a_high"] - friction["a_low"]) / 2,
-            f"slope-mu-{scene}": friction["b"],
-            f"slope-mu-error-{scene}": (friction["b_high"] - friction["b_low"]) / 2,
-            f"octave-{scene}": counts["n_blocks"],
-            f"power-{scene}": counts["exponent"],
-            f"power-error-{scene}": (counts["high"] - counts["low"]) / 2,
-            f"limit-speed-{scene}": (speeds["a"], "m/s"),
-            f"limit-speed-error-{scene}": ((speeds["a_high"] - speeds["a_low"]) / 2, "m/s"),
-        }
-        experiment = float(one(t["claims"], "paper", id="counts-of-the-experiment").split("; ")[i])
-        medians_of_counts = medians["events_counted"]["q50"]
-        counts_met.append(medians_of_counts.min() <= experiment <= medians_of_counts.max())
-    return found | {"experiment-counts-met": sum(counts_met)}
-
-
-def long_runs(t: Tables, config: Mapping[str, Any]) -> Numbers:
-    """Many global slips of a scene, and the map over theta and friction."""
-    found: Numbers = {
-        "long-duration": (config["ensembles"]["long_runs"]["duration"], "s"),
-        "map-points": len(t["map_theta_friction_ratio"]),
-    }
-    for scene in SCENES:
-        row = rows(t["long_runs_statistics"], scene=scene).iloc[0]
-        found |= {
-            f"long-n-{scene}": row["n"],
-            f"long-mean-{scene}": row["mean"],
-            f"long-error-{scene}": row["mean_error"],
-            f"long-deviation-{scene}": row["deviation"],
-        }
-    return found
-
-
-PARTS = (speed, failures, proof, hierarchy, spread, resolution, long_runs)
+PARTS = (speed, failures, proof, hierarchy)

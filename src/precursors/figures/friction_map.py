@@ -1,4 +1,4 @@
-"""Maps: events counted, mu_sapp and the share of global slips over two parameters."""
+"""The map: events counted, mu_sapp and the share of global slips over theta and mu_k/mu_s."""
 
 from __future__ import annotations
 
@@ -15,14 +15,6 @@ from precursors.figures import style
 from precursors.model.chain import FloatArray
 
 HEIGHT_MM = 47.0
-LABELS = {
-    "theta": r"$\theta$ [-]",
-    "n_blocks": style.BLOCKS_LABEL,
-    "friction_ratio": r"$\mu_k/\mu_s$ [-]",
-    "stiffness_ratio": "$K/k$ [-]",
-    "drive_velocity": "$V$ [m/s]",
-}
-LOGARITHMIC = ("stiffness_ratio", "drive_velocity")
 EVENTS = "events_counted"
 PANELS = {
     EVENTS: style.EVENTS_LABEL,
@@ -32,54 +24,49 @@ PANELS = {
 TICKS_OF_EVENTS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
-def draw(table: pd.DataFrame, x: str, y: str, scenes: Sequence[tuple[float, float]] = ()) -> Figure:
+def draw(table: pd.DataFrame, scenes: Sequence[tuple[float, float]] = ()) -> Figure:
     """Draw the three panels of a map, white where a run has no global slip.
 
     Parameters
     ----------
     table : DataFrame
-        map_{x}_{y}.csv: one row per run.
-    x, y : str
-        Columns on the horizontal and on the vertical axis.
+        map_theta_friction_ratio.csv: one row per run.
     scenes : sequence of (float, float)
-        x and y of the scenes, which are marked by crosses.
+        theta and mu_k/mu_s of the scenes, which are marked by crosses.
     """
     share = 100.0 * table["n_global"] / table["n_all_events"].where(table["n_all_events"] > 0)
     table = table.assign(share_global=share, **{EVENTS: table[EVENTS].where(table["reached"])})
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         panels = figure.subplots(1, len(PANELS), sharey=True)
         for panel, quantity in zip(panels, PANELS, strict=True):
-            _draw_cells(panel, table, x, y, quantity)
+            _draw_cells(panel, table, quantity)
             for place in scenes:
                 panel.plot(*place, "+", color="white", markersize=7, markeredgewidth=2.2)
                 panel.plot(*place, "+", color=style.BLACK, markersize=6)
-        panels[0].set_ylabel(LABELS.get(y, y))
+        panels[0].set_ylabel(r"$\mu_k/\mu_s$ [-]")
         cross = style.mark("scenes of Fig. 13", marker="+", markersize=6, linestyle="none")
         white = Patch(facecolor="white", edgecolor=style.GREY, linewidth=0.6, label="no global slip")
         style.draw_key(figure, [cross] * bool(scenes) + [white] * (not table["reached"].all()))
     return figure
 
 
-def _draw_cells(axes: Axes, table: pd.DataFrame, x: str, y: str, quantity: str) -> None:
-    values = table.pivot_table(quantity, y, x, dropna=False)
-    columns, rows = _edges(values.columns, x), _edges(values.index, y)
+def _draw_cells(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
+    values = table.pivot_table(quantity, "friction_ratio", "theta", dropna=False)
+    columns, rows = _edges(values.columns), _edges(values.index)
     known = values.to_numpy()[np.isfinite(values)]
     norm: Normalize = Normalize(*np.quantile(known, [0.01, 0.99]))
     if quantity == EVENTS:
         norm = LogNorm(max(1.0, known.min()), known.max())
-    axes.set_xscale("log" if x in LOGARITHMIC else "linear")
-    axes.set_yscale("log" if y in LOGARITHMIC else "linear")
     image = axes.pcolormesh(columns, rows, values, norm=norm, cmap="viridis", rasterized=True)
-    axes.set(xlim=columns[[0, -1]], ylim=rows[[0, -1]], xlabel=LABELS.get(x, x))
+    axes.set(xlim=columns[[0, -1]], ylim=rows[[0, -1]], xlabel=r"$\theta$ [-]")
     bar = axes.figure.colorbar(image, ax=axes, location="top", aspect=25, use_gridspec=False)
     bar.set_label(PANELS[quantity], fontsize=8)
     if quantity == EVENTS:
         style.set_ticks(bar.ax.xaxis, [n for n in TICKS_OF_EVENTS if known.min() <= n <= known.max()])
 
 
-def _edges(centres: pd.Index, name: str) -> FloatArray:
-    """Borders of the cells around evenly spaced values, or values evenly spaced in their logarithms."""
-    places = np.log(centres) if name in LOGARITHMIC else centres.to_numpy(float)
+def _edges(centres: pd.Index) -> FloatArray:
+    """Borders of the cells around evenly spaced values."""
+    places = centres.to_numpy(float)
     half = np.diff(places) / 2
-    borders = np.concatenate([[places[0] - half[0]], places[:-1] + half, [places[-1] + half[-1]]])
-    return np.exp(borders) if name in LOGARITHMIC else borders
+    return np.concatenate([[places[0] - half[0]], places[:-1] + half, [places[-1] + half[-1]]])

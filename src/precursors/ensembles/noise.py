@@ -1,0 +1,91 @@
+"""Noise: the numbers of a scene when every normal load is known to a tenth of a per cent only."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from precursors.analysis.run_statistics import median_interval, statistics
+from precursors.ensembles.study import NOISE, Study, stack
+
+# Two numbers are the same if they differ by no more than this: friction coefficients by a unit of the last
+# digit of the paper's 0.49, times by what can be read from the axis of Figs. 10-12.
+TOLERANCES = {"mu_sapp": 0.01, "events_counted": 0.0, "events_to_global_slip": 0.0, "time_s": 0.05}
+# Two intervals of this confidence hold both medians in 95 % of cases or more (Bonferroni).
+EACH_OF_TWO = 0.975
+
+
+def noise_study(
+    sliders: Mapping[str, Mapping[str, Any]], duration: float, settings: Mapping[str, Any]
+) -> Study:
+    """Runs of each scene with noise in the normal loads; draw 0 has none."""
+    draw = np.arange(settings["runs"] + 1)
+    noise = {"draw": draw, "load_noise": np.where(draw == 0, 0.0, NOISE), "duration": duration}
+    blocks = [
+        {**slider, **noise, "scene": scene, "group": group}
+        for group, (scene, slider) in enumerate(sliders.items())
+    ]
+    return Study(stack(blocks), seed=settings["seed"])
+
+
+def noise_table(members: pd.DataFrame) -> pd.DataFrame:
+    """Distribution of each number over the noise.
+
+    Returns
+    -------
+    DataFrame
+        One row per scene and quantity: without_noise; runs, and reached, how many had a global slip; what
+        `statistics` has of these.
+    """
+    rows = []
+    for (scene, theta), of_scene in members.groupby(["scene", "theta"], sort=False):
+        alone, runs = of_scene[of_scene["draw"] == 0], of_scene[of_scene["draw"] > 0]
+        for quantity in TOLERANCES:
+            number = {"scene": scene, "theta": theta, "quantity": quantity}
+            number |= {"without_noise": alone[quantity].item(), "runs": len(runs)}
+            reached = runs.loc[runs["reached"], quantity]
+            rows.append(number | {"reached": len(reached)} | statistics(reached))
+    return pd.DataFrame(rows)
+
+
+def differences_table(members: pd.DataFrame) -> pd.DataFrame:
+    """Whether two loadings have the same median.
+
+    Returns
+    -------
+    DataFrame
+        One row per quantity and pair of scenes: difference of the medians, scene less other, with an
+        interval low to high that holds it in at least 95 % of cases; tolerance; verdict of `compared`.
+    """
+    runs = members[(members["draw"] > 0) & members["reached"]]
+    scenes = runs.drop_duplicates("scene").set_index("scene")["theta"].items()
+    pairs = list(combinations(scenes, 2))
+    rows = []
+    for quantity, tolerance in TOLERANCES.items():
+        values: dict[Any, pd.Series] = dict(iter(runs.groupby("scene", sort=False)[quantity]))
+        for (other, other_theta), (scene, theta) in pairs:
+            low, high = median_difference(values[scene], values[other])
+            pair = {"quantity": quantity, "scene": scene, "theta": theta}
+            pair |= {"other": other, "other_theta": other_theta}
+            difference = values[scene].median() - values[other].median()
+            found = {"difference": difference, "low": low, "high": high, "tolerance": tolerance}
+            rows.append(pair | found | {"verdict": compared(low, high, tolerance)})
+    return pd.DataFrame(rows)
+
+
+def median_difference(values: pd.Series, others: pd.Series) -> tuple[float, float]:
+    """95 % interval of the difference of two medians, whatever the distributions."""
+    low, high = median_interval(values, EACH_OF_TWO)
+    other_low, other_high = median_interval(others, EACH_OF_TWO)
+    return low - other_high, high - other_low
+
+
+def compared(low: float, high: float, tolerance: float) -> str:
+    """Whether an interval of a difference lies within the tolerance, outside of it, or across its edge."""
+    if -tolerance <= low and high <= tolerance:
+        return "same"
+    return "different" if low > tolerance or high < -tolerance else "undecided"

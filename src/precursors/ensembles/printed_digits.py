@@ -1,0 +1,110 @@
+"""The paper's numbers over all values that are printed alike: mu_s = 0.70 is anything from 0.695 to 0.705."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from precursors.analysis.run_statistics import share_interval
+from precursors.ensembles.noise import TOLERANCES
+from precursors.ensembles.study import Study, stack
+
+# Half a unit of the last digit that the paper prints (Sect. 4 and the captions of Figs. 10-12), in SI units.
+# F_Z only scales all forces. S and L enter through k alone, whose last digit is that of E.
+HALF_A_DIGIT = {
+    "mu_s": 0.005,
+    "mu_k": 0.005,
+    "drive_stiffness": 0.05e6,
+    "drive_velocity": 0.05e-3,
+    "slider_mass": 0.0005,
+    "youngs_modulus": 0.05e9,
+    "theta": 0.0005,
+}
+THETA_DIGITS = 3
+# A number is robust if this share of the sliders has it, and fragile if fewer have.
+ENOUGH = 0.95
+ALL = "all"
+# Times are those of the drive, whose speed is printed with one digit.
+QUANTITIES = ("mu_sapp", "events_counted", "events_to_global_slip")
+
+
+def digits_study(
+    sliders: Mapping[str, Mapping[str, Any]], duration: float, settings: Mapping[str, Any]
+) -> Study:
+    """Sliders printed alike. Draw i is the same slider in each scene, draw 0 is the scene as it is."""
+    random = np.random.default_rng(settings["seed"])
+    changes = {key: half * random.uniform(-1, 1, settings["draws"]) for key, half in HALF_A_DIGIT.items()}
+    blocks = []
+    for scene, slider in sliders.items():
+        printed = {**slider, "theta": round(slider["theta"], THETA_DIGITS)}
+        changed = {key: np.append(slider[key], printed[key] + change) for key, change in changes.items()}
+        # A slower drive takes longer to the same load.
+        slowest = 1 - HALF_A_DIGIT["drive_velocity"] / slider["drive_velocity"]
+        labels = {"scene": scene, "draw": np.arange(settings["draws"] + 1), "duration": duration / slowest}
+        blocks.append({**slider, **changed, **labels})
+    return Study(stack(blocks), seed=settings["seed"])
+
+
+def digits_table(members: pd.DataFrame, paper: Mapping[str, Mapping[str, float]]) -> pd.DataFrame:
+    """How far the printed digits settle each number.
+
+    Parameters
+    ----------
+    members : DataFrame
+        The gathered study.
+    paper : mapping
+        What the paper prints of each scene: events_counted and mu_sapp.
+
+    Returns
+    -------
+    DataFrame
+        One row per scene, quantity and question. "as in the run": is the number that of the scene as it is?
+        "as printed": is it the paper's? k of n sliders, their share with its interval low to high, and the
+        class by `ENOUGH`: robust, fragile or undecided. Scene "all": do the three mu_sapp of a slider differ
+        by no more than 0.01 ("same mu_sapp"), and are "all six numbers" the paper's?
+    """
+    draws = members[members["draw"] > 0]
+    rows, six = [], []
+    for scene, runs in draws.groupby("scene", sort=False):
+        alone = members[(members["scene"] == scene) & (members["draw"] == 0)].iloc[0]
+        for quantity in QUANTITIES:
+            for question, value in (
+                ("as in the run", alone[quantity]),
+                ("as printed", paper[str(scene)].get(quantity)),
+            ):
+                if value is None:
+                    continue
+                agree = agrees(runs.set_index("draw")[quantity], value, TOLERANCES[quantity])
+                number = {"scene": scene, "quantity": quantity, "question": question, "value": value}
+                rows.append(number | share_row(agree))
+                if question == "as printed":
+                    six.append(agree)
+    friction = draws.pivot_table(index="draw", columns="scene", values="mu_sapp", sort=False, dropna=False)
+    span = friction.max(axis=1, skipna=False) - friction.min(axis=1, skipna=False)
+    rows.append(
+        {"scene": ALL, "quantity": "mu_sapp", "question": "same mu_sapp", "value": span.median()}
+        | share_row(agrees(span, 0.0, TOLERANCES["mu_sapp"]))
+    )
+    if six:
+        every = pd.concat(six, axis=1).all(axis=1)
+        rows.append(
+            {"scene": ALL, "quantity": ALL, "question": "all six numbers", "value": len(six)}
+            | share_row(every)
+        )
+    return pd.DataFrame(rows)
+
+
+def agrees(values: pd.Series, value: float, tolerance: float) -> pd.Series:
+    """Where values are a value to a tolerance; NaN, a run without a global slip, is not."""
+    return (values - value).abs() <= tolerance
+
+
+def share_row(hits: pd.Series) -> dict[str, Any]:
+    """How many sliders have a number, their share with its interval, and the class of the number."""
+    k, n = int(hits.sum()), len(hits)
+    low, high = share_interval(k, n)
+    name = "robust" if low >= ENOUGH else "fragile" if high < ENOUGH else "undecided"
+    return {"k": k, "n": n, "share": k / n, "low": low, "high": high, "class": name}
