@@ -7,4 +7,5 @@ from precursors.support.files import write_table
 
 if __name__ == "__main__":
     with job() as snakemake:
-        write_table(predictability_table(**dict(snakemake.params.items())), snakemake.output.table)
+        options = {name: value for name, value in snakemake.params.items() if name != "code"}
+        write_table(predictability_table(**options), snakemake.output.table)
