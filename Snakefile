@@ -75,3 +75,7 @@ rule all:
         RESULTS,
         "results/provenance.json",
     localrule: True
+
+
+for scene in {rule.name for rule in workflow.rules} & set(config["scenes"]):
+    raise WorkflowError(f"configuration: scenes.{scene} has the name of a target: give it another one")

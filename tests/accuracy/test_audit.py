@@ -438,3 +438,8 @@ def test_the_report_says_what_was_found_in_a_few_lines(uniform):
     spoiled = audit(replace(uniform, chain=replace(uniform.chain, mu_s=0.6)))
     assert len(spoiled.problems) <= MAX_PROBLEMS
     assert str(spoiled).splitlines()[-1] == spoiled.problems[-1]
+
+
+def test_something_else_than_a_run_is_named():
+    with pytest.raises(TypeError, match="what is audited must be a Run, but is Chain"):
+        audit(Chain.from_slider())

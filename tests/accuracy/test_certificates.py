@@ -215,3 +215,8 @@ def test_without_python_flint_the_missing_extra_is_named(monkeypatch: pytest.Mon
         monkeypatch.delitem(sys.modules, f"precursors.accuracy.proof.{name}", raising=False)
     with pytest.raises(ModuleNotFoundError, match=r'pip install "precursors\[proof\]"'):
         certify(ExactChain.from_slider(), 1)
+
+
+def test_something_else_than_a_chain_is_named() -> None:
+    with pytest.raises(TypeError, match="what is proved must be a chain, but is dict"):
+        certify({})  # type: ignore[arg-type]

@@ -268,7 +268,7 @@ def test_the_version_is_told(cli):
         (
             ("simulate", "--blocks", "0"),
             WRONG_USE,
-            "n_blocks must be a whole number of at least 1",
+            "n_blocks must be a whole number from 1 to 100000",
         ),
         (("simulate", "--max-transitions", "9"), REFUSED, "max_transitions = 9 reached"),
         (("simulate", "--weights", "w.csv", "--theta", "0"), WRONG_USE, "cannot be combined with --theta"),

@@ -72,7 +72,10 @@ def test_a_chain_cannot_be_changed():
 @pytest.mark.parametrize(
     ("argument", "value", "words"),
     [
-        ("n_blocks", 0, "n_blocks must be a whole number of at least 1, but is 0"),
+        ("n_blocks", 0, "n_blocks must be a whole number from 1 to 100000, but is 0"),
+        ("n_blocks", 10**9, "n_blocks must be a whole number from 1 to 100000, but is 1000000000"),
+        ("youngs_modulus", 1e50, "stiffness and drive_stiffness must be within a factor of 1e+12"),
+        ("slider_mass", 1e-50, "sqrt(stiffness/mass) must be between 1e-20 and 1e+20 rad/s"),
         ("n_blocks", 2.5, "but is 2.5"),
         ("n_blocks", True, "but is True"),
         ("theta", 1.01, 'theta must be a number between -1 and 1, or a fraction as "5/6", but is 1.01'),
@@ -105,6 +108,7 @@ def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):
     ("weights", "words"),
     [
         ([], "shape"),
+        (np.ones(100_001), "at most 100000"),
         ([1.0, -1.0], "block 2"),
         ([math.nan], "block 1"),
         ([0.0, 0.0], "all are 0 N"),

@@ -71,6 +71,8 @@ WRONG = [
     ),
     ("scenes.Fig13", STEEP, ["the name 'Fig13'", "not the name of another figure"]),
     ("scenes.map_mine", STEEP, ["the name 'map_mine'"]),
+    ("scenes.steep\n", STEEP, ["the name 'steep\\n'"]),
+    ("scenes.steep", STEEP | {"theta": "5/6\n"}, ["scenes.steep.theta", "'5/6\\n'"]),
     ("scenes.two words", STEEP, ["the name 'two words'", "letters, digits, _ and -"]),
     ("scenes.a/b", STEEP, ["the name 'a/b'"]),
     ("scenes." + 65 * "a", STEEP, [65 * "a"]),

@@ -227,3 +227,10 @@ def test_a_run_prints_its_size_and_its_chain_in_a_few_lines():
     assert lines[:2] == ["Run of 1 s with 74 transitions", "Chain of 10 blocks"]
     assert "w_N = 73.3333 N" in lines[2]
     assert len(lines) == 4
+
+
+def test_times_in_a_table_are_refused():
+    with pytest.raises(
+        ValueError, match=r"times must be one number \[s\] or a list of them, but have shape \(1, 2\)"
+    ):
+        simulate(Chain.from_slider(), 0.5).at([[0.1, 0.2]])

@@ -98,3 +98,10 @@ def test_a_bad_argument_is_named_in_one_line(options, words):
 def test_what_is_not_a_chain_is_refused_in_one_line(call):
     with pytest.raises(TypeError, match=r"^what is simulated must be a Chain, but is [^\n]+$"):
         call()
+
+
+def test_chains_may_come_from_a_generator_and_a_single_chain_is_refused():
+    chain = Chain.from_slider()
+    assert len(simulate_many((chain for _ in range(3)), 0.5)) == 3
+    with pytest.raises(TypeError, match="must be a list of chains, but is a Chain"):
+        simulate_many(chain, 0.5)

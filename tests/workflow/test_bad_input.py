@@ -22,6 +22,7 @@ def finished(_finished, tmp_path_factory):
     [
         ("mu_k: 0.45", "mu_k: 0.8", "configuration: chain: "),
         ("duration: 10.0", "durations: 10.0", "'durations' is not a known key"),
+        ("scenes:", "scenes:\n  paper: {title: a, theta: 0}", "scenes.paper has the name of a target"),
         (
             "  mu_k: 0.45",
             "  mu_k: 0.45\n  mu_k: 0.46",

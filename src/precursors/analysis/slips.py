@@ -62,6 +62,8 @@ def find_slips(run: Run) -> pd.DataFrame:
         n_simultaneous (most blocks that slid at the same instant), is_global (all N at the same instant).
         The event that the end of the run cuts off has end and load_after NaN.
     """
+    if not isinstance(run, Run):
+        raise TypeError(f"slips are found in a Run, but this is {type(run).__name__}")
     events = slip_events([run])
     return pd.DataFrame({name: events[name] for name in COLUMNS})
 

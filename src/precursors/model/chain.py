@@ -11,9 +11,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from precursors.model.checks import LARGEST, SMALLEST, not_negative, number, number_array, positive, whole
+from precursors.model.checks import (
+    LARGEST,
+    MOST_BLOCKS,
+    SMALLEST,
+    not_negative,
+    number,
+    number_array,
+    positive,
+    whole,
+)
 
 FloatArray = NDArray[np.float64]
+# Beyond these a single slip takes more windows of time than a run can have, or a time is lost in rounding.
+STIFFEST, FASTEST = 1e12, 1e20
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +68,16 @@ class Chain:
         object.__setattr__(self, "weights", weights)
         for name, unit in _POSITIVE.items():
             object.__setattr__(self, name, positive(name, getattr(self, name), unit))
+        if max(self.stiffness / self.drive_stiffness, self.drive_stiffness / self.stiffness) > STIFFEST:
+            raise ValueError(
+                f"stiffness and drive_stiffness must be within a factor of {STIFFEST:g}, but are "
+                f"{self.stiffness!r} and {self.drive_stiffness!r} N/m"
+            )
+        if not 1 / FASTEST <= self.fastest_frequency_bound <= FASTEST:
+            raise ValueError(
+                f"sqrt(stiffness/mass) must be between {1 / FASTEST:g} and {FASTEST:g} rad/s, but is "
+                f"{self.fastest_frequency_bound:g}"
+            )
         mu_s, mu_k = not_negative("mu_s", self.mu_s, "1"), number("mu_k", self.mu_k, "1")
         if not 0 <= mu_k <= mu_s:
             raise ValueError(f"mu_k must be between 0 and mu_s = {mu_s!r}, but is {mu_k!r}")
@@ -196,7 +217,7 @@ def neighbour_stiffness(n_blocks: Any, youngs_modulus: Any, cross_section: Any, 
 
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:
     """Normal loads w_i that change linearly along the slider [N], shape (N,) (Eq. 7; w_1 = F_Z at N = 1)."""
-    n = whole("n_blocks", n_blocks, at_least=1)
+    n = whole("n_blocks", n_blocks, at_least=1, at_most=MOST_BLOCKS)
     load = positive("normal_load", normal_load, "N")
     degree = parse_theta(theta)
     if n == 1:
@@ -261,8 +282,10 @@ def exact_theta_from_load_cells(load_a: float, load_b: float, spacing: float, le
 
 def _weights(values: ArrayLike) -> FloatArray:
     weights = number_array("weights", values, "N")
-    if weights.ndim != 1 or weights.size == 0:
-        raise ValueError(f"weights must be one number [N] a block, but have shape {weights.shape}")
+    if weights.ndim != 1 or not 1 <= weights.size <= MOST_BLOCKS:
+        raise ValueError(
+            f"weights must be one number [N] a block, at most {MOST_BLOCKS}, but have shape {weights.shape}"
+        )
     for i in np.flatnonzero(~((weights == 0) | ((weights >= SMALLEST) & (weights <= LARGEST))))[:1]:
         raise ValueError(
             f"weights must be 0 N, or between {SMALLEST:g} and {LARGEST:g} N, but that of block {i + 1} is "

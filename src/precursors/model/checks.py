@@ -15,6 +15,7 @@ Until = Literal["global slip"] | None
 
 # Products and squares of three such numbers stay within the range of doubles.
 SMALLEST, LARGEST = 1e-60, 1e60
+MOST_BLOCKS = 100_000
 
 
 def number(name: str, value: object, unit: str) -> float:
@@ -55,10 +56,11 @@ def not_negative(name: str, value: object, unit: str) -> float:
     return result
 
 
-def whole(name: str, value: object, at_least: int) -> int:
-    """Return an int of at least so much, or raise a ValueError that names the parameter."""
-    if isinstance(value, bool) or not isinstance(value, Integral) or value < at_least:
-        raise ValueError(f"{name} must be a whole number of at least {at_least}, but is {value!r}")
+def whole(name: str, value: object, at_least: int, at_most: float = math.inf) -> int:
+    """Return an int within these limits, or raise a ValueError that names the parameter."""
+    if isinstance(value, bool) or not isinstance(value, Integral) or not at_least <= int(value) <= at_most:
+        limits = f"of at least {at_least}" if at_most == math.inf else f"from {at_least} to {at_most}"
+        raise ValueError(f"{name} must be a whole number {limits}, but is {value!r}")
     return int(value)
 
 

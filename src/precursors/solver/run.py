@@ -126,6 +126,8 @@ class Run:
 
     def _times(self, times: ArrayLike) -> FloatArray:
         when = np.atleast_1d(number_array("times", times, "s"))
+        if when.ndim > 1:
+            raise ValueError(f"times must be one number [s] or a list of them, but have shape {when.shape}")
         outside = ~((when >= 0.0) & (when <= self.duration))
         if outside.any():
             raise ValueError(

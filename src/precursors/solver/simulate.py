@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any, NamedTuple
 
@@ -98,7 +98,7 @@ def simulate(
 
 
 def simulate_many(
-    chains: Sequence[Chain],
+    chains: Iterable[Chain],
     duration: float = 10.0,
     until: Until = None,
     threads: int | None = None,
@@ -111,7 +111,7 @@ def simulate_many(
 
     Parameters
     ----------
-    chains : sequence of Chain
+    chains : iterable of Chain
         The chains, of any lengths.
     duration, until, longest_slip
         As in `simulate`, for all of them.
@@ -136,6 +136,9 @@ def simulate_many(
     TransitionLimitError
         If a run meets the cap of `simulate`.
     """
+    if isinstance(chains, Chain):
+        raise TypeError("what simulate_many runs must be a list of chains, but is a Chain")
+    chains = list(chains)
     end = _end(chains, duration, until, MAX_TRANSITIONS, longest_slip)
     threads = available_cores() if threads is None else whole("threads", threads, at_least=1)
     positions = _starts("start_positions", start_positions, "m", chains)

@@ -74,9 +74,11 @@ def audit(run: Run, roundings: float = ROUNDINGS) -> Audit:
 
     Raises
     ------
-    ValueError
-        If `roundings` is not a number above zero.
+    TypeError, ValueError
+        If `run` is no run, or `roundings` not a number above zero.
     """
+    if not isinstance(run, Run):
+        raise TypeError(f"what is audited must be a Run, but is {type(run).__name__}")
     positive("roundings", roundings, "1")
     malformed = _malformed(run)
     if malformed:

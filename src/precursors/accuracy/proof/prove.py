@@ -69,14 +69,16 @@ def certify(
 
     Raises
     ------
-    ValueError
-        If an argument is out of range.
+    TypeError, ValueError
+        If `chain` is no chain, or another argument is out of range.
     CertificateError
         If `max_bits` do not suffice for enclosures of `width`.
     ModuleNotFoundError
         If python-flint is not installed.
     """
     exact_chain = ExactChain.from_chain(chain) if isinstance(chain, Chain) else chain
+    if not isinstance(exact_chain, ExactChain):
+        raise TypeError(f"what is proved must be a chain, but is {type(chain).__name__}")
     limit, widest = exact("duration", duration), exact("width", width)
     if limit <= 0 or widest <= 0:
         raise ValueError(f"duration and width must be above 0 s, but are {limit} s and {widest} s")
