@@ -46,6 +46,7 @@ class Page:
         self._session: str | None = None
         self.requests: list[str] = []
         self.complaints: list[str] = []
+        self._traced: list[dict[str, Any]] = []
 
     def open(self, url: str, width: int = 1400, height: int = 900) -> None:
         """Open an address and wait until it has loaded."""
@@ -112,9 +113,45 @@ class Page:
         for kind in ("mousePressed", "mouseReleased"):
             self._mouse(kind, x, y, button="left", clickCount=1)
 
-    def wheel(self, x: float, y: float, delta: float) -> None:
-        """Turn the wheel over a pixel; negative is away from the user."""
-        self._mouse("mouseWheel", x, y, deltaX=0, deltaY=delta)
+    def press(self, key: str) -> None:
+        """Press a key by its name in the DOM: "Tab", "ArrowRight", " "."""
+        codes = {"Tab": 9, "Escape": 27, " ": 32, "ArrowLeft": 37, "ArrowRight": 39}
+        text = {"text": key} if key == " " else {}
+        self.call("Input.dispatchKeyEvent", type="keyDown", key=key, windowsVirtualKeyCode=codes[key], **text)
+        self.call("Input.dispatchKeyEvent", type="keyUp", key=key, windowsVirtualKeyCode=codes[key])
+
+    def choose_file(self, selector: str, path: str | Path) -> None:
+        """Choose a file in an element of the page."""
+        root = self.call("DOM.getDocument")["root"]["nodeId"]
+        node = self.call("DOM.querySelector", nodeId=root, selector=selector)["nodeId"]
+        self.call("DOM.setFileInputFiles", nodeId=node, files=[str(path)])
+
+    def prefer(self, **features: str) -> None:
+        """Set preferences of the user: prefers_color_scheme="dark"."""
+        asked = [{"name": name.replace("_", "-"), "value": value} for name, value in features.items()]
+        self.call("Emulation.setEmulatedMedia", features=asked)
+
+    @contextmanager
+    def trace(self) -> Iterator[list[float]]:
+        """Processor times [ms] of the tasks of the page's main thread; the list is filled at the end."""
+        tasks: list[float] = []
+        self._traced = []
+        categories = ["toplevel", "disabled-by-default-devtools.timeline", "__metadata"]
+        self.call("Tracing.start", traceConfig={"includedCategories": categories})
+        yield tasks
+        self.call("Tracing.end")
+        while self._next().get("method") != "Tracing.tracingComplete":
+            pass
+        places = {
+            (e["pid"], e["tid"])
+            for e in self._traced
+            if e["name"] == "thread_name" and e["args"]["name"] == "CrRendererMain"
+        }
+        tasks += [
+            e["tdur"] / 1000
+            for e in self._traced
+            if "tdur" in e and e["name"] == "RunTask" and (e["pid"], e["tid"]) in places
+        ]
 
     def screenshot(self, path: str | Path) -> None:
         """Write what is in view as a PNG."""
@@ -147,6 +184,8 @@ class Page:
             self.complaints.append(str(event["args"]))
         elif method == "Log.entryAdded" and event["entry"]["level"] in ("error", "warning"):
             self.complaints.append(event["entry"]["text"])
+        elif method == "Tracing.dataCollected":
+            self._traced += event["value"]
 
 
 @contextmanager

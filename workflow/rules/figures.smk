@@ -173,16 +173,18 @@ rule write_explorer:
     input:
         page=collect(
             f"{LIBRARY}/figures/explorer/{{file}}",
-            file=["explorer.css", "explorer.js", "page.html", "solver.js"],
+            file=["drawing.js", "explorer.css", "explorer.js", "page.html", "solver.js", "worker.js"],
         ),
+        slips=collect("results/tables/{scene}_slips.csv", scene=scenes_with_theta(config)),
     output:
         page="results/explorer.html",
     log:
         "results/logs/write_explorer.log",
     localrule: True
     params:
-        titles={scene: config["scenes"][scene]["title"] for scene in scenes_with_theta(config)},
-        sliders={scene: scene_slider(config, scene) for scene in scenes_with_theta(config)},
+        titles=[config["scenes"][scene]["title"] for scene in scenes_with_theta(config)],
+        sliders=[scene_slider(config, scene) for scene in scenes_with_theta(config)],
+        proved=config["accuracy"]["proved"],
         duration=config["duration"],
         code=digest("write_explorer"),
     script:

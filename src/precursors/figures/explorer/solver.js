@@ -8,54 +8,80 @@
 const WINDOW = 0.6875; // length of a Taylor window [tau]
 const ORDER = 24; // (2 WINDOW)^ORDER / ORDER! is below 1e-19
 const ROUNDING = 8 * Number.EPSILON;
-const FACTORIAL = Float64Array.from({ length: ORDER + 3 }, (_, n) => (n < 2 ? 1 : 0));
-for (let n = 2; n < FACTORIAL.length; n++) FACTORIAL[n] = n * FACTORIAL[n - 1];
+const MOST_TRANSITIONS = 200000;
+const MOST_WINDOWS = 2000000;
 
-// N blocks of a slider (Eqs. 7, 9 and 10).
-function chainOf({ blocks, theta, normalLoad, muS, muK, driveStiffness, driveVelocity, mass, stiffness }) {
-  const loads = Array.from({ length: blocks }, (_, j) =>
+// N blocks of a slider (Eqs. 9 and 10) under a straight line of normal loads (Eq. 7), or under given ones.
+function chainOf({ blocks, theta, normalLoad, loads, muS, muK, driveStiffness, driveVelocity, mass, stiffness }) {
+  const weights = loads ?? Array.from({ length: blocks }, (_, j) =>
     blocks === 1 ? normalLoad : (normalLoad / blocks) * (1 + ((2 * j + 1 - blocks) / (blocks - 1)) * theta),
   );
-  const m = mass / blocks, k = blocks * stiffness;
+  const n = weights.length, m = mass / n, k = n * stiffness;
   const tau = 2 / Math.sqrt(Math.max(4 * k, 2 * k + driveStiffness) / m);
-  const c = new Float64Array(blocks + 2); // c[i] belongs to the spring behind block i
-  for (let i = 1; i <= blocks; i++) c[i] = ((i === 1 ? driveStiffness : k) * tau * tau) / m;
-  const perBlock = (mu) => Float64Array.from([0, ...loads.map((w) => mu * w), 0]);
+  const c = new Float64Array(n + 2); // c[i] belongs to the spring behind block i
+  for (let i = 1; i <= n; i++) c[i] = ((i === 1 ? driveStiffness : k) * tau * tau) / m;
+  const perBlock = (mu) => Float64Array.from([0, ...weights.map((w) => mu * w), 0]);
   return {
-    n: blocks, c, tau, strength: perBlock(muS), friction: perBlock(muK), drive: (driveVelocity * m) / tau,
+    n, c, tau, weights, strength: perBlock(muS), friction: perBlock(muK), drive: (driveVelocity * m) / tau,
     velocityUnit: tau / m, // m/s per N/tau
   };
 }
 
-// Taylor rows of the velocities from their row 0: row n is the n-th derivative.
-function expand(chain, rows, force, mode, last) {
-  const { n, c, friction } = chain;
-  rows.forEach((row, order) => { if (order) row.fill(0); });
+// Taylor rows of the velocities from their row 0: row r, which starts at r (n + 2), is the r-th derivative.
+function expand({ n, c, friction }, rows, force, mode, last) {
+  const size = n + 2;
+  rows.fill(0, size);
   for (let i = 1; i <= last; i++) {
-    if (mode[i]) rows[1][i] = force[i] - force[i + 1] - mode[i] * friction[i];
+    if (mode[i]) rows[size + i] = force[i] - force[i + 1] - mode[i] * friction[i];
   }
   for (let order = 2; order <= ORDER; order++) {
-    const row = rows[order], before = rows[order - 2];
+    const row = order * size, before = row - 2 * size;
     for (let i = 1; i <= last; i++) {
-      if (mode[i]) row[i] = c[i] * (before[i - 1] - before[i]) - c[i + 1] * (before[i] - before[i + 1]);
+      if (mode[i]) rows[row + i] = c[i] * (rows[before + i - 1] - rows[before + i]) - c[i + 1] * (rows[before + i] - rows[before + i + 1]);
     }
   }
 }
 
-// Event functions of the window: v of a block that slides, both margins mu_s w -+ G of a block that sticks.
-function* eventFunctions(chain, rows, force, mode, last) {
-  const { c, strength } = chain;
+// Weights t^r / r! of a Taylor series, to order ORDER + 1.
+function setTerms(terms, t) {
+  terms[0] = 1;
+  for (let r = 1; r < terms.length; r++) terms[r] = (terms[r - 1] * t) / r;
+}
+
+// The first transition before `end`: [time, block, way]. Way 0 is the velocity of a block that slides, which reaches zero;
+// +1 and -1 are the margins mu_s w -+ G of a block that sticks. Most of these functions provably have no root.
+function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms, series) {
+  const size = n + 2;
+  let first = [end, 0, 0];
+  const look = (block, way) => {
+    const root = earliestRoot(series, first[0]);
+    if (root < first[0]) first = [root, block, way];
+  };
+  setTerms(terms, end);
   for (let i = 1; i <= last; i++) {
     if (mode[i]) {
-      yield [i, 0, rows.map((row) => mode[i] * row[i])];
+      let least = 0;
+      for (let r = ORDER; r >= 0; r--) {
+        series[r] = mode[i] * rows[r * size + i];
+        if (r === 0 || series[r] < 0) least += series[r] * terms[r];
+      }
+      if (least <= 0) look(i, 0);
       continue;
     }
-    const net = new Float64Array(ORDER + 1);
-    net[0] = force[i] - force[i + 1];
-    for (let n = 1; n <= ORDER; n++) net[n] = c[i] * rows[n - 1][i - 1] + c[i + 1] * rows[n - 1][i + 1];
-    yield [i, 1, net.map((d, n) => (n ? -d : strength[i] - d))];
-    yield [i, -1, net.map((d, n) => (n ? d : strength[i] + d))];
+    series[0] = force[i] - force[i + 1];
+    let largest = Math.abs(series[0]);
+    for (let r = ORDER; r >= 1; r--) {
+      const at = (r - 1) * size + i;
+      series[r] = c[i] * rows[at - 1] + c[i + 1] * rows[at + 1];
+      largest += Math.abs(series[r]) * terms[r];
+    }
+    if (largest < strength[i]) continue;
+    series.forEach((d, r) => (series[r] = r ? -d : strength[i] - d));
+    look(i, 1);
+    series.forEach((d, r) => (series[r] = r ? -d : 2 * strength[i] - d));
+    look(i, -1);
   }
+  return first;
 }
 
 // The earliest root of a function in [0, end], or end. With |g''| <= bound, the positive root s of
@@ -81,87 +107,96 @@ function earliestRoot(derivatives, end) {
 }
 
 // Carry the state along the Taylor rows for a time t [tau].
-function advance(chain, rows, force, last, t) {
-  const { c, drive } = chain;
-  const slip = new Float64Array(chain.n + 2);
+function advance({ n, c, drive }, rows, force, last, t, terms, slip) {
+  const size = n + 2;
+  setTerms(terms, t);
+  slip.fill(0);
   slip[0] = drive * t;
   for (let i = 1; i <= last; i++) {
     let v = 0, x = 0;
-    for (let n = ORDER; n >= 0; n--) {
-      v = rows[n][i] + (v * t) / (n + 1);
-      x = rows[n][i] + (x * t) / (n + 2);
+    for (let r = ORDER; r >= 0; r--) {
+      v += rows[r * size + i] * terms[r];
+      x += rows[r * size + i] * terms[r + 1];
     }
-    slip[i] = x * t;
-    rows[0][i] = v;
+    slip[i] = x;
+    rows[i] = v;
   }
-  for (let i = 1; i <= Math.min(last + 1, chain.n); i++) force[i] += c[i] * (slip[i - 1] - slip[i]);
+  for (let i = 1; i <= Math.min(last + 1, n); i++) force[i] += c[i] * (slip[i - 1] - slip[i]);
 }
 
-// Follow one slip event from its onset, at which block 1 lets go; `note(t, block, mode, force, velocity)` hears every
-// transition, and every window (block 0). Returns the duration of the event [tau].
-function slipEvent(chain, force, longest, note, window = WINDOW) {
+// Follow one slip event from its onset, at which block 1 lets go, and pause after every window;
+// `note(t, block, mode, force, velocity)` hears every transition and window (block 0). The result is the duration [tau].
+function* slipEvent(chain, force, longest, note, window = WINDOW) {
   const { n, strength, drive } = chain;
-  const rows = Array.from({ length: ORDER + 1 }, () => new Float64Array(n + 2));
+  const rows = new Float64Array((ORDER + 1) * (n + 2)), slip = new Float64Array(n + 2);
+  const terms = new Float64Array(ORDER + 2), series = new Float64Array(ORDER + 1);
   const mode = new Int8Array(n + 2);
-  rows[0][0] = drive;
+  rows[0] = drive;
   let sliding = 1, farthest = 1, elapsed = 0;
   mode[1] = 1;
-  note(0, 1, 1, force, rows[0]);
+  note(0, 1, 1, force, rows);
   while (sliding && elapsed < longest) {
     const last = Math.min(farthest + 1, n);
     expand(chain, rows, force, mode, last);
-    let t = Math.min(window, longest - elapsed), block = 0, kind = 0;
-    for (const [i, way, derivatives] of eventFunctions(chain, rows, force, mode, last)) {
-      const root = earliestRoot(derivatives, t);
-      if (root < t) [t, block, kind] = [root, i, way];
-    }
-    advance(chain, rows, force, last, t);
+    const [t, block, way] = firstTransition(chain, rows, force, mode, last, Math.min(window, longest - elapsed), terms, series);
+    advance(chain, rows, force, last, t, terms, slip);
     elapsed += t;
     if (block) {
       const net = force[block] - force[block + 1];
-      rows[0][block] = 0;
+      rows[block] = 0;
       // The switching rule: it lets go in the direction of the force, or sticks where friction can hold it.
-      const next = kind || (Math.abs(net) <= strength[block] * (1 + ROUNDING) ? 0 : Math.sign(net));
+      const next = way || (Math.abs(net) <= strength[block] * (1 + ROUNDING) ? 0 : Math.sign(net));
       sliding += Math.abs(next) - Math.abs(mode[block]);
       mode[block] = next;
       farthest = Math.max(farthest, block);
       while (farthest > 1 && !mode[farthest]) farthest--;
     }
-    note(elapsed, block, mode[block], force, rows[0]);
+    note(elapsed, block, mode[block], force, rows);
+    yield elapsed;
   }
   return elapsed;
 }
 
-// The run from rest: transitions, and the slip events with the spring forces at their onset.
-function simulate(chain, duration, most = 200000) {
-  const { n, c, tau, strength, drive } = chain;
-  const force = new Float64Array(n + 2);
-  const time = [], block = [], mode = [], load = [], events = [];
-  let clock = 0, lost = 0; // onset of the event [s]: two doubles
-  while (time.length < most) {
+// A run from rest that has not begun: transitions, and the slip events with the spring forces at their onset.
+const newRun = (chain, duration) => ({ chain, duration, time: [], block: [], mode: [], load: [], events: [], end: 0, force: new Float64Array(chain.n + 2), stopped: false });
+
+// Solve a run, and pause with the time [s] in it after every window. A run that meets a limit is `stopped` at its `end`.
+function* solve(run) {
+  const { chain, duration, force } = run, { n, c, tau, strength, drive } = chain;
+  let clock = 0, lost = 0, windows = 0; // end of the last event [s]: two doubles
+  for (;;) {
     const wait = ((strength[1] - (force[1] - force[2])) / (c[1] * drive)) * tau;
     const add = wait + lost, onset = clock + add;
-    if (onset > duration) break;
+    if (onset > duration) {
+      force[1] += (c[1] * drive * (duration - clock - lost)) / tau;
+      run.end = duration;
+      return;
+    }
     lost = add - (onset - clock);
     clock = onset;
     force[1] = force[2] + strength[1];
-    const event = { onset, force: force.slice(), first: time.length, before: force[1], front: 1, mostSliding: 0 };
+    const event = { onset, force: force.slice(), first: run.time.length, before: force[1], front: 1, mostSliding: 0 };
     const states = new Int8Array(n + 1);
-    let sliding = 0;
-    const elapsed = slipEvent(chain, force, (duration - onset) / tau, (t, i, m, forces) => {
+    let sliding = 0, elapsed = 0;
+    const slip = slipEvent(chain, force, (duration - onset) / tau, (t, i, m, forces) => {
+      elapsed = t;
       if (!i) return;
-      time.push(clock + (lost + t * tau)), block.push(i), mode.push(m), load.push(forces[1]);
+      run.time.push(clock + (lost + t * tau)), run.block.push(i), run.mode.push(m), run.load.push(forces[1]);
       sliding += Math.abs(m) - Math.abs(states[i]);
       states[i] = m;
       event.front = Math.max(event.front, i);
       event.mostSliding = Math.max(event.mostSliding, sliding);
     });
+    while (!slip.next().done && !run.stopped) {
+      run.stopped = run.time.length >= MOST_TRANSITIONS || ++windows >= MOST_WINDOWS;
+      yield clock + elapsed * tau;
+    }
     const passed = elapsed * tau + lost, end = clock + passed;
     lost = passed - (end - clock);
-    clock = end;
-    events.push(Object.assign(event, { end, after: force[1], last: time.length, isGlobal: event.mostSliding === n }));
+    run.end = clock = end;
+    run.events.push(Object.assign(event, { end, after: force[1], last: run.time.length, isGlobal: event.mostSliding === n }));
+    if (run.stopped) return;
   }
-  return { chain, duration, time, block, mode, load, events };
 }
 
 // The rows of Fig. 13: up to the first global slip, without events shorter than one before.
@@ -175,5 +210,3 @@ function precursors(events) {
   }
   return counted;
 }
-
-if (typeof module !== "undefined") module.exports = { chainOf, simulate, slipEvent, precursors };
