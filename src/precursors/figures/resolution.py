@@ -60,7 +60,7 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame
             axes[0, 0].plot(events["n_blocks"], events["q50"], color=color, **ALL_EVENTS)
         speed = limits["wave_speed_m_per_s"].iloc[0] * SCALES["front_speed_m_per_s"]
         axes[1, 1].axhline(speed, color=style.GREEN, linestyle="--", label=r"$c=\sqrt{ESL/M}$")
-        for sign, count in printed.EVENTS_COUNTED.items():
+        for sign, count in printed.EVENTS_OF_EXPERIMENT.items():
             axes[0, 0].plot(beyond, count, **EXPERIMENT, color=style.theta_color(sign))
         draw_experiments_mu_sapp(axes[0, 1])
         for panel in axes[1]:

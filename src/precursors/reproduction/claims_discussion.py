@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from precursors.model import printed
 from precursors.model.chain import linear_weights, theta_from_load_cells
 from precursors.model.printed import CELL_LOADS_N, CELL_SPACING_M
 from precursors.reproduction import eq15
@@ -124,7 +125,7 @@ def no_kink(t: Tables) -> Finding:
 @claim("Sects. 3.2.2 and 6.1, Fig. 8", kind="experiment")
 def counts_of_the_experiment(t: Tables) -> Finding:
     """Simulation and experiment are similar, which has 11, 19 and 27 events, the global slip included."""
-    return equal(counted(t, *SCENES), paper=[11, 19, 27])
+    return equal(counted(t, *SCENES), paper=list(printed.EVENTS_OF_EXPERIMENT.values()))
 
 
 @claim("Sects. 3.2.1 and 5.1, Fig. 4", kind="experiment", unit="N")
@@ -170,7 +171,7 @@ def curvature(t: Tables) -> Finding:
 @claim("Sects. 3.2.2 and 6.2", kind="experiment")
 def friction_of_the_experiment(t: Tables) -> Finding:
     """The experiment has mu_sapp = 0.49 for its three normal loadings."""
-    return not_computed(paper=0.49)
+    return not_computed(paper=printed.MU_SAPP)
 
 
 # Sect. 6.2: apparent and real static friction

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import scipy
 
+from precursors.model import printed
 from precursors.model.switching import COULOMB
 from precursors.reproduction.claim import (
     FOLLOWS,
@@ -148,7 +149,7 @@ def normal_loads_rise(t: Tables) -> Finding:
 def theta_of_the_load_cells(t: Tables) -> Finding:
     """theta = -0.833, 0 and 0.833 correspond to the normal loads of Figs. 6, 4 and 7: 300/100, 200/200 and
     100/300 N."""
-    return rounds_to(first(t, "theta"), paper=[-0.833, 0, 0.833], digits=3)
+    return rounds_to(first(t, "theta"), paper=[-printed.THETA, 0, printed.THETA], digits=3)
 
 
 @claim("Sect. 4.2.2", kind="input", unit="N")
@@ -257,25 +258,27 @@ def lengths_increase_after_every_event(t: Tables) -> Finding:
 @claim("Sect. 5.2, Fig. 13", fragile=[(TRAILING, "events_counted")])
 def count_trailing(t: Tables) -> Finding:
     """theta = -0.833: Fig. 13 has 6 events, the first global slip included."""
-    return equal(counted(t, TRAILING), paper=6)
+    return equal(counted(t, TRAILING), paper=printed.EVENTS_COUNTED[-1])
 
 
 @claim("Sect. 5.2, Fig. 13", fragile=[(UNIFORM, "events_counted")])
 def count_uniform(t: Tables) -> Finding:
     """theta = 0: Fig. 13 has 9 events, the first global slip included."""
-    return equal(counted(t, UNIFORM), paper=9)
+    return equal(counted(t, UNIFORM), paper=printed.EVENTS_COUNTED[0])
 
 
 @claim("Sect. 5.2, Fig. 13", fragile=[(LEADING, "events_counted")])
 def count_leading(t: Tables) -> Finding:
     """theta = 0.833: Fig. 13 has 14 events, the first global slip included."""
-    return equal(counted(t, LEADING), paper=14)
+    return equal(counted(t, LEADING), paper=printed.EVENTS_COUNTED[1])
 
 
 @claim("Sect. 5.2, Figs. 12 and 13", kind="reading")
 def count_at_printed_theta(t: Tables) -> Finding:
     """With theta = 0.833 as printed, and not 5/6, Fig. 13 has 14 events."""
-    return equal(leading_reading(t, "events_counted", degree="0.833"), paper=14)
+    return equal(
+        leading_reading(t, "events_counted", degree=f"{printed.THETA}"), paper=printed.EVENTS_COUNTED[1]
+    )
 
 
 @claim("Sects. 5.2 and 7 (2), Fig. 13")
@@ -308,31 +311,33 @@ def incubation_falls_with_theta(t: Tables) -> Finding:
 @claim("Sects. 5.2 and 6.2, Fig. 13", fragile=[(TRAILING, "mu_sapp")])
 def friction_trailing(t: Tables) -> Finding:
     """theta = -0.833: mu_sapp appears to be 0.49 (to a unit of its last digit)."""
-    return equal(mu_sapp(t, TRAILING), paper=0.49, within=LAST_DIGIT)
+    return equal(mu_sapp(t, TRAILING), paper=printed.MU_SAPP, within=LAST_DIGIT)
 
 
 @claim("Sects. 5.2 and 6.2, Fig. 13", fragile=[(UNIFORM, "mu_sapp")])
 def friction_uniform(t: Tables) -> Finding:
     """theta = 0: mu_sapp appears to be 0.49 (to a unit of its last digit)."""
-    return equal(mu_sapp(t, UNIFORM), paper=0.49, within=LAST_DIGIT)
+    return equal(mu_sapp(t, UNIFORM), paper=printed.MU_SAPP, within=LAST_DIGIT)
 
 
 @claim("Sects. 5.2 and 6.2, Fig. 13", fragile=[(LEADING, "mu_sapp")])
 def friction_leading(t: Tables) -> Finding:
     """theta = 0.833: mu_sapp appears to be 0.49 (to a unit of its last digit)."""
-    return equal(mu_sapp(t, LEADING), paper=0.49, within=LAST_DIGIT)
+    return equal(mu_sapp(t, LEADING), paper=printed.MU_SAPP, within=LAST_DIGIT)
 
 
 @claim("Sects. 5.2 and 6.2", kind="reading", fragile=FRICTION)
 def friction_rounded(t: Tables) -> Finding:
     """mu_sapp of all three normal loadings rounds to 0.49."""
-    return rounds_to(mu_sapp(t, *SCENES), paper=0.49, digits=2)
+    return rounds_to(mu_sapp(t, *SCENES), paper=printed.MU_SAPP, digits=2)
 
 
 @claim("Sect. 5.2, Figs. 12 and 13", kind="reading")
 def friction_at_printed_theta(t: Tables) -> Finding:
     """With theta = 0.833 as printed, and not 5/6, mu_sapp appears to be 0.49."""
-    return equal(leading_reading(t, "mu_sapp", degree="0.833"), paper=0.49, within=LAST_DIGIT)
+    return equal(
+        leading_reading(t, "mu_sapp", degree=f"{printed.THETA}"), paper=printed.MU_SAPP, within=LAST_DIGIT
+    )
 
 
 @claim("Sects. 5.2, 6.2 and 7 (4)", kind="reading", fragile=FRICTION)
