@@ -18,7 +18,8 @@ from matplotlib.testing.compare import compare_images
 from precursors.figures import style, work_precision
 from precursors.support.files import read_table
 
-TABLE, CHART = GOLDEN / "work_precision_full.csv", GOLDEN / "work_precision_full.png"
+TABLE = GOLDEN.parents[1] / "paper/tables/work_precision_full.csv"
+CHART = GOLDEN / "work_precision_full.png"
 MADE = Path(__file__).parents[2] / "results/tables/work_precision.csv"
 DOCS = Path(__file__).parents[2] / "docs/performance.md"
 PEERS = {"heyoka", "cvode_adams", "cvode_bdf", "scipy_dop853", "scipy_rk45", "scipy_lsoda", "scipy_radau"}

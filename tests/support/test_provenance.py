@@ -41,7 +41,7 @@ def test_everything_that_computed_is_named_with_its_version(results):
 
 def test_every_source_is_an_input_and_every_result_an_output(results):
     found = provenance(CONFIG, ROOT, results)
-    needed = {"Snakefile", "config.yaml", "requirements.lock", "paper/main.typ", "src/precursors/cli.py"}
+    needed = {"Snakefile", "config.yaml", "requirements.lock", "paper/paper.typ", "src/precursors/cli.py"}
     assert needed <= set(found["inputs"])
     assert not [name for name in found["inputs"] if "__pycache__" in name or name.startswith("results/")]
     assert set(found["outputs"]) == {"tables/a.csv", "figures/a.svg"}

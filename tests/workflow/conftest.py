@@ -20,8 +20,6 @@ for module in (
     "nbformat",
     "precursors.model.config",
     "precursors.ensembles.catalogue",
-    "precursors.reproduction.numbers",
-    "precursors.reproduction.pages",
     "precursors.accuracy.proof",
     "smart_open",
     "snakemake.report",

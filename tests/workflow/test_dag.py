@@ -157,7 +157,7 @@ def test_an_edit_of_the_solver_simulates_again(finished):
 
 
 def test_an_edit_of_the_paper_sets_it_again(finished):
-    finished.append("paper/main.typ", "\n// edited\n")
+    finished.append("paper/paper.typ", "\n// edited\n")
     assert finished.would_run() == PAPER
 
 

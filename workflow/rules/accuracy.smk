@@ -35,6 +35,7 @@ rule accuracy:
             figure=[
                 "work_precision",
                 "work_precision_evaluations",
+                "speed",
                 "step_sweep",
                 "failure_gallery",
                 "horizon",

@@ -54,6 +54,11 @@ FIGURES = {
         "tables": {"table": "results/tables/work_precision{full}.csv"},
         "options": {"work": "evaluations"},
     },
+    "speed": {
+        "shows": "error against time, as published",
+        "category": "Speed and accuracy",
+        "tables": {"table": ROOT / "paper/tables/work_precision_full.csv"},
+    },
     "step_sweep": {
         "file": "step_sweep{full}",
         "shows": "the paper's numbers against the step",

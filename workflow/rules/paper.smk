@@ -1,16 +1,29 @@
-# claims, paper.pdf
+# claims, paper.pdf, supplement.pdf
 
-from precursors.reproduction import claims, numbers
-from precursors.reproduction.pages import files_shown
+import sys
+
+from precursors.model.scenes import SLIDER
+from precursors.reproduction import claims
+from precursors.reproduction.shown import results_shown
 from precursors.reproduction.tables import SCENES as PAPERS_SCENES
 
 PAPER_SOURCE = ROOT / "paper"
 FIG13 = config["fig13"]
-# Claims and paper are about the paper's three scenes, and the paper names their load cells.
 CLAIMS = ["results/tables/claims.csv"] if set(PAPERS_SCENES) <= set(FIG13) else []
-HAVE_CELLS = CLAIMS and all("load_cell_a" in config["scenes"][scene] for scene in PAPERS_SCENES)
-PAPER = ["results/paper.pdf", "results/numbers.json"] if HAVE_CELLS else []
-SHOWN = files_shown(PAPER_SOURCE)
+# The article is about the paper's slider, and is not made for another.
+PAPERS_SLIDERS = {
+    scene: SLIDER | {"theta": theta} for scene, theta in zip(PAPERS_SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
+}
+IS_PAPERS = PAPERS_SLIDERS == {scene: {"weights": None} | SLIDERS.get(scene, {}) for scene in PAPERS_SCENES}
+PAPER = ["results/paper.pdf"] if IS_PAPERS else []
+
+
+onstart:
+    if not IS_PAPERS:
+        print(
+            "paper.pdf is not made: it is about the paper's slider, and config.yaml has another",
+            file=sys.stderr,
+        )
 
 
 rule paper:
@@ -51,22 +64,17 @@ rule evaluate_claims:
 
 rule write_paper:
     input:
-        tables=collect("results/tables/{table}.csv", table=numbers.TABLES),
-        shown=SHOWN,
-        main=PAPER_SOURCE / "main.typ",
+        shown=lambda wildcards: results_shown(PAPER_SOURCE / f"{wildcards.document}.typ"),
+        main=PAPER_SOURCE / "{document}.typ",
         source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.is_file()),
     output:
-        pdf="results/paper.pdf",
-        numbers="results/numbers.json",
+        "results/{document}.pdf",
     log:
-        "results/logs/write_paper.log",
+        "results/logs/write_{document}.log",
+    wildcard_constraints:
+        document="paper|supplement",
     localrule: True
     params:
-        config={key: config[key] for key in numbers.KEYS},
-        # Captions name the rule that made what they show.
-        rules=lambda wildcards: {
-            file: made_by.name for file in SHOWN for made_by in workflow.rules if made_by.is_producer(file)
-        },
         code=digest("write_paper"),
     script:
         "../scripts/write_paper.py"

@@ -1,39 +1,55 @@
-"""Write the reproduction paper, and the numbers in its text."""
+"""Set a document of paper/ with the fonts that Typst brings along; the same bytes on every machine."""
 
-import json
-from collections.abc import Mapping, Sequence
+import re
+import shutil
+import tempfile
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 from job import job
 
-from precursors.reproduction.numbers import numbers
-from precursors.reproduction.pages import set_pages
-from precursors.reproduction.tables import Tables
-from precursors.support.files import write_text
+from precursors.support.files import write_whole
+
+# No page says when it was made.
+EPOCH = 0
 
 
-def main(
-    source: str | Path,
-    shown: Sequence[str],
-    config: Mapping[str, Any],
-    rules: Mapping[str, str],
-    numbers_file: str,
-    output: str | Path,
-) -> None:
-    """Set the pages of `source` from results/tables and the files that it shows, made by these rules."""
-    found = numbers(Tables("results/tables"), config)
-    write_text(numbers_file, json.dumps(found, indent=1, ensure_ascii=False) + "\n")
-    set_pages(source, [*shown, numbers_file], rules, output)
+def main(main_file: str | Path, results: Iterable[str | Path], output: str | Path) -> None:
+    """Set a Typst file, which finds its directory as /paper and these results by their paths.
+
+    Raises
+    ------
+    ValueError
+        In one line: what Typst says is wrong and where; its warnings too.
+    """
+    import typst  # slow, and the tests of other scripts import this directory
+
+    main_file = Path(main_file)
+    with tempfile.TemporaryDirectory() as directory:
+        root = Path(directory)
+        shutil.copytree(main_file.parent, root / "paper")
+        for path in results:
+            (root / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, root / path)
+        try:
+            pages, warnings = typst.compile_with_warnings(
+                root / "paper" / main_file.name, root=root, ignore_system_fonts=True, timestamp=EPOCH
+            )
+        except typst.TypstError as error:
+            raise ValueError(_line(error)) from None
+    if warnings:
+        raise ValueError("; ".join(map(_line, warnings)))
+    with write_whole(output) as temporary:
+        temporary.write_bytes(pages)
+
+
+def _line(problem: object) -> str:
+    """What Typst says, in one line, with the places in the source."""
+    places = re.findall(r"(paper/\S+\.typ:\d+)", getattr(problem, "diagnostic", ""))
+    message = getattr(problem, "message", str(problem)).removeprefix("assertion failed: ")
+    return f"{message} ({', '.join(dict.fromkeys(places))})"
 
 
 if __name__ == "__main__":
     with job() as snakemake:
-        main(
-            Path(snakemake.input.main).parent,
-            list(map(str, snakemake.input.shown)),
-            snakemake.params.config,
-            snakemake.params.rules,
-            snakemake.output.numbers,
-            snakemake.output.pdf,
-        )
+        main(snakemake.input.main, snakemake.input.shown, snakemake.output[0])
