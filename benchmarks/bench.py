@@ -33,7 +33,7 @@ import pandas as pd
 
 from precursors import Chain, Run, simulate, simulate_many
 from precursors.accuracy.compare import TrueTransition, Truth, compare
-from precursors.accuracy.work_precision import REPETITIONS, Case, measure_methods
+from precursors.accuracy.work_precision import ROUNDS, Case, measure_methods
 from precursors.methods import METHODS
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy
@@ -68,7 +68,7 @@ def main() -> None:
     parser.add_argument("--method", choices=METHODS, metavar="NAME", help="measure only this method")
     arguments = parser.parse_args()
     if arguments.method:
-        table = one_method(arguments.method, rounds=1 if arguments.quick else REPETITIONS)
+        table = one_method(arguments.method, rounds=1 if arguments.quick else ROUNDS)
         print(table[SHOWN].to_string(index=False))
         return
     measure = partial(timing.measure, rounds=2, shortest=0.0) if arguments.quick else timing.measure

@@ -15,6 +15,7 @@ from precursors import Chain, Run, simulate
 from precursors.accuracy.compare import Comparison, TrueTransition, Truth, compare
 from precursors.accuracy.proof import ExactChain, certify
 from precursors.support import timing
+from precursors.support.timing import Seconds
 
 CHAIN = Chain.from_slider(n_blocks=3)
 DURATION = 4.0
@@ -199,10 +200,8 @@ def test_a_proof_that_ends_with_a_tie_is_the_truth_up_to_there():
 class TestTiming:
     def test_tasks_take_turns(self):
         calls = []
-        timings = timing.measure(
-            {"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}, 3, 0.0, {"a": 1.0, "b": 1.0}
-        )
-        assert "".join(calls) == "ababab"
+        timings = timing.measure({"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}, 3, 0.0)
+        assert "".join(calls) == "aabb" + "ababab"
         assert [len(of.wall) for of in timings.values()] == [3, 3]
 
     def test_short_tasks_are_repeated_and_the_mean_of_a_round_counts(self, clock):
@@ -212,9 +211,22 @@ class TestTiming:
             calls.append(1)
             clock.now += len(calls)
 
-        measured = timing.measure({"task": take_longer_and_longer}, 3, 40.0, {"task": 10.0})["task"]
+        measured = timing.measure({"task": take_longer_and_longer}, 3, 40.0, {"task": Seconds(10.0, 10.0)})[
+            "task"
+        ]
         assert measured.wall == measured.cpu == (2.5, 6.5, 10.5)
         assert measured.seconds == 6.5
+
+    def test_a_warm_call_that_was_long_enough_is_the_first_round(self, clock):
+        calls = []
+
+        def task():
+            calls.append(1)
+            clock.now += 50.0
+
+        measured = timing.measure({"task": task}, 3, 40.0, {"task": Seconds(60.0, 61.0)})["task"]
+        assert (measured.wall, measured.cpu) == ((60.0, 50.0, 50.0), (61.0, 50.0, 50.0))
+        assert len(calls) == 2
 
     def test_a_ratio_is_the_median_of_the_rounds_ratios(self):
         one, other = (
@@ -229,6 +241,6 @@ class TestTiming:
 
         for task in (list, fail):
             with contextlib.suppress(KeyError):
-                timing.measure({"task": task}, 1, 0.0, {"task": 1.0})
+                timing.measure({"task": task}, 1, 1.0, {"task": Seconds(0.5, 0.5)})
             assert gc.isenabled()
             assert gc.get_freeze_count() == 0

@@ -4,12 +4,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from precursors import Chain
+from precursors import Chain, simulate
 from precursors.accuracy.step_sweep import charted_steps, steps_between, sweep
 
 
 def rows_of(theta, *steps) -> list:
-    return [pd.Series(row) for row in sweep(Chain.from_slider(theta=theta), 10.0, {"rk4_skip": steps})]
+    exact = simulate(Chain.from_slider(theta=theta), 10.0)
+    return [pd.Series(row) for row in sweep(exact, {"rk4_skip": steps})]
 
 
 def test_steps_run_from_the_coarsest_to_the_finest():

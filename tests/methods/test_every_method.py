@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from precursors import Chain, simulate
-from precursors.methods import METHODS
+from precursors.methods import METHODS, columns
 from precursors.methods.events import SLIDES, Motion, jacobian, scaled
 from precursors.methods.regularised import equations
 
@@ -93,3 +95,9 @@ def test_the_jacobian_of_regularised_friction_is_that_of_differences():
     state = unit * np.random.default_rng(6).uniform(-3, 3, 8)
     of_differences = differences(lambda y: rates(0.0, y), state, 1e-5 * unit)
     np.testing.assert_allclose(matrix(0.0, state), of_differences, rtol=1e-6, atol=1e-6)
+
+
+def test_code_is_compiled_again_after_an_edit_of_any_module_that_has_some():
+    modules = Path(columns.__file__).parent.glob("*.py")
+    compiled = re.compile(r"^@(inner|apart|outer|compiled)\b", re.MULTILINE)
+    assert {file.name for file in modules if compiled.search(file.read_text())} == set(columns.COMPILED)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from scipy.linalg import expm
 from precursors import Chain, simulate
 from precursors.methods import METHODS, moreau_jean, newmark
 from precursors.methods.columns import sliding_forward, system_of
+from precursors.methods.fixed_step import slide
 from precursors.methods.stability import (
     bisect,
     energy_left,
@@ -158,7 +160,7 @@ def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free):
 
     def is_unstable_at(theta: float) -> bool:
         # Below one half, energy rises by 4 (1/2 - theta) a step: 1e6 within 4000 steps from 0.499 on.
-        return is_unstable(free, lambda *start: moreau_jean.slide(*start, theta), step)
+        return is_unstable(free, partial(slide, moreau_jean.run_moreau_jean, (theta,)), step)
 
     assert bisect(is_unstable_at, 0.6, 0.4) == pytest.approx(0.5, rel=2e-3)
 

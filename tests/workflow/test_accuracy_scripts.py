@@ -6,6 +6,7 @@ import pytest
 import tabulate_failures
 import tabulate_step_sweep
 
+from precursors import Chain, simulate
 from precursors.accuracy.failures.common import Threshold
 from precursors.accuracy.failures.locating import SMALLEST
 from precursors.accuracy.proof import ExactChain, certify
@@ -61,7 +62,8 @@ def test_the_charts_are_drawn_from_the_tables(files):
 def test_the_step_sweep_is_a_table_that_the_figure_reads(tmp_path, monkeypatch):
     steps = {"rk4_skip": [1e-5, 3e-6, 1e-6], "rk4": [1e-5]}
     monkeypatch.setattr(tabulate_step_sweep, "charted_steps", lambda _full: steps)
-    tabulate_step_sweep.main({"scene": {"theta": 0.0}}, {"scene": 10.0}, False, tmp_path / "sweep.csv")
+    simulate(Chain.from_slider(), 10.0).save(tmp_path / "run.h5")
+    tabulate_step_sweep.main({"scene": tmp_path / "run.h5"}, {"scene": 0.0}, False, tmp_path / "sweep.csv")
     table = read_table(tmp_path / "sweep.csv")
     assert table["method"].tolist() == ["exact", "rk4_skip", "rk4_skip", "rk4_skip", "rk4"]
     assert len(step_sweep.draw(table).axes) == 3

@@ -167,13 +167,14 @@ rule measure_methods:
 
 
 rule tabulate_step_sweep:
+    input:
+        runs=collect("results/runs/{scene}.h5", scene=config["fig13"]),
     output:
         table=report("results/tables/step_sweep{full}.csv", category="Tables"),
     log:
         "results/logs/tabulate_step_sweep{full}.log",
     params:
-        sliders=SLIDERS,
-        durations={scene: scene_duration(config, scene) for scene in config["fig13"]},
+        thetas={scene: slider["theta"] for scene, slider in SLIDERS.items()},
         code=digest("tabulate_step_sweep"),
     script:
         "../scripts/tabulate_step_sweep.py"

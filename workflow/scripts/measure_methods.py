@@ -12,6 +12,8 @@ from precursors.accuracy.proof import Certificate
 from precursors.accuracy.work_precision import (
     LONGEST,
     LONGEST_FULL,
+    ROUNDS,
+    ROUNDS_FULL,
     charted_values,
     measure_methods,
     proved_cases,
@@ -26,9 +28,9 @@ def main(
     output: str | Path,
 ) -> None:
     """Write one row per chain, extent, method and value of its setting."""
-    longest = LONGEST_FULL if full else LONGEST
+    rounds, longest = (ROUNDS_FULL, LONGEST_FULL) if full else (ROUNDS, LONGEST)
     tables = [
-        measure_methods(case, charted_values(case, full), longest=longest)
+        measure_methods(case, charted_values(case, full), rounds, longest)
         for chain, path in certificates.items()
         for case in proved_cases(chain, thetas[chain], Certificate.load(path))
     ]

@@ -13,7 +13,6 @@ from precursors.analysis.slips import apparent_friction, find_precursors, find_s
 from precursors.methods import METHODS, DivergedError
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
-from precursors.solver.simulate import simulate
 
 # Steps [s] from the coarsest to the finest. RK4 that also makes every step while nothing slides ends earlier.
 COARSEST, FINEST = 1e-5, 1e-9
@@ -33,15 +32,13 @@ def steps_between(coarsest: float, finest: float, per_decade: int) -> FloatArray
     return np.geomspace(coarsest, finest, round(per_decade * math.log10(coarsest / finest)) + 1)
 
 
-def sweep(chain: Chain, duration: float, steps: Mapping[str, Iterable[float]]) -> Iterator[dict[str, object]]:
+def sweep(exact: Run, steps: Mapping[str, Iterable[float]]) -> Iterator[dict[str, object]]:
     """The exact solver's numbers up to the end of the first global slip, then each method's at each step.
 
     Parameters
     ----------
-    chain : Chain
-        The chain.
-    duration : float
-        Time limit of a run without a global slip [s].
+    exact : Run
+        The exact solver's run, to the first global slip or longer; its duration limits the other runs.
     steps : mapping of str to iterable of float
         Steps [s] by name of the method.
 
@@ -50,11 +47,11 @@ def sweep(chain: Chain, duration: float, steps: Mapping[str, Iterable[float]]) -
     dict
         See `row`.
     """
-    truth = Truth.of_run(simulate(chain, duration, "global slip"))
+    truth = Truth.of_run(exact).until_global_slip()
     yield row("exact", math.nan, truth.run, truth)
     for method, values in steps.items():
         for step in map(float, values):
-            yield row(method, step, _run(chain, duration, method, step), truth)
+            yield row(method, step, _run(exact.chain, exact.duration, method, step), truth)
 
 
 def row(method: str, step: float, run: Run, truth: Truth) -> dict[str, object]:

@@ -19,7 +19,8 @@ from precursors.support import timing
 if TYPE_CHECKING:
     from precursors.accuracy.proof import Certificate
 
-REPETITIONS = 5
+# Rounds of which a time is the median.
+ROUNDS, ROUNDS_FULL = 3, 5
 # A method is given up at a setting with which one call takes longer [s]: in the default chart, in the
 # full one.
 LONGEST, LONGEST_FULL = 2.0, 5.0
@@ -109,7 +110,7 @@ def charted_values(case: Case, full: bool = False) -> dict[str, tuple[float, ...
 def measure_methods(
     case: Case,
     values: Mapping[str, Sequence[float]],
-    repetitions: int = REPETITIONS,
+    rounds: int = ROUNDS,
     longest: float = LONGEST,
 ) -> pd.DataFrame:
     """Time methods with several settings, and compare each run with the truth.
@@ -120,7 +121,7 @@ def measure_methods(
         What to run.
     values : mapping
         Values of the setting for each method, from loose to tight.
-    repetitions : int
+    rounds : int
         Number of rounds, after a warm-up, of which the median is taken; methods take turns in a round.
     longest : float
         A method is given up at a value with which a call takes longer [s].
@@ -136,7 +137,7 @@ def measure_methods(
     ]
     timings = timing.measure(
         {key: partial(case.run, of.method, of.value) for key, of in enumerate(attempts)},
-        repetitions,
+        rounds,
         seconds={key: of.seconds for key, of in enumerate(attempts)},
     )
     rows = [_row(case, of, timings[key].seconds) for key, of in enumerate(attempts)]
@@ -145,18 +146,18 @@ def measure_methods(
 
 @dataclass(frozen=True)
 class _Attempt:
-    """A method with a value of its setting, its result, and about how long a call takes [s]."""
+    """A method with a value of its setting, its result, and how long a call took."""
 
     method: Method
     value: float
     result: Result
-    seconds: float
+    seconds: timing.Seconds
 
 
 def _attempts(case: Case, method: Method, values: Sequence[float], longest: float) -> Iterator[_Attempt]:
     for value in values:
         result, seconds = timing.second_call(partial(case.run, method, value))
-        if seconds > longest:
+        if seconds.wall > longest:
             return
         yield _Attempt(method, value, result, seconds)
 

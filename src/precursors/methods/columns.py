@@ -26,8 +26,20 @@ from precursors.solver.kernel.compiled import entry
 # called in every step is inlined.
 apart = njit(error_model="numpy", fastmath={"contract"})
 inner = njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
-# Python calls these; their code is kept until a file of this package is edited.
-outer = entry(Path(__file__).parent, error_model="numpy", fastmath={"contract"}, nogil=True)
+# Python calls these; their code is kept until one of these files is edited, or their own.
+COMPILED = (
+    "columns.py",
+    "dop853.py",
+    "events.py",
+    "fixed_step.py",
+    "karnopp.py",
+    "leapfrog.py",
+    "moreau_jean.py",
+    "newmark.py",
+    "rk4.py",
+    "rk4_located.py",
+)
+outer = entry(Path(__file__).parent, COMPILED, error_model="numpy", fastmath={"contract"}, nogil=True)
 
 
 class System(NamedTuple):
@@ -90,13 +102,21 @@ def sliding_forward(system: System, velocities: FloatArray) -> State:
 
 
 @inner
-def rates(system, state, last, spring_force, velocity, force_rate, acceleration):
-    """Right-hand side (Eqs. 2-6) of blocks 1..last; the blocks ahead of these are at rest."""
-    spring, mobility, friction = system.spring, state.mobility, state.friction
+def by_mode(_system, state, i, net, velocity, _parameter):
+    """Velocity of block i as the springs see it, and its acceleration: friction is that of its mode."""
+    return velocity, state.mobility[i] * (net - state.friction[i])
+
+
+@inner
+def rates(law, parameter, system, state, last, spring_force, velocity, force_rate, acceleration):
+    """Right-hand side (Eqs. 2-6) of blocks 1..last under a law of friction; blocks ahead of these rest."""
+    behind = velocity[0]
     for i in range(1, last + 1):
-        force_rate[i] = spring[i] * (velocity[i - 1] - velocity[i])
-        acceleration[i] = mobility[i] * (spring_force[i] - spring_force[i + 1] - friction[i])
-    force_rate[last + 1] = spring[last + 1] * velocity[last]
+        net = spring_force[i] - spring_force[i + 1]
+        here, acceleration[i] = law(system, state, i, net, velocity[i], parameter)
+        force_rate[i] = system.spring[i] * (behind - here)
+        behind = here
+    force_rate[last + 1] = system.spring[last + 1] * behind
     acceleration[last + 1] = 0.0
 
 
@@ -145,12 +165,17 @@ def rows(state, n):
 
 
 @inner
-def resting_mode(system, state, i):
-    """Mode of a block with zero velocity: by the rule of switching it sticks or follows the force."""
-    net = state.spring_force[i] - state.spring_force[i + 1]
-    forward, backward = system.turning[i], system.turning[i]
-    if state.mode[i] == 0:
-        forward, backward = system.strength[i], system.backward[i]
+def mode_at_rest(net, forward, backward):
+    """Mode of a block without velocity under the net force of its springs, held up to two limits."""
     if net > forward:
         return 1
     return -1 if net < -backward else 0
+
+
+@inner
+def resting_mode(system, state, i):
+    """Mode of a block with zero velocity: by the rule of switching it sticks or follows the force."""
+    net = state.spring_force[i] - state.spring_force[i + 1]
+    if state.mode[i] == 0:
+        return mode_at_rest(net, system.strength[i], system.backward[i])
+    return mode_at_rest(net, system.turning[i], system.turning[i])

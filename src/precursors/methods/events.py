@@ -17,14 +17,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from precursors.methods.columns import COMPILED, mode_at_rest
 from precursors.methods.common import Result
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span
+from precursors.solver.kernel.compiled import entry
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError
 
@@ -38,7 +40,7 @@ NUDGE = 1e-100
 MAX_TRANSITIONS = 1_000_000
 MAX_AT_ONCE = 8
 
-compiled = njit(cache=True, error_model="numpy")
+compiled = entry(Path(__file__).parent, COMPILED, error_model="numpy")
 
 
 class Motion:
@@ -253,12 +255,7 @@ def settle(state, settings, strength, friction, nudge, event):
     block = event // 2
     net = state[block] - (state[block + 1] if block + 1 < n else 0.0)
     old = int(settings[MODE, block])
-    if old == 0:
-        new = 1 - 2 * (event % 2)
-    elif abs(net) <= strength[block]:
-        new = 0
-    else:
-        new = 1 if net > 0.0 else -1
+    new = 1 - 2 * (event % 2) if old == 0 else mode_at_rest(net, strength[block], strength[block])
     settings[SLIDES, block] = abs(new)
     settings[FRICTION, block] = new * friction[block]
     settings[MODE, block] = new

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from precursors.methods.columns import State, System, apart, at_rest, inner, resting_mode, system_of
-from precursors.methods.common import DivergedError, Kind, Method, Result
+from precursors.methods.common import DivergedError, Kind, Method, Result, Smooth
 from precursors.model.chain import Chain
 from precursors.model.checks import checked_span, positive
 from precursors.model.switching import COULOMB
@@ -25,6 +25,7 @@ FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, MOVING = range(5)
 # A leg has at most so many steps, and a call so many legs, so that Ctrl-C is heard within a second or so.
 STEPS_IN_LEG, LEGS_PER_CALL = 1000, 5000
 FIRST_ROOM = 4096  # transitions
+HAIR = 1e-12  # of a step: more than the rounding of a clock that adds thousands of them
 
 PROGRESS = np.dtype(
     [
@@ -227,13 +228,6 @@ def run_in_steps(motion, step, waits, advance, starts, work):
     return PAUSED
 
 
-@inner
-def slide_in_steps(system, state, h, n_steps, advance, work):
-    """Make n steps of all blocks as they slide, without switching."""
-    for _ in range(n_steps):
-        advance(system, state, state.mode.shape[0] - 2, h, work)
-
-
 # From Python
 
 
@@ -289,6 +283,30 @@ def march(
     return Result(run, int(progress["evaluations"]))
 
 
+def slide(
+    method: Callable[..., int],
+    parameters: tuple[Any, ...],
+    system: System,
+    state: State,
+    step: float,
+    n_steps: int,
+) -> None:
+    """Make n steps [s] of all blocks as they slide in a state, without switching, by the code of `march`.
+
+    Blocks that count as stuck, that nothing holds and that nothing releases keep their motion and their mode.
+    """
+    never = np.full_like(system.strength, np.inf)
+    free = system._replace(strength=never, backward=never)
+    progress = np.zeros(1, PROGRESS)[0]
+    progress["sliding"] = progress["last"] = len(state.mode) - 2
+    # The clock adds step after step; the last is shorter by a hair, so that none of no length follows.
+    progress["duration"] = np.cumsum(np.full(n_steps, step))[-1] - HAIR * step
+    stuck = state._replace(mode=np.zeros_like(state.mode))
+    motion = Motion(free, stuck, progress, np.empty(FIRST_ROOM, RECORD))
+    while method(motion, step, *parameters) == PAUSED:
+        pass
+
+
 def _reached(progress: np.void) -> float:
     return float(progress["onset"] + progress["elapsed"])
 
@@ -311,8 +329,20 @@ def fixed_step(
     label: str,
     method: Callable[..., int],
     *parameters: Any,
+    smooth: tuple[int, float, Callable[[float], float]] | None = None,
     kind: Kind = "once a step",
     **others: Any,
 ) -> Method:
-    """Make the row of a compiled fixed-step method; `method` and its parameters are those of `march`."""
-    return Method(name, label, "step [s]", partial(march, method, parameters), kind=kind, **others)
+    """Make the row of a compiled fixed-step method.
+
+    `method` and its parameters are those of `march`; `smooth` is order, limit and energy factor of `Smooth`.
+    """
+    return Method(
+        name,
+        label,
+        "step [s]",
+        partial(march, method, parameters),
+        smooth=Smooth(partial(slide, method, parameters), *smooth) if smooth else None,
+        kind=kind,
+        **others,
+    )

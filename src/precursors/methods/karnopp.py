@@ -31,6 +31,7 @@ from precursors.methods.fixed_step import (
     rest,
     step_length,
 )
+from precursors.methods.rk4 import step_of_law
 from precursors.model.chain import Chain
 from precursors.model.checks import not_negative, positive
 from precursors.solver.simulate import MAX_TRANSITIONS
@@ -85,42 +86,19 @@ solve_literally = partial(solve, dead_zone=0.0)
 
 
 @inner
-def rates_with_law(system, n_blocks, dead_zone, spring_force, velocity, force_rate, acceleration):
-    """Right-hand side with the dead zone; at dv = 0 it is Eqs. 2-6 as printed."""
-    moves_behind = velocity[0]
-    for i in range(1, n_blocks + 1):
-        net = spring_force[i] - spring_force[i + 1]
-        v = velocity[i]
-        if abs(v) <= dead_zone:
-            moves, friction = 0.0, min(max(net, -system.strength[i]), system.strength[i])
-        else:
-            moves, friction = v, system.kinetic_friction[i] if v > 0.0 else -system.kinetic_friction[i]
-        force_rate[i] = system.spring[i] * (moves_behind - moves)
-        acceleration[i] = system.inverse_mass * (net - friction)
-        moves_behind = moves
-    force_rate[n_blocks + 1] = 0.0
+def by_velocity(system, _state, i, net, velocity, dead_zone):
+    """The law of friction with the dead zone; at dv = 0 it is Eqs. 4-6 as printed."""
+    if abs(velocity) <= dead_zone:
+        held = min(max(net, -system.strength[i]), system.strength[i])
+        return 0.0, system.inverse_mass * (net - held)
+    friction = math.copysign(system.kinetic_friction[i], velocity)
+    return velocity, system.inverse_mass * (net - friction)
 
 
 @inner
 def law_step(system, state, h, dead_zone, work):
-    """One step h [s] of the classical Runge-Kutta method, with the law of friction in each evaluation."""
-    n_blocks = state.mode.shape[0] - 2
-    force_sum, velocity_sum, force_trial, velocity_trial = work[0], work[1], work[2], work[3]
-    force_rate, acceleration = work[4], work[5]
-    for i in range(1, n_blocks + 1):
-        force_sum[i] = force_trial[i] = state.spring_force[i]
-        velocity_sum[i] = velocity_trial[i] = state.velocity[i]
-    for stage in range(4):
-        rates_with_law(system, n_blocks, dead_zone, force_trial, velocity_trial, force_rate, acceleration)
-        share = h / 3.0 if 0 < stage < 3 else h / 6.0
-        ahead = h if stage == 2 else 0.5 * h
-        for i in range(1, n_blocks + 1):
-            force_sum[i] += share * force_rate[i]
-            velocity_sum[i] += share * acceleration[i]
-            force_trial[i] = state.spring_force[i] + ahead * force_rate[i]
-            velocity_trial[i] = state.velocity[i] + ahead * acceleration[i]
-    for i in range(1, n_blocks + 1):
-        state.spring_force[i], state.velocity[i] = force_sum[i], velocity_sum[i]
+    """One step h [s] of Runge and Kutta's method with the law in each evaluation."""
+    step_of_law(by_velocity, dead_zone, system, state, state.mode.shape[0] - 2, h, work)
 
 
 @outer

@@ -8,11 +8,9 @@ makes energy at any step.
 from __future__ import annotations
 
 import math
-from functools import partial
 
-from precursors.methods.columns import accelerate, inner, outer, stretch
-from precursors.methods.common import Smooth
-from precursors.methods.fixed_step import fixed_step, run_in_steps, slide_in_steps
+from precursors.methods.columns import accelerate, by_mode, inner, outer, rates, rows, stretch
+from precursors.methods.fixed_step import fixed_step, run_in_steps
 
 LIMIT = 2.0  # largest stable omega dt, of both symplectic methods
 # Share of a step of the forces that is made before the step of the motion.
@@ -40,30 +38,14 @@ def symplectic_step(system, state, last, h, before):
 
 
 @inner
-def euler_step(system, state, last, h, _work):
+def euler_step(system, state, last, h, work):
     """A step of the forces and of the motion, both from where the step begins."""
-    force, velocity, spring = state.spring_force, state.velocity, system.spring
-    mobility, friction = state.mobility, state.friction
-    behind = velocity[0]
-    for i in range(1, last + 1):
-        here = velocity[i]
-        velocity[i] += h * mobility[i] * (force[i] - force[i + 1] - friction[i])
-        force[i] += h * spring[i] * (behind - here)
-        behind = here
-    force[last + 1] += h * spring[last + 1] * behind
+    force, velocity, force_rate, acceleration = state.spring_force, state.velocity, work[0], work[1]
+    rates(by_mode, 0.0, system, state, last, force, velocity, force_rate, acceleration)
+    for i in range(1, last + 2):
+        force[i] += h * force_rate[i]
+        velocity[i] += h * acceleration[i]
     return 1
-
-
-@outer
-def slide_symplectic(system, state, h, n_steps, before):
-    """Make n steps of all blocks as they slide, without switching."""
-    slide_in_steps(system, state, h, n_steps, symplectic_step, before)
-
-
-@outer
-def slide_euler(system, state, h, n_steps):
-    """The same."""
-    slide_in_steps(system, state, h, n_steps, euler_step, 0)
 
 
 @outer
@@ -79,7 +61,7 @@ def run_symplectic(motion, step, before):
 @outer
 def run_euler(motion, step):
     """The same with one evaluation a step."""
-    return run_in_steps(motion, step, True, euler_step, False, 0)
+    return run_in_steps(motion, step, True, euler_step, False, rows(motion.state, 4))
 
 
 METHODS = (
@@ -93,7 +75,7 @@ METHODS = (
             whole=(1e-6, 1e-7, 3e-8, 1e-8, 3e-9),
             quick=(1e-6, 1e-7, 1e-8, 3e-9),
             quick_whole=(1e-7,),
-            smooth=Smooth(partial(slide_symplectic, before=before), order, LIMIT, energy_factor),
+            smooth=(order, LIMIT, energy_factor),
             color=color,
             marker=marker,
         )
@@ -109,7 +91,7 @@ METHODS = (
         values=(1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9),
         whole=(1e-7, 1e-8),
         quick=(1e-7, 1e-8),
-        smooth=Smooth(slide_euler, 1, 0.0, euler_energy_factor),
+        smooth=(1, 0.0, euler_energy_factor),
         color="#C2185B",
         marker="3,1,180",
     ),

@@ -18,7 +18,6 @@ import math
 from functools import partial
 
 from precursors.methods.columns import inner, outer, rows, solve_springs
-from precursors.methods.common import Smooth
 from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
     MOVING,
@@ -117,17 +116,6 @@ def step_modes(system, state, last, h, theta, work, trial):
 
 
 @outer
-def slide(system, state, h, n_steps, theta):
-    """Make n steps of all blocks as they slide, without switching."""
-    n_blocks = state.mode.shape[0] - 2
-    work = rows(state, 4)
-    for _ in range(n_steps):
-        explicit_forces(system, state, n_blocks, h, theta, work[0])
-        solve_velocities(system, state, n_blocks, h, theta, work)
-        finish(system, state, n_blocks, h, theta, work[3])
-
-
-@outer
 def run_moreau_jean(motion, step, theta):
     """Run until the end, a full record or a spent budget of legs.
 
@@ -154,7 +142,7 @@ def run_moreau_jean(motion, step, theta):
                 break
         for i in range(1, last + 1):
             old, new = state.mode[i], trial[i]
-            if new == 0:
+            if old != 0 and new == 0:
                 state.velocity[i] = 0.0
                 net = state.spring_force[i] - state.spring_force[i + 1]
                 if old * net < -system.strength[i]:
@@ -177,7 +165,7 @@ METHODS = tuple(
         quick_whole=quick_whole,
         color=color,
         marker=marker,
-        smooth=Smooth(partial(slide, theta=theta), order, math.inf, partial(energy_factor, theta=theta)),
+        smooth=(order, math.inf, partial(energy_factor, theta=theta)),
     )
     for name, label, theta, order, quick, quick_whole, color, marker in (
         (

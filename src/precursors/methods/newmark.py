@@ -18,8 +18,7 @@ from functools import partial
 import numpy as np
 
 from precursors.methods.columns import inner, outer, rows, solve_springs
-from precursors.methods.common import Smooth
-from precursors.methods.fixed_step import fixed_step, run_in_steps, slide_in_steps
+from precursors.methods.fixed_step import fixed_step, run_in_steps
 
 NEWMARK, HHT = 0.0, -0.1
 
@@ -58,14 +57,6 @@ def newmark_step(system, state, last, h, settings):
 
 
 @outer
-def slide(system, state, h, n_steps, alpha):
-    """Make n steps of all blocks as they slide, without switching."""
-    settings = alpha, rows(state, 4)
-    newmark_step(system, state, state.mode.shape[0] - 2, 0.0, settings)
-    slide_in_steps(system, state, h, n_steps, newmark_step, settings)
-
-
-@outer
 def run_newmark(motion, step, alpha):
     """Run with a step [s], see `run_in_steps`."""
     return run_in_steps(motion, step, True, newmark_step, True, (alpha, rows(motion.state, 4)))
@@ -82,7 +73,7 @@ METHODS = tuple(
         quick=quick,
         color=color,
         marker=marker,
-        smooth=Smooth(partial(slide, alpha=alpha), 2, math.inf, partial(energy_factor, alpha=alpha)),
+        smooth=(2, math.inf, partial(energy_factor, alpha=alpha)),
     )
     for name, label, alpha, quick, color, marker in (
         ("newmark", "Newmark", NEWMARK, (1e-6, 1e-7, 1e-8), "#6B8E23", "4,1,45"),

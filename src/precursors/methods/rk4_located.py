@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from precursors.methods.columns import apart, inner, outer, rates, resting_mode, rows
+from precursors.methods.columns import apart, by_mode, inner, outer, rates, resting_mode, rows
 from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
     MOVING,
@@ -23,7 +23,7 @@ from precursors.methods.fixed_step import (
     fixed_step,
     step_length,
 )
-from precursors.methods.rk4 import rk4_from_rates
+from precursors.methods.rk4 import step_from_rates
 
 STEPS = (6e-6, 4e-6, 3e-6, 2e-6, 1e-6, 6e-7, 3e-7, 1e-7, 3e-8)
 # An event function below so many roundings of the forces is zero.
@@ -47,7 +47,7 @@ def event_function(system, state, i):
 @inner
 def evaluate(system, state, last, rate, event):
     """Rates of blocks 1..last (rows of `rate`); event functions of all that can change, and their rates."""
-    rates(system, state, last, state.spring_force, state.velocity, rate[0], rate[1])
+    rates(by_mode, 0.0, system, state, last, state.spring_force, state.velocity, rate[0], rate[1])
     for i in range(1, min(last + 1, state.mode.shape[0] - 2) + 1):
         event[0, i] = event_function(system, state, i)
         if state.mode[i] != 0:
@@ -140,7 +140,7 @@ def step_from(motion, start, rate, h, work):
     state = motion.state
     state.spring_force[:], state.velocity[:] = start[0], start[1]
     work[4], work[5] = rate[0], rate[1]
-    rk4_from_rates(motion.system, state, motion.progress.last, h, work)
+    step_from_rates(by_mode, 0.0, motion.system, state, motion.progress.last, h, work)
 
 
 @apart
@@ -179,7 +179,7 @@ def run_located(motion, step):
             h = step_length(progress, step)
             start[0], start[1] = state.spring_force, state.velocity
             work[4], work[5] = rate[0], rate[1]
-            rk4_from_rates(system, state, last, h, work)
+            step_from_rates(by_mode, 0.0, system, state, last, h, work)
             evaluate(system, state, last, rate_after, event_after)
             progress.evaluations += 4
             s, i = first_transition(state, last, h, event, event_after, rounding)

@@ -12,7 +12,7 @@ import statistics
 import time
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 Key = TypeVar("Key", bound=Hashable)
 T = TypeVar("T")
@@ -21,6 +21,13 @@ ROUNDS = 11
 # A task is repeated within a round until it takes so long: what the task before it left in the processor's
 # caches, and the clock's steps, are then a small part of it.
 SHORTEST = 0.01  # s
+
+
+class Seconds(NamedTuple):
+    """Of one call: on the clock, and of processor time of all threads."""
+
+    wall: float
+    cpu: float
 
 
 @dataclass(frozen=True)
@@ -47,7 +54,7 @@ def measure(
     tasks: Mapping[Key, Callable[[], object]],
     rounds: int = ROUNDS,
     shortest: float = SHORTEST,
-    seconds: Mapping[Key, float] | None = None,
+    seconds: Mapping[Key, Seconds] | None = None,
 ) -> dict[Key, Timing]:
     """Time tasks in turn, round after round, after warming each up.
 
@@ -60,19 +67,25 @@ def measure(
     shortest : float
         Time [s] that a task is repeated for within a round; the round counts the mean.
     seconds : mapping, optional
-        Roughly how long each task takes [s], if they are warm already: see `second_call`.
+        How long each task took when it was warm: see `second_call`. One that took longer than `shortest` has
+        had its first round.
     """
+    had: dict[Key, Seconds] = {}
     if seconds is None:
         seconds = {name: second_call(task)[1] for name, task in tasks.items()}
-    repeats = {name: max(1, round(shortest / max(seconds[name], 1e-9))) for name in tasks}
-    wall: dict[Key, list[float]] = {name: [] for name in tasks}
-    cpu: dict[Key, list[float]] = {name: [] for name in tasks}
+    else:
+        had = {name: of for name, of in seconds.items() if of.wall > shortest}
+    repeats = {name: max(1, round(shortest / max(seconds[name].wall, 1e-9))) for name in tasks}
+    wall = {name: [had[name].wall] if name in had else [] for name in tasks}
+    cpu = {name: [had[name].cpu] if name in had else [] for name in tasks}
     collecting = gc.isenabled()
     gc.collect()
     gc.freeze()  # what the libraries hold for good need not be looked through before every task
     try:
-        for _ in range(rounds):
+        for number in range(rounds):
             for name, task in tasks.items():
+                if number == 0 and name in had:
+                    continue
                 gc.collect()
                 gc.disable()
                 clock, processor = time.perf_counter(), time.process_time()
@@ -89,12 +102,12 @@ def measure(
     return {name: Timing(tuple(wall[name]), tuple(cpu[name])) for name in tasks}
 
 
-def second_call(task: Callable[[], T]) -> tuple[T, float]:
-    """Result of the second of two calls, and its time on the clock [s].
+def second_call(task: Callable[[], T]) -> tuple[T, Seconds]:
+    """Result of the second of two calls, and its time.
 
     What the first one compiles, loads or imports is no part of it, however long the first one takes.
     """
     task()
-    start = time.perf_counter()
+    clock, processor = time.perf_counter(), time.process_time()
     result = task()
-    return result, time.perf_counter() - start
+    return result, Seconds(time.perf_counter() - clock, time.process_time() - processor)

@@ -30,7 +30,9 @@ class Number:
     exact : float
         What is right; NaN where there is no such number.
     predicted : float
-        What theory says of the method, from the chain and its exact run; NaN where it says nothing.
+        What the method should give; NaN where nothing is known.
+    theory : str
+        From what that follows, if not from the method and the chain.
     """
 
     method: str
@@ -40,6 +42,7 @@ class Number:
     measured: float
     exact: float = float("nan")
     predicted: float = float("nan")
+    theory: str = ""
 
 
 @dataclass(frozen=True)

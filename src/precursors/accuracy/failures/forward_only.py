@@ -34,7 +34,8 @@ def forward_only() -> Failure:
         number = partial(Number, "v < 0 forbidden", f"theta = {theta}")
         backward = int(np.argmax(exact.transitions["mode"] < 0))
         n_right = transitions_right(run, exact)
-        numbers.append(number("transitions right", "1", n_right, len(exact.transitions), backward))
+        theory = "transitions before the first backward slip, read off the exact run"
+        numbers.append(number("transitions right", "1", n_right, len(exact.transitions), backward, theory))
         true, found = (apparent_friction(slip_table(r)) for r in (exact, run))
         assert true
         assert found

@@ -100,7 +100,7 @@ def missed_roots() -> Failure:
     below_zero = float(np.ptp(times[negative]) * motion.tau)
 
     # A step that is shorter than the time below zero ends in it or does not begin before it.
-    theory = "time for which the velocity is below zero"
+    theory = "time for which the velocity is below zero, read off the exact run"
     return Failure(
         (Number(METHOD, f"rtol = {LOOSE:.0e}", "transitions right", "1", wrong, n),),
         curves(
@@ -160,7 +160,7 @@ def merged_transitions() -> Failure:
     intervals = exact.intervals[1:-1]
     three = float((intervals[:-1] + intervals[1:]).min())
     number = partial(Number, MERGING, f"within {WINDOWS[1]:.0e} s")
-    theory = "shortest time with three transitions"
+    theory = "shortest time with three transitions, read off the exact run"
     return Failure(
         (
             number("transitions merged", "1", int((intervals < WINDOWS[1]).sum()), 0),

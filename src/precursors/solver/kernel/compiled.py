@@ -6,7 +6,7 @@ import hashlib
 import os
 import tempfile
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -27,13 +27,13 @@ inner_unfused: Any = untyped.njit(**_options, forceinline=True)
 unfused: Any = untyped.njit(**_options)
 
 
-def entry(directory: Path, **options: Any) -> Any:
+def entry(directory: Path, modules: Iterable[str] = (), **options: Any) -> Any:
     """Decorator for functions that Python calls; their code is kept until a module in `directory` is edited.
 
     Numba looks at the file in which a function stands, and not at those of the functions that it calls. So
-    the code is kept in a directory that is named after the checksum of all modules.
+    the code is kept in a directory that is named after the checksum of all modules, or of those named.
     """
-    place = _cache_place(directory)
+    place = _cache_place(directory, checksum(directory, modules))
 
     def compile(function: Function) -> Any:
         if place is None:
@@ -48,22 +48,22 @@ def entry(directory: Path, **options: Any) -> Any:
     return compile
 
 
-def checksum(directory: Path) -> str:
-    """Checksum of all modules in a directory."""
+def checksum(directory: Path, modules: Iterable[str] = ()) -> str:
+    """Checksum of all modules in a directory, or of those named."""
     digest = hashlib.sha256()
-    for file in sorted(directory.glob("*.py")):
+    for file in [directory / name for name in modules] or sorted(directory.glob("*.py")):
         digest.update(f"{file.name} {file.stat().st_size} ".encode())
         digest.update(file.read_bytes())
     return digest.hexdigest()[:16]
 
 
-def _cache_place(directory: Path) -> Path | None:
+def _cache_place(directory: Path, digest: str) -> Path | None:
     """A directory that can be written, named after the checksum of the modules; None, with a warning."""
     places = [directory / "__pycache__", Path("~/.cache/precursors").expanduser()]
     if untyped.config.CACHE_DIR:
         places = [Path(untyped.config.CACHE_DIR)]
     for base in places:
-        place = base / f"numba-{directory.name}-{checksum(directory)}"
+        place = base / f"numba-{directory.name}-{digest}"
         try:
             place.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryFile(dir=place):
