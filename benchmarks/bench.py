@@ -22,19 +22,22 @@ import argparse
 import csv
 import sys
 from collections.abc import Callable, Iterable
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from fractions import Fraction
 from functools import cache, partial
 from importlib.util import find_spec
 from pathlib import Path
+from statistics import median
+from time import process_time
 from typing import Any
+from unittest.mock import patch
 
 import pandas as pd
 
 from precursors import Chain, Run, simulate, simulate_many
 from precursors.accuracy.compare import TrueTransition, Truth, compare
 from precursors.accuracy.work_precision import ROUNDS, Case, measure_methods
-from precursors.methods import METHODS
+from precursors.methods import METHODS, cvode_events, events
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy
 from precursors.model.checks import Until
@@ -50,7 +53,7 @@ HEYOKA_TOLERANCE = 0.0  # its default, rounding
 DOP853_TOLERANCE = 1e-13
 SCENES = {"0": "fig10", "-5/6": "fig11", "5/6": "fig12"}
 ENDS: dict[str, Until] = {"to the first global slip": "global slip", "10 s": None}
-ENSEMBLE = 2000
+ENSEMBLE, HEYOKA_ENSEMBLE = 2000, 100
 # A strained chain is driven so fast that it goes on slipping over its whole length.
 LONG_CHAIN, SHORT_CHAIN, STRAIN, FAST_DRIVE = 200, 10, 0.9, 0.02  # blocks, blocks, of the maximal one, m/s
 GROWTH_TRANSITIONS = 6000
@@ -77,6 +80,8 @@ def main() -> None:
         against_heyoka(measure),
         against_dop853(measure),
         ensemble(measure, arguments.quick),
+        heyoka_ensemble(measure, arguments.quick),
+        in_callbacks(),
         long_chains(measure),
     )
     for benchmark in benchmarks:
@@ -151,6 +156,67 @@ def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
         faster, _ = timings[str(n)].times_faster_than(timings["1"])
         yield row("first-slip runs a second and thread", "1/s", len(chains) / timings[str(n)].seconds / n)
         yield row("of linear scaling", "1", faster / n)
+
+
+def heyoka_ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
+    """Many runs on one thread by heyoka.py, in its own ensemble mode and in turn, over `simulate_many`."""
+    if not find_spec("heyoka"):
+        return
+    from heyoka_ensemble import Ensemble
+
+    chain, n = Chain.from_slider(), 5 if quick else HEYOKA_ENSEMBLE
+    many = Ensemble(chain, DURATION)
+    tasks: dict[str, Callable[[], object]] = {
+        "simulate_many": partial(simulate_many, [chain] * n, DURATION, "global slip", threads=1),
+        "heyoka's ensemble": partial(many.ends, n, 1),
+        "heyoka, run by run": lambda: [
+            solve_heyoka(chain, DURATION, HEYOKA_TOLERANCE, "global slip") for _ in range(n)
+        ],
+    }
+    timings = measure(tasks)
+    row = partial(_row, "ensemble", f"1 thread, {n} runs, theta = 0, first slip")
+    for name in list(tasks)[1:]:
+        wall, _ = timings["simulate_many"].times_faster_than(timings[name])
+        yield row(f"time of {name} / simulate_many", "1", wall)
+    exact = simulate(chain, DURATION, "global slip").duration
+    error = max(abs(end - exact) for end in many.ends(n, 1))
+    yield row("largest error of an end, heyoka's ensemble", "s", error)
+
+
+def in_callbacks() -> Iterable[Row]:
+    """Part of the processor time of heyoka.py and CVODE in the functions that they call back, a median."""
+    callbacks: dict[str, list[tuple[object, str]]] = {
+        "heyoka": [(events.Motion, "switch")],
+        "cvode_adams": [(cvode_events, "rates"), (cvode_events, "event_functions")],
+    }
+    for name in filter(METHODS.__contains__, callbacks):
+        method = METHODS[name]
+        run = partial(method.solve, Chain.from_slider(), DURATION, method.quick[-1], "global slip")
+        run()
+        part = median(part_within(run, callbacks[name]) for _ in range(timing.ROUNDS))
+        yield _row("callbacks", "theta = 0, to the first global slip", f"part of {name}'s time", "1", part)
+
+
+def part_within(run: Callable[[], object], functions: Iterable[tuple[object, str]]) -> float:
+    """Part of the time of a call that is spent in some functions."""
+    within = 0.0
+
+    def timed(function: Callable[..., Any]) -> Callable[..., Any]:
+        def call(*arguments: Any) -> Any:
+            nonlocal within
+            start = process_time()
+            result = function(*arguments)
+            within += process_time() - start
+            return result
+
+        return call
+
+    with ExitStack() as stack:
+        for owner, name in functions:
+            stack.enter_context(patch.object(owner, name, timed(getattr(owner, name))))
+        start = process_time()
+        run()
+        return within / (process_time() - start)
 
 
 def long_chains(measure: Callable[..., Any]) -> Iterable[Row]:

@@ -300,7 +300,7 @@ def slide(
     progress = np.zeros(1, PROGRESS)[0]
     progress["sliding"] = progress["last"] = len(state.mode) - 2
     # The clock adds step after step; the last is shorter by a hair, so that none of no length follows.
-    progress["duration"] = np.cumsum(np.full(n_steps, step))[-1] - HAIR * step
+    progress["duration"] = np.cumsum(np.append(0.0, np.full(n_steps, step)))[-1] - HAIR * step
     stuck = state._replace(mode=np.zeros_like(state.mode))
     motion = Motion(free, stuck, progress, np.empty(FIRST_ROOM, RECORD))
     while method(motion, step, *parameters) == PAUSED:

@@ -7,6 +7,7 @@ switching is done in the events' callbacks, so that a slip event is one call.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
@@ -22,42 +23,51 @@ TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12, 1e-14, float(np.finfo(float).eps))
 LARGE = 20
 
 
+def integrator_of(
+    chain: Chain, tolerance: float, callback: Callable[[int], Callable[[Any, int], bool]]
+) -> Any:
+    """heyoka's integrator of a chain: `callback(event)` is what it calls at an event function's root."""
+    import heyoka as hy
+
+    n = chain.n_blocks
+    _, drive_velocity, coupling = scaled(chain)
+    strength = chain.strength
+    force = [hy.expression(f"T{i}") for i in range(n)]
+    velocity = [hy.expression(f"v{i}") for i in range(n)]
+    setting = [[hy.par[row * n + i] for i in range(n)] for row in range(4)]
+    net = [force[i] - force[i + 1] for i in range(n - 1)] + [force[-1]]
+    behind = [drive_velocity, *velocity[:-1]]
+    falling = {"direction": hy.event_direction.negative}
+    events = []
+    for i in range(n):
+        forward = setting[MODE][i] * velocity[i] + setting[STICKS][i] * (strength[i] - net[i])
+        backward = setting[SLIDES][i] + setting[STICKS][i] * (strength[i] + net[i])
+        events += [
+            hy.t_event(function, callback=callback(2 * i + side), **falling)
+            for side, function in enumerate((forward, backward))
+        ]
+    return hy.taylor_adaptive(
+        [(force[i], coupling[i] * (behind[i] - velocity[i])) for i in range(n)]
+        + [(velocity[i], setting[SLIDES][i] * net[i] - setting[FRICTION][i]) for i in range(n)],
+        np.zeros(2 * n),
+        t_events=events,
+        pars=np.zeros(4 * n),
+        tol=tolerance,
+        compact_mode=n > LARGE,
+    )
+
+
 class _Integrator:
     """heyoka's integrator of one chain and the motion that it carries at present."""
 
     def __init__(self, chain: Chain, tolerance: float) -> None:
         import heyoka as hy
 
-        n = chain.n_blocks
-        _, drive_velocity, coupling = scaled(chain)
-        strength = chain.strength
-        force = [hy.expression(f"T{i}") for i in range(n)]
-        velocity = [hy.expression(f"v{i}") for i in range(n)]
-        setting = [[hy.par[row * n + i] for i in range(n)] for row in range(4)]
-        net = [force[i] - force[i + 1] for i in range(n - 1)] + [force[-1]]
-        behind = [drive_velocity, *velocity[:-1]]
-        falling = {"direction": hy.event_direction.negative}
-        events = []
-        for i in range(n):
-            forward = setting[MODE][i] * velocity[i] + setting[STICKS][i] * (strength[i] - net[i])
-            backward = setting[SLIDES][i] + setting[STICKS][i] * (strength[i] + net[i])
-            events += [
-                hy.t_event(function, callback=self._callback(2 * i + side), **falling)
-                for side, function in enumerate((forward, backward))
-            ]
         self.motion: Motion | None = None
-        self.solver: Any = hy.taylor_adaptive(
-            [(force[i], coupling[i] * (behind[i] - velocity[i])) for i in range(n)]
-            + [(velocity[i], setting[SLIDES][i] * net[i] - setting[FRICTION][i]) for i in range(n)],
-            np.zeros(2 * n),
-            t_events=events,
-            pars=np.zeros(4 * n),
-            tol=tolerance,
-            compact_mode=n > LARGE,
-        )
+        self.solver: Any = integrator_of(chain, tolerance, self._callback)
         self.outcome_end = hy.taylor_outcome.time_limit
 
-    def _callback(self, event: int) -> Any:
+    def _callback(self, event: int) -> Callback:
         def callback(solver: Any, _direction: int) -> bool:
             # The function that fired means something else from now on: its cooldown must not hide a root.
             solver.reset_cooldowns()

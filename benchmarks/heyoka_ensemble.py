@@ -1,0 +1,59 @@
+"""Runs of one chain by heyoka.py's own ensemble mode: each is one call, waits included, without its transitions.
+
+Python switches the blocks, in callbacks. `ensemble_propagate_until` makes a copy of the integrator for each run.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from precursors.methods.events import NUDGE, STICKS, scaled, settle
+from precursors.methods.heyoka_events import integrator_of
+from precursors.model.chain import Chain
+
+
+class Ensemble:
+    """An integrator of a chain whose callbacks know how many blocks slide in the run of their thread."""
+
+    def __init__(self, chain: Chain, duration: float) -> None:
+        self.chain = chain
+        self.tau = scaled(chain)[0]
+        self.end = duration / self.tau
+        self.run = threading.local()
+        self.solver = integrator_of(chain, 0.0, self.callback)
+
+    def callback(self, event: int) -> Callable[[Any, int], bool]:
+        """Make the transitions of an event; say whether the run goes on, up to its first global slip."""
+        chain, run = self.chain, self.run
+
+        def make_transitions(solver: Any, _direction: int) -> bool:
+            solver.reset_cooldowns()
+            due = event
+            while due >= 0:
+                settings = solver.pars.reshape(4, -1)
+                _, old, new, due = settle(
+                    solver.state, settings, chain.strength, chain.kinetic_friction, NUDGE, due
+                )
+                run.sliding += abs(new) - abs(old)
+                run.was_global = run.was_global or run.sliding == chain.n_blocks
+            return run.sliding > 0 or not run.was_global
+
+        return make_transitions
+
+    def start(self, solver: Any, _number: int) -> Any:
+        """Put a copy of the integrator at rest."""
+        solver.time = 0.0
+        solver.state[:] = solver.pars[:] = 0.0
+        solver.pars.reshape(4, -1)[STICKS] = 1.0
+        solver.reset_cooldowns()
+        self.run.sliding, self.run.was_global = 0, False
+        return solver
+
+    def ends(self, n_runs: int, threads: int) -> list[float]:
+        """When each of n runs has ended its first global slip [s]."""
+        import heyoka as hy
+
+        done = hy.ensemble_propagate_until(self.solver, self.end, n_runs, self.start, max_workers=threads)
+        return [self.tau * solver.time for solver, *_ in done]
