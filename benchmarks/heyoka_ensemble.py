@@ -1,6 +1,6 @@
-"""Runs of one chain by heyoka.py's own ensemble mode: each is one call, waits included, without its transitions.
+"""Runs of one chain by heyoka.py's own ensemble mode: each is one call, waits included, without transitions.
 
-Python switches the blocks, in callbacks. `ensemble_propagate_until` makes a copy of the integrator for each run.
+Python switches the blocks, in callbacks. `ensemble_propagate_until` copies the integrator for each run.
 """
 
 from __future__ import annotations

@@ -22,10 +22,10 @@ TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12, 1e-14, float(np.finfo(float).eps))
 # Beyond it the code is compiled in compact mode, which heyoka's documentation recommends for large systems.
 LARGE = 20
 
+Callback = Callable[[Any, int], bool]
 
-def integrator_of(
-    chain: Chain, tolerance: float, callback: Callable[[int], Callable[[Any, int], bool]]
-) -> Any:
+
+def integrator_of(chain: Chain, tolerance: float, callback: Callable[[int], Callback]) -> Any:
     """heyoka's integrator of a chain: `callback(event)` is what it calls at an event function's root."""
     import heyoka as hy
 
