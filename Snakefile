@@ -7,6 +7,7 @@ from snakemake.utils import min_version
 
 from precursors.model.config import check_config, check_file, read_numbers
 from precursors.model.scenes import (
+    scene_additions,
     scene_duration,
     scene_model,
     scene_slider,

@@ -50,6 +50,13 @@ CHAIN = (
     ("--cross-section", "cross_section", "1e-4", "cross section S [m^2]"),
     ("--length", "length", "0.1", "length L of the contact [m]"),
 )
+# What a larger chain adds to it, fields of `LargerChain`.
+LARGER = (
+    ("--weakening-velocity", "weakening_velocity", "velocity v_c over which friction falls to mu_k [m/s]"),
+    ("--relaxation-time", "relaxation_time", "relaxation time t_v of the material [s]"),
+    ("--viscosity", "viscosity", "viscosity of the dashpots between neighbours [N s/m], instead of t_v"),
+    ("--push-height", "push_height", "height of the push above the interface [m]"),
+)
 # Columns of the slip table as they are printed; what is the same in every row stays in the file.
 PRINTED = {
     "onset_s": "onset_s",
@@ -185,7 +192,11 @@ def run_of(arguments: argparse.Namespace) -> Run:
     if arguments.file is None:
         return run_of_options(arguments)
     options = {"duration", "until", "max_transitions"}
-    if slider_of(arguments) or any(getattr(arguments, name) is not None for name in options):
+    if (
+        slider_of(arguments)
+        or additions_of(arguments)
+        or any(getattr(arguments, name) is not None for name in options)
+    ):
         raise ValueError(f"{arguments.file}: a run file cannot be combined with options of a chain")
     from precursors.solver.run import Run, RunFileError
 
@@ -207,12 +218,18 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
     if slider["weights"] is None:
         slider["theta"] = parse_theta(slider["theta"])
         del slider["weights"]
-    chain = Chain.from_slider(**slider)
+    chain, added = Chain.from_slider(**slider), additions_of(arguments)
     limit = MAX_TRANSITIONS if arguments.max_transitions is None else arguments.max_transitions
     duration = DURATION if arguments.duration is None else arguments.duration
     try:
         with telling(f"running {chain.n_blocks} blocks for {duration:g} s; Ctrl-C stops"):
-            run = simulate(chain, duration, arguments.until, max_transitions=limit)
+            if any(added.values()):
+                from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
+
+                larger = LargerChain(chain, **added)
+                run = simulate_with_accuracy(larger, duration, arguments.until, max_transitions=limit)
+            else:
+                run = simulate(chain, duration, arguments.until, max_transitions=limit)
     except TransitionLimitError as error:
         kept = ""
         if arguments.command == "simulate" and arguments.output:
@@ -220,6 +237,12 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
             kept = f"; the run so far is in {arguments.output}"
         raise Refused(f"{error}{kept}") from error
     return replace(run, slider=slider)
+
+
+def additions_of(arguments: argparse.Namespace) -> dict[str, float]:
+    """What was given to add to the paper's chain."""
+    given = {name: getattr(arguments, name) for _, name, _ in LARGER}
+    return {name: value for name, value in given.items() if value is not None}
 
 
 @contextmanager
@@ -289,6 +312,10 @@ def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
     add(chain, "--weights", metavar="FILE", help=text)
     for option, name, default, meaning in CHAIN:
         add(chain, option, dest=name, type=number, metavar="X", help=f"{meaning} ({default})")
+    title = "a larger chain", "each adds to the paper's chain; 0 by default"
+    larger = command.add_argument_group(*title) if is_shown else command
+    for option, name, meaning in LARGER:
+        add(larger, option, dest=name, type=number, metavar="X", help=meaning)
     run = command.add_argument_group("the run") if is_shown else command
     add(run, "--duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
     until: dict[str, Any] = {"dest": "until", "action": "store_const", "const": "global slip"}

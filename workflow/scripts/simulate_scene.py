@@ -9,10 +9,17 @@ from precursors.model.chain import Chain
 from precursors.solver.simulate import TransitionLimitError, simulate
 
 
-def main(slider: dict[str, Any], duration: float, output: str | Path) -> None:
+def main(slider: dict[str, Any], duration: float, additions: dict[str, float], output: str | Path) -> None:
     """Run the chain of a scene for `duration` [s]; a run that meets its cap on transitions is kept too."""
+    chain = Chain.from_slider(**slider)
     try:
-        simulate(Chain.from_slider(**slider), duration=duration).save(output, slider)
+        if any(additions.values()):
+            from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
+
+            run = simulate_with_accuracy(LargerChain(chain, **additions), duration)
+        else:
+            run = simulate(chain, duration=duration)
+        run.save(output, slider)
     except TransitionLimitError as error:
         error.run.save(Path(output).with_suffix(".unfinished.h5"), slider)
         raise
@@ -20,4 +27,5 @@ def main(slider: dict[str, Any], duration: float, output: str | Path) -> None:
 
 if __name__ == "__main__":
     with job() as snakemake:
-        main(snakemake.params.slider, snakemake.params.duration, snakemake.output.run)
+        params = snakemake.params
+        main(params.slider, params.duration, params.additions, snakemake.output.run)

@@ -21,8 +21,10 @@ def load_curve(run: Run, tolerance: float = TOLERANCE_N) -> tuple[FloatArray, Fl
     F_X grows linearly while block 1 sticks: there only transitions are points. While it slides, intervals are
     halved until they are straight. Between two points the cubic through both loads and slopes stands for the
     curve. It leaves the chord by no more than a quarter of the interval times the larger difference between
-    the chord's slope and another.
+    the chord's slope and another. A larger chain's run has its points already.
     """
+    if run.load_points is not None:
+        return run.load_points[:, 0], run.load_points[:, 1]
     slides = _slides_of_block_1(run)
     step = PHASE_PER_STEP / run.chain.fastest_frequency_bound
     coarse = [np.linspace(start, end, int(np.ceil((end - start) / step)) + 1) for start, end in slides]

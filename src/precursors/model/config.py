@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from precursors.model.chain import Chain, parse_theta
-from precursors.model.scenes import Config, scene_chain, scenes_with_theta
+from precursors.model.scenes import Config, scene_additions, scene_chain, scenes_with_theta
 
 if TYPE_CHECKING:
     from jsonschema import ValidationError
@@ -163,6 +163,7 @@ def _check_chains(config: Config) -> None:
         for name in config["scenes"]:
             where = f"scenes.{name}"
             scene_chain(config, name)
+            scene_additions(config, name)
         for name, values in config["accuracy"]["proved"].items():
             where = f"accuracy.proved.{name}"
             Chain.from_slider(**{key: value for key, value in values.items() if key != "duration"})

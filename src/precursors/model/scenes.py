@@ -19,6 +19,8 @@ Config = Mapping[str, Any]
 # Arguments of `Chain.from_slider` and their defaults, the paper's.
 SLIDER = {name: p.default for name, p in inspect.signature(Chain.from_slider).parameters.items()}
 PAPERS_MODEL = "chain"
+# What a larger chain adds to the paper's (`hierarchy.larger`), with units.
+ADDITIONS = {"weakening_velocity": "m/s", "relaxation_time": "s", "viscosity": "N s/m", "push_height": "m"}
 
 
 def scenes_with(config: Config, output: str) -> list[str]:
@@ -78,6 +80,23 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
     if "weights" in slider:
         return measured(slider, slider["weights"])
     return slider | {"theta": parse_theta(slider["theta"]), "normal_load": float(slider["normal_load"])}
+
+
+def scene_additions(config: Config, name: str) -> dict[str, float]:
+    """What the scene adds to the paper's chain, keys of `ADDITIONS`.
+
+    Raises
+    ------
+    ValueError
+        If it gives two viscosities, or adds to a smaller model.
+    """
+    scene = config["scenes"][name]
+    given = {key: float(scene[key]) for key in ADDITIONS if key in scene}
+    if "viscosity" in given and "relaxation_time" in given:
+        raise ValueError("viscosity must not be given beside relaxation_time, which is viscosity / k")
+    if given and "model" in scene:
+        raise ValueError(f"{', '.join(given)} must not be given beside model")
+    return given
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:

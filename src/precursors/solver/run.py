@@ -42,6 +42,10 @@ class Run:
         where it is not known.
     slider : dict or None
         Arguments of `Chain.from_slider` that the chain was made from, theta as a float; None if not known.
+    larger : dict or None
+        Of a larger chain, its numbers and its accuracy (see `hierarchy.larger`); None of the paper's chain.
+    load_points : array, shape (n, 2), or None
+        Of a larger chain, times [s] and F_X [N] between which straight lines draw the load.
     """
 
     chain: Chain
@@ -53,6 +57,8 @@ class Run:
     states: States
     evaluations: float = 0.0
     slider: dict[str, Any] | None = None
+    larger: dict[str, float] | None = None
+    load_points: FloatArray | None = None
 
     def __repr__(self) -> str:
         return f"Run of {self.duration:g} s with {len(self.transitions)} transitions\n{self.chain!r}"
@@ -136,6 +142,8 @@ class Run:
         return when
 
     def _evaluate(self, when: FloatArray) -> tuple[FloatArray, FloatArray]:
+        if self.larger is not None:
+            raise ValueError("the run of a larger chain knows its transitions and load_points only")
         if len(self.states.after) == 0:
             raise ValueError("the run has no stored states: only a run that simulate made can be evaluated")
         order = np.argsort(when, kind="stable")

@@ -36,6 +36,7 @@ UNITS = {
     "after": "1",
     "offset": "s",
     "weights": "N",
+    "load_points": "s, N",
 }
 # Compiled code takes these types only.
 KINDS = {"force": float, "velocity": float, "mode": np.int64, "after": np.int64, "offset": float}
@@ -58,6 +59,8 @@ def write_run(run: Run, path: str | PathLike[str]) -> None:
         file.attrs["slider"] = json.dumps(run.slider, sort_keys=True)
         file.attrs["duration"], file.attrs["duration_unit"] = run.duration, "s"
         file.attrs["evaluations"] = run.evaluations
+        if run.larger is not None:
+            file.attrs["larger"] = json.dumps(run.larger)
         for field in fields(Chain)[1:]:
             file.attrs[field.name] = getattr(run.chain, field.name)
         for name, values in _datasets(run).items():
@@ -69,6 +72,7 @@ def write_run(run: Run, path: str | PathLike[str]) -> None:
 
 def _datasets(run: Run) -> dict[str, NDArray[Any]]:
     return {
+        **({} if run.load_points is None else {"load_points": run.load_points}),
         "weights": run.chain.weights,
         "start_positions": run.start_positions,
         "start_velocities": run.start_velocities,
@@ -122,6 +126,8 @@ def _content(file: h5py.File) -> dict[str, Any]:
         "states": States._make(file[f"states/{name}"][()].astype(KINDS[name]) for name in States._fields),
         "evaluations": float(file.attrs["evaluations"]),
         "slider": json.loads(file.attrs["slider"]),
+        "larger": json.loads(file.attrs["larger"]) if "larger" in file.attrs else None,
+        "load_points": file["load_points"][()].astype(float) if "load_points" in file else None,
     }
 
 

@@ -1,0 +1,216 @@
+"""The larger chain against solvers and closed forms that share no code with it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from chains import SLIDER
+from reference import read_viscous
+from scipy.integrate import solve_ivp
+
+from precursors import Run, TransitionLimitError, audit, find_slips, simulate
+from precursors.analysis.load_curve import load_curve
+from precursors.hierarchy.larger import (
+    SLOW,
+    LargerChain,
+    critical_length,
+    simulate_larger,
+    simulate_with_accuracy,
+    tilt,
+)
+
+# Relative, of the loads of transitions at the default step, against DOP853.
+LOADS = 1e-4
+# The step that gives the 216 transitions of the paper's chain in order: 7.2e-7 s and 5.6e-5 N are measured.
+EXACT_ORDER_STEP, EXACT_TIME, EXACT_LOAD = 1e-3, 2e-6, 2e-4
+ENERGY = 1e-3  # of the work of the drive; 2e-5 is measured
+PAIR = {"weakening_velocity": 0.01, "relaxation_time": 5e-6}  # l_c = 0.089 L
+SLIP = "global slip"
+
+
+def order(run: Run) -> list[tuple[int, int]]:
+    return list(zip(run.transitions["block"].tolist(), run.transitions["mode"].tolist(), strict=True))
+
+
+def by_dop853(larger: LargerChain, duration: float) -> np.ndarray:
+    """Rows of time, block, mode, F_X where a block becomes faster or slower than SLOW v_c."""
+    c, v_c, n = larger.chain, larger.weakening_velocity, larger.chain.n_blocks
+    eta, limit = larger.relaxation_time * c.stiffness, SLOW * v_c
+    tilts = tilt(c, larger.push_height)
+    mode, t, state, rows = np.zeros(n, int), 0.0, np.zeros(2 * n), []
+
+    def forces(t, y):
+        x, v = y[:n], y[n:]
+        link = -c.stiffness * np.diff(x) - eta * np.diff(v)
+        load = c.drive_stiffness * (c.drive_velocity * t - x[0])
+        return load, np.append(load, link) - np.append(link, 0.0), c.weights + tilts * load
+
+    def motion(t, y):
+        net, w = forces(t, y)[1:]
+        mu = c.mu_s - (c.mu_s - c.mu_k) * np.minimum(abs(y[n:]) / v_c, 1.0)
+        return np.append(y[n:], np.where(mode != 0, (net - mode * mu * w) / c.mass, 0.0))
+
+    def event(function, direction, terminal):
+        function.direction, function.terminal = direction, terminal
+        return function
+
+    while t < duration:
+        if not mode.any():  # only F_X grows
+            net, w = forces(t, state)[1:]
+            rate = c.loading_rate * (np.eye(n)[0] - c.mu_s * tilts)
+            t += max((c.mu_s * w - net)[0] / rate[0], 0.0)
+            mode[0] = 1
+            continue
+        events = []
+        for i in range(n):
+            if mode[i]:
+                events.append(event(lambda t, y, i=i, s=mode[i]: s * y[n + i], -1, True))
+            else:
+                margin = lambda t, y, i=i: c.mu_s * forces(t, y)[2][i] - abs(forces(t, y)[1][i])  # noqa: E731
+                events.append(event(margin, -1, True))
+        for i in range(n):
+            events.append(event(lambda t, y, i=i: abs(y[n + i]) - limit, 0, False))
+        found = solve_ivp(motion, (t, duration), state, "DOP853", events=events, rtol=1e-10, atol=1e-13)
+        for i in range(n):
+            for when, y in zip(found.t_events[n + i], found.y_events[n + i], strict=True):
+                faster = abs(y[n + i] + 1e-9 * motion(when, y)[n + i]) > abs(y[n + i])
+                rows.append((when, i + 1, mode[i] if faster else 0, forces(when, y)[0]))
+        t, state = found.t[-1], found.y[:, -1].copy()
+        for i in range(n):
+            if len(found.t_events[i]):
+                state[n + i] = 0.0
+                _, net, w = forces(t, state)
+                mode[i] = 0 if mode[i] and abs(net[i]) <= c.mu_s * w[i] else np.sign(net[i])
+    return np.array(sorted(rows))
+
+
+@pytest.mark.parametrize(
+    ("n", "added", "duration"),
+    [
+        (1, {"weakening_velocity": 0.05}, 0.6),
+        (2, {"weakening_velocity": 0.02, "relaxation_time": 1e-5}, 0.25),
+        (3, {"weakening_velocity": 0.05, "relaxation_time": 2e-6, "push_height": 0.002}, 0.2),
+    ],
+)
+def test_loads_are_those_of_dop853_with_located_transitions(n, added, duration):
+    larger = LargerChain(SLIDER(n, theta="1/4", drive_velocity=1e-3), **added)
+    run, expected = simulate_larger(larger, duration), by_dop853(larger, duration)
+    assert len(expected) > 1
+    assert order(run) == [(int(b), int(m)) for _, b, m, _ in expected]
+    np.testing.assert_allclose(run.transitions["tangential_load"], expected[:, 3], rtol=LOADS)
+
+
+def test_with_nothing_added_it_has_the_transitions_of_the_exact_chain():
+    exact = simulate(SLIDER(), until=SLIP)
+    run = simulate_larger(LargerChain(exact.chain), 10.0, SLIP, EXACT_ORDER_STEP)
+    assert order(run) == order(exact)
+    np.testing.assert_allclose(run.transitions["time"], exact.transitions["time"], rtol=0, atol=EXACT_TIME)
+    loads = exact.transitions["tangential_load"]
+    np.testing.assert_allclose(run.transitions["tangential_load"], loads, rtol=0, atol=EXACT_LOAD)
+
+
+@pytest.mark.parametrize("name", ["backward", "stiff_viscosity", "papers_chain"])
+def test_viscosity_alone_has_the_transitions_of_the_reference(name):
+    scene, golden = read_viscous()[name]
+    text = dict(scene.slider)
+    viscosity = float(text.pop("viscosity"))
+    options = {key: text.pop(key) for key in ("theta", "n_blocks") if key in text}
+    chain = SLIDER(**{key: float(value) for key, value in text.items()}, **options)
+    run = simulate_larger(
+        LargerChain(chain, viscosity=viscosity), float(scene.duration), scene.until, EXACT_ORDER_STEP
+    )
+    assert order(run) == [(t.block, t.mode) for t in golden]
+    loads = [float(t.tangential_load) for t in golden]
+    np.testing.assert_allclose(run.transitions["tangential_load"], loads, rtol=1e-4, atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    "added", [{"weakening_velocity": 0.03}, PAIR | {"push_height": 0.003}, {"viscosity": 50.0}]
+)
+def test_the_drives_work_becomes_heat_and_stored_energy(added):
+    run = simulate_larger(LargerChain(SLIDER(20), **added), 3.0, SLIP)
+    assert len(find_slips(run)) > 2
+    assert abs(run.larger["energy_error"]) < ENERGY
+
+
+@pytest.mark.parametrize("n", [2, 7, 50])
+def test_a_tilt_keeps_the_sum_of_loads_and_balances_the_torque(n):
+    chain, height = SLIDER(n), 3e-3
+    change = tilt(chain, height)
+    arms = chain.length * ((np.arange(n) + 0.5) / n - 0.5)
+    assert change.sum() == pytest.approx(0.0, abs=1e-15)
+    assert change @ arms == pytest.approx(height, rel=1e-13)
+
+
+@pytest.mark.parametrize(("v_c", "t_v"), [(0.02, 0.0), (0.03, 1e-6), (0.01, 5e-6), (0.02, 2e-5)])
+def test_creep_longer_than_l_c_has_a_real_growing_mode(v_c, t_v):
+    n = 400
+    chain = SLIDER(n, drive_stiffness=1.0)  # a soft drive is the free end of the theory
+    blocks = n * critical_length(LargerChain(chain, v_c, t_v)) / chain.length
+
+    def fastest_is_real(p):
+        links = np.diag(np.full(p, 2.0)) - np.diag(np.ones(p - 1), 1) - np.diag(np.ones(p - 1), -1)
+        links[0, 0] = 1.0
+        fall = (chain.mu_s - chain.mu_k) * chain.weights[0] / v_c
+        damping = (fall * np.eye(p) - t_v * chain.stiffness * links) / chain.mass
+        rates = np.linalg.eigvals(
+            np.block([[np.zeros((p, p)), np.eye(p)], [-chain.stiffness / chain.mass * links, damping]])
+        )
+        return bool((abs(rates[rates.real > 1e-6 * abs(rates).max()].imag) < 1e-6 * abs(rates).max()).any())
+
+    assert not fastest_is_real(int(0.95 * blocks))
+    assert fastest_is_real(int(1.05 * blocks) + 1)
+
+
+def test_precursors_begin_where_creep_has_reached_l_c():
+    larger = LargerChain(SLIDER(100), **PAIR)
+    onset = find_slips(simulate_larger(larger, 0.5))["load_before"].iloc[0]
+    crept = onset / (0.7 * 400.0)
+    assert crept == pytest.approx(critical_length(larger) / 0.1, rel=0.1)
+
+
+def test_leaps_over_stable_creep_change_no_event():
+    larger = LargerChain(SLIDER(20), **PAIR)
+    leapt, stepped = (find_slips(simulate_larger(larger, 3.0, SLIP, leap=leap)) for leap in (0.5, 0.0))
+    assert leapt["front"].tolist() == stepped["front"].tolist()
+    np.testing.assert_allclose(leapt["load_before"], stepped["load_before"], rtol=2e-3)
+
+
+def test_a_run_says_what_half_the_step_changes_and_survives_its_file(tmp_path):
+    run = simulate_with_accuracy(LargerChain(SLIDER(20), **PAIR), 3.0, SLIP)
+    assert run.larger["halved_events"] == 0
+    assert 0.0 < run.larger["halved_load_N"] < 0.5
+    run.save(tmp_path / "run.h5")
+    again = Run.load(tmp_path / "run.h5")
+    assert again.larger == run.larger
+    times, loads = load_curve(again)
+    assert (np.diff(times) >= 0.0).all()
+    peak = run.transitions["tangential_load"].max()
+    assert loads.max() == pytest.approx(peak, rel=1e-3)
+
+
+def test_what_a_larger_run_cannot_have_is_said():
+    run = simulate_larger(LargerChain(SLIDER(3), **PAIR), 0.5)
+    with pytest.raises(ValueError, match="run of a larger chain knows its transitions"):
+        run.at([0.1])
+    assert audit(run).problems == ("it is a larger chain's, and the audit checks Coulomb's law",)
+
+
+@pytest.mark.parametrize("name", ["weakening_velocity", "relaxation_time", "viscosity", "push_height"])
+def test_an_addition_is_a_number_that_is_not_negative(name):
+    for value in (-1.0, float("nan"), "much"):
+        with pytest.raises(ValueError, match=f"^{name} "):
+            LargerChain(SLIDER(), **{name: value})
+
+
+def test_two_viscosities_and_a_load_that_becomes_negative_are_refused():
+    with pytest.raises(ValueError, match="viscosity must not be given beside relaxation_time"):
+        LargerChain(SLIDER(), relaxation_time=1e-6, viscosity=1.0)
+    with pytest.raises(ValueError, match=r"push_height = 0.02 m lifts block 1 at F_X = 6\d\.\d+ N"):
+        simulate_larger(LargerChain(SLIDER(theta="5/6"), 0.01, push_height=0.02), 10.0)
+
+
+def test_a_limit_that_is_met_keeps_the_run_so_far():
+    with pytest.raises(TransitionLimitError, match="met its limit of work") as met:
+        simulate_larger(LargerChain(SLIDER(), **PAIR), 10.0, max_transitions=50)
+    assert len(met.value.run.transitions) > 50
