@@ -97,7 +97,7 @@ class TestWorkPrecision:
 
     def test_every_method_has_a_colour_and_a_marker_of_its_own(self):
         new = (Method(name, name, "step [s]", METHODS["rk4"].solve, (1e-6,)) for name in ("first", "second"))
-        every = [*METHODS.values(), *with_looks(new)]
+        every = list(with_looks([*METHODS.values(), *new]))
         for looks in zip(*((method.color, method.marker) for method in every), strict=True):
             assert len(set(looks)) == len(every)
 

@@ -36,9 +36,11 @@ SPARE = (
 
 
 def with_looks(methods: Iterable[Method]) -> Iterator[Method]:
-    """Give methods without a colour and a marker those of `SPARE`."""
-    spare = cycle(SPARE)
-    for method in methods:
+    """Give methods without a colour and a marker those of `SPARE` that no other has."""
+    every = list(methods)
+    taken = {method.color for method in every}
+    spare = cycle([look for look in SPARE if look[0] not in taken] or SPARE)
+    for method in every:
         if method.color and method.marker:
             yield method
         else:
