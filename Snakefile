@@ -78,5 +78,7 @@ rule all:
     localrule: True
 
 
-for scene in {rule.name for rule in workflow.rules} & set(config["scenes"]):
-    raise WorkflowError(f"configuration: scenes.{scene} has the name of a target: give it another one")
+for scene in {*(rule.name for rule in workflow.rules), *FIGURES} & set(config["scenes"]):
+    raise WorkflowError(
+        f"configuration: scenes.{scene} has the name of a target or figure: give it another one"
+    )

@@ -21,8 +21,9 @@ def finished(_finished, tmp_path_factory):
     ("old", "new", "words"),
     [
         ("mu_k: 0.45", "mu_k: 0.8", "configuration: chain: "),
-        ("duration: 10.0", "durations: 10.0", "'durations' is not a known key"),
+        ("duration: 10.0", "durations: 10.0", "'durations' was unexpected"),
         ("scenes:", "scenes:\n  paper: {title: a, theta: 0}", "scenes.paper has the name of a target"),
+        ("scenes:", "scenes:\n  noise: {title: a, theta: 0}", "scenes.noise has the name of a target"),
         (
             "  mu_k: 0.45",
             "  mu_k: 0.45\n  mu_k: 0.46",
