@@ -499,14 +499,14 @@ class TestEdgesOfTheModel:
         counts, run_batch = [], kernel.run_batch
 
         def watched(batch, limits, progress, *others):
-            counts.append(progress.counts)
+            counts.append(progress.view(kernel.PROGRESS)[0, 0])
             return run_batch(batch, limits, progress, *others)
 
         monkeypatch.setattr(kernel, "run_batch", watched)
         run = simulate(Chain([10.0] * 5, 2.84e-5, 25e6, 2.7e11, 8.4e-5, 0.0, 0.0), duration=4.6e-7)
         assert order(run) == [(block, 1) for block in range(1, 6)]
-        assert counts[0][0, kernel.WINDOWS] < 100
-        assert counts[0][0, kernel.ROOT_STEPS] < 5000  # without starting anew: millions
+        assert counts[0]["windows"] < 100
+        assert counts[0]["root_steps"] < 5000  # without starting anew: millions
         audited(run)
 
     def test_a_block_without_friction_swings_for_ever_about_the_drive(self):

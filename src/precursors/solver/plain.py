@@ -28,7 +28,7 @@ from precursors.model.chain import Chain
 Floats = NDArray[np.floating]
 REAL = np.longdouble  # more digits, where the machine has them
 ORDER = 24
-REACH = 1.375  # largest frequency times window: REACH^ORDER / ORDER! is 3e-21
+WINDOW = 1.375  # longest window times largest frequency: WINDOW^ORDER / ORDER! is 3e-21
 ROUNDINGS = 8 * float(np.finfo(float).eps)  # a value below so many roundings of its terms counts as zero
 N = np.arange(ORDER + 1, dtype=REAL)
 BINOMIAL = np.array([[math.comb(n, k) for n in range(ORDER + 1)] for k in range(ORDER + 1)], dtype=REAL)
@@ -134,7 +134,7 @@ def find_transitions(
 ) -> tuple[list[tuple[float, float, int, int, float]], float, float]:
     """Transitions (time, time since the last, block, mode, load); time of the end, and since the last."""
     rows = [(0.0, 0.0, int(i), int(state.mode[i]), state.force[1]) for i in np.flatnonzero(state.mode)]
-    window, is_global, at_once = REACH / chain.fastest_frequency_bound, False, 0
+    window, is_global, at_once = WINDOW / chain.fastest_frequency_bound, False, 0
     onset = elapsed = since = 0.0
     while len(rows) < most and elapsed < longest_slip and (left := duration - onset - elapsed) > 0.0:
         is_global = is_global or bool(state.mode[1:-1].all())

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import number_array
-from precursors.solver import backend, fallback
 from precursors.solver.record import TRANSITION, States
 from precursors.solver.run_file import RunFileError, read_run, write_run
 
@@ -146,20 +145,18 @@ class Run:
             raise ValueError("the run of a larger chain knows its transitions and load_points only")
         if len(self.states.after) == 0:
             raise ValueError("the run has no stored states: only a run that simulate made can be evaluated")
+        # Who only reads a run waits for no compiler.
+        from precursors.solver import kernel
+
         order = np.argsort(when, kind="stable")
-        if backend.KERNEL is None:
-            force, velocity = fallback.evaluate(
-                self.chain, when[order], self.transitions, self.intervals, self.states
-            )
-        else:
-            record = backend.KERNEL.Record(
-                np.ascontiguousarray(self.transitions["time"]),
-                self.transitions["block"].astype(np.int64),
-                self.transitions["mode"].astype(np.int64),
-                np.ascontiguousarray(self.transitions["tangential_load"]),
-                self.intervals,
-            )
-            force, velocity = backend.KERNEL.evaluate(self.chain, when[order], record, self.states)
+        record = kernel.Record(
+            np.ascontiguousarray(self.transitions["time"]),
+            self.transitions["block"].astype(np.int64),
+            self.transitions["mode"].astype(np.int64),
+            np.ascontiguousarray(self.transitions["tangential_load"]),
+            self.intervals,
+        )
+        force, velocity = kernel.evaluate(self.chain, when[order], record, self.states)
         back = np.argsort(order, kind="stable")
         return force[back], velocity[back]
 

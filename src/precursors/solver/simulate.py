@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import LARGEST, Until, checked_span, number_array, positive, whole
-from precursors.solver import backend, fallback
+from precursors.solver import kernel
+from precursors.solver.kernel.arrays import Progress
 from precursors.solver.record import TRANSITION, IntArray, States
 from precursors.solver.run import Run
 
@@ -227,7 +228,6 @@ class _Workspace(threading.local):
             return
         # A state is stored after so many transitions that storing takes little time beside finding them.
         self.stride = max(10, 1 + n_blocks // 3)
-        kernel = backend.KERNEL
         self.memory = kernel.memory_for(n_blocks)
         self.record = kernel.Record._make(np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in COLUMNS)
         self.states = States.empty(max(SHARED_ROOM // self.stride, 2), n_blocks)
@@ -249,15 +249,11 @@ def _run_batch(
     chains: Sequence[Chain], positions: FloatArray, velocities: FloatArray, end: _End
 ) -> list[Run]:
     """Run chains of equal length one after the other, in as few calls of the kernel as it takes."""
-    kernel = backend.KERNEL
-    if kernel is None:
-        return [_run_plain(*each, end) for each in zip(chains, positions, velocities, strict=True)]
     work, n = _workspace, len(chains)
     work.prepare(chains[0].n_blocks)
     parameters = np.array([kernel.parameters(chain) for chain in chains])
     batch = kernel.Batch(parameters, np.array([chain.weights for chain in chains]), positions, velocities)
-    clock, count = np.zeros((n, kernel.CLOCK_SIZE)), np.zeros((n, kernel.COUNT_SIZE), np.int64)
-    progress = kernel.Progress(np.empty(n), clock, count)
+    progress = np.zeros(n, kernel.PROGRESS)
     limits = kernel.Limits(
         end.duration,
         end.until_global,
@@ -271,40 +267,32 @@ def _run_batch(
     runs: list[Run] = []
     while len(runs) < n:
         left = slice(len(runs), None)
-        here, reached = (_rows(batch, left), _rows(progress, left)) if runs else (batch, progress)
-        n_finished, is_paused = kernel.run_batch(here, limits, reached, work.record, work.states, work.memory)
-        for part in _parts(work, count[left][: n_finished + is_paused]):
+        here = _rows(batch, left) if runs else batch
+        reached = progress[left]
+        n_finished, is_paused = kernel.run_batch(
+            here, limits, _bytes(reached), work.record, work.states, work.memory
+        )
+        for part in _parts(work, reached[: n_finished + is_paused]):
             j = len(runs)
             mine = slice(j, j + 1)
-            if count[j, kernel.STATUS] == kernel.PAUSED:
-                part = _go_on(_rows(batch, mine), limits, _rows(progress, mine), part, end.most)
-            onset, error, elapsed, _ = clock[j].tolist()
-            time = onset + (error + elapsed * float(progress.tau[j]))
+            if progress["status"][j] == kernel.PAUSED:
+                part = _go_on(_rows(batch, mine), limits, progress[mine], part, end.most)
+            last = progress[j]
+            time = float(last["onset"] + (last["onset_error"] + last["elapsed"] * last["tau"]))
             run = Run(
                 chain=chains[j],
-                duration=end.duration if count[j, kernel.STATUS] == kernel.FINISHED else time,
+                duration=end.duration if last["status"] == kernel.FINISHED else time,
                 transitions=part.transitions,
                 intervals=part.intervals,
                 start_positions=positions[j],
                 start_velocities=velocities[j],
                 states=part.states,
-                evaluations=float(count[j, kernel.DERIVATIVES]) / chains[j].n_blocks,
+                evaluations=float(last["derivatives"]) / chains[j].n_blocks,
             )
-            if count[j, kernel.STATUS] == kernel.PAUSED:
+            if last["status"] == kernel.PAUSED:
                 raise _unfinished(run, end)
             runs.append(run)
     return runs
-
-
-def _run_plain(chain: Chain, positions: FloatArray, velocities: FloatArray, end: _End) -> Run:
-    """Run a chain in plain Python."""
-    start = positions, velocities
-    transitions, intervals, time = fallback.find(chain, start, *end)
-    states = fallback.first_state(chain, *start)
-    run = Run(chain, time, transitions, intervals, *start, states)
-    if len(transitions) >= end.most:
-        raise _unfinished(run, end)
-    return run
 
 
 def _unfinished(run: Run, end: _End) -> TransitionLimitError:
@@ -323,15 +311,19 @@ def _unfinished(run: Run, end: _End) -> TransitionLimitError:
     )
 
 
+def _bytes(progress: Progress) -> IntArray:
+    """The memory of `progress` as whole numbers, a row a run."""
+    return progress.view(np.int64).reshape(len(progress), -1)
+
+
 def _rows(columns: Any, rows: slice) -> Any:
     """Those rows of all arrays in a named tuple."""
     return columns._make(values[rows] for values in columns)
 
 
-def _parts(work: _Workspace, count: IntArray) -> Iterator[_Part]:
-    """Cut the record of several runs, as `count` has them, into one part a run."""
-    kernel = backend.KERNEL
-    used, stored = count[:, kernel.TRANSITIONS].tolist(), count[:, kernel.STORED].tolist()
+def _parts(work: _Workspace, progress: Progress) -> Iterator[_Part]:
+    """Cut the record of several runs, as `progress` has them, into one part a run."""
+    used, stored = progress["transitions"].tolist(), progress["stored"].tolist()
     transitions = _transitions(work.record, sum(used))
     intervals: FloatArray = work.record.intervals[: sum(used) + len(used)].copy()
     n_states = sum(stored)
@@ -350,38 +342,33 @@ def _parts(work: _Workspace, count: IntArray) -> Iterator[_Part]:
         first, first_state = first + n, first_state + m
 
 
-def _go_on(batch: Any, limits: Any, progress: Any, part: _Part, most: int) -> _Part:
+def _go_on(batch: Any, limits: Any, progress: Progress, part: _Part, most: int) -> _Part:
     """Run on a chain that the kernel left unfinished, in a record of its own that grows as needed."""
-    [clock], [count] = progress.clock, progress.counts
+    [run] = progress
     values = [part.transitions[name] for name in TRANSITION.names or ()]
-    kernel = backend.KERNEL
     record = kernel.Record._make(
         column.astype(kind) for column, kind in zip([*values, part.intervals], COLUMNS, strict=True)
     )
     states, stride = part.states, limits.stride
-    while (
-        count[kernel.STATUS] == kernel.PAUSED
-        and count[kernel.TRANSITIONS] < most
-        and count[kernel.WINDOWS] < MAX_WINDOWS
-    ):
-        used = int(count[kernel.TRANSITIONS])
+    while run["status"] == kernel.PAUSED and run["transitions"] < most and run["windows"] < MAX_WINDOWS:
+        used = int(run["transitions"])
         if used >= len(record.time) or len(record.time) < len(record.intervals):
             room = min(max(FIRST_ROOM, 2 * used), most)
             record = kernel.Record._make(_enlarged(column[:used], room) for column in record)
-        if count[kernel.STORED] >= len(states.after):
+        if run["stored"] >= len(states.after):
             rows = max(FIRST_ROOM // stride, 2 * len(states.after))
             if rows * sum(column[0].nbytes for column in states) > STATES_BYTES:
                 states, stride = _rows(states, slice(None, None, 2)), 2 * stride
-                count[kernel.STORED], rows = len(states.after), rows // 2
+                run["stored"], rows = len(states.after), rows // 2
             states = States._make(_enlarged(column, rows) for column in states)
         limits = limits._replace(
             transitions=len(record.time), states=len(states.after), stride=stride, goes_on=True
         )
-        kernel.run_batch(batch, limits, progress, record, states, _workspace.memory)
-    n, stored = int(count[kernel.TRANSITIONS]), int(count[kernel.STORED])
+        kernel.run_batch(batch, limits, _bytes(progress), record, states, _workspace.memory)
+    n, stored = int(run["transitions"]), int(run["stored"])
     return _Part(
         _transitions(record, n),
-        np.append(record.intervals[:n], clock[kernel.SINCE] * progress.tau[0]),
+        np.append(record.intervals[:n], run["since"] * run["tau"]),
         _rows(states, slice(stored)),
     )
 

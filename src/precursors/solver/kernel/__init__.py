@@ -4,51 +4,41 @@ Between two transitions the blocks that slide obey a linear system with constant
 grows linearly in time (Eqs. 2-6). The kernel sums its solution as a Taylor series to rounding, in windows
 short enough for some twenty terms. The next transition is the earliest root of all event functions: the
 velocity of a block that slides (it stops), and the margins mu_s w_i -+ F_i of a block that sticks (it lets
-go; F_i is the net force of its springs). If |g''| <= M on the window, then the positive root of
-g + g' s - M s^2/2 is a step that cannot pass a root of g. Repeated on the function whose bound is smallest,
-such steps converge to the earliest root of all, or prove that the window has none. Cheaper bounds come first:
-the sum of a series' terms, one safe step, a cubic with the rest of the series as its error.
+go; F_i is the net force of its springs).
 
-Units: forces are in N and times in tau, chosen so that the highest frequency of the chain times tau is at
-most `REACH`. Displacements are multiplied by m/tau^2, so that velocities are in N/tau and a block's
-acceleration is the force on it. The state is the force T_i in the spring behind each block and the block's
-velocity v_i, and not its position: slips of a micrometre after a millimetre of drive keep all their digits.
-Forces are carried in two doubles, as their rounding from window to window would be the largest error.
-In these units the motion is
+In each window the kernel guesses the first root from a few terms, goes there, and proves for all blocks at
+once, four in a register, that none of their functions vanishes before (`bounds`). A bad guess fails the
+proof and does no harm: what is not proved is searched by safe steps, as `plain` does it for every function.
+
+Units: forces are in N and times in tau, one over a bound of the chain's largest frequency. Displacements are
+multiplied by m/tau^2, so that velocities are in N/tau and a block's acceleration is the force on it. The
+state is the force T_i in the spring behind each block and the block's velocity v_i, and not its position:
+slips of a micrometre after a millimetre of drive keep all their digits. Forces are carried in two doubles, as
+their rounding from window to window would be the largest error. In these units the motion is
 
     dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides.
 
-Column 0 of every array is the drive, columns 1..N are the blocks. Beyond them is room for groups of four.
+Column 0 of every array is the drive, columns 1..N are the blocks. Beyond them is room for a group of four.
 
-A transition changes the motion of blocks at distance d only in order 2 d + 1 of the time since. Where more
-than `LONG` blocks move, each group of four keeps Taylor series about a time of its own within a common
-window, and a transition renews those of its neighbourhood only.
+| `plain` | kernel |
+|---|---|
+| `State` | `arrays.Motion`, with room to work in |
+| `at_start` | `friction.at_start` |
+| `expand` | `series.expand`: velocities and net forces; spring forces follow from slips |
+| `powers` | `series.powers`, divided by n! |
+| `move` | `springs.move`, which sums the series group by group (`series.sum_series`) |
+| `safe_step` | `bounds.safe_step` |
+| `first_root` | `roots.first_root`, for functions that `proof.prove` leaves open |
+| `next_transition` | `events.next_transition`: `guess`, `find_root`, `prove` and, where it fails, `search` |
+| its last lines | `friction.resting_mode` |
+| `find_transitions` | `events.find_transitions`: `rest` where all blocks stick, `slide` where some move |
 
-Modules: `compiled` and `pointers` say how all this becomes machine code, and `lanes` works on four blocks at
-once. `layout` and `arrays` say what is where. `units` scales a chain, `series` is its linear operator,
-`springs` and `friction` are Eqs. 2-6. `bounds`, `margins` and `watch` bound the next transition from below,
-and `roots` finds it. `events` goes from one transition to the next, `states` gives the state at any time.
+Beside them, `units` scales a chain, `layout` and `arrays` say what is where, `lanes` works on four blocks at
+once, `pointers` and `compiled` say how all this becomes machine code, `states` gives the state at any time.
 """
 
-from precursors.solver.kernel.arrays import Batch, Limits, Progress, Record, System, memory_for
+from precursors.solver.kernel.arrays import PROGRESS, Batch, Limits, Record, memory_for
 from precursors.solver.kernel.events import run_batch
-from precursors.solver.kernel.layout import (
-    CLOCK_SIZE,
-    COUNT_SIZE,
-    DERIVATIVES,
-    ELAPSED,
-    FINISHED,
-    LONG,
-    ONSET,
-    ONSET_ERROR,
-    PAUSED,
-    ROOT_STEPS,
-    ROUNDINGS,
-    SINCE,
-    STATUS,
-    STORED,
-    TRANSITIONS,
-    WINDOWS,
-)
+from precursors.solver.kernel.layout import FINISHED, PAUSED
 from precursors.solver.kernel.states import evaluate
-from precursors.solver.kernel.units import parameters, scale
+from precursors.solver.kernel.units import parameters

@@ -1,4 +1,4 @@
-"""The arrays that a run is made in: the chain, its motion, the search of the next transition, the record."""
+"""The arrays that a run is made in: the chain, its motion, how far it is, the record."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numba.extending import register_jitable
+from numpy.typing import NDArray
 
 from precursors.model.chain import FloatArray
 from precursors.solver.kernel.compiled import inner
-from precursors.solver.kernel.layout import BEYOND, LEVELS, ROWS, WIDTH
-from precursors.solver.kernel.pointers import pointer, shifted, table, whole_numbers
+from precursors.solver.kernel.layout import ROWS, TERMS, WIDTH
+from precursors.solver.kernel.pointers import as_record, pointer, shifted, whole_numbers
 from precursors.solver.record import IntArray
 
-# In compiled code a vector is a pointer to a number for each column, and a table has rows of such vectors.
+# In compiled code a vector is a pointer to a number for each column.
 Vector = Any
-Table = Any
 
 # Vectors with a column for each block, and with a row for each term of a series.
-BY_COLUMN, BY_TERM = 18, 4
+BY_COLUMN, BY_TERM = 20, 3
 # Doubles in a line of the cache.
 LINE = 8
 
@@ -40,68 +40,39 @@ class System(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """The state and the motion within a window.
+    """The state, and the motion within a window from it.
 
-    `rate` has the derivatives of the velocities, row 0 the velocities themselves. `velocity` is the state at
-    the start and at the end. `spring_force` is carried in two doubles, the second in `force_rest`. `slides`
-    is 1 or 0, `sense` the mode as a float, `push` the friction against the motion. `slip` is the way of each
-    block since the window began, `force_before` and `rest_before` the spring forces then, `origins` the time
-    about which its series is, `fastest` a bound of its speed. `suspects` has blocks that may stop as bits.
-    `weight` has the terms s^n / n! for the length of the window. The others are room to work in.
+    State: `velocity`, `spring_force` in two doubles (the second in `force_rest`), the net force of the
+    springs on each block, and `mode`. It follows from the modes: `slides` is 1 or 0 (1 for the drive), `push`
+    is the friction against the motion, `hold` is mu_s w_i where a block sticks, `felt` is 1 where a block or
+    a neighbour of it moves. Window: `rate` has the derivatives, `wide` columns in a row (see `expand`),
+    `sign` is that of `watched`, `force_before` and `rest_before` are the spring forces at its start, `slip`
+    is the way since then; `whole` has the terms s^n / n! for its length, `weight` those for the time looked
+    at; `open` has the blocks that are not proved as bits. The others are room to work in.
     """
 
     velocity: Vector
     spring_force: Vector
     force_rest: Vector
+    net_force: Vector
     mode: Vector
     slides: Vector
-    sense: Vector
     push: Vector
-    slip: Vector
-    origins: Vector
+    hold: Vector
+    felt: Vector
+    sign: Vector
     force_before: Vector
     rest_before: Vector
-    fastest: Vector
-    suspects: Vector
-    kept_force: Vector
-    kept_rest: Vector
+    slip: Vector
+    open: Vector
+    saved_velocity: Vector
+    saved_force: Vector
+    saved_rest: Vector
+    whole: Vector
     weight: Vector
-    spare: Vector
-    behind: Vector
-    ahead: Vector
-    rate: Table
-
-
-class Search(NamedTuple):
-    """Watched functions, a slot each: Taylor series, numbers about them, and bounds of their first roots.
-
-    `active[1 : active[0] + 1]` are the slots that may have a root in the window.
-    """
-
-    series: Table
-    level: Table
-    bound: Vector
-    terms: Vector
-    stage: Vector
-    active: Vector
-
-
-class Window(NamedTuple):
-    """What is looked at: blocks first..final, from `origin` to `limit` [tau].
-
-    Block `last` is the farthest that may change its mode, `end` the last column of a whole group of four. A
-    value counts as zero below the relative size `roundings`.
-    """
-
-    origin: float
-    span: float
-    limit: float
-    first: int
-    final: int
-    last: int
-    end: int
-    is_long: bool
-    roundings: float
+    series: Vector
+    rate: Vector
+    wide: int
 
 
 class Batch(NamedTuple):
@@ -131,12 +102,17 @@ class Limits(NamedTuple):
     goes_on: bool
 
 
-class Progress(NamedTuple):
-    """Where each run is: the places of its numbers are in `layout`."""
-
-    tau: FloatArray
-    clock: FloatArray
-    counts: IntArray
+# Where a run is: tau [s]; time of the event's onset in two doubles [s], time since then and since the last
+# transition [tau]; numbers of transitions, sliding blocks, stored states, windows, derivatives of single
+# blocks, searches of a function and steps to roots; whether all blocks slid at once; how it ended; a block
+# beyond which none slides; windows on end in which time stood still.
+PROGRESS = np.dtype(
+    [(name, "f8") for name in ("tau", "onset", "onset_error", "elapsed", "since")]
+    + [(name, "i8") for name in ("transitions", "sliding", "stored", "windows", "derivatives")]
+    + [(name, "i8") for name in ("searches", "root_steps", "all_slid", "status", "farthest", "at_once")]
+)
+as_progress = as_record(PROGRESS)
+Progress = NDArray[np.void]
 
 
 class Record(NamedTuple):
@@ -150,36 +126,29 @@ class Record(NamedTuple):
 
 
 def memory_for(n_blocks: int) -> FloatArray:
-    """Memory that `divide` divides, in which no group of four blocks lies across two lines of the cache."""
-    wide = n_columns(n_blocks)
-    by_slot = 2 * wide * (ROWS + 1 + LEVELS + 4) + 1
-    memory = np.zeros((BY_COLUMN + ROWS + 1) * wide + 1 + BY_TERM * (ROWS + WIDTH) + by_slot + LINE)
+    """Memory that `divide` divides, in which no group of blocks lies across two lines of the cache."""
+    memory = np.zeros((BY_COLUMN + ROWS) * n_columns(n_blocks) + BY_TERM * TERMS + LINE)
     block_1 = 1 + memory.ctypes.data // memory.itemsize
     return memory[-block_1 % LINE :]
 
 
 @register_jitable
 def n_columns(n_blocks):
-    """Columns of a row: the drive, the blocks and what is beyond them, in whole groups of four."""
-    return WIDTH * ((n_blocks + BEYOND + WIDTH) // WIDTH)
+    """Columns of a row: the drive, the blocks and what is beyond them, in whole groups."""
+    return WIDTH * (n_blocks // WIDTH + 2)
 
 
 @inner
 def divide(memory, n_blocks):
-    """Divide memory into the vectors of a system (coupling, strength, friction), a motion and a search."""
-    wide, slots, long = n_columns(n_blocks), 2 * n_columns(n_blocks), ROWS + WIDTH
-    start = pointer(memory)
-    rates = shifted(start, BY_COLUMN * wide)
-    by_term = shifted(rates, (ROWS + 1) * wide + 1)
-    series = shifted(by_term, BY_TERM * long)
-    levels = shifted(series, slots * (ROWS + 1))
-    by_slot = shifted(levels, slots * LEVELS)
+    """Divide memory into the vectors of a system (coupling, strength, friction) and a motion."""
+    wide, start = n_columns(n_blocks), pointer(memory)
+    by_term = shifted(start, (BY_COLUMN + ROWS) * wide)
     motion = Motion(
         shifted(start, 3 * wide),
         shifted(start, 4 * wide),
         shifted(start, 5 * wide),
-        whole_numbers(shifted(start, 6 * wide)),
-        shifted(start, 7 * wide),
+        shifted(start, 6 * wide),
+        whole_numbers(shifted(start, 7 * wide)),
         shifted(start, 8 * wide),
         shifted(start, 9 * wide),
         shifted(start, 10 * wide),
@@ -187,21 +156,21 @@ def divide(memory, n_blocks):
         shifted(start, 12 * wide),
         shifted(start, 13 * wide),
         shifted(start, 14 * wide),
-        whole_numbers(shifted(start, 15 * wide)),
-        shifted(start, 16 * wide),
+        shifted(start, 15 * wide),
+        whole_numbers(shifted(start, 16 * wide)),
         shifted(start, 17 * wide),
+        shifted(start, 18 * wide),
+        shifted(start, 19 * wide),
         by_term,
-        shifted(by_term, long),
-        shifted(by_term, 2 * long),
-        shifted(by_term, 3 * long),
-        table(rates, wide),
+        shifted(by_term, TERMS),
+        shifted(by_term, 2 * TERMS),
+        shifted(start, BY_COLUMN * wide),
+        wide,
     )
-    search = Search(
-        table(series, ROWS + 1),
-        table(levels, LEVELS),
-        by_slot,
-        whole_numbers(shifted(by_slot, slots)),
-        whole_numbers(shifted(by_slot, 2 * slots)),
-        whole_numbers(shifted(by_slot, 3 * slots)),
-    )
-    return (start, shifted(start, wide), shifted(start, 2 * wide)), motion, search
+    return (start, shifted(start, wide), shifted(start, 2 * wide)), motion
+
+
+@inner
+def row(n, motion):
+    """Row n of the derivatives."""
+    return shifted(motion.rate, n * motion.wide)

@@ -1,4 +1,24 @@
-"""Bounds from below of the first root of a function known by its first terms and a bound of the rest."""
+"""Proofs that a function has no root, and steps that pass none.
+
+**No root before the end.** Let g be a power series in u on [0, 1] with the terms a_n:
+
+    g(u) = a_0 + a_1 u + ... + a_5 u^5 + u^6 r(u),    r(u) = a_6 + a_7 u + a_8 u^2 + ...
+
+Let R = |a_7| + 2 |a_8| + 3 |a_9| + ... >= |r'|, so that r(u) differs from r(1) by (1 - u) R at most. Then the
+value g(1), which is known to rounding, replaces all terms from the sixth on:
+
+    Q(u) - u^6 (1 - u) R <= g(u) <= Q(u) + u^6 (1 - u) R,
+    Q(u) = a_0 + ... + a_5 u^5 + r(1) u^6,    Q(1) = g(1).
+
+The Bernstein coefficients of Q of degree 6 are b_k = sum_j C(k, j) a_j / C(6, j) for k < 6, and b_6 = g(1).
+In degree 7 they are means of neighbours, (k b_{k-1} + (7 - k) b_k) / 7, and u^6 (1 - u) has one coefficient,
+1/7 at k = 6. On [0, 1] a polynomial lies between its smallest and largest coefficients, so g lies between
+
+    min(b_0, ..., b_5, g(1), (6 b_5 + g(1) - R) / 7)  and  max(b_0, ..., b_5, g(1), (6 b_5 + g(1) + R) / 7).
+
+If the lower one is not negative then g > 0 on (0, 1), or its lower bound is zero everywhere: each Bernstein
+polynomial is positive there.
+"""
 
 from __future__ import annotations
 
@@ -6,60 +26,40 @@ import math
 
 import numpy as np
 
+from precursors.solver.kernel import lanes
 from precursors.solver.kernel.compiled import inner
-from precursors.solver.kernel.layout import CUBIC_STEPS
+from precursors.solver.kernel.layout import WINDOW
+
+# sum_n (n - 6) s^n/n! for n >= 9 is at most so many times s^9/9!, where s is at most the longest window.
+TAIL = sum((n - 6) * WINDOW ** (n - 9) * math.factorial(9) / math.factorial(n) for n in range(9, 40))
+
+
+@inner
+def enclose(a0, a1, a2, a3, a4, a5, at_end, rest):
+    """Bounds of g on [0, 1] in each lane: (lower, upper).
+
+    a0..a5 are a_j / C(6, j), `at_end` is g(1), and `rest` is R. The lower bound leaves g(1) itself out: the
+    function whose root ends the window is zero there, to rounding.
+    """
+    # Sums of neighbours, again and again, are the sums with binomial coefficients.
+    c0, c1, c2, c3, c4 = a0 + a1, a1 + a2, a2 + a3, a3 + a4, a4 + a5
+    d0, d1, d2, d3 = c0 + c1, c1 + c2, c2 + c3, c3 + c4
+    e0, e1, e2 = d0 + d1, d1 + d2, d2 + d3
+    f0, f1 = e0 + e1, e1 + e2
+    b5 = f0 + f1
+    low = lanes.smaller(lanes.smaller(a0, c0), lanes.smaller(d0, e0))
+    low = lanes.smaller(low, lanes.smaller(f0, b5))
+    high = lanes.larger(lanes.larger(a0, c0), lanes.larger(d0, e0))
+    high = lanes.larger(high, lanes.larger(f0, b5))
+    last = 6.0 * b5 + at_end
+    high = lanes.larger(lanes.larger(high, at_end), (last + rest) * (1.0 / 7.0))
+    return lanes.smaller(low, (last - rest) * (1.0 / 7.0)), high
 
 
 @inner
 def safe_step(g, slope, curvature):
-    """Positive root of g + slope s - curvature s^2/2 for g >= 0: no root of g lies before it."""
+    """Positive root of g + slope s - curvature s^2/2 for g >= 0: where -g'' <= curvature, no root is before."""
     root = math.sqrt(slope * slope + 2.0 * curvature * g)
     if slope < 0.0:
         return 2.0 * g / (root - slope)
     return (slope + root) / curvature if curvature > 0.0 else np.inf
-
-
-@inner
-def cubic_bound(c0, c1, c2, c3, rest):
-    """Bound the first root of c0 + c1 s + c2 s^2 + c3 s^3 + e, |e| <= rest s^4, from below; inf beyond 1."""
-    curvature = downward(c2, c3) + 12.0 * rest
-    s = safe_step(c0, c1, curvature)
-    for _ in range(CUBIC_STEPS):
-        if s >= 1.0:
-            return np.inf
-        ss = s * s
-        g = c0 + s * (c1 + s * (c2 + s * c3)) - rest * ss * ss
-        if g <= 0.01 * c0:
-            return s
-        s += safe_step(g, c1 + s * (2.0 * c2 + s * 3.0 * c3) - 4.0 * rest * ss * s, curvature)
-    return s
-
-
-@inner
-def downward(c2, c3):
-    """Bound of -g'' of a cubic on [0, 1]."""
-    return 2.0 * max(-c2, 0.0) + 6.0 * max(-c3, 0.0)
-
-
-@inner
-def turning(c2, c3):
-    """Bound of |g''| of a cubic on [0, 1]."""
-    return 2.0 * abs(c2) + 6.0 * abs(c3)
-
-
-@inner
-def surely_positive(c0, c1, c2, c3, rest):
-    """Whether c0 + c1 s + c2 s^2 + c3 s^3 + e, |e| <= rest, has no root in [0, 1]."""
-    return c0 + min(c1, 0.0) + min(c2, 0.0) + min(c3, 0.0) > rest
-
-
-@inner
-def zero_below(i, roundings, chain, motion):
-    """Size below which a force on block i, or what it does to its velocity in the window, counts as zero.
-
-    It follows from the forces, and from what the motion of the neighbours adds to them within the window.
-    """
-    coupling, force, fastest = chain.coupling, motion.spring_force, motion.fastest
-    still = abs(force[i]) + abs(force[i + 1]) + chain.strength[i]
-    moving = coupling[i] * fastest[i - 1] + fastest[i] + coupling[i + 1] * fastest[i + 1]
-    return roundings * (2.0 * still + moving)

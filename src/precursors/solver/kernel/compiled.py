@@ -18,7 +18,7 @@ Function = Callable[..., Any]
 untyped: Any = numba
 
 # Numba compiles a function anew for an argument that is a literal number, unless its variable has a type.
-INDEX = {"first": int64, "slot": int64}
+INDEX = {"block_1": int64}
 _options: dict[str, Any] = {"error_model": "numpy", "locals": INDEX}
 # Products may be fused with sums, but not in the event loop, in starts and in units.
 inner: Any = untyped.njit(**_options, fastmath={"contract"}, forceinline=True)

@@ -2,47 +2,32 @@
 
 from __future__ import annotations
 
-from precursors.solver.kernel.arrays import Progress, Record, System, Window, divide
+from precursors.solver.kernel.arrays import Record, System, as_progress, divide, n_columns
 from precursors.solver.kernel.compiled import inner, inner_unfused, outer, seldom, unfused
-from precursors.solver.kernel.friction import farthest_sliding, resting_mode, set_mode, start_from, take_mode
+from precursors.solver.kernel.friction import (
+    at_start,
+    farthest_sliding,
+    resting_mode,
+    set_mode,
+    take_mode,
+    take_neighbours,
+)
+from precursors.solver.kernel.guess import LEAST, MARGIN, NEAR, find_root, guess
 from precursors.solver.kernel.layout import (
-    AT_ONCE,
-    BEYOND,
-    DERIVATIVES,
-    EDGE,
-    ELAPSED,
-    FARTHEST,
     FINISHED,
-    GLOBAL,
-    LONG,
-    ONSET,
-    ONSET_ERROR,
-    ORDER,
     PAUSED,
+    PROOF_ORDER,
     ROUNDINGS,
     ROWS,
-    SINCE,
-    SLIDING,
-    STATUS,
     STOPPED,
-    STORED,
-    TRANSITIONS,
     WIDTH,
     WINDOW,
-    WINDOWS,
 )
-from precursors.solver.kernel.pointers import pointer, shifted, table
-from precursors.solver.kernel.series import (
-    distance_reached,
-    expand,
-    give_back,
-    lend,
-    powers,
-    settle,
-)
-from precursors.solver.kernel.springs import begin, load_at, net_force, stretch, two_sum
+from precursors.solver.kernel.pointers import pointer, shifted
+from precursors.solver.kernel.proof import prove, search
+from precursors.solver.kernel.series import expand, order_at, powers, set_rows
+from precursors.solver.kernel.springs import begin, move, take_net_force, two_sum
 from precursors.solver.kernel.units import set_up
-from precursors.solver.kernel.watch import next_transition, watch
 from precursors.solver.record import States
 
 
@@ -50,12 +35,12 @@ from precursors.solver.record import States
 def run_batch(batch, limits, progress, record, states, memory):
     """Run chain after chain from its start, as many as there is room for, into one record.
 
-    Row j of `batch` is a chain with its start, row j of `progress` where it ended. Limits are those of each
-    chain. Returns how many chains are finished and whether the one after them is paused: its state is in
+    Row j of `batch` is a chain with its start, row j of `progress` has the bytes of where it ended. Limits are
+    those of each chain. Returns how many chains are finished and whether the one after them is paused: its state is in
     `memory`, and what it recorded follows that of the others. It can go on where it is all there is.
     """
     n_blocks = batch.weights.shape[1]
-    columns, motion, search = divide(memory, n_blocks)
+    columns, motion = divide(memory, n_blocks)
     used = stored = windows = 0
     for j in range(batch.weights.shape[0]):
         if not limits.goes_on:
@@ -65,20 +50,19 @@ def run_batch(batch, limits, progress, record, states, memory):
             forget(columns, n_blocks, motion)
         tau, speed, drive_velocity = set_up(batch.parameters[j], batch.weights[j], n_blocks, columns)
         chain = System(n_blocks, tau, speed, drive_velocity, columns[0], columns[1], columns[2])
-        reached = Progress(tau, pointer(progress.clock[j]), pointer(progress.counts[j]))
-        count = reached.counts
-        mine, my_states = rest_of_record(record, used, j), rest_of_states(states, stored, n_blocks)
+        mine, my_record = as_progress(pointer(progress[j])), rest_of_record(record, used, j)
+        my_states = rest_of_states(states, stored, n_blocks)
         if not limits.goes_on:
-            start_from(batch.positions[j], batch.velocities[j], batch.parameters[j], chain, motion)
-            note_start(chain, motion, count, mine, my_states)
-        progress.tau[j] = tau
-        count[STATUS] = run_events(chain, motion, search, limits, reached, mine, my_states)
-        if count[STATUS] == PAUSED:
+            mine.tau = tau
+            at_start(batch.positions[j], batch.velocities[j], batch.parameters[j], chain, motion)
+            note_start(chain, motion, mine, my_record, my_states)
+        mine.status = find_transitions(chain, motion, limits, mine, my_record, my_states)
+        if mine.status == PAUSED:
             return j, True
-        used += count[TRANSITIONS]
-        stored += count[STORED]
-        windows += count[WINDOWS]
-        record.intervals[used + j] = progress.clock[j, SINCE] * tau
+        used += mine.transitions
+        stored += mine.stored
+        windows += mine.windows
+        record.intervals[used + j] = mine.since * tau
     return batch.weights.shape[0], False
 
 
@@ -90,14 +74,14 @@ def forget(columns, n_blocks, motion):
     clear(motion.velocity, n_blocks)
     clear(motion.spring_force, n_blocks)
     clear(motion.force_rest, n_blocks)
-    for i in range(n_blocks + 1 + BEYOND):
+    for i in range(n_columns(n_blocks)):
         motion.mode[i] = 0
 
 
 @inner
 def clear(values, n_blocks):
     """Set all columns to zero."""
-    for i in range(n_blocks + 1 + BEYOND):
+    for i in range(n_columns(n_blocks)):
         values[i] = 0.0
 
 
@@ -115,10 +99,10 @@ def rest_of_record(record, used, n_runs):
 
 @inner
 def rest_of_states(states, stored, n_blocks):
-    """What is left of the states after the first `stored`; modes are a row after the other."""
+    """What is left of the states after the first `stored`; their numbers are a row after the other."""
     return States(
-        table(shifted(pointer(states.force), stored * n_blocks), n_blocks),
-        table(shifted(pointer(states.velocity), stored * n_blocks), n_blocks),
+        shifted(pointer(states.force), stored * n_blocks),
+        shifted(pointer(states.velocity), stored * n_blocks),
         shifted(pointer(states.mode), stored * n_blocks),
         shifted(pointer(states.after), stored),
         shifted(pointer(states.offset), stored),
@@ -126,264 +110,203 @@ def rest_of_states(states, stored, n_blocks):
 
 
 @seldom
-def note_start(chain, motion, count, record, states):
+def note_start(chain, motion, progress, record, states):
     """Record the blocks that move at time 0 as transitions; the first state is the start with all modes 0."""
     mode = motion.mode
     k = 0
     for i in range(1, chain.n_blocks + 1):
-        states.force[0, i - 1] = motion.spring_force[i]
-        states.velocity[0, i - 1] = motion.velocity[i] * chain.speed
+        states.force[i - 1] = motion.spring_force[i]
+        states.velocity[i - 1] = motion.velocity[i] * chain.speed
         states.mode[i - 1] = 0
         if mode[i] != 0:
             record.time[k], record.block[k], record.mode[k] = 0.0, i, mode[i]
             record.tangential_load[k], record.intervals[k] = motion.spring_force[1], 0.0
             k += 1
     states.after[0], states.offset[0] = 0, 0.0
-    count[TRANSITIONS] = count[SLIDING] = k
-    count[GLOBAL] = 1 if k == chain.n_blocks else 0
-    count[STORED] = 1
+    progress.transitions = k
+    progress.stored = 1
+    count_sliding(k, chain, progress)
 
 
 @unfused
-def run_events(chain, motion, search, limits, progress, record, states):
+def find_transitions(chain, motion, limits, progress, record, states):
     """Run a chain until `duration` [s], the end of the first global slip, full records or enough windows.
 
-    The state, `clock` and `count` are left at the time reached; record and states are filled from where
-    `count` says.
+    The state and `progress` are left at the time reached; record and states are filled from where it says.
     """
-    clock, count = progress.clock, progress.counts
     lay_out(chain, motion)
-    count[AT_ONCE] = 0
-    count[FARTHEST] = chain.n_blocks
+    progress.at_once = 0
+    progress.farthest = chain.n_blocks
     status = PAUSED
-    last_window = count[WINDOWS] + limits.windows
+    last_window = progress.windows + limits.windows
     while (
         status == PAUSED
-        and count[TRANSITIONS] < limits.transitions
-        and count[WINDOWS] < last_window
-        and count[STORED] < limits.states
+        and progress.transitions < limits.transitions
+        and progress.windows < last_window
+        and progress.stored < limits.states
     ):
-        count[WINDOWS] += 1
-        if count[TRANSITIONS] >= limits.stride * count[STORED]:
-            store_state(chain, motion, clock, count, states)
-        if count[SLIDING] == 0:
+        progress.windows += 1
+        if progress.transitions >= limits.stride * progress.stored:
+            store_state(chain, motion, progress, states)
+        if progress.sliding == 0:
             status = rest(chain, motion, limits, progress, record)
         else:
-            status = slide(chain, motion, search, limits, progress, record)
-    for i in range(1, chain.n_blocks + 1):
-        motion.velocity[i] = motion.rate[0, i]
+            status = slide(chain, motion, limits, progress, record)
     return status
 
 
 @seldom
 def lay_out(chain, motion):
     """Set the motion out from a state; column 0 is the drive, what is beyond the blocks does not move."""
-    for values in (motion.slides, motion.sense, motion.push, motion.slip, motion.origins, motion.fastest):
+    for values in (motion.slides, motion.push, motion.hold, motion.felt, motion.sign, motion.net_force):
         clear(values, chain.n_blocks)
-    for n in range(ROWS + 1):
-        for i in range(chain.n_blocks + 1 + BEYOND):
-            motion.rate[n, i] = 0.0
-    motion.rate[0, 0] = motion.fastest[0] = chain.drive_velocity
+    for i in range(ROWS * motion.wide):
+        motion.rate[i] = 0.0
+    motion.rate[0], motion.slides[0] = chain.drive_velocity, 1.0
+    motion.whole[1] = 0.0
     for i in range(1, chain.n_blocks + 1):
-        motion.rate[0, i] = motion.velocity[i]
         take_mode(i, chain, motion)
+        take_net_force(i, motion)
+    for i in range(1, chain.n_blocks + 1):
+        take_neighbours(i, chain, motion)
 
 
 @seldom
-def store_state(chain, motion, clock, count, states):
+def store_state(chain, motion, progress, states):
     """Store the state that is reached."""
-    c = count[STORED]
+    row, place = progress.stored, progress.stored * chain.n_blocks
     for i in range(1, chain.n_blocks + 1):
-        states.force[c, i - 1] = motion.spring_force[i]
-        states.velocity[c, i - 1] = motion.rate[0, i] * chain.speed
-        states.mode[c * chain.n_blocks + i - 1] = motion.mode[i]
-    states.after[c], states.offset[c] = count[TRANSITIONS], clock[SINCE] * chain.tau
-    count[STORED] += 1
+        states.force[place + i - 1] = motion.spring_force[i]
+        states.velocity[place + i - 1] = motion.velocity[i] * chain.speed
+        states.mode[place + i - 1] = motion.mode[i]
+    states.after[row], states.offset[row] = progress.transitions, progress.since * chain.tau
+    progress.stored += 1
 
 
 @inner_unfused
-def time_left(chain, limits, clock):
+def time_left(limits, progress):
     """Time until the end of the run [tau]."""
-    return ((limits.duration - clock[ONSET]) - clock[ONSET_ERROR]) / chain.tau - clock[ELAPSED]
+    since_onset = (limits.duration - progress.onset) - progress.onset_error
+    return since_onset / progress.tau - progress.elapsed
 
 
 @inner_unfused
 def rest(chain, motion, limits, progress, record):
     """All blocks stick: end the run, or wait in closed form until block 1 lets go."""
-    clock, count = progress.clock, progress.counts
-    if limits.until_global and count[GLOBAL] != 0:
+    if limits.until_global and progress.all_slid != 0:
         return STOPPED
     force, second = motion.spring_force, motion.force_rest
-    first = 1
-    remaining = time_left(chain, limits, clock)
+    block_1 = 1
+    remaining = max(time_left(limits, progress), 0.0)
     loading_rate = chain.coupling[1] * chain.drive_velocity
-    wait = max((chain.strength[1] - net_force(first, motion)) / loading_rate, 0.0)
+    wait = max((chain.strength[1] - motion.net_force[1]) / loading_rate, 0.0)
     if wait >= remaining:
-        remaining = max(remaining, 0.0)
         force[1], second[1] = two_sum(force[1], loading_rate * remaining + second[1])
-        start_clock(clock, remaining, chain.tau)
+        start_clock(remaining, progress)
         return FINISHED
     if wait > 0.0:
         force[1], second[1] = two_sum(force[2], chain.strength[1] + second[2])
-    start_clock(clock, wait, chain.tau)
-    set_mode(first, first, chain, motion)
-    count[FARTHEST] = 1
-    count_sliding(1, chain, count)
-    note_transition(first, first, 0.0, clock[SINCE], force[1], progress, record)
+    take_net_force(block_1, motion)
+    start_clock(wait, progress)
+    set_mode(block_1, block_1, chain, motion)
+    progress.farthest = 1
+    count_sliding(1, chain, progress)
+    note_transition(block_1, block_1, force[1], progress, record)
     return PAUSED
 
 
 @seldom
-def start_clock(clock, wait, tau):
+def start_clock(wait, progress):
     """Start a new event `wait` after the end of the last; the onset is carried in two doubles."""
-    add = (clock[ELAPSED] + wait) * tau + clock[ONSET_ERROR]
-    total = clock[ONSET] + add
-    clock[ONSET_ERROR] = add - (total - clock[ONSET])
-    clock[ONSET] = total
-    clock[ELAPSED] = 0.0
-    clock[SINCE] += wait
+    add = (progress.elapsed + wait) * progress.tau + progress.onset_error
+    total = progress.onset + add
+    progress.onset_error = add - (total - progress.onset)
+    progress.onset = total
+    progress.elapsed = 0.0
+    progress.since += wait
 
 
 @inner
-def count_sliding(more, chain, count):
+def count_sliding(more, chain, progress):
     """Count the blocks that slide, and note when all do."""
-    count[SLIDING] += more
-    if count[SLIDING] == chain.n_blocks:
-        count[GLOBAL] = 1
+    progress.sliding += more
+    if progress.sliding == chain.n_blocks:
+        progress.all_slid = 1
 
 
 @inner_unfused
-def note_transition(i, new, t, since, load, progress, record):
-    """Record that block i has a new mode from time t of the window, `since` [tau] after the last change."""
-    clock, tau, k = progress.clock, progress.tau, progress.counts[TRANSITIONS]
-    record.time[k] = clock[ONSET] + (clock[ONSET_ERROR] + (clock[ELAPSED] + t) * tau)
+def note_transition(i, new, load, progress, record):
+    """Record that block i has a new mode now."""
+    tau, k = progress.tau, progress.transitions
+    record.time[k] = progress.onset + (progress.onset_error + progress.elapsed * tau)
     record.block[k], record.mode[k], record.tangential_load[k] = i, new, load
-    record.intervals[k] = since * tau
-    clock[SINCE] = 0.0
-    progress.counts[TRANSITIONS] = k + 1
+    record.intervals[k] = progress.since * tau
+    progress.since = 0.0
+    progress.transitions = k + 1
 
 
 @inner_unfused
-def slide(chain, motion, search, limits, progress, record):
-    """Go through one window: to the next transition, to all of them in a long chain, or to its end."""
-    clock, count = progress.clock, progress.counts
-    remaining = time_left(chain, limits, clock)
-    left_of_slip = limits.longest_slip / chain.tau - clock[ELAPSED]
+def slide(chain, motion, limits, progress, record):
+    """Go through one window, to its first transition or to its end."""
+    remaining = time_left(limits, progress)
+    left_of_slip = limits.longest_slip / chain.tau - progress.elapsed
     if remaining <= 0.0:
         return FINISHED
     if left_of_slip <= 0.0:
         return STOPPED
-    window = open_window(min(remaining, left_of_slip), chain, motion, search, count)
-    t = noted = 0.0
-    slot = -1
-    while True:
-        t, slot = look_ahead(window, chain, motion, search, count)
-        motion.slip[0] = chain.drive_velocity * t
-        count[AT_ONCE] = count[AT_ONCE] + 1 if t == noted else 0
-        if slot < 0:
-            break
-        i = slot // 2
-        window = around(i, t, window, chain, motion, count)
-        settle(t, window.first, window.final, motion)
-        stretch(window.first, window.final, chain, motion)
-        old = motion.mode[i]
-        new = resting_mode(i, window.roundings, chain, motion) if old != 0 else 1 - 2 * (slot % 2)
-        set_mode(i, new, chain, motion)
-        count[FARTHEST] = max(count[FARTHEST], i)
-        if new != old:
-            count_sliding(abs(new) - abs(old), chain, count)
-            load = load_at(t, chain, motion) if window.first > 1 else motion.spring_force[1]
-            note_transition(i, new, t, clock[SINCE] + (t - noted), load, progress, record)
-            noted = t
-        if not window.is_long:
-            break
-        if count[SLIDING] == 0 or count[TRANSITIONS] == limits.transitions:
-            return_neighbours(window, motion)
-            break
-    if window.is_long or slot < 0:
-        first = 1
-        settle(t, first, window.end, motion)
-        stretch(first, window.end, chain, motion)
-    clock[ELAPSED] += t
-    clock[SINCE] += t - noted
+    roundings = ROUNDINGS * 2.0 ** (progress.at_once // (4 * chain.n_blocks))
+    progress.farthest = farthest_sliding(progress.farthest, motion.mode)
+    window = min(WINDOW, min(remaining, left_of_slip))
+    s, i, side = next_transition(window, roundings, chain, motion, progress)
+    progress.elapsed += s
+    progress.since += s
+    progress.at_once = progress.at_once + 1 if s == 0.0 else 0
+    if i == 0:
+        return PAUSED
+    old = motion.mode[i]
+    new = resting_mode(i, roundings, chain, motion) if old != 0 else side
+    set_mode(i, new, chain, motion)
+    progress.farthest = max(progress.farthest, i)
+    if new != old:
+        count_sliding(abs(new) - abs(old), chain, progress)
+        note_transition(i, new, motion.spring_force[1], progress, record)
     return PAUSED
 
 
 @inner_unfused
-def open_window(remaining, chain, motion, search, count):
-    """A window from now on, in which every series has its origin at the start."""
-    count[FARTHEST] = farthest_sliding(count[FARTHEST], motion.mode)
-    last = min(count[FARTHEST] + 1, chain.n_blocks)
-    end = WIDTH * ((last + WIDTH - 1) // WIDTH)
-    is_long = last > LONG
-    limit = min(WINDOW, remaining)
+def next_transition(window, roundings, chain, motion, progress):
+    """Go to the first transition in a window: (time in it, block, side); (window, 0, 1) if there is none.
+
+    Guess it, go there, and prove for all blocks at once that nothing comes before. A wrong guess costs time
+    only: where the proof fails, the functions of those blocks are searched.
+    """
+    end = last_column(chain, progress.farthest)
+    whole = motion.whole
+    set_rows(end, motion)
+    expand(2, PROOF_ORDER, end, chain, motion)
     begin(end, motion)
-    if count[EDGE] != end:
-        count[EDGE] = end
-        for n in range(ORDER + 1):
-            motion.rate[n, end + 1] = 0.0
-    motion.fastest[end + 1] = 0.0
-    search.active[0] = 0
-    return Window(0.0, limit, limit, 1, end, last, end, is_long, roundings_now(chain, count))
+    if whole[1] != window:
+        powers(window, PROOF_ORDER, whole)
+    share, guessed = guess(end, motion)
+    s, i, side = min(max(MARGIN * share, LEAST), 1.0) * window, 0, 1
+    rows = order_at(s)
+    expand(PROOF_ORDER + 2, rows, end, chain, motion)
+    if guessed > 0:
+        root = find_root(share * window, guessed, rows, motion, progress)
+        if NEAR * window < root <= s:
+            s, i = root, guessed
+            side = -1 if motion.sign[i] > 0.0 else 1
+    progress.derivatives += rows * end
+    move(s, end, chain, motion)
+    if prove(end, i, motion) != 0:
+        share, found, found_side = search(order_at(s), end, roundings, chain, motion, progress)
+        if share < 1.0:
+            s, i, side = share * s, found, found_side
+            move(s, end, chain, motion)
+    return s, i, side
 
 
-@inner_unfused
-def roundings_now(chain, count):
-    """Relative size below which a value counts as zero, larger where rounding decides in a circle."""
-    if count[AT_ONCE] < 4 * chain.n_blocks:
-        return ROUNDINGS
-    return ROUNDINGS * 2.0 ** (count[AT_ONCE] // (4 * chain.n_blocks))
-
-
-@inner_unfused
-def look_ahead(window, chain, motion, search, count):
-    """The next transition of the window: (time in it, slot); (limit, -1) where there is none."""
-    expand(window.first, window.final, chain, motion)
-    count[DERIVATIVES] += ORDER * (window.final - window.first + 1)
-    if motion.weight[1] != window.span:
-        powers(window.span, motion.weight)
-    watch(window, chain, motion, search)
-    return_neighbours(window, motion)
-    return next_transition(window, chain, motion, search, count)
-
-
-@inner_unfused
-def around(i, t, window, chain, motion, count):
-    """The rest of the window, in which only blocks near block i feel its transition at time t."""
-    span, last, end = window.limit - t, window.last, window.end
-    first, final = window.first, window.final
-    if window.is_long:
-        if i == last and last < chain.n_blocks:
-            last += 1
-            if last > end:
-                widen(end, t, motion)
-                count[EDGE] = 0
-                end += WIDTH
-        distance = distance_reached(span)
-        first = WIDTH * ((max(i - distance, 1) - 1) // WIDTH) + 1
-        final = min(WIDTH * ((i + distance + WIDTH - 1) // WIDTH), end)
-        if first > 1:
-            lend(first - 1, t, motion, motion.behind)
-        if final < end:
-            lend(final + 1, t, motion, motion.ahead)
-    return Window(t, span, window.limit, first, final, last, end, window.is_long, roundings_now(chain, count))
-
-
-@inner_unfused
-def return_neighbours(window, motion):
-    """Give the neighbours of blocks first..final their own series back."""
-    if window.first > 1:
-        give_back(window.first - 1, motion, motion.behind)
-    if window.final < window.end:
-        give_back(window.final + 1, motion, motion.ahead)
-
-
-@seldom
-def widen(end, t, motion):
-    """Let four more columns beyond `end` take part from time t of the window on."""
-    for j in range(end + 1, end + WIDTH + 2):
-        for n in range(ORDER + 1):
-            motion.rate[n, j] = 0.0
-        motion.slip[j], motion.origins[j] = 0.0, t
-        motion.force_before[j], motion.rest_before[j] = motion.spring_force[j], motion.force_rest[j]
-        motion.fastest[j] = 0.0
+@inner
+def last_column(chain, farthest):
+    """Last column of the groups that take part: no block beyond the next one feels that `farthest` slides."""
+    return WIDTH * ((min(farthest + 1, chain.n_blocks) + WIDTH - 1) // WIDTH)

@@ -2,28 +2,38 @@
 
 from __future__ import annotations
 
-from precursors.solver.kernel.bounds import zero_below
 from precursors.solver.kernel.compiled import inner, seldom, unfused
 from precursors.solver.kernel.layout import ROUNDINGS
-from precursors.solver.kernel.springs import net_force
+from precursors.solver.kernel.roots import zero_below
 
 
 @inner
 def set_mode(i, new, chain, motion):
-    """Apply a transition to the state in row 0: a block that stops or turns has velocity zero."""
+    """Apply a transition: a block that stops or turns has velocity zero."""
     if motion.mode[i] != 0:
-        motion.rate[0, i] = 0.0
+        motion.velocity[i] = 0.0
     motion.mode[i] = new
     take_mode(i, chain, motion)
+    for j in range(max(i - 1, 1), min(i + 1, chain.n_blocks) + 1):
+        take_neighbours(j, chain, motion)
 
 
 @inner
 def take_mode(i, chain, motion):
-    """Set what follows from the mode of block i: whether it slides, and the friction against its motion."""
+    """Set what follows from the mode of block i."""
     mode = motion.mode[i]
     motion.slides[i] = 1.0 if mode != 0 else 0.0
-    motion.sense[i] = mode
+    motion.sign[i] = mode
     motion.push[i] = mode * chain.friction[i]
+    motion.hold[i] = 0.0 if mode != 0 else chain.strength[i]
+
+
+@inner
+def take_neighbours(i, chain, motion):
+    """Set whether the function watched of block i changes: it or a neighbour of it moves."""
+    slides, coupling = motion.slides, chain.coupling
+    moved = slides[i] + coupling[i] * slides[i - 1] + coupling[i + 1] * slides[i + 1]
+    motion.felt[i] = 1.0 if moved > 0.0 else 0.0
 
 
 @inner
@@ -32,7 +42,7 @@ def resting_mode(i, roundings, chain, motion):
 
     A block that sticks at the limit lets go at once where its force grows: its margin decides, not rounding.
     """
-    net = net_force(i, motion)
+    net = motion.net_force[i]
     if abs(net) <= chain.strength[i] + zero_below(i, roundings, chain, motion):
         return 0
     return 1 if net > 0.0 else -1
@@ -48,12 +58,12 @@ def farthest_sliding(start, mode):
 
 
 @unfused
-def start_from(positions, velocities, parameters, chain, motion):
+def at_start(positions, velocities, parameters, chain, motion):
     """Fill velocities, spring forces and modes at time 0, in the kernel's units and columns.
 
     A block that moves slides; one at rest slides where its springs overcome the static friction (Eq. 5).
     """
-    mass, stiffness, drive_stiffness = parameters[0], parameters[1], parameters[2]
+    mass, stiffness, drive_stiffness, _, _, _ = parameters
     strength, velocity, force, mode = chain.strength, motion.velocity, motion.spring_force, motion.mode
     stiffest, farthest, before = drive_stiffness, 0.0, 0.0
     for i in range(chain.n_blocks):

@@ -1,4 +1,4 @@
-"""Four doubles at once in compiled code: a type for Numba on which +, -, * act lane by lane.
+"""Four doubles at once in compiled code: a type for Numba on which +, -, *, / act lane by lane.
 
 Loops over the blocks of a chain are too short for LLVM to vectorise by itself. A value of this type becomes
 one AVX register, or two of SSE or NEON.
@@ -6,17 +6,19 @@ one AVX register, or two of SSE or NEON.
 
 from __future__ import annotations
 
+import functools
 import operator
 
 from llvmlite import ir
 from numba.core import cgutils, types
 from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
 
-from precursors.solver.kernel.pointers import NUMBERS, TABLE, element
+from precursors.solver.kernel.layout import WIDTH
+from precursors.solver.kernel.pointers import NUMBERS
 
-LANES = 4
-DOUBLE = ir.DoubleType()
-VECTOR = ir.VectorType(DOUBLE, LANES)
+DOUBLE, BITS, PLACE = ir.DoubleType(), ir.IntType(WIDTH), ir.IntType(32)
+VECTOR = ir.VectorType(DOUBLE, WIDTH)
+ZERO = ir.Constant(VECTOR, [0.0] * WIDTH)
 
 
 class Four(types.Type):
@@ -35,172 +37,159 @@ class _FourModel(models.PrimitiveModel):
         super().__init__(dmm, fe_type, VECTOR)
 
 
-def _read(builder, start):
-    return builder.load(_untyped(builder, start), align=8, typ=VECTOR)
+def _operation(result, *kinds):
+    """Make a function of compiled code from one that builds its instructions, (builder, *values) -> value."""
+
+    def make(build):
+        def generate(context, builder, signature, arguments):
+            value = build(builder, *arguments)
+            return context.get_dummy_value() if result == types.void else value
+
+        @functools.wraps(build)
+        def typed(typingctx, *given):
+            return result(*kinds), generate
+
+        return intrinsic(typed)
+
+    return make
 
 
-def _write(context, builder, values, start):
-    builder.store(values, _untyped(builder, start), align=8)
-    return context.get_dummy_value()
-
-
-def _untyped(builder, start):
-    """The same pointer, without the type that Numba still gives it; the compiler sees nothing of it."""
+def _untyped(builder, start, index):
+    """Pointer to an element, without the type that Numba still gives it; the compiler sees nothing of it."""
     box = ir.Constant(ir.LiteralStructType([ir.PointerType()]), ir.Undefined)
-    return builder.extract_value(builder.insert_value(box, start, 0), 0)
-
-
-@intrinsic
-def load(typingctx, values, i):
-    """values[i : i + 4]."""
-
-    def generate(context, builder, signature, arguments):
-        start, index = arguments
-        return _read(builder, builder.gep(start, [index]))
-
-    return four(NUMBERS, types.intp), generate
-
-
-@intrinsic
-def store(typingctx, values, i, value):
-    """values[i : i + 4] = value."""
-
-    def generate(context, builder, signature, arguments):
-        start, index, four_values = arguments
-        return _write(context, builder, four_values, builder.gep(start, [index]))
-
-    return types.void(NUMBERS, types.intp, four), generate
-
-
-@intrinsic
-def load_row(typingctx, table, n, i):
-    """table[n, i : i + 4]."""
-
-    def generate(context, builder, signature, arguments):
-        return _read(builder, element(context, builder, *arguments))
-
-    return four(TABLE, types.intp, types.intp), generate
-
-
-@intrinsic
-def store_row(typingctx, table, n, i, value):
-    """table[n, i : i + 4] = value."""
-
-    def generate(context, builder, signature, arguments):
-        *place, four_values = arguments
-        return _write(context, builder, four_values, element(context, builder, *place))
-
-    return types.void(TABLE, types.intp, types.intp, four), generate
-
-
-@intrinsic
-def spread(typingctx, value):
-    """The same value in all four lanes."""
-
-    def generate(context, builder, signature, arguments):
-        return _splat(builder, arguments[0])
-
-    return four(types.float64), generate
-
-
-@intrinsic
-def four_of(typingctx, a, b, c, d):
-    """Four values, one for each lane."""
-
-    def generate(context, builder, signature, arguments):
-        vector = ir.Constant(VECTOR, ir.Undefined)
-        for lane, value in enumerate(arguments):
-            vector = builder.insert_element(vector, value, ir.Constant(ir.IntType(32), lane))
-        return vector
-
-    return four(*[types.float64] * LANES), generate
+    return builder.extract_value(builder.insert_value(box, builder.gep(start, [index]), 0), 0)
 
 
 def _splat(builder, scalar):
-    one = builder.insert_element(ir.Constant(VECTOR, ir.Undefined), scalar, ir.Constant(ir.IntType(32), 0))
-    return _shuffle(builder, one, one, (0, 0, 0, 0))
+    one = builder.insert_element(ir.Constant(VECTOR, ir.Undefined), scalar, ir.Constant(PLACE, 0))
+    return _shuffle(builder, one, one, [0] * WIDTH)
 
 
 def _shuffle(builder, a, b, lanes):
-    mask = ir.Constant(ir.VectorType(ir.IntType(32), LANES), list(lanes))
-    return builder.shuffle_vector(a, b, mask)
+    return builder.shuffle_vector(a, b, ir.Constant(ir.VectorType(PLACE, WIDTH), list(lanes)))
 
 
-@intrinsic
-def behind(typingctx, before, here):
-    """Each lane's neighbour behind: the last lane of `before`, then the first three of `here`."""
-
-    def generate(context, builder, signature, arguments):
-        return _shuffle(builder, *arguments, (3, 4, 5, 6))
-
-    return four(four, four), generate
+def _call(builder, name, value):
+    kind = ir.FunctionType(VECTOR, [VECTOR])
+    function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64")
+    return builder.call(function, [value])
 
 
-@intrinsic
-def ahead(typingctx, here, after):
-    """Each lane's neighbour ahead: the last three lanes of `here`, then the first of `after`."""
-
-    def generate(context, builder, signature, arguments):
-        return _shuffle(builder, *arguments, (1, 2, 3, 4))
-
-    return four(four, four), generate
+def _select(builder, comparison, a, b):
+    return builder.select(builder.fcmp_ordered(comparison, a, b), a, b)
 
 
-@intrinsic
-def magnitude(typingctx, value):
+def _across(builder, comparison, a):
+    """Select one of all lanes, by halves."""
+    step = WIDTH // 2
+    while step:
+        a = _select(builder, comparison, a, _shuffle(builder, a, a, [lane ^ step for lane in range(WIDTH)]))
+        step //= 2
+    return builder.extract_element(a, ir.Constant(PLACE, 0))
+
+
+@_operation(four, NUMBERS, types.intp)
+def load(builder, values, i):
+    """values[i : i + 4]."""
+    return builder.load(_untyped(builder, values, i), align=8, typ=VECTOR)
+
+
+@_operation(types.void, NUMBERS, types.intp, four)
+def store(builder, values, i, value):
+    """values[i : i + 4] = value."""
+    builder.store(value, _untyped(builder, values, i), align=8)
+
+
+@_operation(four, types.float64)
+def spread(builder, value):
+    """The same value in all lanes."""
+    return _splat(builder, value)
+
+
+@_operation(four, types.float64)
+def ladder(builder, s):
+    """1, s, s^2, s^3."""
+    powers = [ir.Constant(DOUBLE, 1.0), s]
+    vector = ir.Constant(VECTOR, ir.Undefined)
+    for n in range(WIDTH):
+        if n > 1:
+            powers.append(builder.fmul(powers[n // 2], powers[n - n // 2]))
+        vector = builder.insert_element(vector, powers[n], ir.Constant(PLACE, n))
+    return vector
+
+
+@_operation(four, four, four)
+def behind(builder, before, here):
+    """Each lane's neighbour behind: the last lane of `before`, then all but the last of `here`."""
+    return _shuffle(builder, before, here, range(WIDTH - 1, 2 * WIDTH - 1))
+
+
+@_operation(four, four, four)
+def ahead(builder, here, after):
+    """Each lane's neighbour ahead: all but the first lane of `here`, then the first of `after`."""
+    return _shuffle(builder, here, after, range(1, WIDTH + 1))
+
+
+@_operation(four, four)
+def magnitude(builder, value):
     """Absolute value."""
-
-    def generate(context, builder, signature, arguments):
-        kind = ir.FunctionType(VECTOR, [VECTOR])
-        fabs = cgutils.get_or_insert_function(builder.module, kind, "llvm.fabs.v4f64")
-        return builder.call(fabs, arguments)
-
-    return four(four), generate
+    return _call(builder, "fabs", value)
 
 
-def _select(comparison):
-    def generate(context, builder, signature, arguments):
-        a, b = arguments
-        return builder.select(builder.fcmp_ordered(comparison, a, b), a, b)
-
-    return generate
+@_operation(four, four)
+def square_root(builder, value):
+    """Square root."""
+    return _call(builder, "sqrt", value)
 
 
-@intrinsic
-def larger(typingctx, a, b):
+@_operation(four, four, four)
+def larger(builder, a, b):
     """The larger of each pair."""
-    return four(four, four), _select(">")
+    return _select(builder, ">", a, b)
 
 
-@intrinsic
-def smaller(typingctx, a, b):
+@_operation(four, four, four)
+def smaller(builder, a, b):
     """The smaller of each pair."""
-    return four(four, four), _select("<")
+    return _select(builder, "<", a, b)
 
 
-@intrinsic
-def where_not_above(typingctx, a, b):
-    """Bits 0..3: lanes in which a > b does not hold."""
-
-    def generate(context, builder, signature, arguments):
-        lanes = builder.not_(builder.fcmp_ordered(">", *arguments))
-        return builder.zext(builder.bitcast(lanes, ir.IntType(LANES)), ir.IntType(64))
-
-    return types.int64(four, four), generate
+@_operation(types.float64, four)
+def largest(builder, a):
+    """The largest of the lanes."""
+    return _across(builder, ">", a)
 
 
-@intrinsic
-def largest(typingctx, value):
-    """The largest of the four lanes."""
+@_operation(types.float64, four)
+def smallest(builder, a):
+    """The smallest of the lanes."""
+    return _across(builder, "<", a)
 
-    def generate(context, builder, signature, arguments):
-        a = arguments[0]
-        for lanes in ((2, 3, 0, 1), (1, 0, 3, 2)):
-            b = _shuffle(builder, a, a, lanes)
-            a = builder.select(builder.fcmp_ordered(">", a, b), a, b)
-        return builder.extract_element(a, ir.Constant(ir.IntType(32), 0))
 
-    return types.float64(four), generate
+@_operation(four, four, four, four)
+def choose(builder, flag, a, b):
+    """a in lanes where flag > 0, b in the others."""
+    return builder.select(builder.fcmp_ordered(">", flag, ZERO), a, b)
+
+
+@_operation(four, four, four)
+def only(builder, flag, a):
+    """a in lanes where flag > 0, zero in the others."""
+    return builder.select(builder.fcmp_ordered(">", flag, ZERO), a, ZERO)
+
+
+@_operation(types.int64, four, four)
+def where_not_above(builder, a, b):
+    """Bits of lanes in which a > b does not hold: at most b, or not a number."""
+    lanes = builder.not_(builder.fcmp_ordered(">", a, b))
+    return builder.zext(builder.bitcast(lanes, BITS), ir.IntType(64))
+
+
+@_operation(types.int64, four)
+def where_negative(builder, a):
+    """Bits of lanes in which a >= 0 does not hold: below zero, or not a number."""
+    lanes = builder.not_(builder.fcmp_ordered(">=", a, ZERO))
+    return builder.zext(builder.bitcast(lanes, BITS), ir.IntType(64))
 
 
 def _lane_by_lane(operation, name):
@@ -226,3 +215,4 @@ def _lane_by_lane(operation, name):
 _lane_by_lane(operator.add, "fadd")
 _lane_by_lane(operator.sub, "fsub")
 _lane_by_lane(operator.mul, "fmul")
+_lane_by_lane(operator.truediv, "fdiv")

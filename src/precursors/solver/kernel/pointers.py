@@ -1,35 +1,18 @@
-"""Arrays as compiled code passes them on: a pointer, or a pointer and the width of a table.
+"""Arrays as compiled code passes them on: pointers.
 
 Numba counts references to arrays wherever a tuple of them is handed on, which takes longer than the
 arithmetic here. Pointers have no counts, and no bounds either: their memory is that of arrays which the
-caller of the compiled function holds. `p[i]` and `table[n, i]` read and write.
+caller of the compiled function holds. `p[i]` reads and writes.
 """
 
 from __future__ import annotations
 
-import operator
-
-from numba.core import cgutils, types
-from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
+from numba import from_dtype
+from numba.core import types
+from numba.extending import intrinsic
 
 NUMBERS = types.CPointer(types.float64)
 WHOLE_NUMBERS = types.CPointer(types.int64)
-
-
-class Table(types.Type):
-    """Numba's type of a table of doubles with rows of one width, without gaps."""
-
-    def __init__(self) -> None:
-        super().__init__(name="Table")
-
-
-TABLE = Table()
-
-
-@register_model(Table)
-class _TableModel(models.StructModel):
-    def __init__(self, dmm, fe_type):
-        super().__init__(dmm, fe_type, [("data", NUMBERS), ("width", types.intp)])
 
 
 @intrinsic
@@ -62,56 +45,18 @@ def whole_numbers(typingctx, start):
     return WHOLE_NUMBERS(NUMBERS), generate
 
 
-@intrinsic
-def table(typingctx, start, width):
-    """Table with rows of a width, from `start` on."""
+def as_record(dtype):
+    """Function of compiled code that reads whole numbers of eight bytes as a record with named fields.
 
-    def generate(context, builder, signature, arguments):
-        made = cgutils.create_struct_proxy(TABLE)(context, builder)
-        made.data, made.width = arguments
-        return made._getvalue()
+    Numba takes long to recognise an array of records that is handed over from Python.
+    """
+    record = from_dtype(dtype)
 
-    return TABLE(NUMBERS, types.intp), generate
+    @intrinsic
+    def view(typingctx, start):
+        def generate(context, builder, signature, arguments):
+            return builder.bitcast(arguments[0], context.get_value_type(record))
 
+        return record(WHOLE_NUMBERS), generate
 
-def element(context, builder, value, row, column):
-    """Pointer to an element of a table."""
-    view = cgutils.create_struct_proxy(TABLE)(context, builder, value=value)
-    return builder.gep(view.data, [builder.add(builder.mul(row, view.width), column)])
-
-
-def _at_indices(context, builder, signature, arguments):
-    indices = [
-        context.cast(builder, index, kind, types.intp)
-        for index, kind in zip(
-            cgutils.unpack_tuple(builder, arguments[1]), signature.args[1].types, strict=True
-        )
-    ]
-    return element(context, builder, arguments[0], *indices)
-
-
-@type_callable(operator.getitem)
-def _type_of_reading(context):
-    def result(values, indices):
-        return types.float64 if values == TABLE and isinstance(indices, types.BaseTuple) else None
-
-    return result
-
-
-@lower_builtin(operator.getitem, Table, types.BaseTuple)
-def _read(context, builder, signature, arguments):
-    return builder.load(_at_indices(context, builder, signature, arguments))
-
-
-@type_callable(operator.setitem)
-def _type_of_writing(context):
-    def result(values, indices, value):
-        return types.none if values == TABLE and isinstance(indices, types.BaseTuple) else None
-
-    return result
-
-
-@lower_builtin(operator.setitem, Table, types.BaseTuple, types.Float)
-def _write(context, builder, signature, arguments):
-    builder.store(arguments[2], _at_indices(context, builder, signature, arguments))
-    return context.get_dummy_value()
+    return view

@@ -1,133 +1,92 @@
-"""The search of the first root of a watched function, a slot of `Search` each, by steps that pass none."""
+"""The first root of one function by safe steps: the careful way, where the guess was not proved."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from precursors.solver.kernel.bounds import cubic_bound, downward, safe_step, surely_positive, turning
+from precursors.solver.kernel.arrays import row
+from precursors.solver.kernel.bounds import safe_step
 from precursors.solver.kernel.compiled import inner, seldom
-from precursors.solver.kernel.layout import (
-    AT_ROOT,
-    BEND,
-    FINAL,
-    ORIGIN,
-    SECOND_DERIVATIVE,
-    SPAN,
-    STEPS,
-    TURN,
-    WHOLE,
-    ZERO_BELOW,
-)
+from precursors.solver.kernel.layout import PROOF_ORDER
+
+# A search that takes so many steps starts anew from where it is: near a flat start its steps are tiny.
+RESTART = 12
 
 
 @inner
-def examine(slot, count, search):
-    """Bound the first root of series[slot] (time in spans) from below.
+def zero_below(i, roundings, chain, motion):
+    """Size below which a force on block i, or what it does to its velocity in the window, counts as zero.
 
-    A root at the start was dealt with already: it is divided out. Where the function then falls, the
-    transition is at once.
+    It follows from the forces, and from what the motion of the neighbours adds to them within the window.
     """
-    series, level, terms, stage = search.series, search.level, search.terms, search.stage
-    p = 0
-    while p < count and abs(series[slot, p]) <= level[slot, ZERO_BELOW]:
-        p += 1
-    if p == count:
-        return np.inf
-    if series[slot, p] < 0.0:
-        stage[slot] = FINAL
-        return level[slot, ORIGIN]
-    divide_out(slot, p, count, series)
-    count = max(count - p, 4)
-    c0, c1, c2, c3 = series[slot, 0], series[slot, 1], series[slot, 2], series[slot, 3]
-    rest = 0.0
-    bend = 0.0
-    for n in range(4, count):
-        c = abs(series[slot, n])
-        rest += c
-        bend += SECOND_DERIVATIVE[n] * c
-    if surely_positive(c0, c1, c2, c3, rest):
-        return np.inf
-    terms[slot] = count
-    level[slot, BEND] = downward(c2, c3) + bend
-    level[slot, TURN] = turning(c2, c3) + bend
-    level[slot, STEPS] = 0.0
-    stage[slot] = WHOLE
-    return level[slot, ORIGIN] + cubic_bound(c0, c1, c2, c3, rest) * level[slot, SPAN]
+    coupling, force = chain.coupling, motion.spring_force
+    still = abs(force[i]) + abs(force[i + 1]) + chain.strength[i]
+    moving = coupling[i] * fastest(i - 1, motion) + coupling[i + 1] * fastest(i + 1, motion)
+    return roundings * (2.0 * still + moving + fastest(i, motion))
 
 
 @inner
-def divide_out(slot, p, count, series):
-    """Divide series[slot] by s^p; it keeps at least four terms."""
-    if p > 0:
-        for n in range(count - p):
-            series[slot, n] = series[slot, n + p]
-        for n in range(count - p, 4):
-            series[slot, n] = 0.0
-
-
-@inner
-def refine(slot, t, search):
-    """Step from the bound t towards the root of a watched function; it is FINAL once it is the root."""
-    series, level, terms, stage = search.series, search.level, search.terms, search.stage
-    span = level[slot, SPAN]
-    x = (t - level[slot, ORIGIN]) / span
-    # Even and odd terms apart, for two short chains of operations instead of a long one.
-    y = x * x
-    top = (terms[slot] - 1) // 2
-    even = series[slot, 2 * top]
-    odd = series[slot, 2 * top + 1] if terms[slot] % 2 == 0 else 0.0
-    even_slope = 0.0
-    odd_slope = 0.0
-    for k in range(1, top + 1):
-        n = 2 * (top - k)
-        even_slope = even_slope * y + even
-        odd_slope = odd_slope * y + odd
-        even = even * y + series[slot, n]
-        odd = odd * y + series[slot, n + 1]
-    g = even + x * odd
-    slope = odd + 2.0 * x * (even_slope + x * odd_slope)
-    if slope < 0.0:
-        # Newton's step, where it ends at the root.
-        step = max(-g / slope, -1e-9)
-        close = AT_ROOT * level[slot, ZERO_BELOW]
-        if g <= close or 0.5 * level[slot, TURN] * step * step <= close:
-            stage[slot] = FINAL
-            return level[slot, ORIGIN] + max(x + step, 0.0) * span
-    step = safe_step(max(g, 0.0), slope, level[slot, BEND])
-    if g <= level[slot, ZERO_BELOW] or x + step <= x:
-        stage[slot] = FINAL
-        step = step if slope < 0.0 else 0.0
-    return level[slot, ORIGIN] + max(x + step, 0.0) * span
+def fastest(i, motion):
+    """Size of the first terms of block i's velocity in the window."""
+    total = 0.0
+    if motion.slides[i] > 0.0:
+        for n in range(PROOF_ORDER + 1):
+            total += abs(row(n, motion)[i]) * motion.whole[n]
+    return total
 
 
 @seldom
-def examine_from(slot, t, search):
-    """Examine the rest of the window beyond t, which no root lies before, with the series moved there."""
-    series, level, terms = search.series, search.level, search.terms
-    count = terms[slot]
-    x = (t - level[slot, ORIGIN]) / level[slot, SPAN]
-    for first in range(count - 1):
-        for k in range(count - 1 - first):
-            n = count - 2 - k
-            series[slot, n] += x * series[slot, n + 1]
-    rest = 1.0 - x
+def first_root(count, zero, series, progress):
+    """First root in [0, 1] of a polynomial with so many terms, or infinity; a value up to `zero` is zero.
+
+    A root at the start was dealt with already: it is divided out. Where the function then falls, the root is
+    at once. `series` is used up.
+    """
+    start, span = 0.0, 1.0
+    while True:
+        resolved = 0
+        while resolved < count and abs(series[resolved]) <= zero:
+            resolved += 1
+        if resolved == count:
+            return np.inf
+        count -= resolved
+        if resolved > 0:
+            for n in range(count):
+                series[n] = series[n + resolved]
+        if series[0] < 0.0:
+            return start
+        least, curvature = series[0], 0.0
+        for n in range(1, count):
+            least += min(series[n], 0.0)
+            curvature -= n * (n - 1.0) * min(series[n], 0.0)
+        if least > 0.0:
+            return np.inf
+        x = 0.0
+        for _ in range(RESTART):
+            g = slope = 0.0
+            for n in range(count - 1, -1, -1):
+                slope = slope * x + g
+                g = g * x + series[n]
+            progress.root_steps += 1
+            step = safe_step(max(g, 0.0), slope, curvature)
+            if g <= zero or x + step <= x:
+                return start + (x + (step if slope < 0.0 else 0.0)) * span
+            x += step
+            if not x <= 1.0:
+                return np.inf
+        move_series(x, count, series)
+        start, span = start + x * span, span * (1.0 - x)
+        if series[0] <= zero:
+            return start
+
+
+@seldom
+def move_series(x, count, series):
+    """The polynomial about x, on what is left of [0, 1]."""
+    for lowest in range(count - 1):
+        for n in range(count - 2, lowest - 1, -1):
+            series[n] += x * series[n + 1]
     power = 1.0
     for n in range(count):
-        series[slot, n] *= power
-        power *= rest
-    level[slot, ORIGIN] = t
-    level[slot, SPAN] *= rest
-    if series[slot, 0] <= level[slot, ZERO_BELOW]:
-        level[slot, BEND] *= rest * rest
-        level[slot, TURN] *= rest * rest
-        level[slot, STEPS] = 0.0
-        return t
-    return examine(slot, terms[slot], search)
-
-
-@inner
-def keep(slot, search):
-    """Add a slot to those that may have a root."""
-    active = search.active
-    active[0] += 1
-    active[active[0]] = slot
+        series[n] *= power
+        power *= 1.0 - x

@@ -1,21 +1,17 @@
-"""Forces of the springs (Eqs. 2 and 3) after the slips of a window."""
+"""The state after a part of a window: velocities, and forces of the springs (Eqs. 2 and 3)."""
 
 from __future__ import annotations
 
 from precursors.solver.kernel import lanes
-from precursors.solver.kernel.compiled import inner, seldom
-from precursors.solver.kernel.layout import ORDER
-from precursors.solver.kernel.series import powers
+from precursors.solver.kernel.compiled import inner
+from precursors.solver.kernel.layout import WIDTH
+from precursors.solver.kernel.series import order_at, powers, sum_series
 
 
 @inner
 def begin(end, motion):
-    """Begin a window: no slips yet, and the spring forces of blocks 1..end + 1 as they are."""
-    slip, origins, nothing = motion.slip, motion.origins, lanes.spread(0.0)
-    slip[end + 1] = 0.0
-    for i in range(1, end + 1, 4):
-        lanes.store(slip, i, nothing)
-        lanes.store(origins, i, nothing)
+    """Keep the spring forces that `move` starts from."""
+    for i in range(1, end + 1, WIDTH):
         lanes.store(motion.force_before, i, lanes.load(motion.spring_force, i))
         lanes.store(motion.rest_before, i, lanes.load(motion.force_rest, i))
     motion.force_before[end + 1] = motion.spring_force[end + 1]
@@ -23,24 +19,39 @@ def begin(end, motion):
 
 
 @inner
-def stretch(first, final, chain, motion):
-    """Forces of the springs from behind block first to ahead of `final`, after the slips in the window.
+def move(s, end, chain, motion):
+    """The state of blocks 1..end at time s of the window, from the rows of its start.
 
-    They are carried in two doubles: the rounding of one, window after window, is the largest error of a run.
+    Forces are carried in two doubles: the rounding of one, in each window, would be the largest error of a run.
     """
-    coupling, slip, before, rest_before = chain.coupling, motion.slip, motion.force_before, motion.rest_before
-    left = lanes.spread(slip[first - 1])
-    for i in range(first, final + 1, 4):
-        here = lanes.load(slip, i)
-        longer = lanes.behind(left, here) - here
-        left = here
-        change = lanes.load(coupling, i) * longer + lanes.load(rest_before, i)
-        force, rest = two_sum(lanes.load(before, i), change)
+    coupling, net_force, weight, order = chain.coupling, motion.net_force, motion.weight, order_at(s)
+    powers(s, order, weight)
+    left = lanes.spread(chain.drive_velocity * s)
+    here = here_rest = lanes.spread(0.0)
+    for i in range(1, end + 1, WIDTH):
+        velocity, slip = sum_series(i, order, weight, motion)
+        lanes.store(motion.velocity, i, velocity)
+        lanes.store(motion.slip, i, slip)
+        change = lanes.load(coupling, i) * (lanes.behind(left, slip) - slip) + lanes.load(
+            motion.rest_before, i
+        )
+        force, rest = two_sum(lanes.load(motion.force_before, i), change)
         lanes.store(motion.spring_force, i, force)
         lanes.store(motion.force_rest, i, rest)
-    i = final + 1
-    change = coupling[i] * (slip[i - 1] - slip[i]) + rest_before[i]
-    motion.spring_force[i], motion.force_rest[i] = two_sum(before[i], change)
+        # From values in registers: what was just stored is not loaded across two groups, which would wait.
+        if i > 1:
+            lanes.store(net_force, i - WIDTH, difference(here, here_rest, force, rest))
+        left, here, here_rest = slip, force, rest
+    i = end + 1
+    force, rest = two_sum(motion.force_before[i], coupling[i] * motion.slip[end] + motion.rest_before[i])
+    motion.spring_force[i], motion.force_rest[i] = force, rest
+    lanes.store(net_force, i - WIDTH, difference(here, here_rest, lanes.spread(force), lanes.spread(rest)))
+
+
+@inner
+def difference(here, here_rest, after, after_rest):
+    """Net forces on a group, from the spring forces behind its blocks and those of the group after it."""
+    return (here - lanes.ahead(here, after)) + (here_rest - lanes.ahead(here_rest, after_rest))
 
 
 @inner
@@ -52,18 +63,7 @@ def two_sum(a, b):
 
 
 @inner
-def net_force(i, motion):
-    """Force of the springs on block i."""
+def take_net_force(i, motion):
+    """Net force on block i from those of its springs."""
     force, rest = motion.spring_force, motion.force_rest
-    return (force[i] - force[i + 1]) + (rest[i] - rest[i + 1])
-
-
-@seldom
-def load_at(t, chain, motion):
-    """Tangential load at time t of the window, block 1 keeping its series and origin."""
-    rate, weight, slip = motion.rate, motion.spare, motion.slip
-    powers(t - motion.origins[1], weight)
-    way = slip[1]
-    for n in range(ORDER, -1, -1):
-        way += weight[n + 1] * rate[n, 1]
-    return motion.force_before[1] + chain.coupling[1] * (slip[0] - way)
+    motion.net_force[i] = (force[i] - force[i + 1]) + (rest[i] - rest[i + 1])

@@ -7,10 +7,11 @@ import numpy as np
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.kernel.arrays import Record, System, divide, memory_for
 from precursors.solver.kernel.compiled import inner, outer, unfused
+from precursors.solver.kernel.events import last_column
 from precursors.solver.kernel.friction import farthest_sliding, set_mode, take_mode
-from precursors.solver.kernel.layout import ORDER, WIDTH, WINDOW
-from precursors.solver.kernel.series import expand, settle
-from precursors.solver.kernel.springs import begin, stretch
+from precursors.solver.kernel.layout import WINDOW
+from precursors.solver.kernel.series import expand, order_at, set_rows
+from precursors.solver.kernel.springs import begin, move, take_net_force
 from precursors.solver.kernel.units import parameters, set_up
 from precursors.solver.record import States
 
@@ -29,10 +30,10 @@ def evaluate(
 def go_through(parameters, weights, sorted_times, found, record, states, memory):
     """Fill `found` with spring forces and velocities, from stored states and transitions."""
     n_blocks = weights.shape[0]
-    columns, motion, _ = divide(memory, n_blocks)
+    columns, motion = divide(memory, n_blocks)
     tau, speed, drive_velocity = set_up(parameters, weights, n_blocks, columns)
     chain = System(n_blocks, tau, speed, drive_velocity, columns[0], columns[1], columns[2])
-    motion.rate[0, 0] = drive_velocity
+    motion.rate[0], motion.slides[0] = drive_velocity, 1.0
     target = done = 0
     row = -1
     offset = 0.0
@@ -56,13 +57,13 @@ def go_through(parameters, weights, sorted_times, found, record, states, memory)
             propagate(WINDOW, chain, motion)
             offset += WINDOW * tau
         for i in range(1, n_blocks + 1):
-            motion.velocity[i], motion.kept_force[i] = motion.rate[0, i], motion.spring_force[i]
-            motion.kept_rest[i] = motion.force_rest[i]
+            motion.saved_velocity[i], motion.saved_force[i] = motion.velocity[i], motion.spring_force[i]
+            motion.saved_rest[i] = motion.force_rest[i]
         propagate(max(since - offset, 0.0) / tau, chain, motion)
         for i in range(1, n_blocks + 1):
-            found[0, q, i - 1], found[1, q, i - 1] = motion.spring_force[i], motion.rate[0, i] * speed
-            motion.rate[0, i], motion.spring_force[i] = motion.velocity[i], motion.kept_force[i]
-            motion.force_rest[i] = motion.kept_rest[i]
+            found[0, q, i - 1], found[1, q, i - 1] = motion.spring_force[i], motion.velocity[i] * speed
+            motion.velocity[i], motion.spring_force[i] = motion.saved_velocity[i], motion.saved_force[i]
+            motion.force_rest[i] = motion.saved_rest[i]
 
 
 @inner
@@ -80,7 +81,7 @@ def nearest_state(row, target, since, states):
 def take_state(row, states, chain, motion):
     """Take a stored state."""
     for i in range(1, chain.n_blocks + 1):
-        motion.rate[0, i] = states.velocity[row, i - 1] / chain.speed
+        motion.velocity[i] = states.velocity[row, i - 1] / chain.speed
         motion.spring_force[i], motion.force_rest[i] = states.force[row, i - 1], 0.0
         motion.mode[i] = states.mode[row, i - 1]
         take_mode(i, chain, motion)
@@ -89,20 +90,18 @@ def take_state(row, states, chain, motion):
 @unfused
 def propagate(span, chain, motion):
     """Carry a state forward by `span` without a transition."""
-    force, slip, n_blocks = motion.spring_force, motion.slip, chain.n_blocks
+    force, n_blocks = motion.spring_force, chain.n_blocks
     farthest = farthest_sliding(n_blocks, motion.mode)
     if motion.mode[farthest] == 0:
         force[1] += chain.coupling[1] * chain.drive_velocity * span
         return
-    last = min(farthest + 1, n_blocks)
-    first, end = 1, WIDTH * ((last + WIDTH - 1) // WIDTH)
+    end = last_column(chain, farthest)
+    for i in range(1, end + 1):
+        take_net_force(i, motion)
     while span > 0.0:
         s = min(span, WINDOW)
         begin(end, motion)
-        slip[0] = chain.drive_velocity * s
-        for n in range(ORDER + 1):
-            motion.rate[n, end + 1] = 0.0
-        expand(first, end, chain, motion)
-        settle(s, first, end, motion)
-        stretch(first, end, chain, motion)
+        set_rows(end, motion)
+        expand(2, order_at(s), end, chain, motion)
+        move(s, end, chain, motion)
         span -= s

@@ -7,9 +7,8 @@ import math
 import numpy as np
 
 from precursors.model.chain import Chain
-from precursors.solver.kernel.arrays import System
+from precursors.solver.kernel.arrays import System, n_columns
 from precursors.solver.kernel.compiled import unfused
-from precursors.solver.kernel.layout import BEYOND, REACH
 
 
 def parameters(chain: Chain) -> tuple[float, ...]:
@@ -26,7 +25,7 @@ def parameters(chain: Chain) -> tuple[float, ...]:
 
 def scale(chain: Chain) -> System:
     """Express a chain in the kernel's units."""
-    columns = np.zeros((3, chain.n_blocks + 1 + BEYOND))
+    columns = np.zeros((3, n_columns(chain.n_blocks)))
     tau, speed, drive_velocity = set_up.py_func(parameters(chain), chain.weights, chain.n_blocks, columns)
     return System(chain.n_blocks, tau, speed, drive_velocity, *columns)
 
@@ -35,8 +34,8 @@ def scale(chain: Chain) -> System:
 def set_up(parameters, weights, n_blocks, columns):
     """Fill a chain's columns in the kernel's units; return tau [s], N/tau in m/s, and the drive's velocity.
 
-    Gershgorin's bound: a row of a Taylor series is at most 2 (c_i + c_{i+1}) <= REACH^2 times the row two
-    before it.
+    1/tau is Gershgorin's bound of the largest frequency: a row of a Taylor series is at most as large as the
+    row two before it.
     """
     coupling, strength, friction = columns
     mass, stiffness, drive_stiffness, drive_velocity, mu_s, mu_k = parameters
@@ -45,7 +44,7 @@ def set_up(parameters, weights, n_blocks, columns):
         behind = stiffness if i > 0 else drive_stiffness
         ahead = stiffness if i < n_blocks - 1 else 0.0
         stiffest = max(stiffest, behind + ahead + (behind if i > 0 else 0.0) + ahead)
-    tau = REACH * math.sqrt(mass / stiffest)
+    tau = math.sqrt(mass / stiffest)
     for i in range(n_blocks):
         spring = stiffness if i > 0 else drive_stiffness
         coupling[i + 1] = spring * (tau * tau / mass)
