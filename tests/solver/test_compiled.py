@@ -87,7 +87,7 @@ def test_an_edit_a_new_module_and_a_new_name_change_the_checksum(tmp_path):
         with module.open("a") as file:
             file.write("# edited\n")
         sums.append(checksum(copy))
-    (copy / "watch.py").rename(copy / "watched.py")
+    (copy / "guess.py").rename(copy / "guessed.py")
     sums.append(checksum(copy))
     (copy / "new.py").write_text("")
     sums.append(checksum(copy))

@@ -58,7 +58,7 @@ def enclose(a0, a1, a2, a3, a4, a5, at_end, rest):
 
 @inner
 def safe_step(g, slope, curvature):
-    """Positive root of g + slope s - curvature s^2/2 for g >= 0: where -g'' <= curvature, no root is before."""
+    """Positive root of g + slope s - curvature s^2/2 (g >= 0): if -g'' <= curvature, no root is before."""
     root = math.sqrt(slope * slope + 2.0 * curvature * g)
     if slope < 0.0:
         return 2.0 * g / (root - slope)

@@ -35,9 +35,10 @@ from precursors.solver.record import States
 def run_batch(batch, limits, progress, record, states, memory):
     """Run chain after chain from its start, as many as there is room for, into one record.
 
-    Row j of `batch` is a chain with its start, row j of `progress` has the bytes of where it ended. Limits are
-    those of each chain. Returns how many chains are finished and whether the one after them is paused: its state is in
-    `memory`, and what it recorded follows that of the others. It can go on where it is all there is.
+    Row j of `batch` is a chain with its start, row j of `progress` has the bytes of where it ended. Limits
+    are those of each chain. Returns how many chains are finished and whether the one after them is paused:
+    its state is in `memory`, and what it recorded follows that of the others. It can go on where it is all
+    there is.
     """
     n_blocks = batch.weights.shape[1]
     columns, motion = divide(memory, n_blocks)

@@ -34,7 +34,7 @@ def watched(n, i, slides, motion):
 
 @inner
 def guess(end, motion):
-    """The block whose function seems to vanish first: (share of the window, block); (infinity, 0) if none does.
+    """The block whose function seems to vanish first: (share of the window, block); (infinity, 0) if none.
 
     Each function that is negative at the end of the window has a root about where the parabola has one that
     shares its value and slope at the start, and its value at the end.

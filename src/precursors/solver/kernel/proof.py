@@ -57,7 +57,7 @@ def prove(end, candidate, motion):
 
 @inner
 def largest_rows(end, motion):
-    """Largest of rows 7 and 8: no later row of a velocity is larger, nor one of a net force from the tenth on."""
+    """Largest of rows 7 and 8: no later row of a velocity is larger, nor the tenth of a net force."""
     largest = lanes.spread(0.0)
     for i in range(1, end + 1, WIDTH):
         largest = lanes.larger(largest, lanes.magnitude(lanes.load(row(7, motion), i)))

@@ -16,7 +16,8 @@ def expand(start, order, end, chain, motion):
     Where a block slides, row n is the n-th derivative of its velocity v_i: row 1 is the net force F_i less
     friction, and row n + 2 is c_i (v_{i-1} - v_i) - c_{i+1} (v_i - v_{i+1}) of row n (Eqs. 2 and 4). Where it
     sticks, its velocity is zero and the same rows are those of its net force: row n + 1 is the n-th
-    derivative of F_i. Up to three groups of blocks stay in registers from row to row, even and odd rows side by side.
+    derivative of F_i. Up to three groups of blocks stay in registers from row to row, even and odd rows side
+    by side.
     """
     coupling = chain.coupling
     still, drive = lanes.spread(0.0), lanes.spread(row(start - 2, motion)[0])
@@ -77,7 +78,7 @@ def set_rows(end, motion):
 
 @inner
 def ready(start, i, coupling, motion):
-    """Stiffness behind and ahead of a group and its sum, which blocks move, and the two rows before `start`."""
+    """Stiffness behind and ahead of a group and its sum, which blocks move, two rows before `start`."""
     behind, ahead, moves = lanes.load(coupling, i), lanes.load(coupling, i + 1), lanes.load(motion.slides, i)
     even, odd = lanes.load(row(start - 2, motion), i), lanes.load(row(start - 1, motion), i)
     return behind, ahead, behind + ahead, moves, lanes.only(moves, even), lanes.only(moves, odd)
@@ -109,7 +110,7 @@ def powers(s, order, weight):
 
 @inner
 def sum_series(i, order, weight, motion):
-    """Velocities and slips of a group at the time of `weight`; the smallest terms, of high order, come first."""
+    """Velocities and slips of a group at the time of `weight`; the smallest terms come first."""
     ahead = weight[order + 1]
     v = v_odd = x = x_odd = lanes.spread(0.0)
     for n in range(order, 0, -2):

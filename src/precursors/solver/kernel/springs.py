@@ -22,7 +22,7 @@ def begin(end, motion):
 def move(s, end, chain, motion):
     """The state of blocks 1..end at time s of the window, from the rows of its start.
 
-    Forces are carried in two doubles: the rounding of one, in each window, would be the largest error of a run.
+    Forces are carried in two doubles: the rounding of one would be the largest error of a run.
     """
     coupling, net_force, weight, order = chain.coupling, motion.net_force, motion.weight, order_at(s)
     powers(s, order, weight)
