@@ -5,6 +5,8 @@ EVENTS_COUNTED = {-1: 6, 0: 9, 1: 14}
 EVENTS_OF_EXPERIMENT = {-1: 11, 0: 19, 1: 27}
 # Of all simulations and experiments.
 MU_SAPP = 0.49
+# Uniform loading (Sect. 3.2.1): F_X at the first global slip, and how long a global slip lasts.
+FIRST_GLOBAL_SLIP_N, SLIP_DURATION_S = 200.0, 0.002
 # Fig. 7: F_ZA and F_ZB, and how far the load cells are apart.
 CELL_LOADS_N = (100.0, 300.0)
 CELL_SPACING_M = 0.06

@@ -1,208 +1,142 @@
-"""What a claim is: a statement of the paper, and the function that compares it with the tables."""
+"""What a claim is: a statement of the paper, and the function that finds whether the model agrees."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import ArrayLike
 
-from precursors.model.chain import FloatArray
-from precursors.reproduction.tables import Tables, one
+from precursors.analysis.run_statistics import share_interval
+from precursors.reproduction.tables import Tables
 
-REPRODUCED, FRAGILE, NOT_REPRODUCED = "reproduced", "reproduced but fragile", "not reproduced"
-AS_DESCRIBED = "as described"
-FOLLOWS = "follows from the equations"
-MISPRINT, MATTERS, NO_MATTER = "misprint", "changes a number", "changes no number"
-NOT_COMPUTED = "not computed here"
-VERDICTS = (
-    REPRODUCED,
-    FRAGILE,
-    NOT_REPRODUCED,
-    AS_DESCRIBED,
-    FOLLOWS,
-    MISPRINT,
-    MATTERS,
-    NO_MATTER,
-    NOT_COMPUTED,
-)
+HOLDS, EXACT = "holds", "holds for exactly these inputs"
+DOES_NOT_HOLD, UNDECIDED = "does not hold", "cannot be decided"
+VERDICTS = (HOLDS, EXACT, DOES_NOT_HOLD, UNDECIDED)
+# The six printed numbers by which the readings of the paper's words were chosen, and all that was found after.
+CHOSE, RESULT = "chose the readings", "result"
+KINDS = (CHOSE, RESULT)
+# A claim that holds in the run must hold in this share of an ensemble, too.
+ENOUGH = 0.95
+# Ensembles around the run, whose draw 0 is the run itself: 0.1 % noise in the normal loads, and sliders whose
+# inputs are printed alike.
+ENSEMBLES = {"noise": "noise_members", "digits": "digits_members"}
 
 
 @dataclass(frozen=True)
-class Kind:
-    """A kind of claim: what it means, and the verdict where the comparison holds and where it does not."""
+class Share:
+    """In how many of n draws of an ensemble a claim holds."""
 
-    meaning: str
-    holds: str = REPRODUCED
-    fails: str = NOT_REPRODUCED
+    k: int
+    n: int
 
-
-KINDS = {
-    "input": Kind("the chain computed here is the one described", holds=AS_DESCRIBED),
-    "result": Kind("what the model gives, and could have given otherwise"),
-    FOLLOWS: Kind("true by algebra for any such chain; no run could contradict it", holds=FOLLOWS),
-    "reading": Kind("how a number is printed, or what another reading gives"),
-    "experiment": Kind("what is said of the experiment, or of model and experiment together"),
-    "misprint": Kind("other words must stand there", holds=NO_MATTER, fails=MISPRINT),
-    "open point": Kind("the paper does not say what is meant", holds=NO_MATTER, fails=MATTERS),
-}
+    @property
+    def interval(self) -> tuple[float, float]:
+        """95 % interval of the share."""
+        return share_interval(self.k, self.n)
 
 
 @dataclass(frozen=True)
 class Finding:
-    """Our values, whether they agree (None: nothing to compare), by which rule, and the paper's values."""
+    """Our numbers; whether the claim holds for them (None: an interval crosses the tolerance).
 
-    ours: FloatArray
+    `expected` is what ours are compared with, and `shares` has the share of each ensemble whose draws have
+    these numbers.
+    """
+
+    ours: ArrayLike
     holds: bool | None
-    rule: str
-    paper: FloatArray
+    expected: ArrayLike = ()
+    shares: tuple[tuple[str, Share], ...] = ()
+
+    @property
+    def verdict(self) -> str:
+        """The run decides whether a claim holds, the ensembles whether it does so for these inputs only."""
+        if self.holds is None:
+            return UNDECIDED
+        if not self.holds:
+            return DOES_NOT_HOLD
+        intervals = [share.interval for _, share in self.shares]
+        if any(high < ENOUGH for _, high in intervals):
+            return EXACT
+        return UNDECIDED if any(low < ENOUGH for low, _ in intervals) else HOLDS
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper.
+    """A statement of the paper, in our words, that a run could contradict.
 
     Attributes
     ----------
-    id, where, statement : str
-        Name; place in the paper; the statement in our words.
-    kind : str
-        A key of KINDS.
-    unit : str
-        Unit of the values.
+    name, section, statement : str
+        A name; where the paper says so; what it says.
+    rule : str
+        When the statement holds.
     find : callable
-        Compares the statement with the tables.
-    fragile : tuple of (scene, quantity)
-        Rows of digits.csv: where one of them is of class fragile, so is the claim.
+        Compares it with the tables of results/tables.
+    unit : str
+        Unit of the numbers.
+    kind : str
+        CHOSE or RESULT.
     """
 
-    id: str
-    where: str
+    name: str
+    section: str
     statement: str
-    kind: str
-    unit: str
+    rule: str
     find: Callable[[Tables], Finding]
-    fragile: tuple[tuple[str, str], ...]
+    unit: str = "1"
+    kind: str = RESULT
 
-    def verdict(self, finding: Finding, tables: Tables) -> str:
-        """What the finding makes of the claim."""
-        if finding.holds is None:
-            return NOT_COMPUTED
-        kind = KINDS[self.kind]
-        if not finding.holds:
-            return kind.fails
-        classes = [
-            one(tables["digits"], "class", scene=s, quantity=q, question="as in the run")
-            for s, q in self.fragile
-        ]
-        return FRAGILE if "fragile" in classes else kind.holds
+    def row(self, tables: Tables) -> dict[str, Any]:
+        """The claim's row of claims.csv; a run without an event that a claim is about contradicts it.
 
-
-def claim(
-    where: str, kind: str = "result", unit: str = "1", fragile: Iterable[tuple[str, str]] = ()
-) -> Callable[[Callable[[Tables], Finding]], Claim]:
-    """Make a claim of a function: its name is the claim's, its docstring the statement."""
-
-    def make(find: Callable[[Tables], Finding]) -> Claim:
-        return Claim(
-            id=find.__name__.replace("_", "-"),
-            where=where,
-            statement=" ".join((find.__doc__ or "").split()),
-            kind=kind,
-            unit=unit,
-            find=find,
-            fragile=tuple(fragile),
-        )
-
-    return make
+        Raises
+        ------
+        ValueError
+            In one line: the tables do not have the claim's numbers.
+        """
+        try:
+            finding = self.find(tables)
+        except IndexError:
+            finding = Finding((), False)
+        except (KeyError, TypeError, ValueError) as error:
+            raise ValueError(f"claim {self.name}: the tables do not have its numbers: {error}") from error
+        row: dict[str, Any] = {"claim": self.name, "section": self.section, "kind": self.kind}
+        row |= {"statement": self.statement, "rule": self.rule, "unit": self.unit}
+        row |= {"expected": shown(finding.expected), "ours": shown(finding.ours)}
+        for name in ENSEMBLES:
+            share = dict(finding.shares).get(name)
+            low, high = share.interval if share else (None, None)
+            row |= {f"{name}_share": share.k / share.n if share else None}
+            row |= {f"{name}_low": low, f"{name}_high": high}
+        return row | {"verdict": finding.verdict}
 
 
-# Rules: each compares our values, one or several, with one value or as many. NaN never agrees.
-
-
-def equal(
-    ours: ArrayLike, paper: ArrayLike = (), to: ArrayLike = (), within: float = 0.0, relative: float = 0.0
+def in_draws(
+    tables: Tables,
+    ours: Callable[[pd.DataFrame], pd.DataFrame],
+    holds: Callable[[pd.DataFrame], pd.Series],
+    expected: ArrayLike = (),
 ) -> Finding:
-    """Ours equal what the paper prints, or other values of ours (`to`)."""
-    x, expected = _values(ours), _values(paper if np.size(paper) else to)
-    rule = " ".join(["equal", shown(to)]).strip()
-    rule += f", within {within:g}" if within else ""
-    rule += f", within {relative:g} of it" if relative else ""
-    return _finding(x, np.abs(x - expected) <= within + relative * np.abs(expected), rule, paper)
+    """A claim on numbers of the members: found in the run, and counted over the draws of both ensembles.
+
+    `ours` takes runs, one row per draw and (quantity, scene) as columns, to the numbers of the claim, one row
+    per draw; `holds` takes these to whether the claim holds in each. NaN, no global slip, never holds.
+    """
+    shares = []
+    for name, members in ENSEMBLES.items():
+        numbers = ours(tables[members].pivot(index="draw", columns="scene"))
+        agree = holds(numbers) & numbers.notna().all(axis=1)
+        drawn = agree[agree.index > 0]
+        shares.append((name, Share(int(drawn.sum()), len(drawn))))
+    return Finding(numbers.loc[0], bool(agree.loc[0]), expected, tuple(shares))
 
 
-def rounds_to(ours: ArrayLike, paper: ArrayLike, digits: int) -> Finding:
-    """Ours round to what the paper prints with so many digits after the point."""
-    x, printed, half = _values(ours), _values(paper), 0.5 * 10.0**-digits
-    agree = (x >= printed - half) & (x < printed + half)
-    return _finding(x, agree, f"rounds to {digits} digits", paper)
-
-
-def above(ours: ArrayLike, limit: ArrayLike) -> Finding:
-    """Ours are larger than the limit."""
-    return _finding(ours, np.greater(ours, limit), f"above {shown(limit)}")
-
-
-def at_least(ours: ArrayLike, limit: ArrayLike) -> Finding:
-    """Ours are not smaller than the limit."""
-    return _finding(ours, np.greater_equal(ours, limit), f"at least {shown(limit)}")
-
-
-def below(ours: ArrayLike, limit: ArrayLike) -> Finding:
-    """Ours are smaller than the limit."""
-    return _finding(ours, np.less(ours, limit), f"below {shown(limit)}")
-
-
-def at_most(ours: ArrayLike, limit: ArrayLike) -> Finding:
-    """Ours are not larger than the limit."""
-    return _finding(ours, np.less_equal(ours, limit), f"at most {shown(limit)}")
-
-
-def increasing(ours: ArrayLike) -> Finding:
-    """Each of ours is larger than the one before it."""
-    return _finding(ours, np.diff(_values(ours)) > 0, "increasing")
-
-
-def decreasing(ours: ArrayLike) -> Finding:
-    """Each of ours is smaller than the one before it."""
-    return _finding(ours, np.diff(_values(ours)) < 0, "decreasing")
-
-
-def same(ours: ArrayLike, within: float) -> Finding:
-    """Ours differ by no more than this."""
-    return _finding(ours, np.ptp(_values(ours)) <= within, f"same, within {within:g}")
-
-
-def instead_of(printed: ArrayLike, ours: ArrayLike) -> Finding:
-    """What is meant or taken is what the paper's words give; with no number there, nothing can differ."""
-    if not np.size(printed):
-        return Finding(_values(ours), True, "no number is printed", _values(printed))
-    return _finding(ours, np.isclose(ours, printed, rtol=1e-9), "as printed", printed)
-
-
-def not_computed(paper: ArrayLike = ()) -> Finding:
-    """The model does not have the quantity."""
-    return Finding(_values(()), None, "none", _values(paper))
-
-
-NO_EVENT = Finding(np.array([]), False, "no such event", np.array([]))
-
-
-def shown(values: ArrayLike, most: int = 6) -> str:
-    """Write values with four digits: equal ones once, and more than `most` by their number and range."""
-    found = _values(values)
-    texts = ["none" if np.isnan(value) else f"{value:.4g}" for value in found]
-    if len(set(texts)) <= 1:
-        return f"{len(found)} values of {texts[0]}" if len(found) > most else "".join(texts[:1])
-    if len(found) > most:
-        return f"{len(found)} values from {found.min():.4g} to {found.max():.4g}"
-    return "; ".join(texts)
-
-
-def _finding(ours: ArrayLike, agree: ArrayLike, rule: str, paper: ArrayLike = ()) -> Finding:
-    return Finding(_values(ours), bool(np.size(agree) and np.all(agree)), rule, _values(paper))
-
-
-def _values(values: ArrayLike) -> FloatArray:
-    return np.atleast_1d(np.asarray(values, dtype=np.float64))
+def shown(values: ArrayLike) -> str:
+    """Numbers with four digits, equal ones once."""
+    texts = [f"{value:.4g}" for value in np.ravel(values)]
+    return "; ".join(texts if len(set(texts)) > 1 else texts[:1])
