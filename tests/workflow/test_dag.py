@@ -122,7 +122,7 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(fi
         ("figures/scene", {f"draw_scene {scene}" for scene in (*PAPERS, "steep")}),
         ("figures/theta_window", {"draw_theta_window"}),
         ("figures/definitions", {"draw_definitions"}),
-        ("reproduction/claims_results", {"evaluate_claims"}),
+        ("reproduction/claims", {"evaluate_claims"}),
     ],
 )
 def test_an_edit_of_a_figure_or_a_claim_makes_it_again_and_computes_nothing(finished, module, jobs):

@@ -11,7 +11,7 @@ from textwrap import fill
 
 import pandas as pd
 
-from precursors.reproduction.claim import KINDS, VERDICTS
+from precursors.reproduction.claim import ENSEMBLES, KINDS, VERDICTS
 from precursors.reproduction.claims import differences, evaluate
 from precursors.reproduction.tables import Tables
 from precursors.support.files import read_table
@@ -23,27 +23,33 @@ def main(tables: str | Path = "results/tables", expected: str | Path = "tests/go
     """Print the claims by the tables of a directory, and exit with 1 if a verdict is unexpected."""
     found = evaluate(Tables(tables))
     print("\n".join([*entries(found), *totals(found)]))
-    unexpected = differences(found, read_table(expected, dtype=str, keep_default_na=False))
+    unexpected = differences(found, read_table(expected))
     if unexpected:
         sys.exit("\n".join(f"check: {line}" for line in unexpected))
 
 
 def entries(claims: pd.DataFrame) -> Iterator[str]:
-    """Each claim: its verdict, where it stands, what it says, and both numbers."""
+    """Each claim: its verdict, section and statement, its numbers, and its shares of the ensembles."""
     for number, claim in enumerate(claims.to_dict("records"), start=1):
         unit = "" if claim["unit"] == "1" else f" {claim['unit']}"
-        paper, ours = (f"{claim[key]}{unit}" if claim[key] else "-" for key in ("paper", "ours"))
-        yield f"{number:2d}  {claim['verdict'].upper()}  [{claim['id']}]  {claim['where']}"
-        for line in (claim["statement"], f"paper: {paper}   ours: {ours}   ({claim['rule']})"):
+        compared = f" ({claim['expected']}{unit})" if claim["expected"] else ""
+        shares = [
+            f"{100 * claim[f'{name}_share']:.0f} % of the draws of {name}"
+            for name in ENSEMBLES
+            if pd.notna(claim[f"{name}_share"])
+        ]
+        yield f"{number:2d}  {claim['verdict'].upper()}  [{claim['claim']}]  {claim['section']}"
+        evidence = "; ".join([f"{claim['ours']}{unit}{compared}: {claim['rule']}", *shares])
+        for line in (claim["statement"], evidence):
             yield fill(line, WIDTH, initial_indent=" " * 4, subsequent_indent=" " * 4)
 
 
 def totals(claims: pd.DataFrame) -> Iterator[str]:
     """How many claims of each kind have which verdict."""
-    for name, kind in KINDS.items():
-        verdicts = Counter(claims["verdict"][claims["kind"] == name])
+    for kind in KINDS:
+        verdicts = Counter(claims["verdict"][claims["kind"] == kind])
         counts = ", ".join(f"{verdicts[verdict]} {verdict}" for verdict in VERDICTS if verdicts[verdict])
-        yield fill(f"{verdicts.total()} of kind {name} ({kind.meaning}): {counts}", WIDTH)
+        yield f"{verdicts.total()} of kind {kind!r}: {counts}"
 
 
 if __name__ == "__main__":

@@ -16,13 +16,13 @@ from precursors.reproduction.tables import Tables
 HOLDS, EXACT = "holds", "holds for exactly these inputs"
 DOES_NOT_HOLD, UNDECIDED = "does not hold", "cannot be decided"
 VERDICTS = (HOLDS, EXACT, DOES_NOT_HOLD, UNDECIDED)
-# The six printed numbers by which the readings of the paper's words were chosen, and all that was found after.
+# The six printed numbers by which the readings of the paper's words were chosen, and what was found after.
 CHOSE, RESULT = "chose the readings", "result"
 KINDS = (CHOSE, RESULT)
 # A claim that holds in the run must hold in this share of an ensemble, too.
 ENOUGH = 0.95
-# Ensembles around the run, whose draw 0 is the run itself: 0.1 % noise in the normal loads, and sliders whose
-# inputs are printed alike.
+# Ensembles around the run: noise of 0.1 % in the normal loads, and sliders whose inputs are printed alike.
+# Draw 0 is the run itself.
 ENSEMBLES = {"noise": "noise_members", "digits": "digits_members"}
 
 
@@ -101,7 +101,7 @@ class Claim:
         """
         try:
             finding = self.find(tables)
-        except IndexError:
+        except (IndexError, ZeroDivisionError):
             finding = Finding((), False)
         except (KeyError, TypeError, ValueError) as error:
             raise ValueError(f"claim {self.name}: the tables do not have its numbers: {error}") from error
@@ -118,8 +118,8 @@ class Claim:
 
 def in_draws(
     tables: Tables,
-    ours: Callable[[pd.DataFrame], pd.DataFrame],
-    holds: Callable[[pd.DataFrame], pd.Series],
+    ours: Callable[[pd.DataFrame], Any],
+    holds: Callable[[pd.DataFrame], Any],
     expected: ArrayLike = (),
 ) -> Finding:
     """A claim on numbers of the members: found in the run, and counted over the draws of both ensembles.
@@ -129,7 +129,8 @@ def in_draws(
     """
     shares = []
     for name, members in ENSEMBLES.items():
-        numbers = ours(tables[members].pivot(index="draw", columns="scene"))
+        runs = tables[members].pivot_table(index="draw", columns="scene", dropna=False)
+        numbers = ours(runs)
         agree = holds(numbers) & numbers.notna().all(axis=1)
         drawn = agree[agree.index > 0]
         shares.append((name, Share(int(drawn.sum()), len(drawn))))

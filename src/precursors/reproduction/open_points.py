@@ -13,7 +13,7 @@ from precursors.model import printed
 from precursors.model.chain import linear_weights, theta_from_load_cells
 from precursors.reproduction import eq15
 from precursors.reproduction.claim import shown
-from precursors.reproduction.tables import SCENES, TRAILING, UNIFORM, Tables, before_global, one, rows
+from precursors.reproduction.tables import SCENES, UNIFORM, Tables, before_global, one, rows
 
 MISPRINT, OPEN = "misprint", "open point"
 TABLES = (*(f"{scene}_slips" for scene in SCENES), "eq15", "measures", "mu_sapp")
@@ -145,7 +145,7 @@ POINTS = (
     Point(
         "Eq. 7 and Sect. 5.2",
         OPEN,
-        "1 -+ theta at the outer blocks, and theta of the line through the cells (ratio of loads at the cells)",
+        "1 -+ theta at the outer blocks; theta of the line through the cells (ratio of loads at the cells)",
         "the loads of the cells",
         ratio_at_cells,
     ),
