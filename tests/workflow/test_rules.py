@@ -19,7 +19,6 @@ QUEUED = {
     "run_chunk",
     "simulate_scene",
     "tabulate_failures",
-    "tabulate_long_runs",
     "tabulate_lyapunov",
     "tabulate_predictability",
     "tabulate_step_sweep",
@@ -74,7 +73,7 @@ def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(un
             "h5py pandas matplotlib",
         ),
         (
-            "from precursors.ensembles import catalogue; from precursors.reproduction import claims, numbers",
+            "from precursors.ensembles import catalogue; from precursors.reproduction import claims, open_points",
             "h5py matplotlib numba scipy.optimize scipy.stats sympy",
         ),
     ],

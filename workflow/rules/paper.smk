@@ -9,7 +9,11 @@ from precursors.reproduction.tables import SCENES as PAPERS_SCENES
 
 PAPER_SOURCE = ROOT / "paper"
 FIG13 = config["fig13"]
-CLAIMS = ["results/tables/claims.csv", "results/tables/open_points.csv"] if set(PAPERS_SCENES) <= set(FIG13) else []
+CLAIMS = (
+    ["results/tables/claims.csv", "results/tables/open_points.csv"]
+    if set(PAPERS_SCENES) <= set(FIG13)
+    else []
+)
 # The article is about the paper's slider, and is not made for another.
 PAPERS_SLIDERS = {
     scene: SLIDER | {"theta": theta} for scene, theta in zip(PAPERS_SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
