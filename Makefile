@@ -10,7 +10,7 @@ ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
 
-.PHONY: all test mutants test-cluster results check report golden docs bench lock lint wheelhouse clean
+.PHONY: all test mutants test-cluster results check report golden docs bench speed codecheck lock lint wheelhouse clean
 
 all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures results/provenance.json
@@ -43,6 +43,11 @@ check: $(READY)
 report: results
 	$(BIN)/snakemake --report results/report.html --report-stylesheet workflow/report/report.css -- all
 
+# What codecheck.yml lists, made again from nothing and compared with tests/golden.
+codecheck: $(READY)
+	$(BIN)/snakemake --quiet rules host -c$(CORES) --forceall $$($(BIN)/python workflow/scripts/codecheck.py --list)
+	@$(BIN)/python workflow/scripts/codecheck.py
+
 golden: results
 	PYTHONPATH=tests $(BIN)/python -m golden.regenerate
 
@@ -54,6 +59,10 @@ docs: $(READY)
 
 bench: $(READY)
 	$(BIN)/python benchmarks/bench.py $(if $(METHOD),--method $(METHOD))
+
+# The published medians and ranges, in some twenty minutes with nothing else running.
+speed: $(READY)
+	$(BIN)/python benchmarks/bench.py --sessions 9 --output paper/tables/speed.csv
 
 lint: $(READY)
 	$(BIN)/ruff check . && $(BIN)/ruff format --check . && $(BIN)/snakefmt --check Snakefile workflow && $(BIN)/mypy && $(BIN)/lint-imports

@@ -2,6 +2,7 @@
 
     make bench                                            everything, in a minute or two
                                                           (paper/tables/beside_heyoka.csv: its last rows)
+    make speed                                            the published medians of nine times all
     make bench METHOD=name                                one method, in seconds
     .venv/bin/python benchmarks/bench.py --quick          a reduced size, to see that it runs
 
@@ -70,6 +71,7 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="a reduced size, to see that it runs")
     parser.add_argument("--output", type=Path, default=TABLE, help="the CSV file (%(default)s)")
     parser.add_argument("--method", choices=METHODS, metavar="NAME", help="measure only this method")
+    parser.add_argument("--sessions", type=int, default=1, help="how often; medians and ranges are written")
     arguments = parser.parse_args()
     if arguments.method:
         table = one_method(arguments.method, rounds=1 if arguments.quick else ROUNDS)
@@ -77,23 +79,25 @@ def main() -> None:
         return
     measure = partial(timing.measure, rounds=2, shortest=0.0) if arguments.quick else timing.measure
     rows: list[Row] = []
-    benchmarks = (
-        against_heyoka(measure),
-        against_dop853(measure),
-        ensemble(measure, arguments.quick),
-        heyoka_ensemble(measure, arguments.quick),
-        in_callbacks(),
-        long_chains(measure),
-    )
-    for benchmark in benchmarks:
-        for row in benchmark:
-            print(
-                f"{row['benchmark']:9} {row['case']:38} {row['quantity']:46} "
-                f"{row['value']:10.4g} {row['unit']}",
-                flush=True,
-            )
-            rows.append(row)
-    write_table(pd.DataFrame(rows), arguments.output)
+    for _ in range(arguments.sessions):
+        for benchmark in (
+            against_heyoka(measure),
+            against_dop853(measure),
+            ensemble(measure, arguments.quick),
+            heyoka_ensemble(measure, arguments.quick),
+            in_callbacks(),
+            long_chains(measure),
+        ):
+            for row in benchmark:
+                print(
+                    f"{row['benchmark']:9} {row['case']:38} {row['quantity']:46} "
+                    f"{row['value']:10.4g} {row['unit']}",
+                    flush=True,
+                )
+                rows.append(row)
+    sessions = pd.DataFrame(rows).groupby(["benchmark", "case", "quantity", "unit"], sort=False)["value"]
+    medians = sessions.agg(value="median", least="min", largest="max", sessions="count").reset_index()
+    write_table(medians, arguments.output)
 
 
 def one_method(name: str, rounds: int) -> pd.DataFrame:

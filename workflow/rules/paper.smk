@@ -19,13 +19,13 @@ PAPERS_SLIDERS = {
     scene: SLIDER | {"theta": theta} for scene, theta in zip(PAPERS_SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
 }
 IS_PAPERS = PAPERS_SLIDERS == {scene: {"weights": None} | SLIDERS.get(scene, {}) for scene in PAPERS_SCENES}
-PAPER = ["results/paper.pdf"] if IS_PAPERS else []
+PAPER = ["results/paper.pdf", "results/supplement.pdf"] if IS_PAPERS else []
 
 
 onstart:
     if not IS_PAPERS:
         print(
-            "paper.pdf is not made: it is about the paper's slider, and config.yaml has another",
+            "paper.pdf is not made: it is about the paper's slider, and this is another one",
             file=sys.stderr,
         )
 

@@ -1,0 +1,51 @@
+"""Compare the files of codecheck.yml with those kept in tests/golden."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import yaml
+from matplotlib import image
+
+GOLDEN = Path("tests/golden")
+# Numbers differ between machines by roundings; pixels (0 to 1) by the release of Matplotlib.
+RELATIVE, ABSOLUTE, PIXELS = 1e-6, 1e-9, 0.02
+
+
+def manifest() -> list[str]:
+    """The files of codecheck.yml."""
+    return [entry["file"] for entry in yaml.safe_load(Path("codecheck.yml").read_text("utf-8"))["manifest"]]
+
+
+def difference(made: Path, kept: Path) -> str:
+    """Say where a table or figure differs from the one that is kept; empty if it does not."""
+    if made.suffix == ".png":
+        new, old = (image.imread(path)[..., :3] for path in (made, kept))
+        same = new.shape == old.shape and np.sqrt(np.mean((new - old) ** 2)) <= PIXELS
+        return "" if same else "another picture"
+    new, old = (pd.read_csv(path) for path in (made, kept))
+    try:
+        pd.testing.assert_frame_equal(new, old, rtol=RELATIVE, atol=ABSOLUTE)
+    except AssertionError as error:
+        return " ".join(str(error).split())
+    return ""
+
+
+def main() -> None:
+    """Print a line for each file; the exit code is that of the worst."""
+    found = {file: difference(Path(file), GOLDEN / Path(file).name) for file in manifest()}
+    for file, problem in found.items():
+        print(f"{file}: {problem or 'as kept'}")
+    print(f"{sum(not problem for problem in found.values())} of {len(found)} files as kept")
+    sys.exit(any(found.values()))
+
+
+if __name__ == "__main__":
+    if "--list" in sys.argv:
+        print(*manifest())
+    else:
+        try:
+            main()
+        except OSError as error:
+            sys.exit(f"codecheck: {error}")
