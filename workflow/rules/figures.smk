@@ -33,7 +33,12 @@ FIGURES = {
             "slips": collect("results/tables/{scene}_slips.csv", scene=config["fig13"]),
             "mu_sapp": "results/tables/mu_sapp.csv",
         },
-        "options": {"scenes": config["fig13"]},
+        "options": {
+            "printed": [
+                config["scenes"][scene].get("paper", {}).get("events_counted") for scene in config["fig13"]
+            ],
+            "scenes": config["fig13"],
+        },
     },
     "definitions": {
         "shows": "what every reading gives",

@@ -33,6 +33,7 @@ def draw(
     scenes: Sequence[str] = (),
     data: NDArray[np.float64] | None = None,
     title: str | None = None,
+    printed: Sequence[int | None] = (),
     look: style.Look | None = None,
 ) -> Figure:
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
@@ -49,6 +50,8 @@ def draw(
         An experiment: load F_X [N] at the onset and length L_p/L.
     title : str, optional
         A title.
+    printed : sequence of int or None
+        The numbers of events that the paper prints, one for each table of `slips`.
     look : Look, optional
         Width and text.
 
@@ -62,6 +65,8 @@ def draw(
     Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta > 0. Small crosses are
     the short events, which Fig. 13 does not count.
     """
+    pairs = zip(slips, printed or [None] * len(slips), strict=True)
+    counts = [count for table, count in pairs if len(table)]
     slips = [table for table in slips if len(table)]
     look = look or style.Look()
     if data is not None and not ((data[:, 1] >= 0) & (data[:, 1] <= 1)).all():
@@ -70,7 +75,7 @@ def draw(
         axes = figure.subplots()
         axes.set_title(fill(style.plain(title or ""), 48), loc="left")
         entries = [_draw_events(axes, table, outline) for table, outline in _outlined(slips)]
-        labels = [_label(table, slips) for table in slips]
+        labels = [_label(table, slips, count) for table, count in zip(slips, counts, strict=True)]
         if any(len(_short_events(table)) for table in slips):
             entries.append((Line2D([], [], **SHORT, color=style.GREY),))
             labels.append("short events, not counted")
@@ -119,7 +124,7 @@ def _short_events(slips: pd.DataFrame) -> pd.DataFrame:
     return slips[~slips["is_global"].cummax() & ~slips["counted"]]
 
 
-def _label(slips: pd.DataFrame, others: Sequence[pd.DataFrame]) -> str:
+def _label(slips: pd.DataFrame, others: Sequence[pd.DataFrame], printed: int | None) -> str:
     first = slips.iloc[0]
     name = style.theta_text(first["theta"]) if pd.notna(first["theta"]) else r"$\theta$ unknown"
     for column, text in (("n_blocks", ", $N = {:g}$"), ("normal_load_N", ", $F_Z = {:g}$ N")):
@@ -127,7 +132,8 @@ def _label(slips: pd.DataFrame, others: Sequence[pd.DataFrame]) -> str:
             name += text.format(first[column])
     n = int(slips["counted"].sum())
     note = "" if slips["is_global"].any() else ", no global slip"
-    return f"{name}: {n} event{'' if n == 1 else 's'}{note}"
+    paper = "" if printed is None else f" (paper: {printed})"
+    return f"{name}: {n} event{'' if n == 1 else 's'}{paper}{note}"
 
 
 def _draw_friction_coefficient(
