@@ -1,7 +1,7 @@
 """The comparison of methods, published and made anew: tables say what is said of them, a chart shows one.
 
 `snakemake -c2 accuracy_full` measures anew, some ten minutes with nothing else running; its table and
-work_precision_full.png then replace the two golden files.
+speed.png drawn from it then replace paper/tables/work_precision_full.csv and the golden chart.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from golden.regenerate import GOLDEN
 from golden.test_golden import FIGURE_RMS, MOST_BYTES
 from matplotlib.testing.compare import compare_images
 
-from precursors.figures import style, work_precision
+from precursors.figures import speed, style
 from precursors.support.files import read_table
 
 TABLE = GOLDEN.parents[1] / "paper/tables/work_precision_full.csv"
-CHART = GOLDEN / "work_precision_full.png"
+CHART = GOLDEN / "speed.png"
 MADE = Path(__file__).parents[2] / "results/tables/work_precision.csv"
 DOCS = Path(__file__).parents[2] / "docs/performance.md"
 PEERS = {"heyoka", "cvode_adams", "cvode_bdf", "scipy_dop853", "scipy_rk45", "scipy_lsoda", "scipy_radau"}
@@ -31,7 +31,7 @@ def table(request):
 
 
 def test_the_published_chart_is_the_published_table_drawn(tmp_path):
-    style.save(work_precision.draw(read_table(TABLE)), tmp_path / CHART.name)
+    style.save(speed.draw(read_table(TABLE)), tmp_path / CHART.name)
     assert compare_images(str(CHART), str(tmp_path / CHART.name), tol=FIGURE_RMS) is None
 
 

@@ -120,17 +120,15 @@ def page(open_page, finished):
 
 
 @pytest.mark.parametrize("width", [1400, 390])
-def test_the_report_opens_with_the_mission_and_no_graph_of_rules(page, width):
+def test_the_report_opens_with_fig_13_and_the_way_to_the_pages_and_no_graph_of_rules(page, width):
     page.call(
         "Emulation.setDeviceMetricsOverride", width=width, height=844, deviceScaleFactor=1, mobile=False
     )
     page.settle()
-    left, right, top, bottom = page.evaluate(
-        "(box => [box.left, box.right, box.top, box.bottom])"
-        "(document.querySelector('.prose svg').getBoundingClientRect())"
-    )
-    assert 0 <= left < left + 300 < right <= width
-    assert 0 <= top < bottom <= 844
+    source = "document.querySelector('.prose img').getAttribute('src')"
+    assert page.evaluate(source) == "figures/fig13.svg"
+    links = "[...document.querySelectorAll('.prose a')].map(a => a.getAttribute('href'))"
+    assert page.evaluate(links) == ["explorer.html", "paper.pdf", "supplement.pdf"]
     assert page.evaluate("document.querySelector('#rulegraph').getBoundingClientRect().height") == 0
 
 
