@@ -21,8 +21,8 @@ def manifest() -> list[str]:
 def difference(made: Path, kept: Path) -> str:
     """Say where a table or figure differs from the one that is kept; empty if it does not."""
     if made.suffix == ".png":
-        new, old = (image.imread(path)[..., :3] for path in (made, kept))
-        same = new.shape == old.shape and np.sqrt(np.mean((new - old) ** 2)) <= PIXELS
+        drawn, expected = (image.imread(path)[..., :3] for path in (made, kept))
+        same = drawn.shape == expected.shape and np.sqrt(np.mean((drawn - expected) ** 2)) <= PIXELS
         return "" if same else "another picture"
     new, old = (pd.read_csv(path) for path in (made, kept))
     try:
