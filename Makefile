@@ -62,7 +62,7 @@ bench: $(READY)
 
 # The published medians and ranges, in some twenty minutes with nothing else running.
 speed: $(READY)
-	$(BIN)/python benchmarks/bench.py --sessions 9 --output paper/tables/speed.csv
+	$(BIN)/python benchmarks/bench.py --sessions 9 --output paper/tables/beside_heyoka.csv
 
 lint: $(READY)
 	$(BIN)/ruff check . && $(BIN)/ruff format --check . && $(BIN)/snakefmt --check Snakefile workflow && $(BIN)/mypy && $(BIN)/lint-imports

@@ -1,8 +1,7 @@
 """The exact solver compared with heyoka.py and DOP853 in time, each with its error against 40 digits.
 
     make bench                                            everything, in a minute or two
-                                                          (paper/tables/beside_heyoka.csv: its last rows)
-    make speed                                            the published medians of nine times all
+    make speed                                            nine times, for paper/tables/beside_heyoka.csv
     make bench METHOD=name                                one method, in seconds
     .venv/bin/python benchmarks/bench.py --quick          a reduced size, to see that it runs
 
