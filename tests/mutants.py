@@ -48,7 +48,7 @@ ASIDE = ("tests/cluster/*", "tests/golden/test_golden.py", "tests/workflow/test_
 WARM = "tests/ensembles/test_study.py"  # compiles the kernel for all others
 # What takes long to import: loaded once, before a process is forked for each fault.
 HEAVY = (
-    "bokeh.plotting", "flint", "h5py", "hypothesis", "jsonschema", "matplotlib.pyplot", "numba", "pandas",
+    "flint", "h5py", "hypothesis", "jsonschema", "matplotlib.pyplot", "numba", "pandas",
     "scipy.integrate", "scipy.linalg", "scipy.optimize", "scipy.stats", "snakemake.cli", "sympy", "yaml",
 )  # fmt: skip
 SHARE = 0.85

@@ -30,7 +30,7 @@ from precursors.cli import (
 )
 from precursors.support.provenance import git_state
 
-HEAVY = {"numpy", "numba", "pandas", "h5py", "matplotlib", "scipy", "bokeh"}
+HEAVY = {"numpy", "numba", "pandas", "h5py", "matplotlib", "scipy"}
 COMMAND = [sys.executable, "-m", "precursors"]
 
 

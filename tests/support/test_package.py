@@ -59,7 +59,7 @@ def test_the_library_works_without_its_extras():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = {name for extra in project["optional-dependencies"].values() for name in map(package, extra)}
     assert not extras & set(map(package, project["dependencies"]))
-    absent = ("sympy", "snakemake", "jsonschema", "yaml", "flint", "typst", "bokeh", "heyoka", "sksundae")
+    absent = ("sympy", "snakemake", "jsonschema", "yaml", "flint", "typst", "heyoka", "sksundae")
     loaded(
         f"sys.modules.update(dict.fromkeys({absent!r}))\n"
         "from precursors import Chain, audit, find_slips, simulate\n"

@@ -27,7 +27,7 @@ const SLIDERS = {
   mu_s: { symbol: "μ<sub>s</sub>", low: 0.05, high: 1.5, step: 0.01, write: (x) => x.toFixed(2), about: "Static friction: a stuck block starts to slide when the springs push with μ<sub>s</sub> times its normal load." },
   mu_k: { symbol: "μ<sub>k</sub>", low: 0, high: 1.5, step: 0.01, write: (x) => x.toFixed(2), about: "Kinetic friction: what holds back a sliding block. It is never above μ<sub>s</sub>." },
   drive_stiffness: { symbol: "K", low: 1e4, high: 1e8, write: (x) => `${scaled(x, 1e6)} MN/m`, about: "Stiffness of the spring between the drive and block 1." },
-  drive_velocity: { symbol: "V", low: 1e-6, high: 0.1, write: (x) => `${scaled(x, 1e-3)} mm/s`, about: "Speed of the drive. F<sub>X</sub> grows by K V in a second." },
+  drive_velocity: { symbol: "V", low: 1e-6, high: 0.1, write: (x) => `${scaled(x, 1e-3)} mm/s`, about: "Speed of the drive. While all blocks are stuck, F<sub>X</sub> grows by K V each second." },
 };
 const uniform = nearTheta(0);
 // Steps: heading, text, what is set, and the event that is shown.
@@ -42,11 +42,11 @@ const STEPS = [
   },
   {
     title: "When does all of it slide?", slider: uniform, pick: "global",
-    text: () => `The front reaches the last block while all the others still slide: a ${word("global")}. It is a wave, and it takes blocks along that the springs alone would not have moved. That is why the row lets go at ${ratio()} F<sub>Z</sub> (${word("apparent")}), although each block could hold ${(state.slider.mu_s).toFixed(2)} times its normal load.`,
+    text: () => `The front reaches the last block while all the others still slide: a ${word("global")}. It is a wave, and it takes blocks along that a slow push would not have moved yet. That is why the row lets go at ${ratio()} F<sub>Z</sub> (${word("apparent")}), although each block could hold ${(state.slider.mu_s).toFixed(2)} times its normal load.`,
   },
   {
     title: "What does the normal load do?", slider: nearTheta(-1), pick: "partial",
-    text: () => `The arrows show the normal load on each block; θ tilts it. With more on the pushed end, the first precursor comes late, and few are needed; with less there, it comes early, and many follow. The global slip needs nearly the same load: ${word("apparent")} = ${[-1, 0, 1].map((theta) => apparentOf(nearTheta(theta)).toFixed(4)).join(", ")}.</p><p class="bar">${sceneButtons()}`,
+    text: () => `The arrows show the normal load on each block; θ tilts it. With more on the pushed end, the first precursor comes late, and few are needed; with less there, it comes early, and many follow. Yet the global slip needs nearly the same load: ${word("apparent")} = ${[-1, 0, 1].map((theta) => apparentOf(nearTheta(theta)).toFixed(4)).join(", ")}.</p><p class="bar">${sceneButtons()}`,
   },
   {
     title: "Is there chance in it?", slider: nearTheta(1), pick: "global", twin: true, view: "all",
@@ -249,7 +249,7 @@ function showReadout() {
   element("next").disabled = !events.length || state.event === events.length - 1;
   const kind = one?.isGlobal ? "global slip" : counted.includes(one) ? "precursor" : "shorter slip";
   const text = one
-    ? `Event ${state.event + 1} of ${events.length}, ${one.isGlobal ? "global slip" : firstGlobal() && one.onset > firstGlobal().onset ? "partial slip" : kind}: ${one.front === 1 ? "block 1 slides" : `blocks 1 to ${one.front} slide`} for ${((one.end - one.onset) * 1e6).toFixed(0)} µs from ${one.onset.toFixed(3)} s on. F_X goes from ${one.before.toFixed(2)} to ${one.after.toFixed(2)} N.`
+    ? `Event ${state.event + 1} of ${events.length}, ${one.isGlobal ? "global slip" : firstGlobal() && one.onset > firstGlobal().onset ? "partial slip" : kind}: ${one.front === 1 ? "block 1 slides" : `blocks 1 to ${one.front} slide${one.front === n && !one.isGlobal ? ", never all at once," : ""}`} for ${((one.end - one.onset) * 1e6).toFixed(0)} µs from ${one.onset.toFixed(3)} s on. F_X goes from ${one.before.toFixed(2)} to ${one.after.toFixed(2)} N.`
     : "Press Play, click an event in a figure, or press →.";
   element("readout").textContent = text.replace("F_X", "Fₓ");
   element("row").setAttribute("aria-label", `A row of ${n} blocks, pushed from the left by a spring. ${text}`);
@@ -270,18 +270,18 @@ function showLoad() {
   shares = axes(context, width, height, [start, end], [bottom, top], [null, "Load F\u2093 [N]"], timeTicks(start, end, width)[0]);
   const inside = (time, load) => time >= start && time <= end && load >= bottom && load <= top;
   for (const [onset, load] of state.ghost.events) if (inside(onset, load)) mark(context, "ring", shares.x(onset), shares.y(load), 5, palette.ghost);
-  const draw = (time, load, colour, dash, thick = 1.5) => {
+  const draw = (time, load, colour, dash, thick = 1.5, parts = [[start, end]]) => {
     context.strokeStyle = colour;
     context.lineWidth = thick;
     context.setLineDash(dash);
-    curve(context, shares, time, load, start, end);
+    for (const [from, to] of parts) curve(context, shares, time, load, from, to);
     context.setLineDash([]);
   };
-  if (own) draw(own.time, own.load, palette.own, [], 1.5);
-  draw(run.arrays.time, run.arrays.load, palette.ink, []);
+  if (own) draw(own.time, own.load, palette.own, []);
+  const motion = isWhole ? null : motions.get(state.event);
+  draw(run.arrays.time, run.arrays.load, palette.ink, [], 1.5, motion ? [[start, motion.time[0]], [motion.time.at(-1), end]] : [[start, end]]);
   if (second) draw(second.arrays.time, second.arrays.load, palette.second, [7, 4], 2);
-  const motion = motions.get(state.event);
-  if (motion && !isWhole) draw(motion.time, motion.forces.filter((_, i) => i % (run.n + 2) === 1), palette.ink, []);
+  if (motion) draw(motion.time, motion.forces.filter((_, i) => i % (run.n + 2) === 1), palette.ink, []);
   const seen = run.events.filter((one) => inside(one.onset, one.before)), size = seen.length > 60 ? 2 : 3;
   for (const one of seen) if (size > 2 || one.isGlobal) mark(context, "dot", shares.x(one.onset), shares.y(one.before), size, palette[one.isGlobal ? "global" : "partial"]);
   element("load").setAttribute("aria-label", `Load against time: ${element("answers").textContent}`);
@@ -289,7 +289,7 @@ function showLoad() {
 
 function showSlips() {
   const { start, end } = view(), [context, width, height] = clear(element("slips")), { bars, n } = runs[0];
-  const every = Math.ceil(n / 8), values = Array.from({ length: n }, (_, i) => i + 1).filter((i) => (i - 1) % every === 0);
+  const every = Math.ceil(n / 6), values = Array.from({ length: n }, (_, i) => i + 1).filter((i) => (i - 1) % every === 0);
   const [along, label] = timeTicks(start, end, width);
   const figure = axes(context, width, height, [start, end], [0.5, n + 0.5], [label, "Block"], along, { values, decimals: 0 });
   slideBars(context, figure, bars, n, start, end);
@@ -362,7 +362,7 @@ function showParameters() {
 function showStep() {
   for (const button of document.querySelectorAll("[data-step]")) button.setAttribute("aria-pressed", Number(button.dataset.step) === state.step);
   const step = STEPS[state.step - 1];
-  setHtml("step", step ? `<h2>${step.title}</h2><p>${step.text()}</p>` : `<h2>Play</h2><p>Move the sliders below, draw the normal loads by hand, or lay your own measurement over the curve. Start from a slider of the paper:</p><p class="bar">${sceneButtons()}`);
+  setHtml("step", step ? `<h2>${step.title}</h2><p>${step.text()}</p>` : `<h2>Explore</h2><p>Move the sliders below, drag the normal loads by hand, or lay your own measurement over the curve. Start from a slider of the paper:</p><p class="bar">${sceneButtons()}`);
 }
 
 function goToStep(number) {
@@ -515,7 +515,7 @@ function showMeasurement({ time, load, problem }) {
 }
 
 function build() {
-  setHtml("steps", STEPS.map((step, i) => `<button type="button" data-step="${i + 1}" title="${step.title}" aria-label="Step ${i + 1}: ${step.title}">${i + 1}</button>`).join("") + `<button type="button" data-step="0">Just play</button>`);
+  setHtml("steps", STEPS.map((step, i) => `<button type="button" data-step="${i + 1}" title="${step.title}" aria-label="Step ${i + 1}: ${step.title}">${i + 1}</button>`).join("") + `<button type="button" data-step="0">Explore</button>`);
   setHtml("sliders", Object.entries(SLIDERS).map(([name, { symbol, low, high, step, about }]) =>
     `<div class="slider"><button type="button" class="why" aria-describedby="tip-${name}">${symbol}</button><span class="tip" role="tooltip" id="tip-${name}">${about}</span>
     <input type="range" id="${name}" aria-label="${symbol.replace(/<\/?sub>/g, "")}" min="${step ? low : Math.log10(low)}" max="${step ? high : Math.log10(high)}" step="${step ?? 0.01}"><output id="${name}-value" for="${name}"></output></div>`).join(""));
