@@ -1,6 +1,7 @@
 """The explorer solves chains as the kernel does, and in a browser it does what it says, with no network."""
 
 import json
+import re
 import shlex
 from pathlib import Path
 
@@ -30,6 +31,7 @@ TEXT_CONTRAST, MARK_CONTRAST = 4.5, 3.0  # WCAG 2.2 AA
 
 THETAS = {"fig10": 0.0, "fig11": -5 / 6, "fig12": 5 / 6}
 FAST = SLIDER | {"theta": 5 / 6, "drive_velocity": 0.01}
+COUNTED = {0: 9, -5 / 6: 6, 5 / 6: 14}  # events, as in the paper
 SETTLED = (
     "!playing && runs[0] && runs.every(run => run.isFinal && run.id === asked)"
     " && document.body.dataset.drawn == asked"
@@ -206,6 +208,15 @@ def test_the_page_is_one_small_file_that_names_no_other(file):
     assert "a <!--<script>" not in page
 
 
+def test_the_page_starts_from_the_sliders_of_the_configuration(tmp_path):
+    slider = {name: value * 2 for name, value in SLIDER.items()}
+    write_explorer([Scene("", slider, [])], [], 5.0, tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    (data,) = re.findall(r'<script type="application/json" id="data">(.*?)</script>', page)
+    assert json.loads(data)["scenes"][0]["slider"] == slider
+    assert json.loads(data)["duration"] == 5.0
+
+
 def test_the_page_asks_the_network_for_nothing(page, file):
     assert {request.split("#")[0] for request in page.requests if not request.startswith("blob:")} == {
         file.as_uri()
@@ -236,6 +247,10 @@ def test_each_step_shows_what_it_speaks_of(any_page):
             step
         )
         shown[step] = any_page.evaluate("[event().front, event().isGlobal, state.slider.theta, runs.length]")
+        # At theta = -5/6 all blocks slide in an event that is no global slip: never all at the same instant.
+        assert text(any_page, "answers").startswith(
+            f"{COUNTED[any_page.evaluate('state.slider.theta')]} events"
+        )
     assert shown[1] == [4, False, 0, 1]
     assert shown[2][0] > shown[1][0]
     assert shown[3] == [10, True, 0, 1]

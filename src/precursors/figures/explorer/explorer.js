@@ -129,7 +129,7 @@ function hear({ data }) {
   redraw("row", "load", "slips", "lengths");
 }
 
-// The rows of Fig. 13, as `precursors` of the solver.
+// The rows of Fig. 13: up to the first global slip, without events shorter than one before.
 function countedOf(events) {
   let longest = 0;
   const end = events.findIndex((event) => event.isGlobal);

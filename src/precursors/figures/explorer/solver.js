@@ -163,17 +163,14 @@ const newRun = (chain, duration) => ({ chain, duration, time: [], block: [], mod
 // Solve a run, and pause with the time [s] in it after every window. A run that meets a limit is `stopped` at its `end`.
 function* solve(run) {
   const { chain, duration, force } = run, { n, c, tau, strength, drive } = chain;
-  let clock = 0, lost = 0, windows = 0; // end of the last event [s]: two doubles
+  let windows = 0;
   for (;;) {
-    const wait = ((strength[1] - (force[1] - force[2])) / (c[1] * drive)) * tau;
-    const add = wait + lost, onset = clock + add;
+    const wait = ((strength[1] - (force[1] - force[2])) / (c[1] * drive)) * tau, onset = run.end + wait;
     if (onset > duration) {
-      force[1] += (c[1] * drive * (duration - clock - lost)) / tau;
+      force[1] += (c[1] * drive * (duration - run.end)) / tau;
       run.end = duration;
       return;
     }
-    lost = add - (onset - clock);
-    clock = onset;
     force[1] = force[2] + strength[1];
     const event = { onset, force: force.slice(), first: run.time.length, before: force[1], front: 1, mostSliding: 0 };
     const states = new Int8Array(n + 1);
@@ -181,7 +178,7 @@ function* solve(run) {
     const slip = slipEvent(chain, force, (duration - onset) / tau, (t, i, m, forces) => {
       elapsed = t;
       if (!i) return;
-      run.time.push(clock + (lost + t * tau)), run.block.push(i), run.mode.push(m), run.load.push(forces[1]);
+      run.time.push(onset + t * tau), run.block.push(i), run.mode.push(m), run.load.push(forces[1]);
       sliding += Math.abs(m) - Math.abs(states[i]);
       states[i] = m;
       event.front = Math.max(event.front, i);
@@ -189,24 +186,10 @@ function* solve(run) {
     });
     while (!slip.next().done && !run.stopped) {
       run.stopped = run.time.length >= MOST_TRANSITIONS || ++windows >= MOST_WINDOWS;
-      yield clock + elapsed * tau;
+      yield onset + elapsed * tau;
     }
-    const passed = elapsed * tau + lost, end = clock + passed;
-    lost = passed - (end - clock);
-    run.end = clock = end;
-    run.events.push(Object.assign(event, { end, after: force[1], last: run.time.length, isGlobal: event.mostSliding === n }));
+    run.end = onset + elapsed * tau;
+    run.events.push(Object.assign(event, { end: run.end, after: force[1], last: run.time.length, isGlobal: event.mostSliding === n }));
     if (run.stopped) return;
   }
-}
-
-// The rows of Fig. 13: up to the first global slip, without events shorter than one before.
-function precursors(events) {
-  const counted = [];
-  let longest = 0;
-  for (const event of events) {
-    if (event.front >= longest) counted.push(event);
-    longest = Math.max(longest, event.front);
-    if (event.isGlobal) break;
-  }
-  return counted;
 }
