@@ -13,7 +13,7 @@ from browser import browser, find_browser
 
 from precursors import Chain, cli, find_precursors, find_slips, simulate
 from precursors.figures.explorer.page import Proved, Scene, counted_events, proved_slider, write_explorer
-from precursors.model.scenes import SLIDER
+from precursors.model.scenes import SLIDER, scene_slider
 from precursors.solver.simulate import TransitionLimitError
 
 ROOT = Path(__file__).parents[2]
@@ -187,6 +187,12 @@ def test_fifty_random_sliders_move_as_in_the_kernel(opened):
         assert time[:200] == pytest.approx(run["time"], rel=OF_RANDOM_CHAINS)
 
 
+def test_a_scene_of_the_paper_is_among_the_proved_chains():
+    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+    proved = [proved_slider(values) for values in config["accuracy"]["proved"].values()]
+    assert all(scene_slider(config, scene) in proved for scene in THETAS)
+
+
 def test_the_chains_that_are_called_proved_move_as_in_the_kernel_up_to_the_first_global_slip(opened):
     proved = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))["accuracy"]["proved"]
     sliders = [proved_slider(values) for values in proved.values()]
@@ -209,7 +215,7 @@ def test_the_page_is_one_small_file_that_names_no_other(file):
 
 
 def test_the_page_starts_from_the_sliders_of_the_configuration(tmp_path):
-    slider = {name: value * 2 for name, value in SLIDER.items()}
+    slider = SLIDER | {"n_blocks": 12, "mu_s": 0.72, "length": 0.09}
     write_explorer([Scene("", slider, [])], [], 5.0, tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     (data,) = re.findall(r'<script type="application/json" id="data">(.*?)</script>', page)

@@ -48,7 +48,7 @@ def counted_events(slips: pd.DataFrame) -> list[list[float]]:
 
 def proved_slider(values: Mapping[str, Any]) -> dict[str, Any]:
     """Arguments of `Chain.from_slider` of a chain of the configuration's `accuracy.proved`."""
-    slider = {name: values.get(name, value) for name, value in SLIDER.items()}
+    slider = {name: values.get(name, value) for name, value in SLIDER.items() if name != "weights"}
     return slider | {"theta": parse_theta(values.get("theta", 0))}
 
 
