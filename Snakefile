@@ -78,7 +78,8 @@ rule all:
     localrule: True
 
 
-for scene in {*(rule.name for rule in workflow.rules), *FIGURES} & set(config["scenes"]):
+others = {name for name, figure in FIGURES.items() if figure.get("module") != "scene"}
+for scene in {*(rule.name for rule in workflow.rules), *others} & set(config["scenes"]):
     raise WorkflowError(
         f"configuration: scenes.{scene} has the name of a target or figure: give it another one"
     )

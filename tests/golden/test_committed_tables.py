@@ -31,7 +31,8 @@ def test_the_law_is_an_upper_bound_within_a_tenth():
 
 
 def test_the_runs_of_few_blocks_are_those_of_the_library():
-    study = study_of("event_law_full_members", CONFIG["ensembles"]["event_law_full"])
+    full = yaml.safe_load((ROOT / "workflow/full.yaml").read_text(encoding="utf-8"))
+    study = study_of("event_law_members", full["ensembles"]["event_law"])
     few = study.members[(study.members["n_blocks"] <= 10) & (study.members["theta"] == 0.0)]
     again = event_law_table(run_members(type(study)(few, seed=study.seed)), CONFIG["chain"])
     assert len(again) > 1

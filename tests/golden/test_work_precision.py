@@ -1,7 +1,8 @@
 """The comparison of methods, published and made anew: tables say what is said of them, a chart shows one.
 
-`snakemake -c2 accuracy_full` measures anew, some ten minutes with nothing else running; its table and
-speed.png drawn from it then replace paper/tables/work_precision_full.csv and the golden chart.
+`snakemake -c2 --configfile config.yaml workflow/full.yaml -- accuracy` measures anew, some ten minutes with
+nothing else running; its table and speed.png drawn from it then replace paper/tables/work_precision_full.csv
+and the golden chart.
 """
 
 from __future__ import annotations

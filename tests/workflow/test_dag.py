@@ -11,7 +11,6 @@ from precursors import Chain
 from precursors.hierarchy.models import answers_table
 
 PAPERS = ("fig10", "fig11", "fig12")
-SCENE_JOBS = {"simulate_scene", "tabulate_slips", "tabulate_trace", "draw_scene"}
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all lists of jobs.
 ON_DEMAND = {
     "answer_scene",
@@ -25,7 +24,7 @@ LISTS_OF_SCENES = {
     "tabulate_mu_sapp",
     "tabulate_reproduction",
     "evaluate_claims",
-    "draw_fig13",
+    "draw_reproduction",
     "write_explorer",
 } | PAPER
 CODE = "\nADDED = 1\n"  # to a module
@@ -46,7 +45,7 @@ ASKED = """\
 
 def of(*scenes):
     """The jobs of some scenes."""
-    return {f"{job} {scene}" for job in SCENE_JOBS for scene in scenes}
+    return {f"simulate_scene {scene}" for scene in scenes}
 
 
 def add(workspace, scene):
@@ -63,7 +62,7 @@ def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
         for rule in re.findall(r"\Arule (\w+):", text)
         if "\n    output:" in text
     }
-    assert rules - SCENE_JOBS - ON_DEMAND <= outcome.jobs
+    assert rules - {"simulate_scene"} - ON_DEMAND <= outcome.jobs
     assert of(*PAPERS) <= outcome.jobs
     assert not ON_DEMAND & outcome.jobs
     assert not (workspace.path / "results").exists()
@@ -71,12 +70,8 @@ def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
 
 def test_a_single_figure_needs_its_own_jobs_only(untouched):
     workspace, _ = untouched
-    jobs = workspace.run("-n", "results/figures/fig11.svg").jobs
-    # The load axis is the same in Figs. 10 to 12, so that the loads of all three are needed.
-    others = {
-        f"{job} {scene}" for job in ("simulate_scene", "tabulate_trace") for scene in ("fig10", "fig12")
-    }
-    assert jobs == of("fig11") | others
+    jobs = workspace.run("-n", "results/figures/model_comparison.svg").jobs
+    assert jobs == {"compare_models", "draw_hierarchy"}
 
 
 def test_a_second_run_has_nothing_to_do(finished):
@@ -112,16 +107,15 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(fi
     for name in ("results", ".snakemake/metadata"):
         shutil.copytree(finished.path / name, clone.path / name, copy_function=shutil.copyfile)
     assert clone.would_run() == set()
-    clone.append("src/precursors/figures/spread.py", CODE)
-    assert clone.would_run() == {"draw_spread"} | PAPER
+    clone.append("src/precursors/figures/theta_window.py", CODE)
+    assert clone.would_run() == {"draw_ensembles"} | PAPER
 
 
 @pytest.mark.parametrize(
     ("module", "jobs"),
     [
-        ("figures/scene", {f"draw_scene {scene}" for scene in (*PAPERS, "steep")}),
-        ("figures/theta_window", {"draw_theta_window"}),
-        ("figures/definitions", {"draw_definitions"}),
+        ("figures/scene", {"draw_reproduction"}),
+        ("figures/work_precision", {"draw_speed"}),
         ("reproduction/claims", {"evaluate_claims"}),
     ],
 )
@@ -133,22 +127,22 @@ def test_an_edit_of_a_figure_or_a_claim_makes_it_again_and_computes_nothing(fini
 def test_an_edit_of_the_style_draws_all_figures_and_computes_nothing(finished):
     finished.append("src/precursors/figures/style.py", CODE)
     jobs = finished.would_run()
-    assert {"draw_fig13", "draw_horizon", "draw_scene fig10"} <= jobs
+    assert {"draw_reproduction", "draw_accuracy", "draw_hierarchy"} <= jobs
     assert {job for job in jobs if not job.startswith("draw_")} <= {"write_explorer"} | PAPER
 
 
 def test_an_edit_of_a_method_measures_again_and_simulates_nothing(finished):
     finished.append("src/precursors/methods/moreau_jean.py", CODE)
     jobs = finished.would_run()
-    assert {"measure_methods", "draw_work_precision"} <= jobs
+    assert {"measure_methods", "draw_speed"} <= jobs
     assert not ({"take_certificates", "run_chunk"} | of(*PAPERS)) & jobs
 
 
-def test_an_edit_of_the_slips_leaves_the_runs_as_they_are(finished):
+def test_an_edit_of_the_slips_leaves_the_proofs_as_they_are(finished):
     finished.append("src/precursors/analysis/slips.py", CODE)
     jobs = finished.would_run()
-    assert {"tabulate_slips fig10", "tabulate_mu_sapp"} <= jobs
-    assert not {"simulate_scene fig10", "run_chunk", "take_certificates", "draw_fig09"} & jobs
+    assert of(*PAPERS) | {"tabulate_mu_sapp"} <= jobs
+    assert "take_certificates" not in jobs
 
 
 def test_an_edit_of_the_solver_simulates_again(finished):
@@ -179,9 +173,9 @@ def test_an_edit_of_a_scene_runs_that_scene_only_and_another_model_answers_its_o
 def test_a_new_title_and_a_new_number_of_the_paper_simulate_nothing(finished):
     finished.edit("config.yaml", "title: uniform normal loading", "title: same load on every block")
     finished.edit("config.yaml", "events_counted: 9", "events_counted: 8")
-    of_title = {"draw_scene fig10", "write_explorer"}
-    of_definitions = {"tabulate_definitions", "draw_definitions"}
-    of_number = {"tabulate_reproduction", "evaluate_claims"} | of_definitions
+    of_title = {"draw_reproduction", "write_explorer"}
+    of_definitions = {"tabulate_definitions"}
+    of_number = {"tabulate_reproduction", "tabulate_digits"} | of_definitions
     assert finished.would_run() == of_title | of_number | PAPER
 
 
@@ -192,11 +186,11 @@ def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(fi
     assert "measure_methods" not in jobs
 
 
-def test_the_full_comparison_of_methods_is_a_target_of_its_own(untouched):
-    workspace, _ = untouched
-    jobs = workspace.run("-n", "accuracy_full").jobs
-    assert {"measure_methods", "draw_work_precision", "tabulate_step_sweep", "draw_step_sweep"} <= jobs
-    assert not {"simulate_scene fig10", "run_chunk"} & jobs
+def test_larger_studies_are_an_overlay_of_the_configuration(finished):
+    outcome = finished.run("-n", "--configfile", "config.yaml", "workflow/full.yaml", "--", "all")
+    assert outcome.code == 0, outcome.text
+    assert {"measure_methods", "tabulate_step_sweep", "tabulate_predictability"} <= outcome.jobs
+    assert not {"simulate_scene fig10", "tabulate_definitions"} & outcome.jobs
 
 
 def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(workspace):

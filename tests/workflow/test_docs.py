@@ -49,7 +49,7 @@ def command(section):
 
 
 def test_the_scene_and_the_figure_shown_are_made(documented):
-    assert "draw_scene steep" in documented.run("-n", *command("A scene")).jobs
+    assert {"simulate_scene steep", "draw_reproduction"} <= documented.run("-n", *command("A scene")).jobs
     outcome = documented.run(*command("A figure"))
     assert outcome.code == 0, outcome.text
     assert (documented.path / command("A figure")[-1]).read_bytes().startswith(b"\x89PNG")
@@ -103,7 +103,7 @@ def test_the_workflow_shown_uses_this_one_as_a_module(documented):
     outer = type(documented)(documented.path / "elsewhere")
     outcome = outer.run("-n", "precursors_all")
     assert outcome.code == 0, outcome.text
-    assert {"precursors_draw_scene soft", "precursors_write_paper"} <= outcome.jobs
+    assert {"precursors_simulate_scene soft", "precursors_write_paper"} <= outcome.jobs
     outcome = outer.run("-c1")
     assert outcome.code == 0, outcome.text
     assert float((outer.path / "first_slip.txt").read_text().split(",")[0]) == pytest.approx(2.8)

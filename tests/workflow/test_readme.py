@@ -17,7 +17,6 @@ NUMBERS = (ROOT / "docs/numbers.md").read_text(encoding="utf-8")
 RESULTS = (ROOT / "results/README.md").read_text(encoding="utf-8")
 # What the workflow makes on demand, by rule or by file.
 ON_DEMAND = (
-    "accuracy_full",
     "prove_scenes",
     "results/certificates/fig10.json.gz",
 )

@@ -1,22 +1,17 @@
 """The report shows every figure and the main tables of the workflow, in a browser and without a network."""
 
-import html
 import json
 import re
 import shutil
 from collections import Counter
-from types import SimpleNamespace
 
-import jinja2
 import pytest
 from browser import browser, find_browser
 from conftest import ROOT, Workspace
-from docutils.core import publish_parts
 
 CATEGORIES = {
     "Reproduction",
     "Speed and accuracy",
-    "Proof and horizon",
     "Sensitivity",
     "Models",
     "Tables",
@@ -81,23 +76,6 @@ def test_the_categories_of_the_report_are_few(whole):
         r"^    var categories = (\{.*\});$", whole[1].read_text("utf-8"), flags=re.MULTILINE
     )
     assert set(json.loads(found)) == CATEGORIES
-
-
-@pytest.mark.parametrize(
-    "title",
-    [
-        ".. include:: /etc/passwd",
-        ".. raw:: html",
-        "a `link <javascript:alert(1)>`_ and http://example.org",
-        "*a* |b| c_ [1]_ \\d :math:`e` <!--<script>",
-    ],
-)
-def test_a_title_is_plain_text_in_the_caption(title):
-    source = (ROOT / "workflow/report/scene.rst").read_text(encoding="utf-8")
-    job = SimpleNamespace(params=SimpleNamespace(title=title))
-    page = publish_parts(jinja2.Template(source).render(snakemake=job), writer_name="html")["body"]
-    assert re.findall("<[^>]*>", page) == ["<p>", "</p>"]
-    assert html.unescape(page).startswith(f"<p>{title[0].upper()}{title[1:]}. Above")
 
 
 @pytest.fixture(scope="module")

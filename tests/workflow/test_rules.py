@@ -26,10 +26,10 @@ QUEUED = {
 
 
 def rules() -> dict[str, str]:
-    """Text of every rule by its name; the rule of all figures has the name `draw_{name}`."""
+    """Text of every rule by its name; the rule of the figures has the name `draw_{section}`."""
     text = "\n".join(file.read_text(encoding="utf-8") for file in (ROOT / "workflow/rules").glob("*.smk"))
     found = re.split(r"^ *rule\b ?", text, flags=re.MULTILINE)[1:]
-    return {re.search(r'^(\w+):|f"(\w+_\{name\})"', rule)[0].strip(':f"'): rule for rule in found}
+    return {re.search(r'^(\w+):|f"(\w+_\{section\})"', rule)[0].strip(':f"'): rule for rule in found}
 
 
 def test_lint_asks_for_nothing_but_one_software_environment_per_rule(workspace):

@@ -7,10 +7,9 @@ import numpy as np
 import pandas as pd
 import print_reproduction
 import pytest
+import simulate_scene
 import tabulate_mu_sapp
 import tabulate_reproduction
-import tabulate_slips
-import tabulate_trace
 import yaml
 from conftest import ROOT
 
@@ -34,9 +33,8 @@ def run():
 @pytest.fixture(scope="module")
 def files(run, tmp_path_factory):
     directory = tmp_path_factory.mktemp("files")
-    run.save(directory / "run.h5", slider={"theta": 0.0, "normal_load": 400.0})
-    tabulate_slips.main(directory / "run.h5", directory / "slips.csv")
-    tabulate_trace.main(directory / "run.h5", directory / "trace.csv")
+    outputs = (directory / name for name in ("run.h5", "slips.csv", "trace.csv"))
+    simulate_scene.main({"theta": 0.0, "normal_load": 400.0}, run.duration, {}, *outputs)
     tabulate_mu_sapp.main({"fig10": directory / "slips.csv"}, directory / "mu_sapp.csv")
     return directory
 
@@ -97,9 +95,7 @@ def test_mu_sapp_is_tabulated_under_every_definition_and_one_is_the_papers(files
 
 
 def test_a_run_without_a_slip_gives_tables_without_rows(tmp_path):
-    simulate(Chain.from_slider(), duration=0.1).save(tmp_path / "run.h5")
-    tabulate_slips.main(tmp_path / "run.h5", tmp_path / "slips.csv")
-    tabulate_trace.main(tmp_path / "run.h5", tmp_path / "trace.csv")
+    simulate_scene.main({}, 0.1, {}, *(tmp_path / name for name in ("run.h5", "slips.csv", "trace.csv")))
     tabulate_mu_sapp.main({"calm": tmp_path / "slips.csv"}, tmp_path / "mu_sapp.csv")
     tabulate_reproduction.main(
         {"calm": tmp_path / "slips.csv"},
@@ -142,18 +138,18 @@ def test_a_number_that_the_paper_does_not_give_stays_empty(files, tmp_path):
         assert {row["paper"] for row in csv.DictReader(file)} == {""}
 
 
-def test_a_scene_is_simulated_tabulated_and_drawn_once(compiled_workspace):
+def test_a_scene_is_simulated_once_and_a_damaged_table_is_one_line(compiled_workspace):
     workspace = compiled_workspace
     workspace.edit("config.yaml", "\nfig13: [", f"{STEEP}\nfig13: [")
-    target = "results/figures/steep.svg"
+    target = "results/tables/mu_sapp.csv"
     outcome = workspace.run("-c2", target)
     assert outcome.code == 0, outcome.text
-    assert len(outcome.jobs) == 4
-    assert (workspace.path / target).read_text(encoding="utf-8").rstrip().endswith("</svg>")
+    assert len(outcome.jobs) == 5
+    assert len(read_table(workspace.path / "results/tables/steep_trace.csv")) > 10
     assert "Nothing to be done" in workspace.run("-c2", target).text
 
-    log = workspace.path / "results/logs/tabulate_slips/steep.log"
-    (workspace.path / "results/runs/steep.h5").write_bytes(b"no run")
+    log = workspace.path / "results/logs/tabulate_mu_sapp.log"
+    (workspace.path / "results/tables/steep_slips.csv").write_bytes(b"")
     outcome = workspace.run("-c2", "--rerun-triggers", "mtime", "--", target)
     assert outcome.code != 0
     assert log.read_text(encoding="utf-8").count("\n") == 1

@@ -25,7 +25,6 @@ FAILURE_MODES = [
 
 wildcard_constraints:
     chain="|".join(CHAINS),
-    full="(_full)?",
 
 
 rule accuracy:
@@ -43,16 +42,6 @@ rule accuracy:
             kind=FORMATS,
         ),
         collect("results/tables/{table}.csv", table=["certificates", "solver_vs_proof", "lyapunov"]),
-    localrule: True
-
-
-# More methods and steps, on demand: some minutes.
-rule accuracy_full:
-    input:
-        collect(
-            "results/figures/{figure}_full.svg",
-            figure=["work_precision", "work_precision_evaluations", "step_sweep"],
-        ),
     localrule: True
 
 
@@ -156,11 +145,12 @@ rule measure_methods:
     input:
         certificates=collect("results/certificates/chains/{chain}.json.gz", chain=COMPARED),
     output:
-        table=report("results/tables/work_precision{full}.csv", category="Tables"),
+        table=report("results/tables/work_precision.csv", category="Tables"),
     log:
-        "results/logs/measure_methods{full}.log",
+        "results/logs/measure_methods.log",
     params:
         thetas={name: parse_theta(CHAINS[name].get("theta", 0)) for name in COMPARED},
+        full=config["full"],
         code=digest("measure_methods"),
     script:
         "../scripts/measure_methods.py"
@@ -170,11 +160,12 @@ rule tabulate_step_sweep:
     input:
         runs=collect("results/runs/{scene}.h5", scene=config["fig13"]),
     output:
-        table=report("results/tables/step_sweep{full}.csv", category="Tables"),
+        table=report("results/tables/step_sweep.csv", category="Tables"),
     log:
-        "results/logs/tabulate_step_sweep{full}.log",
+        "results/logs/tabulate_step_sweep.log",
     params:
         thetas={scene: slider["theta"] for scene, slider in SLIDERS.items()},
+        full=config["full"],
         code=digest("tabulate_step_sweep"),
     script:
         "../scripts/tabulate_step_sweep.py"

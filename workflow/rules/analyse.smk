@@ -9,34 +9,6 @@ rule mu_sapp:
     localrule: True
 
 
-rule tabulate_slips:
-    input:
-        run="results/runs/{scene}.h5",
-    output:
-        table=report("results/tables/{scene}_slips.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_slips/{scene}.log",
-    localrule: True
-    params:
-        code=digest("tabulate_slips"),
-    script:
-        "../scripts/tabulate_slips.py"
-
-
-rule tabulate_trace:
-    input:
-        run="results/runs/{scene}.h5",
-    output:
-        table="results/tables/{scene}_trace.csv",
-    log:
-        "results/logs/tabulate_trace/{scene}.log",
-    localrule: True
-    params:
-        code=digest("tabulate_trace"),
-    script:
-        "../scripts/tabulate_trace.py"
-
-
 rule tabulate_mu_sapp:
     input:
         slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),

@@ -19,6 +19,7 @@ rule ensembles:
             figure=["noise", "theta_window", "resolution", "event_law", "map_theta_friction_ratio"],
         ),
         "results/tables/digits.csv",
+        "results/tables/theta_window.csv",
     localrule: True
 
 
@@ -100,15 +101,15 @@ rule tabulate_resolution:
 
 rule tabulate_predictability:
     output:
-        table=report("results/tables/predictability{full}.csv", category="Tables"),
+        table=report("results/tables/predictability.csv", category="Tables"),
     log:
-        "results/logs/tabulate_predictability{full}.log",
+        "results/logs/tabulate_predictability.log",
     params:
         sliders=SLIDERS,
-        n_blocks=lambda wildcards: [
+        n_blocks=[
             n
             for n in sorted({*config["ensembles"]["resolution"]["n_blocks"], config["chain"]["n_blocks"]})
-            if n <= PREDICTED_UP_TO or wildcards.full
+            if n <= PREDICTED_UP_TO or config["full"]
         ],
         duration=config["duration"],
         tolerance=config["accuracy"]["tolerance"],
@@ -134,11 +135,11 @@ rule tabulate_digits:
 
 rule tabulate_event_law:
     input:
-        members="results/tables/event_law{full}_members.csv",
+        members="results/tables/event_law_members.csv",
     output:
-        table=report("results/tables/event_law{full}.csv", category="Tables"),
+        table=report("results/tables/event_law.csv", category="Tables"),
     log:
-        "results/logs/tabulate_event_law{full}.log",
+        "results/logs/tabulate_event_law.log",
     localrule: True
     params:
         slider=config["chain"],

@@ -1,33 +1,37 @@
 # Figs. 9-13, pages
 
-# Every figure that is drawn from tables: what it shows and where it stands in the report, its tables, and its options.
-# The rule is draw_{name}, the caption report/{name}.rst. The file is {name} or "file", and the module of
-# precursors.figures that draws it is {name} or "module".
+# Every figure that is drawn from tables, by its file: its section, which one job draws; what it shows; its caption, a file
+# of workflow/report, and its module of precursors.figures, if they have other names than the figure; the tables, which
+# are arguments of the module's function `draw`, and its other arguments.
 FIGURES = {
+    **{
+        scene: {
+            "section": "reproduction",
+            "shows": config["scenes"][scene]["title"],
+            "caption": "scene",
+            "module": "scene",
+            "tables": {
+                "slips": f"results/tables/{scene}_slips.csv",
+                "trace": f"results/tables/{scene}_trace.csv",
+                # The scenes of Fig. 13 have one load axis.
+                "others": [
+                    f"results/tables/{other}_trace.csv"
+                    for other in config["fig13"]
+                    if scene in config["fig13"]
+                ],
+            },
+            "options": {"title": config["scenes"][scene]["title"]},
+        }
+        for scene in SCENES
+    },
     "fig09": {
+        "section": "reproduction",
         "shows": "the chain",
-        "category": "Reproduction",
         "module": "chain_schematic",
     },
-    "scene": {
-        "file": "{scene}",
-        "shows": "load and slips over time",
-        "category": "Reproduction",
-        "tables": {
-            "slips": "results/tables/{scene}_slips.csv",
-            "trace": "results/tables/{scene}_trace.csv",
-            # The scenes of Fig. 13 have one load axis.
-            "others": lambda wildcards: [
-                f"results/tables/{scene}_trace.csv"
-                for scene in config["fig13"]
-                if wildcards.scene in config["fig13"]
-            ],
-        },
-        "options": {"title": lambda wildcards: config["scenes"][wildcards.scene]["title"]},
-    },
     "fig13": {
+        "section": "reproduction",
         "shows": "propagation length against load",
-        "category": "Reproduction",
         "module": "precursor_lengths",
         "tables": {
             "slips": collect("results/tables/{scene}_slips.csv", scene=config["fig13"]),
@@ -41,46 +45,43 @@ FIGURES = {
         },
     },
     "definitions": {
+        "section": "reproduction",
         "shows": "what every reading gives",
-        "category": "Reproduction",
         "tables": {"table": "results/tables/definitions.csv"},
     },
     "work_precision": {
-        "file": "work_precision{full}",
+        "section": "speed",
         "shows": "errors against time",
-        "category": "Speed and accuracy",
-        "tables": {"table": "results/tables/work_precision{full}.csv"},
+        "tables": {"table": "results/tables/work_precision.csv"},
     },
     "work_precision_evaluations": {
-        "file": "work_precision_evaluations{full}",
+        "section": "speed",
         "shows": "errors against evaluations",
-        "category": "Speed and accuracy",
         "module": "work_precision",
-        "tables": {"table": "results/tables/work_precision{full}.csv"},
+        "tables": {"table": "results/tables/work_precision.csv"},
         "options": {"work": "evaluations"},
     },
     "speed": {
         "shows": "error against time, as published",
-        "category": "Speed and accuracy",
-        "tables": {"table": ROOT / "paper/tables/work_precision_full.csv"},
+        "section": "speed",
+        "tables": {"table": str(ROOT / "paper/tables/work_precision_full.csv")},
     },
     "step_sweep": {
-        "file": "step_sweep{full}",
+        "section": "accuracy",
         "shows": "the paper's numbers against the step",
-        "category": "Speed and accuracy",
-        "tables": {"table": "results/tables/step_sweep{full}.csv"},
+        "tables": {"table": "results/tables/step_sweep.csv"},
     },
     "failure_gallery": {
+        "section": "accuracy",
         "shows": "how methods fail",
-        "category": "Speed and accuracy",
         "tables": {
             "thresholds": "results/tables/thresholds.csv",
             "curves": collect("results/tables/failures/{mode}.csv", mode=FAILURE_MODES),
         },
     },
     "horizon": {
+        "section": "accuracy",
         "shows": "predicted and actual error",
-        "category": "Proof and horizon",
         "tables": {
             "errors": "results/tables/horizon.csv",
             "overview": "results/tables/solver_vs_proof.csv",
@@ -90,7 +91,7 @@ FIGURES = {
     },
     "noise": {
         "shows": "mu_sapp and counts over noise and printed digits",
-        "category": "Sensitivity",
+        "section": "ensembles",
         "tables": {
             "noise": "results/tables/noise_members.csv",
             "digits": "results/tables/digits_members.csv",
@@ -98,12 +99,12 @@ FIGURES = {
     },
     "theta_window": {
         "shows": "a window of theta",
-        "category": "Sensitivity",
+        "section": "ensembles",
         "tables": {"members": "results/tables/theta_window_members.csv"},
     },
     "resolution": {
+        "section": "ensembles",
         "shows": "what the number of blocks does",
-        "category": "Sensitivity",
         "tables": {
             "table": "results/tables/resolution.csv",
             "limits": "results/tables/resolution_limits.csv",
@@ -112,14 +113,13 @@ FIGURES = {
         "options": {"papers_n": config["chain"]["n_blocks"]},
     },
     "event_law": {
-        "file": "event_law{full}",
+        "section": "ensembles",
         "shows": "the number of events by theory",
-        "category": "Sensitivity",
-        "tables": {"table": "results/tables/event_law{full}.csv"},
+        "tables": {"table": "results/tables/event_law.csv"},
     },
     "map_theta_friction_ratio": {
         "shows": "theta and mu_k/mu_s",
-        "category": "Sensitivity",
+        "section": "ensembles",
         "module": "friction_map",
         "tables": {"table": "results/tables/map_theta_friction_ratio.csv"},
         "options": {
@@ -127,10 +127,18 @@ FIGURES = {
         },
     },
     "model_comparison": {
+        "section": "hierarchy",
         "shows": "which model answers which question",
-        "category": "Models",
         "tables": {"table": "results/tables/model_comparison.csv"},
     },
+}
+# Their headings in the report; another section has its own name.
+SECTIONS = {
+    "reproduction": "Reproduction",
+    "speed": "Speed and accuracy",
+    "accuracy": "Speed and accuracy",
+    "ensembles": "Sensitivity",
+    "hierarchy": "Models",
 }
 
 
@@ -152,29 +160,32 @@ rule explorer:
     localrule: True
 
 
-for name, about in FIGURES.items():
-    file, module = about.get("file", name), about.get("module", name)
+for section in dict.fromkeys(figure["section"] for figure in FIGURES.values()):
+    drawn = {name: figure for name, figure in FIGURES.items() if figure["section"] == section}
+    modules = {f"figures.{figure.get('module', name)}" for name, figure in drawn.items()}
 
     rule:
         name:
-            f"draw_{name}"
+            f"draw_{section}"
         input:
-            **about.get("tables", {}),
+            [list(figure.get("tables", {}).values()) for figure in drawn.values()],
         output:
-            report(
-                f"results/figures/{file}.svg",
-                caption=f"../report/{name}.rst",
-                category=about["category"],
-                labels={"figure": f"{file}: {about['shows']}"},
-            ),
-            *[f"results/figures/{file}.{kind}" for kind in FORMATS[1:]],
+            [
+                report(
+                    f"results/figures/{name}.svg",
+                    caption=f"../report/{figure.get('caption', name)}.rst",
+                    category=SECTIONS.get(section, section),
+                    labels={"figure": f"{name}: {figure['shows']}"},
+                )
+                for name, figure in drawn.items()
+            ],
+            collect("results/figures/{name}.{kind}", name=drawn, kind=FORMATS[1:]),
         log:
-            f"results/logs/draw_{name}/{file}.log",
+            f"results/logs/draw_{section}.log",
         localrule: True
         params:
-            **about.get("options", {}),
-            figure=module,
-            code=digest("draw", f"figures.{module}"),
+            figures=drawn,
+            code=digest("draw", *sorted(modules)),
         script:
             "../scripts/draw.py"
 

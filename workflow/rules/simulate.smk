@@ -4,6 +4,8 @@
 rule simulate_scene:
     output:
         run="results/runs/{scene}.h5",
+        slips=report("results/tables/{scene}_slips.csv", category="Tables"),
+        trace="results/tables/{scene}_trace.csv",
     log:
         "results/logs/simulate_scene/{scene}.log",
     params:

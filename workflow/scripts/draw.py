@@ -1,7 +1,8 @@
-"""Draw a figure: `params.figure` is its module, the inputs are its tables, the other params its options."""
+"""Draw the figures of a section, as the list in workflow/rules/figures.smk has them."""
 
 from collections.abc import Mapping, Sequence
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 from job import job
@@ -11,7 +12,10 @@ from precursors.support.files import read_table
 
 
 def main(
-    figure: str, tables: Mapping[str, str | Sequence[str]], options: Mapping[str, Any], outputs: Sequence[str]
+    figure: str,
+    tables: Mapping[str, str | Sequence[str]],
+    options: Mapping[str, Any],
+    outputs: Sequence[str | Path],
 ) -> None:
     """Draw the tables, once for each file name; several files under one name become a list of tables."""
     read = {
@@ -25,6 +29,6 @@ def main(
 
 if __name__ == "__main__":
     with job() as snakemake:
-        tables, options = dict(snakemake.input.items()), dict(snakemake.params.items())
-        options.pop("code")
-        main(options.pop("figure"), tables, options, snakemake.output)
+        for name, figure in snakemake.params.figures.items():
+            files = [file for file in snakemake.output if Path(file).stem == name]
+            main(figure.get("module", name), figure.get("tables", {}), figure.get("options", {}), files)

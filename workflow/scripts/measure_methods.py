@@ -42,6 +42,6 @@ if __name__ == "__main__":
         main(
             dict(zip(snakemake.params.thetas, snakemake.input.certificates, strict=True)),
             snakemake.params.thetas,
-            bool(snakemake.wildcards.full),
+            snakemake.params.full,
             snakemake.output.table,
         )

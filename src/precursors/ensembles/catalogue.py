@@ -21,7 +21,6 @@ STUDIES: dict[str, Callable[..., Study]] = {
     "theta_window_members": theta_window_study,
     "resolution_members": resolution_study,
     "event_law_members": event_law_study,
-    "event_law_full_members": event_law_study,
     MAP: map_study,
 }
 
@@ -32,7 +31,7 @@ def study_arguments(config: Config, name: str) -> dict[str, Any]:
     if name == MAP:
         return {"slider": config["chain"], "points": settings["map"]["points"]}
     own = settings[name.removesuffix("_members")]
-    if name.startswith("event_law"):
+    if name == "event_law_members":
         return {"slider": config["chain"], "settings": own}
     sliders = {scene: scene_slider(config, scene) for scene in config["fig13"]}
     return {"sliders": sliders, "duration": config["duration"], "settings": own}
