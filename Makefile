@@ -13,7 +13,7 @@ endif
 .PHONY: all test mutants test-cluster results check report golden docs bench speed codecheck lock lint wheelhouse clean
 
 all: results
-	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures results/provenance.json
+	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
 
 test: results
 	$(BIN)/pytest -n $(CORES) --dist worksteal

@@ -12,7 +12,6 @@ from precursors.analysis.slips import (
     DEFINITIONS,
     Definition,
     apparent_friction,
-    every_definition,
     first_global,
     slip_table,
 )
@@ -171,9 +170,3 @@ def test_a_reading_decides_which_event_is_global_and_which_are_short(definition,
 def test_the_first_definition_reads_slips_as_find_slips_does():
     slips = slip_table(simulate(Chain.from_slider(), duration=3.0))
     pd.testing.assert_frame_equal(DEFINITIONS[0].read(slips), slips)
-
-
-def test_every_definition_is_tried_once():
-    found = list(every_definition([5.0]))
-    assert len(found) == len(set(found)) == 3 * 3 * 3
-    assert DEFINITIONS[0] in found

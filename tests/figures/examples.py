@@ -224,24 +224,23 @@ def model_comparison() -> dict:
 
 
 def definitions() -> dict:
-    lengths = [
-        "farthest block that slid",
-        "number of blocks that slid",
-        "most blocks that slid at the same instant",
+    readings = [
+        ("nothing", ""),
+        ("global slip", "in which F_X drops by more than 3 N"),
+        ("size of theta", "0.9"),
     ]
     rows = [
-        {"global_slip": global_slip, "short": "shorter than one before it", "front": front, "theta": theta}
-        | {"events_counted": 7 + (front == lengths[2]), "mu_sapp": 0.5 if theta else np.nan}
-        for global_slip in ("in which F_X drops by more than 3 N", "in which every block slides at some time")
-        for front, theta in product(lengths, (-0.9, -0.8, -0.7, -0.5, 0.0, 0.5, 0.7, 0.8, 0.9))
+        {"changed": changed, "global_slip": value, "degree": value, "theta": theta}
+        | {"events_counted": 7 + (value == "0.9"), "mu_sapp": 0.5 if theta else np.nan}
+        for changed, value in readings
+        for theta in (-0.9, 0.0, 0.9)
     ]
     table = pd.DataFrame(rows)
     return {
         "table": table.assign(
             events_counted_is_papers=table["events_counted"] == 7,
             mu_sapp_is_papers_within_a_digit=table["theta"] > 0.8,
-            numbers_within_a_digit=np.where(table["events_counted"] == 7, 6, 2),
-            switching="one rule",
+            numbers_within_a_digit=np.where(table["events_counted"] == 7, 4, 1),
         )
     }
 

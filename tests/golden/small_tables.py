@@ -15,7 +15,7 @@ import pandas as pd
 import yaml
 from ensembles.studies import PAPER, noise_of, study_of
 
-from precursors import Chain
+from precursors import Chain, simulate
 from precursors.accuracy.failures import FAILURE_MODES, Failure
 from precursors.ensembles import noise, resolution
 from precursors.ensembles.printed_digits import digits_table
@@ -69,9 +69,10 @@ def failure_curves(measured: Callable[[str], Failure]) -> pd.DataFrame:
 
 
 def definitions() -> pd.DataFrame:
-    """All readings for theta = 5/6, with one drop of the load."""
+    """Readings for one other size of theta, with one drop of the load."""
     slider, paper = CONFIG["chain"], [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)]
-    table = definitions_table(slider, 3.0, ["5/6"], [5.0], paper)
+    runs = [simulate(Chain.from_slider(**slider, theta=theta), 3.0) for theta in ("-5/6", 0, "5/6")]
+    table = definitions_table(runs, slider, 3.0, [0.833], [5.0], paper)
     return table.drop(columns=[column for column in table if column.endswith("_paper")])
 
 

@@ -9,13 +9,15 @@ rule eq15:
 
 
 rule check_eq15:
+    input:
+        runs=collect("results/runs/{scene}.h5", scene=config["fig13"]),
     output:
         table=report("results/tables/eq15.csv", category="Tables"),
         speeds=report("results/tables/eq15_speeds.csv", category="Tables"),
     log:
         "results/logs/check_eq15.log",
     params:
-        sliders=SLIDERS,
+        scenes=config["fig13"],
         duration=config["duration"],
         code=digest("check_eq15"),
     script:
@@ -23,6 +25,8 @@ rule check_eq15:
 
 
 rule tabulate_definitions:
+    input:
+        runs=collect("results/runs/{scene}.h5", scene=config["fig13"]),
     output:
         table=report("results/tables/definitions.csv", category="Tables"),
     log:

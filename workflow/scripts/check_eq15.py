@@ -2,13 +2,14 @@
 
 from job import job
 
-from precursors.model.chain import Chain
 from precursors.reproduction.eq15 import drive_speeds_table, eq15_table
+from precursors.solver.run import Run
 from precursors.support.files import write_table
 
 if __name__ == "__main__":
     with job() as snakemake:
-        chains = {name: Chain.from_slider(**slider) for name, slider in snakemake.params.sliders.items()}
-        speeds = drive_speeds_table(chains)
+        paths = zip(snakemake.params.scenes, snakemake.input.runs, strict=True)
+        runs = {scene: Run.load(path) for scene, path in paths}
+        speeds = drive_speeds_table({scene: run.chain for scene, run in runs.items()})
         write_table(speeds, snakemake.output.speeds)
-        write_table(eq15_table(chains, snakemake.params.duration, speeds), snakemake.output.table)
+        write_table(eq15_table(runs, snakemake.params.duration, speeds), snakemake.output.table)

@@ -1,20 +1,17 @@
-"""Print the paper's numbers beside ours, where the slider is not the paper's, and where the figures are."""
+"""Print the paper's numbers beside ours, and where the figures are."""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
 
-from precursors.reproduction.subject import changes
-from precursors.support.files import read_json, read_table
+from precursors.support.files import read_table
 
 
-def main(table: str | Path, figures: str | Path, provenance: str | Path) -> None:
+def main(table: str | Path, figures: str | Path) -> None:
     """Print the table of the reproduction for reading, four digits a number."""
     found = read_table(table).rename_axis(index=None).set_index("scene")
     print(found.to_string(float_format="{:.4g}".format, na_rep="-", justify="left", index_names=False))
-    if changed := ", ".join(changes(read_json(provenance)["config"])):
-        print(f"Not the paper's slider: {changed}")
     print(f"Figures: {', '.join(sorted(path.name for path in Path(figures).glob('*.svg')))} in {figures}")
 
 

@@ -1,11 +1,13 @@
-"""Tabulate what every reading of "global slip", "short", "front" and theta gives beside the paper."""
+"""Tabulate what other readings of the paper's words give, one change at a time."""
 
 from job import job
 
 from precursors.reproduction.definitions import definitions_table
+from precursors.solver.run import Run
 from precursors.support.files import write_table
 
 if __name__ == "__main__":
     with job() as snakemake:
         options = {name: value for name, value in snakemake.params.items() if name != "code"}
-        write_table(definitions_table(**options), snakemake.output.table)
+        runs = [Run.load(path) for path in snakemake.input.runs]
+        write_table(definitions_table(runs, **options), snakemake.output.table)

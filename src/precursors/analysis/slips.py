@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import product
 from typing import TypeVar
 
 import numpy as np
@@ -151,13 +149,6 @@ class Definition:
 DEFINITIONS = tuple(
     Definition(global_slip, largest=largest) for global_slip in GLOBAL_SLIPS for largest in (True, False)
 )
-
-
-def every_definition(load_drops: Iterable[float]) -> Iterator[Definition]:
-    """All readings of global slip, short event and front; `load_drops` [N] are those of a global slip."""
-    global_slips: list[str | float] = [*GLOBAL_SLIPS, *load_drops]
-    for global_slip, short, front in product(global_slips, SHORT_EVENTS, FRONTS):
-        yield Definition(global_slip, front, short)
 
 
 @dataclass(frozen=True)

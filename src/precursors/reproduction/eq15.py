@@ -25,6 +25,7 @@ from precursors.model.statics import (
     maximal_compressions,
     maximal_strain_positions,
 )
+from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
 SYMBOLIC_BLOCKS = 10
@@ -51,25 +52,26 @@ FAST = "F_X passes mu_s F_Z in motion from (mu_s - mu_k) F_Z / sqrt(K M) on, to 
 BELOW = "some block at rest is below its limit (least part at slip onsets, above 0)"
 
 
-def eq15_table(scenes: Mapping[str, Chain], duration: float, speeds: pd.DataFrame) -> pd.DataFrame:
+def eq15_table(runs: Mapping[str, Run], duration: float, speeds: pd.DataFrame) -> pd.DataFrame:
     """Every check on a row: check, case, unit, expected, found, holds.
 
     Parameters
     ----------
-    scenes : mapping of str to Chain
-        Chains by the name of their scene.
+    runs : mapping of str to Run
+        Runs by the name of their scene.
     duration : float
         Time within which a global slip is awaited [s].
     speeds : DataFrame
         What `drive_speeds_table` returns for these scenes.
     """
+    scenes = {scene: run.chain for scene, run in runs.items()}
     rows = [*in_symbols(SYMBOLIC_BLOCKS)]
     for check in (as_printed, at_rest):
         rows += [check(scene, chain) for scene, chain in scenes.items()]
     rows += [row for scene, chain in scenes.items() for row in in_motion(scene, chain, duration)]
     for scene, chain in scenes.items():
         loads = speeds.loc[speeds["scene"] == scene, "largest_load_over_normal_load"]
-        rows += [fast_drive(scene, chain, loads.to_numpy()), below_limit(scene, chain, duration)]
+        rows += [fast_drive(scene, chain, loads.to_numpy()), below_limit(scene, runs[scene])]
     first = next(iter(scenes.values()))
     return pd.DataFrame([*rows, rigid(first, duration)])
 
@@ -168,14 +170,13 @@ def fast_drive(scene: str, chain: Chain, loads: FloatArray) -> dict[str, Any]:
     return _row(FAST, scene, "m/s", expected, found, math.isclose(found, expected, rel_tol=RIGID_TOLERANCE))
 
 
-def below_limit(scene: str, chain: Chain, duration: float) -> dict[str, Any]:
+def below_limit(scene: str, run: Run) -> dict[str, Any]:
     """How near a run comes to the state of Eq. 12, in which all blocks are at their limits at once.
 
     At the onset of each slip: what the block farthest from its limit mu_s w_i is below it, over mu_s w_i.
     """
-    run = simulate(chain, duration)
     forces = np.pad(run.spring_forces(find_slips(run)["onset"]), ((0, 0), (0, 1)))
-    below = 1.0 - (forces[:, :-1] - forces[:, 1:]) / chain.strength
+    below = 1.0 - (forces[:, :-1] - forces[:, 1:]) / run.chain.strength
     found = round(float(below.max(axis=1).min(initial=math.inf)), DIGITS)
     return _row(BELOW, scene, "1", 0.0, found, found > 0.0)
 
