@@ -89,8 +89,9 @@ $(READY): requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
 	@# Compile the solver, the cascades and the methods with fixed steps, on two cores.
 	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.hierarchy.quasistatic import quasistatic_slips; \
+	  from precursors.hierarchy.larger import LargerChain, simulate_larger; \
 	  from precursors.methods import METHODS; chain = Chain.from_slider(); simulate(chain, 0.4).at([0.4]); \
-	  quasistatic_slips(chain); \
+	  quasistatic_slips(chain); simulate_larger(LargerChain(chain, 0.02), 0.1); \
 	  [METHODS[name].solve(chain, 0.4, 1e-6, None) for name in ('moreau_jean_half', 'karnopp')]" & \
 	$(BIN)/python -c "from precursors import Chain; from precursors.methods import METHODS; \
 	  [METHODS[name].solve(Chain.from_slider(), 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'dop853', \

@@ -9,6 +9,7 @@ from ensembles.studies import study_of
 
 from precursors.ensembles.event_law import event_law_table, predicted_events
 from precursors.ensembles.study import chain_of, run_members
+from precursors.hierarchy.larger_study import medians_table, run_study
 
 ROOT = Path(__file__).parents[2]
 CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
@@ -39,3 +40,16 @@ def test_the_runs_of_few_blocks_are_those_of_the_library():
     keys = ["varied", "loading", "theta", "n_blocks"]
     there = committed("event_law_full").merge(again[keys], on=keys)
     pd.testing.assert_frame_equal(there, again, rtol=1e-6)
+
+
+def test_the_larger_chains_of_few_blocks_are_those_of_the_library():
+    settings = CONFIG["hierarchy"]["larger_full"]
+    study = {**settings["studies"]["search"], "pairs": [[0.04, 5e-6]], "theta": [0]}
+    again = medians_table(run_study(CONFIG["chain"], "search", study, settings))
+    table = committed("larger_full")
+    there = table[
+        (table["study"] == "search") & (table["weakening_velocity"] == 0.04) & (table["theta"] == 0)
+    ]
+    there = there[there["relaxation_time"] == 5e-6]
+    assert there["events_counted"].tolist() == again["events_counted"].tolist()
+    assert there["mu_sapp"].tolist() == pytest.approx(again["mu_sapp"].tolist(), rel=1e-4)

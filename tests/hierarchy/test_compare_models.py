@@ -12,7 +12,7 @@ from golden.small_tables import CONFIG, SCENES
 
 from precursors import Chain
 from precursors.figures import model_comparison, style
-from precursors.hierarchy.compare_models import DRAWS, compare_models, waveform_error, with_smallest
+from precursors.hierarchy.compare_models import compare_models, waveform_error, with_smallest
 from precursors.hierarchy.models import MODELS
 from precursors.support import timing
 from precursors.support.files import read_table
@@ -38,7 +38,8 @@ def test_the_smallest_model_for_each_question_is_named(comparison: pd.DataFrame)
     assert smallest(comparison) == {
         "first_load": "statics",
         "events_counted": "quasistatic",
-        "mu_sapp": "overdamped",
+        "mu_sapp": "chain",
+        "mu_sapp_band": "chain",
         "front_loads": "quasistatic",
         "slip_duration": "chain",
         "waveform": "chain",
@@ -46,8 +47,8 @@ def test_the_smallest_model_for_each_question_is_named(comparison: pd.DataFrame)
 
 
 def test_a_wider_tolerance_lets_a_smaller_model_answer(comparison: pd.DataFrame) -> None:
-    limit = comparison["question"].map(TOLERANCES | {"mu_sapp": 0.1, "slip_duration": 0.4})
-    wide = smallest(with_smallest(comparison.assign(is_answer=comparison["error"] <= limit)))
+    limit = comparison["question"].map(TOLERANCES | {"mu_sapp": 0.12, "slip_duration": 0.4})
+    wide = smallest(with_smallest(comparison.assign(is_answer=comparison["error_high"] <= limit)))
     assert (wide["mu_sapp"], wide["slip_duration"]) == ("law", "rigid")
 
 
@@ -59,7 +60,9 @@ def test_a_model_that_fails_in_one_scene_is_not_the_smallest_for_any(comparison:
 
 def test_each_model_is_asked_what_it_answers_and_nothing_else(comparison: pd.DataFrame) -> None:
     for name, rows in comparison.groupby("model"):
-        assert set(rows["question"]) == set(MODELS[str(name)].answers) & set(TOLERANCES)
+        assert set(rows["question"]) == set(MODELS[str(name)].answers) & set(TOLERANCES) | (
+            {"mu_sapp_band"} if "mu_sapp" in MODELS[str(name)].answers else set()
+        )
 
 
 def test_the_papers_chain_has_no_error_and_every_answer_a_cost(comparison: pd.DataFrame) -> None:
@@ -67,20 +70,30 @@ def test_the_papers_chain_has_no_error_and_every_answer_a_cost(comparison: pd.Da
     assert (comparison["cost_s"] > 0).all()
 
 
-def test_a_cost_is_that_of_a_warm_answer_repeated_until_it_can_be_measured(clock) -> None:
+def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(clock) -> None:
     calls, warm, rounds = [], 0.0005, 3
-    exact = MODELS["chain"]
 
-    def prepare(chain: Chain):
+    def solve(chain: Chain) -> None:
         clock.now += warm if calls else 10.0
         calls.append(chain)
-        return exact.prepare(chain)
 
-    models = {"chain": replace(exact, prepare=prepare)}
+    models = {"chain": replace(MODELS["chain"], solve=solve)}
     table = compare_models({"even": SCENES["even"]}, TOLERANCES, models, rounds)
     assert table["cost_s"].tolist() == pytest.approx([warm] * len(TOLERANCES))
-    noisy = DRAWS  # both noisy questions of one run
-    assert len(calls) == len(TOLERANCES) * (2 + rounds * round(timing.SHORTEST / warm)) + noisy
+    assert len(calls) == 2 + rounds * round(timing.SHORTEST / warm)  # one run answers all questions
+
+
+def test_an_error_has_its_interval_and_the_whole_of_it_must_be_within_the_tolerance(comparison) -> None:
+    assert (comparison["error_low"] <= comparison["error"]).all()
+    assert (comparison["error"] <= comparison["error_high"]).all()
+    assert (comparison["is_answer"] == (comparison["error_high"] <= comparison["tolerance"])).all()
+    noisy = comparison["question"].isin(["mu_sapp", "mu_sapp_band"]) & (comparison["model"] == "overdamped")
+    assert (comparison.loc[noisy, "error_low"] < comparison.loc[noisy, "error_high"]).all()
+
+
+def test_only_the_chain_has_the_spread_of_mu_sapp_with_more_load_at_the_leading_edge(comparison) -> None:
+    band = comparison[(comparison["question"] == "mu_sapp_band") & (comparison["scene"] == "lead")]
+    assert band.loc[band["is_answer"], "model"].tolist() == ["chain"]
 
 
 def test_waveforms_are_compared_over_the_same_time() -> None:

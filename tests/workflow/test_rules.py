@@ -19,6 +19,7 @@ QUEUED = {
     "run_chunk",
     "simulate_scene",
     "tabulate_failures",
+    "tabulate_larger",
     "tabulate_lyapunov",
     "tabulate_predictability",
     "tabulate_step_sweep",

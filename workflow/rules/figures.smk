@@ -126,6 +126,15 @@ FIGURES = {
             "scenes": [(slider["theta"], slider["mu_k"] / slider["mu_s"]) for slider in SLIDERS.values()]
         },
     },
+    "larger": {
+        "shows": "a chain with a length",
+        "category": "Models",
+        # The full study, as it is committed.
+        "tables": {
+            "nucleation": ROOT / "paper/tables/larger_nucleation_full.csv",
+            "table": ROOT / "paper/tables/larger_full.csv",
+        },
+    },
     "model_comparison": {
         "section": "hierarchy",
         "shows": "which model answers which question",

@@ -3,7 +3,8 @@
 
 rule hierarchy:
     input:
-        collect("results/figures/model_comparison.{kind}", kind=FORMATS),
+        collect("results/figures/{figure}.{kind}", figure=["model_comparison", "larger"], kind=FORMATS),
+        "results/tables/larger.csv",
         collect("results/tables/{scene}_answers.csv", scene=ASKED),
     localrule: True
 
@@ -20,6 +21,30 @@ rule compare_models:
         code=digest("compare_models"),
     script:
         "../scripts/compare_models.py"
+
+
+# On demand: the paper shows these tables as they are committed in paper/tables.
+rule larger_full:
+    input:
+        "results/tables/larger_full.csv",
+    localrule: True
+
+
+rule tabulate_larger:
+    output:
+        medians=report("results/tables/larger{full}.csv", category="Tables"),
+        differences="results/tables/larger_differences{full}.csv",
+        nucleation="results/tables/larger_nucleation{full}.csv",
+    log:
+        "results/logs/tabulate_larger{full}.log",
+    wildcard_constraints:
+        full="(_full)?",
+    params:
+        slider=config["chain"],
+        settings=lambda wildcards: config["hierarchy"][f"larger{wildcards.full}"],
+        code=digest("tabulate_larger"),
+    script:
+        "../scripts/tabulate_larger.py"
 
 
 rule answer_scene:

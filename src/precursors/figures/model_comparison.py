@@ -21,6 +21,7 @@ QUESTIONS = {
     "first_load": "First precursor,\nload [N]",
     "events_counted": style.EVENTS_LABEL,
     "mu_sapp": style.MU_SAPP_LABEL,
+    "mu_sapp_band": "95 % of runs below\n" + style.MU_SAPP_LABEL,
     "front_loads": "$L_p$ against $F_X$,\nload at $L/2$ [N]",
     "slip_duration": "Global slip,\nduration [ms]",
     "waveform": "Waveform $F_X(t)$,\npeak [N]",

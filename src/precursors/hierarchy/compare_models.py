@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.run_statistics import median_interval
 from precursors.hierarchy.models import MODELS, UNITS, Model
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.scenes import PAPERS_MODEL
@@ -18,8 +17,8 @@ from precursors.support import timing
 
 WAVEFORM_SAMPLES = 2001
 # Of runs with noise in the normal loads: its relative size, well below what an experiment knows of them; the
-# seed; and how many runs.
-NOISE, SEED, DRAWS = 1e-3, 2014, 80
+# seed; how many runs; and how often they are drawn again for the interval of an error (bootstrap).
+NOISE, SEED, DRAWS, RESAMPLES = 1e-3, 2014, 200, 500
 
 
 @dataclass(frozen=True)
@@ -34,25 +33,38 @@ class Question:
         (answer, answer of the paper's chain, chain) -> distance between them.
     error_unit : str
         Unit of the error: "1" where it is relative, to the answer or to F_Z.
-    noisy : bool
-        Whether the answer is the median of runs with noise in the normal loads. One run of the chain at
-        theta = 5/6 is a draw of many, and no measure of a model.
+    statistic : callable or None
+        What is asked of runs with noise in the normal loads, (values, axis) -> numbers: one run of the chain
+        at theta = 5/6 is a draw of many, and no measure of a model.
+    quantity : str
+        The quantity of the models that is asked for, where it is not the name of the question.
     """
 
     shown: Callable[[Any], float]
     error: Callable[[Any, Any, Chain], float]
     error_unit: str = "1"
-    noisy: bool = False
+    statistic: Callable[[FloatArray, int], FloatArray] | None = None
+    quantity: str = ""
 
 
-def relative(answer: float, exact: float, chain: Chain) -> float:
+def relative(answer: Any, exact: Any, chain: Chain) -> Any:
     """Error relative to the paper's chain."""
     return abs(answer - exact) / abs(exact)
 
 
-def difference(answer: float, exact: float, chain: Chain) -> float:
+def difference(answer: Any, exact: Any, chain: Chain) -> Any:
     """Error as it stands."""
     return abs(answer - exact)
+
+
+def ends_of_band(values: FloatArray, axis: int) -> FloatArray:
+    """5 and 95 % of the runs."""
+    return np.asarray(np.nanquantile(values, [0.05, 0.95], axis=axis))
+
+
+def ends_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> Any:
+    """Larger of the relative errors of both ends."""
+    return relative(answer, exact, chain).max(axis=0)
 
 
 def front_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
@@ -77,8 +89,10 @@ def root_mean_square(values: FloatArray) -> float:
 
 QUESTIONS = {
     "first_load": Question(float, relative),
-    "events_counted": Question(float, difference, "events", noisy=True),
-    "mu_sapp": Question(float, relative, noisy=True),
+    "events_counted": Question(float, difference, "events", np.nanmedian),
+    "mu_sapp": Question(float, relative, statistic=np.nanmedian),
+    # The upper end stands for both.
+    "mu_sapp_band": Question(lambda ends: float(ends[1]), ends_error, "1", ends_of_band, "mu_sapp"),
     # The load at which the front reaches the middle stands for all.
     "front_loads": Question(lambda loads: float(loads[(len(loads) - 1) // 2]), front_error),
     "slip_duration": Question(float, relative),
@@ -110,59 +124,98 @@ def compare_models(
     -------
     DataFrame
         One row for each scene, question and model that answers it: model_number (1, 2, ...), name and label
-        of the model, value and its unit (of events_counted and mu_sapp the median of runs with noise in the
-        normal loads), error against the paper's chain, tolerance, is_answer (the error is
-        within it), is_smallest (the first model that answers in every scene), cost_s (median time from the
-        chain to the answer [s]).
+        of the model, value and its unit (a statistic of runs with noise where the question has one), error
+        against the paper's chain with its 95 % interval (error_low, error_high, which are the error where
+        there is no noise), tolerance, is_answer (the whole interval is within it), is_smallest (the first
+        model that answers in every scene), and cost_s (median time of the solution alone [s]: of the run,
+        the cascade or the formula, without tables).
     """
     rows = []
-    noisy = {
-        (name, scene): noisy_answers(model, chain)
-        for name, model in models.items()
-        for scene, chain in chains.items()
-    }
-    for quantity, question in QUESTIONS.items():
-        tasks = {
-            (name, scene): partial(model.ask, chain, quantity)
-            for name, model in models.items()
-            if quantity in model.answers
-            for scene, chain in chains.items()
-        }
-        answers = {key: timing.second_call(task) for key, task in tasks.items()}
-        costs = timing.measure(tasks, rounds, seconds={key: seconds for key, (_, seconds) in answers.items()})
-        given = {key: answer for key, (answer, _) in answers.items()}
-        exact = {scene: given[PAPERS_MODEL, scene] for scene in chains}
-        if question.noisy:
-            given = {key: float(np.nanmedian(noisy[key][quantity])) for key in tasks}
-            known = {scene: median_interval(noisy[PAPERS_MODEL, scene][quantity]) for scene in chains}
-        for (name, scene), answer in given.items():
-            # The chain's median is known to its interval only: its nearest value to the answer.
-            nearest = np.clip(answer, *known[scene]) if question.noisy else exact[scene]
-            error = question.error(answer, nearest, chains[scene])
+    prepared = {(n, scene): m.prepare(chain) for n, m in models.items() for scene, chain in chains.items()}
+    noisy = {key: noisy_answers(models[key[0]], chains[key[1]]) for key in prepared}
+    costs = measure_costs(models, chains, prepared, rounds)
+    for name_of_question, question in QUESTIONS.items():
+        quantity = question.quantity or name_of_question
+        for (name, scene), solution in prepared.items():
+            if quantity not in models[name].answers:
+                continue
+            if question.statistic:
+                samples = (noisy[name, scene][quantity], noisy[PAPERS_MODEL, scene][quantity])
+                answer, error, low, high = noisy_error(
+                    question, *samples, chains[scene], name == PAPERS_MODEL
+                )
+            else:
+                answer = models[name].answers[quantity](solution)
+                exact = models[PAPERS_MODEL].answers[quantity](prepared[PAPERS_MODEL, scene])
+                error = low = high = question.error(answer, exact, chains[scene])
             rows.append(
                 {
                     "scene": scene,
-                    "question": quantity,
+                    "question": name_of_question,
                     "model_number": list(models).index(name) + 1,
                     "model": name,
                     "label": models[name].label,
                     "value": question.shown(answer),
                     "unit": UNITS[quantity],
                     "error": error,
+                    "error_low": low,
+                    "error_high": high,
                     "error_unit": question.error_unit,
-                    "tolerance": tolerances[quantity],
-                    "is_answer": error <= tolerances[quantity],
-                    "cost_s": costs[name, scene].seconds,
+                    "tolerance": tolerances[name_of_question],
+                    "is_answer": high <= tolerances[name_of_question],
+                    "cost_s": costs[name, scene, quantity],
                 }
             )
     return with_smallest(pd.DataFrame(rows))
+
+
+def measure_costs(
+    models: Mapping[str, Model],
+    chains: Mapping[str, Chain],
+    prepared: Mapping[tuple[str, str], Any],
+    rounds: int,
+) -> dict[tuple[str, str, str], float]:
+    """Median time [s] of each solution, by model, scene and quantity; one run answers all questions."""
+    tasks: dict[tuple[str, str, str], Callable[[], Any]] = {}
+    for (name, scene), solution in prepared.items():
+        model, chain = models[name], chains[scene]
+        for quantity, formula in model.answers.items():
+            key = (name, scene, "" if model.solve else quantity)
+            tasks[key] = partial(model.solve, chain) if model.solve else partial(formula, solution)
+    measured = timing.measure(tasks, rounds)
+    return {
+        (name, scene, quantity): measured[name, scene, "" if models[name].solve else quantity].seconds
+        for name, scene in prepared
+        for quantity in models[name].answers
+    }
+
+
+def noisy_error(
+    question: Question, values: list[float], exact: list[float], chain: Chain, is_papers: bool
+) -> tuple[Any, float, float, float]:
+    """Statistic of a model's runs, and its error against those of the chain with a 95 % interval.
+
+    Both samples are drawn again and again. The chain has no error against itself.
+    """
+    assert question.statistic
+    answer = question.statistic(np.array(values), 0)
+    if is_papers:
+        return answer, 0.0, 0.0, 0.0
+    random = np.random.default_rng(SEED)
+    drawn, drawn_exact = (
+        question.statistic(random.choice(sample, (len(sample), RESAMPLES)), 0) for sample in (values, exact)
+    )
+    low, high = np.quantile(question.error(drawn, drawn_exact, chain), [0.025, 0.975])
+    error = question.error(answer, question.statistic(np.array(exact), 0), chain)
+    return answer, float(error), float(low), float(high)
 
 
 def noisy_answers(model: Model, chain: Chain) -> dict[str, list[float]]:
     """Answers to the noisy questions for chains with noise in the normal loads, the same for all models."""
     random = np.random.default_rng(SEED)
     noises = NOISE * random.uniform(-1.0, 1.0, (DRAWS, chain.n_blocks))
-    asked = [quantity for quantity in model.answers if quantity in QUESTIONS and QUESTIONS[quantity].noisy]
+    noisy = {question.quantity or name for name, question in QUESTIONS.items() if question.statistic}
+    asked = [quantity for quantity in model.answers if quantity in noisy]
     found: dict[str, list[float]] = {quantity: [] for quantity in asked}
     for noise in noises if asked else ():
         prepared = model.prepare(replace(chain, weights=chain.weights * (1.0 + noise)))

@@ -37,11 +37,12 @@ def nucleation_table(slider: Mapping[str, Any], study: Mapping[str, Any]) -> pd.
     gives the length that crept until then. Columns: the pair, n_blocks, theory and measured (l_c / L [1]),
     and ratio, measured over theory.
     """
-    chain, rows = Chain.from_slider(**{**slider, "theta": 0.0, "n_blocks": study["n_blocks"]}), []
-    for weakening_velocity, relaxation_time in study["pairs"]:
+    rows = []
+    for n, (weakening_velocity, relaxation_time) in product(study["n_blocks"], study["pairs"]):
+        chain = Chain.from_slider(**{**slider, "theta": 0.0, "n_blocks": n})
         larger = LargerChain(chain, weakening_velocity, relaxation_time)
         theory = critical_length(larger) / chain.length
-        run = simulate_larger(larger, 1.6 * theory * static_load_time(chain))
+        run = simulate_larger(larger, 1.6 * theory * static_load_time(chain), step=STEP)
         measured = find_slips(run)["load_before"].iloc[0] / (chain.mu_s * chain.normal_load)
         row = {"weakening_velocity": weakening_velocity, "relaxation_time": relaxation_time}
         row |= {"n_blocks": chain.n_blocks, "theory": theory, "measured": measured}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,10 +13,11 @@ import pandas as pd
 from precursors.analysis.slip_rows import first_global
 from precursors.analysis.slips import find_precursors, find_slips, mu_sapp
 from precursors.hierarchy import rigid, statics
-from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
+from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, cascade, quasistatic_slips
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.scenes import PAPERS_MODEL
 from precursors.model.statics import load_bound
+from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
 # Longest run, in units of the time in which the drive reaches mu_s F_Z against all springs in a row.
@@ -45,11 +47,14 @@ class Model:
         From a quantity, a key of `UNITS`, to the function that computes it from what `prepare` returns.
     prepare : callable
         From a chain to what the answers need.
+    solve : callable or None
+        From a chain to its solution without tables, which is timed; None where each answer is a formula.
     """
 
     label: str
     answers: Mapping[str, Callable[[Any], Any]]
     prepare: Callable[[Any], Any] = field(default=lambda chain: chain)
+    solve: Callable[[Chain], Any] | None = None
 
     def ask(self, chain: Chain, quantity: str) -> Any:
         """Answer one question about a chain."""
@@ -68,8 +73,6 @@ class Motion:
         Its slip events, see `find_slips`.
     mu_sapp : float
         Apparent static friction coefficient (Eq. 1); NaN without a global slip.
-    front_arrival : float
-        Time at which block N first slides in the first global slip [s]; NaN where it is not known.
     waveform : array, shape (n_transitions + 1, 2)
         Time [s] and load [N] at the start and at each transition.
     """
@@ -77,24 +80,23 @@ class Motion:
     n_blocks: int
     slips: pd.DataFrame
     mu_sapp: float
-    front_arrival: float = np.nan
     waveform: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
+
+
+def run_to_global_slip(chain: Chain) -> Run:
+    """Run the paper's chain to the end of its first global slip."""
+    return simulate(chain, longest_run(chain), until="global slip")
 
 
 def move(chain: Chain) -> Motion:
     """Follow a chain through time to the end of its first global slip."""
-    run = simulate(chain, longest_run(chain), until="global slip")
+    run = run_to_global_slip(chain)
     slips, transitions = find_slips(run), run.transitions
-    friction = front_arrival = np.nan
     first = first_global(slips)
-    if first is not None:
-        onset, largest_load = slips[["onset", "largest_load"]].iloc[first]
-        friction = mu_sapp(largest_load, run.chain.normal_load)
-        arrives = (transitions["block"] == run.chain.n_blocks) & (transitions["mode"] != 0)
-        front_arrival = float(transitions["time"][arrives & (transitions["time"] >= onset)][0])
+    friction = np.nan if first is None else mu_sapp(slips["largest_load"].iloc[first], run.chain.normal_load)
     times, loads = transitions["time"], transitions["tangential_load"]
     waveform = np.column_stack([np.append(0.0, times), np.append(0.0, loads)])
-    return Motion(run.chain.n_blocks, slips, friction, front_arrival, waveform)
+    return Motion(run.chain.n_blocks, slips, friction, waveform)
 
 
 def longest_run(chain: Chain) -> float:
@@ -150,9 +152,11 @@ MODELS: dict[str, Model] = {
         "front law", {"front_loads": statics.front_load_law, "mu_sapp": statics.apparent_friction_law}
     ),
     "rigid": Model("rigid slider", rigid.ANSWERS),
-    "overdamped": Model("overdamped chain", _EVENTS, _cascade(OVERDAMPED)),
-    "quasistatic": Model("quasi-static chain", _EVENTS, _cascade(ENERGY_CONSERVED)),
-    PAPERS_MODEL: Model("paper's chain", _MOTION, move),
+    "overdamped": Model(
+        "overdamped chain", _EVENTS, _cascade(OVERDAMPED), partial(cascade, overshoot=OVERDAMPED)
+    ),
+    "quasistatic": Model("quasi-static chain", _EVENTS, _cascade(ENERGY_CONSERVED), cascade),
+    PAPERS_MODEL: Model("paper's chain", _MOTION, move, run_to_global_slip),
 }
 
 

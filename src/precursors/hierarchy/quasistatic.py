@@ -53,7 +53,14 @@ class Cascade(NamedTuple):
 def quasistatic_slips(
     chain: Chain, overshoot: float = ENERGY_CONSERVED, max_events: int = MAX_EVENTS
 ) -> pd.DataFrame:
-    """Slip events of the quasi-static chain from rest to its first global slip, as a table of `find_slips`.
+    """Slip events of the quasi-static chain, from rest to its first global slip, as `find_slips` has them."""
+    return pd.DataFrame(cascade(chain, overshoot, max_events), columns=COLUMNS)
+
+
+def cascade(
+    chain: Chain, overshoot: float = ENERGY_CONSERVED, max_events: int = MAX_EVENTS
+) -> list[tuple[float, ...]]:
+    """Rows of `quasistatic_slips`.
 
     An event ends when it begins; `n_simultaneous` is the largest set that moves.
 
@@ -83,13 +90,14 @@ def quasistatic_slips(
         block = int(np.argmin(chain.weights)) + 1
         raise ValueError(f"every block of a quasi-static chain must have weight, but block {block} has 0 N")
     limit = chain.strength + ROUNDING * chain.normal_load
-    cascade = Cascade(chain.springs, limit, chain.kinetic_friction, 1.0 + overshoot)
+    numbers = Cascade(chain.springs, limit, chain.kinetic_friction, 1.0 + overshoot)
     strength, stiffness, n = float(chain.strength[0]), chain.drive_stiffness, chain.n_blocks
-    net, load, largest, moved, rows = np.zeros(n), 0.0, 0.0, 0.0, []
+    net, load, largest, moved = np.zeros(n), 0.0, 0.0, 0.0
+    rows: list[tuple[float, ...]] = []
     for event in range(1, max_events + 1):
         load += strength - net[0]
         net[0] = strength
-        slip, at_once = slip_of_event(cascade, net, MAX_STAGES)
+        slip, at_once = slip_of_event(numbers, net, MAX_STAGES)
         if not at_once:
             raise RuntimeError(
                 f"event {event} does not come to rest within {MAX_STAGES} stages; a larger mu_s - mu_k helps"
@@ -101,7 +109,7 @@ def quasistatic_slips(
         largest = max(largest, before)
         rows.append((time, time, before, load, largest, slid[-1] + 1, len(slid), at_once, len(slid) == n))
         if len(slid) == n:
-            return pd.DataFrame(rows, columns=COLUMNS)
+            return rows
     raise RuntimeError(f"no global slip within {max_events} events: raise max_events")
 
 
