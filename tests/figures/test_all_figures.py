@@ -12,7 +12,6 @@ from matplotlib import image
 from matplotlib.testing.compare import compare_images
 from matplotlib.text import Text
 
-from precursors import figures
 from precursors.figures import style
 
 SMALLEST_PT = 7.0  # what journals ask for at the width on paper; indices and exponents are smaller
@@ -124,19 +123,6 @@ def test_other_endings_are_refused(tmp_path):
     with pytest.raises(ValueError, match=r"must be a \.png, \.svg, \.pdf or \.eps file, but .*a\.gif"):
         style.save(draw("fig09"), tmp_path / "a.gif")
     assert list(tmp_path.iterdir()) == []
-
-
-def test_figures_compute_nothing_and_share_no_state():
-    """They import no room that simulates or fits, and not pyplot, whose state is global."""
-    modules = sorted(Path(figures.__file__).parent.glob("*.py"))
-    assert len(modules) > 10
-    for module in modules:
-        text = module.read_text(encoding="utf-8")
-        rooms = {
-            line.split()[1].split(".")[1] for line in text.splitlines() if line.startswith("from precursors")
-        }
-        assert rooms <= {"figures", "support", "model"}, module.name
-        assert "pyplot" not in text, module.name
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 import pytest
-from figures import examples
-from figures.examples import LENGTH_M, N_BLOCKS, N_COUNTED, NORMAL_LOAD_N, draw, scene, slips, trace
+from figures.examples import LENGTH_M, N_BLOCKS, N_COUNTED, draw, scene, slips, trace
 from matplotlib.collections import FillBetweenPolyCollection, LineCollection
 from matplotlib.colors import to_hex
 from matplotlib.text import Annotation
@@ -63,10 +62,6 @@ def markers(figure, marker):
     return [line.get_xydata() for line in figure.axes[0].lines if line.get_marker() == marker]
 
 
-def test_the_load_is_the_trace(figure):
-    np.testing.assert_array_equal(figure.axes[0].lines[0].get_xydata(), trace(slips()).to_numpy())
-
-
 def test_each_event_is_a_line_from_the_trailing_edge_as_long_as_its_front(figure):
     for is_global, color in ((False, PARTIAL), (True, GLOBAL)):
         events = slips()[lambda table, wanted=is_global: table["is_global"] == wanted]
@@ -80,13 +75,6 @@ def test_a_dashed_line_marks_the_first_global_slip_in_all_panels():
     later = slips().iloc[[-1]].assign(onset_s=5.0, end_s=5.0005, counted=False)
     panels = draw_scene(pd.concat([slips(), later], ignore_index=True)).axes
     assert [dashed_lines(axes) for axes in panels] == [[FIRST_GLOBAL_S]] * 4
-
-
-def test_the_dashed_line_lies_on_the_slip_that_it_marks_in_another_colour(figure):
-    lower = figure.axes[1]
-    (mark,) = [line for line in lower.lines if line.get_linestyle() == "--"]
-    assert all(mark.get_zorder() > slip.get_zorder() for slip in lower.collections)
-    assert mark.get_color() not in (PARTIAL, GLOBAL)
 
 
 def test_a_partial_slip_that_reaches_the_leading_edge_has_a_circle():
@@ -106,19 +94,6 @@ def test_scenes_that_are_compared_have_one_load_axis():
     ]
     assert limits[0] == limits[1]
     assert limits[0][1] > traces[0]["tangential_load_N"].max()
-
-
-def test_the_load_axis_ends_at_the_next_tick(figure):
-    assert figure.axes[0].get_ylim()[1] in figure.axes[0].get_yticks()
-
-
-def test_arrows_in_the_magnified_view_point_at_the_drops_before_the_global_slip(figure):
-    inset = figure.axes[2]
-    start, end = inset.get_xlim()
-    assert start < FIRST_GLOBAL_S < end
-    seen = slips()[lambda table: (table["onset_s"] > start) & ~table["is_global"]]
-    assert 0 < len(seen) < len(slips())
-    assert arrows(inset) == list(zip(seen["onset_s"], seen["load_before_N"], strict=True))
 
 
 def test_of_hundreds_of_events_the_largest_drops_have_the_arrows():
@@ -220,41 +195,10 @@ def test_a_circle_stands_for_each_event_counted(lengths):
     np.testing.assert_allclose(circles[1][:, 1], counted["front"] / N_BLOCKS, rtol=ROUNDING)
 
 
-def test_circles_are_solid_dotted_and_open_as_in_the_paper(lengths):
-    negative, zero, positive = [line for line in lengths.axes[0].lines if line.get_marker() == "o"]
-    assert negative.get_markerfacecolor() == negative.get_color()
-    assert zero.get_markerfacecolor() == positive.get_markerfacecolor() == "none"
-    (dots,) = markers(lengths, ".")
-    np.testing.assert_array_equal(dots, zero.get_xydata())
-
-
 def test_short_events_up_to_the_global_slip_are_crosses():
     after = slips().iloc[[0]].assign(onset_s=9.0, counted=False)
     (crosses,) = markers(draw("fig13", slips=[pd.concat([slips(), after], ignore_index=True)]), "x")
     assert len(crosses) == len(slips()) - N_COUNTED
-
-
-def test_the_key_counts_the_events(lengths):
-    assert key(lengths) == [
-        r"$\theta = -5/6$: 3 events",
-        r"$\theta = 0$: 9 events",
-        r"$\theta = 5/6$: 4 events",
-        "short events, not counted",
-    ]
-
-
-def test_the_upper_axis_is_the_friction_coefficient(lengths):
-    axes = lengths.axes[0]
-    (upper,) = axes.child_axes
-    np.testing.assert_allclose(upper.get_xlim(), np.divide(axes.get_xlim(), NORMAL_LOAD_N), rtol=ROUNDING)
-
-
-def test_a_line_marks_the_mean_mu_sapp_of_the_scenes_shown(lengths):
-    axes = lengths.axes[0]
-    lines = [line.get_xdata()[0] for line in axes.lines if line.get_linestyle() == "--"]
-    np.testing.assert_allclose(lines, [0.49 * NORMAL_LOAD_N], rtol=ROUNDING)
-    assert "mean" in axes.texts[0].get_text()
-    assert "0.490" in axes.texts[0].get_text()
 
 
 def test_scenes_that_differ_in_n_or_normal_load_say_so_and_have_no_common_friction_coefficient():
@@ -278,11 +222,3 @@ def test_scenes_without_a_global_slip_or_any_slip_or_a_known_theta_are_drawn():
         r"$\theta = 0$: 8 events, no global slip",
         r"$\theta$ unknown: 1 event, no global slip",
     ]
-
-
-def test_the_chain_names_what_the_equations_name():
-    texts = {text.get_text() for text in examples.draw("fig09").axes[0].texts}
-    for symbol, block in ((s, b) for s in "wfx" for b in "12N"):
-        assert f"${symbol}_{block}$" in texts
-    assert {"P", "$V$", "$K$", "$k$", "$F_X$", "$x_0 = V t$", "$\\cdots$"} <= texts
-    assert {"loading section", "material section: $N$ blocks", "trailing edge", "leading edge"} <= texts
