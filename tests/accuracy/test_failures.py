@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 from golden import small_tables
+from reference.goldens import SCENES
 
 from precursors import Chain, simulate
 from precursors.accuracy.compare import Truth, compare
@@ -17,9 +18,7 @@ from precursors.accuracy.failures.regularised_friction import RK4_REAL_LIMIT
 from precursors.accuracy.failures.stability import LOST, STOPPING, thresholds
 from precursors.methods import METHODS
 from precursors.methods.dop853 import next_transition
-from precursors.methods.stability import energy_left, highest_frequency, highest_mode, without_friction
 
-SCENES = {"fig10": 0.0, "fig11": "-5/6", "fig12": "5/6"}
 # DOP853 at a relative tolerance of 1e-10, after some hundred transitions.
 TIME_ERROR = 1e-6  # s
 # Between a measured curve or number and the closed form, of its first order.
@@ -125,15 +124,6 @@ def test_every_method_of_fixed_steps_has_a_threshold_and_steps_have_those_of_all
         for method in {t.method for t in limits() if t.fails.startswith(start)}:
             sizes = [t.n_blocks for t in limits() if t.method == method and t.fails.startswith(start)]
             assert sizes == ([10] if method == "RK4, transitions located" else SIZES), method
-
-
-def test_forward_euler_has_no_stable_step():
-    """An oscillation grows by sqrt(1 + (omega dt)^2) a step, at any step."""
-    free = without_friction(Chain.from_slider(n_blocks=2))
-    omega, mode = highest_frequency(free), highest_mode(free)
-    for z in (1e-3, 1e-2, 1.0):
-        left = energy_left(free, METHODS["forward_euler"].smooth.slide, z / omega, 100, mode)
-        assert np.sqrt(left) == pytest.approx(np.sqrt(1 + z**2) ** 100, rel=1e-9)
 
 
 def test_one_block_with_friction_fails_where_its_first_stop_says():

@@ -1,10 +1,12 @@
 """Methods that locate transitions as events: what they get right, and where and why they fail."""
 
 import math
+from functools import partial
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
-from reference.goldens import read_golden
+from reference.goldens import SCENES, read_golden
 from scipy.integrate import DOP853, solve_ivp
 from scipy.linalg import expm
 
@@ -16,7 +18,6 @@ from precursors.methods.events import Motion, settle, time_unit
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy, watched
 
-SCENES = {"fig10": 0.0, "fig11": "-5/6", "fig12": "5/6"}
 FIRST_SLIP = 216  # transitions of theta = 0 to the end of the first global slip
 # Errors of a step add up and grow in 2.7 s: measured were 7e-10 (DOP853) to 7e-8 s (Radau).
 TIGHT = {"DOP853": 1e-10, "RK45": 1e-10, "LSODA": 1e-10, "Radau": 1e-7}
@@ -47,21 +48,28 @@ def right_and_error(run: Run, golden: list) -> tuple[int, float]:
     return right, error
 
 
-@pytest.mark.parametrize("solver", TIGHT)
-def test_scipy_makes_every_transition_of_the_first_global_slip_at_a_tight_tolerance(uniform, solver):
-    result = solve_scipy(uniform, 10.0, TIGHT[solver], "global slip", solver)
+def needs(package: str) -> pytest.MarkDecorator:
+    return pytest.mark.skipif(find_spec(package) is None, reason=f"{package} is an extra")
+
+
+@pytest.mark.parametrize(
+    ("solve", "tolerance", "allowed"),
+    [
+        *(pytest.param(partial(solve_scipy, solver=s), x, TIGHT_ERROR, id=s) for s, x in TIGHT.items()),
+        *(pytest.param(solve_dop853, x, 100 * x, id=f"compiled {x:g}") for x in (1e-7, 1e-10, 1e-13)),
+        *(
+            pytest.param(partial(solve_cvode, formula=f), 1e-10, TIGHT_ERROR, id=f, marks=needs("sksundae"))
+            for f in ("Adams", "BDF")
+        ),
+    ],
+)
+def test_a_method_makes_every_transition_of_the_first_global_slip(uniform, solve, tolerance, allowed):
+    """At a tight tolerance; compiled DOP853 also at that where SciPy's misses two roots."""
+    result = solve(uniform, 10.0, tolerance, "global slip")
     right, error = right_and_error(result.run, read_golden("fig10"))
     assert right == len(result.run.transitions) == FIRST_SLIP
-    assert error < TIGHT_ERROR
+    assert error < allowed
     assert result.evaluations > 10 * FIRST_SLIP
-
-
-@pytest.mark.parametrize("tolerance", [1e-7, 1e-10, 1e-13])
-def test_compiled_dop853_makes_every_transition_also_where_scipys_misses_two_roots(uniform, tolerance):
-    result = solve_dop853(uniform, 10.0, tolerance, "global slip")
-    right, error = right_and_error(result.run, read_golden("fig10"))
-    assert right == len(result.run.transitions) == FIRST_SLIP
-    assert error < 100 * tolerance
 
 
 def test_a_step_of_compiled_dop853_is_scipys_with_its_error_and_its_dense_output(uniform):
@@ -86,18 +94,9 @@ def test_a_step_of_compiled_dop853_is_scipys_with_its_error_and_its_dense_output
         assert values == pytest.approx(motion.event_functions(trial))
 
 
-@pytest.mark.parametrize("formula", ["Adams", "BDF"])
-def test_cvode_makes_every_transition_of_the_first_global_slip_at_a_tight_tolerance(uniform, formula):
-    pytest.importorskip("sksundae")
-    result = solve_cvode(uniform, 10.0, 1e-10, "global slip", formula)
-    right, error = right_and_error(result.run, read_golden("fig10"))
-    assert right == len(result.run.transitions) == FIRST_SLIP
-    assert error < TIGHT_ERROR
-
-
+@needs("heyoka")
 @pytest.mark.parametrize("scene", SCENES)
 def test_heyoka_makes_every_transition_of_ten_seconds_at_its_default_tolerance(scene):
-    pytest.importorskip("heyoka")
     golden = read_golden(scene)
     result = solve_heyoka(Chain.from_slider(theta=SCENES[scene]), 10.0, 0.0)
     right, error = right_and_error(result.run, golden)
@@ -105,8 +104,8 @@ def test_heyoka_makes_every_transition_of_ten_seconds_at_its_default_tolerance(s
     assert error < ROUNDING_GROWN
 
 
+@needs("heyoka")
 def test_heyoka_misses_a_stop_where_a_block_starts_exactly_on_the_root_of_its_velocity():
-    pytest.importorskip("heyoka")
     golden = read_golden("fig11")
     result = solve_heyoka(Chain.from_slider(theta=SCENES["fig11"]), 5.0, 0.0, nudge=0.0)
     right, _ = right_and_error(result.run, golden)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference.goldens import SCENES
 
 from precursors import Chain
 from precursors.model.statics import (
@@ -19,8 +20,6 @@ from precursors.model.statics import (
 ROUNDING = 1e-12
 # The linear program is asked for 1e-10 of F_Z.
 LP = 1e-9
-
-SCENES = {"fig11": "-5/6", "fig10": 0.0, "fig12": "5/6"}
 
 
 def random_chain(n: int, rng: np.random.Generator) -> Chain:
@@ -68,7 +67,7 @@ def test_no_state_of_rest_drawn_at_random_carries_more():
 
 
 def test_the_program_sees_the_weight_of_each_block():
-    chain = PAPERS[1]
+    chain = PAPERS[0]
     for i in range(chain.n_blocks):
         weights = chain.weights.copy()
         weights[i] += 10.0
