@@ -175,14 +175,6 @@ def test_the_exact_solver_has_every_transition_of_the_reference():
     assert 0.0 < found.time_error < ROUNDING
 
 
-def test_a_certificate_is_a_truth_to_its_end():
-    chain = ExactChain.from_slider(n_blocks=3)
-    certificate = certify(chain, 10, until="global slip")
-    found = compare(simulate(chain.to_chain(), 10.0, "global slip"), Truth.proved(certificate))
-    assert has_all_transitions(found)
-    assert 0.0 < found.time_error < ROUNDING
-
-
 def tied_certificate():
     """A proof that ends with a tie: two blocks of a mirror-symmetric start let go at once."""
     start = ["0", "0", "0", "1e-5", "0", "0", "0"]
