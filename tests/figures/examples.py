@@ -236,14 +236,15 @@ def definitions() -> dict:
 
 
 # Figures by name: module and tables.
-PUBLISHED = Path(__file__).parents[2] / "paper/tables/work_precision_full.csv"
+PUBLISHED = Path(__file__).parents[2] / "paper/tables"
+SPEED = {"table": "work_precision_full.csv", "sessions": "beside_heyoka.csv"}
 EXAMPLES = {
     "fig09": ("chain_schematic", dict),
     "scene": ("scene", scene),
     "fig13": ("precursor_lengths", precursor_lengths),
     "definitions": ("definitions", definitions),
     "work_precision": ("work_precision", work_precision),
-    "speed": ("speed", lambda: {"table": pd.read_csv(PUBLISHED)}),
+    "speed": ("speed", lambda: {name: pd.read_csv(PUBLISHED / file) for name, file in SPEED.items()}),
     "step_sweep": ("step_sweep", step_sweep),
     "failure_gallery": ("failure_gallery", failure_gallery),
     "horizon": ("horizon", horizon),

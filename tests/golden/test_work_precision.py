@@ -20,6 +20,7 @@ from precursors.figures import speed, style
 from precursors.support.files import read_table
 
 TABLE = GOLDEN.parents[1] / "paper/tables/work_precision_full.csv"
+SESSIONS = TABLE.with_name("beside_heyoka.csv")
 CHART = GOLDEN / "speed.png"
 MADE = Path(__file__).parents[2] / "results/tables/work_precision.csv"
 DOCS = Path(__file__).parents[2] / "docs/performance.md"
@@ -32,7 +33,7 @@ def table(request):
 
 
 def test_the_published_chart_is_the_published_table_drawn(tmp_path):
-    style.save(speed.draw(read_table(TABLE)), tmp_path / CHART.name)
+    style.save(speed.draw(read_table(TABLE), read_table(SESSIONS)), tmp_path / CHART.name)
     assert compare_images(str(CHART), str(tmp_path / CHART.name), tol=FIGURE_RMS) is None
 
 
@@ -87,3 +88,18 @@ def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(table
         as_close = whole[whole["error_time_s"] <= exact["error_time_s"]]
         assert (as_close["seconds"] > exact["seconds"]).all()
         assert set(as_close["method"]) <= {"heyoka"}
+
+
+def test_the_ratios_to_heyoka_in_the_docs_are_those_of_the_sessions():
+    found = read_table(SESSIONS).query("benchmark == 'heyoka'").set_index(["case", "quantity"])
+    row = r"\| ([-+\d/]+) \| (first global slip|10 s) \| (\S+) \((\S+) to (\S+)\) \| (\S+) s \| (\S+) s \|"
+    said = re.findall(row, DOCS.read_text())
+    assert len(said) == 6
+    for theta, run, *numbers in said:
+        case = f"theta = {theta.lstrip('+')}, {'10 s' if run == '10 s' else 'to the first global slip'}"
+        ratio = found.loc[(case, "processor time of heyoka / exact"), ["value", "least", "largest"]]
+        errors = [
+            found.loc[(case, f"largest error of their times, {of}"), "value"] for of in ("exact", "heyoka")
+        ]
+        expected = [*(float(f"{value:.2g}") for value in ratio), *(float(f"{value:.0e}") for value in errors)]
+        assert [float(number) for number in numbers] == expected

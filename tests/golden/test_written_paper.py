@@ -87,7 +87,7 @@ NO_NUMBERS = [
     r"\b(?:Figs?|Eqs?|Sects?)\.\s[0-9.]*[0-9](?:(?:,|\sto|\sand)\s[0-9.]*[0-9])*",
     r"\b(?:DOP853|CC BY 4\.0|RK4|block 1)\b",
     r"[0-9.]+(?:mm|pt|em|fr)\b",
-    r"(?m)^\s*#?let .*$|^\s*align: .*$",
+    r"(?m)^\s*#?let .*$|^\s*(?:align|columns): .*$",
 ]
 CALL = r"#?[\w.-]+\([^()]*\)"
 

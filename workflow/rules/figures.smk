@@ -64,7 +64,10 @@ FIGURES = {
     "speed": {
         "shows": "error against time, as published",
         "section": "speed",
-        "tables": {"table": str(ROOT / "paper/tables/work_precision_full.csv")},
+        "tables": {
+            "table": str(ROOT / "paper/tables/work_precision_full.csv"),
+            "sessions": str(ROOT / "paper/tables/beside_heyoka.csv"),
+        },
     },
     "step_sweep": {
         "section": "accuracy",
