@@ -131,11 +131,11 @@ FIGURES = {
     },
     "larger": {
         "shows": "a chain with a length",
-        "category": "Models",
+        "section": "hierarchy",
         # The full study, as it is committed.
         "tables": {
-            "nucleation": ROOT / "paper/tables/larger_nucleation_full.csv",
-            "table": ROOT / "paper/tables/larger_full.csv",
+            "nucleation": str(ROOT / "paper/tables/larger_nucleation_full.csv"),
+            "table": str(ROOT / "paper/tables/larger_full.csv"),
         },
     },
     "model_comparison": {
