@@ -4,7 +4,7 @@ from pathlib import Path
 
 import yaml
 
-from precursors.ensembles.catalogue import STUDIES, study_arguments
+from precursors.ensembles.studies import STUDIES, study_arguments
 from precursors.ensembles.study import Study
 
 CONFIG = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8"))

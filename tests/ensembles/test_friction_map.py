@@ -3,7 +3,7 @@
 import pytest
 from ensembles.studies import study_of
 
-from precursors.ensembles.catalogue import MAP
+from precursors.ensembles.studies import MAP
 from precursors.ensembles.study import chain_of, run_members
 
 

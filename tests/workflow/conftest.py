@@ -19,7 +19,7 @@ for module in (
     "jsonschema",
     "nbformat",
     "precursors.model.config",
-    "precursors.ensembles.catalogue",
+    "precursors.ensembles.studies",
     "precursors.accuracy.proof",
     "smart_open",
     "snakemake.report",

@@ -74,7 +74,7 @@ def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(un
             "h5py pandas matplotlib",
         ),
         (
-            "from precursors.ensembles import catalogue\n"
+            "from precursors.ensembles import studies\n"
             "from precursors.reproduction import claims, open_points",
             "h5py matplotlib numba scipy.optimize scipy.stats sympy",
         ),

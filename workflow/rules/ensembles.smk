@@ -1,6 +1,6 @@
 # noise, printed digits, N, map
 
-from precursors.ensembles.catalogue import STUDIES, study_arguments
+from precursors.ensembles.studies import STUDIES, study_arguments
 from precursors.ensembles.resolution import PREDICTED_UP_TO
 
 NUMBER_OF_CHUNKS = config["ensembles"]["chunks"]

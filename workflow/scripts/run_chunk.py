@@ -2,7 +2,7 @@
 
 from job import job
 
-from precursors.ensembles.catalogue import STUDIES
+from precursors.ensembles.studies import STUDIES
 from precursors.ensembles.study import run_members
 from precursors.support.files import write_table
 

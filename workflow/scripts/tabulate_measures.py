@@ -5,7 +5,7 @@ from pathlib import Path
 
 from job import job
 
-from precursors.reproduction.measures import measures_table
+from precursors.reproduction.scene_numbers import measures_table
 from precursors.solver.run import Run
 from precursors.support.files import write_table
 

@@ -125,13 +125,13 @@ def in_draws(
     """A claim on numbers of the members: found in the run, and counted over the draws of both ensembles.
 
     `ours` takes runs, one row per draw and (quantity, scene) as columns, to the numbers of the claim, one row
-    per draw; `holds` takes these to whether the claim holds in each. NaN, no global slip, never holds.
+    per draw; `holds` takes these to whether the claim holds in each; it is False for NaN, no global slip.
     """
     shares = []
     for name, members in ENSEMBLES.items():
         runs = tables[members].pivot_table(index="draw", columns="scene", dropna=False)
         numbers = ours(runs)
-        agree = holds(numbers) & numbers.notna().all(axis=1)
+        agree = holds(numbers)
         drawn = agree[agree.index > 0]
         shares.append((name, Share(int(drawn.sum()), len(drawn))))
     return Finding(numbers.loc[0], bool(agree.loc[0]), expected, tuple(shares))

@@ -6,7 +6,7 @@ import pytest
 
 from precursors import Chain, simulate
 from precursors.model.statics import maximal_strain_positions
-from precursors.reproduction.measures import measures_table, residual_strain
+from precursors.reproduction.scene_numbers import measures_table, residual_strain
 
 # Sums and quotients of ten numbers in double precision.
 ROUNDING = 1e-12
