@@ -1,5 +1,7 @@
 """Chains and starts that several numerical tests use."""
 
+import math
+
 import numpy as np
 
 from precursors import Chain, Run, TransitionLimitError, simulate
@@ -22,6 +24,18 @@ def audited(run: Run) -> Audit:
     report = audit(run)
     report.raise_if_failed()
     return report
+
+
+def lone_slip(chain: Chain) -> tuple[float, float]:
+    """How long block 1 slides while the others rest [s], and how far [m].
+
+    m x'' = drop + K V t - stiffness x from rest at x = 0, drop = (mu_s - mu_k) w_1. At the stop the net force
+    is the mirror image of that at the release about mu_k w_1.
+    """
+    stiffness = chain.drive_stiffness + (chain.stiffness if chain.n_blocks > 1 else 0.0)
+    drop, omega = (chain.mu_s - chain.mu_k) * chain.weights[0], math.sqrt(stiffness / chain.mass)
+    seconds = (math.pi + 2 * math.atan(chain.loading_rate / (drop * omega))) / omega
+    return seconds, (2 * drop + chain.loading_rate * seconds) / stiffness
 
 
 def positions_under(chain: Chain, forces) -> np.ndarray:

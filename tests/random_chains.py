@@ -125,9 +125,10 @@ def trial(number: int) -> tuple[str, Trial]:
     return kind, KINDS[kind][1](rng)
 
 
-def verdict(case: Trial) -> str:
-    """Run a chain and audit it: "survived", "refused", or what is wrong."""
+def verdict(number: int) -> str:
+    """Run and audit the chain of a trial: "survived", "refused", or what is wrong."""
     try:
+        _, case = trial(number)
         run = first_transitions(case.chain, case.most, duration=case.duration, **case.start)
     except ValueError as error:
         return (
@@ -150,13 +151,3 @@ def verdict(case: Trial) -> str:
     if report.ok:
         return "survived"
     return f"{len(report.problems)} problems after {report.n_intervals} intervals: {report.problems[0]}"
-
-
-def kind_and_verdict(number: int) -> tuple[str, str]:
-    """Kind and verdict of the trial with a number; a chain may be refused before it is run."""
-    kind = trial_kind(number)
-    try:
-        _, case = trial(number)
-    except ValueError as error:
-        return kind, "refused" if str(error) else "refused without a sentence"
-    return kind, verdict(case)

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import mpmath
 import numpy as np
 import pytest
-from chains import first_transitions, positions_under
+from chains import first_transitions, lone_slip, positions_under
 
 from precursors import Chain, Run, simulate
 from precursors.accuracy.audit import audit
@@ -132,24 +132,14 @@ def test_runs_at_the_edges_of_the_model_pass(chain, options):
 
 
 def test_the_closed_form_of_a_rigid_block_passes():
-    """Release at mu_s F_Z, stop at omega s = 2 (pi - atan(a/V)): the zero of V (1 - cos) + a sin."""
     chain = SLIDER(n_blocks=1)
-    drop = (chain.mu_s - chain.mu_k) * chain.normal_load
-    omega = math.sqrt(chain.drive_stiffness / chain.mass)
-    speed, drive = drop * omega / chain.drive_stiffness, chain.drive_velocity
-    slip = 2 * (math.pi - math.atan(speed / drive)) / omega
-    # displacement of the block at its stop; it loses what the drive gains, and so takes up the load
-    moved = drive * slip + drop / chain.drive_stiffness * (1 - math.cos(omega * slip))
-    moved -= drive / omega * math.sin(omega * slip)
-    limit = chain.mu_s * chain.normal_load
+    slip, moved = lone_slip(chain)
+    limit, at_rest = float(chain.strength[0]), simulate(chain, duration=1e-3)
     onset, rest = limit / chain.loading_rate, 0.1
-    loads = limit, limit + chain.loading_rate * slip - chain.drive_stiffness * moved
-    transitions = simulate(chain, duration=1e-3).transitions
-    assert len(transitions) == 0
-    transitions = np.array([(onset, 1, 1, loads[0]), (onset + slip, 1, 0, loads[1])], dtype=transitions.dtype)
+    end = limit + chain.loading_rate * slip - chain.drive_stiffness * moved
     run = replace(
-        simulate(chain, duration=1e-3),
-        transitions=transitions,
+        at_rest,
+        transitions=np.array([(onset, 1, 1, limit), (onset + slip, 1, 0, end)], at_rest.transitions.dtype),
         intervals=np.array([onset, slip, rest]),
         duration=onset + slip + rest,
     )

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from golden.regenerate import FIGURES, GOLDEN, PAPERS_SCENES, TABLES
+from golden.regenerate import FIGURES, GOLDEN, PAPERS_SCENES
 from matplotlib.testing.compare import compare_images
 
 RESULTS = Path(__file__).parents[2] / "results"
@@ -25,7 +25,6 @@ EQ15_RELATIVE = 1e-8
 # antialiasing may differ by a few grey levels here and there. Of the edits tried (colours, markers, sizes,
 # dashes, words, a moved point) the least, fewer arrows in an inset, is worth 1.4.
 FIGURE_RMS = 0.5
-MOST_BYTES = 800_000
 
 
 def result(kind: str, name: str) -> Path:
@@ -105,8 +104,3 @@ def test_a_figure_is_the_golden_one(name, tmp_path):
     # The comparison leaves a picture of the differences beside the one it compares.
     found = shutil.copy(result("figures", name), tmp_path)
     assert compare_images(str(GOLDEN / name), found, tol=FIGURE_RMS) is None
-
-
-@pytest.mark.parametrize("name", [*TABLES, *FIGURES])
-def test_golden_files_are_small(name):
-    assert (GOLDEN / name).stat().st_size < MOST_BYTES

@@ -9,13 +9,8 @@ import pytest
 
 from precursors import Chain, Run, TransitionLimitError, find_slips, simulate
 from precursors.accuracy.failures.common import FIVE_SLIPS, transitions_right
-from precursors.accuracy.failures.dead_zone import (
-    first_excess,
-    largest_dead_zone,
-    smallest_dead_zone,
-)
 from precursors.accuracy.failures.literal_friction import load_after_limit
-from precursors.methods import METHODS, DivergedError, karnopp, rk4_located
+from precursors.methods import METHODS, DivergedError, rk4_located
 from precursors.methods.columns import sliding_forward, system_of
 from precursors.methods.fixed_step import FIRST_ROOM, march
 from precursors.methods.rk4 import run_rk4
@@ -51,8 +46,6 @@ CLOCK_ROUNDING = 1e-9
 ROUNDING = 1e-12
 # What the load changes by in the step in which a block stops [N]; other methods differ by 1e-6 to 1 N.
 LAST_STEP = 2e-3
-# Whether a block jumps over the zone is chance: so much between two steps.
-JUMP_TOLERANCE = 0.3
 # Trembling and creep repeat at another step to within what the step adds to a release.
 CREEP_TOLERANCE = 0.02
 # Of F_Z, after some tens of transitions in chains of up to three blocks with a step of 1e-8 s.
@@ -175,28 +168,6 @@ def test_eq_4_taken_literally_creeps_by_the_step_not_by_the_model(chain):
     assert 1e-8 < slow / 10 < 1e-7
     assert max(load_after_limit(chain, 1e-7, np.array([0.02, 0.04]))) < chain.strength[0]
     assert max(load_after_limit(chain, 1e-8, np.array([0.02, 0.04]))) > chain.strength[0]
-
-
-def test_a_dead_zone_is_too_small_where_blocks_jump_over_it_which_depends_on_the_step(five_slips):
-    limits = [smallest_dead_zone(five_slips, step) for step in (2e-8, 5e-9)]
-    assert max(limits) < karnopp.PART_OF_SAFE_WIDTH
-    assert limits[0] == pytest.approx(limits[1], rel=JUMP_TOLERANCE)
-
-
-def test_a_dead_zone_is_too_large_from_a_width_on_that_no_step_changes(five_slips):
-    limits = [largest_dead_zone(five_slips, step) for step in (1e-8, 5e-9)]
-    assert limits[0] == pytest.approx(limits[1], rel=CREEP_TOLERANCE)
-    # A part of the speed that block 1 reaches when it slips alone, (mu_s - mu_k) w_1 / sqrt(m (k + K)).
-    chain = five_slips.chain
-    drop = chain.strength[0] - chain.kinetic_friction[0]
-    speed = drop / np.sqrt(chain.mass * (chain.stiffness + chain.drive_stiffness))
-    assert 0.01 * speed < limits[0] < 0.1 * speed
-
-
-@pytest.mark.parametrize("dead_zone", [1e-4, 1e-3, 1e-2])
-def test_a_dead_zone_lets_the_load_creep_beyond_the_first_limit(chain, dead_zone):
-    delay = karnopp.release_delay(chain, dead_zone)
-    assert first_excess(chain, dead_zone) == pytest.approx(chain.loading_rate * delay, rel=CREEP_TOLERANCE)
 
 
 def test_located_steps_see_every_dip_of_a_cubic():

@@ -112,14 +112,6 @@ def test_each_transition_is_the_first_by_the_matrix_exponential(name: str) -> No
         motion.follow(t)
 
 
-def test_the_matrix_exponential_refuses_a_transition_that_is_late_by_a_picosecond() -> None:
-    scene, transitions = read_viscous()["stiff_viscosity"]
-    motion = MatrixMotion(scene)
-    motion.follow(transitions[0])
-    with pytest.raises(AssertionError):
-        motion.follow(transitions[1]._replace(time=transitions[1].time + Fraction(1, 10**12)))
-
-
 def test_first_slip_with_viscosity_is_that_of_a_damped_oscillator() -> None:
     c = VISCOUS["stiff_viscosity"].chain
     eta = ratio(c.viscosity)
