@@ -1,52 +1,21 @@
-"""A run is compared with the truth transition by transition, and methods are timed as they should be."""
+"""A run is compared with the truth transition by transition."""
 
 from __future__ import annotations
 
-import contextlib
-import gc
 import math
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from accuracy.made_up import CHAIN, DURATION, TRUE, has_all_transitions, made_up, tied_certificate
 from reference import read_golden
 
-from precursors import Chain, Run, simulate
+from precursors import Chain, simulate
 from precursors.accuracy.compare import Comparison, TrueTransition, Truth, compare
-from precursors.accuracy.proof import ExactChain, certify
-from precursors.support import timing
-from precursors.support.timing import Seconds
 
-CHAIN = Chain.from_slider(n_blocks=3)
-DURATION = 4.0
-# Times are multiples of 1/8 s and loads of 1/2 N, so that sums and differences are exact.
-TRUE = [
-    (1.0, 1, 1, 50.0),
-    (1.125, 1, 0, 49.0),
-    (2.0, 1, 1, 90.0),
-    (2.125, 2, 1, 88.0),
-    (2.25, 1, 0, 85.0),
-    (2.375, 2, 0, 85.5),
-    (3.0, 1, 1, 120.0),
-    (3.125, 2, 1, 118.0),
-    (3.25, 3, 1, 110.0),
-    (3.375, 1, 0, 100.0),
-    (3.5, 2, 0, 101.0),
-    (3.625, 3, 0, 101.5),
-]
 ONSETS = [0, 2, 6]
 # What doubles reach up to the first global slip [s], ten times what the exact solver's error is.
 ROUNDING = 1e-14
-
-
-def made_up(rows) -> Run:
-    time, block, mode, load = zip(*rows, strict=True) if rows else ((), (), (), ())
-    return Run.from_transitions(CHAIN, DURATION, time, block, mode, load)
-
-
-def has_all_transitions(found: Comparison) -> bool:
-    """Whether a run has the transitions of the truth in their order, and no other."""
-    return found.transitions_right == found.transitions_found == found.transitions_true
 
 
 def has_all_slips(found: Comparison) -> bool:
@@ -175,64 +144,9 @@ def test_the_exact_solver_has_every_transition_of_the_reference():
     assert 0.0 < found.time_error < ROUNDING
 
 
-def tied_certificate():
-    """A proof that ends with a tie: two blocks of a mirror-symmetric start let go at once."""
-    start = ["0", "0", "0", "1e-5", "0", "0", "0"]
-    return certify(ExactChain.from_slider(n_blocks=7), 1, start_positions=start)
-
-
 def test_a_proof_that_ends_with_a_tie_is_the_truth_up_to_there():
     certificate = tied_certificate()
     assert certificate.tie
     truth = Truth.proved(certificate)
     assert truth.run.duration == float(certificate.proved_until) < certificate.duration
     assert len(truth.run.transitions) == len(certificate.transitions) == 3
-
-
-class TestTiming:
-    def test_tasks_take_turns(self):
-        calls = []
-        timings = timing.measure({"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}, 3, 0.0)
-        assert "".join(calls) == "aabb" + "ababab"
-        assert [len(of.wall) for of in timings.values()] == [3, 3]
-
-    def test_short_tasks_are_repeated_and_the_mean_of_a_round_counts(self, clock):
-        calls = []
-
-        def take_longer_and_longer():
-            calls.append(1)
-            clock.now += len(calls)
-
-        measured = timing.measure({"task": take_longer_and_longer}, 3, 40.0, {"task": Seconds(10.0, 10.0)})[
-            "task"
-        ]
-        assert measured.wall == measured.cpu == (2.5, 6.5, 10.5)
-        assert measured.seconds == 6.5
-
-    def test_a_warm_call_that_was_long_enough_is_the_first_round(self, clock):
-        calls = []
-
-        def task():
-            calls.append(1)
-            clock.now += 50.0
-
-        measured = timing.measure({"task": task}, 3, 40.0, {"task": Seconds(60.0, 61.0)})["task"]
-        assert (measured.wall, measured.cpu) == ((60.0, 50.0, 50.0), (61.0, 50.0, 50.0))
-        assert len(calls) == 2
-
-    def test_a_ratio_is_the_median_of_the_rounds_ratios(self):
-        one, other = (
-            timing.Timing((1.0, 10.0, 1.0), (1.0, 1.0, 1.0)),
-            timing.Timing((3.0, 20.0, 4.0), (5.0,) * 3),
-        )
-        assert one.times_faster_than(other) == (3.0, 5.0)
-
-    def test_garbage_is_collected_again_afterwards(self):
-        def fail():
-            raise KeyError
-
-        for task in (list, fail):
-            with contextlib.suppress(KeyError):
-                timing.measure({"task": task}, 1, 1.0, {"task": Seconds(0.5, 0.5)})
-            assert gc.isenabled()
-            assert gc.get_freeze_count() == 0

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from accuracy.made_up import CHAIN, DURATION, TRUE, has_all_transitions, made_up, tied_certificate
 
 from precursors import Chain, Run, TransitionLimitError, simulate
 from precursors.accuracy.compare import Truth, compare
@@ -16,35 +17,18 @@ from precursors.accuracy.work_precision import Case, charted_values, measure_met
 from precursors.methods import METHODS, Method, Result
 from precursors.support import timing
 
-CHAIN = Chain.from_slider(n_blocks=3)
-DURATION = 4.0
-# time [s], block, mode, load [N] of two slips
-TRUE = [(1.0, 1, 1, 50.0), (1.125, 1, 0, 49.0), (2.0, 1, 1, 90.0), (2.125, 2, 1, 88.0), (2.25, 1, 0, 85.0)]
+FIVE = TRUE[:5]  # two slips, the second not over
 # A call of a fake method takes so long, on a clock that the test moves [s].
 CALL = 0.002
 # And where it is to be repeated [s].
 WARM_CALL = 0.0005
 
 
-def made_up(rows) -> Run:
-    return Run.from_transitions(CHAIN, DURATION, *zip(*rows, strict=True))
-
-
 def case(run: Run, **changes) -> Case:
     return replace(Case("made up", 0.0, CHAIN, DURATION, None, Truth.of_run(run), True), **changes)
 
 
-def is_right(run: Run, truth: Truth) -> bool:
-    found = compare(run, truth)
-    return found.transitions_right == found.transitions_found == found.transitions_true
-
-
 class TestCases:
-    def tied_certificate(self):
-        """A proof that ends with a tie: two blocks of a mirror-symmetric start are released at once."""
-        start = ["0", "0", "0", "1e-5", "0", "0", "0"]
-        return certify(ExactChain.from_slider(n_blocks=7), 1, start_positions=start)
-
     def test_a_proof_is_the_truth_to_its_end_and_to_the_first_global_slip(self):
         certificate = certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), 8)
         first, whole = proved_cases("two", 0.25, certificate)
@@ -56,31 +40,29 @@ class TestCases:
         assert 0 < n < len(whole.truth.run.transitions) == len(certificate.transitions)
         np.testing.assert_array_equal(first.truth.time_rest, whole.truth.time_rest[:n])
         for of in (first, whole):
-            assert is_right(simulate(of.chain, of.duration, of.until), of.truth)
+            assert has_all_transitions(compare(simulate(of.chain, of.duration, of.until), of.truth))
 
     def test_a_tie_leaves_all_to_the_exact_solver(self):
-        certificate = replace(
-            self.tied_certificate(), start_positions=(Fraction(0),) * 7, duration=Fraction(2)
-        )
+        certificate = replace(tied_certificate(), start_positions=(Fraction(0),) * 7, duration=Fraction(2))
         for of in proved_cases("seven", 0.0, certificate):
             assert not of.is_proved
             assert compare(simulate(of.chain, 2.0, of.until), of.truth).time_error == 0.0
 
     def test_a_start_that_the_methods_do_not_have_is_refused(self):
         with pytest.raises(ValueError, match=r"seven must start with springs at natural length"):
-            proved_cases("seven", 0.0, self.tied_certificate())
+            proved_cases("seven", 0.0, tied_certificate())
 
 
 class TestValues:
     def test_the_exact_solver_is_in_every_chart_and_comes_first(self):
         for until in (None, "global slip"):
             for full in (False, True):
-                values = charted_values(case(made_up(TRUE), until=until), full)
+                values = charted_values(case(made_up(FIVE), until=until), full)
                 assert next(iter(values)) == "exact"
                 assert values["exact"] == (0.0,)
 
     def test_the_full_chart_has_all_methods_and_the_default_one_some_of_their_values(self):
-        first = case(made_up(TRUE), until="global slip")
+        first = case(made_up(FIVE), until="global slip")
         full, default = charted_values(first, full=True), charted_values(first)
         assert all(full.values())
         for name, method in METHODS.items():
@@ -108,18 +90,18 @@ class Fake:
 
 @pytest.fixture
 def fake(monkeypatch: pytest.MonkeyPatch, clock) -> Fake:
-    fake = Fake(made_up(TRUE), clock)
+    fake = Fake(made_up(FIVE), clock)
     monkeypatch.setitem(METHODS, "rk4", Method("rk4", "fake", "time [s]", fake.solve, (CALL, 2 * CALL)))
     return fake
 
 
 def measured(values, longest=1.0, **changes):
-    return measure_methods(case(made_up(TRUE), **changes), values, 5, longest)
+    return measure_methods(case(made_up(FIVE), **changes), values, 5, longest)
 
 
 class TestMeasuring:
     def test_a_row_holds_time_work_and_errors(self, fake):
-        fake.run = made_up([(t, b, m, f - 1.0) for t, b, m, f in TRUE[:4]])
+        fake.run = made_up([(t, b, m, f - 1.0) for t, b, m, f in FIVE[:4]])
         (row,) = measured({"rk4": [CALL]}).to_dict("records")
         assert row["seconds"] == pytest.approx(CALL)
         assert (row["method"], row["label"], row["value"]) == ("rk4", "fake", CALL)
@@ -150,7 +132,7 @@ class TestMeasuring:
     def test_a_run_that_breaks_off_is_a_row_with_what_there_is(self, fake):
         def breaks_off(*_arguments):
             fake.clock.now += CALL
-            raise TransitionLimitError("enough", made_up(TRUE[:3]))
+            raise TransitionLimitError("enough", made_up(FIVE[:3]))
 
         METHODS["rk4"] = replace(METHODS["rk4"], solve=breaks_off)
         table = measured({"rk4": [CALL]})

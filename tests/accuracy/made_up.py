@@ -1,0 +1,41 @@
+"""Transitions of a run that nobody computed, and a proof that ends with a tie."""
+
+from __future__ import annotations
+
+from precursors import Chain, Run
+from precursors.accuracy.compare import Comparison
+from precursors.accuracy.proof import Certificate, ExactChain, certify
+
+CHAIN = Chain.from_slider(n_blocks=3)
+DURATION = 4.0
+# Times are multiples of 1/8 s and loads of 1/2 N, so that sums and differences are exact.
+TRUE = [
+    (1.0, 1, 1, 50.0),
+    (1.125, 1, 0, 49.0),
+    (2.0, 1, 1, 90.0),
+    (2.125, 2, 1, 88.0),
+    (2.25, 1, 0, 85.0),
+    (2.375, 2, 0, 85.5),
+    (3.0, 1, 1, 120.0),
+    (3.125, 2, 1, 118.0),
+    (3.25, 3, 1, 110.0),
+    (3.375, 1, 0, 100.0),
+    (3.5, 2, 0, 101.0),
+    (3.625, 3, 0, 101.5),
+]
+
+
+def made_up(rows) -> Run:
+    time, block, mode, load = zip(*rows, strict=True) if rows else ((), (), (), ())
+    return Run.from_transitions(CHAIN, DURATION, time, block, mode, load)
+
+
+def has_all_transitions(found: Comparison) -> bool:
+    """Whether a run has the transitions of the truth in their order, and no other."""
+    return found.transitions_right == found.transitions_found == found.transitions_true
+
+
+def tied_certificate() -> Certificate:
+    """A proof that ends with a tie: two blocks of a mirror-symmetric start let go at once."""
+    start = ["0", "0", "0", "1e-5", "0", "0", "0"]
+    return certify(ExactChain.from_slider(n_blocks=7), 1, start_positions=start)
