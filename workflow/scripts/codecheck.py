@@ -11,6 +11,8 @@ from matplotlib import image
 GOLDEN = Path("tests/golden")
 # Numbers differ between machines by roundings; pixels (0 to 1) by the release of Matplotlib.
 RELATIVE, ABSOLUTE, PIXELS = 1e-6, 1e-9, 0.02
+# Exponents of a chaotic motion, which stand in some claims, differ between processors; verdicts do not.
+COLUMNS = {"claims.csv": ["claim", "verdict"]}
 
 
 def manifest() -> list[str]:
@@ -24,7 +26,7 @@ def difference(made: Path, kept: Path) -> str:
         drawn, expected = (image.imread(path)[..., :3] for path in (made, kept))
         same = drawn.shape == expected.shape and np.sqrt(np.mean((drawn - expected) ** 2)) <= PIXELS
         return "" if same else "another picture"
-    new, old = (pd.read_csv(path) for path in (made, kept))
+    new, old = (pd.read_csv(path, usecols=COLUMNS.get(made.name)) for path in (made, kept))
     try:
         pd.testing.assert_frame_equal(new, old, rtol=RELATIVE, atol=ABSOLUTE)
     except AssertionError as error:
