@@ -27,7 +27,9 @@ test-cluster: $(READY)
 	@CORES=$(CORES) tests/cluster/run
 
 results: $(READY) .snakemake/metadata
-	$(BIN)/snakemake --quiet rules host -c$(CORES) all
+	@$(BIN)/snakemake --quiet rules host -c$(CORES) all || { status=$$?; [ -z "$$(ls .snakemake/locks 2>/dev/null)" ] || \
+	  echo "make: another run is at work here, or one was killed. If none is: $(BIN)/snakemake --unlock && make $(MAKECMDGOALS)" >&2; \
+	  exit $$status; }
 
 # Snakemake's records of the jobs lie beside the results, so that both are copied together: what fits the code of another
 # clone is not made again there.
