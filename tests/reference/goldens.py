@@ -2,16 +2,14 @@
 
 reference_{scene}.csv      time_s, block, mode, tangential_load_N with 40 significant digits, 0 to 10 s
 reference_heldout.csv      the same with 25 digits and the chain's name in the first column
-reference_heldout.json     the held-out chains: every number as an exact fraction or decimal in a string
 reference_viscous.csv      as reference_heldout.csv, of chains with viscosity between neighbours
 """
 
 from __future__ import annotations
 
 import csv
-import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import dataclass
 from decimal import Context, Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -56,7 +54,7 @@ class HeldOut:
         return reference(self.chain, self.duration, self.until, self.start_positions, bits=bits)
 
 
-HELD_OUT = {
+HELD_OUT: dict[str, HeldOut] = {
     "one_block": HeldOut({"n_blocks": 1, "drive_velocity": "0.02"}, "1.25"),
     "two_blocks": HeldOut({"n_blocks": 2, "theta": "1/2", "drive_velocity": "1e-3"}, "5"),
     "three_blocks": HeldOut({"n_blocks": 3, "theta": "-1/3", "mu_s": "0.6", "mu_k": "0.3"}, "40"),
@@ -92,16 +90,11 @@ def write_goldens(directory: Path = GOLDEN) -> None:
     for scene, theta in SCENES.items():
         transitions = reference(ReferenceChain.from_slider(theta=theta), DURATION)
         _write_csv(directory / f"reference_{scene}.csv", [], csv_rows(transitions, SCENE_DIGITS))
-    rows: list[list[str]] = []
-    descriptions = {}
-    for name, case in HELD_OUT.items():
-        transitions = case.run()
-        rows += [[name, *row] for row in csv_rows(transitions, HELD_OUT_DIGITS)]
-        descriptions[name] = _describe(case, len(transitions))
-    _write_csv(directory / "reference_heldout.csv", ["chain"], rows)
-    (directory / "reference_heldout.json").write_text(json.dumps(descriptions, indent=1) + "\n")
-    rows = [[name, *row] for name, case in VISCOUS.items() for row in csv_rows(case.run(), HELD_OUT_DIGITS)]
-    _write_csv(directory / "reference_viscous.csv", ["chain"], rows)
+    for name, cases in (("heldout", HELD_OUT), ("viscous", VISCOUS)):
+        rows = [
+            [chain, *row] for chain, case in cases.items() for row in csv_rows(case.run(), HELD_OUT_DIGITS)
+        ]
+        _write_csv(directory / f"reference_{name}.csv", ["chain"], rows)
 
 
 def read_golden(scene: str, directory: Path = GOLDEN) -> list[Transition]:
@@ -112,12 +105,7 @@ def read_golden(scene: str, directory: Path = GOLDEN) -> list[Transition]:
 
 def read_held_out(directory: Path = GOLDEN) -> dict[str, tuple[HeldOut, list[Transition]]]:
     """Return the held-out chains by name, each with its golden transitions."""
-    descriptions = json.loads((directory / "reference_heldout.json").read_text())
-    cases = {
-        name: HeldOut(text["slider"], text["duration_s"], text["start_positions_m"])
-        for name, text in descriptions.items()
-    }
-    return _with_transitions(cases, directory / "reference_heldout.csv")
+    return _with_transitions(HELD_OUT, directory / "reference_heldout.csv")
 
 
 def read_viscous(directory: Path = GOLDEN) -> dict[str, tuple[HeldOut, list[Transition]]]:
@@ -147,18 +135,6 @@ def _decimal(x: Fraction, digits: int) -> str:
     quotient = Context(prec=digits).divide(Decimal(x.numerator), Decimal(x.denominator))
     # Without trailing zeros: whether there are any depends on the last binary place.
     return format(quotient.normalize(Context(prec=digits)), "f")
-
-
-def _describe(case: HeldOut, n_transitions: int) -> dict[str, object]:
-    chain = {f.name: getattr(case.chain, f.name) for f in fields(ReferenceChain) if f.default is MISSING}
-    chain["weights"] = list(map(str, chain["weights"]))
-    return {
-        "slider": case.slider,
-        "chain": {name: x if isinstance(x, list) else str(x) for name, x in chain.items()},
-        "start_positions_m": case.start_positions,
-        "duration_s": case.duration,
-        "n_transitions": n_transitions,
-    }
 
 
 def _transition(row: Mapping[str, str]) -> Transition:
