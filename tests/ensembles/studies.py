@@ -4,7 +4,7 @@ from pathlib import Path
 
 import yaml
 
-from precursors.ensembles.studies import STUDIES, study_arguments
+from precursors.ensembles.studies import make_study, study_arguments
 from precursors.ensembles.study import Study
 
 CONFIG = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8"))
@@ -15,7 +15,7 @@ def study_of(name: str, settings: dict[str, object]) -> Study:
     """A study of the configuration with other settings of its own."""
     section = "map" if name.startswith("map_") else name.removesuffix("_members")
     ensembles = {**CONFIG["ensembles"], section: settings}
-    return STUDIES[name](**study_arguments({**CONFIG, "ensembles": ensembles}, name))
+    return make_study(name, study_arguments({**CONFIG, "ensembles": ensembles}, name))
 
 
 def noise_of(runs: int = 3) -> Study:

@@ -10,9 +10,9 @@ import pandas as pd
 import pytest
 from golden.regenerate import GOLDEN
 
-from precursors.reproduction import open_points
 from precursors.reproduction.claim import HOLDS
-from precursors.reproduction.claims import CLAIMS, TABLES, evaluate
+from precursors.reproduction.claims import CLAIMS, evaluate
+from precursors.reproduction.inputs import CLAIM_TABLES, POINT_TABLES
 from precursors.reproduction.open_points import open_points_table
 from precursors.reproduction.tables import Tables
 from precursors.support.files import read_table
@@ -26,7 +26,7 @@ NUMBERS = ["expected", "ours"]
 @pytest.fixture
 def tables(tmp_path: Path) -> Path:
     """A copy of the tables, to be falsified."""
-    for name in TABLES:
+    for name in CLAIM_TABLES:
         shutil.copy(RESULTS / f"{name}.csv", tmp_path)
     return tmp_path
 
@@ -66,7 +66,7 @@ def test_the_written_tables_are_what_the_tables_give(name, make, tmp_path):
 
 
 def test_the_claims_and_open_points_use_the_tables_that_the_workflow_gives_them_and_no_other():
-    for make, names in ((evaluate, TABLES), (open_points_table, open_points.TABLES)):
+    for make, names in ((evaluate, CLAIM_TABLES), (open_points_table, POINT_TABLES)):
         tables = Tables(RESULTS)
         make(tables)
         assert set(tables) == set(names)
@@ -74,7 +74,7 @@ def test_the_claims_and_open_points_use_the_tables_that_the_workflow_gives_them_
 
 def test_no_claim_stays_the_same_on_other_numbers():
     true, false = Tables(RESULTS), Tables(RESULTS)
-    for name in TABLES:
+    for name in CLAIM_TABLES:
         false[name] = true[name].apply(falsified)
         for key in {"draw", "scene"} & set(false[name]):
             false[name][key] = true[name][key]

@@ -1,7 +1,6 @@
 # noise, printed digits, N, map
 
-from precursors.ensembles.studies import STUDIES, study_arguments
-from precursors.ensembles.resolution import PREDICTED_UP_TO
+from precursors.ensembles.studies import PREDICTED_UP_TO, STUDIES, study_arguments
 
 NUMBER_OF_CHUNKS = config["ensembles"]["chunks"]
 CHUNKS = [f"{i}of{NUMBER_OF_CHUNKS}" for i in range(1, NUMBER_OF_CHUNKS + 1)]
@@ -30,7 +29,7 @@ rule run_chunk:
         "results/logs/run_chunk/{study}_{chunk}.log",
     params:
         arguments=lambda wildcards: study_arguments(config, wildcards.study),
-        code=digest("run_chunk"),
+        code=digest("run_chunk", *(f"ensembles.{study.split('.')[0]}" for study in STUDIES.values())),
     script:
         "../scripts/run_chunk.py"
 

@@ -3,9 +3,9 @@
 import sys
 
 from precursors.model.scenes import SLIDER
-from precursors.reproduction import claims, open_points
+from precursors.reproduction.inputs import CLAIM_TABLES, POINT_TABLES
+from precursors.reproduction.inputs import SCENES as PAPERS_SCENES
 from precursors.reproduction.shown import results_shown
-from precursors.reproduction.tables import SCENES as PAPERS_SCENES
 
 PAPER_SOURCE = ROOT / "paper"
 FIG13 = config["fig13"]
@@ -54,7 +54,7 @@ rule tabulate_measures:
 
 rule evaluate_claims:
     input:
-        tables=collect("results/tables/{table}.csv", table=sorted({*claims.TABLES, *open_points.TABLES})),
+        tables=collect("results/tables/{table}.csv", table=sorted({*CLAIM_TABLES, *POINT_TABLES})),
     output:
         claims=report("results/tables/claims.csv", category="Tables"),
         open_points=report("results/tables/open_points.csv", category="Tables"),

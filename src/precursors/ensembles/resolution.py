@@ -22,8 +22,6 @@ EXTRAPOLATED = ("mu_sapp", "time_s", "front_speed_m_per_s")
 QUANTITIES = (*COUNTS, *EXTRAPOLATED)
 # Samples of a bootstrap, and the ends of its 95 % interval.
 SAMPLES, ENDS = 1000, (0.025, 0.975)
-# Largest N for which the predictability time is part of every run of the workflow: its work grows as N^2.
-PREDICTED_UP_TO = 30
 POINT = ["scene", "theta", "n_blocks"]
 
 

@@ -2,31 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-from precursors.ensembles.event_law import event_law_study
-from precursors.ensembles.friction_map import map_study
-from precursors.ensembles.noise import noise_study
-from precursors.ensembles.printed_digits import digits_study
-from precursors.ensembles.resolution import resolution_study
-from precursors.ensembles.study import Study
-from precursors.ensembles.theta_window import theta_window_study
 from precursors.model.scenes import Config, scene_slider
 
+if TYPE_CHECKING:
+    from precursors.ensembles.study import Study
+
 MAP = "map_theta_friction_ratio"
-STUDIES: dict[str, Callable[..., Study]] = {
-    "noise_members": noise_study,
-    "digits_members": digits_study,
-    "theta_window_members": theta_window_study,
-    "resolution_members": resolution_study,
-    "event_law_members": event_law_study,
-    MAP: map_study,
+# Module and function of each study, imported when it is made: who reads the rules waits for no compiler.
+STUDIES = {
+    "noise_members": "noise.noise_study",
+    "digits_members": "printed_digits.digits_study",
+    "theta_window_members": "theta_window.theta_window_study",
+    "resolution_members": "resolution.resolution_study",
+    "event_law_members": "event_law.event_law_study",
+    MAP: "friction_map.map_study",
 }
+PREDICTED_UP_TO = 30  # blocks; the predictability time of longer chains takes minutes
+
+
+def make_study(name: str, arguments: dict[str, Any]) -> Study:
+    """A study by its name and the arguments of its function."""
+    module, function = STUDIES[name].split(".")
+    study: Study = getattr(import_module(f"precursors.ensembles.{module}"), function)(**arguments)
+    return study
 
 
 def study_arguments(config: Config, name: str) -> dict[str, Any]:
-    """What decides the members of a study: the arguments of its function in STUDIES."""
+    """What decides the members of a study: the arguments of its function."""
     settings = config["ensembles"]
     if name == MAP:
         return {"slider": config["chain"], "points": settings["map"]["points"]}

@@ -12,29 +12,9 @@ import scipy
 from precursors.model import printed
 from precursors.model.chain import FloatArray
 from precursors.reproduction.claim import CHOSE, Claim, Finding, in_draws
-from precursors.reproduction.tables import (
-    LEADING,
-    SCENES,
-    TRAILING,
-    UNIFORM,
-    Tables,
-    before_global,
-    one,
-    rows,
-    up_to_global,
-)
+from precursors.reproduction.inputs import LEADING, SCENES, TRAILING, UNIFORM
+from precursors.reproduction.tables import Tables, before_global, one, rows, up_to_global
 
-# The tables that the claims are compared with: results/tables/{name}.csv.
-TABLES = (
-    *(f"{scene}_slips" for scene in SCENES),
-    *(f"{scene}_trace" for scene in SCENES),
-    "noise_members",
-    "noise_differences",
-    "digits_members",
-    "lyapunov",
-    "model_comparison",
-    "map_theta_friction_ratio",
-)
 # A unit of the last digit of mu_sapp, which the paper says "appears to have" its value.
 LAST_DIGIT = 0.01
 # The smallest mu_s that is printed as 0.70.

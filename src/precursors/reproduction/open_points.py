@@ -13,10 +13,10 @@ from precursors.model import printed
 from precursors.model.chain import linear_weights, theta_from_load_cells
 from precursors.reproduction import eq15
 from precursors.reproduction.claim import shown
-from precursors.reproduction.tables import SCENES, UNIFORM, Tables, before_global, one, rows
+from precursors.reproduction.inputs import SCENES, UNIFORM
+from precursors.reproduction.tables import Tables, before_global, one, rows
 
 MISPRINT, OPEN = "misprint", "open point"
-TABLES = (*(f"{scene}_slips" for scene in SCENES), "eq15", "measures", "mu_sapp")
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,6 @@ import pandas as pd
 from precursors.analysis.slip_rows import first_global, up_to_first_global
 from precursors.support.files import read_table
 
-# The paper's scenes by theta: -5/6, 0 and 5/6.
-TRAILING, UNIFORM, LEADING = "fig11", "fig10", "fig12"
-SCENES = (TRAILING, UNIFORM, LEADING)
-
 
 class Tables(dict[str, pd.DataFrame]):
     """Tables of a directory by name; each is read when it is first asked for.

@@ -1,0 +1,17 @@
+"""The paper's scenes, and the tables that the ledger is made from: who reads the rules imports no more."""
+
+# By theta: -5/6, 0 and 5/6.
+TRAILING, UNIFORM, LEADING = "fig11", "fig10", "fig12"
+SCENES = (TRAILING, UNIFORM, LEADING)
+SLIPS = tuple(f"{scene}_slips" for scene in SCENES)
+CLAIM_TABLES = (
+    *SLIPS,
+    *(f"{scene}_trace" for scene in SCENES),
+    "noise_members",
+    "noise_differences",
+    "digits_members",
+    "lyapunov",
+    "model_comparison",
+    "map_theta_friction_ratio",
+)
+POINT_TABLES = (*SLIPS, "eq15", "measures", "mu_sapp")
