@@ -119,11 +119,9 @@ def changed(number: int, part: str, shift: Callable[[Enclosure], Fraction], shri
     return spoil
 
 
-def exchanged(transitions: Transitions) -> Transitions:
-    """Two transitions, but not their times and loads, in the other order."""
-    a, b = transitions[7:9]
-    transitions[7:9] = a._replace(block=b.block, mode=b.mode), b._replace(block=a.block, mode=a.mode)
-    return transitions
+def with_other(**changes: int) -> Spoil:
+    """Give a transition another block or mode."""
+    return lambda ts: [*ts[:7], ts[7]._replace(**changes), *ts[8:]]
 
 
 WRONG_TIME, WRONG_ORDER = "its time is not proved within", "which is not what is stated"
@@ -138,7 +136,8 @@ SPOILED: dict[str, tuple[Spoil, str]] = {
         for n in (2, 9, 20, 35, 43)
     },
     "swapped": (lambda ts: [*ts[:7], ts[8], ts[7], *ts[9:]], WRONG_ORDER),
-    "exchanged": (exchanged, WRONG_ORDER),
+    "another block": (with_other(block=3), WRONG_ORDER),
+    "another mode": (with_other(mode=-1), WRONG_ORDER),
     "without its first": (lambda ts: ts[2:], r"not what is proved with \d+ bits"),
     "without its last": (lambda ts: ts[:-1], r"not what is proved with \d+ bits"),
 }
