@@ -75,8 +75,8 @@ def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(un
         ),
         (
             "from precursors.ensembles import studies\n"
-            "from precursors.reproduction import claims, open_points",
-            "h5py matplotlib numba scipy.optimize scipy.stats sympy",
+            "from precursors.reproduction import inputs, shown",
+            "h5py matplotlib numba pandas scipy sympy",
         ),
     ],
     ids=["a run", "reading the rules"],
