@@ -74,8 +74,7 @@ def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(un
             "h5py pandas matplotlib",
         ),
         (
-            "from precursors.ensembles import studies\n"
-            "from precursors.reproduction import inputs, shown",
+            "from precursors.ensembles import studies\nfrom precursors.reproduction import inputs, shown",
             "h5py matplotlib numba pandas scipy sympy",
         ),
     ],
