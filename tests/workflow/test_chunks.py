@@ -15,6 +15,7 @@ def chunks_to_run(workspace) -> Counter:
 
 
 def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(workspace):
+    workspace.edit("config.yaml", "chunks: 1", "chunks: 2")
     outcome = workspace.pretend(*TABLES)
     assert outcome.code == 0, outcome.text
     chunk, *others = sorted((workspace.path / "results/ensembles" / MAP).iterdir())

@@ -175,7 +175,12 @@ def test_a_new_title_and_a_new_number_of_the_paper_simulate_nothing(finished):
     finished.edit("config.yaml", "events_counted: 9", "events_counted: 8")
     of_title = {"draw_reproduction", "write_explorer"}
     of_definitions = {"tabulate_definitions"}
-    of_number = {"tabulate_reproduction", "tabulate_digits"} | of_definitions
+    of_number = {
+        "tabulate_reproduction",
+        "tabulate_digits",
+        "draw_ensembles",
+        "evaluate_claims",
+    } | of_definitions
     assert finished.would_run() == of_title | of_number | PAPER
 
 

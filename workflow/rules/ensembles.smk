@@ -1,9 +1,10 @@
 # noise, printed digits, N, map
 
-from precursors.ensembles.studies import PREDICTED_UP_TO, STUDIES, study_arguments
+from precursors.ensembles.studies import MAP, PREDICTED_UP_TO, STUDIES, study_arguments
 
 NUMBER_OF_CHUNKS = config["ensembles"]["chunks"]
 CHUNKS = [f"{i}of{NUMBER_OF_CHUNKS}" for i in range(1, NUMBER_OF_CHUNKS + 1)]
+chunks_of = partial(collect, "results/ensembles/{study}/{chunk}.csv", chunk=CHUNKS)
 
 
 wildcard_constraints:
@@ -34,13 +35,13 @@ rule run_chunk:
         "../scripts/run_chunk.py"
 
 
-rule gather_members:
+rule gather_map:
     input:
-        chunks=collect("results/ensembles/{{study}}/{chunk}.csv", chunk=CHUNKS),
+        chunks=chunks_of(study=MAP),
     output:
-        table="results/tables/{study}.csv",
+        members=f"results/tables/{MAP}.csv",
     log:
-        "results/logs/gather_members/{study}.log",
+        "results/logs/gather_map.log",
     localrule: True
     params:
         code=digest("gather_members"),
@@ -50,8 +51,9 @@ rule gather_members:
 
 rule tabulate_noise:
     input:
-        members="results/tables/noise_members.csv",
+        chunks=chunks_of(study="noise_members"),
     output:
+        members="results/tables/noise_members.csv",
         table=report("results/tables/noise.csv", category="Tables"),
         differences=report("results/tables/noise_differences.csv", category="Tables"),
     log:
@@ -65,8 +67,9 @@ rule tabulate_noise:
 
 rule tabulate_theta_window:
     input:
-        members="results/tables/theta_window_members.csv",
+        chunks=chunks_of(study="theta_window_members"),
     output:
+        members="results/tables/theta_window_members.csv",
         table=report("results/tables/theta_window.csv", category="Tables"),
     log:
         "results/logs/tabulate_theta_window.log",
@@ -79,9 +82,10 @@ rule tabulate_theta_window:
 
 rule tabulate_resolution:
     input:
-        members="results/tables/resolution_members.csv",
+        chunks=chunks_of(study="resolution_members"),
         noise="results/tables/noise_members.csv",
     output:
+        members="results/tables/resolution_members.csv",
         table=report("results/tables/resolution.csv", category="Tables"),
         counts=report("results/tables/counts_by_n.csv", category="Tables"),
         limits=report("results/tables/resolution_limits.csv", category="Tables"),
@@ -119,8 +123,9 @@ rule tabulate_predictability:
 
 rule tabulate_digits:
     input:
-        members="results/tables/digits_members.csv",
+        chunks=chunks_of(study="digits_members"),
     output:
+        members="results/tables/digits_members.csv",
         table=report("results/tables/digits.csv", category="Tables"),
     log:
         "results/logs/tabulate_digits.log",
@@ -134,8 +139,9 @@ rule tabulate_digits:
 
 rule tabulate_event_law:
     input:
-        members="results/tables/event_law_members.csv",
+        chunks=chunks_of(study="event_law_members"),
     output:
+        members="results/tables/event_law_members.csv",
         table=report("results/tables/event_law.csv", category="Tables"),
     log:
         "results/logs/tabulate_event_law.log",

@@ -1,20 +1,11 @@
 """Tabulate the number of slip events beside the law for it."""
 
-from collections.abc import Mapping
-from pathlib import Path
-from typing import Any
-
+from gather_members import gathered
 from job import job
 
 from precursors.ensembles.event_law import event_law_table
-from precursors.support.files import read_table, write_table
-
-
-def main(members: str | Path, slider: Mapping[str, Any], output: str | Path) -> None:
-    """Write a row per chain: the law, the runs, and the law's assumptions one by one."""
-    write_table(event_law_table(read_table(members), slider), output)
-
+from precursors.support.files import write_table
 
 if __name__ == "__main__":
     with job() as snakemake:
-        main(snakemake.input.members, snakemake.params.slider, snakemake.output.table)
+        write_table(event_law_table(gathered(snakemake), snakemake.params.slider), snakemake.output.table)

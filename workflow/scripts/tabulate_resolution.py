@@ -1,6 +1,7 @@
 """Tabulate convergence with N: each number, both counts of events, limits and local exponents."""
 
 import pandas as pd
+from gather_members import gathered
 from job import job
 
 from precursors.ensembles import resolution
@@ -9,7 +10,7 @@ from precursors.support.files import read_table, write_table
 if __name__ == "__main__":
     with job() as snakemake:
         params, output = snakemake.params, snakemake.output
-        runs = pd.concat([read_table(path) for path in (snakemake.input.noise, snakemake.input.members)])
+        runs = pd.concat([read_table(snakemake.input.noise), gathered(snakemake)])
         members = resolution.with_front_speed(
             runs.sort_values("n_blocks", kind="stable"), params.slider["length"]
         )
