@@ -1,9 +1,12 @@
 # `make all` reproduces the paper, `make test` tests it; both build .venv first, from requirements.lock with its hashes.
+# What only tests and developers need is in requirements-dev.lock, and added when it is first asked for.
 CORES ?= 2
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
+DEV := .venv/dev
 # A build takes its packages from wheelhouse/ where there is one, and then needs no network.
+LOCK := pyproject.toml --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header -q
 WHEELS := $(if $(wildcard wheelhouse),--no-index --find-links wheelhouse)
 # Caches of uv and Snakemake, which cannot do without, where the home directory cannot be written.
 ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
@@ -15,15 +18,15 @@ endif
 all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
 
-test: results
+test: results $(DEV)
 	$(BIN)/pytest -n $(CORES) --dist worksteal
 
 # 200 single faults in copies of the library: prints those that no test sees, in half an hour on two cores.
-mutants: results
+mutants: results $(DEV)
 	$(BIN)/python tests/mutants.py --jobs $(CORES)
 
 # The ensembles as jobs of a real SLURM; Error 77: there is none here, and nothing was tested.
-test-cluster: $(READY)
+test-cluster: $(DEV)
 	@CORES=$(CORES) tests/cluster/run
 
 results: $(READY) .snakemake/metadata
@@ -50,11 +53,11 @@ codecheck: $(READY)
 	$(BIN)/snakemake --quiet rules host -c$(CORES) --forceall $$($(BIN)/python workflow/scripts/codecheck.py --list)
 	@$(BIN)/python workflow/scripts/codecheck.py
 
-golden: results
+golden: results $(DEV)
 	PYTHONPATH=tests $(BIN)/python -m golden.regenerate
 
 # Pages of the interface, from the docstrings, and of docs/, in results/docs.
-docs: $(READY)
+docs: $(DEV)
 	$(BIN)/pdoc -o results/docs -d numpy precursors precursors.analysis.horizon precursors.methods docs/guide.py
 	sed -i.md -e 's|href="[a-z]*\.md#|href="#|g' -e 's|href="\.\./src|href="../../src|g' results/docs/guide.html
 	rm results/docs/guide.html.md
@@ -66,15 +69,16 @@ bench: $(READY)
 speed: $(READY)
 	$(BIN)/python benchmarks/bench.py --sessions 9 --output paper/tables/beside_heyoka.csv
 
-lint: $(READY)
+lint: $(DEV)
 	$(BIN)/ruff check . && $(BIN)/ruff format --check . && $(BIN)/snakefmt --check Snakefile workflow && $(BIN)/mypy && $(BIN)/lint-imports
 
 lock: $(READY)
-	$(BIN)/uv pip compile pyproject.toml --all-extras --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header -q -o requirements.lock
+	$(BIN)/uv pip compile $(LOCK) --extra workflow --extra proof --extra peers --extra paper --extra build -o requirements.lock
+	$(BIN)/uv pip compile $(LOCK) --all-extras -c requirements.lock -o requirements-dev.lock
 
 # The locked packages for this Python and this kind of machine, to be kept with the sources: 400 MB.
-wheelhouse: $(READY)
-	$(BIN)/python -m pip download -q --no-deps --no-build-isolation --require-hashes -d wheelhouse.part -r requirements.lock
+wheelhouse: $(DEV)
+	$(BIN)/python -m pip download -q --no-deps --no-build-isolation --require-hashes -d wheelhouse.part -r requirements-dev.lock
 	mv wheelhouse.part wheelhouse
 
 clean:
@@ -86,9 +90,10 @@ $(READY): requirements.lock
 	rm -rf .venv && $(PYTHON) -m venv .venv
 	awk '/^[^ #]/ {wanted = /^uv==/} wanted' requirements.lock > .venv/uv.txt
 	$(BIN)/python -m pip install -q $(WHEELS) --no-deps --require-hashes -r .venv/uv.txt
-	@# With bytecode: where PYTHONDONTWRITEBYTECODE is set, every job would compile its imports again.
-	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --compile-bytecode --require-hashes --build-constraints requirements.lock requirements.lock
+	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
+	@# With bytecode: where PYTHONDONTWRITEBYTECODE is set, every job would compile its imports again.
+	$(BIN)/python -m compileall -q -j $(CORES) -x '/(tests|testing|conftest)' .venv/lib || true
 	@# Compile the solver, the cascades and the methods with fixed steps, on two cores.
 	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.hierarchy.quasistatic import quasistatic_slips; \
 	  from precursors.hierarchy.larger import LargerChain, simulate_larger; \
@@ -100,3 +105,7 @@ $(READY): requirements.lock
 	  'leapfrog', 'forward_euler', 'newmark')]" & \
 	wait
 	touch $(READY)
+
+$(DEV): $(READY) requirements-dev.lock
+	$(BIN)/uv pip install -q $(WHEELS) -p $(BIN)/python --require-hashes --build-constraints requirements-dev.lock -r requirements-dev.lock
+	touch $(DEV)

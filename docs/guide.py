@@ -4,6 +4,7 @@
 .. include:: numbers.md
 .. include:: adding.md
 .. include:: models.md
+.. include:: field.md
 .. include:: performance.md
 .. include:: reliability.md
 .. include:: troubleshooting.md

@@ -137,4 +137,5 @@ def assert_kept(name: str, table: pd.DataFrame) -> None:
                 numbers, kept[column], RELATIVE.get(name, ROUNDING), ABSOLUTE.get(name, 0.0), err_msg=column
             )
         else:
-            assert found[column].astype(str).tolist() == kept[column].astype(str).tolist(), column
+            texts = [column_of[column].fillna("").astype(str).tolist() for column_of in (found, kept)]
+            assert texts[0] == texts[1], column

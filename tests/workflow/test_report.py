@@ -131,7 +131,7 @@ def test_the_report_is_clicked_through_in_a_browser_and_shows_everything(page):
         "Reproduction",
         "Tables",
     ]
-    assert "reproduced" in page.evaluate("workflow_desc")
+    assert "solved exactly" in page.evaluate("workflow_desc")
 
     menu(page, "Reproduction")
     assert page.evaluate(f"{ROWS}.length") == 2
