@@ -17,13 +17,6 @@ CATEGORIES = {
     "Tables",
 }
 FIGURES = ["results/figures/fig09.svg", "results/figures/fig10.svg"]
-# Versions of the JavaScript inside Snakemake's report, of no consequence to a reader.
-KNOWN_COMPLAINTS = (
-    "cdn.tailwindcss.com should not be used in production",
-    "The input spec uses Vega-Lite v3",
-)
-
-ROWS = "[...document.querySelectorAll('nav tbody tr')]"
 
 
 def results_in(report):
@@ -108,65 +101,3 @@ def test_the_report_opens_with_fig_13_and_the_way_to_the_pages_and_no_graph_of_r
     links = "[...document.querySelectorAll('.prose a')].map(a => a.getAttribute('href'))"
     assert page.evaluate(links) == ["explorer.html", "paper.pdf", "supplement.pdf"]
     assert page.evaluate("document.querySelector('#rulegraph').getBoundingClientRect().height") == 0
-
-
-def menu(page, name):
-    """Click on an entry of the menu, from the first page."""
-    page.evaluate("app.setView({navbarMode: 'menu', content: 'metadata'})")
-    page.settle()
-    page.evaluate(f"[...document.querySelectorAll('nav li a')].find(a => a.innerText === {name!r}).click()")
-    page.settle()
-
-
-def button(page, row, number):
-    page.evaluate(f"{ROWS}[{row}].querySelectorAll('a')[{number}].click()")
-    page.settle()
-
-
-def test_the_report_is_clicked_through_in_a_browser_and_shows_everything(page):
-    assert page.evaluate("[...document.querySelectorAll('nav li a span')].map(a => a.innerText)") == [
-        "Workflow",
-        "Statistics",
-        "About",
-        "Reproduction",
-        "Tables",
-    ]
-    assert "solved exactly" in page.evaluate("workflow_desc")
-
-    menu(page, "Reproduction")
-    assert page.evaluate(f"{ROWS}.length") == 2
-    sizes = set()
-    for row, name in enumerate(["fig09", "fig10"]):
-        assert name in page.evaluate(f"{ROWS}[{row}].innerText")
-        button(page, row, 0)
-        page.wait_for("document.querySelector('.p-3 > img').complete")
-        image = "document.querySelector('.p-3 > img')"
-        width, height, shown = page.evaluate(
-            f"[{image}.naturalWidth, {image}.naturalHeight, {image}.getBoundingClientRect().width]"
-        )
-        assert min(width, height, shown) > 100
-        sizes.add((width, height))
-        assert colours(page, image) > 10
-        button(page, row, 1)
-        assert "draw_" in page.evaluate("document.querySelector('nav').innerText")
-        menu(page, "Reproduction")
-    assert len(sizes) == 2
-
-    menu(page, "Statistics")
-    page.wait_for("document.querySelector('#runtimes canvas, #runtimes svg')")
-    assert "simulate_scene" in page.evaluate("JSON.stringify(runtimes_spec)")
-    menu(page, "Workflow")
-    page.wait_for("document.querySelector('#brand').parentElement.nextElementSibling")
-
-    assert [request for request in page.requests if not request.startswith("file:")] == []
-    assert [c for c in page.complaints if not any(known in c for known in KNOWN_COMPLAINTS)] == []
-
-
-def colours(page, image):
-    """Number of colours that a picture has when it is drawn."""
-    return page.evaluate(
-        f"(picture => {{ const c = document.createElement('canvas').getContext('2d');"
-        "c.canvas.width = 300; c.canvas.height = 200; c.drawImage(picture, 0, 0, 300, 200);"
-        "const d = new Uint32Array(c.getImageData(0, 0, 300, 200).data.buffer);"
-        f"return new Set(d).size; }})({image})"
-    )
