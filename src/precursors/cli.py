@@ -246,6 +246,20 @@ def additions_of(arguments: argparse.Namespace) -> dict[str, float]:
 
 
 @contextmanager
+def telling_that_it_compiles(command: str) -> Iterator[None]:
+    """Tell whoever uses the solver for the first time why it takes so long."""
+    if command == "audit":  # which compiles nothing and imports no compiler
+        yield
+        return
+    from numba.core import event
+
+    from precursors.solver.kernel.compiled import Announcement
+
+    with event.install_listener("numba:compile", Announcement()):
+        yield
+
+
+@contextmanager
 def telling(message: str) -> Iterator[None]:
     """Tell who waits at a terminal, once, what is being done for more than two seconds."""
     timer = Timer(SECONDS_OF_SILENCE, lambda: print(message, file=sys.stderr, flush=True))
@@ -436,7 +450,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             from precursors.support.files import check_writable
 
             check_writable(arguments.output, arguments.endings)
-        arguments.run(arguments)
+        with telling_that_it_compiles(arguments.command):
+            arguments.run(arguments)
         if sys.stdout:  # None where it was closed
             sys.stdout.flush()
         return DONE

@@ -34,8 +34,14 @@ HEAVY = {"numpy", "numba", "pandas", "h5py", "matplotlib", "scipy"}
 COMMAND = [sys.executable, "-m", "precursors"]
 
 
+@pytest.fixture(scope="session")
+def _compiled():
+    """The solver, which says so on standard error when it is compiled."""
+    simulate(Chain.from_slider(), 0.4).at([0.4])
+
+
 @pytest.fixture
-def cli(capsys):
+def cli(capsys, _compiled):
     """Run a command; return its exit code, and what it wrote to standard output and standard error."""
 
     def run(*arguments):

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from precursors.solver import kernel
-from precursors.solver.kernel.compiled import checksum
+from precursors.solver.kernel.compiled import KEPT, checksum
 
 KERNEL = Path(kernel.__file__).parent
 PATIENCE = 300.0  # s: a start takes some seconds, far more only if it hangs
@@ -32,9 +32,13 @@ def times(x):
 """
 USE = """
 import json
-from small.entry import entry
-print(json.dumps([entry(2), sum(entry.stats.cache_hits.values())]))
+from numba.core import event
+from small.compiled import Announcement
+with event.install_listener("numba:compile", Announcement()):
+    from small.entry import entry
+    print(json.dumps([entry(2), sum(entry.stats.cache_hits.values())]))
 """
+SAID = "compiling the solver for this machine, once: some 20 s\n"
 
 
 class Small:
@@ -47,13 +51,15 @@ class Small:
         self.write("__init__.py", "")
         self.write("entry.py", ENTRY)
         self.write("part.py", PART)
+        self.cache = directory / "cache"
 
     def write(self, name: str, text: str) -> None:
         (self.package / name).write_text(text, encoding="utf-8")
 
     def use(self, **environment: str) -> tuple[int, int, str]:
-        """What the entry point returns for 2, how often it came from the cache, and the warnings."""
+        """What the entry point returns for 2, how often it came from the cache, and what stderr says."""
         inherited = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
+        inherited |= {"XDG_CACHE_HOME": str(self.cache)}
         process = subprocess.run(
             [sys.executable, "-c", USE],
             cwd=self.directory,
@@ -72,11 +78,42 @@ def small(tmp_path):
 
 
 def test_what_was_compiled_is_used_again_and_an_edit_of_what_it_calls_is_seen(small):
-    assert small.use() == (7, 0, "")
+    assert small.use() == (7, 0, SAID)
     assert small.use() == (7, 1, "")
     small.write("part.py", PART.replace("3 * x", "5 * x"))
-    assert small.use() == (11, 0, "")
+    assert small.use() == (11, 0, SAID)
     assert small.use() == (11, 1, "")
+
+
+def test_another_clone_of_the_user_compiles_nothing_until_its_sources_differ(small, tmp_path):
+    small.use()
+    clone = Small(tmp_path / "clone")
+    clone.cache = small.cache
+    assert clone.use() == (7, 1, "")
+    clone.write("part.py", PART.replace("3 * x", "5 * x"))
+    assert clone.use()[:2] == (11, 0)
+    assert small.use() == (7, 1, "")
+
+
+@pytest.mark.parametrize("suffix", ["nbi", "nbc"])
+@pytest.mark.parametrize("size", [0, 100])
+def test_a_file_that_was_cut_short_is_compiled_again(small, suffix, size):
+    small.use()
+    (file,) = small.cache.rglob(f"*.{suffix}")
+    os.truncate(file, size)
+    assert small.use() == (7, 0, SAID)
+    assert small.use() == (7, 1, "")
+
+
+def test_code_of_long_ago_is_removed_and_what_is_in_use_stays(small):
+    small.use()
+    (place,) = small.cache.glob("precursors/*")
+    others = [place.with_name(f"small-{i}") for i in range(KEPT + 1)]
+    for i, other in enumerate(others):
+        other.mkdir()
+        os.utime(other, (i, i))
+    assert small.use() == (7, 1, "")
+    assert set(small.cache.glob("precursors/*")) == {place, *others[2:]}
 
 
 def test_an_edit_a_new_module_and_a_new_name_change_the_checksum(tmp_path):
@@ -98,14 +135,14 @@ def test_the_code_lies_where_numba_is_asked_to_keep_it(small, tmp_path):
     place = tmp_path / "elsewhere"
     assert small.use(NUMBA_CACHE_DIR=str(place))[0] == 7
     assert list(place.rglob("*.nbc"))
-    assert not list(small.directory.rglob("*.nbc"))
+    assert not small.cache.exists()
     assert small.use(NUMBA_CACHE_DIR=str(place))[1] == 1
 
 
-def test_where_nothing_can_be_written_it_compiles_and_says_so(small, tmp_path):
+def test_where_nothing_can_be_written_it_compiles_and_says_so(small):
     # A file where a directory should be stops root as well.
     (small.package / "__pycache__").write_text("")
-    (tmp_path / "home").write_text("")
-    result, hits, warnings = small.use(HOME=str(tmp_path / "home"))
+    small.cache.write_text("")
+    result, hits, warnings = small.use()
     assert (result, hits) == (7, 0)
     assert "set NUMBA_CACHE_DIR" in warnings

@@ -14,15 +14,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from precursors.analysis.slips import find_precursors, find_slips
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until, checked_span, not_negative
 from precursors.model.scenes import ADDITIONS
+from precursors.solver.kernel.compiled import entry
 from precursors.solver.run import Run
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 
@@ -35,7 +36,7 @@ POINTS = 1e-4  # of F_Z: change of F_X from one point of the curve to the next
 MAX_STEPS = 1_000_000_000
 DONE, GLOBAL, LIFTED, LIMIT = range(4)
 
-compiled = njit(cache=True, error_model="numpy")
+compiled = entry(Path(__file__).parent, ["larger.py"], error_model="numpy")
 
 
 @dataclass(frozen=True)

@@ -23,14 +23,15 @@ Two values of the overshoot have a meaning:
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
-from numba import njit
 
 from precursors.analysis.slips import COLUMNS
 from precursors.model.chain import Chain, FloatArray
+from precursors.solver.kernel.compiled import entry
 
 ENERGY_CONSERVED, OVERDAMPED = 1.0, 0.0
 MAX_EVENTS = 1_000_000
@@ -38,7 +39,7 @@ MAX_STAGES = 100_000  # of one event, each with less elastic energy than the one
 ROUNDING = 1e-12  # of F_Z: a block that far beyond its strength still rests
 PUT_OUT = -1
 
-compiled = njit(cache=True, error_model="numpy")
+compiled = entry(Path(__file__).parent, ["quasistatic.py"], error_model="numpy")
 
 
 class Cascade(NamedTuple):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
+import sys
 import tempfile
 import warnings
 from collections.abc import Callable, Iterable
@@ -12,10 +14,14 @@ from typing import Any
 
 import numba
 from numba import int64
+from numba.core import event
+from numba.core.caching import UserWideCacheLocator
 
 Function = Callable[..., Any]
 # `forceinline` and `config` are missing in Numba's type hints.
 untyped: Any = numba
+
+KEPT = 20  # states of the sources whose machine code is kept
 
 # Numba compiles a function anew for an argument that is a literal number, unless its variable has a type.
 INDEX = {"block_1": int64}
@@ -25,6 +31,27 @@ inner: Any = untyped.njit(**_options, fastmath={"contract"}, forceinline=True)
 seldom: Any = untyped.njit(**_options, fastmath={"contract"})
 inner_unfused: Any = untyped.njit(**_options, forceinline=True)
 unfused: Any = untyped.njit(**_options)
+
+
+class UserCache(UserWideCacheLocator):  # type: ignore[misc]
+    """Tells Numba to keep machine code in `place`, which all clones with these sources share.
+
+    Numba's own locators put the directory of the sources into the path.
+    """
+
+    place = Path()
+
+    def __init__(self, function: Function, file: str) -> None:
+        super().__init__(function, file)
+        self._place = self.place
+
+    def get_cache_path(self) -> str:
+        """Name of the directory."""
+        return os.fspath(self._place)
+
+    def get_source_stamp(self) -> str:
+        """What changes with the sources."""
+        return self._place.name
 
 
 def entry(directory: Path, modules: Iterable[str] = (), **options: Any) -> Any:
@@ -38,19 +65,35 @@ def entry(directory: Path, modules: Iterable[str] = (), **options: Any) -> Any:
     def compile(function: Function) -> Any:
         if place is None:
             return untyped.njit(**options)(function)
-        before = untyped.config.CACHE_DIR
-        untyped.config.CACHE_DIR = str(place)
+        before = untyped.config.CACHE_LOCATOR_CLASSES
+        untyped.config.CACHE_LOCATOR_CLASSES = f"{__name__}.{UserCache.__name__}"
+        UserCache.place = place
         try:
             return untyped.njit(**options, cache=True)(function)
         finally:
-            untyped.config.CACHE_DIR = before
+            untyped.config.CACHE_LOCATOR_CLASSES = before
 
     return compile
 
 
+class Announcement(event.Listener):  # type: ignore[misc]
+    """Says on stderr, once, that code is compiled: for `event.install_listener("numba:compile", ...)`."""
+
+    is_made = False
+
+    def on_start(self, _: event.Event) -> None:
+        """Say it."""
+        if not self.is_made:
+            self.is_made = True
+            print("compiling the solver for this machine, once: some 20 s", file=sys.stderr, flush=True)
+
+    def on_end(self, _: event.Event) -> None:
+        """Say nothing."""
+
+
 def checksum(directory: Path, modules: Iterable[str] = ()) -> str:
-    """Checksum of all modules in a directory, or of those named."""
-    digest = hashlib.sha256()
+    """Checksum of all modules in a directory, or of those named, and of Numba's version."""
+    digest = hashlib.sha256(numba.__version__.encode())
     for file in [directory / name for name in modules] or sorted(directory.glob("*.py")):
         digest.update(f"{file.name} {file.stat().st_size} ".encode())
         digest.update(file.read_bytes())
@@ -59,23 +102,33 @@ def checksum(directory: Path, modules: Iterable[str] = ()) -> str:
 
 def _cache_place(directory: Path, digest: str) -> Path | None:
     """A directory that can be written, named after the checksum of the modules; None, with a warning."""
-    places = [directory / "__pycache__", Path("~/.cache/precursors").expanduser()]
+    bases = [Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "precursors"), directory / "__pycache__"]
     if untyped.config.CACHE_DIR:
-        places = [Path(untyped.config.CACHE_DIR)]
-    for base in places:
-        place = base / f"numba-{directory.name}-{digest}"
+        bases = [Path(untyped.config.CACHE_DIR)]
+    for base in bases:
         try:
+            place = base.expanduser() / f"{directory.name}-{digest}"
             place.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=place):
+            with tempfile.TemporaryFile(dir=place):  # which also marks when it was used last
+                _tidy(place, f"{directory.name}-*")
                 return place
-        except OSError:
+        except (OSError, RuntimeError):  # it cannot be written, or there is no home
             continue
     warnings.warn(
-        f"compiled code cannot be kept in {' or '.join(map(os.fspath, places))}, so every process compiles "
+        f"compiled code cannot be kept in {' or '.join(map(os.fspath, bases))}, so every process compiles "
         "for some 20 s: set NUMBA_CACHE_DIR to a directory that can be written",
         stacklevel=3,
     )
     return None
+
+
+def _tidy(place: Path, pattern: str) -> None:
+    """Remove files that were cut short, and what was compiled from sources of long ago."""
+    for file in place.glob("*.nb[ci]"):
+        if not file.read_bytes().endswith(b"."):  # the last byte of a pickle
+            file.unlink(missing_ok=True)
+    for old in sorted(place.parent.glob(pattern), key=lambda path: path.stat().st_mtime)[:-KEPT]:
+        shutil.rmtree(old, ignore_errors=True)
 
 
 outer = entry(Path(__file__).parent, **_options, nogil=True)
