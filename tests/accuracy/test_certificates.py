@@ -78,6 +78,7 @@ FOREIGN = {
     "text": b"no gzip",
     "object": gzip.compress(b"{}"),
     "list": gzip.compress(b"[1, 2]"),
+    "nested": gzip.compress(b"[" * 100_000),
     "another format": gzip.compress(b'{"format": "else"}'),
 }
 

@@ -100,8 +100,8 @@ def test_a_saved_run_comes_back_bit_for_bit(run, tmp_path):
 def test_the_file_says_what_its_numbers_are(run, tmp_path):
     run.save(tmp_path / "run.h5")
     with h5py.File(tmp_path / "run.h5") as file:
-        assert file["transitions/time"].attrs["unit"] == "s"
-        assert file["transitions/tangential_load"].attrs["unit"] == "N"
+        assert file["transitions/time"].attrs["unit"] == b"s"
+        assert file["transitions/tangential_load"].attrs["unit"] == b"N"
         assert {"precursors", "numpy", "mu_s", "drive_velocity", "duration", "slider"} <= set(file.attrs)
 
 
@@ -140,6 +140,41 @@ def test_a_damaged_file_is_refused_in_one_line_that_names_it(run, tmp_path, kind
     assert "\n" not in str(error.value)
 
 
+def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, tmp_path):
+    path, random = tmp_path / "run.h5", np.random.default_rng(2010)
+    run.save(path)
+    whole = path.read_bytes()
+    assert b"GCOL" not in whole  # texts without a checksum, in which HDF5 may hang
+    n_refused = 0
+    for place in random.integers(0, len(whole), 200):
+        spoiled = bytearray(whole)
+        spoiled[place : place + 8] = random.bytes(8)
+        path.write_bytes(spoiled)
+        try:
+            np.testing.assert_array_equal(Run.load(path).transitions, run.transitions)
+        except RunFileError:
+            n_refused += 1
+    assert n_refused > 100
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda file: file.attrs.update(slider=np.bytes_(b"[" * 30_000)), "recursion"),
+        (lambda file: file.attrs.update(larger=np.bytes_(b"[]")), "larger is not a table"),
+        (lambda file: file.create_dataset("load_points", (10**12, 2), float), "than its file can hold"),
+        (lambda file: file.update(load_points=h5py.SoftLink("/load_points")), "too many links"),
+        (lambda file: file.attrs.update(format="precursors run 5"), "its format"),
+    ],
+)
+def test_a_file_made_to_be_read_for_ever_is_refused_at_once(run, tmp_path, change, words):
+    run.save(tmp_path / "run.h5")
+    with h5py.File(tmp_path / "run.h5", "r+") as file:
+        change(file)
+    with pytest.raises(RunFileError, match=words):
+        Run.load(tmp_path / "run.h5")
+
+
 def test_a_foreign_file_and_another_version_are_refused(run, tmp_path):
     path = tmp_path / "other.h5"
     with h5py.File(path, "w") as file:
@@ -147,7 +182,7 @@ def test_a_foreign_file_and_another_version_are_refused(run, tmp_path):
     with pytest.raises(RunFileError, match="not a run file"):
         Run.load(path)
     run.save(path)
-    path.write_bytes(path.read_bytes().replace(b"precursors run 4", b"precursors run 9", 1))
+    path.write_bytes(path.read_bytes().replace(b"precursors run 5", b"precursors run 9", 1))
     with pytest.raises(RunFileError, match="not a run file"):
         Run.load(path)
 

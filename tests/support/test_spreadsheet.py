@@ -53,6 +53,7 @@ def test_separators_decimal_commas_and_headers_are_understood(file, text):
         ("1\n2\n", "line 1: columns: 1"),
         ("t;F\n", "a header and no numbers"),
         ("", "is empty"),
+        ("PK\x03\x04\0\0", "is not plain text"),
     ],
 )
 def test_what_cannot_be_understood_for_certain_is_refused_in_one_line(file, text, about):

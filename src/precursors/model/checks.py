@@ -30,11 +30,13 @@ def number(name: str, value: object, unit: str) -> float:
 
 def number_array(name: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
     """Return a new array of floats, or raise a ValueError that names the parameter and its type."""
-    array = np.asarray(values) if not np.ma.isMaskedArray(values) else None
+    kind = "a masked array" if np.ma.isMaskedArray(values) else "lists of different lengths"
     with suppress(TypeError, ValueError):
-        if array is not None and array.dtype.kind in "iufO":
-            return np.array(array, dtype=np.float64)
-    kind = "a masked array" if array is None else f"of type {array.dtype}"
+        array = np.asarray(values)
+        if not np.ma.isMaskedArray(values):
+            kind = f"of type {array.dtype}"
+            if array.dtype.kind in "iufO":
+                return np.array(array, dtype=np.float64)
     raise ValueError(f"{name} must be numbers [{unit}], but are {kind}: {' '.join(repr(values).split())}")
 
 

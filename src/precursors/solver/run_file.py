@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from precursors.solver.run import Run
 
-FORMAT = "precursors run 4"
+FORMAT = "precursors run 5"
 UNITS = {
     "time": "s",
     "block": "1",
@@ -38,9 +38,11 @@ UNITS = {
     "weights": "N",
     "load_points": "s, N",
 }
+SCALARS = [field.name for field in fields(Chain)[1:]]
 # Compiled code takes these types only.
 KINDS = {"force": float, "velocity": float, "mode": np.int64, "after": np.int64, "offset": float}
 INTERVALS_APART = 1e-9  # of the duration; roundings of 1e7 intervals add up to less
+MOST_PER_BYTE = 1032  # gzip makes nothing smaller
 
 
 class RunFileError(ValueError):
@@ -54,18 +56,21 @@ def write_run(run: Run, path: str | PathLike[str]) -> None:
     # HDF5 may end the interpreter when the disk is full, so the file is made in memory first.
     memory = BytesIO()
     with h5py.File(memory, "w", libver="v110") as file:
-        file.attrs["format"] = FORMAT
-        file.attrs["precursors"], file.attrs["numpy"] = version("precursors"), np.__version__
-        file.attrs["slider"] = json.dumps(run.slider, sort_keys=True)
-        file.attrs["duration"], file.attrs["duration_unit"] = run.duration, "s"
-        file.attrs["evaluations"] = run.evaluations
-        if run.larger is not None:
-            file.attrs["larger"] = json.dumps(run.larger)
-        for field in fields(Chain)[1:]:
-            file.attrs[field.name] = getattr(run.chain, field.name)
+        texts = {
+            "format": FORMAT,
+            "precursors": version("precursors"),
+            "numpy": np.__version__,
+            "slider": json.dumps(run.slider, sort_keys=True),
+            "larger": json.dumps(run.larger),
+            "duration_unit": "s",
+        }
+        # Of a fixed length: HDF5 has checksums for all but the texts that have none, and may hang in these.
+        file.attrs.update({name: np.bytes_(text.encode()) for name, text in texts.items()})
+        file.attrs.update({name: getattr(run.chain, name) for name in SCALARS})
+        file.attrs.update(duration=run.duration, evaluations=run.evaluations)
         for name, values in _datasets(run).items():
             data = file.create_dataset(name, data=values, compression="gzip", shuffle=True, fletcher32=True)
-            data.attrs["unit"] = UNITS[name.split("/")[-1]]
+            data.attrs["unit"] = np.bytes_(UNITS[name.split("/")[-1]])
     with write_whole(path) as temporary:
         temporary.write_bytes(memory.getvalue())
 
@@ -95,44 +100,58 @@ def read_run(path: str | PathLike[str]) -> dict[str, Any]:
     import h5py
 
     if not Path(path).is_file():
-        raise FileNotFoundError(f"{path}: no such file")
+        raise FileNotFoundError(f"{path} is not a file" if Path(path).exists() else f"{path}: no such file")
     try:
         with h5py.File(path, "r") as file:
-            if file.attrs.get("format") != FORMAT:
-                raise RunFileError(f'it does not say that its format is "{FORMAT}"')
+            _require(_text(file, "format") == FORMAT, f"its format is not {FORMAT!r}, which is read here")
             content = _content(file)
         _check(content)
-    except (OSError, KeyError, ValueError, TypeError) as error:
+    except Exception as error:  # nearly any, as the file may hold anything
         reason = " ".join(str(error).split()).strip("'\"")
-        raise RunFileError(f"{path} is not a run file, or is damaged: {reason}") from None
+        raise RunFileError(f"{path} is not a run file, or is damaged: {reason}") from error
     return content
 
 
+def _text(file: h5py.File, name: str) -> str:
+    """A text of fixed length, or nothing."""
+    is_fixed = name in file.attrs and file.attrs.get_id(name).dtype.kind == "S"
+    return bytes(file.attrs[name]).decode() if is_fixed else ""
+
+
+def _array(file: h5py.File, name: str) -> NDArray[Any]:
+    is_held = file[name].nbytes <= MOST_PER_BYTE * file.id.get_filesize()
+    _require(is_held, f"{name} is larger than its file can hold")
+    array: NDArray[Any] = file[name][()]
+    return array
+
+
 def _content(file: h5py.File) -> dict[str, Any]:
-    columns = {name: file[f"transitions/{name}"][()] for name in TRANSITION.names or ()}
+    columns = {name: _array(file, f"transitions/{name}") for name in TRANSITION.names or ()}
     transitions = np.empty(len(columns["time"]), dtype=TRANSITION)
     for name, values in columns.items():
         _require(values.shape == transitions.shape, f"transitions/{name} has shape {values.shape}")
         transitions[name] = values
-    scalars = {field.name: float(file.attrs[field.name]) for field in fields(Chain)[1:]}
+    scalars = {name: float(file.attrs[name]) for name in SCALARS}
     return {
-        "chain": Chain(weights=file["weights"][()], **scalars),
+        "chain": Chain(weights=_array(file, "weights"), **scalars),
         "duration": float(file.attrs["duration"]),
         "transitions": transitions,
         **{
-            name: file[name][()].astype(float)
+            name: _array(file, name).astype(float)
             for name in ("intervals", "start_positions", "start_velocities")
         },
-        "states": States._make(file[f"states/{name}"][()].astype(KINDS[name]) for name in States._fields),
+        "states": States._make(_array(file, f"states/{name}").astype(KINDS[name]) for name in States._fields),
         "evaluations": float(file.attrs["evaluations"]),
-        "slider": json.loads(file.attrs["slider"]),
-        "larger": json.loads(file.attrs["larger"]) if "larger" in file.attrs else None,
-        "load_points": file["load_points"][()].astype(float) if "load_points" in file else None,
+        "slider": json.loads(_text(file, "slider")),
+        "larger": json.loads(_text(file, "larger")),
+        "load_points": _array(file, "load_points").astype(float) if "load_points" in file else None,
     }
 
 
 def _check(content: dict[str, Any]) -> None:
     """Refuse what the compiled code could not run on: wrong shapes, and indices out of range."""
+    for name in ("slider", "larger"):
+        _require(content[name] is None or isinstance(content[name], dict), f"{name} is not a table")
     transitions, states = content["transitions"], content["states"]
     n_blocks, n = content["chain"].n_blocks, len(transitions)
     _require(content["intervals"].shape == (n + 1,), f"intervals do not fit to {n} transitions")

@@ -169,7 +169,7 @@ def _end(
     """Check what is simulated and where it ends."""
     for chain in chains:
         if not isinstance(chain, Chain):
-            raise TypeError(f"what is simulated must be a Chain, but is {chain!r}")
+            raise TypeError(f"what is simulated must be a Chain, but is {type(chain).__name__}")
     longest = math.inf if longest_slip is None else positive("longest_slip", longest_slip, "s")
     most = whole("max_transitions", most, at_least=1)
     return _End(checked_span(duration, until), until is not None, longest, most)

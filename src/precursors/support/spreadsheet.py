@@ -49,6 +49,8 @@ def read_columns(
     if not Path(path).is_file():
         raise ValueError(f"{path} is not a file" if Path(path).exists() else f"{path}: no such file")
     text = Path(path).read_bytes().decode("utf-8-sig", errors="replace")
+    if "\0" in text:
+        raise ValueError(f"{path} is not plain text: save the table as CSV (UTF-8)")
     lines = [(n, line.strip()) for n, line in enumerate(text.splitlines(), 1)]
     lines = [(n, line) for n, line in lines if line and not line.startswith("#")]
     needed = f"needed are columns of numbers: {', '.join(names)}"
