@@ -26,6 +26,20 @@ def audited(run: Run) -> Audit:
     return report
 
 
+def in_groups(transitions, apart: float) -> list[tuple[int, int]]:
+    """(block, mode), in an order of their own where transitions come within `apart` of each other [s]."""
+    ordered: list[tuple[int, int]] = []
+    group: list[tuple[int, int]] = []
+    before = -math.inf
+    for time, block, mode in transitions:
+        if time - before > apart:
+            ordered += sorted(group)
+            group = []
+        group.append((block, mode))
+        before = time
+    return ordered + sorted(group)
+
+
 def lone_slip(chain: Chain) -> tuple[float, float]:
     """How long block 1 slides while the others rest [s], and how far [m].
 

@@ -74,6 +74,22 @@ def any_slider(rng: Generator) -> Trial:
     return Trial(chain, 5 * chain.normal_load / chain.loading_rate, {}, 120)
 
 
+def mild_chain(rng: Generator) -> Trial:
+    """1..12 blocks whose numbers are of one size; half of them start strained and moving."""
+    n = int(rng.integers(1, 13))
+    mu_s = rng.uniform(0.3, 1.0)
+    weights, drive_stiffness = rng.uniform(1.0, 100.0, n), 25e6 * 10 ** rng.uniform(-3.0, 1.0)
+    mass = 1e-3
+    duration = 10 ** rng.uniform(2.0, 3.5) * np.sqrt(mass / max(25e6, drive_stiffness))
+    velocity = rng.uniform(0.1, 3.0) * weights.sum() / (duration * drive_stiffness)
+    chain = Chain(weights, mass, 25e6, drive_stiffness, velocity, mu_s, mu_s * rng.uniform(0.1, 0.9))
+    start = {}
+    if rng.random() < 0.5:
+        start["start_positions"] = positions_under(chain, rng.uniform(-1.0, 1.0, n) * chain.strength)
+        start["start_velocities"] = rng.normal(size=n) * 0.01
+    return Trial(chain, duration, start, 40)
+
+
 def even_chain(rng: Generator) -> Trial:
     """Small whole numbers everywhere: blocks meet their limits at the same instant, or touch them."""
     n = int(rng.integers(1, 13))

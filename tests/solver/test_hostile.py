@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import random_chains
 from accuracy.spoiling import shares
-from chains import first_transitions, positions_under
+from chains import first_transitions, in_groups, positions_under
 from reference import ReferenceChain, reference
 
 from precursors import Chain
@@ -63,20 +63,6 @@ def exact_transitions(case: random_chains.Trial, most: int) -> list[tuple[float,
         bits=512,
     )
     return [(float(t.time * second), t.block, t.mode) for t in transitions]
-
-
-def in_groups(transitions, apart: float) -> list[tuple[int, int]]:
-    """(block, mode), in an order of their own where transitions come within `apart` of each other [s]."""
-    ordered: list[tuple[int, int]] = []
-    group: list[tuple[int, int]] = []
-    before = -math.inf
-    for time, block, mode in transitions:
-        if time - before > apart:
-            ordered += sorted(group)
-            group = []
-        group.append((block, mode))
-        before = time
-    return ordered + sorted(group)
 
 
 def run_and_exact(number: int):

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from chains import SLIDER, first_transitions, positions_under
+from chains import SLIDER, first_transitions
+from random_chains import mild_chain
 
-from precursors import Chain, simulate
+from precursors import simulate
 from precursors.solver import plain
 
 THETAS = ["-5/6", "0", "5/6"]
@@ -42,29 +43,14 @@ def test_every_transition_of_a_scene_is_the_same_for_ten_seconds(theta):
     assert difference.max() < TO_THE_END
 
 
-def random_case(number):
-    """A chain of 1..12 blocks under random loads, a duration, and a start for every other one."""
-    rng = np.random.default_rng(number)
-    n = int(rng.integers(1, 13))
-    mu_s = rng.uniform(0.3, 1.0)
-    weights, drive_stiffness = rng.uniform(1.0, 100.0, n), 25e6 * 10 ** rng.uniform(-3.0, 1.0)
-    mass = 1e-3
-    duration = 10 ** rng.uniform(2.0, 3.5) * np.sqrt(mass / max(25e6, drive_stiffness))
-    velocity = rng.uniform(0.1, 3.0) * weights.sum() / (duration * drive_stiffness)
-    chain = Chain(weights, mass, 25e6, drive_stiffness, velocity, mu_s, mu_s * rng.uniform(0.1, 0.9))
-    start = {}
-    if number % 2:
-        start["start_positions"] = positions_under(chain, rng.uniform(-1.0, 1.0, n) * chain.strength)
-        start["start_velocities"] = rng.normal(size=n) * 0.01
-    return chain, duration, start
-
-
 def test_random_chains_have_the_same_transitions():
     compared = 0
     for number in range(N_RANDOM):
-        chain, duration, start = random_case(number)
-        expected, found, times, compiled_times = plain_and_compiled(chain, duration, 40, **start)
+        case = mild_chain(np.random.default_rng(number))
+        expected, found, times, compiled_times = plain_and_compiled(
+            case.chain, case.duration, case.most, **case.start
+        )
         assert found == expected, number
-        assert abs(times - compiled_times).max(initial=0.0) < RANDOM * duration, number
+        assert abs(times - compiled_times).max(initial=0.0) < RANDOM * case.duration, number
         compared += len(found)
     assert compared > 20 * N_RANDOM
