@@ -8,12 +8,19 @@ DEV := .venv/dev
 # A build takes its packages from wheelhouse/ where there is one, and then needs no network.
 LOCK := pyproject.toml --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header -q
 WHEELS := $(if $(wildcard wheelhouse),--no-index --find-links wheelhouse)
+# Python keeps bytecode, whatever the user does elsewhere: every job would compile its imports again.
+unexport PYTHONDONTWRITEBYTECODE
 # Caches of uv and Snakemake, which cannot do without, where the home directory cannot be written.
 ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
 
-.PHONY: all test mutants test-cluster results check report golden docs bench speed codecheck lock lint wheelhouse clean
+TARGETS := all test mutants test-cluster results check report golden docs bench speed codecheck lock lint wheelhouse clean
+.PHONY: $(TARGETS)
+
+.DEFAULT:
+	@$(PYTHON) -c 'import difflib, sys; near = difflib.get_close_matches(*sys.argv[1:2], sys.argv[2:], 1); \
+	  sys.exit(f"make: there is no target {sys.argv[1]}" + "".join(f"; did you mean {name}?" for name in near))' $@ $(TARGETS)
 
 all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
@@ -92,8 +99,6 @@ $(READY): requirements.lock
 	$(BIN)/python -m pip install -q $(WHEELS) --no-deps --require-hashes -r .venv/uv.txt
 	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
-	@# With bytecode: where PYTHONDONTWRITEBYTECODE is set, every job would compile its imports again.
-	$(BIN)/python -m compileall -q -j $(CORES) -x '/(tests|testing|conftest)' .venv/lib || true
 	@# Compile the solver, the cascades and the methods with fixed steps, on two cores.
 	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.hierarchy.quasistatic import quasistatic_slips; \
 	  from precursors.hierarchy.larger import LargerChain, simulate_larger; \
