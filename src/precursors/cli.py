@@ -11,11 +11,10 @@ import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from difflib import get_close_matches
 from fractions import Fraction
 from pathlib import Path
-from threading import Timer
 from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
@@ -24,8 +23,7 @@ if TYPE_CHECKING:
 DONE, REFUSED, WRONG_USE, FILE, NOT_INSTALLED, INTERRUPTED = 0, 1, 2, 3, 4, 130
 EPILOG = """\
 examples:
-  precursors simulate --theta 5/6                     10 s of the paper's chain, summarised
-  precursors simulate --theta 5/6 --output run.h5     the same, and the run is saved
+  precursors simulate --theta 5/6 --output run.h5     10 s of the paper's chain, summarised and saved
   precursors slips run.h5 --counted                   the events counted in Fig. 13
   precursors plot --weights loads.csv --width 85 --font-size 9 --output fig.pdf
   precursors audit results/runs/*.h5                  is each run a motion of the model?
@@ -38,86 +36,67 @@ exit codes:
   4    a package that this needs is not installed
   130  interrupted (Ctrl-C)"""
 
-# Option of the chain, argument of `Chain.from_slider`, its default there, and what it is.
-CHAIN = (
-    ("--normal-load", "normal_load", "400", "total normal load F_Z [N]"),
-    ("--mu-s", "mu_s", "0.70", "coefficient of static friction"),
-    ("--mu-k", "mu_k", "0.45", "coefficient of kinetic friction"),
-    ("--drive-stiffness", "drive_stiffness", "0.8e6", "stiffness K of the drive's spring [N/m]"),
-    ("--drive-velocity", "drive_velocity", "1e-4", "speed V of the drive [m/s]"),
-    ("--slider-mass", "slider_mass", "0.012", "mass M of the slider [kg]"),
-    ("--youngs-modulus", "youngs_modulus", "2.5e9", "Young's modulus E [Pa]"),
-    ("--cross-section", "cross_section", "1e-4", "cross section S [m^2]"),
-    ("--length", "length", "0.1", "length L of the contact [m]"),
-)
-# What a larger chain adds to it, fields of `LargerChain`.
-LARGER = (
-    ("--weakening-velocity", "weakening_velocity", "velocity v_c over which friction falls to mu_k [m/s]"),
-    ("--relaxation-time", "relaxation_time", "relaxation time t_v of the material [s]"),
-    ("--viscosity", "viscosity", "viscosity of the dashpots between neighbours [N s/m], instead of t_v"),
-    ("--push-height", "push_height", "height of the push above the interface [m]"),
-)
-# Columns of the slip table as they are printed; what is the same in every row stays in the file.
-PRINTED = {
-    "onset_s": "onset_s",
-    "end_s": "end_s",
-    "load_before_N": "before_N",
-    "load_after_N": "after_N",
-    "largest_load_N": "largest_N",
-    "front": "front",
-    "n_slid": "n_slid",
-    "n_simultaneous": "at_once",
-    "is_global": "global",
-    "counted": "counted",
+# Arguments of `Chain.from_slider` that are options, their defaults there, and what they are.
+CHAIN = {
+    "normal_load": ("400", "total normal load F_Z [N]"),
+    "mu_s": ("0.70", "coefficient of static friction"),
+    "mu_k": ("0.45", "coefficient of kinetic friction"),
+    "drive_stiffness": ("0.8e6", "stiffness K of the drive's spring [N/m]"),
+    "drive_velocity": ("1e-4", "speed V of the drive [m/s]"),
+    "slider_mass": ("0.012", "mass M of the slider [kg]"),
+    "youngs_modulus": ("2.5e9", "Young's modulus E [Pa]"),
+    "cross_section": ("1e-4", "cross section S [m^2]"),
+    "length": ("0.1", "length L of the contact [m]"),
 }
+# Fields of `LargerChain`, what such a chain adds to the paper's.
+LARGER = {
+    "weakening_velocity": "velocity v_c over which friction falls to mu_k [m/s]",
+    "relaxation_time": "relaxation time t_v of the material [s]",
+    "viscosity": "viscosity of the dashpots between neighbours [N s/m], instead of t_v",
+    "push_height": "height of the push above the interface [m]",
+}
+RUN = ("duration", "until", "max_transitions")
+# Columns of the slip table that are the same in every row.
+SAME = ["theta", "n_blocks", "normal_load_N", "length_m"]
 DURATION = 10.0  # s
-SECONDS_OF_SILENCE = 2.0
 FIGURE_FILE = Path("precursors.png")
 FIGURE_ENDINGS = (".png", ".svg", ".pdf", ".eps")
 
 
-class Refused(Exception):
+class Refused(RuntimeError):
     """A run does not hold or was cut short; the message says which and why."""
 
 
 def simulate(arguments: argparse.Namespace) -> None:
     """Run a chain, and print a sentence and a summary."""
-    from precursors.analysis.slips import mu_sapp, slip_table
+    from precursors.analysis.slips import apparent_friction, slip_table
 
     run = run_of_options(arguments)
-    slips = slip_table(run)
-    counted, in_all = int(slips["counted"].sum()), len(slips)
+    table = slip_table(run)
+    first = apparent_friction(table)
     values: dict[str, Any] = {
         "blocks": run.chain.n_blocks,
         "duration_s": run.duration,
         "transitions": len(run.transitions),
-        "events": in_all,
-        "events_counted": counted,
-        "mu_sapp": None,
-        "largest_load_N": None,
-        "global_slip_s": None,
-        "global_slip_end_s": None,
+        "events": first.event if first else len(table),
+        "events_counted": int(table["counted"].sum()),
+        "mu_sapp": first and first.mu_sapp,
+        "largest_load_N": first and first.load,
+        "global_slip_s": first and first.time,
+        "global_slip_end_s": first and table["end_s"].iloc[first.event - 1],
     }
-    sentence = f"{counted} events counted in Fig. 13, {in_all} in all; no global slip in {run.duration:g} s"
-    for _, slip in slips[slips["is_global"]][:1].iterrows():
-        values |= {
-            "events": int(slips["is_global"].argmax()) + 1,
-            "mu_sapp": mu_sapp(slip["largest_load_N"], slip["normal_load_N"]),
-            "largest_load_N": slip["largest_load_N"],
-            "global_slip_s": slip["onset_s"],
-            "global_slip_end_s": slip["end_s"],
-        }
-        sentence = (
-            f"{counted} events counted in Fig. 13, {values['events']} in all; "
-            f"mu_sapp = {values['mu_sapp']:.3f} = {slip['largest_load_N']:.1f} N / "
-            f"{slip['normal_load_N']:g} N; "
-            f"first global slip at {slip['onset_s']:.3f} s"
-        )
     if arguments.output:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
     if not arguments.json:
-        print(f"{sentence}.\n")
+        outcome = f"no global slip in {run.duration:g} s"
+        if first:
+            outcome = (
+                f"mu_sapp = {first.mu_sapp:.3f} = {first.load:.1f} N / {run.chain.normal_load:g} N; "
+                f"first global slip at {first.time:.3f} s"
+            )
+        counted, in_all = values["events_counted"], values["events"]
+        print(f"{counted} events counted in Fig. 13, {in_all} in all; {outcome}.\n")
     show_values(values, arguments.json)
 
 
@@ -140,7 +119,8 @@ def slips(arguments: argparse.Namespace) -> None:
     elif table.empty:
         print("no slip event")
     else:
-        shown = table[list(PRINTED)].rename(columns=PRINTED)
+        shown = table.drop(columns=SAME).rename(columns={"n_simultaneous": "at_once"})
+        shown.columns = shown.columns.str.replace("load_|is_", "", regex=True)
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
 
 
@@ -175,12 +155,12 @@ def audit(arguments: argparse.Namespace) -> None:
     for path in arguments.files:
         try:
             run = Run.load(path)
-            problems = tuple(audit(run).problems)
+            wrong = [f"{path}: not a motion of the model: {problem}" for problem in audit(run).problems]
         except RunFileError as error:
-            problems = (str(error),)
-        if problems:
+            wrong = [str(error)]
+        if wrong:
             failed += 1
-            print(f"{path}: not a motion of the model: {problems[0]}", file=sys.stderr)
+            print(wrong[0], file=sys.stderr)
         else:
             print(f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s")
     if failed:
@@ -191,12 +171,7 @@ def run_of(arguments: argparse.Namespace) -> Run:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
         return run_of_options(arguments)
-    options = {"duration", "until", "max_transitions"}
-    if (
-        slider_of(arguments)
-        or additions_of(arguments)
-        or any(getattr(arguments, name) is not None for name in options)
-    ):
+    if slider_of(arguments) or given(arguments, LARGER) or given(arguments, RUN):
         raise ValueError(f"{arguments.file}: a run file cannot be combined with options of a chain")
     from precursors.solver.run import Run, RunFileError
 
@@ -212,24 +187,23 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
 
     from precursors.model.chain import Chain, parse_theta
     from precursors.model.scenes import SLIDER
-    from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError, simulate
+    from precursors.solver.simulate import TransitionLimitError, simulate
 
     slider = SLIDER | slider_of(arguments)
     if slider["weights"] is None:
         slider["theta"] = parse_theta(slider["theta"])
         del slider["weights"]
-    chain, added = Chain.from_slider(**slider), additions_of(arguments)
-    limit = MAX_TRANSITIONS if arguments.max_transitions is None else arguments.max_transitions
-    duration = DURATION if arguments.duration is None else arguments.duration
+    chain, added = Chain.from_slider(**slider), given(arguments, LARGER)
+    how = {"duration": DURATION, **given(arguments, RUN)}
     try:
-        with telling(f"running {chain.n_blocks} blocks for {duration:g} s; Ctrl-C stops"):
-            if any(added.values()):
-                from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
+        if any(added.values()):
+            from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 
-                larger = LargerChain(chain, **added)
-                run = simulate_with_accuracy(larger, duration, arguments.until, max_transitions=limit)
-            else:
-                run = simulate(chain, duration, arguments.until, max_transitions=limit)
+            if sys.stderr.isatty():
+                print("running the larger chain, and again with half the step; Ctrl-C stops", file=sys.stderr)
+            run = simulate_with_accuracy(LargerChain(chain, **added), **how)
+        else:
+            run = simulate(chain, **how)
     except TransitionLimitError as error:
         kept = ""
         if arguments.command == "simulate" and arguments.output:
@@ -239,10 +213,9 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
     return replace(run, slider=slider)
 
 
-def additions_of(arguments: argparse.Namespace) -> dict[str, float]:
-    """What was given to add to the paper's chain."""
-    given = {name: getattr(arguments, name) for _, name, _ in LARGER}
-    return {name: value for name, value in given.items() if value is not None}
+def given(arguments: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:
+    """Options that were given, of those named."""
+    return {name: value for name in names if (value := getattr(arguments, name)) is not None}
 
 
 @contextmanager
@@ -259,30 +232,16 @@ def telling_that_it_compiles(command: str) -> Iterator[None]:
         yield
 
 
-@contextmanager
-def telling(message: str) -> Iterator[None]:
-    """Tell who waits at a terminal, once, what is being done for more than two seconds."""
-    timer = Timer(SECONDS_OF_SILENCE, lambda: print(message, file=sys.stderr, flush=True))
-    timer.daemon = True
-    if sys.stderr.isatty():
-        timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
-
-
 def slider_of(arguments: argparse.Namespace) -> dict[str, Any]:
     """Arguments of `Chain.from_slider` that were given."""
     from precursors.model.scenes import measured
 
-    names = ("theta", "n_blocks", *(name for _, name, _, _ in CHAIN))
-    given = {name: getattr(arguments, name) for name in names if getattr(arguments, name) is not None}
+    slider = given(arguments, ("theta", "n_blocks", *CHAIN))
     if arguments.weights is None:
-        return given
-    if given.keys() & {"theta", "n_blocks", "normal_load"}:
+        return slider
+    if slider.keys() & {"theta", "n_blocks", "normal_load"}:
         raise ValueError("--weights cannot be combined with --theta, --blocks or --normal-load")
-    return measured(given, arguments.weights)
+    return measured(slider, arguments.weights)
 
 
 def show_values(values: Mapping[str, Any], as_json: bool) -> None:
@@ -305,36 +264,31 @@ def number(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number or a fraction such as 5/6") from None
 
 
-def whole_number(text: str) -> int:
-    """Read a whole number."""
-    try:
-        return int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
-
-
 def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
     """Add the options of a chain and of its run, which stand in the help of `simulate` only."""
 
-    def add(group: Any, *names: str, help: str, **how: Any) -> None:
-        group.add_argument(*names, help=help if is_shown else argparse.SUPPRESS, **how)
+    def add(group: Any, name: str, help: str, **how: Any) -> None:
+        group.add_argument(name, help=help if is_shown else argparse.SUPPRESS, **how)
+
+    def option(name: str) -> str:
+        return f"--{name.replace('_', '-')}"
 
     chain = command.add_argument_group("the chain", "the defaults are the paper's") if is_shown else command
     add(chain, "--theta", metavar="X", help='non-uniformity of the normal loading, for example "5/6" (0)')
-    add(chain, "--blocks", dest="n_blocks", type=whole_number, metavar="N", help="number of blocks (10)")
+    add(chain, "--blocks", dest="n_blocks", type=int, metavar="N", help="number of blocks (10)")
     text = "table with the normal load of each block [N]; replaces --theta, --blocks and --normal-load"
     add(chain, "--weights", metavar="FILE", help=text)
-    for option, name, default, meaning in CHAIN:
-        add(chain, option, dest=name, type=number, metavar="X", help=f"{meaning} ({default})")
+    for name, (default, meaning) in CHAIN.items():
+        add(chain, option(name), type=number, metavar="X", help=f"{meaning} ({default})")
     title = "a larger chain", "each adds to the paper's chain; 0 by default"
     larger = command.add_argument_group(*title) if is_shown else command
-    for option, name, meaning in LARGER:
-        add(larger, option, dest=name, type=number, metavar="X", help=meaning)
+    for name, meaning in LARGER.items():
+        add(larger, option(name), type=number, metavar="X", help=meaning)
     run = command.add_argument_group("the run") if is_shown else command
     add(run, "--duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
     until: dict[str, Any] = {"dest": "until", "action": "store_const", "const": "global slip"}
     add(run, "--until-global-slip", help="stop at the end of the first global slip", **until)
-    add(run, "--max-transitions", type=whole_number, metavar="N", help="limit of transitions")
+    add(run, "--max-transitions", type=int, metavar="N", help="limit of transitions")
 
 
 def add_options(command: argparse.ArgumentParser, name: str) -> None:
@@ -381,7 +335,8 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Exit with one line on standard error."""
-        known = [*COMMANDS, *re.findall(r"--[a-z][a-z-]+", " ".join(map(help_of, COMMANDS)))]
+        choices = re.findall(r"\w+", message.partition("choose from")[2])
+        known = choices or re.findall(r"--[a-z][a-z-]+", " ".join(map(help_of, COMMANDS)))
         wrong = re.search(r"(?:arguments: |choice: ')([\w-]+)", message)
         near = get_close_matches(wrong[1], known, 1) if wrong else []
         hint = f"; did you mean {near[0]}?" if near else ""
@@ -423,10 +378,6 @@ def parser() -> Parser:
         command = subparsers.add_parser(name, help=meaning, description=f"{meaning[0].upper()}{meaning[1:]}.")
         add_options(command, name)
         command.set_defaults(run=run, endings=endings)
-    with suppress(ModuleNotFoundError):
-        import shtab
-
-        shtab.add_argument_to(top, "--print-completion")
     return top
 
 
@@ -444,7 +395,12 @@ def join_negative_values(argv: Iterable[str]) -> list[str]:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; an error is one line on standard error."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # starting threads costs more than any matrix here
-    arguments = parser().parse_args(join_negative_values(sys.argv[1:] if argv is None else argv))
+    top = parser()
+    if "_ARGCOMPLETE" in os.environ:  # set by the shell when somebody presses Tab
+        import argcomplete
+
+        argcomplete.autocomplete(top, print_suppressed=True)
+    arguments = top.parse_args(join_negative_values(sys.argv[1:] if argv is None else argv))
     try:
         if getattr(arguments, "output", None):
             from precursors.support.files import check_writable
@@ -460,7 +416,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return DONE
     except KeyboardInterrupt:
         code, message = INTERRUPTED, "interrupted"
-    except (Refused, ArithmeticError) as error:
+    except (RuntimeError, ArithmeticError) as error:
         code, message = REFUSED, str(error)
     except ModuleNotFoundError as error:
         code, message = NOT_INSTALLED, f"{error}: install it to use this"
@@ -468,7 +424,5 @@ def main(argv: Sequence[str] | None = None) -> int:
         code, message = WRONG_USE, str(error) or "not enough memory for so many blocks or runs"
     except OSError as error:
         code, message = FILE, f"{error.filename}: {error.strerror}" if error.filename else str(error)
-    except RuntimeError as error:  # a run reached its limit
-        code, message = REFUSED, str(error)
     print(f"precursors {arguments.command}: {' '.join(message.split())}", file=sys.stderr)
     return code

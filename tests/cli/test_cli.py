@@ -2,6 +2,7 @@
 
 import inspect
 import json
+import os
 import re
 import shlex
 import signal
@@ -84,11 +85,19 @@ def test_the_examples_of_the_help_are_read(example):
     parser().parse_args(join_negative_values(example.split()))
 
 
+def test_a_shell_completes_the_options_of_a_chain_for_every_command(tmp_path):
+    line = "precursors plot --we"
+    wanted = {"_ARGCOMPLETE": "1", "COMP_LINE": line, "COMP_POINT": str(len(line)), "_ARGCOMPLETE_IFS": " "}
+    environment = os.environ | wanted | {"_ARGCOMPLETE_STDOUT_FILENAME": str(tmp_path / "told")}
+    subprocess.run(COMMAND, env=environment, check=True)
+    assert (tmp_path / "told").read_text().split() == ["--weights", "--weakening-velocity"]
+
+
 def test_the_help_states_the_defaults_of_the_library():
     parameters = inspect.signature(Chain.from_slider).parameters
-    for _, name, default, _ in CHAIN:
+    for name, (default, _) in CHAIN.items():
         assert float(default) == parameters[name].default
-    assert {name for _, name, _, _ in CHAIN} == parameters.keys() - {"theta", "n_blocks", "weights"}
+    assert CHAIN.keys() == parameters.keys() - {"theta", "n_blocks", "weights"}
 
 
 # simulate
@@ -255,6 +264,7 @@ def test_the_version_is_told(cli):
         (("fly",), WRONG_USE, "'fly'"),
         (("simulat",), WRONG_USE, "did you mean simulate?"),
         (("slips", "--thta", "0"), WRONG_USE, "did you mean --theta?"),
+        (("plot", "--figure", "length"), WRONG_USE, "did you mean lengths?"),
         (("slips", "run.h5", "--duration", "0"), WRONG_USE, "cannot be combined"),
         (
             ("simulate", "--output", "/dev/null/run.h5", "--duration", "1e9"),
@@ -267,7 +277,7 @@ def test_the_version_is_told(cli):
         (("plot", "--duration", "1e9", "--data", "missing.csv"), WRONG_USE, "missing.csv: no such file"),
         (("simulate", "--theta", "2"), WRONG_USE, "theta must be a number between -1 and 1"),
         (("simulate", "--theta", "x"), WRONG_USE, "theta must be a number between -1 and 1"),
-        (("simulate", "--blocks", "2.5"), WRONG_USE, "'2.5' is not a whole number"),
+        (("simulate", "--blocks", "2.5"), WRONG_USE, "invalid int value: '2.5'"),
         (("simulate", "--mu-s", "1/0"), WRONG_USE, "'1/0' is not a number"),
         (("simulate", "--duration", "-1"), WRONG_USE, "duration must be above 0 s"),
         (("simulate", "--drive-velocity", "nan"), WRONG_USE, "drive_velocity must be a finite number"),

@@ -18,6 +18,7 @@ from precursors.solver import kernel
 from precursors.solver.kernel.arrays import Progress
 from precursors.solver.record import TRANSITION, IntArray, States
 from precursors.solver.run import Run
+from precursors.support.waiting import tell
 
 MAX_TRANSITIONS = 10_000_000
 # Stored states are thinned out so that they never take more room than this.
@@ -349,8 +350,14 @@ def _go_on(batch: Any, limits: Any, progress: Progress, part: _Part, most: int) 
     record = kernel.Record._make(
         column.astype(kind) for column, kind in zip([*values, part.intervals], COLUMNS, strict=True)
     )
-    states, stride = part.states, limits.stride
-    while run["status"] == kernel.PAUSED and run["transitions"] < most and run["windows"] < MAX_WINDOWS:
+    states, stride, duration = part.states, limits.stride, limits.duration
+
+    def is_unfinished() -> bool:
+        return bool(
+            run["status"] == kernel.PAUSED and run["transitions"] < most and run["windows"] < MAX_WINDOWS
+        )
+
+    for _ in tell("running", iter(is_unfinished, False), lambda: run["onset"] / duration):
         used = int(run["transitions"])
         if used >= len(record.time) or len(record.time) < len(record.intervals):
             room = min(max(FIRST_ROOM, 2 * used), most)

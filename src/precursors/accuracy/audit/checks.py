@@ -11,6 +11,7 @@ from precursors.accuracy.audit.conditions import Conditions
 from precursors.accuracy.audit.motion import Motion, modes_of_all, normal_modes
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Run
+from precursors.support.waiting import tell
 
 ROUNDINGS = 16.0
 """What may be off, in roundings of a step (see `Auditor`): so many are the 8 eps that the solver counts as
@@ -69,9 +70,8 @@ class Auditor:
         instants = np.cumsum(intervals, dtype=np.longdouble).astype(float).tolist()
         transitions = self.run.transitions[["time", "block", "mode", "tangential_load"]].tolist()
         started = False
-        for duration, instant, transition in zip(
-            intervals.tolist(), instants, [*transitions, None], strict=True
-        ):
+        steps = zip(intervals.tolist(), instants, [*transitions, None], strict=True)
+        for duration, instant, transition in tell("auditing", steps, lambda: self.time / self.run.duration):
             if not started and (duration > 0 or transition is None):
                 started = True
                 self.check_start()

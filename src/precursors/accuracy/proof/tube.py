@@ -21,6 +21,7 @@ on.
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import count
 from typing import NamedTuple
 
 from flint import arb, arb_poly, ctx
@@ -46,6 +47,7 @@ from precursors.accuracy.proof.motion import (
     tail,
     time_unit,
 )
+from precursors.support.waiting import tell
 
 # Rounding is kept so many bits below the distance that the runs have come to.
 GUARD_BITS = 40
@@ -130,7 +132,7 @@ class Proof:
             Where the precision does not suffice or there is a tie, with the time in s; `transitions` are
             those that are proved.
         """
-        while True:
+        for _ in tell("proving", count(), lambda: float((self.clock / self.duration).mid())):
             self.all_slid = self.all_slid or all(self.state.mode[1:-1])
             sliding = any(self.state.mode)
             if not sliding and self.until_global_slip and self.all_slid:
@@ -142,7 +144,8 @@ class Proof:
                     undecided.time = self.clock + self.unit * undecided.time
                 raise
             if not go_on:
-                return self.transitions
+                break
+        return self.transitions
 
     def load(self) -> bool:
         """Load the resting chain until block 1 is released: no other block feels the drive."""

@@ -1,0 +1,31 @@
+"""What is told to those who wait for long work at a terminal."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator
+from threading import current_thread, main_thread
+from typing import TypeVar
+
+Step = TypeVar("Step")
+SECOND = 1.0
+
+
+def tell(work: str, steps: Iterable[Step], done: Callable[[], float]) -> Iterator[Step]:
+    """Pass steps on; on stderr, if it is a terminal, say each second how much is done and what is left [s].
+
+    `done` is the part of the work that is done, between 0 and 1.
+    """
+    start = last = time.monotonic()
+    is_told = current_thread() is main_thread() and sys.stderr is not None and sys.stderr.isatty()
+    try:
+        for step in steps:
+            yield step
+            if is_told and (now := time.monotonic()) - last > SECOND:
+                part, last = done(), now
+                left = f"{(now - start) * (1 / part - 1):.0f} s left" if part else ""
+                print(f"\r{work}: {part:.0%} {left}\x1b[K", end="", file=sys.stderr, flush=True)
+    finally:
+        if last > start:
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
