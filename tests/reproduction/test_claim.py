@@ -9,6 +9,7 @@ from precursors.reproduction.claim import (
     EXACT,
     HOLDS,
     KINDS,
+    RESULT,
     UNDECIDED,
     Claim,
     Finding,
@@ -18,10 +19,10 @@ from precursors.reproduction.claim import (
 )
 from precursors.reproduction.claims import (
     CLAIMS,
-    counts_grow,
+    count_grows_with_theta,
     differences,
     evaluate,
-    friction_constant,
+    friction_independent_of_loading,
     growth,
 )
 from precursors.reproduction.open_points import open_points_table
@@ -65,7 +66,7 @@ def ensemble(*values: float) -> pd.DataFrame:
 def found(noise: pd.DataFrame, digits: pd.DataFrame) -> Finding:
     tables = Tables("nowhere")
     tables.update(noise_members=noise, digits_members=digits)
-    return in_draws(tables, lambda runs: runs["mu_sapp"], lambda friction: friction["s"] < 0.5)
+    return in_draws(tables, lambda runs: runs["mu_sapp"], lambda friction: friction < 0.5)
 
 
 def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_does_not_hold():
@@ -86,14 +87,17 @@ def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_doe
 )
 def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(verdicts, verdict):
     differences = pd.DataFrame({"quantity": "mu_sapp", "difference": 0.0, "verdict": verdicts})
-    assert friction_constant(Tables("nowhere") | {"noise_differences": differences}).verdict == verdict
+    assert (
+        friction_independent_of_loading(Tables("nowhere") | {"noise_differences": differences}).verdict
+        == verdict
+    )
 
 
 @pytest.mark.parametrize(
     ("low", "high", "verdict"),
     [(3, 3, HOLDS), (0, 3, UNDECIDED), (0, 0, DOES_NOT_HOLD), (-2, -1, DOES_NOT_HOLD)],
 )
-def test_counts_grow_if_the_interval_of_every_difference_is_above_zero(low, high, verdict):
+def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zero(low, high, verdict):
     counts = {"fig11": 6, "fig10": 9, "fig12": 14}
     members = pd.DataFrame(
         [
@@ -106,7 +110,8 @@ def test_counts_grow_if_the_interval_of_every_difference_is_above_zero(low, high
     medians = pd.DataFrame(pairs, columns=["scene", "other", "low", "high"])
     tables = {"noise_differences": medians.assign(quantity="events_counted")}
     assert (
-        counts_grow(tables | dict.fromkeys(("noise_members", "digits_members"), members)).verdict == verdict
+        count_grows_with_theta(tables | dict.fromkeys(("noise_members", "digits_members"), members)).verdict
+        == verdict
     )
 
 
@@ -138,7 +143,10 @@ def test_a_run_without_the_event_of_a_claim_contradicts_it():
     def no_event(tables):
         raise IndexError
 
-    assert Claim("a", "Sect. 1", "", "", no_event).row(Tables("nowhere"))["verdict"] == DOES_NOT_HOLD
+    assert (
+        Claim("a", "Sect. 1", RESULT, "", "", "1", no_event).row(Tables("nowhere"))["verdict"]
+        == DOES_NOT_HOLD
+    )
 
 
 def test_a_missing_table_column_or_row_is_one_clear_line(tmp_path):

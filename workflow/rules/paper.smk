@@ -55,6 +55,7 @@ rule tabulate_measures:
 rule evaluate_claims:
     input:
         tables=collect("results/tables/{table}.csv", table=sorted({*CLAIM_TABLES, *POINT_TABLES})),
+        said=collect(f"{LIBRARY}/reproduction/{{said}}.csv", said=["claims", "open_points"]),
     output:
         claims=report("results/tables/claims.csv", category="Tables"),
         open_points=report("results/tables/open_points.csv", category="Tables"),

@@ -65,31 +65,24 @@ class Finding:
         return UNDECIDED if any(low < ENOUGH for low, _ in intervals) else HOLDS
 
 
+Find = Callable[[Tables], Finding]
+
+
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper, in our words, that a run could contradict.
+    """A statement of the paper that a run could contradict.
 
-    Attributes
-    ----------
-    name, section, statement : str
-        A name; where the paper says so; what it says.
-    rule : str
-        When the statement holds.
-    find : callable
-        Compares it with the tables of results/tables.
-    unit : str
-        Unit of the numbers.
-    kind : str
-        CHOSE or RESULT.
+    `section` says where the paper states it, `kind` is one of KINDS, `rule` says when it holds, `unit` is the
+    unit of its numbers, and `find` compares it with the tables.
     """
 
     name: str
     section: str
+    kind: str
     statement: str
     rule: str
-    find: Callable[[Tables], Finding]
-    unit: str = "1"
-    kind: str = RESULT
+    unit: str
+    find: Find
 
     def row(self, tables: Tables) -> dict[str, Any]:
         """The claim's row of claims.csv; a run without an event that a claim is about contradicts it.
@@ -125,13 +118,13 @@ def in_draws(
     """A claim on numbers of the members: found in the run, and counted over the draws of both ensembles.
 
     `ours` takes runs, one row per draw and (quantity, scene) as columns, to the numbers of the claim, one row
-    per draw; `holds` takes these to whether the claim holds in each; it is False for NaN, no global slip.
+    per draw; `holds` says of each number whether it agrees, which NaN, no global slip, does not.
     """
     shares = []
     for name, members in ENSEMBLES.items():
         runs = tables[members].pivot_table(index="draw", columns="scene", dropna=False)
         numbers = ours(runs)
-        agree = holds(numbers)
+        agree = holds(numbers).all(axis=1)
         drawn = agree[agree.index > 0]
         shares.append((name, Share(int(drawn.sum()), len(drawn))))
     return Finding(numbers.loc[0], bool(agree.loc[0]), expected, tuple(shares))
