@@ -6,8 +6,7 @@ from ensembles.studies import CONFIG, study_of
 
 from precursors import Chain, find_slips, simulate
 from precursors.ensembles.event_law import added_load, event_law_table, predicted_events
-from precursors.ensembles.loadings import LOADINGS, loaded
-from precursors.ensembles.study import run_members
+from precursors.ensembles.study import LOADINGS, loaded, run_members
 
 # The drive's load at the first global slip comes as near to assumption 3 (measured: 1.3 % at N = 40).
 PATH = 0.05

@@ -8,6 +8,7 @@ from ensembles.studies import CONFIG, study_of
 from precursors import Chain, simulate
 from precursors.analysis.summary import summarise
 from precursors.ensembles import resolution
+from precursors.ensembles.noise import noise_table
 from precursors.ensembles.study import WITH_UNITS, run_members
 
 SETTINGS = {"seed": 1, "n_blocks": [2, 10, 12], "runs": [6, 9, 3]}
@@ -22,7 +23,9 @@ def test_each_chain_is_run_once_without_noise_and_else_with_it_but_for_the_scene
 
 def test_the_table_has_statistics_of_each_number_for_every_scene_and_number_of_blocks():
     rows = resolution.with_front_speed(run_members(study_of("resolution_members", SETTINGS)), length=0.1)
-    table = resolution.resolution_table(rows).set_index(["scene", "n_blocks", "quantity"])
+    table = noise_table(rows, resolution.POINT, resolution.QUANTITIES).set_index(
+        ["scene", "n_blocks", "quantity"]
+    )
     assert len(table) == 3 * 2 * len(resolution.QUANTITIES)
     friction = table.loc[("fig10", 12, "mu_sapp")]
     of_point = rows[(rows["scene"] == "fig10") & (rows["n_blocks"] == 12)]
@@ -34,9 +37,7 @@ def test_the_table_has_statistics_of_each_number_for_every_scene_and_number_of_b
 def test_both_counts_are_told_apart_and_compared_with_the_uniform_loading():
     runs = {"scene": ["s"] * 3 + ["even"] * 3, "events_to_global_slip": [60, 50, 70, 20, 20, 20]}
     runs |= {"events_counted": [15, 14, 99, 10, 10, 10], "reached": [True, True, False] + [True] * 3}
-    members = pd.DataFrame(runs).assign(
-        n_blocks=10, load_noise=1e-3, theta=lambda t: 1.0 * (t["scene"] == "s")
-    )
+    members = pd.DataFrame(runs).assign(n_blocks=10, draw=1, theta=lambda t: 1.0 * (t["scene"] == "s"))
     row = resolution.counts_table(members, "even").set_index("scene").loc["s"]
     assert (row["runs"], row["events_to_global_slip"], row["events_counted"]) == (2, 55, 14.5)
     assert row["events_to_global_slip_over_uniform"] == pytest.approx(2.75)
@@ -54,7 +55,7 @@ def runs_of(laws: dict[str, np.ndarray], n_blocks: np.ndarray) -> pd.DataFrame:
         "time_s": 2.0,
         **laws,
         "reached": True,
-        "load_noise": 1e-3,
+        "draw": 1,
     }
     on_law = pd.DataFrame(runs)
     names = list(laws)
@@ -86,7 +87,7 @@ def test_bootstrap_intervals_hold_limits_and_exponents_in_95_of_100_cases(monkey
         "events_to_global_slip": n * np.exp(0.2 * noise[3]),
     }
     members = pd.DataFrame({"scene": np.arange(len(n)) // (4 * runs), "n_blocks": n, **made_up})
-    members = members.assign(front_speed_m_per_s=1e3, reached=True, load_noise=1e-3)
+    members = members.assign(front_speed_m_per_s=1e3, reached=True, draw=1)
     true = {"mu_sapp": 0.45, "time_s": 2.0, "events_counted": 1.5, "events_to_global_slip": 1.0}
     limits = resolution.extrapolation_table(members, 20).rename(columns={"a_low": "low", "a_high": "high"})
     found = pd.concat([limits, resolution.exponents_table(members)]).query("quantity in @true")

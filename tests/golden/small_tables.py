@@ -100,7 +100,7 @@ TABLES: dict[str, Callable[[], pd.DataFrame]] = {
     "noise": lambda: noise.noise_table(noise_members()),
     "noise_differences": lambda: noise.differences_table(noise_members()),
     "digits": lambda: digits_table(run_members(study_of("digits_members", {"seed": 1, "draws": 8})), PAPER),
-    "resolution": lambda: resolution.resolution_table(resolution_members()),
+    "resolution": lambda: noise.noise_table(resolution_members(), resolution.POINT, resolution.QUANTITIES),
     "counts_by_n": lambda: resolution.counts_table(resolution_members(), "fig10"),
     "resolution_limits": lambda: resolution.extrapolation_table(resolution_members(), 2),
     "resolution_exponents": lambda: resolution.exponents_table(resolution_members()),

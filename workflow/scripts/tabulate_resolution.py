@@ -5,6 +5,7 @@ from gather_members import gathered
 from job import job
 
 from precursors.ensembles import resolution
+from precursors.ensembles.noise import noise_table
 from precursors.support.files import read_table, write_table
 
 if __name__ == "__main__":
@@ -14,7 +15,7 @@ if __name__ == "__main__":
         members = resolution.with_front_speed(
             runs.sort_values("n_blocks", kind="stable"), params.slider["length"]
         )
-        write_table(resolution.resolution_table(members), output.table)
+        write_table(noise_table(members, resolution.POINT, resolution.QUANTITIES), output.table)
         write_table(resolution.counts_table(members, params.uniform), output.counts)
         limits = resolution.extrapolation_table(members, params.extrapolate_from)
         limits["wave_speed_m_per_s"] = resolution.wave_speed(params.slider)

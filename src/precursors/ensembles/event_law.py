@@ -33,8 +33,7 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.run_statistics import median_interval
-from precursors.ensembles.loadings import LOADINGS
-from precursors.ensembles.study import NOISE, Study, chain_of, stack
+from precursors.ensembles.study import LOADINGS, NOISE, Study, chain_of, stack
 from precursors.model.chain import Chain
 
 THETAS = (-0.9, -5 / 6, 0.0, 5 / 6, 0.95)
@@ -86,44 +85,39 @@ def _cases(settings: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def event_law_table(members: pd.DataFrame, slider: Mapping[str, Any]) -> pd.DataFrame:
-    """The law beside the runs, and its assumptions one by one.
+    """The law beside the runs, and its assumptions one by one, a row for each chain.
 
-    Returns
-    -------
-    DataFrame
-        One row per chain: events by the law, and soft_drive, the law for a soft drive and many blocks; n_runs
-        and n_reached, those with a global slip. Over these the medians of the events, of their ratio to the
-        law (with its 95 % interval) and to soft_drive; of rise, the load [(mu_s - mu_k) w_1] that the drive
-        adds between two events (assumption 2 says 1); of path, K V t over what assumption 3 says; and of
-        alone, the share of events of one block. holds: whether the interval is within `TOLERANCE`.
+    soft_drive is the law for a soft drive and many blocks. Medians over the runs with a global slip are those
+    of the events and their ratio to the law and to soft_drive; of rise, the load [(mu_s - mu_k) w_1] that the
+    drive adds between two events (assumption 2 says 1); of path, K V t over what assumption 3 says; of alone,
+    the share of events of one block. holds: whether the 95 % interval of the ratio is within `TOLERANCE`.
     """
-    for name, value in slider.items():
-        if name not in members:
-            members = members.assign(**{name: value})
+    members = members.assign(**{name: slider[name] for name in set(slider) - set(members)})
     rows = []
     for case, runs in members.groupby(CASE, sort=False):
         chain = chain_of(runs.iloc[0].to_dict() | {"load_noise": 0.0})
         step, law = (chain.mu_s - chain.mu_k) * chain.weights[0], predicted_events(chain)
         soft_drive = chain.mu_k * chain.normal_load / step
         done = runs[runs["reached"]]
-        ratio = done["events_to_global_slip"] / law
+        events = done["events_to_global_slip"]
+        ratio = events / law
         low, high = median_interval(ratio)
         load = chain.loading_rate * done["time_s"]
-        rise = (load - chain.mu_s * chain.weights[0]) / (done["events_to_global_slip"] - 1) / step
+        rise = (load - chain.mu_s * chain.weights[0]) / (events - 1) / step
         found = {
             "stiffness_ratio": chain.drive_stiffness * chain.n_blocks / chain.stiffness,
             "law": law,
             "soft_drive": soft_drive,
             "n_runs": len(runs),
             "n_reached": len(done),
-            "events": done["events_to_global_slip"].median(),
+            "events": events.median(),
             "ratio": ratio.median(),
             "ratio_low": low,
             "ratio_high": high,
-            "ratio_soft_drive": (done["events_to_global_slip"] / soft_drive).median(),
+            "ratio_soft_drive": (events / soft_drive).median(),
             "rise": rise.median(),
             "path": (load / added_load(chain)).median(),
-            "alone": (done["n_alone"] / done["events_to_global_slip"]).median(),
+            "alone": (done["n_alone"] / events).median(),
             "holds": bool(low >= 1 - TOLERANCE and high <= 1 + TOLERANCE),
         }
         rows.append(dict(zip(CASE, case, strict=True)) | found)

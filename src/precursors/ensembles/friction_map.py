@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from precursors.ensembles.study import Study, stack
-from precursors.model.chain import neighbour_stiffness
+from precursors.model.chain import Chain
 
 THETA, FRICTION_RATIO = (-0.95, 0.95), (0.1, 0.95)
 # Length of a run: how often the drive could load the chain to its limit mu_s F_Z.
@@ -22,11 +22,9 @@ def loading_time(slider: Mapping[str, Any]) -> float:
     That compresses the spring of the drive by mu_s F_Z. A load that all blocks carry evenly compresses the
     other springs by half of this on average.
     """
-    k = neighbour_stiffness(
-        *(slider[key] for key in ("n_blocks", "youngs_modulus", "cross_section", "length"))
-    )
-    compliance = 1.0 / slider["drive_stiffness"] + (slider["n_blocks"] - 1) / (2.0 * k)
-    return slider["mu_s"] * slider["normal_load"] * compliance / slider["drive_velocity"]
+    chain = Chain.from_slider(**slider)
+    compliance = 1.0 / chain.drive_stiffness + (chain.n_blocks - 1) / (2.0 * chain.stiffness)
+    return chain.mu_s * chain.normal_load * compliance / chain.drive_velocity
 
 
 def map_study(slider: Mapping[str, Any], points: int) -> Study:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
@@ -32,24 +32,31 @@ def noise_study(
     return Study(stack(blocks), seed=settings["seed"])
 
 
-def noise_table(members: pd.DataFrame) -> pd.DataFrame:
+def noise_table(
+    members: pd.DataFrame, point: Sequence[str] = ("scene", "theta"), quantities: Iterable[str] = TOLERANCES
+) -> pd.DataFrame:
     """Distribution of each number over the noise.
 
     Returns
     -------
     DataFrame
-        One row per scene and quantity: without_noise; runs, and reached, how many had a global slip; what
-        `statistics` has of these.
+        One row per point and quantity: without_noise; runs with noise; reached, how many of these have a
+        global slip; `statistics` of those.
     """
     rows = []
-    for (scene, theta), of_scene in members.groupby(["scene", "theta"], sort=False):
-        alone, runs = of_scene[of_scene["draw"] == 0], of_scene[of_scene["draw"] > 0]
-        for quantity in TOLERANCES:
-            number = {"scene": scene, "theta": theta, "quantity": quantity}
-            number |= {"without_noise": alone[quantity].item(), "runs": len(runs)}
-            reached = runs.loc[runs["reached"], quantity]
-            rows.append(number | {"reached": len(reached)} | statistics(reached))
+    for values, at_point in members.groupby(list(point), sort=False):
+        alone, runs = at_point[at_point["draw"] == 0], with_noise(at_point)
+        number = {"runs": int((at_point["draw"] > 0).sum()), "reached": len(runs)}
+        for quantity in quantities:
+            labels = dict(zip(point, values, strict=True)) | {"quantity": quantity}
+            labels["without_noise"] = alone[quantity].item()
+            rows.append(labels | number | statistics(runs[quantity]))
     return pd.DataFrame(rows)
+
+
+def with_noise(members: pd.DataFrame) -> pd.DataFrame:
+    """The runs with noise that have a global slip."""
+    return members[(members["draw"] > 0) & members["reached"]]
 
 
 def differences_table(members: pd.DataFrame) -> pd.DataFrame:
@@ -61,7 +68,7 @@ def differences_table(members: pd.DataFrame) -> pd.DataFrame:
         One row per quantity and pair of scenes: difference of the medians, scene less other, with an
         interval low to high that holds it in at least 95 % of cases; tolerance; verdict of `compared`.
     """
-    runs = members[(members["draw"] > 0) & members["reached"]]
+    runs = with_noise(members)
     scenes = runs.drop_duplicates("scene").set_index("scene")["theta"].items()
     pairs = list(combinations(scenes, 2))
     rows = []

@@ -51,12 +51,7 @@ def digits_study(
 def digits_table(members: pd.DataFrame, paper: Mapping[str, Mapping[str, float]]) -> pd.DataFrame:
     """How far the printed digits settle each number.
 
-    Parameters
-    ----------
-    members : DataFrame
-        The gathered study.
-    paper : mapping
-        What the paper prints of each scene: events_counted and mu_sapp.
+    `paper` has events_counted and mu_sapp of each scene, as far as the paper prints them.
 
     Returns
     -------
@@ -67,34 +62,27 @@ def digits_table(members: pd.DataFrame, paper: Mapping[str, Mapping[str, float]]
         by no more than 0.01 ("same mu_sapp"), and are "all six numbers" the paper's?
     """
     draws = members[members["draw"] > 0]
-    rows, six = [], []
+    found: list[tuple[Any, str, str, float, pd.Series]] = []
     for scene, runs in draws.groupby("scene", sort=False):
         alone = members[(members["scene"] == scene) & (members["draw"] == 0)].iloc[0]
         for quantity in QUANTITIES:
-            for question, value in (
-                ("as in the run", alone[quantity]),
-                ("as printed", paper[str(scene)].get(quantity)),
-            ):
-                if value is None:
-                    continue
-                agree = agrees(runs.set_index("draw")[quantity], value, TOLERANCES[quantity])
-                number = {"scene": scene, "quantity": quantity, "question": question, "value": value}
-                rows.append(number | share_row(agree))
-                if question == "as printed":
-                    six.append(agree)
+            drawn = runs.set_index("draw")[quantity]
+            values = {"as in the run": alone[quantity], "as printed": paper[str(scene)].get(quantity)}
+            for question, value in values.items():
+                if value is not None:
+                    agree = agrees(drawn, value, TOLERANCES[quantity])
+                    found.append((scene, quantity, question, value, agree))
+    six = [agree for _, _, question, _, agree in found if question == "as printed"]
     friction = draws.pivot_table(index="draw", columns="scene", values="mu_sapp", sort=False, dropna=False)
     span = friction.max(axis=1, skipna=False) - friction.min(axis=1, skipna=False)
-    rows.append(
-        {"scene": ALL, "quantity": "mu_sapp", "question": "same mu_sapp", "value": span.median()}
-        | share_row(agrees(span, 0.0, TOLERANCES["mu_sapp"]))
-    )
+    same = agrees(span, 0.0, TOLERANCES["mu_sapp"])
+    found.append((ALL, "mu_sapp", "same mu_sapp", span.median(), same))
     if six:
-        every = pd.concat(six, axis=1).all(axis=1)
-        rows.append(
-            {"scene": ALL, "quantity": ALL, "question": "all six numbers", "value": len(six)}
-            | share_row(every)
-        )
-    return pd.DataFrame(rows)
+        found.append((ALL, ALL, "all six numbers", len(six), pd.concat(six, axis=1).all(axis=1)))
+    return pd.DataFrame(
+        {"scene": scene, "quantity": quantity, "question": question, "value": value} | share_row(agree)
+        for scene, quantity, question, value, agree in found
+    )
 
 
 def agrees(values: pd.Series, value: float, tolerance: float) -> pd.Series:

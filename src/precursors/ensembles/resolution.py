@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from precursors.analysis.horizon import horizon
-from precursors.analysis.run_statistics import median_interval, statistics
+from precursors.analysis.run_statistics import median_interval
+from precursors.ensembles.noise import with_noise
 from precursors.ensembles.study import NOISE, Study, stack
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import simulate
@@ -30,17 +31,8 @@ def resolution_study(
 ) -> Study:
     """Chains of more and more blocks with the loading of some scenes.
 
-    The first member of each chain has the normal loads of Eq. 7, the others have them with noise. Chains with
-    as many blocks as the scene are those of `noise_study`.
-
-    Parameters
-    ----------
-    sliders : mapping
-        Scene to arguments of `Chain.from_slider`.
-    duration : float
-        Time limit of a run [s].
-    settings : mapping
-        Section `resolution` of the configuration.
+    Draw 0 of each chain has the normal loads of Eq. 7, the others have them with noise. Chains with as many
+    blocks as the scene are those of `noise_study`.
     """
     blocks: list[dict[str, Any]] = []
     for scene, slider in sliders.items():
@@ -70,43 +62,13 @@ def wave_speed(slider: Mapping[str, float]) -> float:
     return math.sqrt(stiffness * slider["length"] / slider["slider_mass"])
 
 
-def resolution_table(members: pd.DataFrame) -> pd.DataFrame:
-    """Statistics of each number over the runs with the same scene and number of blocks.
-
-    Returns
-    -------
-    DataFrame
-        One row per scene, theta, n_blocks and quantity: the value without noise; what `statistics` has of the
-        runs with noise that have a global slip; how many with noise there are, n_runs.
-    """
-    rows = []
-    for point, runs in members.groupby(POINT, sort=False):
-        noisy = runs["load_noise"] > 0.0
-        for quantity in QUANTITIES:
-            number = dict(zip(POINT, point, strict=True)) | {"quantity": quantity, "n_runs": noisy.sum()}
-            number["without_noise"] = runs.loc[~noisy, quantity].item()
-            rows.append(number | statistics(runs.loc[noisy & runs["reached"], quantity]))
-    return pd.DataFrame(rows)
-
-
-def noisy_runs(members: pd.DataFrame) -> pd.DataFrame:
-    """The runs with noise that have a global slip."""
-    return members[(members["load_noise"] > 0.0) & members["reached"]]
-
-
 def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
-    """Both counts of events against N, and their ratio to those of the uniformly loaded scene.
+    """Both counts of events against N, one row per n_blocks and scene.
 
-    A counted event is a record of the propagation length, ties included.
-
-    Returns
-    -------
-    DataFrame
-        One row per n_blocks and scene: noisy runs with a global slip; the median of each count with its
-        interval, and over that of the scene `uniform`; the median share of the events that are counted; the
-        events counted per block.
+    Each row has the median of each count with its interval, and over that of the scene `uniform`; then the
+    medians of the share of events that are counted, and of the events counted per block.
     """
-    runs = noisy_runs(members)
+    runs = with_noise(members)
     rows = []
     for (n_blocks, scene, theta), own in runs.groupby(["n_blocks", "scene", "theta"], sort=False):
         even = runs[(runs["n_blocks"] == n_blocks) & (runs["scene"] == uniform)]
@@ -124,13 +86,9 @@ def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
 def predictability_table(
     sliders: Mapping[str, Mapping[str, Any]], n_blocks: Iterable[int], duration: float, tolerance: float
 ) -> pd.DataFrame:
-    """Predictability time of the chain without noise, up to its first global slip, against N.
+    """Predictability time (horizon_s) and end of the first global slip, without noise: a row per scene and N.
 
-    Returns
-    -------
-    DataFrame
-        One row per scene and N: horizon_s and global_slip_s [s], the end of the slip; predictable, whether
-        the horizon is not before it, so that the numbers of this run do not depend on rounding.
+    Where the horizon is not before the end, the run is `predictable`: its numbers do not depend on rounding.
     """
     rows = []
     for scene, slider in sliders.items():
@@ -145,56 +103,59 @@ def predictability_table(
 def extrapolation_table(members: pd.DataFrame, from_n_blocks: int) -> pd.DataFrame:
     """Extrapolate numbers to an infinite number of blocks as a + b/N, by least squares over the medians.
 
-    Chains with fewer than `from_n_blocks` blocks are left out.
-
-    Returns
-    -------
-    DataFrame
-        One row per scene and quantity: a (the limit) and b, with the ends of their bootstrap intervals;
-        n_points, how many N took part.
+    Chains with fewer than `from_n_blocks` blocks are left out. One row per scene and quantity has a, b, the
+    ends of their bootstrap intervals, and how many N took part.
     """
-    members = noisy_runs(members[members["n_blocks"] >= from_n_blocks])
     rows = []
-    for scene, of_scene in members.groupby("scene", sort=False):
-        for quantity in EXTRAPOLATED:
-            n_blocks, medians, samples = bootstrap_medians(of_scene, quantity)
-            (b, a), (b_all, a_all) = (np.polyfit(1.0 / n_blocks, y, 1) for y in (medians, samples))
-            (a_low, a_high), (b_low, b_high) = np.quantile(a_all, ENDS), np.quantile(b_all, ENDS)
-            found = {"a": a, "a_low": a_low, "a_high": a_high, "b": b, "b_low": b_low, "b_high": b_high}
-            rows.append({"scene": scene, "quantity": quantity, **found, "n_points": len(n_blocks)})
+    large = members[members["n_blocks"] >= from_n_blocks]
+    for labels, n_blocks, medians, samples in bootstraps(large, EXTRAPOLATED):
+        (b, a), (b_all, a_all) = (np.polyfit(1.0 / n_blocks, y, 1) for y in (medians, samples))
+        (a_low, a_high), (b_low, b_high) = np.quantile(a_all, ENDS), np.quantile(b_all, ENDS)
+        found = {"a": a, "a_low": a_low, "a_high": a_high, "b": b, "b_low": b_low, "b_high": b_high}
+        rows.append(labels | found | {"n_points": len(n_blocks)})
     return pd.DataFrame(rows)
 
 
 def exponents_table(members: pd.DataFrame) -> pd.DataFrame:
     """Local exponents of the counts: log2 of the ratio of the medians at 2 N and at N.
 
-    Returns
-    -------
-    DataFrame
-        One row per scene, count and octave, from n_blocks to twice as many: exponent, with the ends of its
-        bootstrap interval.
+    Each scene, count and octave, from n_blocks on, has a row with the ends of the bootstrap interval.
     """
     rows = []
-    for scene, of_scene in noisy_runs(members).groupby("scene", sort=False):
-        for quantity in COUNTS:
-            n_blocks, medians, samples = bootstrap_medians(of_scene, quantity)
-            for i, n in enumerate(n_blocks):
-                for j in np.flatnonzero(n_blocks == 2 * n):
-                    low, high = np.quantile(np.log2(samples[j] / samples[i]), ENDS)
-                    exponent = np.log2(medians[j] / medians[i])
-                    octave = {"scene": scene, "quantity": quantity, "n_blocks": int(n)}
-                    rows.append(octave | {"exponent": exponent, "low": low, "high": high})
+    for labels, n_blocks, medians, samples in bootstraps(members, COUNTS):
+        for i, n in enumerate(n_blocks):
+            for j in np.flatnonzero(n_blocks == 2 * n):
+                low, high = np.quantile(np.log2(samples[j] / samples[i]), ENDS)
+                exponent = np.log2(medians[j] / medians[i])
+                rows.append(labels | {"n_blocks": int(n), "exponent": exponent, "low": low, "high": high})
     return pd.DataFrame(rows)
 
 
-def bootstrap_medians(members: pd.DataFrame, quantity: str) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Numbers of blocks, the median of each, and medians of `SAMPLES` resamplings, shape (len, SAMPLES)."""
-    random = np.random.default_rng(0)
-    groups = [(n, values.dropna().to_numpy(float)) for n, values in members.groupby("n_blocks")[quantity]]
-    groups = [(n, values) for n, values in groups if len(values)]
-    medians = [np.median(values) for _, values in groups]
-    samples = [
-        np.median(values[random.integers(len(values), size=(SAMPLES, len(values)))], axis=1)
-        for _, values in groups
-    ]
-    return np.array([n for n, _ in groups], float), np.array(medians), np.array(samples)
+def bootstraps(
+    members: pd.DataFrame, quantities: Iterable[str]
+) -> Iterator[tuple[dict[str, Any], FloatArray, FloatArray, FloatArray]]:
+    """Medians over the noise of each scene and quantity, against N.
+
+    Yields
+    ------
+    labels : dict
+        scene and quantity.
+    n_blocks, medians : ndarray
+        Numbers of blocks, and the median at each.
+    samples : ndarray, shape (len(n_blocks), SAMPLES)
+        Medians of as many resamplings.
+    """
+    for scene, of_scene in with_noise(members).groupby("scene", sort=False):
+        for quantity in quantities:
+            random = np.random.default_rng(0)
+            groups = {
+                n: values.dropna().to_numpy(float) for n, values in of_scene.groupby("n_blocks")[quantity]
+            }
+            groups = {n: values for n, values in groups.items() if len(values)}
+            medians = [np.median(values) for values in groups.values()]
+            samples = [
+                np.median(values[random.integers(len(values), size=(SAMPLES, len(values)))], axis=1)
+                for values in groups.values()
+            ]
+            labels = {"scene": scene, "quantity": quantity}
+            yield labels, np.array([*groups], float), np.array(medians), np.array(samples)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from typing import Any
@@ -12,8 +12,7 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
-from precursors.ensembles.loadings import loaded
-from precursors.model.chain import Chain
+from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate_many
@@ -26,6 +25,13 @@ LEFT_OUT = {*ARGUMENTS, "duration"} - {"theta", "n_blocks"}
 BLOCKS_PER_BATCH = 2000
 # Relative noise in the normal loads: a tenth of what an experiment knows of them, and well above rounding.
 NOISE = 1e-3
+# Normal load at a place x from 0 (leading edge) to 1 (trailing edge), but for a factor.
+LOADINGS: dict[str, Callable[[FloatArray], FloatArray]] = {
+    "middle": lambda x: 0.2 + x * (1 - x),
+    "edges": lambda x: 0.2 + (2 * x - 1) ** 2,
+    "falling": lambda x: np.exp(-2 * x),
+    "rising": lambda x: np.exp(2 * x),
+}
 WITH_UNITS = {name: f"{name}_{unit}" for name, unit in SUMMARY_UNITS.items()}
 
 
@@ -72,6 +78,14 @@ def chain_of(member: Mapping[Any, Any], seed: int = 0) -> Chain:
     stream = np.random.SeedSequence(seed, spawn_key=(member["group"], member["draw"]))
     change = size * np.random.default_rng(stream).uniform(-1, 1, chain.n_blocks)
     return replace(chain, weights=chain.weights * (1 + change))
+
+
+def loaded(chain: Chain, loading: str) -> Chain:
+    """The chain with the same total load in another shape, a key of LOADINGS; "linear" is Eq. 7 as it is."""
+    if loading == "linear":
+        return chain
+    weights = LOADINGS[loading](np.linspace(0.0, 1.0, chain.n_blocks))
+    return replace(chain, weights=weights / weights.sum() * chain.normal_load)
 
 
 def run_members(study: Study) -> pd.DataFrame:
