@@ -89,8 +89,8 @@ def test_the_state_of_eq_12_is_at_the_limit():
     start = eq15.maximal_strain_positions(CHAIN)
     strained = simulate(CHAIN, 0.001, start_positions=start)
     row = eq15.below_limit("fig10", strained)
-    assert row["found"] == pytest.approx(0.0, abs=ROUNDING)
-    assert not row["holds"]
+    assert row.found == pytest.approx(0.0, abs=ROUNDING)
+    assert not row.holds
 
 
 def test_four_times_the_mass_halves_the_speed_at_which_the_bound_breaks(table):
@@ -98,20 +98,20 @@ def test_four_times_the_mass_halves_the_speed_at_which_the_bound_breaks(table):
     loads = [eq15.largest_load(heavy, speed) / heavy.normal_load for speed in eq15.SPEEDS]
     row = eq15.fast_drive("fig10", heavy, np.array(loads))
     light = table[(table["check"] == eq15.FAST) & (table["case"] == "fig10")]
-    assert row["holds"]
-    assert row["found"] == pytest.approx(float(light["found"].item()) / 2, rel=0.02)
+    assert row.holds
+    assert row.found == pytest.approx(float(light["found"].item()) / 2, rel=0.02)
 
 
 def test_the_symbols_see_a_wrong_sign_in_the_equation_of_motion(monkeypatch):
     true = derivation.net_spring_forces
     monkeypatch.setattr(derivation, "net_spring_forces", lambda n: [*true(n)[:-1], -true(n)[-1]])
-    assert [row["holds"] for row in eq15.in_symbols(4)] == [False, True]
+    assert [row.holds for row in eq15.in_symbols(4)] == [False, True]
 
 
 def test_the_symbols_see_another_misprint(monkeypatch):
     true = derivation.balances
     monkeypatch.setattr(derivation, "balances_as_printed", true)
-    assert [row["holds"] for row in eq15.in_symbols(4)] == [True, False]
+    assert [row.holds for row in eq15.in_symbols(4)] == [True, False]
 
 
 @pytest.mark.parametrize(
@@ -123,20 +123,20 @@ def test_the_symbols_see_another_misprint(monkeypatch):
     ],
 )
 def test_the_states_of_rest_see_a_broken_part(monkeypatch, name, broken):
-    assert eq15.at_rest("fig10", CHAIN)["holds"]
+    assert eq15.at_rest("fig10", CHAIN).holds
     monkeypatch.setattr(eq15, name, broken)
-    assert not eq15.at_rest("fig10", CHAIN)["holds"]
+    assert not eq15.at_rest("fig10", CHAIN).holds
 
 
 def test_the_numbers_see_the_misprint_corrected(monkeypatch):
     monkeypatch.setattr(eq15, "compressions_as_printed", eq15.maximal_compressions)
-    assert not eq15.as_printed("fig10", CHAIN)["holds"]
+    assert not eq15.as_printed("fig10", CHAIN).holds
 
 
 def test_the_motion_sees_a_start_at_less_strain(monkeypatch):
     full = eq15.maximal_strain_positions
     monkeypatch.setattr(eq15, "maximal_strain_positions", lambda chain: 0.99 * full(chain))
-    assert not any(row["holds"] for row in eq15.in_motion("fig10", CHAIN, 10.0))
+    assert not any(row.holds for row in eq15.in_motion("fig10", CHAIN, 10.0))
 
 
 @pytest.mark.parametrize(
@@ -158,13 +158,13 @@ def test_the_motion_sees_another_chain_than_the_one_it_is_about(monkeypatch, nam
         eq15.rigid(CHAIN, 10.0),
         eq15.fast_drive("fig10", CHAIN, loads),
     ]
-    assert [row["check"] for row in rows if not row["holds"]] == failing
+    assert [row.check for row in rows if not row.holds] == failing
 
 
 def test_a_chain_without_a_global_slip_shows_nothing():
-    assert not eq15.rigid(CHAIN, 1.0)["holds"]
+    assert not eq15.rigid(CHAIN, 1.0).holds
 
 
 def test_ten_blocks_do_not_pass_for_the_rigid_slider(monkeypatch):
     monkeypatch.setattr(eq15, "replace", lambda chain, **_: chain)
-    assert not eq15.rigid(CHAIN, 10.0)["holds"]
+    assert not eq15.rigid(CHAIN, 10.0).holds

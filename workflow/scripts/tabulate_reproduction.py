@@ -5,7 +5,7 @@ from pathlib import Path
 
 from job import job
 
-from precursors.reproduction.reproduced_numbers import reproduction_table
+from precursors.reproduction.scene_numbers import reproduction_table
 from precursors.support.files import read_table, write_table
 
 

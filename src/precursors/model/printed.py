@@ -10,5 +10,3 @@ FIRST_GLOBAL_SLIP_N, SLIP_DURATION_S = 200.0, 0.002
 # Fig. 7: F_ZA and F_ZB, and how far the load cells are apart.
 CELL_LOADS_N = (100.0, 300.0)
 CELL_SPACING_M = 0.06
-# Theta of Sect. 5.2.
-THETA = 0.833

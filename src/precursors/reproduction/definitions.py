@@ -44,25 +44,21 @@ def definitions_table(
 ) -> pd.DataFrame:
     """One row for each reading and loading; the first three rows are ours.
 
+    Of the six numbers of a reading, `numbers_as_printed` counts those that are the paper's when rounded to
+    its digits, and `numbers_within_a_digit` those that differ by at most one unit of its last digit.
+
     Parameters
     ----------
     runs : sequence of Run
         The scenes with theta < 0, theta = 0 and theta > 0.
-    slider : mapping
-        Arguments of `Chain.from_slider` but theta, for other sizes of theta.
-    duration : float
-        Time to simulate [s].
+    slider, duration : mapping, float
+        Arguments of `Chain.from_slider` but theta, and time to simulate [s], for other sizes of theta.
     degrees : sequence
         Other sizes of theta.
     load_drops : iterable of float
         Drops of F_X [N]; an event with a larger drop is a global slip in this reading.
     paper : sequence of mapping
         The paper's events_counted and mu_sapp in the order of the runs, as far as it has them.
-
-    Notes
-    -----
-    Of the six numbers of a reading, `numbers_as_printed` counts those that are the paper's when rounded to
-    its digits, and `numbers_within_a_digit` those that differ by at most one unit of its last digit.
     """
     rows = []
     for changed, degree, rule, definition in readings(degrees, load_drops):
@@ -91,10 +87,10 @@ def readings(
 ) -> Iterator[tuple[str, float | str, str, Definition]]:
     """Our reading and those with one change: what is changed, size of theta, switching, definition."""
     ours = Definition()
+    drops: list[str | float] = [*list(GLOBAL_SLIPS)[1:], *load_drops]
     yield "nothing", OF_SCENES, COULOMB, ours
-    global_slips: list[str | float] = [*list(GLOBAL_SLIPS)[1:], *load_drops]
-    for global_slip in global_slips:
-        yield "global slip", OF_SCENES, COULOMB, replace(ours, global_slip=global_slip)
+    for definition in (replace(ours, global_slip=global_slip) for global_slip in drops):
+        yield "global slip", OF_SCENES, COULOMB, definition
     for short in list(SHORT_EVENTS)[1:]:
         yield "short event", OF_SCENES, COULOMB, replace(ours, short=short)
     for front in list(FRONTS)[1:]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -52,22 +52,26 @@ FAST = "F_X passes mu_s F_Z in motion from (mu_s - mu_k) F_Z / sqrt(K M) on, to 
 BELOW = "some block at rest is below its limit (least part at slip onsets, above 0)"
 
 
-def eq15_table(runs: Mapping[str, Run], duration: float, speeds: pd.DataFrame) -> pd.DataFrame:
-    """Every check on a row: check, case, unit, expected, found, holds.
+class Check(NamedTuple):
+    """What a check expects and finds; the case is a scene or a number of blocks."""
 
-    Parameters
-    ----------
-    runs : mapping of str to Run
-        Runs by the name of their scene.
-    duration : float
-        Time within which a global slip is awaited [s].
-    speeds : DataFrame
-        What `drive_speeds_table` returns for these scenes.
+    check: str
+    case: str
+    unit: str
+    expected: Any
+    found: Any
+    holds: bool
+
+
+def eq15_table(runs: Mapping[str, Run], duration: float, speeds: pd.DataFrame) -> pd.DataFrame:
+    """One row per `Check` of the runs of the scenes; `speeds` is their `drive_speeds_table`.
+
+    A global slip is awaited for `duration` [s].
     """
     scenes = {scene: run.chain for scene, run in runs.items()}
     rows = [*in_symbols(SYMBOLIC_BLOCKS)]
-    for check in (as_printed, at_rest):
-        rows += [check(scene, chain) for scene, chain in scenes.items()]
+    rows += [as_printed(scene, chain) for scene, chain in scenes.items()]
+    rows += [at_rest(scene, chain) for scene, chain in scenes.items()]
     rows += [row for scene, chain in scenes.items() for row in in_motion(scene, chain, duration)]
     for scene, chain in scenes.items():
         loads = speeds.loc[speeds["scene"] == scene, "largest_load_over_normal_load"]
@@ -76,7 +80,7 @@ def eq15_table(runs: Mapping[str, Run], duration: float, speeds: pd.DataFrame) -
     return pd.DataFrame([*rows, rigid(first, duration)])
 
 
-def in_symbols(n: int) -> Iterator[dict[str, Any]]:
+def in_symbols(n: int) -> Iterator[Check]:
     """The load of Eq. 12 for N blocks with any normal loads, as it follows from Eq. 2 and as printed."""
     import sympy  # slow, and the names of the checks are wanted without it
 
@@ -89,28 +93,28 @@ def in_symbols(n: int) -> Iterator[dict[str, Any]]:
         (AS_PRINTED, derivation.balances_as_printed(n), bound + excess),
     ):
         found, wanted = derivation.load(equations), sympy.expand(expected)
-        yield _row(check, f"N = {n}, in symbols", "N", str(wanted), str(found), found == wanted)
+        yield Check(check, f"N = {n}, in symbols", "N", str(wanted), str(found), found == wanted)
 
 
-def as_printed(scene: str, chain: Chain) -> dict[str, Any]:
+def as_printed(scene: str, chain: Chain) -> Check:
     """The load of Eq. 12 as printed, from its N equations in numbers and by the formula."""
     stiffer = chain.stiffness / chain.drive_stiffness - 1
     expected = load_bound(chain) + stiffer * float(chain.strength[-1])
     found = float(chain.drive_stiffness * compressions_as_printed(chain)[0])
-    return _row(AS_PRINTED, scene, "N", expected, found, math.isclose(found, expected, rel_tol=ROUNDING))
+    return Check(AS_PRINTED, scene, "N", expected, found, math.isclose(found, expected, rel_tol=ROUNDING))
 
 
-def at_rest(case: str, chain: Chain) -> dict[str, Any]:
+def at_rest(case: str, chain: Chain) -> Check:
     """The largest load over all states of rest, which is reached in the state of Eq. 12 (corrected)."""
     expected = load_bound(chain)
     found, compressions = largest_load_at_rest(chain)
     holds = math.isclose(found, expected, rel_tol=LP_TOLERANCE) and np.allclose(
         compressions, maximal_compressions(chain), rtol=LP_TOLERANCE, atol=0
     )
-    return _row(AT_REST, case, "N", expected, found, holds)
+    return Check(AT_REST, case, "N", expected, found, holds)
 
 
-def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[dict[str, Any]]:
+def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[Check]:
     """mu_sapp of a chain pushed from the state of maximal residual strain, and from slightly below it.
 
     At a fraction a of that strain every block is at a mu_s w_i. Block 1 slips first, at
@@ -122,7 +126,7 @@ def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[dict[str, A
         expected = chain.mu_s * (a + (1 - a) * share)
         found = pushed(chain, a * full, duration)
         holds = math.isclose(found, expected, rel_tol=ROUNDING)
-        yield _row(check, scene, "1", expected, found, holds)
+        yield Check(check, scene, "1", expected, found, holds)
 
 
 def largest_load(chain: Chain, speed: float) -> float:
@@ -150,7 +154,7 @@ def drive_speeds_table(scenes: Mapping[str, Chain]) -> pd.DataFrame:
     )
 
 
-def fast_drive(scene: str, chain: Chain, loads: FloatArray) -> dict[str, Any]:
+def fast_drive(scene: str, chain: Chain, loads: FloatArray) -> Check:
     """The lowest speed of the drive that takes F_X beyond mu_s F_Z, and that of a rigid slider.
 
     `loads` are the largest F_X over F_Z at `SPEEDS`.
@@ -167,10 +171,10 @@ def fast_drive(scene: str, chain: Chain, loads: FloatArray) -> dict[str, Any]:
     fast = int(np.argmax(loads > chain.mu_s))
     below, above = SPEEDS[fast - 1], SPEEDS[fast]
     found = round(scipy.optimize.brentq(excess, below, above, xtol=1e-6), DIGITS) if fast else math.nan
-    return _row(FAST, scene, "m/s", expected, found, math.isclose(found, expected, rel_tol=RIGID_TOLERANCE))
+    return Check(FAST, scene, "m/s", expected, found, math.isclose(found, expected, rel_tol=RIGID_TOLERANCE))
 
 
-def below_limit(scene: str, run: Run) -> dict[str, Any]:
+def below_limit(scene: str, run: Run) -> Check:
     """How near a run comes to the state of Eq. 12, in which all blocks are at their limits at once.
 
     At the onset of each slip: what the block farthest from its limit mu_s w_i is below it, over mu_s w_i.
@@ -178,22 +182,17 @@ def below_limit(scene: str, run: Run) -> dict[str, Any]:
     forces = np.pad(run.spring_forces(find_slips(run)["onset"]), ((0, 0), (0, 1)))
     below = 1.0 - (forces[:, :-1] - forces[:, 1:]) / run.chain.strength
     found = round(float(below.max(axis=1).min(initial=math.inf)), DIGITS)
-    return _row(BELOW, scene, "1", 0.0, found, found > 0.0)
+    return Check(BELOW, scene, "1", 0.0, found, found > 0.0)
 
 
-def rigid(chain: Chain, duration: float) -> dict[str, Any]:
+def rigid(chain: Chain, duration: float) -> Check:
     """mu_sapp of one block with the weight and the mass of the whole chain, pushed from natural length."""
     block = replace(chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass)
     found = pushed(block, None, duration)
-    return _row(RIGID, "N = 1", "1", chain.mu_s, found, math.isclose(found, chain.mu_s, rel_tol=ROUNDING))
+    return Check(RIGID, "N = 1", "1", chain.mu_s, found, math.isclose(found, chain.mu_s, rel_tol=ROUNDING))
 
 
 def pushed(chain: Chain, start: FloatArray | None, duration: float) -> float:
     """mu_sapp (Eq. 1) of a chain pushed from rest at some positions [m]; NaN without a global slip."""
     found = apparent_friction(slip_table(simulate(chain, duration, "global slip", start_positions=start)))
     return found.mu_sapp if found else math.nan
-
-
-def _row(check: str, case: str, unit: str, expected: Any, found: Any, holds: bool) -> dict[str, Any]:
-    names = ("check", "case", "unit", "expected", "found", "holds")
-    return dict(zip(names, (check, case, unit, expected, found, bool(holds)), strict=True))

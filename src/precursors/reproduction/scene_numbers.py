@@ -1,9 +1,9 @@
-"""What a scene is and how its first global slip comes: numbers of the run that no other table has."""
+"""Numbers of the scenes: those that the paper prints, and those that no other table has."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import pandas as pd
@@ -13,6 +13,10 @@ from precursors.analysis.slips import find_slips
 from precursors.model.chain import Chain
 from precursors.model.statics import maximal_compressions
 from precursors.solver.run import Run
+
+COLUMNS = ["scene", "theta", "quantity", "unit", "paper", "reproduced"]
+COUNTED = "events counted in Fig. 13, the first global slip included"
+FRICTION = "apparent static friction coefficient mu_sapp"
 
 
 def measures_table(runs: Mapping[str, Run]) -> pd.DataFrame:
@@ -63,3 +67,30 @@ def residual_strain(run: Run, time: float) -> float:
         return math.nan
     compressions = run.spring_forces([time])[0] / run.chain.springs
     return float(compressions[1:].sum() / maximal_compressions(run.chain)[1:].sum())
+
+
+def reproduction_table(
+    slips: Mapping[str, pd.DataFrame], mu_sapp: pd.DataFrame, paper: Mapping[str, Mapping[str, float]]
+) -> pd.DataFrame:
+    """One row per scene and quantity, from the slip table of each scene and tables/mu_sapp.csv.
+
+    `paper` has what the paper prints of each scene: events_counted and mu_sapp, or nothing.
+    """
+    papers = mu_sapp[mu_sapp["is_papers"].astype(bool)].set_index("scene")["mu_sapp"]
+    rows = [
+        (scene, next(iter(table["theta"]), None), quantity, unit, paper[scene].get(key), value)
+        for scene, table in slips.items()
+        for quantity, unit, key, value in quantities(table, papers.get(scene))
+    ]
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def quantities(slips: pd.DataFrame, mu_sapp: float | None) -> Iterator[tuple[str, str, str, float | None]]:
+    """Quantity, unit, key in `paper` (empty: none), and value (None without a global slip)."""
+    yield COUNTED, "1", "events_counted", float(slips["counted"].sum())
+    yield FRICTION, "1", "mu_sapp", mu_sapp
+    number = first_global(slips)
+    time, load = (None, None) if number is None else slips[["onset_s", "load_before_N"]].iloc[number]
+    yield "time of the first global slip", "s", "", time
+    yield "load at the first global slip", "N", "", load
+    yield "all events up to the first global slip", "1", "", None if number is None else number + 1
