@@ -17,8 +17,9 @@ from scipy.linalg import expm
 from precursors import Chain
 from precursors.methods.stability import stiffness_matrix
 from precursors.solver.kernel import bounds, lanes, roots
+from precursors.solver.kernel.arrays import System
 from precursors.solver.kernel.layout import NEGLIGIBLE, ORDER, ORDERS, PARTS, WINDOW, order_for
-from precursors.solver.kernel.units import scale
+from precursors.solver.kernel.units import parameters, set_up
 
 WINDOWS, HARD_WINDOWS = 400, 200
 ROUNDING = 1e-12  # of a window; numpy.roots knows a simple root to some roundings
@@ -29,6 +30,11 @@ ONE_STEP, PROVED = 0.3, 0.5
 LOOSEST = 1.35
 # Times at which a series is evaluated with all digits, and how far below zero a dip is that has to be seen.
 TIMES, DIP = [Fraction(k, 64) for k in range(65)], Fraction(1, 10**13)
+
+
+def scale(chain: Chain) -> System:
+    """A chain in the kernel's units."""
+    return set_up.py_func(parameters(chain), chain.weights, np.zeros((3, chain.n_blocks + 2)))
 
 
 def series(seed: int, n: int = 12) -> np.ndarray:

@@ -28,8 +28,15 @@ class States(NamedTuple):
     offset: FloatArray
 
     @classmethod
-    def empty(cls, n_states: int, n_blocks: int) -> States:
-        """Room for states of N blocks."""
-        force, velocity = np.empty((2, n_states, n_blocks))
-        mode = np.empty((n_states, n_blocks), np.int64)
-        return cls(force, velocity, mode, np.empty(n_states, np.int64), np.empty(n_states))
+    def from_rows(cls, rows: FloatArray) -> States:
+        """States from rows of `after`, `offset`, N forces, N velocities and N modes."""
+        n = (rows.shape[1] - 2) // 3
+        after, mode = rows[:, 0].astype(np.int64), rows[:, 2 + 2 * n :].astype(np.int64)
+        return cls(
+            rows[:, 2 : 2 + n].copy(), rows[:, 2 + n : 2 + 2 * n].copy(), mode, after, rows[:, 1].copy()
+        )
+
+
+def room_for_states(n_states: int, n_blocks: int) -> FloatArray:
+    """Room for the rows of states of N blocks."""
+    return np.empty((n_states, 2 + 3 * n_blocks))

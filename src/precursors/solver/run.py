@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import number_array
-from precursors.solver.record import TRANSITION, States
+from precursors.solver.record import TRANSITION, States, room_for_states
 from precursors.solver.run_file import RunFileError, read_run, write_run
 
 __all__ = ["TRANSITION", "Run", "RunFileError", "States"]
@@ -100,7 +100,7 @@ class Run:
             intervals=np.array(intervals, dtype=np.float64),
             start_positions=at_rest,
             start_velocities=at_rest,
-            states=States.empty(0, chain.n_blocks),
+            states=States.from_rows(room_for_states(0, chain.n_blocks)),
         )
 
     def at(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
@@ -149,14 +149,9 @@ class Run:
         from precursors.solver import kernel
 
         order = np.argsort(when, kind="stable")
-        record = kernel.Record(
-            np.ascontiguousarray(self.transitions["time"]),
-            self.transitions["block"].astype(np.int64),
-            self.transitions["mode"].astype(np.int64),
-            np.ascontiguousarray(self.transitions["tangential_load"]),
-            self.intervals,
+        force, velocity = kernel.evaluate(
+            self.chain, when[order], self.transitions, self.intervals, self.states
         )
-        force, velocity = kernel.evaluate(self.chain, when[order], record, self.states)
         back = np.argsort(order, kind="stable")
         return force[back], velocity[back]
 

@@ -16,7 +16,7 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import LARGEST, Until, checked_span, number_array, positive, whole
 from precursors.solver import kernel
 from precursors.solver.kernel.arrays import Progress
-from precursors.solver.record import TRANSITION, IntArray, States
+from precursors.solver.record import TRANSITION, States, room_for_states
 from precursors.solver.run import Run
 from precursors.support.waiting import tell
 
@@ -31,8 +31,6 @@ MAX_WINDOWS = 1_000_000_000
 FIRST_ROOM, SHARED_ROOM = 2048, 16384
 # Chains of a batch: many for little work between batches, few for all threads to end together.
 LARGEST_BATCH, BATCHES_PER_THREAD = 64, 8
-# Types of a record's columns: time, block, mode, tangential load, interval.
-COLUMNS: tuple[Any, ...] = (np.float64, np.int64, np.int64, np.float64, np.float64)
 
 
 class _End(NamedTuple):
@@ -230,8 +228,9 @@ class _Workspace(threading.local):
         # A state is stored after so many transitions that storing takes little time beside finding them.
         self.stride = max(10, 1 + n_blocks // 3)
         self.memory = kernel.memory_for(n_blocks)
-        self.record = kernel.Record._make(np.empty(max(SHARED_ROOM, 2 * n_blocks), kind) for kind in COLUMNS)
-        self.states = States.empty(max(SHARED_ROOM // self.stride, 2), n_blocks)
+        self.record = np.empty(max(SHARED_ROOM, 2 * n_blocks), kernel.ROW)
+        self.words = kernel.words(self.record)
+        self.states = room_for_states(max(SHARED_ROOM // self.stride, 2), n_blocks)
         self.n_blocks = n_blocks
 
 
@@ -266,34 +265,41 @@ def _run_batch(
         False,
     )
     runs: list[Run] = []
-    while len(runs) < n:
-        left = slice(len(runs), None)
-        here = _rows(batch, left) if runs else batch
-        reached = progress[left]
+    while (done := len(runs)) < n:
+        here = _rows(batch, slice(done, None)) if done else batch
+        reached = progress[done:]
         n_finished, is_paused = kernel.run_batch(
-            here, limits, _bytes(reached), work.record, work.states, work.memory
+            here, limits, kernel.words(reached), work.words, work.states, work.memory
         )
-        for part in _parts(work, reached[: n_finished + is_paused]):
-            j = len(runs)
-            mine = slice(j, j + 1)
+        parts = _parts(work, reached[:n_finished]) if n_finished else []
+        if is_paused:
+            finished, last = reached[:n_finished], slice(n_finished, n_finished + 1)
+            record = work.record[int((finished["transitions"] + 1).sum()) :]
+            states = work.states[int(finished["stored"].sum()) :]
+            parts.append(_go_on(_rows(here, last), limits, reached[last], record, states, end.most))
+        for j, part in enumerate(parts, done):
+            run = _run(chains[j], positions[j], velocities[j], progress[j], part, end)
             if progress["status"][j] == kernel.PAUSED:
-                part = _go_on(_rows(batch, mine), limits, progress[mine], part, end.most)
-            last = progress[j]
-            time = float(last["onset"] + (last["onset_error"] + last["elapsed"] * last["tau"]))
-            run = Run(
-                chain=chains[j],
-                duration=end.duration if last["status"] == kernel.FINISHED else time,
-                transitions=part.transitions,
-                intervals=part.intervals,
-                start_positions=positions[j],
-                start_velocities=velocities[j],
-                states=part.states,
-                evaluations=float(last["derivatives"]) / chains[j].n_blocks,
-            )
-            if last["status"] == kernel.PAUSED:
                 raise _unfinished(run, end)
             runs.append(run)
     return runs
+
+
+def _run(
+    chain: Chain, positions: FloatArray, velocities: FloatArray, last: np.void, part: _Part, end: _End
+) -> Run:
+    """A run from its start, where it ended, and what was recorded of it."""
+    time = float(last["onset"] + (last["onset_error"] + last["elapsed"] * last["tau"]))
+    return Run(
+        chain=chain,
+        duration=end.duration if last["status"] == kernel.FINISHED else time,
+        transitions=part.transitions,
+        intervals=part.intervals,
+        start_positions=positions,
+        start_velocities=velocities,
+        states=part.states,
+        evaluations=float(last["derivatives"]) / chain.n_blocks,
+    )
 
 
 def _unfinished(run: Run, end: _End) -> TransitionLimitError:
@@ -312,45 +318,34 @@ def _unfinished(run: Run, end: _End) -> TransitionLimitError:
     )
 
 
-def _bytes(progress: Progress) -> IntArray:
-    """The memory of `progress` as whole numbers, a row a run."""
-    return progress.view(np.int64).reshape(len(progress), -1)
-
-
 def _rows(columns: Any, rows: slice) -> Any:
     """Those rows of all arrays in a named tuple."""
     return columns._make(values[rows] for values in columns)
 
 
-def _parts(work: _Workspace, progress: Progress) -> Iterator[_Part]:
+def _parts(work: _Workspace, progress: Progress) -> list[_Part]:
     """Cut the record of several runs, as `progress` has them, into one part a run."""
     used, stored = progress["transitions"].tolist(), progress["stored"].tolist()
-    transitions = _transitions(work.record, sum(used))
-    intervals: FloatArray = work.record.intervals[: sum(used) + len(used)].copy()
-    n_states = sum(stored)
-    copies: Any = [column[:n_states].copy() for column in work.states]
-    states = States(*copies)
+    transitions, intervals = _columns(work.record[: sum(used) + len(used)])
+    states = States.from_rows(work.states[: sum(stored)])
     if len(used) == 1:
-        yield _Part(transitions, intervals, states)
-        return
-    first = first_state = 0
-    for j, (n, m) in enumerate(zip(used, stored, strict=True)):
-        yield _Part(
-            transitions[first : first + n],
-            intervals[first + j : first + j + n + 1],
-            _rows(states, slice(first_state, first_state + m)),
-        )
-        first, first_state = first + n, first_state + m
+        return [_Part(transitions[:-1], intervals, states)]
+    parts, first, first_state = [], 0, 0
+    for n, m in zip(used, stored, strict=True):
+        last, last_state = first + n, first_state + m
+        rows = slice(first_state, last_state)
+        parts.append(_Part(transitions[first:last], intervals[first : last + 1], _rows(states, rows)))
+        first, first_state = last + 1, last_state
+    return parts
 
 
-def _go_on(batch: Any, limits: Any, progress: Progress, part: _Part, most: int) -> _Part:
+def _go_on(
+    batch: Any, limits: Any, progress: Progress, record: NDArray[np.void], states: FloatArray, most: int
+) -> _Part:
     """Run on a chain that the kernel left unfinished, in a record of its own that grows as needed."""
-    [run] = progress
-    values = [part.transitions[name] for name in TRANSITION.names or ()]
-    record = kernel.Record._make(
-        column.astype(kind) for column, kind in zip([*values, part.intervals], COLUMNS, strict=True)
-    )
-    states, stride, duration = part.states, limits.stride, limits.duration
+    [run], stride, duration = progress, limits.stride, limits.duration
+    n, stored = int(run["transitions"]), int(run["stored"])
+    record, states = record[: n + 1], states[:stored]
 
     def is_unfinished() -> bool:
         return bool(
@@ -358,33 +353,30 @@ def _go_on(batch: Any, limits: Any, progress: Progress, part: _Part, most: int) 
         )
 
     for _ in tell("running", iter(is_unfinished, False), lambda: run["onset"] / duration):
-        used = int(run["transitions"])
-        if used >= len(record.time) or len(record.time) < len(record.intervals):
-            room = min(max(FIRST_ROOM, 2 * used), most)
-            record = kernel.Record._make(_enlarged(column[:used], room) for column in record)
-        if run["stored"] >= len(states.after):
-            rows = max(FIRST_ROOM // stride, 2 * len(states.after))
-            if rows * sum(column[0].nbytes for column in states) > STATES_BYTES:
-                states, stride = _rows(states, slice(None, None, 2)), 2 * stride
-                run["stored"], rows = len(states.after), rows // 2
-            states = States._make(_enlarged(column, rows) for column in states)
-        limits = limits._replace(
-            transitions=len(record.time), states=len(states.after), stride=stride, goes_on=True
+        if n + 1 >= len(record):
+            record = _enlarged(record, 1 + min(max(FIRST_ROOM, 2 * n), most))
+        if stored >= len(states):
+            rows = max(FIRST_ROOM // stride, 2 * len(states))
+            if rows * states.itemsize * states.shape[1] > STATES_BYTES:
+                states, stride = states[::2], 2 * stride
+                run["stored"], rows = len(states), rows // 2
+            states = _enlarged(states, rows)
+        limits = limits._replace(transitions=len(record) - 1, states=len(states), stride=stride, goes_on=True)
+        kernel.run_batch(
+            batch, limits, kernel.words(progress), kernel.words(record), states, _workspace.memory
         )
-        kernel.run_batch(batch, limits, _bytes(progress), record, states, _workspace.memory)
-    n, stored = int(run["transitions"]), int(run["stored"])
-    return _Part(
-        _transitions(record, n),
-        np.append(record.intervals[:n], run["since"] * run["tau"]),
-        _rows(states, slice(stored)),
-    )
+        n, stored = int(run["transitions"]), int(run["stored"])
+    record["interval"][n] = run["since"] * run["tau"]
+    transitions, intervals = _columns(record[: n + 1])
+    return _Part(transitions[:n], intervals, States.from_rows(states[:stored]))
 
 
-def _transitions(record: Any, n: int) -> NDArray[np.void]:
-    transitions = np.empty(n, dtype=TRANSITION)
-    for name, column in zip(TRANSITION.names or (), record, strict=False):
-        transitions[name] = column[:n]
-    return transitions
+def _columns(record: NDArray[np.void]) -> tuple[NDArray[np.void], FloatArray]:
+    """Transitions, and the intervals before them [s]."""
+    transitions = np.empty(len(record), dtype=TRANSITION)
+    for name in TRANSITION.names or ():
+        transitions[name] = record[name]
+    return transitions, record["interval"].copy()
 
 
 def _enlarged(values: NDArray[Any], rows: int) -> NDArray[Any]:

@@ -23,7 +23,7 @@ Column 0 of every array is the drive, columns 1..N are the blocks. Beyond them i
 | `plain` | kernel |
 |---|---|
 | `State` | `arrays.Motion`, with room to work in |
-| `at_start` | `friction.at_start` |
+| `at_start` | `events.take_start` |
 | `expand` | `series.expand`: velocities and net forces; spring forces follow from slips |
 | `powers` | `series.powers`, divided by n! |
 | `move` | `springs.move`, which sums the series group by group (`series.sum_series`) |
@@ -37,7 +37,7 @@ Beside them, `units` scales a chain, `layout` and `arrays` say what is where, `l
 once, `pointers` and `compiled` say how all this becomes machine code, `states` gives the state at any time.
 """
 
-from precursors.solver.kernel.arrays import PROGRESS, Batch, Limits, Record, memory_for
+from precursors.solver.kernel.arrays import PROGRESS, ROW, Batch, Limits, memory_for, words
 from precursors.solver.kernel.events import run_batch
 from precursors.solver.kernel.layout import FINISHED, PAUSED
 from precursors.solver.kernel.states import evaluate

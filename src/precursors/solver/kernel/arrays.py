@@ -5,20 +5,21 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba import from_dtype
 from numba.extending import register_jitable
 from numpy.typing import NDArray
 
 from precursors.model.chain import FloatArray
 from precursors.solver.kernel.compiled import inner
 from precursors.solver.kernel.layout import ROWS, TERMS, WIDTH
-from precursors.solver.kernel.pointers import as_record, pointer, shifted, whole_numbers
+from precursors.solver.kernel.pointers import EIGHT, cast_to, numbers, shifted, whole_numbers
 from precursors.solver.record import IntArray
 
 # In compiled code a vector is a pointer to a number for each column.
 Vector = Any
 
 # Vectors with a column for each block, and with a row for each term of a series.
-BY_COLUMN, BY_TERM = 20, 3
+BY_COLUMN, BY_TERM = 14, 3
 # Doubles in a line of the cache.
 LINE = 8
 
@@ -34,9 +35,9 @@ class System(NamedTuple):
     tau: float
     speed: float
     drive_velocity: float
-    coupling: FloatArray
-    strength: FloatArray
-    friction: FloatArray
+    coupling: Vector
+    strength: Vector
+    friction: Vector
 
 
 class Motion(NamedTuple):
@@ -48,7 +49,7 @@ class Motion(NamedTuple):
     a neighbour of it moves. Window: `rate` has the derivatives, `wide` columns in a row (see `expand`),
     `sign` is that of `watched`, `force_before` and `rest_before` are the spring forces at its start, `slip`
     is the way since then; `whole` has the terms s^n / n! for its length, `weight` those for the time looked
-    at; `open` has the blocks that are not proved as bits. The others are room to work in.
+    at; `open` has the blocks that are not proved as bits; `series` is room for one function.
     """
 
     velocity: Vector
@@ -65,9 +66,6 @@ class Motion(NamedTuple):
     rest_before: Vector
     slip: Vector
     open: Vector
-    saved_velocity: Vector
-    saved_force: Vector
-    saved_rest: Vector
     whole: Vector
     weight: Vector
     series: Vector
@@ -111,23 +109,31 @@ PROGRESS = np.dtype(
     + [(name, "i8") for name in ("transitions", "sliding", "stored", "windows", "derivatives")]
     + [(name, "i8") for name in ("searches", "root_steps", "all_slid", "status", "farthest", "at_once")]
 )
-as_progress = as_record(PROGRESS)
+progress_at = cast_to(from_dtype(PROGRESS))
 Progress = NDArray[np.void]
 
+# A transition and the interval before it [s]. After the last of a run comes the interval to its end.
+ROW = np.dtype(
+    [("time", "f8"), ("block", "i8"), ("mode", "i8"), ("tangential_load", "f8"), ("interval", "f8")]
+)
+_row_at = cast_to(from_dtype(ROW))
+ROW_BYTES = ROW.itemsize
 
-class Record(NamedTuple):
-    """Transitions: times [s], blocks, new modes, tangential loads [N], and the intervals between them [s]."""
 
-    time: FloatArray
-    block: IntArray
-    mode: IntArray
-    tangential_load: FloatArray
-    intervals: FloatArray
+def words(records: NDArray[np.void]) -> IntArray:
+    """The memory of records, a row each; Numba takes long to recognise an array of records."""
+    return records.view(np.int64).reshape(len(records), -1)
+
+
+@register_jitable
+def recorded(k, record):
+    """Transition k of a record at an address."""
+    return _row_at(record + k * ROW_BYTES)
 
 
 def memory_for(n_blocks: int) -> FloatArray:
     """Memory that `divide` divides, in which no group of blocks lies across two lines of the cache."""
-    memory = np.zeros((BY_COLUMN + ROWS) * n_columns(n_blocks) + BY_TERM * TERMS + LINE)
+    memory = np.zeros((3 + BY_COLUMN + ROWS) * n_columns(n_blocks) + BY_TERM * TERMS + LINE)
     block_1 = 1 + memory.ctypes.data // memory.itemsize
     return memory[-block_1 % LINE :]
 
@@ -141,14 +147,13 @@ def n_columns(n_blocks):
 @inner
 def divide(memory, n_blocks):
     """Divide memory into the vectors of a system (coupling, strength, friction) and a motion."""
-    wide, start = n_columns(n_blocks), pointer(memory)
-    by_term = shifted(start, (BY_COLUMN + ROWS) * wide)
+    wide, start = n_columns(n_blocks), numbers(memory.ctypes.data)
     motion = Motion(
         shifted(start, 3 * wide),
         shifted(start, 4 * wide),
         shifted(start, 5 * wide),
         shifted(start, 6 * wide),
-        whole_numbers(shifted(start, 7 * wide)),
+        whole_numbers(memory.ctypes.data + 7 * EIGHT * wide),
         shifted(start, 8 * wide),
         shifted(start, 9 * wide),
         shifted(start, 10 * wide),
@@ -157,14 +162,11 @@ def divide(memory, n_blocks):
         shifted(start, 13 * wide),
         shifted(start, 14 * wide),
         shifted(start, 15 * wide),
-        whole_numbers(shifted(start, 16 * wide)),
-        shifted(start, 17 * wide),
-        shifted(start, 18 * wide),
-        shifted(start, 19 * wide),
-        by_term,
-        shifted(by_term, TERMS),
-        shifted(by_term, 2 * TERMS),
-        shifted(start, BY_COLUMN * wide),
+        whole_numbers(memory.ctypes.data + 16 * EIGHT * wide),
+        shifted(start, (3 + BY_COLUMN + ROWS) * wide),
+        shifted(start, (3 + BY_COLUMN + ROWS) * wide + TERMS),
+        shifted(start, (3 + BY_COLUMN + ROWS) * wide + 2 * TERMS),
+        shifted(start, (3 + BY_COLUMN) * wide),
         wide,
     )
     return (start, shifted(start, wide), shifted(start, 2 * wide)), motion

@@ -2,131 +2,96 @@
 
 from __future__ import annotations
 
-from precursors.solver.kernel.arrays import Record, System, as_progress, divide, n_columns
+from precursors.solver.kernel.arrays import progress_at, recorded
 from precursors.solver.kernel.compiled import inner, inner_unfused, outer, seldom, unfused
 from precursors.solver.kernel.friction import (
-    at_start,
     farthest_sliding,
     resting_mode,
     set_mode,
+    starting_mode,
     take_mode,
     take_neighbours,
 )
 from precursors.solver.kernel.guess import LEAST, MARGIN, NEAR, find_root, guess
-from precursors.solver.kernel.layout import (
-    FINISHED,
-    PAUSED,
-    PROOF_ORDER,
-    ROUNDINGS,
-    ROWS,
-    STOPPED,
-    WIDTH,
-    WINDOW,
-)
-from precursors.solver.kernel.pointers import pointer, shifted
+from precursors.solver.kernel.layout import FINISHED, PAUSED, PROOF_ORDER, ROUNDINGS, STOPPED, WIDTH, WINDOW
+from precursors.solver.kernel.pointers import EIGHT, numbers, row_address
 from precursors.solver.kernel.proof import prove, search
-from precursors.solver.kernel.series import expand, order_at, powers, set_rows
-from precursors.solver.kernel.springs import begin, move, take_net_force, two_sum
-from precursors.solver.kernel.units import set_up
-from precursors.solver.record import States
+from precursors.solver.kernel.series import begin, expand, order_at, powers
+from precursors.solver.kernel.springs import move, take_net_force, two_sum
+from precursors.solver.kernel.units import lay_out
 
 
 @outer
 def run_batch(batch, limits, progress, record, states, memory):
     """Run chain after chain from its start, as many as there is room for, into one record.
 
-    Row j of `batch` is a chain with its start, row j of `progress` has the bytes of where it ended. Limits
+    Row j of `batch` is a chain with its start, row j of `progress` has the words of where it ended. Limits
     are those of each chain. Returns how many chains are finished and whether the one after them is paused:
     its state is in `memory`, and what it recorded follows that of the others. It can go on where it is all
     there is.
     """
     n_blocks = batch.weights.shape[1]
-    columns, motion = divide(memory, n_blocks)
     used = stored = windows = 0
     for j in range(batch.weights.shape[0]):
         if not limits.goes_on:
-            full = used + max(limits.transitions, n_blocks) > record.time.shape[0]
-            if full or stored + limits.states > states.after.shape[0] or windows > limits.windows:
+            full = used + max(limits.transitions, n_blocks) >= record.shape[0]
+            if full or stored + limits.states > states.shape[0] or windows > limits.windows:
                 return j, False
-            forget(columns, n_blocks, motion)
-        tau, speed, drive_velocity = set_up(batch.parameters[j], batch.weights[j], n_blocks, columns)
-        chain = System(n_blocks, tau, speed, drive_velocity, columns[0], columns[1], columns[2])
-        mine, my_record = as_progress(pointer(progress[j])), rest_of_record(record, used, j)
-        my_states = rest_of_states(states, stored, n_blocks)
+            clear(memory)
+        chain, motion = lay_out(batch.parameters[j], batch.weights[j], memory)
+        mine = progress_at(row_address(progress, j))
+        my_record, my_states = row_address(record, used), row_address(states, stored)
         if not limits.goes_on:
-            mine.tau = tau
-            at_start(batch.positions[j], batch.velocities[j], batch.parameters[j], chain, motion)
-            note_start(chain, motion, mine, my_record, my_states)
+            take_start(
+                batch.positions[j],
+                batch.velocities[j],
+                batch.parameters[j],
+                chain,
+                motion,
+                mine,
+                my_record,
+                my_states,
+            )
         mine.status = find_transitions(chain, motion, limits, mine, my_record, my_states)
         if mine.status == PAUSED:
             return j, True
-        used += mine.transitions
+        recorded(mine.transitions, my_record).interval = mine.since * mine.tau
+        used += mine.transitions + 1
         stored += mine.stored
         windows += mine.windows
-        record.intervals[used + j] = mine.since * tau
     return batch.weights.shape[0], False
 
 
 @seldom
-def forget(columns, n_blocks, motion):
+def clear(memory):
     """Clear what the chain before has left."""
-    for values in columns:
-        clear(values, n_blocks)
-    clear(motion.velocity, n_blocks)
-    clear(motion.spring_force, n_blocks)
-    clear(motion.force_rest, n_blocks)
-    for i in range(n_columns(n_blocks)):
-        motion.mode[i] = 0
+    for i in range(memory.shape[0]):
+        memory[i] = 0.0
 
 
-@inner
-def clear(values, n_blocks):
-    """Set all columns to zero."""
-    for i in range(n_columns(n_blocks)):
-        values[i] = 0.0
-
-
-@inner
-def rest_of_record(record, used, n_runs):
-    """What is left of a record after `n_runs` runs; each leaves one interval more than transitions."""
-    return Record(
-        shifted(pointer(record.time), used),
-        shifted(pointer(record.block), used),
-        shifted(pointer(record.mode), used),
-        shifted(pointer(record.tangential_load), used),
-        shifted(pointer(record.intervals), used + n_runs),
-    )
-
-
-@inner
-def rest_of_states(states, stored, n_blocks):
-    """What is left of the states after the first `stored`; their numbers are a row after the other."""
-    return States(
-        shifted(pointer(states.force), stored * n_blocks),
-        shifted(pointer(states.velocity), stored * n_blocks),
-        shifted(pointer(states.mode), stored * n_blocks),
-        shifted(pointer(states.after), stored),
-        shifted(pointer(states.offset), stored),
-    )
-
-
-@seldom
-def note_start(chain, motion, progress, record, states):
-    """Record the blocks that move at time 0 as transitions; the first state is the start with all modes 0."""
-    mode = motion.mode
-    k = 0
+@unfused
+def take_start(positions, velocities, parameters, chain, motion, progress, record, states):
+    """Take a start at time 0. In the first state all modes are 0; blocks that move are transitions."""
+    mass, stiffness, spring, _, _, _ = parameters
+    stiffest = farthest = before = 0.0
+    for i in range(chain.n_blocks):
+        stiffest, farthest = max(stiffest, spring), max(farthest, abs(positions[i]))
+        motion.spring_force[i + 1] = spring * (before - positions[i])
+        motion.velocity[i + 1] = velocities[i] * (mass / chain.tau)
+        before, spring = positions[i], stiffness
+    progress.tau, progress.farthest = chain.tau, chain.n_blocks
+    store_state(chain, motion, progress, states)
     for i in range(1, chain.n_blocks + 1):
-        states.force[i - 1] = motion.spring_force[i]
-        states.velocity[i - 1] = motion.velocity[i] * chain.speed
-        states.mode[i - 1] = 0
-        if mode[i] != 0:
-            record.time[k], record.block[k], record.mode[k] = 0.0, i, mode[i]
-            record.tangential_load[k], record.intervals[k] = motion.spring_force[1], 0.0
-            k += 1
-    states.after[0], states.offset[0] = 0, 0.0
-    progress.transitions = k
-    progress.stored = 1
-    count_sliding(k, chain, progress)
+        take_net_force(i, motion)
+        # A position of size x is known to its rounding: a block at its limit to within that still sticks.
+        rounding = ROUNDINGS * (chain.strength[i] + 4.0 * stiffest * farthest)
+        mode = motion.mode[i] = starting_mode(i, rounding, chain, motion)
+        take_mode(i, chain, motion)
+        if mode != 0:
+            count_sliding(1, chain, progress)
+            note_transition(i, mode, motion.spring_force[1], progress, record)
+    for i in range(1, chain.n_blocks + 1):
+        take_neighbours(i, chain, motion)
 
 
 @unfused
@@ -135,9 +100,6 @@ def find_transitions(chain, motion, limits, progress, record, states):
 
     The state and `progress` are left at the time reached; record and states are filled from where it says.
     """
-    lay_out(chain, motion)
-    progress.at_once = 0
-    progress.farthest = chain.n_blocks
     status = PAUSED
     last_window = progress.windows + limits.windows
     while (
@@ -157,30 +119,15 @@ def find_transitions(chain, motion, limits, progress, record, states):
 
 
 @seldom
-def lay_out(chain, motion):
-    """Set the motion out from a state; column 0 is the drive, what is beyond the blocks does not move."""
-    for values in (motion.slides, motion.push, motion.hold, motion.felt, motion.sign, motion.net_force):
-        clear(values, chain.n_blocks)
-    for i in range(ROWS * motion.wide):
-        motion.rate[i] = 0.0
-    motion.rate[0], motion.slides[0] = chain.drive_velocity, 1.0
-    motion.whole[1] = 0.0
-    for i in range(1, chain.n_blocks + 1):
-        take_mode(i, chain, motion)
-        take_net_force(i, motion)
-    for i in range(1, chain.n_blocks + 1):
-        take_neighbours(i, chain, motion)
-
-
-@seldom
 def store_state(chain, motion, progress, states):
-    """Store the state that is reached."""
-    row, place = progress.stored, progress.stored * chain.n_blocks
-    for i in range(1, chain.n_blocks + 1):
-        states.force[place + i - 1] = motion.spring_force[i]
-        states.velocity[place + i - 1] = motion.velocity[i] * chain.speed
-        states.mode[place + i - 1] = motion.mode[i]
-    states.after[row], states.offset[row] = progress.transitions, progress.since * chain.tau
+    """Store the state that is reached: see `record.States.from_rows`."""
+    n = chain.n_blocks
+    state = numbers(states + EIGHT * progress.stored * (2 + 3 * n))
+    state[0], state[1] = progress.transitions, progress.since * chain.tau
+    for i in range(1, n + 1):
+        state[i + 1] = motion.spring_force[i]
+        state[i + 1 + n] = motion.velocity[i] * chain.speed
+        state[i + 1 + 2 * n] = motion.mode[i]
     progress.stored += 1
 
 
@@ -238,12 +185,12 @@ def count_sliding(more, chain, progress):
 @inner_unfused
 def note_transition(i, new, load, progress, record):
     """Record that block i has a new mode now."""
-    tau, k = progress.tau, progress.transitions
-    record.time[k] = progress.onset + (progress.onset_error + progress.elapsed * tau)
-    record.block[k], record.mode[k], record.tangential_load[k] = i, new, load
-    record.intervals[k] = progress.since * tau
+    transition = recorded(progress.transitions, record)
+    transition.time = progress.onset + (progress.onset_error + progress.elapsed * progress.tau)
+    transition.block, transition.mode, transition.tangential_load = i, new, load
+    transition.interval = progress.since * progress.tau
     progress.since = 0.0
-    progress.transitions = k + 1
+    progress.transitions += 1
 
 
 @inner_unfused
@@ -283,9 +230,8 @@ def next_transition(window, roundings, chain, motion, progress):
     """
     end = last_column(chain, progress.farthest)
     whole = motion.whole
-    set_rows(end, motion)
-    expand(2, PROOF_ORDER, end, chain, motion)
     begin(end, motion)
+    expand(2, PROOF_ORDER, end, chain, motion)
     if whole[1] != window:
         powers(window, PROOF_ORDER, whole)
     share, guessed = guess(end, motion)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from precursors.solver.kernel.compiled import inner, seldom, unfused
-from precursors.solver.kernel.layout import ROUNDINGS
+from precursors.solver.kernel.compiled import inner, inner_unfused, seldom
 from precursors.solver.kernel.roots import zero_below
 
 
@@ -57,28 +56,10 @@ def farthest_sliding(start, mode):
     return i
 
 
-@unfused
-def at_start(positions, velocities, parameters, chain, motion):
-    """Fill velocities, spring forces and modes at time 0, in the kernel's units and columns.
-
-    A block that moves slides; one at rest slides where its springs overcome the static friction (Eq. 5).
-    """
-    mass, stiffness, drive_stiffness, _, _, _ = parameters
-    strength, velocity, force, mode = chain.strength, motion.velocity, motion.spring_force, motion.mode
-    stiffest, farthest, before = drive_stiffness, 0.0, 0.0
-    for i in range(chain.n_blocks):
-        spring = stiffness if i > 0 else drive_stiffness
-        stiffest = max(stiffest, spring)
-        farthest = max(farthest, abs(positions[i]))
-        force[i + 1] = -spring * (positions[i] - before)
-        before = positions[i]
-        velocity[i + 1] = velocities[i] * (mass / chain.tau)
-    for i in range(1, chain.n_blocks + 1):
-        # A position of size x is known to its rounding: a block at its limit to within that still sticks.
-        rounding = ROUNDINGS * (strength[i] + 4.0 * stiffest * farthest)
-        net = force[i] - force[i + 1]
-        moves = velocity[i] if velocity[i] != 0.0 else net
-        if velocity[i] == 0.0 and abs(moves) <= strength[i] + rounding:
-            mode[i] = 0
-        else:
-            mode[i] = 1 if moves > 0.0 else -1
+@inner_unfused
+def starting_mode(i, rounding, chain, motion):
+    """Mode of a block at time 0: it slides where it moves, or where its springs overcome friction (Eq. 5)."""
+    net, velocity = motion.net_force[i], motion.velocity[i]
+    if velocity == 0.0 and abs(net) <= chain.strength[i] + rounding:
+        return 0
+    return 1 if velocity > 0.0 or (velocity == 0.0 and net > 0.0) else -1

@@ -64,7 +64,7 @@ def guess(end, motion):
         smallest = lanes.smallest(u)
         if smallest < share:
             share, block = smallest, i
-            bits = lanes.where_not_above(u, lanes.spread(smallest))
+            bits = ~lanes.where_negative(smallest - u)
             while bits & 1 == 0:
                 bits >>= 1
                 block += 1

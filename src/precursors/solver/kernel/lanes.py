@@ -54,10 +54,9 @@ def _operation(result, *kinds):
     return make
 
 
-def _untyped(builder, start, index):
-    """Pointer to an element, without the type that Numba still gives it; the compiler sees nothing of it."""
-    box = ir.Constant(ir.LiteralStructType([ir.PointerType()]), ir.Undefined)
-    return builder.extract_value(builder.insert_value(box, builder.gep(start, [index]), 0), 0)
+def _group(builder, start, index):
+    """Pointer to four elements from one on."""
+    return builder.bitcast(builder.gep(start, [index]), VECTOR.as_pointer())
 
 
 def _splat(builder, scalar):
@@ -91,13 +90,13 @@ def _across(builder, comparison, a):
 @_operation(four, NUMBERS, types.intp)
 def load(builder, values, i):
     """values[i : i + 4]."""
-    return builder.load(_untyped(builder, values, i), align=8, typ=VECTOR)
+    return builder.load(_group(builder, values, i), align=8)
 
 
 @_operation(types.void, NUMBERS, types.intp, four)
 def store(builder, values, i, value):
     """values[i : i + 4] = value."""
-    builder.store(value, _untyped(builder, values, i), align=8)
+    builder.store(value, _group(builder, values, i), align=8)
 
 
 @_operation(four, types.float64)
@@ -176,13 +175,6 @@ def choose(builder, flag, a, b):
 def only(builder, flag, a):
     """a in lanes where flag > 0, zero in the others."""
     return builder.select(builder.fcmp_ordered(">", flag, ZERO), a, ZERO)
-
-
-@_operation(types.int64, four, four)
-def where_not_above(builder, a, b):
-    """Bits of lanes in which a > b does not hold: at most b, or not a number."""
-    lanes = builder.not_(builder.fcmp_ordered(">", a, b))
-    return builder.zext(builder.bitcast(lanes, BITS), ir.IntType(64))
 
 
 @_operation(types.int64, four)

@@ -1,4 +1,4 @@
-"""Arrays as compiled code passes them on: pointers.
+"""Memory as compiled code passes it on: addresses, and pointers to which they are cast.
 
 Numba counts references to arrays wherever a tuple of them is handed on, which takes longer than the
 arithmetic here. Pointers have no counts, and no bounds either: their memory is that of arrays which the
@@ -7,22 +7,36 @@ caller of the compiled function holds. `p[i]` reads and writes.
 
 from __future__ import annotations
 
-from numba import from_dtype
 from numba.core import types
-from numba.extending import intrinsic
+from numba.extending import intrinsic, register_jitable
 
 NUMBERS = types.CPointer(types.float64)
 WHOLE_NUMBERS = types.CPointer(types.int64)
+# Bytes of a number.
+EIGHT = 8
 
 
-@intrinsic
-def pointer(typingctx, array):
-    """Pointer to the first element of an array without gaps."""
+def cast_to(kind):
+    """Function of compiled code that takes an address for a pointer, or a record with named fields."""
 
-    def generate(context, builder, signature, arguments):
-        return context.make_array(signature.args[0])(context, builder, value=arguments[0]).data
+    @intrinsic
+    def cast(typingctx, address):
+        def generate(context, builder, signature, arguments):
+            return builder.inttoptr(arguments[0], context.get_value_type(kind))
 
-    return types.CPointer(array.dtype)(array), generate
+        return kind(types.uintp), generate
+
+    return cast
+
+
+numbers = cast_to(NUMBERS)
+whole_numbers = cast_to(WHOLE_NUMBERS)
+
+
+@register_jitable
+def row_address(array, n):
+    """Address of row n of an array without gaps."""
+    return array.ctypes.data + n * array.strides[0]
 
 
 @intrinsic
@@ -33,30 +47,3 @@ def shifted(typingctx, start, by):
         return builder.gep(arguments[0], [arguments[1]])
 
     return start(start, types.intp), generate
-
-
-@intrinsic
-def whole_numbers(typingctx, start):
-    """The same memory, holding integers of eight bytes."""
-
-    def generate(context, builder, signature, arguments):
-        return builder.bitcast(arguments[0], context.get_value_type(WHOLE_NUMBERS))
-
-    return WHOLE_NUMBERS(NUMBERS), generate
-
-
-def as_record(dtype):
-    """Function of compiled code that reads whole numbers of eight bytes as a record with named fields.
-
-    Numba takes long to recognise an array of records that is handed over from Python.
-    """
-    record = from_dtype(dtype)
-
-    @intrinsic
-    def view(typingctx, start):
-        def generate(context, builder, signature, arguments):
-            return builder.bitcast(arguments[0], context.get_value_type(record))
-
-        return record(WHOLE_NUMBERS), generate
-
-    return view

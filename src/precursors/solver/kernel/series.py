@@ -6,7 +6,7 @@ from precursors.solver.kernel import lanes
 from precursors.solver.kernel.arrays import row
 from precursors.solver.kernel.compiled import inner
 from precursors.solver.kernel.layout import INVERSE_FACTORIAL, ORDERS, PARTS, WIDTH
-from precursors.solver.kernel.pointers import pointer
+from precursors.solver.kernel.pointers import numbers
 
 
 @inner
@@ -69,11 +69,15 @@ def expand(start, order, end, chain, motion):
 
 
 @inner
-def set_rows(end, motion):
-    """Rows 0 and 1 of blocks 1..end, from the state."""
+def begin(end, motion):
+    """Begin a window: rows 0 and 1 of blocks 1..end, and the spring forces that `move` starts from."""
+    force, rest = motion.spring_force, motion.force_rest
     for i in range(1, end + 1, WIDTH):
         lanes.store(row(0, motion), i, lanes.load(motion.velocity, i))
         lanes.store(row(1, motion), i, lanes.load(motion.net_force, i) - lanes.load(motion.push, i))
+        lanes.store(motion.force_before, i, lanes.load(force, i))
+        lanes.store(motion.rest_before, i, lanes.load(rest, i))
+    motion.force_before[end + 1], motion.rest_before[end + 1] = force[end + 1], rest[end + 1]
 
 
 @inner
@@ -101,10 +105,11 @@ def order_at(s):
 @inner
 def powers(s, order, weight):
     """Fill weight[n] = s^n / n! for n = 0..order + 1."""
+    factors = numbers(INVERSE_FACTORIAL.ctypes.data)
     power = lanes.ladder(s)
     square = s * s
     for n in range(0, order + 2, WIDTH):
-        lanes.store(weight, n, power * lanes.load(pointer(INVERSE_FACTORIAL), n))
+        lanes.store(weight, n, power * lanes.load(factors, n))
         power = power * (square * square)
 
 

@@ -9,16 +9,6 @@ from precursors.solver.kernel.series import order_at, powers, sum_series
 
 
 @inner
-def begin(end, motion):
-    """Keep the spring forces that `move` starts from."""
-    for i in range(1, end + 1, WIDTH):
-        lanes.store(motion.force_before, i, lanes.load(motion.spring_force, i))
-        lanes.store(motion.rest_before, i, lanes.load(motion.force_rest, i))
-    motion.force_before[end + 1] = motion.spring_force[end + 1]
-    motion.rest_before[end + 1] = motion.force_rest[end + 1]
-
-
-@inner
 def move(s, end, chain, motion):
     """The state of blocks 1..end at time s of the window, from the rows of its start.
 

@@ -3,67 +3,75 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from precursors.model.chain import Chain, FloatArray
-from precursors.solver.kernel.arrays import Record, System, divide, memory_for
+from precursors.solver.kernel.arrays import ROW, memory_for, recorded, words
 from precursors.solver.kernel.compiled import inner, outer, unfused
 from precursors.solver.kernel.events import last_column
 from precursors.solver.kernel.friction import farthest_sliding, set_mode, take_mode
 from precursors.solver.kernel.layout import WINDOW
-from precursors.solver.kernel.series import expand, order_at, set_rows
-from precursors.solver.kernel.springs import begin, move, take_net_force
-from precursors.solver.kernel.units import parameters, set_up
-from precursors.solver.record import States
+from precursors.solver.kernel.pointers import row_address
+from precursors.solver.kernel.series import begin, expand, order_at
+from precursors.solver.kernel.springs import move, take_net_force
+from precursors.solver.kernel.units import lay_out, parameters
+from precursors.solver.record import TRANSITION, States
 
 
 def evaluate(
-    chain: Chain, sorted_times: FloatArray, record: Record, states: States
+    chain: Chain,
+    sorted_times: FloatArray,
+    transitions: NDArray[np.void],
+    intervals: FloatArray,
+    states: States,
 ) -> tuple[FloatArray, FloatArray]:
     """Spring forces [N] and velocities [m/s] of the blocks at each of `sorted_times` [s]."""
+    record = np.zeros(len(intervals), ROW)
+    for name in TRANSITION.names or ():
+        record[name][:-1] = transitions[name]
+    record["interval"] = intervals
     force, velocity = found = np.empty((2, len(sorted_times), chain.n_blocks))
     numbers, weights = np.array(parameters(chain)), np.array(chain.weights)
-    go_through(numbers, weights, sorted_times, found, record, states, memory_for(chain.n_blocks))
+    go_through(numbers, weights, sorted_times, found, words(record), states, memory_for(chain.n_blocks))
     return force, velocity
 
 
 @outer
 def go_through(parameters, weights, sorted_times, found, record, states, memory):
     """Fill `found` with spring forces and velocities, from stored states and transitions."""
-    n_blocks = weights.shape[0]
-    columns, motion = divide(memory, n_blocks)
-    tau, speed, drive_velocity = set_up(parameters, weights, n_blocks, columns)
-    chain = System(n_blocks, tau, speed, drive_velocity, columns[0], columns[1], columns[2])
-    motion.rate[0], motion.slides[0] = drive_velocity, 1.0
+    chain, motion = lay_out(parameters, weights, memory)
+    velocity, force, rest, mode = motion.velocity, motion.spring_force, motion.force_rest, motion.mode
+    n_blocks, n_transitions, rows = chain.n_blocks, record.shape[0] - 1, row_address(record, 0)
+    kept = np.empty((3, n_blocks + 1))
     target = done = 0
     row = -1
     offset = 0.0
     for q in range(sorted_times.shape[0]):
         now = sorted_times[q]
-        while target < record.time.shape[0] and record.time[target] <= now:
+        while target < n_transitions and recorded(target, rows).time <= now:
             target += 1
-        since = now - record.time[target - 1] if target > 0 else now
+        since = now - recorded(target - 1, rows).time if target > 0 else now
         best = nearest_state(max(row, 0), target, since, states)
         if best > row and (row < 0 or states.after[best] > done):
             done, offset = states.after[best], states.offset[best]
             take_state(best, states, chain, motion)
         row = best
         while done < target:
-            propagate((record.intervals[done] - offset) / tau, chain, motion)
-            set_mode(record.block[done], record.mode[done], chain, motion)
+            transition = recorded(done, rows)
+            propagate((transition.interval - offset) / chain.tau, chain, motion)
+            set_mode(transition.block, transition.mode, chain, motion)
             done += 1
             offset = 0.0
         # Whole windows are gone through once, so that many times in one slip cost no more than the slip.
-        while since - offset > WINDOW * tau and motion.mode[farthest_sliding(n_blocks, motion.mode)] != 0:
+        while since - offset > WINDOW * chain.tau and mode[farthest_sliding(n_blocks, mode)] != 0:
             propagate(WINDOW, chain, motion)
-            offset += WINDOW * tau
+            offset += WINDOW * chain.tau
         for i in range(1, n_blocks + 1):
-            motion.saved_velocity[i], motion.saved_force[i] = motion.velocity[i], motion.spring_force[i]
-            motion.saved_rest[i] = motion.force_rest[i]
-        propagate(max(since - offset, 0.0) / tau, chain, motion)
+            kept[0, i], kept[1, i], kept[2, i] = velocity[i], force[i], rest[i]
+        propagate(max(since - offset, 0.0) / chain.tau, chain, motion)
         for i in range(1, n_blocks + 1):
-            found[0, q, i - 1], found[1, q, i - 1] = motion.spring_force[i], motion.velocity[i] * speed
-            motion.velocity[i], motion.spring_force[i] = motion.saved_velocity[i], motion.saved_force[i]
-            motion.force_rest[i] = motion.saved_rest[i]
+            found[0, q, i - 1], found[1, q, i - 1] = force[i], velocity[i] * chain.speed
+            velocity[i], force[i], rest[i] = kept[0, i], kept[1, i], kept[2, i]
 
 
 @inner
@@ -101,7 +109,6 @@ def propagate(span, chain, motion):
     while span > 0.0:
         s = min(span, WINDOW)
         begin(end, motion)
-        set_rows(end, motion)
         expand(2, order_at(s), end, chain, motion)
         move(s, end, chain, motion)
         span -= s

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from precursors.model.chain import Chain
-from precursors.solver.kernel.arrays import System, n_columns
-from precursors.solver.kernel.compiled import unfused
+from precursors.solver.kernel.arrays import System, divide
+from precursors.solver.kernel.compiled import inner, unfused
 
 
 def parameters(chain: Chain) -> tuple[float, ...]:
@@ -23,31 +21,31 @@ def parameters(chain: Chain) -> tuple[float, ...]:
     )
 
 
-def scale(chain: Chain) -> System:
-    """Express a chain in the kernel's units."""
-    columns = np.zeros((3, n_columns(chain.n_blocks)))
-    tau, speed, drive_velocity = set_up.py_func(parameters(chain), chain.weights, chain.n_blocks, columns)
-    return System(chain.n_blocks, tau, speed, drive_velocity, *columns)
+@inner
+def lay_out(parameters, weights, memory):
+    """The system and the motion of a chain in memory; column 0 is the drive."""
+    columns, motion = divide(memory, weights.shape[0])
+    chain = set_up(parameters, weights, columns)
+    motion.rate[0], motion.slides[0] = chain.drive_velocity, 1.0
+    return chain, motion
 
 
 @unfused
-def set_up(parameters, weights, n_blocks, columns):
-    """Fill a chain's columns in the kernel's units; return tau [s], N/tau in m/s, and the drive's velocity.
+def set_up(parameters, weights, columns):
+    """Fill the columns of a chain, which are zero, and return it in the kernel's units.
 
     1/tau is Gershgorin's bound of the largest frequency: a row of a Taylor series is at most as large as the
     row two before it.
     """
     coupling, strength, friction = columns
     mass, stiffness, drive_stiffness, drive_velocity, mu_s, mu_k = parameters
-    stiffest = 0.0
-    for i in range(n_blocks):
-        behind = stiffness if i > 0 else drive_stiffness
-        ahead = stiffness if i < n_blocks - 1 else 0.0
-        stiffest = max(stiffest, behind + ahead + (behind if i > 0 else 0.0) + ahead)
+    n_blocks = weights.shape[0]
+    stiffest = drive_stiffness + stiffness + stiffness if n_blocks > 1 else drive_stiffness
+    if n_blocks > 2:
+        stiffest = max(stiffest, 4.0 * stiffness)
     tau = math.sqrt(mass / stiffest)
     for i in range(n_blocks):
-        spring = stiffness if i > 0 else drive_stiffness
-        coupling[i + 1] = spring * (tau * tau / mass)
+        coupling[i + 1] = (stiffness if i > 0 else drive_stiffness) * (tau * tau / mass)
         strength[i + 1] = mu_s * weights[i]
         friction[i + 1] = mu_k * weights[i]
-    return tau, tau / mass, drive_velocity * mass / tau
+    return System(n_blocks, tau, tau / mass, drive_velocity * mass / tau, coupling, strength, friction)
