@@ -120,7 +120,7 @@ def test_settings_of_the_user_change_nothing(tmp_path):
 
 
 def test_other_endings_are_refused(tmp_path):
-    with pytest.raises(ValueError, match=r"must be a \.png, \.svg, \.pdf or \.eps file, but .*a\.gif"):
+    with pytest.raises(ValueError, match=r"must be a \.png, \.svg, \.pdf, \.eps file, but .*a\.gif"):
         style.save(draw("fig09"), tmp_path / "a.gif")
     assert list(tmp_path.iterdir()) == []
 

@@ -56,6 +56,5 @@ def draw(table: pd.DataFrame) -> Figure:
         for axis in (counts.xaxis, counts.yaxis):
             axis.set_major_formatter(StrMethodFormatter("{x:g}"))
         rises.axhline(2.0, **style.DOTTED)
-        handles, labels = ratios.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), columnspacing=1.4)
+        style.draw_key(figure, ratios.get_legend_handles_labels()[0])
     return figure

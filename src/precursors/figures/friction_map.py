@@ -25,14 +25,9 @@ TICKS_OF_EVENTS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
 def draw(table: pd.DataFrame, scenes: Sequence[tuple[float, float]] = ()) -> Figure:
-    """Draw the three panels of a map, white where a run has no global slip.
+    """Draw the three panels of map_theta_friction_ratio.csv, white where a run has no global slip.
 
-    Parameters
-    ----------
-    table : DataFrame
-        map_theta_friction_ratio.csv: one row per run.
-    scenes : sequence of (float, float)
-        theta and mu_k/mu_s of the scenes, which are marked by crosses.
+    Crosses mark `scenes`, pairs of theta and mu_k/mu_s.
     """
     share = 100.0 * table["n_global"] / table["n_all_events"].where(table["n_all_events"] > 0)
     table = table.assign(share_global=share, **{EVENTS: table[EVENTS].where(table["reached"])})

@@ -39,14 +39,8 @@ def draw(
 ) -> Figure:
     """Draw the errors of each chain over time, and the largest Lyapunov exponent of each scene.
 
-    Parameters
-    ----------
-    errors, overview, exponents : DataFrame
-        horizon.csv, solver_vs_proof.csv and lyapunov.csv.
-    chains : mapping
-        In which parameters each chain differs from the paper's.
-    tolerance : float
-        Error of a time [s] above which it counts as wrong.
+    The tables are horizon.csv, solver_vs_proof.csv and lyapunov.csv. `chains` says in which parameters each
+    chain differs from the paper's, and `tolerance` above which error a time counts as wrong [s].
     """
     rows = math.ceil((len(chains) + 1) / COLUMNS)
     facts = overview.set_index("chain").to_dict("index")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from functools import partial
 from textwrap import fill
 from typing import Any
 
@@ -38,32 +39,24 @@ def draw(
 ) -> Figure:
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
 
+    Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta > 0. Small crosses are
+    the short events, which Fig. 13 does not count.
+
     Parameters
     ----------
     slips : sequence of DataFrame
-        Slip tables of the scenes, {scene}_slips.csv. A scene without a slip event is left out.
-    mu_sapp : DataFrame, optional
-        mu_sapp.csv: a line marks the mean of its scenes, if all scenes have the same normal load.
-    scenes : sequence of str
-        The scenes of `mu_sapp` that count.
+        Slip tables of the scenes. A scene without a slip event is left out.
+    mu_sapp, scenes : DataFrame and sequence of str, optional
+        A line marks the mean of these scenes of mu_sapp.csv, if all scenes have the same normal load.
     data : array_like, shape (n, 2), optional
         An experiment: load F_X [N] at the onset and length L_p/L.
-    title : str, optional
-        A title.
     printed : sequence of int or None
         The numbers of events that the paper prints, one for each table of `slips`.
-    look : Look, optional
-        Width and text.
 
     Raises
     ------
     ValueError
         If a measured length is not between 0 and 1.
-
-    Notes
-    -----
-    Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta > 0. Small crosses are
-    the short events, which Fig. 13 does not count.
     """
     pairs = zip(slips, printed or [None] * len(slips), strict=True)
     counts = [count for table, count in pairs if len(table)]
@@ -140,7 +133,7 @@ def _draw_friction_coefficient(
     axes: Axes, normal_load: float, mu_sapp: pd.DataFrame | None, scenes: Sequence[str], font_size: float
 ) -> None:
     """Draw F_X/F_Z as upper axis, and the mean apparent static friction coefficient (Eq. 1) as a line."""
-    scale = (lambda load: np.divide(load, normal_load), lambda mu: np.multiply(mu, normal_load))
+    scale = partial(np.multiply, 1 / normal_load), partial(np.multiply, normal_load)
     axes.secondary_xaxis("top", functions=scale).set_xlabel("Friction coefficient $F_X/F_Z$ [-]")
     if mu_sapp is None:
         return

@@ -30,20 +30,11 @@ BAND = Patch(color=style.GREY, alpha=0.3, linewidth=0, label="5 to 95 %")
 
 
 def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame, papers_n: int) -> Figure:
-    """Draw four numbers against N.
+    """Draw four numbers against N; a dotted line marks the paper's.
 
-    Parameters
-    ----------
-    table : DataFrame
-        resolution.csv: medians are lines, 5 to 95 % of the runs are bands. All events up to the first global
-        slip are dashed.
-    limits : DataFrame
-        resolution_limits.csv: limits for large N are diamonds beyond the last N, with their intervals.
-        Its wave_speed_m_per_s is a green line.
-    predictability : DataFrame
-        predictability.csv: a run without noise is a dot where it is predictable up to its global slip.
-    papers_n : int
-        Number of blocks that a dotted line marks.
+    Of resolution.csv, medians are lines and 5 to 95 % of the runs are bands. Of resolution_limits.csv, limits
+    for large N are diamonds beyond the last N. A run without noise is a dot where it is predictable up to its
+    global slip (predictability.csv).
     """
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         axes = figure.subplots(2, 2, sharex=True)
@@ -54,7 +45,10 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame
                 limit = limits[(limits["scene"] == scene) & (limits["quantity"] == quantity)]
                 foreseen = predictability[predictability["scene"] == scene]
                 _draw_scene(panel, of_scene, limit.assign(n_blocks=beyond), foreseen, quantity)
-            finish(panel, quantity, papers_n)
+            panel.set(ylabel=LABELS[quantity], xscale="log")
+            panel.axvline(papers_n, **style.DOTTED)
+        axes[0, 0].set_yscale("log")
+        style.set_ticks(axes[0, 0].yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000])
         for _, events in table[table["quantity"] == "events_to_global_slip"].groupby("scene", sort=False):
             color = style.theta_color(events["theta"].iloc[0])
             axes[0, 0].plot(events["n_blocks"], events["q50"], color=color, **ALL_EVENTS)
@@ -62,7 +56,8 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame
         axes[1, 1].axhline(speed, color=style.GREEN, linestyle="--", label=r"$c=\sqrt{ESL/M}$")
         for sign, count in printed.EVENTS_OF_EXPERIMENT.items():
             axes[0, 0].plot(beyond, count, **EXPERIMENT, color=style.theta_color(sign))
-        draw_experiments_mu_sapp(axes[0, 1])
+        label = f"experiment, {printed.MU_SAPP:g}"
+        axes[0, 1].axhline(printed.MU_SAPP, color=style.ORANGE, linestyle=":", linewidth=1.2, label=label)
         for panel in axes[1]:
             panel.set_xlabel(style.BLOCKS_LABEL)
             style.set_ticks(panel.xaxis, [2, 5, 10, 20, 50, 100, 200])
@@ -97,19 +92,3 @@ def _draw_scene(
         axes.plot(foreseen["n_blocks"], foreseen["horizon_s"], **HORIZON, color=color)
     errors = [(limit["a"] - limit["a_low"]) * scale, (limit["a_high"] - limit["a"]) * scale]
     axes.errorbar(limit["n_blocks"], limit["a"] * scale, errors, color=color, elinewidth=0.8, **LIMIT)
-
-
-def finish(axes: Axes, quantity: str, papers_n: int) -> None:
-    """Label the axes of a panel, and mark the paper's number of blocks."""
-    axes.set_ylabel(LABELS[quantity])
-    axes.set_xscale("log")
-    axes.axvline(papers_n, **style.DOTTED)
-    if quantity == "events_counted":
-        axes.set_yscale("log")
-        style.set_ticks(axes.yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000])
-
-
-def draw_experiments_mu_sapp(axes: Axes) -> None:
-    """Draw mu_sapp of the experiment as a line."""
-    label = f"experiment, {printed.MU_SAPP:g}"
-    axes.axhline(printed.MU_SAPP, color=style.ORANGE, linestyle=":", linewidth=1.2, label=label)

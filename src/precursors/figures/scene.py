@@ -47,29 +47,19 @@ def draw(
     inset: bool = True,
     look: style.Look | None = None,
 ) -> Figure:
-    """Draw F_X(t), below it all slip events, and both magnified before the first global slip.
+    """Draw F_X(t), below it all slip events, and with `inset` both magnified before the first global slip.
+
+    An event extends from the trailing edge (0) to L_p = front L / N. An event that goes on when the run ends
+    is a band from its onset to the end of the run.
 
     Parameters
     ----------
-    slips : DataFrame
-        Slip table of the scene, {scene}_slips.csv. It may be empty.
-    trace : DataFrame
-        {scene}_trace.csv: straight lines between its rows are the tangential load.
-    title : str
-        Name of the scene.
+    slips, trace : DataFrame
+        Slip table of the scene, which may be empty, and its load: straight lines between the rows.
     others : sequence of DataFrame
         Traces of scenes to compare with: the load axis holds them, too.
     data : array_like, shape (n, 2), optional
         An experiment: time [s] and tangential load [N].
-    inset : bool
-        Whether to draw the magnified view.
-    look : Look, optional
-        Width and text.
-
-    Notes
-    -----
-    An event extends from the trailing edge (0) to L_p = front L / N. An event that goes on when the run ends
-    is a band from its onset to the end of the run.
     """
     look = look or style.Look()
     width_mm = look.width_mm or style.PAGE_MM
@@ -81,8 +71,10 @@ def draw(
     spans = [(0.0, float(np.nanmax([end, ZOOM_END * first_s])))]
     if inset and first_s > 0:
         spans.append((ZOOM_START * first_s, ZOOM_END * first_s))
-    stacked = len(spans) > 1 and width_mm < NARROW_MM
-    with style.page(width_mm, HEIGHT_MM * (1.9 if stacked else 1.0), look=look) as figure:
+    is_narrow = width_mm < NARROW_MM
+    stacked = len(spans) > 1 and is_narrow
+    height_mm = HEIGHT_MM * (0.4 + 0.75 * len(spans) if is_narrow else 1.0)
+    with style.page(width_mm, height_mm, look=look) as figure:
         panels = _panels(figure, len(spans), stacked)
         for column, axes in enumerate(panels):
             upper, lower = axes

@@ -19,21 +19,15 @@ CURVES = {
     "scipy_dop853": ("DOP853, SciPy", style.SKY, (-6, -17), "center"),
     "cvode_adams": ("CVODE", style.ORANGE, (-6, -3), "right"),
     "rk4_located": ("Runge-Kutta 4,\nlocated", style.GREEN, (5, 0), "left"),
-    "rk4_skip": ("Runge-Kutta 4,\nfixed steps", "#00573F", (-38, -5), "right"),
+    "rk4_skip": ("Runge-Kutta 4,\nfixed steps", "#00573F", (-33, -5), "right"),
 }
 
 
 def draw(table: pd.DataFrame, sessions: pd.DataFrame, theta: float = 0.0) -> Figure:
     """Draw the largest error of a transition's time against the computing time, up to the first global slip.
 
-    Parameters
-    ----------
-    table : DataFrame
-        work_precision.csv. Settings that give a wrong sequence of transitions are ticks in a grey strip.
-    sessions : DataFrame
-        beside_heyoka.csv: the factor in time to heyoka, a median.
-    theta : float
-        The loading.
+    `table` is work_precision.csv. Settings that give a wrong sequence of transitions are ticks in a grey
+    strip. beside_heyoka.csv has the factor in time to heyoka, a median of `sessions`.
     """
     rows = table[(table["theta"] == theta) & (table["until"] == "global slip")].dropna(subset="seconds")
     is_right = rows["transitions_right"].eq(rows["transitions_true"])
@@ -53,7 +47,7 @@ def draw(table: pd.DataFrame, sessions: pd.DataFrame, theta: float = 0.0) -> Fig
             for best in own.head(1).itertuples():
                 axes.annotate(name, (best.milliseconds, best.error_time_s), offset, **look)
         axes.set(
-            yscale="log", ylim=(3e-17, 1e-3), xlim=(0.07, 700), xlabel="Time to the first global slip [ms]"
+            yscale="log", ylim=(6e-18, 9e-4), xlim=(0.07, 700), xlabel="Time to the first global slip [ms]"
         )
         axes.set_ylabel("Largest error of a transition's time [s]")
         axes.axhline(np.spacing(SHOWN_TIME_S), **style.DOTTED)

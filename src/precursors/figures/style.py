@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import pickle
 import re
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from io import BytesIO
@@ -136,9 +137,7 @@ def page(
 def save(figure: Figure, path: str | Path, look: Look | None = None) -> None:
     """Write a figure as PNG (300 dpi), SVG, PDF or EPS, complete or not at all, always the same bytes.
 
-    `look` is that of its page.
-
-    EPS knows no transparency: what is transparent in the other formats has its colour on white there.
+    `look` is that of its page. EPS knows no transparency: it has the colours on white.
 
     Raises
     ------
@@ -147,45 +146,32 @@ def save(figure: Figure, path: str | Path, look: Look | None = None) -> None:
     """
     ending = Path(path).suffix.lower()
     if ending not in _METADATA:
-        *others, last = _METADATA
-        raise ValueError(
-            f"a figure must be a {', '.join(others)} or {last} file, but {path} ends in {ending!r}"
-        )
-    with (
-        matplotlib.style.context((look or Look()).settings, after_reset=True),
-        _opaque(figure) if ending == ".eps" else nullcontext(),
-        write_whole(path) as temporary,
-    ):
-        buffer = BytesIO()
+        raise ValueError(f"a figure must be a {', '.join(_METADATA)} file, but {path} ends in {ending!r}")
+    settings, buffer = (look or Look()).settings, BytesIO()
+    with matplotlib.style.context(settings, after_reset=True), write_whole(path) as temporary:
+        figure = _opaque(figure) if ending == ".eps" else figure
         figure.savefig(buffer, format=ending[1:], dpi=PNG_DPI, metadata=_METADATA[ending])
         temporary.write_bytes(re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
 
 
-@contextmanager
-def _opaque(figure: Figure) -> Iterator[None]:
-    """Replace transparent colours by what they are on white, until the block ends."""
-    undo: list[tuple[Any, Any]] = []
-    transparent = [
-        (artist, alpha) for artist in figure.findobj() if (alpha := artist.get_alpha()) is not None
-    ]
-    for artist, alpha in transparent:
-        undo.append((artist.set_alpha, alpha))
+def _opaque(figure: Figure) -> Figure:
+    """A copy whose transparent colours are what they are on white."""
+    copy: Figure = pickle.loads(pickle.dumps(figure))
+    for artist in copy.findobj():
+        alpha = artist.get_alpha()
+        if alpha is None:
+            continue
         artist.set_alpha(None)
-        parts = [part for part in COLORS_OF_AN_ARTIST if hasattr(artist, f"get_{part}")]
-        for part, old in [(part, getattr(artist, f"get_{part}")()) for part in parts]:
-            color = to_rgba_array(old)
-            strength = np.where(color[:, 3:] == 1, alpha, color[:, 3:])
-            color[:, :3] = 1 - strength * (1 - color[:, :3])
-            color[:, 3:] = strength > 0
-            change = getattr(artist, f"set_{part}")
-            undo.append((change, old))
-            if len(color):
-                change(color if isinstance(artist, Collection) else color[0])
-    try:
-        yield
-    finally:
-        for change, old in reversed(undo):
-            change(old)
+        colors: list[tuple[str, Any]] = [
+            (part, getattr(artist, f"get_{part}", tuple)()) for part in COLORS_OF_AN_ARTIST
+        ]
+        for part, color in colors:
+            if len(color := to_rgba_array(color)):
+                strength = np.where(color[:, 3:] == 1, alpha, color[:, 3:])
+                color[:, :3] = 1 - strength * (1 - color[:, :3])
+                color[:, 3:] = strength > 0
+                getattr(artist, f"set_{part}")(color if isinstance(artist, Collection) else color[0])
+    return copy
 
 
 def set_ticks(axis: Axis, values: Sequence[float]) -> None:

@@ -35,19 +35,11 @@ OPEN: Look = {"markerfacecolor": "none", "markeredgewidth": 0.7, "alpha": 0.75, 
 def draw(table: pd.DataFrame, work: str = "seconds") -> Figure:
     """Draw errors of F_X at the onsets of slips, errors of transition times, and the part that is right.
 
-    Parameters
-    ----------
-    table : DataFrame
-        work_precision.csv: a row per theta, extent, method and value of its setting.
-    work : {"seconds", "evaluations"}
-        Column on the horizontal axis.
-
-    Notes
-    -----
-    The columns of panels are the values of theta. The errors are those up to the end of the first global
-    slip, because the motion is chaotic after it; a method has one only if its sequence is right: of slip
-    events in (a), of transitions in (b). A wrong sequence is open, in a band above the errors, as high as the
-    part of it that is wrong. The part that is right is that of the whole run, if the table has it.
+    `table` is work_precision.csv, and `work` its column on the horizontal axis. A column of panels is a value
+    of theta. The errors are those up to the end of the first global slip, because the motion is chaotic after
+    it; a method has one only if its sequence is right: of slip events in (a), of transitions in (b). A wrong
+    sequence is open, in a band above the errors, as high as the part of it that is wrong. The part that is
+    right is that of the whole run, if the table has it.
     """
     factor, words = WORK[work]
     rows = table.dropna(subset=work).assign(work=table[work] * factor)
