@@ -54,6 +54,15 @@ ASKED = scenes_with(config, "answers")
 # Formats of the figures; the paper and the report show SVG.
 FORMATS = ["svg", *[name for name in config["figure_formats"] if name != "svg"]]
 SLIDERS = {scene: scene_slider(config, scene) for scene in config["fig13"]}
+RUNS = {scene: f"results/runs/{scene}.h5" for scene in config["fig13"]}
+PAPER_PRINTS = {scene: config["scenes"][scene].get("paper", {}) for scene in SCENES}
+TABLES = {}  # of all rooms: see tables.smk
+# What reads a file, by its ending.
+READERS = {
+    ".csv": "support.files:read_table",
+    ".h5": "solver.run:Run.load",
+    ".gz": "accuracy.proof.certificate:Certificate.load",
+}
 
 
 wildcard_constraints:
@@ -68,6 +77,7 @@ include: "workflow/rules/hierarchy.smk"
 include: "workflow/rules/ensembles.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/paper.smk"
+include: "workflow/rules/tables.smk"
 
 
 rule all:

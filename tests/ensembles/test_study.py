@@ -8,7 +8,7 @@ from ensembles.studies import noise_of
 from precursors import simulate
 from precursors.analysis.summary import SUMMARY, summarise
 from precursors.ensembles.study import LEFT_OUT, WITH_UNITS, Study, chain_of, gather, run_members
-from precursors.support.files import write_table
+from precursors.support.files import read_table, write_table
 
 
 @pytest.fixture(scope="module")
@@ -21,11 +21,11 @@ def rows(noise) -> pd.DataFrame:
     return run_members(noise)
 
 
-def chunk_files(study: Study, n: int, directory) -> list:
+def chunks_of(study: Study, n: int, directory) -> list:
     paths = [directory / f"{i}of{n}.csv" for i in range(n)]
     for i, path in enumerate(paths):
         write_table(run_members(study.chunk(i, n)).rename_axis("member").reset_index(), path)
-    return paths
+    return [read_table(path) for path in paths]
 
 
 def one_by_one(study: Study) -> np.ndarray:
@@ -48,23 +48,23 @@ def test_every_row_is_that_of_its_run_alone_to_the_last_bit(noise, rows):
 
 @pytest.mark.parametrize("n", [2, 5])
 def test_the_gathered_table_is_the_same_to_the_last_bit_however_a_study_is_cut(noise, rows, n, tmp_path):
-    paths = chunk_files(noise, n, tmp_path)
-    table = gather(paths[::-1])
+    chunks = chunks_of(noise, n, tmp_path)
+    table = gather(chunks[::-1])
     pd.testing.assert_frame_equal(table, rows[list(table)], check_exact=True)
     assert set(rows) - set(table) <= LEFT_OUT
 
 
 def test_more_chunks_than_members_leave_some_empty(noise, tmp_path):
     few = Study(noise.members.iloc[:2], noise.until, noise.seed)
-    assert len(gather(chunk_files(few, 3, tmp_path))) == 2
+    assert len(gather(chunks_of(few, 3, tmp_path))) == 2
 
 
 def test_a_missing_and_a_doubled_chunk_are_noticed(noise, tmp_path):
     few = Study(noise.members.iloc[:4], noise.until, noise.seed)
-    a, b = chunk_files(few, 2, tmp_path)
-    for paths in ([a], [b], [a, a], [a, b, b]):
+    a, b = chunks_of(few, 2, tmp_path)
+    for chunks in ([a], [b], [a, a], [a, b, b]):
         with pytest.raises(ValueError, match="each once"):
-            gather(paths)
+            gather(chunks)
 
 
 def test_members_are_run_with_their_own_number_of_blocks_noise_and_duration():

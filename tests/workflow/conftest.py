@@ -135,16 +135,12 @@ def _run_snakemake(directory: Path, output: Path, arguments: tuple[str, ...]) ->
         snakemake.cli.main(list(arguments))
 
 
-def copy_workflow(path: Path, compiled: bool = False) -> Workspace:
+def copy_workflow(path: Path) -> Workspace:
     path.mkdir()
     for name in ("Snakefile", "config.yaml"):
         shutil.copy2(ROOT / name, path)
     for name in ("workflow", "src", "paper", "profiles"):
-        if compiled and name == "src":
-            # Numba keeps compiled code by the place of its source.
-            (path / name).symlink_to(ROOT / name)
-        else:
-            shutil.copytree(ROOT / name, path / name, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(ROOT / name, path / name, ignore=shutil.ignore_patterns("__pycache__"))
     return Workspace(path)
 
 
@@ -152,12 +148,6 @@ def copy_workflow(path: Path, compiled: bool = False) -> Workspace:
 def workspace(tmp_path: Path) -> Workspace:
     """A copy of the workflow that has not been run."""
     return copy_workflow(tmp_path / "copy")
-
-
-@pytest.fixture
-def compiled_workspace(tmp_path: Path) -> Workspace:
-    """A copy of the workflow with the library itself, whose code is compiled, to compute something in."""
-    return copy_workflow(tmp_path / "copy", compiled=True)
 
 
 @pytest.fixture(scope="session")

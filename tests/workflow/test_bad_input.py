@@ -43,12 +43,12 @@ def test_a_wrong_configuration_is_refused_in_one_line(finished, old, new, words)
     assert finished.results() == before
 
 
-def test_values_of_the_command_line_are_taken(compiled_workspace):
-    (compiled_workspace.path / "mine.yaml").write_text("chain: {mu_k: 0.4}\n", encoding="utf-8")
+def test_values_of_the_command_line_are_taken(workspace):
+    (workspace.path / "mine.yaml").write_text("chain: {mu_k: 0.4}\n", encoding="utf-8")
     arguments = ("--configfile", "mine.yaml", "--config", "duration=3")
-    outcome = compiled_workspace.run("-c1", *arguments, "--", "results/runs/fig10.h5")
+    outcome = workspace.run("-c1", *arguments, "--", "results/runs/fig10.h5")
     assert outcome.code == 0, outcome.text
-    run = Run.load(compiled_workspace.path / "results/runs/fig10.h5")
+    run = Run.load(workspace.path / "results/runs/fig10.h5")
     assert (run.duration, run.chain.mu_k) == (3.0, 0.4)
 
 

@@ -13,7 +13,6 @@ from precursors.hierarchy.models import answers_table
 PAPERS = ("fig10", "fig11", "fig12")
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all lists of jobs.
 ON_DEMAND = {
-    "answer_scene",
     "certify_scene",
     "prove_again",
     "write_provenance",
@@ -21,9 +20,8 @@ ON_DEMAND = {
 # The paper shows nearly all tables and figures, and is set again when one of them may change.
 PAPER = {"write_paper"}
 LISTS_OF_SCENES = {
-    "tabulate_mu_sapp",
     "tabulate_reproduction",
-    "evaluate_claims",
+    "tabulate_claims",
     "draw_reproduction",
     "write_explorer",
 } | PAPER
@@ -71,7 +69,7 @@ def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
 def test_a_single_figure_needs_its_own_jobs_only(untouched):
     workspace, _ = untouched
     jobs = workspace.run("-n", "results/figures/model_comparison.svg").jobs
-    assert jobs == {"compare_models", "draw_hierarchy"}
+    assert jobs == {"tabulate_model_comparison", "draw_hierarchy"}
 
 
 def test_a_second_run_has_nothing_to_do(finished):
@@ -116,7 +114,7 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(fi
     [
         ("figures/scene", {"draw_reproduction"}),
         ("figures/work_precision", {"draw_speed"}),
-        ("reproduction/claims", {"evaluate_claims"}),
+        ("reproduction/claims", {"tabulate_claims"}),
     ],
 )
 def test_an_edit_of_a_figure_or_a_claim_makes_it_again_and_computes_nothing(finished, module, jobs):
@@ -134,14 +132,14 @@ def test_an_edit_of_the_style_draws_all_figures_and_computes_nothing(finished):
 def test_an_edit_of_a_method_measures_again_and_simulates_nothing(finished):
     finished.append("src/precursors/methods/moreau_jean.py", CODE)
     jobs = finished.would_run()
-    assert {"measure_methods", "draw_speed"} <= jobs
+    assert {"tabulate_work_precision", "draw_speed"} <= jobs
     assert not ({"take_certificates", "run_chunk"} | of(*PAPERS)) & jobs
 
 
 def test_an_edit_of_the_slips_leaves_the_proofs_as_they_are(finished):
     finished.append("src/precursors/analysis/slips.py", CODE)
     jobs = finished.would_run()
-    assert of(*PAPERS) | {"tabulate_mu_sapp"} <= jobs
+    assert of(*PAPERS) | {"tabulate_reproduction"} <= jobs
     assert "take_certificates" not in jobs
 
 
@@ -166,7 +164,7 @@ def test_four_lines_make_a_new_scene_of_any_name(finished):
 def test_an_edit_of_a_scene_runs_that_scene_only_and_another_model_answers_its_own(finished):
     finished.edit("config.yaml", 'leading edge\n    theta: "9/10"', 'leading edge\n    theta: "8/10"')
     finished.edit("config.yaml", "model: law", "model: rigid")
-    assert finished.would_run() == of("steep") | LISTS_OF_SCENES | {"answer_scene quick"}
+    assert finished.would_run() == of("steep") | LISTS_OF_SCENES | {"tabulate_quick_answers"}
     assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
 
 
@@ -179,7 +177,7 @@ def test_a_new_title_and_a_new_number_of_the_paper_simulate_nothing(finished):
         "tabulate_reproduction",
         "tabulate_digits",
         "draw_ensembles",
-        "evaluate_claims",
+        "tabulate_claims",
     } | of_definitions
     assert finished.would_run() == of_title | of_number | PAPER
 
@@ -188,13 +186,13 @@ def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(fi
     finished.edit("config.yaml", "n_blocks: 10\n  mu_s", "n_blocks: 20\n  mu_s")
     jobs = finished.would_run()
     assert "simulate_scene fig10" in jobs
-    assert "measure_methods" not in jobs
+    assert "tabulate_work_precision" not in jobs
 
 
 def test_larger_studies_are_an_overlay_of_the_configuration(finished):
     outcome = finished.run("-n", "--configfile", "config.yaml", "workflow/full.yaml", "--", "all")
     assert outcome.code == 0, outcome.text
-    assert {"measure_methods", "tabulate_step_sweep", "tabulate_predictability"} <= outcome.jobs
+    assert {"tabulate_work_precision", "tabulate_step_sweep", "tabulate_predictability"} <= outcome.jobs
     assert not {"simulate_scene fig10", "tabulate_definitions"} & outcome.jobs
 
 
@@ -203,13 +201,13 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(wo
     workspace.edit("config.yaml", "fig13: [fig11, fig10, fig12]", "fig13: [fig11, fig10, mine]")
     jobs = workspace.would_run()
     assert "tabulate_definitions" in jobs
-    assert not {"evaluate_claims", "write_paper"} & jobs
+    assert not {"tabulate_claims", "write_paper"} & jobs
 
 
-def test_the_answer_of_a_model_is_computed(compiled_workspace):
-    add(compiled_workspace, ASKED)
-    outcome = compiled_workspace.run("-c1", "results/tables/asked_answers.csv")
+def test_the_answer_of_a_model_is_computed(workspace):
+    add(workspace, ASKED)
+    outcome = workspace.run("-c1", "results/tables/asked_answers.csv")
     assert outcome.code == 0, outcome.text
-    answers = pd.read_csv(compiled_workspace.path / "results/tables/asked_answers.csv")
+    answers = pd.read_csv(workspace.path / "results/tables/asked_answers.csv")
     expected = answers_table(Chain.from_slider(theta="9/10"), "chain").reset_index(drop=True)
     pd.testing.assert_frame_equal(answers, expected, check_dtype=False)

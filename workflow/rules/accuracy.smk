@@ -22,6 +22,47 @@ FAILURE_MODES = [
     "forward_only",
 ]
 
+CERTIFICATES = {chain: f"results/certificates/chains/{chain}.json.gz" for chain in CHAINS}
+TABLES |= {
+    "proofs": {
+        "function": "accuracy.solver_vs_proof:proof_tables",
+        "inputs": {"certificates": CERTIFICATES, "effort": str(COMMITTED / "effort.csv")},
+        "options": {"tolerance": config["accuracy"]["tolerance"]},
+        "tables": ["certificates", "solver_vs_proof"],
+        "beside": ["horizon"],
+    },
+    "lyapunov": {
+        "function": "analysis.lyapunov:lyapunov_table",
+        "options": {"sliders": SLIDERS, "duration": config["accuracy"]["lyapunov_duration"]},
+        "seconds": 2,
+    },
+    "work_precision": {
+        "function": "accuracy.work_precision:work_precision_table",
+        "inputs": {"certificates": {chain: CERTIFICATES[chain] for chain in COMPARED}},
+        "options": {
+            "thetas": {chain: parse_theta(CHAINS[chain].get("theta", 0)) for chain in COMPARED},
+            "full": config["full"],
+        },
+        "seconds": 300 if config["full"] else 15,
+    },
+    "step_sweep": {
+        "function": "accuracy.step_sweep:step_sweep_table",
+        "inputs": {"runs": RUNS},
+        "options": {
+            "thetas": {scene: slider["theta"] for scene, slider in SLIDERS.items()},
+            "full": config["full"],
+        },
+        "seconds": 3,
+    },
+    "failures": {
+        "function": "accuracy.failures:failure_tables",
+        "tables": ["failures", "thresholds"],
+        "beside": FAILURE_MODES,
+        "folder": "failures/",
+        "seconds": 7,
+    },
+}
+
 
 wildcard_constraints:
     chain="|".join(CHAINS),
@@ -93,92 +134,3 @@ rule certify_scene:
         code=digest("take_certificates"),
     script:
         "../scripts/take_certificates.py"
-
-
-rule tabulate_certificates:
-    input:
-        certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
-        effort=COMMITTED / "effort.csv",
-    output:
-        table=report("results/tables/certificates.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_certificates.log",
-    localrule: True
-    params:
-        chains=list(CHAINS),
-        code=digest("tabulate_certificates"),
-    script:
-        "../scripts/tabulate_certificates.py"
-
-
-rule tabulate_horizon:
-    input:
-        certificates=collect("results/certificates/chains/{chain}.json.gz", chain=CHAINS),
-    output:
-        horizon="results/tables/horizon.csv",
-        summary=report("results/tables/solver_vs_proof.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_horizon.log",
-    localrule: True
-    params:
-        chains=list(CHAINS),
-        tolerance=config["accuracy"]["tolerance"],
-        code=digest("tabulate_horizon"),
-    script:
-        "../scripts/tabulate_horizon.py"
-
-
-rule tabulate_lyapunov:
-    output:
-        table=report("results/tables/lyapunov.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_lyapunov.log",
-    params:
-        sliders=SLIDERS,
-        duration=config["accuracy"]["lyapunov_duration"],
-        code=digest("tabulate_lyapunov"),
-    script:
-        "../scripts/tabulate_lyapunov.py"
-
-
-rule measure_methods:
-    input:
-        certificates=collect("results/certificates/chains/{chain}.json.gz", chain=COMPARED),
-    output:
-        table=report("results/tables/work_precision.csv", category="Tables"),
-    log:
-        "results/logs/measure_methods.log",
-    params:
-        thetas={name: parse_theta(CHAINS[name].get("theta", 0)) for name in COMPARED},
-        full=config["full"],
-        code=digest("measure_methods"),
-    script:
-        "../scripts/measure_methods.py"
-
-
-rule tabulate_step_sweep:
-    input:
-        runs=collect("results/runs/{scene}.h5", scene=config["fig13"]),
-    output:
-        table=report("results/tables/step_sweep.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_step_sweep.log",
-    params:
-        thetas={scene: slider["theta"] for scene, slider in SLIDERS.items()},
-        full=config["full"],
-        code=digest("tabulate_step_sweep"),
-    script:
-        "../scripts/tabulate_step_sweep.py"
-
-
-rule tabulate_failures:
-    output:
-        numbers=report("results/tables/failures.csv", category="Tables"),
-        thresholds=report("results/tables/thresholds.csv", category="Tables"),
-        curves=collect("results/tables/failures/{mode}.csv", mode=FAILURE_MODES),
-    log:
-        "results/logs/tabulate_failures.log",
-    params:
-        code=digest("tabulate_failures"),
-    script:
-        "../scripts/tabulate_failures.py"

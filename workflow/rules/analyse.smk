@@ -1,5 +1,14 @@
 # slips, mu_sapp
 
+TABLES |= {
+    "reproduction": {
+        "function": "reproduction.scene_numbers:reproduction_tables",
+        "inputs": {"slips": {scene: f"results/tables/{scene}_slips.csv" for scene in SCENES}},
+        "options": {"paper": PAPER_PRINTS},
+        "tables": ["mu_sapp", "reproduction"],
+    },
+}
+
 
 rule mu_sapp:
     input:
@@ -7,34 +16,3 @@ rule mu_sapp:
         "results/tables/reproduction.csv",
         collect("results/figures/definitions.{kind}", kind=FORMATS),
     localrule: True
-
-
-rule tabulate_mu_sapp:
-    input:
-        slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
-    output:
-        table=report("results/tables/mu_sapp.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_mu_sapp.log",
-    localrule: True
-    params:
-        scenes=SCENES,
-        code=digest("tabulate_mu_sapp"),
-    script:
-        "../scripts/tabulate_mu_sapp.py"
-
-
-rule tabulate_reproduction:
-    input:
-        slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
-        mu_sapp="results/tables/mu_sapp.csv",
-    output:
-        table=report("results/tables/reproduction.csv", category="Tables"),
-    log:
-        "results/logs/tabulate_reproduction.log",
-    localrule: True
-    params:
-        paper={scene: config["scenes"][scene].get("paper", {}) for scene in SCENES},
-        code=digest("tabulate_reproduction"),
-    script:
-        "../scripts/tabulate_reproduction.py"

@@ -197,6 +197,7 @@ for section in dict.fromkeys(figure["section"] for figure in FIGURES.values()):
         localrule: True
         params:
             figures=drawn,
+            readers=READERS,
             code=digest("draw", *sorted(modules)),
         script:
             "../scripts/draw.py"

@@ -1,5 +1,38 @@
 # other models
 
+TABLES |= {
+    "model_comparison": {
+        "function": "hierarchy.compare_models:model_comparison",
+        "options": {
+            "sliders": SLIDERS,
+            "tolerances": config["hierarchy"]["tolerances"],
+            "repetitions": config["hierarchy"]["repetitions"],
+        },
+        "seconds": 4,
+    },
+    **{
+        f"larger{full}": {
+            "function": "hierarchy.larger_study:larger_tables",
+            "options": {
+                "slider": config["chain"],
+                "settings": config["hierarchy"][f"larger{full}"],
+                "full": full,
+            },
+            "tables": [f"larger{full}"],
+            "beside": [f"larger_differences{full}", f"larger_nucleation{full}"],
+            "seconds": seconds,
+        }
+        for full, seconds in (("", 20), ("_full", 1000))
+    },
+    **{
+        f"{scene}_answers": {
+            "function": "hierarchy.models:scene_answers",
+            "options": {"slider": scene_slider(config, scene), "model": scene_model(config, scene)},
+        }
+        for scene in ASKED
+    },
+}
+
 
 rule hierarchy:
     input:
@@ -9,55 +42,8 @@ rule hierarchy:
     localrule: True
 
 
-rule compare_models:
-    output:
-        table=report("results/tables/model_comparison.csv", category="Tables"),
-    log:
-        "results/logs/compare_models.log",
-    params:
-        sliders=SLIDERS,
-        tolerances=config["hierarchy"]["tolerances"],
-        repetitions=config["hierarchy"]["repetitions"],
-        code=digest("compare_models"),
-    script:
-        "../scripts/compare_models.py"
-
-
 # On demand: the paper shows these tables as they are committed in paper/tables.
 rule larger_full:
     input:
         "results/tables/larger_full.csv",
     localrule: True
-
-
-rule tabulate_larger:
-    output:
-        medians=report("results/tables/larger{full}.csv", category="Tables"),
-        differences="results/tables/larger_differences{full}.csv",
-        nucleation="results/tables/larger_nucleation{full}.csv",
-    log:
-        "results/logs/tabulate_larger{full}.log",
-    wildcard_constraints:
-        full="(_full)?",
-    params:
-        slider=config["chain"],
-        settings=lambda wildcards: config["hierarchy"][f"larger{wildcards.full}"],
-        code=digest("tabulate_larger"),
-    script:
-        "../scripts/tabulate_larger.py"
-
-
-rule answer_scene:
-    output:
-        table=report("results/tables/{scene}_answers.csv", category="Tables"),
-    log:
-        "results/logs/answer_scene/{scene}.log",
-    wildcard_constraints:
-        scene="|".join(ASKED) or "(?!)",
-    localrule: True
-    params:
-        slider=lambda wildcards: scene_slider(config, wildcards.scene),
-        model=lambda wildcards: scene_model(config, wildcards.scene),
-        code=digest("answer_scene"),
-    script:
-        "../scripts/answer_scene.py"

@@ -21,6 +21,25 @@ PAPERS_SLIDERS = {
 IS_PAPERS = PAPERS_SLIDERS == {scene: {"weights": None} | SLIDERS.get(scene, {}) for scene in PAPERS_SCENES}
 PAPER = ["results/paper.pdf", "results/supplement.pdf"] if IS_PAPERS else []
 
+TABLES |= {
+    "measures": {
+        "function": "reproduction.scene_numbers:measures_table",
+        "inputs": {"runs": RUNS},
+        "tables": [],
+        "beside": ["measures"],
+    },
+    "claims": {
+        "function": "reproduction.claims:claims_tables",
+        "inputs": {
+            "tables": {
+                table: f"results/tables/{table}.csv" for table in sorted({*CLAIM_TABLES, *POINT_TABLES})
+            }
+        },
+        "also": [f"{LIBRARY}/reproduction/{said}.csv" for said in ("claims", "open_points")],
+        "tables": ["claims", "open_points"],
+    },
+}
+
 
 onstart:
     if not IS_PAPERS:
@@ -35,37 +54,6 @@ rule paper:
         CLAIMS,
         PAPER,
     localrule: True
-
-
-rule tabulate_measures:
-    input:
-        runs=collect("results/runs/{scene}.h5", scene=FIG13),
-    output:
-        table="results/tables/measures.csv",
-    log:
-        "results/logs/tabulate_measures.log",
-    localrule: True
-    params:
-        scenes=FIG13,
-        code=digest("tabulate_measures"),
-    script:
-        "../scripts/tabulate_measures.py"
-
-
-rule evaluate_claims:
-    input:
-        tables=collect("results/tables/{table}.csv", table=sorted({*CLAIM_TABLES, *POINT_TABLES})),
-        said=collect(f"{LIBRARY}/reproduction/{{said}}.csv", said=["claims", "open_points"]),
-    output:
-        claims=report("results/tables/claims.csv", category="Tables"),
-        open_points=report("results/tables/open_points.csv", category="Tables"),
-    log:
-        "results/logs/evaluate_claims.log",
-    localrule: True
-    params:
-        code=digest("evaluate_claims"),
-    script:
-        "../scripts/evaluate_claims.py"
 
 
 rule write_paper:

@@ -1,34 +1,32 @@
 """Draw the figures of a section, as the list in workflow/rules/figures.smk has them."""
 
 from collections.abc import Mapping, Sequence
-from importlib import import_module
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Any
 
-from job import job
+from job import job, read
 
 from precursors.figures import style
-from precursors.support.files import read_table
 
 
 def main(
     figure: str,
-    tables: Mapping[str, str | Sequence[str]],
+    tables: Mapping[str, Any],
     options: Mapping[str, Any],
     outputs: Sequence[str | Path],
+    readers: Mapping[str, str],
 ) -> None:
     """Draw the tables, once for each file name; several files under one name become a list of tables."""
-    read = {
-        name: read_table(paths) if isinstance(paths, str) else [read_table(path) for path in paths]
-        for name, paths in tables.items()
-    }
-    drawn = import_module(f"precursors.figures.{figure}").draw(**read, **options)
+    drawn = resolve_name(f"precursors.figures.{figure}:draw")(**read(tables, readers), **options)
     for output in outputs:
         style.save(drawn, output)
 
 
 if __name__ == "__main__":
     with job() as snakemake:
+        readers = snakemake.params.readers
         for name, figure in snakemake.params.figures.items():
             files = [file for file in snakemake.output if Path(file).stem == name]
-            main(figure.get("module", name), figure.get("tables", {}), figure.get("options", {}), files)
+            module, tables = figure.get("module", name), figure.get("tables", {})
+            main(module, tables, figure.get("options", {}), files, readers)

@@ -1,17 +1,20 @@
-"""What every script of the workflow needs: its job, one line on an error, and the threads it was given."""
+"""What scripts of the workflow share: one line on an error, the threads they were given, their inputs."""
 
 import os
 import signal
 import sys
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from pkgutil import resolve_name
 from time import perf_counter
 from typing import Any
 
 # Numba reads its variable when it is imported; Snakemake sets the other from the `threads` of the rule.
 os.environ.setdefault("NUMBA_NUM_THREADS", os.environ.get("OMP_NUM_THREADS", "1"))
+
+LONG = 5  # [s]: a job that takes longer says so
 
 
 @contextmanager
@@ -27,6 +30,9 @@ def job() -> Iterator[Any]:
         ", ".join([snakemake.rule, *snakemake.wildcards]),
         perf_counter(),
     )
+    seconds = snakemake.resources.get("seconds", 0)
+    if seconds >= LONG:
+        print(f"{name}: some {seconds} s", file=sys.stderr, flush=True)
     try:
         yield snakemake
     except Exception as error:
@@ -35,3 +41,12 @@ def job() -> Iterator[Any]:
         log.write_text(line if expected else f"{line}\n{traceback.format_exc()}", encoding="utf-8")
         sys.exit(line.rstrip())
     log.write_text(f"{name}: {perf_counter() - start:.3f} s\n", encoding="utf-8")
+
+
+def read(files: Any, readers: Mapping[str, str]) -> Any:
+    """What a file holds, or each of a list or mapping; a reader is "room.module:name", by the ending."""
+    if isinstance(files, Mapping):
+        return {name: read(file, readers) for name, file in files.items()}
+    if isinstance(files, str):
+        return resolve_name(f"precursors.{readers[Path(files).suffix]}")(files)
+    return [read(file, readers) for file in files]

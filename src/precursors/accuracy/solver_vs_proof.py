@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +10,7 @@ import pandas as pd
 
 from precursors.accuracy.compare import Comparison, Truth, compare
 from precursors.accuracy.proof import Certificate
+from precursors.accuracy.proof.chains import certificates_table
 from precursors.analysis.horizon import PredictedErrors, predicted_errors
 from precursors.analysis.slips import find_slips, first_global
 from precursors.model.chain import FloatArray
@@ -25,6 +27,21 @@ class Validation(NamedTuple):
     run: Run
     actual: Comparison
     predicted: PredictedErrors
+
+
+def proof_tables(
+    certificates: Mapping[str, Certificate], effort: pd.DataFrame, tolerance: float
+) -> dict[str, pd.DataFrame]:
+    """What is proved, how the errors of the solver grow, and what it gets right: tables by file name."""
+    runs = {name: validate(certificate) for name, certificate in certificates.items()}
+    errors = [error_table(run).assign(chain=name) for name, run in runs.items()]
+    return {
+        "certificates": certificates_table(certificates, effort),
+        "horizon": pd.concat(errors)[["chain", "time_s", "actual_error_s", "predicted_error_s"]],
+        "solver_vs_proof": pd.DataFrame(
+            [{"chain": name, **summary(run, tolerance)} for name, run in runs.items()]
+        ),
+    }
 
 
 def validate(certificate: Certificate) -> Validation:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
+import pandas as pd
 
 from precursors.accuracy.compare import Truth, compare
 from precursors.analysis.slip_rows import first_global
@@ -30,6 +31,15 @@ def charted_steps(full: bool = False) -> dict[str, FloatArray]:
 def steps_between(coarsest: float, finest: float, per_decade: int) -> FloatArray:
     """Steps [s] from the coarsest to the finest, both included, evenly spaced on a logarithmic scale."""
     return np.geomspace(coarsest, finest, round(per_decade * math.log10(coarsest / finest)) + 1)
+
+
+def step_sweep_table(runs: Mapping[str, Run], thetas: Mapping[str, float], full: bool) -> pd.DataFrame:
+    """One row per scene, method and step; see `row`."""
+    return pd.DataFrame(
+        {"scene": scene, "theta": thetas[scene], **row}
+        for scene, run in runs.items()
+        for row in sweep(run, charted_steps(full))
+    )
 
 
 def sweep(exact: Run, steps: Mapping[str, Iterable[float]]) -> Iterator[dict[str, object]]:

@@ -102,6 +102,19 @@ def proved_cases(scene: str, theta: float, certificate: Certificate) -> tuple[Ca
     return replace(whole, until="global slip", truth=truth.until_global_slip()), whole
 
 
+def work_precision_table(
+    certificates: Mapping[str, Certificate], thetas: Mapping[str, float], full: bool
+) -> pd.DataFrame:
+    """Measure all methods on the proved chains, in both cases of each."""
+    rounds, longest = (ROUNDS_FULL, LONGEST_FULL) if full else (ROUNDS, LONGEST)
+    tables = [
+        measure_methods(case, charted_values(case, full), rounds, longest)
+        for scene, certificate in certificates.items()
+        for case in proved_cases(scene, thetas[scene], certificate)
+    ]
+    return pd.concat(tables, ignore_index=True)
+
+
 def charted_values(case: Case, full: bool = False) -> dict[str, tuple[float, ...]]:
     """Values of each method's setting in the default chart or the full one, by name of the method."""
     return {name: method.values_of(case.until, full) for name, method in METHODS.items()}

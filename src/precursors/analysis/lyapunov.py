@@ -6,14 +6,19 @@ forces alone. A shift in time, or of all blocks with the drive, neither grows no
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import astuple, dataclass
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import scipy
 from numpy.typing import NDArray
 
 from precursors.analysis.events import slip_events
-from precursors.model.chain import FloatArray
+from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import whole
 from precursors.model.statics import positions_from_compressions
 from precursors.solver.run import Run
@@ -29,6 +34,11 @@ SEED = 2010
 DISTANCE = 1e-9
 # A distance that shrinks to less than this in one event is lost in rounding.
 LEAST = 1e-4
+# Of the table: the attributes of `LyapunovExponent`.
+COLUMNS = (
+    *("exponent_per_s", "uncertainty_per_s", "exponent_per_transition", "uncertainty_per_transition"),
+    *("events", "transitions", "start_s", "end_s"),
+)
 
 
 @dataclass(frozen=True)
@@ -137,3 +147,15 @@ def _mean_rate(log: np.ndarray, length: np.ndarray) -> tuple[float, float]:
     n, rate = len(log), log.sum() / length.sum()
     left = (log - rate * length) / length.mean()
     return float(rate), float(scipy.stats.t.ppf((1 + CONFIDENCE) / 2, n - 1) * left.std(ddof=1) / np.sqrt(n))
+
+
+def lyapunov_table(sliders: Mapping[str, Mapping[str, Any]], duration: float) -> pd.DataFrame:
+    """One row a scene, from a run of `duration` [s]; NaN where it has no exponent (one block, few events)."""
+    rows = []
+    for scene, slider in sliders.items():
+        found = dict.fromkeys(COLUMNS, math.nan)
+        with suppress(ValueError):
+            exponent = lyapunov_exponent(simulate(Chain.from_slider(**slider), duration))
+            found = dict(zip(COLUMNS, astuple(exponent), strict=True))
+        rows.append({"scene": scene, "theta": slider["theta"], **found})
+    return pd.DataFrame(rows)

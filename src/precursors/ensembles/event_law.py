@@ -25,7 +25,7 @@ edge.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import product
 from typing import Any
 
@@ -33,7 +33,7 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.run_statistics import median_interval
-from precursors.ensembles.study import LOADINGS, NOISE, Study, chain_of, stack
+from precursors.ensembles.study import LOADINGS, NOISE, Study, chain_of, gather, stack
 from precursors.model.chain import Chain
 
 THETAS = (-0.9, -5 / 6, 0.0, 5 / 6, 0.95)
@@ -82,6 +82,12 @@ def _cases(settings: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         yield {"varied": "drive", "n_blocks": middle, "drive_stiffness": stiffness}
     for loading, n in product(LOADINGS, sorted({numbers[1], middle, numbers[-1]})):
         yield {"varied": "loading", "n_blocks": n, "loading": loading}
+
+
+def event_law_tables(chunks: Iterable[pd.DataFrame], slider: Mapping[str, Any]) -> dict[str, pd.DataFrame]:
+    """The tables of the study, by file name."""
+    members = gather(chunks)
+    return {"event_law_members": members, "event_law": event_law_table(members, slider)}
 
 
 def event_law_table(members: pd.DataFrame, slider: Mapping[str, Any]) -> pd.DataFrame:

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.run_statistics import median_interval, statistics
-from precursors.ensembles.study import NOISE, Study, stack
+from precursors.ensembles.study import NOISE, Study, gather, stack
 
 # Two numbers are the same if they differ by no more than this: friction coefficients by a unit of the last
 # digit of the paper's 0.49, times by what can be read from the axis of Figs. 10-12.
@@ -30,6 +30,16 @@ def noise_study(
         for group, (scene, slider) in enumerate(sliders.items())
     ]
     return Study(stack(blocks), seed=settings["seed"])
+
+
+def noise_tables(chunks: Iterable[pd.DataFrame]) -> dict[str, pd.DataFrame]:
+    """The tables of the study, by file name."""
+    members = gather(chunks)
+    return {
+        "noise_members": members,
+        "noise": noise_table(members),
+        "noise_differences": differences_table(members),
+    }
 
 
 def noise_table(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ import pandas as pd
 
 from precursors.analysis.run_statistics import share_interval
 from precursors.ensembles.noise import TOLERANCES
-from precursors.ensembles.study import Study, stack
+from precursors.ensembles.study import Study, gather, stack
 
 # Half a unit of the last digit that the paper prints (Sect. 4 and the captions of Figs. 10-12), in SI units.
 # F_Z only scales all forces. S and L enter through k alone, whose last digit is that of E.
@@ -46,6 +46,14 @@ def digits_study(
         labels = {"scene": scene, "draw": np.arange(settings["draws"] + 1), "duration": duration / slowest}
         blocks.append({**slider, **changed, **labels})
     return Study(stack(blocks), seed=settings["seed"])
+
+
+def digits_tables(
+    chunks: Iterable[pd.DataFrame], paper: Mapping[str, Mapping[str, float]]
+) -> dict[str, pd.DataFrame]:
+    """The tables of the study, by file name."""
+    members = gather(chunks)
+    return {"digits_members": members, "digits": digits_table(members, paper)}
 
 
 def digits_table(members: pd.DataFrame, paper: Mapping[str, Mapping[str, float]]) -> pd.DataFrame:

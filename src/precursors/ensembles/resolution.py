@@ -11,8 +11,8 @@ import pandas as pd
 
 from precursors.analysis.horizon import horizon
 from precursors.analysis.run_statistics import median_interval
-from precursors.ensembles.noise import with_noise
-from precursors.ensembles.study import NOISE, Study, stack
+from precursors.ensembles.noise import noise_table, with_noise
+from precursors.ensembles.study import NOISE, Study, gather, stack
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import simulate
 
@@ -44,6 +44,27 @@ def resolution_study(
             block = {**slider, "n_blocks": n_blocks, "duration": duration, "scene": scene}
             blocks.append(block | {"load_noise": noise, "draw": draw, "group": len(blocks)})
     return Study(stack(blocks), seed=settings["seed"])
+
+
+def resolution_tables(
+    chunks: Iterable[pd.DataFrame],
+    noise: pd.DataFrame,
+    slider: Mapping[str, Any],
+    uniform: str,
+    extrapolate_from: int,
+) -> dict[str, pd.DataFrame]:
+    """The tables of the study, by file name; `noise` has the members with the scenes' own N."""
+    gathered = gather(chunks)
+    runs = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
+    members = with_front_speed(runs, slider["length"])
+    limits = extrapolation_table(members, extrapolate_from)
+    return {
+        "resolution_members": gathered,
+        "resolution": noise_table(members, POINT, QUANTITIES),
+        "counts_by_n": counts_table(members, uniform),
+        "resolution_limits": limits.assign(wave_speed_m_per_s=wave_speed(slider)),
+        "resolution_exponents": exponents_table(members),
+    }
 
 
 def with_front_speed(members: pd.DataFrame, length: float) -> pd.DataFrame:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,6 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until
 from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate_many
-from precursors.support.files import read_table
 
 ARGUMENTS = tuple(inspect.signature(Chain.from_slider).parameters)
 # Columns that the table of a study does not have where they are the same for all members.
@@ -108,16 +106,15 @@ def run_members(study: Study) -> pd.DataFrame:
     return study.members.join(pd.concat(results).rename(columns=WITH_UNITS))
 
 
-def gather(chunks: Iterable[str | PathLike[str]]) -> pd.DataFrame:
-    """One table of a study from the files of its chunks, without columns that say nothing (`LEFT_OUT`).
+def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
+    """One table of a study from its chunks, without columns that say nothing (`LEFT_OUT`).
 
     Raises
     ------
     ValueError
         If a chunk is missing or there twice.
     """
-    tables = [read_table(path) for path in chunks]
-    together = pd.concat([table for table in tables if len(table)]).sort_values("member", ignore_index=True)
+    together = pd.concat([table for table in chunks if len(table)]).sort_values("member", ignore_index=True)
     if (together["member"] != together.index).any():
         raise ValueError("the chunks are not all members of their study, each once")
     first = together.iloc[0]

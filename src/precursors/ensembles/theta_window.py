@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ import pandas as pd
 
 from precursors.analysis.run_statistics import statistics
 from precursors.ensembles.noise import TOLERANCES
-from precursors.ensembles.study import Study, stack
+from precursors.ensembles.study import Study, gather, stack
 
 
 def theta_window_study(
@@ -26,6 +26,12 @@ def theta_window_study(
             {**slider, "theta": theta, "scene": scene, "point": np.arange(len(theta)), "duration": duration}
         )
     return Study(stack(blocks))
+
+
+def theta_window_tables(chunks: Iterable[pd.DataFrame]) -> dict[str, pd.DataFrame]:
+    """The tables of the study, by file name."""
+    members = gather(chunks)
+    return {"theta_window_members": members, "theta_window": theta_window_table(members)}
 
 
 def theta_window_table(members: pd.DataFrame) -> pd.DataFrame:

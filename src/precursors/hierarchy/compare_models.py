@@ -101,6 +101,14 @@ QUESTIONS = {
 }
 
 
+def model_comparison(
+    sliders: Mapping[str, Mapping[str, Any]], tolerances: Mapping[str, float], repetitions: int
+) -> pd.DataFrame:
+    """`compare_models` for the sliders of some scenes."""
+    chains = {scene: Chain.from_slider(**slider) for scene, slider in sliders.items()}
+    return compare_models(chains, tolerances, rounds=repetitions)
+
+
 def compare_models(
     chains: Mapping[str, Chain],
     tolerances: Mapping[str, float],

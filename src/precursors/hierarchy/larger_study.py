@@ -63,6 +63,19 @@ def points_of(study: Mapping[str, Any]) -> list[dict[str, Any]]:
     return [dict(zip(names, (*pair, *others), strict=True)) for pair, *others in every]
 
 
+def larger_tables(
+    slider: Mapping[str, Any], settings: Mapping[str, Any], full: str
+) -> dict[str, pd.DataFrame]:
+    """Medians, differences of loadings, and where creep runs away: by file name, which ends in `full`."""
+    studies = settings["studies"].items()
+    runs = pd.concat([run_study(slider, name, study, settings) for name, study in studies])
+    return {
+        f"larger{full}": medians_table(runs),
+        f"larger_differences{full}": differences_table(runs),
+        f"larger_nucleation{full}": nucleation_table(slider, settings["nucleation"]),
+    }
+
+
 def run_study(
     slider: Mapping[str, Any], name: str, study: Mapping[str, Any], common: Mapping[str, Any]
 ) -> pd.DataFrame:

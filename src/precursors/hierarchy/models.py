@@ -160,6 +160,11 @@ MODELS: dict[str, Model] = {
 }
 
 
+def scene_answers(slider: Mapping[str, Any], model: str) -> pd.DataFrame:
+    """`answers_table` of a slider."""
+    return answers_table(Chain.from_slider(**slider), model)
+
+
 def answers_table(chain: Chain, model: str) -> pd.DataFrame:
     """Ask a model all that it answers about a chain, up to the end of the first global slip.
 

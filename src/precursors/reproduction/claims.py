@@ -18,6 +18,7 @@ from precursors.model import printed
 from precursors.model.chain import FloatArray
 from precursors.reproduction.claim import Claim, Find, Finding, in_draws
 from precursors.reproduction.inputs import LEADING, SCENES, TRAILING, UNIFORM
+from precursors.reproduction.open_points import open_points_table
 from precursors.reproduction.tables import Tables, before_global, one, rows, up_to_global
 from precursors.support.files import read_table
 
@@ -268,6 +269,11 @@ def slip_duration_of_the_experiment(t: Tables) -> Finding:
 
 SAID = read_table(Path(__file__).with_name("claims.csv"), dtype=str)
 CLAIMS = [Claim(**said, find=FINDINGS[said["name"]]) for _, said in SAID.iterrows()]
+
+
+def claims_tables(tables: Tables) -> dict[str, pd.DataFrame]:
+    """Both tables by file name."""
+    return {"claims": evaluate(tables), "open_points": open_points_table(tables)}
 
 
 def evaluate(tables: Tables) -> pd.DataFrame:

@@ -63,6 +63,12 @@ class Check(NamedTuple):
     holds: bool
 
 
+def eq15_tables(runs: Mapping[str, Run], duration: float) -> dict[str, pd.DataFrame]:
+    """Both tables by file name, for the runs of some scenes; see `eq15_table`."""
+    speeds = drive_speeds_table({scene: run.chain for scene, run in runs.items()})
+    return {"eq15": eq15_table(runs, duration, speeds), "eq15_speeds": speeds}
+
+
 def eq15_table(runs: Mapping[str, Run], duration: float, speeds: pd.DataFrame) -> pd.DataFrame:
     """One row per `Check` of the runs of the scenes; `speeds` is their `drive_speeds_table`.
 

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
 
 import numpy as np
 import pandas as pd
 
 from precursors.analysis.slip_rows import first_global
-from precursors.analysis.slips import find_slips
+from precursors.analysis.slips import DEFINITIONS, apparent_friction, find_slips
 from precursors.model.chain import Chain
 from precursors.model.statics import maximal_compressions
 from precursors.solver.run import Run
 
+MU_SAPP_COLUMNS = [
+    *("scene", "definition", "mu_sapp", "load_N", "time_s", "event", "events_counted", "is_papers")
+]
 COLUMNS = ["scene", "theta", "quantity", "unit", "paper", "reproduced"]
 COUNTED = "events counted in Fig. 13, the first global slip included"
 FRICTION = "apparent static friction coefficient mu_sapp"
@@ -67,6 +71,27 @@ def residual_strain(run: Run, time: float) -> float:
         return math.nan
     compressions = run.spring_forces([time])[0] / run.chain.springs
     return float(compressions[1:].sum() / maximal_compressions(run.chain)[1:].sum())
+
+
+def reproduction_tables(
+    slips: Mapping[str, pd.DataFrame], paper: Mapping[str, Mapping[str, float]]
+) -> dict[str, pd.DataFrame]:
+    """Both tables of the paper's numbers, by file name."""
+    mu_sapp = mu_sapp_table(slips)
+    return {"mu_sapp": mu_sapp, "reproduction": reproduction_table(slips, mu_sapp, paper)}
+
+
+def mu_sapp_table(slips: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
+    """mu_sapp (Eq. 1) of each scene under each definition, none where it has no global slip in that sense."""
+    rows = [
+        {"scene": scene, "definition": definition.text, "is_papers": definition is DEFINITIONS[0]}
+        | asdict(friction)
+        for scene, table in slips.items()
+        for definition in DEFINITIONS
+        if (friction := apparent_friction(table, definition))
+    ]
+    named = pd.DataFrame(rows).rename(columns={"load": "load_N", "time": "time_s"})
+    return named.reindex(columns=MU_SAPP_COLUMNS)
 
 
 def reproduction_table(

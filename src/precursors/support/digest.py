@@ -28,10 +28,8 @@ def digest_code(root: str | Path, script: str, *modules: str) -> str:
         If a file cannot be read.
     """
     library, scripts = Path(root, "src/precursors"), Path(root, "workflow/scripts")
-    waiting = [
-        scripts / f"{script}.py",
-        *(library.joinpath(*name.split(".")).with_suffix(".py") for name in modules),
-    ]
+    named = [_file_of(library, scripts, f"{library.name}.{name}") for name in modules]
+    waiting = [scripts / f"{script}.py", *(file for file in named if file)]
     found: dict[Path, str] = {}
     while waiting:
         if (path := waiting.pop()) not in found:

@@ -1,6 +1,10 @@
 """Failure modes of the methods on the paper's chain, each with a measured number that shows it."""
 
 from collections.abc import Callable
+from dataclasses import asdict
+from itertools import chain
+
+import pandas as pd
 
 from precursors.accuracy.failures.common import Failure, Number
 from precursors.accuracy.failures.dead_zone import dead_zone_too_large, dead_zone_too_small
@@ -9,6 +13,7 @@ from precursors.accuracy.failures.forward_only import forward_only
 from precursors.accuracy.failures.literal_friction import literal_friction
 from precursors.accuracy.failures.locating import merged_transitions, missed_roots, restart_on_root
 from precursors.accuracy.failures.regularised_friction import creep, stiffness
+from precursors.accuracy.failures.stability import thresholds
 
 # By name, in the order of the gallery.
 FAILURE_MODES: dict[str, Callable[[], Failure]] = {
@@ -30,3 +35,14 @@ FAILURE_MODES: dict[str, Callable[[], Failure]] = {
 }
 
 __all__ = ["FAILURE_MODES", "Failure", "Number"]
+
+
+def failure_tables() -> dict[str, pd.DataFrame]:
+    """Numbers and thresholds of all failure modes, and the curves of each, by file name."""
+    found = {name: measure() for name, measure in FAILURE_MODES.items()}
+    numbers = [{"failure_mode": name, **asdict(n)} for name, of in found.items() for n in of.numbers]
+    limits = pd.DataFrame(map(asdict, chain(thresholds(), *(of.thresholds for of in found.values()))))
+    return {name: of.curves for name, of in found.items()} | {
+        "failures": pd.DataFrame(numbers),
+        "thresholds": limits.assign(ratio=limits["measured"] / limits["predicted"]),
+    }

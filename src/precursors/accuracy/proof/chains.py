@@ -7,6 +7,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
+
 from precursors.accuracy.proof.certificate import Certificate
 from precursors.accuracy.proof.exact_chain import ExactChain
 from precursors.model.scenes import PAPERS_MODEL, scene_as_written, scene_model
@@ -55,6 +57,12 @@ def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bo
         and certificate.until is None
         and not any(certificate.start_positions + certificate.start_velocities)
     )
+
+
+def certificates_table(certificates: Mapping[str, Certificate], effort: pd.DataFrame) -> pd.DataFrame:
+    """One row a chain; `effort` has the processor time that the committed proofs took."""
+    rows = [{"chain": name, **certificate_row(certificate)} for name, certificate in certificates.items()]
+    return pd.DataFrame(rows).merge(effort, on=["chain", "transitions"], how="left")
 
 
 def certificate_row(certificate: Certificate) -> dict[str, float]:
