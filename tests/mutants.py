@@ -1,15 +1,18 @@
-"""Put single faults into copies of the library and print those that the tests do not see (`make mutants`).
+"""Put single faults into copies of the project and print those that the tests do not see (`make mutants`).
 
-A fault is one edit of the text: a comparison, a sign or a product the other way round, another constant, a
-condition negated, a statement left out. A constant of a figure's layout is not one, nor a step or a tolerance
-at which a method is charted. First every test file is run without a fault, which says how long it takes and
-which functions it enters. Then each fault is met by the files that enter its function, until they are four
-and would take `SECONDS`: those that name its module first, then those of its own room, and quick ones before
-slow ones. Nothing enters a compiled function: those that import its module meet it.
+A fault is one edit: a comparison, a sign or a product the other way round, another constant, a condition
+negated, a statement left out, in the library, in the workflow's scripts and in the explorer's JavaScript. No
+fault is what cannot change a result: a number or JavaScript that only says where ink goes, the sign of a ball
+about zero (`is_symmetric`), a setting at which something is charted (`SETTINGS`), a guard against a slip of
+ours and how code is compiled (`NEUTRAL`).
+
+First every test is run without a fault, which says what it costs and which functions it enters. Then each
+fault meets the tests that enter its function, quick ones first, until one fails or they have cost `SECONDS`:
+first the files of its own room and those that name its module. Nothing is seen to enter a compiled function
+or a script of the page: tests that import its module meet it.
 
 `survivors.md` says in a line why a fault cannot be seen, or need not be. Such a fault counts as one that
-survives, and is tried again only with --all. The command fails where a survivor is not explained, or less
-than `SHARE` is seen.
+survives, and is not tried. The command fails where less than `SHARE` is seen.
 """
 
 from __future__ import annotations
@@ -19,50 +22,65 @@ import ast
 import builtins
 import compileall
 import contextlib
-import faulthandler
 import hashlib
 import importlib
 import multiprocessing
 import os
 import re
+import resource
+import secrets
 import shutil
 import signal
 import sys
 import tempfile
-from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from importlib.machinery import SourceFileLoader
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import Connection
 from pathlib import Path
 from time import perf_counter
 from types import CodeType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
+from browser import find_browser
 
 ROOT = Path(__file__).parents[1]
-LIBRARY = Path("src/precursors")
+LIBRARY, SCRIPTS = Path("src/precursors"), Path("workflow/scripts")
+PAGE = "src/precursors/figures/explorer/page.py"  # tests that import it meet the faults of the JavaScript
+COMPILED = {"kernel", "methods", "hierarchy"}  # directories with compiled code
 LEFT = ("results", "wheelhouse", ".venv", ".git", ".snakemake", ".*_cache")
 # These compare files that are already there, or run the workflow.
 ASIDE = ("tests/cluster/*", "tests/golden/test_golden.py", "tests/workflow/test_[dfr]*")
-WARM = "tests/ensembles/test_study.py"  # compiles the kernel for all others
 # What takes long to import: loaded once, before a process is forked for each fault.
 HEAVY = (
     "flint", "h5py", "hypothesis", "jsonschema", "matplotlib.pyplot", "numba", "pandas",
     "scipy.integrate", "scipy.linalg", "scipy.optimize", "scipy.stats", "snakemake.cli", "sympy", "yaml",
 )  # fmt: skip
 SHARE = 0.85
-SETTINGS = {"values", "quick", "whole", "quick_whole", "STEPS", "SIZES", "ROUNDS"}  # what is charted
-SECONDS, FILES = 20.0, 4  # of tests without a fault, in processor time; at least so many files
-# Of one test, which may have to compile the kernel, and of all that a fault meets [s]; or so many times what
-# the slowest file takes without a fault, where the machine has other work.
-LIMIT, PATIENCE, TIMES = 60.0, 600.0, (1.5, 10.0)
-OTHERWISE = {
-    "Lt": ("<", "<="), "LtE": ("<=", "<"), "Gt": (">", ">="), "GtE": (">=", ">"), "Eq": ("==", "!="),
-    "NotEq": ("!=", "=="), "And": ("and", "or"), "Or": ("or", "and"), "Add": ("+", "-"), "Sub": ("-", "+"),
-    "Mult": ("*", "/"), "Div": ("/", "*"),
+SECONDS = 10.0  # processor time of the tests that a fault meets, when they have no fault
+# Of one test [s]: beside so many times what it costs without a fault; more where it may have to compile.
+TIMES, LIMIT, COMPILING = 5.0, 10.0, 60.0
+PATIENCE = 300.0  # s, for all that a fault meets, where a test waits for something that never comes
+OPPOSITE: dict[type[ast.AST], type[Any]] = {
+    ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq,
+    ast.And: ast.Or, ast.Or: ast.And, ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div,
+    ast.Div: ast.Mult,
 }  # fmt: skip
-Function = tuple[str, int]  # a file of the library and the line where the function begins, 0 for the module
+OF_SCRIPTS = {
+    "<": "<=", "<=": "<", ">": ">=", ">=": ">", "===": "!==", "!==": "===", "&&": "||", "||": "&&",
+    "+": "-", "-": "+", "*": "/", "/": "*",
+}  # fmt: skip
+# Comments and texts, then an operator between blanks, then a number.
+SCRIPT = re.compile(
+    r"""//.*|/\*[\s\S]*?\*/|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'|`(?:\\.|[^`\\])*`"""
+    r"|(?<= )(?P<operator>[<>]=?|[!=]==|&&|\|\||[-+*/])(?= )|(?<![\w.#])(?P<number>\d+(?:\.\d+)?)(?![\w.])"
+)
+SETTINGS = {"values", "quick", "whole", "quick_whole", "STEPS", "SIZES", "ROUNDS"}  # what is charted
+# Arguments that change no result: guards against a slip of ours, and how code is compiled.
+NEUTRAL = {"strict", "frozen", "slots", "exist_ok", "parents", "stacklevel", "maxsize", "nogil", "cache"}
+Function = tuple[str, int]  # a file and the line where the function begins, 0 for the module
 
 
 class Fault(NamedTuple):
@@ -71,7 +89,7 @@ class Fault(NamedTuple):
     path: Path
     start: int
     end: int
-    new: bytes
+    new: str
     function: Function
 
     def told(self) -> str:
@@ -79,14 +97,8 @@ class Fault(NamedTuple):
         text = (ROOT / self.path).read_bytes()
         old = " ".join(text[self.start : self.end].decode().split())
         line = text[text.rfind(b"\n", 0, self.start) + 1 :].split(b"\n", 1)[0].decode().strip()
-        return f"{self.path.relative_to(LIBRARY)}: {old} -> {self.new.decode()} in: {line}"
-
-
-def other_constant(value: bool | int | float) -> bool | int | float:
-    """Another value of the same type."""
-    if isinstance(value, bool):
-        return not value
-    return value + 1 if isinstance(value, int) else 1.5 * value or 1.0
+        place = self.path.relative_to(LIBRARY) if self.path.is_relative_to(LIBRARY) else self.path
+        return f"{place}: {old} -> {self.new}" + (f" in: {line}" if re.fullmatch(r"[\w.]+", old) else "")
 
 
 def first_line(node: ast.FunctionDef) -> int:
@@ -94,57 +106,56 @@ def first_line(node: ast.FunctionDef) -> int:
     return min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
 
 
-def is_setting(node: ast.AST) -> bool:
-    """Whether a node gives steps, tolerances or sizes at which something is charted: any would do."""
+def is_neutral(node: ast.AST) -> bool:
+    """Whether no result depends on a node: a setting of a chart, any of which would do, or a guard."""
     if isinstance(node, ast.keyword):
-        return node.arg in SETTINGS
+        return node.arg in SETTINGS | NEUTRAL
     if isinstance(node, ast.Assign):
         return all(isinstance(target, ast.Name) and target.id in SETTINGS for target in node.targets)
-    return isinstance(node, ast.Dict) and any(
-        isinstance(key, ast.Constant) and key.value in SETTINGS for key in node.keys
-    )
+    return isinstance(node, ast.JoinedStr | ast.Raise | ast.Import | ast.ImportFrom)
+
+
+def is_symmetric(node: ast.BinOp) -> bool:
+    """Whether a ball about zero is added, which is the same with the other sign."""
+    return re.match(r"arb\(0, |around$", ast.unparse(node.right)) is not None
+
+
+def edits(node: ast.AST) -> Iterator[tuple[ast.expr | ast.stmt, ast.AST]]:
+    """What may be put in the place of a node, or of a part of it."""
+    match node:
+        case ast.Compare(left, [operator], right) if type(operator) in OPPOSITE:
+            yield node, ast.Compare(left, [OPPOSITE[type(operator)]()], right)
+        case ast.BinOp(left, operator, right) if type(operator) in OPPOSITE and not is_symmetric(node):
+            yield node, ast.BinOp(left, OPPOSITE[type(operator)](), right)
+        case ast.BoolOp(operator, values):
+            yield node, ast.BoolOp(OPPOSITE[type(operator)](), values)
+        case ast.Constant(bool(value)):
+            yield node, ast.Constant(not value)
+        case ast.Constant(int(value)):
+            yield node, ast.Constant(value + 1)
+        case ast.Constant(float(value)):
+            yield node, ast.Constant(1.5 * value or 1.0)
+        case ast.If(test) | ast.While(test) | ast.IfExp(test) if "TYPE_CHECKING" not in ast.dump(test):
+            yield test, ast.UnaryOp(ast.Not(), test)
+        case ast.AugAssign() | ast.Expr(ast.Call()):
+            yield node, ast.Pass()
 
 
 def faults_of(path: Path) -> Iterator[Fault]:
     """All faults of a module."""
     text = (ROOT / path).read_bytes()
     starts = [0, *(i + 1 for i, byte in enumerate(text) if byte == ord("\n"))]
-
-    def place(node: ast.expr | ast.stmt) -> tuple[int, int]:
-        end = starts[(node.end_lineno or 1) - 1] + (node.end_col_offset or 0)
-        return starts[node.lineno - 1] + node.col_offset, end
-
-    def edits(node: ast.AST) -> Iterator[tuple[int, int, bytes]]:
-        pairs: list[tuple[ast.expr, ast.expr, ast.AST]] = []
-        if isinstance(node, ast.Compare):
-            terms = [node.left, *node.comparators]
-            pairs = list(zip(terms[:-1], terms[1:], node.ops, strict=True))
-        elif isinstance(node, ast.BinOp):
-            pairs = [(node.left, node.right, node.op)]
-        elif isinstance(node, ast.BoolOp):
-            pairs = [(node.values[0], node.values[1], node.op)]
-        elif isinstance(node, ast.Constant) and isinstance(node.value, int | float):
-            if "figures" not in path.parts:
-                yield *place(node), repr(other_constant(node.value)).encode()
-        elif isinstance(node, ast.If | ast.While | ast.IfExp) and "TYPE_CHECKING" not in ast.dump(node.test):
-            start, end = place(node.test)
-            yield start, end, b"(not (" + text[start:end] + b"))"
-        elif isinstance(node, ast.AugAssign) or (
-            isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)
-        ):
-            yield *place(node), b"pass"
-        for left, right, operator in pairs:
-            old, new = OTHERWISE.get(type(operator).__name__, ("", ""))
-            first, last = place(left)[1], place(right)[0]
-            sign = rb"(?<![\w*/<>=!])" + re.escape(old).encode() + rb"(?![\w*/<>=])"
-            if old and (found := re.search(sign, text[first:last])):
-                yield first + found.start(), first + found.end(), new.encode()
+    in_figure = "figures" in path.parts
 
     def visit(node: ast.AST, function: int) -> Iterator[Fault]:
-        if isinstance(node, ast.JoinedStr | ast.Raise | ast.Import | ast.ImportFrom) or is_setting(node):
+        if is_neutral(node):
             return
-        for start, end, new in edits(node):
-            yield Fault(path, start, end, new, (str(path), function))
+        for old, new in edits(node):
+            if not (in_figure and isinstance(new, ast.Constant)):  # where something is drawn, and how large
+                start = starts[old.lineno - 1] + old.col_offset
+                end = starts[(old.end_lineno or 1) - 1] + (old.end_col_offset or 0)
+                bracketed = f"({ast.unparse(new)})" if isinstance(new, ast.UnaryOp) else ast.unparse(new)
+                yield Fault(path, start, end, bracketed, (str(path), function))
         if isinstance(node, ast.FunctionDef):
             function = first_line(node)
         for name, field in ast.iter_fields(node):
@@ -156,46 +167,44 @@ def faults_of(path: Path) -> Iterator[Fault]:
     yield from visit(ast.parse(text), 0)
 
 
+def script_faults(path: Path) -> Iterator[Fault]:
+    """All faults of a JavaScript file; numbers are of the layout but in the solver."""
+    text = (ROOT / path).read_text(encoding="utf-8")
+    for found in SCRIPT.finditer(text):
+        if operator := found["operator"]:
+            new = OF_SCRIPTS[operator]
+        elif found["number"] and path.stem == "solver":
+            new = repr(1.5 * float(found[0])) if "." in found[0] else str(int(found[0]) + 1)
+        else:
+            continue
+        start, end = (len(text[:place].encode()) for place in found.span())
+        yield Fault(path, start, end, new, (PAGE, 0))
+
+
 def chosen_faults(under: str, number: int, seed: int) -> list[Fault]:
     """A sample of the faults, which changes only in modules that change."""
+    paths = [*(ROOT / LIBRARY).rglob("*.py"), *(ROOT / SCRIPTS).glob("*.py")]
+    if find_browser():
+        paths += (path for path in (ROOT / LIBRARY).rglob("*.js") if path.stem != "drawing")
+    else:
+        print("no Chromium or Chrome here: the explorer's JavaScript is left out")
     faults = {}
-    for path in sorted((ROOT / LIBRARY).rglob("*.py")):
-        if str(path.relative_to(ROOT / LIBRARY)).startswith(under):
-            alike = Counter[str]()
-            for fault in faults_of(path.relative_to(ROOT)):
-                told = fault.told()
-                alike[told] += 1
-                faults[hashlib.sha256(f"{seed} {alike[told]} {told}".encode()).digest()] = fault
+    for path in sorted(file.relative_to(ROOT) for file in paths):
+        if str(path).startswith(under):
+            for fault in (script_faults if path.suffix == ".js" else faults_of)(path):
+                faults[hashlib.sha256(f"{seed} {fault}".encode()).digest()] = fault
     return [faults[key] for key in sorted(faults)[:number]]
 
 
-class Outcome(NamedTuple):
-    """What test files said, their time [s], their processor time [s], and which functions they entered."""
-
-    verdict: str
-    wall: float = 0.0
-    seconds: float = 0.0
-    entered: frozenset[Function] = frozenset()
-
-
-class Limit(NamedTuple):
-    """Ends the process in which a test takes so long [s]."""
-
-    seconds: float
-
-    def pytest_runtest_logstart(self) -> None:
-        faulthandler.dump_traceback_later(self.seconds, exit=True)
-
-
 def mark_functions(copy: Path) -> set[Function]:
-    """Have every function of the library add itself to a set when it is entered; compiled modules stay."""
+    """Have every function of a copy add itself to a set when it is entered; compiled modules stay."""
     entered = set[Function]()
     vars(builtins)["_enter"] = lambda *function: entered.add(function)
     whole = SourceFileLoader.get_code
 
     def get_code(loader: SourceFileLoader, name: str) -> CodeType | None:
         path = Path(loader.get_filename(name))
-        if not path.is_relative_to(copy / LIBRARY):
+        if not any(path.is_relative_to(copy / part) for part in (LIBRARY, SCRIPTS)):
             return whole(loader, name)
         file, text = str(path.relative_to(copy)), path.read_bytes()
         entered.add((file, 0))
@@ -212,152 +221,173 @@ def mark_functions(copy: Path) -> set[Function]:
     return entered
 
 
-def run_tests(copy: Path, files: list[str], marked: bool, limit: float, told: Connection) -> None:
-    """Run test files in this process, which is a fork, until one fails."""
-    begin = perf_counter()
+def spent() -> float:
+    """Processor time of this process and of those that it started and waited for [s]."""
+    return sum(os.times()[:4])
+
+
+class Test(NamedTuple):
+    """A test, its processor time without a fault [s], and which functions it enters."""
+
+    name: str
+    seconds: float
+    entered: frozenset[Function]
+
+
+class Job(NamedTuple):
+    """Tests to run, file by file, each with the processor time after which it has failed [s], and a fault."""
+
+    files: list[dict[str, float]]
+    fault: Fault | None = None
+
+
+class Outcome(NamedTuple):
+    """Whether all tests passed, the processor time with imports and fixtures [s], and the tests."""
+
+    passed: bool
+    seconds: float = 0.0
+    tests: tuple[Test, ...] = ()
+
+
+class Watch:
+    """Times the tests, notes what they enter, and ends the process where one costs more than it may."""
+
+    def __init__(self, entered: set[Function], job: Job) -> None:
+        self.entered, self.most = entered, {name: most for file in job.files for name, most in file.items()}
+        self.shared, self.tests, self.before = set[Function](), list[Test](), 0.0
+
+    def pytest_runtest_logstart(self, nodeid: str) -> None:
+        if nodeid in self.most:
+            limit = int(sum(os.times()[:2]) + self.most[nodeid]) + 1
+            resource.setrlimit(resource.RLIMIT_CPU, (limit, resource.RLIM_INFINITY))
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.when == "call":
+            self.tests.append(Test(report.nodeid, spent() - self.before, frozenset(self.entered)))
+        else:  # what imports and fixtures enter counts for every test of the file
+            self.shared |= self.entered
+        self.before = spent()
+        self.entered.clear()
+
+
+def run_tests(copy: Path, job: Job, answer: Connection) -> None:
+    """Run tests in this process, which is a fork, until one fails."""
     os.setsid()
     os.chdir(copy)
     for stream in (sys.stdout, sys.stderr):
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
     sys.path[:] = [str(copy / "src"), *(place for place in sys.path if Path(place) != ROOT / "tests")]
-    os.environ["PYTHONPATH"] = str(copy / "src")
-    entered = mark_functions(copy) if marked else set()
-    code = pytest.main(["-x", "-q", "-p", "no:cacheprovider", "--tb=no", *files], plugins=[Limit(limit)])
-    spent = perf_counter() - begin, sum(os.times()[:4])
-    told.send(Outcome("failed" if code else "passed", *spent, frozenset(entered)))
+    sys.dont_write_bytecode = job.fault is not None
+    os.environ |= {"PYTHONDONTWRITEBYTECODE": "1" if job.fault else ""}
+    os.environ |= {"PYTHONPATH": str(copy / "src"), "XDG_CACHE_HOME": str(copy.parent)}
+    watch = Watch(set() if job.fault else mark_functions(copy), job)
+    options = ["-x", "-q", "--tb=no", "-p", "no:cacheprovider", "-p", "no:xdist"]
+    passed = all(pytest.main([*options, *file], plugins=[watch]) == 0 for file in job.files)
+    tests = (test._replace(entered=test.entered | watch.shared) for test in watch.tests)
+    answer.send(Outcome(passed, spent(), tuple(tests)))
 
 
-class Copies:
-    """Copies of the tree, one a job, in which test files are run in processes of their own."""
-
-    def __init__(self, place: Path, jobs: int) -> None:
-        self.whole = place / "whole"
-        shutil.copytree(ROOT, self.whole, symlinks=True, ignore=shutil.ignore_patterns(*LEFT))
-        (self.whole / "results").symlink_to(ROOT / "results")
-        compileall.compile_dir(self.whole / "src", quiet=2)
-        self.free = [place / str(job) for job in range(jobs)]
-
-    def refresh(self, copy: Path, fault: Fault | None) -> None:
-        """Make a copy whole, with the machine code that is known, and put a fault into it."""
+def attempt(place: Path, job: Job) -> Outcome:
+    """Run a job in a process of its own: without a fault in the shared copy, else in one of this worker."""
+    copy = place / "whole"
+    if fault := job.fault:
+        copy = place / str(os.getpid())
         if not copy.exists():
-            shutil.copytree(self.whole, copy, symlinks=True)
-        shutil.rmtree(copy / "src")
-        shutil.copytree(self.whole / "src", copy / "src")
-        if fault:
-            path, text = copy / fault.path, (self.whole / fault.path).read_bytes()
-            path.write_bytes(text[: fault.start] + fault.new + text[fault.end :])
-            if b"compiled" in text:  # Numba looks at a function's own file only
-                for kept in path.parent.glob("__pycache__/*.nb[ci]"):
-                    kept.unlink()
-
-
-def outcomes(
-    trials: list[tuple[Fault | None, list[str]]], copies: Copies, slowest: float, done: Callable[[Path], None]
-) -> Iterator[tuple[int, Outcome]]:
-    """What the tests say of each fault, as it becomes known; `done` gets the copy before it is used again."""
+            shutil.copytree(place / "whole", copy, symlinks=True)
+        text = (copy / fault.path).read_bytes()
+        (copy / fault.path).write_bytes(text[: fault.start] + fault.new.encode() + text[fault.end :])
     fork = multiprocessing.get_context("fork")
-    limit, patience = (max(least, n * slowest) for least, n in zip((LIMIT, PATIENCE), TIMES, strict=True))
-    waiting, running = list(enumerate(trials))[::-1], {}
-    while waiting or running:
-        while waiting and copies.free:
-            (index, (fault, files)), copy = waiting.pop(), copies.free.pop()
-            copies.refresh(copy, fault)
-            here, there = fork.Pipe(duplex=False)
-            process = fork.Process(target=run_tests, args=(copy, files, fault is None, limit, there))
-            process.start()
-            there.close()
-            running[here] = process, index, copy, perf_counter() + patience
-        ready = wait(running, timeout=min(end for *_, end in running.values()) - perf_counter())
-        for here, (process, index, copy, end) in list(running.items()):
-            if here not in ready and perf_counter() < end:
-                continue
-            outcome = Outcome("ended")
-            if here in ready:
-                with contextlib.suppress(EOFError):
-                    outcome = here.recv()
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)  # the process and what it started
-            process.join()
-            del running[here]
-            done(copy)
-            copies.free.append(copy)
-            yield index, outcome
+    here, there = fork.Pipe(duplex=False)
+    process = fork.Process(target=run_tests, args=(copy, job, there))
+    process.start()
+    there.close()
+    outcome = Outcome(False)
+    with contextlib.suppress(EOFError):
+        if here.poll(PATIENCE):
+            outcome = here.recv()
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)  # the process and what it started
+    process.join()
+    if fault:
+        shutil.copy2(place / "whole" / fault.path, copy / fault.path)
+    return outcome
 
 
-def test_files() -> list[str]:
-    """Test files that call the library."""
-    tests = {path.relative_to(ROOT) for path in ROOT.glob("tests/*/test_*.py")}
-    return sorted(str(path) for path in tests if not any(path.match(pattern) for pattern in ASIDE))
-
-
-def chosen_tests(fault: Fault, sound: dict[str, Outcome]) -> list[str]:
-    """The test files that a fault meets."""
-    meet = [file for file, outcome in sound.items() if fault.function in outcome.entered]
-    if not meet:
-        module = (fault.function[0], 0)
-        meet = [file for file, outcome in sound.items() if module in outcome.entered]
-    room = fault.path.relative_to(LIBRARY).parts[0].removesuffix(".py")
-    names = {file: re.search(rf"\b{fault.path.stem}\b", (ROOT / file).read_text()) for file in meet}
-    meet.sort(key=lambda file: (names[file] is None, Path(file).parts[1] != room, sound[file].seconds))
-    chosen, seconds = list[str](), 0.0
-    for file in meet:
-        if len(chosen) >= FILES and seconds > SECONDS:
-            break
-        chosen.append(file)
-        seconds += sound[file].seconds
-    return chosen
+def chosen_tests(fault: Fault, sound: dict[str, Outcome]) -> Job:
+    """The tests that a fault meets: files that have most to do with it first, and quick tests first."""
+    stem, all_entered = (
+        fault.path.stem,
+        {place for o in sound.values() for t in o.tests for place in t.entered},
+    )
+    places = [place for place in (fault.function, (fault.function[0], 0)) if place in all_entered]
+    room = "workflow" if fault.path.is_relative_to(SCRIPTS) else fault.path.parts[2].removesuffix(".py")
+    found = []
+    for file, outcome in sound.items():
+        is_named = re.search(rf"\b{stem}\b", (ROOT / file).read_text()) is not None
+        meet = [t for t in outcome.tests if (places[0] in t.entered if places else is_named)]
+        if tests := sorted((stem not in t.name, t.seconds, t.name) for t in meet):
+            start = outcome.seconds - sum(test.seconds for test in outcome.tests)
+            far = 2 - is_named - (Path(file).parts[1] == room)
+            found.append((far, start + sum(seconds for _, seconds, _ in tests), start, tests))
+    files, cost = list[dict[str, float]](), 0.0
+    limit = COMPILING if fault.path.parent.name in COMPILED else LIMIT
+    for *_, start, tests in sorted(found):
+        chosen = dict[str, float]()
+        for _, seconds, name in tests:
+            expected = seconds + (0.0 if chosen else start)
+            if cost + expected <= SECONDS or not cost:
+                chosen[name] = limit + TIMES * expected
+                cost += expected
+        files += [chosen] if chosen else []
+    return Job(files, fault)
 
 
 def main() -> int:
     """Choose faults, try each, and print those that pass."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--number", type=int, default=200)
-    parser.add_argument("--seed", type=int, default=2010)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--number", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=secrets.randbelow(10**6), help="default: a new one")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--all", action="store_true", help="also those that survivors.md explains")
-    parser.add_argument("--under", default="", help="only modules whose path in src/precursors begins so")
+    parser.add_argument("--under", default="", help="only files whose path begins so")
     chosen = parser.parse_args()
     begin = perf_counter()
+    print(f"--seed {chosen.seed}", flush=True)
     for name in HEAVY:
         importlib.import_module(name)
     faults = chosen_faults(chosen.under, chosen.number, chosen.seed)
-    explained = dict(
-        re.findall(r"^- `(.+)`\n  (.+)", (ROOT / "tests/survivors.md").read_text(), re.MULTILINE)
-    )
-    counts, unexplained, sound = Counter[str](), 0, dict[str, Outcome]()
-    with tempfile.TemporaryDirectory() as place:
-        copies = Copies(Path(place).resolve(), chosen.jobs)
-        files = [WARM] * chosen.jobs + test_files()
-
-        def keep(copy: Path) -> None:
-            shutil.copytree(copy / "src", copies.whole / "src", dirs_exist_ok=True)
-
-        for index, outcome in outcomes([(None, [file]) for file in files], copies, PATIENCE, keep):
-            if outcome.verdict == "passed":
-                sound[files[index]] = outcome
-            else:
-                print(f"{files[index]} fails without a fault: left out", flush=True)
-        print(f"{len(sound)} test files: {perf_counter() - begin:.0f} s", flush=True)
-        known = [fault.told() for fault in faults if fault.told() in explained and not chosen.all]
-        for told in known:
-            print(f"survives: {told}\n    {explained[told]}")
-        counts["passed"] = len(known)
-        trials = [(fault, chosen_tests(fault, sound)) for fault in faults if fault.told() not in known]
-        slowest = max(outcome.wall for outcome in sound.values())
-        for index, outcome in outcomes(trials, copies, slowest, lambda copy: None):
-            counts[outcome.verdict] += 1
-            if outcome.verdict == "passed":
-                told = trials[index][0].told()
-                unexplained += told not in explained
-                print(f"survives: {told}\n    {explained.get(told, 'NOT EXPLAINED')}", flush=True)
-            elif counts.total() % 20 == 0:
-                print(f"{counts.total()} of {len(faults)}: {perf_counter() - begin:.0f} s", flush=True)
-    seen = 1 - counts["passed"] / len(faults)
+    words = (ROOT / "tests/survivors.md").read_text()
+    explained = dict(re.findall(r"^- `(.+)`\n  (.+)", words, re.MULTILINE))
+    survivors = [fault.told() for fault in faults if fault.told() in explained]
+    tests = (path.relative_to(ROOT) for path in ROOT.glob("tests/*/test_*.py"))
+    files = sorted(str(path) for path in tests if not any(path.match(pattern) for pattern in ASIDE))
+    fork = multiprocessing.get_context("fork")
+    with tempfile.TemporaryDirectory() as directory, ProcessPoolExecutor(chosen.jobs, fork) as pool:
+        place = Path(directory).resolve()
+        shutil.copytree(ROOT, place / "whole", symlinks=True, ignore=shutil.ignore_patterns(*LEFT))
+        (place / "whole/results").symlink_to(ROOT / "results")
+        compileall.compile_dir(place / "whole/src", quiet=2)
+        code = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "precursors").expanduser()
+        if code.is_dir():  # machine code that is kept
+            shutil.copytree(code, place / "precursors")
+        outcomes = pool.map(partial(attempt, place), [Job([{file: 0.0}]) for file in files])
+        sound = dict(zip(files, outcomes, strict=True))
+        for file in [file for file, outcome in sound.items() if not outcome.passed]:
+            print(f"{file} fails without a fault: left out", flush=True)
+            del sound[file]
+        print(f"{len(sound)} test files without a fault: {perf_counter() - begin:.0f} s", flush=True)
+        tried = [fault for fault in faults if fault.told() not in explained]
+        jobs = [chosen_tests(fault, sound) for fault in tried]
+        for fault, outcome in zip(tried, pool.map(partial(attempt, place), jobs), strict=True):
+            if outcome.passed:
+                survivors.append(fault.told())
+                print(f"survives {len(outcome.tests)} tests: {survivors[-1]}", flush=True)
+    seen, used = 1 - len(survivors) / len(faults), resource.getrusage(resource.RUSAGE_CHILDREN)
     print(
-        f"{seen:.1%} of {len(faults)} faults are seen, in {perf_counter() - begin:.0f} s: {dict(counts)}; "
-        f"{unexplained} survivors are not explained"
+        f"{seen:.1%} of {len(faults)} faults are seen (--seed {chosen.seed}); survivors.md explains "
+        f"{len(faults) - len(tried)} of {len(survivors)} survivors; it took {perf_counter() - begin:.0f} s, "
+        f"and {used.ru_utime + used.ru_stime:.0f} s of processor time"
     )
-    return int(seen < SHARE or unexplained > 0)
+    return int(seen < SHARE)
 
 
 if __name__ == "__main__":

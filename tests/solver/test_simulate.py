@@ -556,3 +556,16 @@ def test_a_run_that_is_cut_in_two_has_the_transitions_of_the_whole():
     np.testing.assert_allclose(found, whole.transitions["time"], rtol=0, atol=1e-12)
     blocks = [*first.transitions["block"], *second.transitions["block"]]
     np.testing.assert_array_equal(blocks, whole.transitions["block"])
+
+
+def test_a_run_ends_when_a_slip_has_lasted_too_long():
+    chain = Chain.from_slider()
+    whole = simulate(chain, until="global slip")
+    slips = find_slips(whole)
+    durations = slips["end"] - slips["onset"]
+    longest = 0.5 * durations.max()
+    cut = simulate(chain, longest_slip=longest)
+    onset = slips["onset"][durations > longest].iloc[0]
+    assert cut.duration == pytest.approx(onset + longest, rel=ROUNDING)
+    before = whole.transitions["time"] < cut.duration
+    assert cut.transitions.tolist() == whole.transitions[before].tolist()

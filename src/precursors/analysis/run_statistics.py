@@ -30,8 +30,8 @@ def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, floa
     """Interval that holds the median of what the values were drawn from, in at least this share of cases.
 
     Its ends are two of the values. Each value lies below the median with probability one half, so that the
-    number of those that do is binomial, whatever the distribution. NaN where not even the smallest and the
-    largest value will do: for 95 %, below six values.
+    number of those that do is binomial for any distribution. NaN where even the smallest and the largest
+    value are too near: for 95 %, below six values.
     """
     values = np.sort(np.asarray(values, float))
     left_out = int(scipy.stats.binom.ppf((1.0 - share) / 2.0, len(values), 0.5)) if len(values) else 0

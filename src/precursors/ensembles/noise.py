@@ -95,7 +95,7 @@ def differences_table(members: pd.DataFrame) -> pd.DataFrame:
 
 
 def median_difference(values: pd.Series, others: pd.Series) -> tuple[float, float]:
-    """95 % interval of the difference of two medians, whatever the distributions."""
+    """95 % interval of the difference of two medians, for any distributions."""
     low, high = median_interval(values, EACH_OF_TWO)
     other_low, other_high = median_interval(others, EACH_OF_TWO)
     return low - other_high, high - other_low

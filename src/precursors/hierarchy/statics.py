@@ -23,5 +23,5 @@ def front_load_law(chain: Chain) -> FloatArray:
 
 
 def apparent_friction_law(chain: Chain) -> float:
-    """mu_sapp where the law has the front reach the leading edge: mu_k, whatever the normal loading [1]."""
+    """mu_sapp when the front of the law reaches the leading edge [1]: mu_k for any normal loading."""
     return chain.mu_k

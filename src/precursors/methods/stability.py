@@ -1,4 +1,4 @@
-"""Where fixed-step methods become unstable: what a step makes of the energy, measured.
+"""Where fixed-step methods become unstable: measured energy growth per step.
 
 A chain without friction whose drive rests keeps its energy. A method multiplies the energy of a mode of
 angular frequency omega by a factor in each step, `Smooth.energy_factor(omega dt)`. The fastest mode is

@@ -61,7 +61,7 @@ def check_file(path: str | os.PathLike[str]) -> None:
 
 
 def read_numbers(values: Any) -> Any:
-    """Read the numbers of a section, also as text, which Snakemake makes of --config chain='{mu_k: 0.46}'."""
+    """Numbers of a section, also given as text, as by --config chain='{mu_k: 0.46}'."""
     if not isinstance(values, dict):
         return values
 

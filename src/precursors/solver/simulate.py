@@ -107,7 +107,7 @@ def simulate_many(
     progress: Callable[[int], object] | None = None,
     longest_slip: float | None = None,
 ) -> list[Run]:
-    """Run an ensemble on all cores; every run is what `simulate` makes of its chain, bit for bit.
+    """Run an ensemble on all cores; every run equals that of `simulate`, bit for bit.
 
     Parameters
     ----------

@@ -3,7 +3,7 @@
 While nothing switches, the energy of the fastest mode grows without bound beyond the limit of a method; a
 dissipative one, or one that makes energy, changes it at any step. With friction, a block that starts from
 rest turns back within a step beyond the limit and is stopped at its end: from stop to stop its distance from
-the middle is multiplied by Re R(omega dt), where R is what a step makes of an oscillation. So a slip ends,
+the middle is multiplied by Re R(omega dt), where a step multiplies an oscillation by R. So a slip ends,
 although the step is unstable, up to where this factor exceeds 1 in size.
 """
 

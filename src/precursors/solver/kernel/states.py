@@ -97,7 +97,7 @@ def take_state(row, states, chain, motion):
 
 @unfused
 def propagate(span, chain, motion):
-    """Carry a state forward by `span` without a transition."""
+    """Advance a state by `span`, within which no mode changes."""
     force, n_blocks = motion.spring_force, chain.n_blocks
     farthest = farthest_sliding(n_blocks, motion.mode)
     if motion.mode[farthest] == 0:
