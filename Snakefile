@@ -44,6 +44,10 @@ if "chain" in config:
     config["chain"] = read_numbers(config["chain"])
 try:
     check_config(config, ROOT / "workflow/schemas/config.schema.yaml")
+    if config["figure"]:
+        from precursors.figures.style import Look  # slow
+
+        Look(**config["figure"])
 except ValueError as error:
     raise WorkflowError(str(error)) from None
 if not os.access("results" if os.path.exists("results") else ".", os.W_OK | os.X_OK):

@@ -21,6 +21,7 @@ def finished(_finished, tmp_path_factory):
     ("old", "new", "words"),
     [
         ("mu_k: 0.45", "mu_k: 0.8", "configuration: chain: "),
+        ("figure: {}", "figure: {width_mm: 17}", "the width must be between 40 and 400 mm, but is 17"),
         ("duration: 10.0", "durations: 10.0", "'durations' was unexpected"),
         ("scenes:", "scenes:\n  paper: {title: a, theta: 0}", "scenes.paper has the name of a target"),
         ("scenes:", "scenes:\n  noise: {title: a, theta: 0}", "scenes.noise has the name of a target"),

@@ -182,6 +182,11 @@ def test_a_new_title_and_a_new_number_of_the_paper_simulate_nothing(finished):
     assert finished.would_run() == of_title | of_number | PAPER
 
 
+def test_another_look_draws_the_papers_figures_again(finished):
+    finished.edit("config.yaml", "figure: {}", "figure: {width_mm: 85, font_size: 9}")
+    assert finished.would_run() - PAPER == {"draw_reproduction"}
+
+
 def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):
     finished.edit("config.yaml", "n_blocks: 10\n  mu_s", "n_blocks: 20\n  mu_s")
     jobs = finished.would_run()

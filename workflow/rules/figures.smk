@@ -2,7 +2,7 @@
 
 # Every figure that is drawn from tables, by its file: its section, which one job draws; what it shows; its caption, a file
 # of workflow/report, and its module of precursors.figures, if they have other names than the figure; the tables, which
-# are arguments of the module's function `draw`, and its other arguments.
+# are arguments of the module's function `draw`, its other arguments, and its look where the configuration has one.
 FIGURES = {
     **{
         scene: {
@@ -21,6 +21,7 @@ FIGURES = {
                 ],
             },
             "options": {"title": config["scenes"][scene]["title"]},
+            "look": config["figure"],
         }
         for scene in SCENES
     },
@@ -43,6 +44,7 @@ FIGURES = {
             ],
             "scenes": config["fig13"],
         },
+        "look": config["figure"],
     },
     "definitions": {
         "section": "reproduction",

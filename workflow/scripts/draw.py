@@ -11,22 +11,24 @@ from precursors.figures import style
 
 
 def main(
-    figure: str,
-    tables: Mapping[str, Any],
-    options: Mapping[str, Any],
+    module: str,
     outputs: Sequence[str | Path],
     readers: Mapping[str, str],
+    tables: Mapping[str, Any],
+    options: Mapping[str, Any],
+    look: Mapping[str, Any],
 ) -> None:
     """Draw the tables, once for each file name; several files under one name become a list of tables."""
-    drawn = resolve_name(f"precursors.figures.{figure}:draw")(**read(tables, readers), **options)
+    asked = {"look": style.Look(**look)} if look else {}
+    draw = resolve_name(f"precursors.figures.{module}:draw")
+    drawn = draw(**read(tables, readers), **options, **asked)
     for output in outputs:
-        style.save(drawn, output)
+        style.save(drawn, output, **asked)
 
 
 if __name__ == "__main__":
     with job() as snakemake:
-        readers = snakemake.params.readers
         for name, figure in snakemake.params.figures.items():
             files = [file for file in snakemake.output if Path(file).stem == name]
-            module, tables = figure.get("module", name), figure.get("tables", {})
-            main(module, tables, figure.get("options", {}), files, readers)
+            arguments = [figure.get(key, {}) for key in ("tables", "options", "look")]
+            main(figure.get("module", name), files, snakemake.params.readers, *arguments)
