@@ -1,8 +1,7 @@
-"""A headless Chromium, driven over its DevTools pipe: pages, clicks, the wheel, and what goes wrong."""
+"""A headless Chromium, driven over its DevTools pipe: pages, clicks, keys, and what goes wrong."""
 
 from __future__ import annotations
 
-import base64
 import fcntl
 import json
 import os
@@ -46,7 +45,6 @@ class Page:
         self._session: str | None = None
         self.requests: list[str] = []
         self.complaints: list[str] = []
-        self._traced: list[dict[str, Any]] = []
 
     def open(self, url: str, width: int = 1400, height: int = 900) -> None:
         """Open an address and wait until it has loaded."""
@@ -103,15 +101,11 @@ class Page:
         """Wait until what was asked for is drawn."""
         self.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
-    def move(self, x: float, y: float) -> None:
-        """Point at a pixel."""
-        self._mouse("mouseMoved", x, y)
-
     def click(self, x: float, y: float) -> None:
         """Click on a pixel."""
-        self.move(x, y)
-        for kind in ("mousePressed", "mouseReleased"):
-            self._mouse(kind, x, y, button="left", clickCount=1)
+        for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
+            pressed = {"button": "left", "clickCount": 1} if kind != "mouseMoved" else {}
+            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **pressed)
 
     def press(self, key: str) -> None:
         """Press a key by its name in the DOM: "Tab", "ArrowRight", " "."""
@@ -130,36 +124,6 @@ class Page:
         """Set preferences of the user: prefers_color_scheme="dark"."""
         asked = [{"name": name.replace("_", "-"), "value": value} for name, value in features.items()]
         self.call("Emulation.setEmulatedMedia", features=asked)
-
-    @contextmanager
-    def trace(self) -> Iterator[list[float]]:
-        """Processor times [ms] of the tasks of the page's main thread; the list is filled at the end."""
-        tasks: list[float] = []
-        self._traced = []
-        categories = ["toplevel", "disabled-by-default-devtools.timeline", "__metadata"]
-        self.call("Tracing.start", traceConfig={"includedCategories": categories})
-        yield tasks
-        self.call("Tracing.end")
-        while self._next().get("method") != "Tracing.tracingComplete":
-            pass
-        places = {
-            (e["pid"], e["tid"])
-            for e in self._traced
-            if e["name"] == "thread_name" and e["args"]["name"] == "CrRendererMain"
-        }
-        tasks += [
-            e["tdur"] / 1000
-            for e in self._traced
-            if "tdur" in e and e["name"] == "RunTask" and (e["pid"], e["tid"]) in places
-        ]
-
-    def screenshot(self, path: str | Path) -> None:
-        """Write what is in view as a PNG."""
-        data = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=True)["data"]
-        Path(path).write_bytes(base64.b64decode(data))
-
-    def _mouse(self, kind: str, x: float, y: float, **more: Any) -> None:
-        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
 
     def _next(self) -> dict[str, Any]:
         while b"\0" not in self._buffer:
@@ -184,8 +148,6 @@ class Page:
             self.complaints.append(str(event["args"]))
         elif method == "Log.entryAdded" and event["entry"]["level"] in ("error", "warning"):
             self.complaints.append(event["entry"]["text"])
-        elif method == "Tracing.dataCollected":
-            self._traced += event["value"]
 
 
 @contextmanager

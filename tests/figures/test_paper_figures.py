@@ -25,11 +25,6 @@ def figure():
     return draw("scene")
 
 
-@pytest.fixture(scope="module")
-def lengths():
-    return draw("fig13")
-
-
 def draw_scene(events, duration=10.0):
     return draw("scene", **scene(events, duration))
 
@@ -122,18 +117,18 @@ def test_a_run_that_stops_at_the_global_slip_keeps_its_line_off_the_frame():
     assert draw_scene(slips(), slips()["end_s"].iloc[-1]).axes[1].get_xlim()[1] > 1.03 * FIRST_GLOBAL_S
 
 
-def test_a_run_without_a_global_slip_says_so_and_has_no_magnified_view():
-    figure = draw_scene(slips()[lambda table: ~table["is_global"]])
-    upper, lower = figure.axes
-    assert upper.get_title(loc="left") == r"$\theta = 0$: uniform (no global slip)"
+@pytest.mark.parametrize(
+    ("events", "title", "said"),
+    [
+        (slips()[lambda table: ~table["is_global"]], r"$\theta = 0$: uniform (no global slip)", []),
+        (slips([], []), "uniform", ["no slip event"]),
+    ],
+)
+def test_a_run_without_a_global_slip_says_so_and_has_no_magnified_view(events, title, said):
+    upper, lower = draw_scene(events).axes
+    assert upper.get_title(loc="left") == title
     assert dashed_lines(upper) == dashed_lines(lower) == []
-    assert key(figure) == ["partial slip"]
-
-
-def test_a_run_without_any_slip_says_so():
-    figure = draw_scene(slips([], []), duration=0.3)
-    assert [text.get_text() for text in figure.axes[1].texts] == ["no slip event"]
-    assert figure.axes[0].get_title(loc="left") == "uniform"
+    assert [text.get_text() for text in lower.texts] == said
 
 
 def test_an_event_that_the_end_of_the_run_cuts_off_is_a_band():
@@ -179,20 +174,6 @@ def test_a_measurement_lies_over_the_load_and_over_the_lengths():
     np.testing.assert_array_equal(points, lengths)
     with pytest.raises(ValueError, match="between 0 and 1"):
         draw("fig13", data=100 * lengths)
-
-
-@pytest.mark.parametrize("wrong", [{"width_mm": 8.5}, {"font_size": 90.0}, {"font": "No Such Font"}])
-def test_a_look_that_cannot_be_drawn_is_refused(wrong):
-    with pytest.raises(ValueError, match=r"must be between|not installed"):
-        style.Look(**wrong)
-
-
-def test_a_circle_stands_for_each_event_counted(lengths):
-    circles = markers(lengths, "o")
-    assert [len(points) for points in circles] == [3, N_COUNTED, 4]
-    counted = slips()[lambda table: table["counted"]]
-    np.testing.assert_allclose(circles[1][:, 0], counted["load_before_N"], rtol=ROUNDING)
-    np.testing.assert_allclose(circles[1][:, 1], counted["front"] / N_BLOCKS, rtol=ROUNDING)
 
 
 def test_short_events_up_to_the_global_slip_are_crosses():
