@@ -201,6 +201,31 @@ def friction_map() -> dict:
     return {"table": table, "scenes": [(0.25, 2.0)]}
 
 
+def larger() -> dict:
+    lengths = {"relaxation_time": [0.0, 0.0, 1e-6], "n_blocks": [100, 200, 200], "theory": [0.3, 0.3, 0.5]}
+    columns = [
+        "study",
+        "weakening_velocity",
+        "critical_length",
+        "theta",
+        "n_blocks",
+        "events_counted",
+        "mu_sapp",
+    ]
+    rows = [
+        ("resolution", 0.0, 0.0, 0.0, 10, 9.0, 0.48),
+        ("resolution", 0.0, 0.0, 0.0, 100, 40.0, 0.46),
+        ("resolution", 0.05, 0.25, 0.0, 10, 8.0, 0.52),
+        ("resolution", 0.05, 0.25, 0.0, 100, 10.0, 0.5),
+        ("resolution", 0.05, 0.25, 0.5, 10, 30.0, 0.9),
+        ("loading", 0.05, 0.25, 0.0, 10, 30.0, 0.9),
+    ]
+    table = pd.DataFrame(rows, columns=columns).assign(relaxation_time=0.0)
+    for name in ("events_counted", "mu_sapp"):
+        table = table.assign(**{f"{name}_low": 0.9 * table[name], f"{name}_high": 1.2 * table[name]})
+    return {"nucleation": pd.DataFrame(lengths).assign(measured=[0.2, 0.28, 0.55]), "table": table}
+
+
 def model_comparison() -> dict:
     rows = [
         ("a", "mu_sapp", "paper's chain", 0.49, 0.0, True, True, 3e-3),
@@ -254,6 +279,7 @@ EXAMPLES = {
     "event_law": ("event_law", event_law),
     "friction_map": ("friction_map", friction_map),
     "model_comparison": ("model_comparison", model_comparison),
+    "larger": ("larger", larger),
 }
 
 
