@@ -26,10 +26,11 @@ def test_straight_lines_between_the_rows_of_a_trace_draw_every_slip_of_ten_secon
     assert len(trace.to_csv(index=False)) < MOST_BYTES
 
 
-@pytest.mark.parametrize("n_blocks", [1, 40])
-def test_they_do_so_for_chains_of_other_lengths(n_blocks):
+@pytest.mark.parametrize(("n_blocks", "tolerance"), [(1, TOLERANCE_N), (40, TOLERANCE_N), (10, 1e-2)])
+def test_they_do_so_for_other_chains_and_tolerances_with_no_point_in_vain(n_blocks, tolerance):
     run = simulate(Chain.from_slider(n_blocks=n_blocks), 4.0)
-    assert worst_in_slips(run, *load_curve(run)) <= TOLERANCE_N
+    times, loads = load_curve(run, tolerance)
+    assert tolerance / 100 < worst_in_slips(run, times, loads) <= tolerance
 
 
 def test_a_run_that_ends_within_a_slip_is_drawn_to_its_end():
@@ -49,10 +50,3 @@ def test_points_lie_at_the_transitions_and_else_only_in_slips():
     assert (~in_slip).sum() == 2  # the start and the end
     assert np.isin(run.transitions["time"], times).all()
     assert (np.diff(times) > 0).all()
-
-
-def test_a_looser_tolerance_has_fewer_points_and_holds():
-    run = simulate(Chain.from_slider(), 3.0)
-    few, many = load_curve(run, 1e-2), load_curve(run)
-    assert len(few[0]) < len(many[0])
-    assert worst_in_slips(run, *few) <= 1e-2

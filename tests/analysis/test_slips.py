@@ -58,22 +58,34 @@ def test_an_event_lasts_from_the_first_release_to_the_last_stick():
     assert (event.front, event.n_slid, event.n_simultaneous, event.is_global) == (2, 2, 2, False)
 
 
-def test_a_block_that_turns_slides_on():
-    slips = find_slips(run_of(2, [(1, 1, 1, 9.0), (2, 1, -1, 8.0), (3, 1, 0, 7.0)], 9.0))
-    assert (len(slips), slips.end[0], slips.n_simultaneous[0]) == (1, 3, 1)
+ONE_BY_ONE = [
+    (1, 1, 1, 9.0),
+    (2, 2, 1, 8.0),
+    (3, 1, 0, 7.0),
+    (3.5, 3, 1, 0.0),
+    (4, 2, 0, 6.0),
+    (5, 3, 0, 0.0),
+]
+AT_ONCE = [(5, 1, 1, 9.0), (6, 2, 1, 8.0), (7, 2, 0, 7.0), (8, 1, 0, 6.0)]
+TURNS = [(1, 1, 1, 9.0), (2, 1, -1, 8.0), (3, 1, 0, 7.0)]
+LETS_GO_AT_ONCE = [(1, 1, 1, 9.0), (2, 1, 0, 8.0), (2, 1, 1, 8.0), (3, 1, 0, 7.0)]
 
 
-def test_all_blocks_one_after_the_other_are_no_global_slip():
-    one_by_one = [(1, 1, 1, 9.0), (2, 2, 1, 8.0), (3, 1, 0, 7.0), (4, 2, 0, 6.0)]
-    at_once = [(5, 1, 1, 9.0), (6, 2, 1, 8.0), (7, 2, 0, 7.0), (8, 1, 0, 6.0)]
-    first = find_slips(run_of(3, [*one_by_one[:3], (3.5, 3, 1, 0.0), *one_by_one[3:], (4.5, 3, 0, 0.0)], 9.0))
-    assert (first.n_slid[0], first.n_simultaneous[0], first.is_global[0]) == (3, 2, False)
-    assert find_slips(run_of(2, at_once, 9.0)).is_global[0]
-
-
-def test_a_release_at_the_instant_of_the_last_stick_belongs_to_the_same_event():
-    slips = find_slips(run_of(2, [(1, 1, 1, 9.0), (2, 1, 0, 8.0), (2, 1, 1, 8.0), (3, 1, 0, 7.0)], 9.0))
-    assert (len(slips), slips.end[0]) == (1, 3)
+@pytest.mark.parametrize(
+    ("n_blocks", "transitions", "end", "n_slid", "n_simultaneous", "is_global"),
+    [
+        (3, ONE_BY_ONE, 5, 3, 2, False),  # all blocks, but one after the other
+        (2, AT_ONCE, 8, 2, 2, True),
+        (2, TURNS, 3, 1, 1, False),
+        (2, LETS_GO_AT_ONCE, 3, 1, 1, False),  # at the instant at which the last block sticks
+    ],
+)
+def test_an_event_goes_on_while_a_block_slides_and_is_global_if_all_do_at_once(
+    n_blocks, transitions, end, n_slid, n_simultaneous, is_global
+):
+    (event,) = find_slips(run_of(n_blocks, transitions, 9.0)).itertuples()
+    assert (event.end, event.n_slid, event.n_simultaneous) == (end, n_slid, n_simultaneous)
+    assert event.is_global == is_global
 
 
 def test_an_event_cut_off_by_the_end_of_the_run_has_no_end():
@@ -85,8 +97,7 @@ def test_an_event_cut_off_by_the_end_of_the_run_has_no_end():
 
 def test_a_run_without_transitions_has_no_event():
     slips = find_slips(run_of(2, [], 4.0))
-    assert len(slips) == 0
-    assert len(find_precursors(slips)) == 0
+    assert len(slips) == len(find_precursors(slips)) == 0
 
 
 def test_any_list_of_transitions_has_the_events_of_a_plain_loop():

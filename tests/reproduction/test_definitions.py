@@ -77,12 +77,3 @@ def test_a_reading_without_a_global_slip_has_empty_numbers(tmp_path):
     assert few["mu_sapp"].isna().all()
     assert not few["numbers_within_a_digit"].any()
     assert isinstance(draw(few), Figure)
-
-
-def test_the_figure_has_a_row_for_each_reading(table):
-    (axes,) = draw(table).axes
-    texts = [text.get_text() for text in axes.texts]
-    assert texts[:4] == ["6   0.484", "9   0.486", "14   0.488", "6 of 6"]
-    names = [label.get_text() for label in axes.get_yticklabels()]
-    assert len(texts) == 4 * len(names) == 4 * len(table) / 3
-    assert names[:2] == ["our reading", "global slip: in which every block slides at some time"]

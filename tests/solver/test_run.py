@@ -62,6 +62,13 @@ def test_a_run_without_stored_states_says_that_it_cannot_be_evaluated(run):
             evaluate([1.0])
 
 
+def test_at_time_0_a_run_is_where_it_began():
+    chain, start, velocities = Chain.from_slider(n_blocks=3), [1e-6, -2e-6, 3e-6], [1e-3, 0.0, -1e-3]
+    run = simulate(chain, 0.01, start_positions=start, start_velocities=velocities)
+    np.testing.assert_allclose(run.at([0.0]), [[start], [velocities]], rtol=1e-12)
+    assert run.spring_forces([0.0])[0] == pytest.approx(-chain.springs * np.diff(start, prepend=0.0))
+
+
 def test_a_run_made_from_transitions_has_them_and_knows_no_states(run, tmp_path):
     columns = [run.transitions[name] for name in ("time", "block", "mode", "tangential_load")]
     made = Run.from_transitions(run.chain, run.duration, *columns, run.intervals)
