@@ -106,7 +106,7 @@ $(READY): requirements.lock
 	  quasistatic_slips(chain); simulate_larger(LargerChain(chain, 0.02), 0.1)" & \
 	$(BIN)/python -c "from precursors import Chain; from precursors.methods import METHODS; \
 	  [METHODS[name].solve(Chain.from_slider(), 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'dop853', \
-	  'leapfrog', 'forward_euler', 'newmark', 'moreau_jean_half', 'karnopp')]" & \
+	  'leapfrog', 'forward_euler', 'newmark', 'moreau_jean_half', 'karnopp', 'cvode_adams') if name in METHODS]" & \
 	wait
 	touch $(READY)
 

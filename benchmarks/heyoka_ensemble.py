@@ -9,36 +9,30 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from precursors.methods.events import NUDGE, STICKS, scaled, settle
+from precursors.methods.columns import time_unit
+from precursors.methods.events import STICKS, EventMotion
 from precursors.methods.heyoka_events import integrator_of
 from precursors.model.chain import Chain
 
 
 class Ensemble:
-    """An integrator of a chain whose callbacks know how many blocks slide in the run of their thread."""
+    """An integrator of a chain whose callbacks know the motion of the run of their thread."""
 
     def __init__(self, chain: Chain, duration: float) -> None:
         self.chain = chain
-        self.tau = scaled(chain)[0]
+        self.tau = time_unit(chain)
         self.end = duration / self.tau
         self.run = threading.local()
         self.solver = integrator_of(chain, 0.0, self.callback)
 
     def callback(self, event: int) -> Callable[[Any, int], bool]:
         """Make the transitions of an event; say whether the run goes on, up to its first global slip."""
-        chain, run = self.chain, self.run
 
         def make_transitions(solver: Any, _direction: int) -> bool:
             solver.reset_cooldowns()
-            due = event
-            while due >= 0:
-                settings = solver.pars.reshape(4, -1)
-                _, old, new, due = settle(
-                    solver.state, settings, chain.strength, chain.kinetic_friction, NUDGE, due
-                )
-                run.sliding += abs(new) - abs(old)
-                run.was_global = run.was_global or run.sliding == chain.n_blocks
-            return run.sliding > 0 or not run.was_global
+            motion = self.run.motion
+            motion.y, motion.settings = solver.state, solver.pars.reshape(4, -1)
+            return motion.switch(event, solver.time) or not motion.has_slid_globally
 
         return make_transitions
 
@@ -48,7 +42,7 @@ class Ensemble:
         solver.state[:] = solver.pars[:] = 0.0
         solver.pars.reshape(4, -1)[STICKS] = 1.0
         solver.reset_cooldowns()
-        self.run.sliding, self.run.was_global = 0, False
+        self.run.motion = EventMotion(self.chain, self.end * self.tau, "global slip")
         return solver
 
     def ends(self, n_runs: int, threads: int) -> list[float]:

@@ -12,9 +12,10 @@ from scipy.linalg import expm
 
 from precursors import Chain, Run, TransitionLimitError, find_slips
 from precursors.methods import dop853
+from precursors.methods.columns import time_unit
 from precursors.methods.cvode_events import solve_cvode
 from precursors.methods.dop853 import solve_dop853
-from precursors.methods.events import Motion, settle, time_unit
+from precursors.methods.events import EventMotion
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy, watched
 
@@ -74,24 +75,28 @@ def test_a_method_makes_every_transition_of_the_first_global_slip(uniform, solve
 
 def test_a_step_of_compiled_dop853_is_scipys_with_its_error_and_its_dense_output(uniform):
     motion = in_motion(uniform, [1, 1, 0, -1, 0] * 2, [5.0, -3.0] * 5, [0.5, 0.2, 0.0, -0.3, 0.0] * 2)
-    stepper = DOP853(motion.rates, 0.0, motion.state, 9.0, rtol=1e-7, atol=1e-7, first_step=0.4)
+    stepper = DOP853(motion.rates, 0.0, motion.y, 9.0, rtol=1e-7, atol=1e-7, first_step=0.4)
     stepper.step()
     h = stepper.t
-    k, f = np.empty((16, 20)), np.empty((7, 20))
-    end, trial, values = np.empty((3, 20))
-    k[0] = motion.rates(0.0, motion.state)
-    equations = motion.settings, motion.coupling, motion.drive_velocity
-    dop853.stages(motion.state, *equations, h, k, end, trial)
-    assert end == pytest.approx(stepper.y, abs=STEP_ROUNDING)
-    error = dop853.error_of(motion.state, end, h, k, 1e-7)
+    k, f = np.zeros((16, 2, 12)), np.empty((7, 2, 12))
+    k[0, :, 1:-1] = motion.rates(0.0, motion.y).reshape(2, 10)
+    system, state = motion.system, motion.state.copy()
+    end, trial, values = np.zeros((2, 12)), state[:2].copy(), np.empty(12)
+
+    def y(columns: np.ndarray) -> np.ndarray:
+        return columns[:2, 1:-1].ravel()
+
+    dop853.stages.py_func(system, state, 10, h, k, end, trial)
+    assert y(end) == pytest.approx(stepper.y, abs=STEP_ROUNDING)
+    error = dop853.error_of.py_func(state, 10, end, h, k, 1e-7)
     assert error < 1.0
     longer = min(dop853.SAFETY * error**dop853.EXPONENT, dop853.LONGER)
     assert longer == pytest.approx(stepper.h_abs / h, rel=1e-6)
-    dop853.polynomial(motion.state, end, h, k, f)
+    dop853.polynomial.py_func(state, 10, end, h, k, f)
     for x in (0.2, 0.7):
-        dop853.functions_at(x, motion.state, motion.settings, motion.strength, f, trial, values)
-        assert trial == pytest.approx(stepper.dense_output()(x * h), abs=STEP_ROUNDING)
-        assert values == pytest.approx(motion.event_functions(trial))
+        least = dop853.functions_at(x, system, state, 10, f, trial, values)
+        assert y(trial) == pytest.approx(stepper.dense_output()(x * h), abs=STEP_ROUNDING)
+        assert least == pytest.approx(min(motion.event_functions(y(trial))))
 
 
 @needs("heyoka")
@@ -114,21 +119,18 @@ def test_heyoka_misses_a_stop_where_a_block_starts_exactly_on_the_root_of_its_ve
     assert (golden[right].block, golden[right].mode) == (10, 0)
 
 
-def in_motion(chain: Chain, modes: list[int], forces: list[float], velocities: list[float]) -> Motion:
+def in_motion(chain: Chain, modes: list[int], forces: list[float], velocities: list[float]) -> EventMotion:
     """A motion at t = 0 in the given state [N, N/tau]."""
-    motion = Motion(chain, 1.0, None)
-    modes_now = np.array(modes)
-    motion.settings[:] = abs(modes_now), modes_now * motion.friction, modes_now, 1 - abs(modes_now)
-    motion.state[:] = [*forces, *velocities]
-    motion.n_sliding = int(abs(modes_now).sum())
+    motion = EventMotion(chain, 1.0, None)
+    motion.put(modes, forces, velocities)
     return motion
 
 
 def test_scipy_watches_sliding_blocks_and_both_margins_of_stuck_blocks_beside_them():
     chain = Chain.from_slider(n_blocks=5)
     motion = in_motion(chain, [1, -1, 0, 0, 0], [30.0, 20.0, -25.0, 2.0, 1.0], [3.0, -2.0, 0.0, 0.0, 0.0])
-    everything = motion.event_functions(motion.state)
-    found = {number: function(0.0, motion.state) for number, function in watched(motion)}
+    everything = motion.event_functions(motion.y)
+    found = {number: function(0.0, motion.y) for number, function in watched(motion)}
     assert found == {number: everything[number] for number in (0, 2, 4, 5)}
     # Velocities along the modes, then 80 * 0.7 N -+ the net force on block 3.
     assert found == pytest.approx({0: 3.0, 2: 2.0, 4: 56.0 + 27.0, 5: 56.0 - 27.0})
@@ -150,9 +152,9 @@ def test_blocks_that_stop_at_the_same_instant_to_rounding_both_stop():
 
 def test_a_block_that_stops_under_too_large_a_force_turns_round():
     motion = in_motion(Chain.from_slider(n_blocks=1), [1], [-300.0], [0.0])
-    state, settings = motion.state, motion.settings
-    assert settle(state, settings, motion.strength, motion.friction, 1e-3, 0) == (0, 1, -1, -1)
-    assert state[1] == -1e-3
+    assert motion.switch(0, 0.0)
+    assert motion.run().run.transitions["mode"].tolist() == [-1]
+    assert motion.y[1] == -motion.nudge
 
 
 def test_a_run_that_ends_within_a_slip_ends_at_its_duration(uniform):
@@ -175,12 +177,12 @@ def test_on_a_smooth_stretch_the_order_is_that_of_the_formula(uniform, solver):
     constant = motion.rates(0.0, np.zeros(20))
     matrix = np.column_stack([motion.rates(0.0, unit) - constant for unit in np.eye(20)])
     augmented = np.block([[matrix, constant[:, None]], [np.zeros((1, 21))]])
-    exact = (expm(augmented * end) @ np.append(motion.state, 1.0))[:-1]
+    exact = (expm(augmented * end) @ np.append(motion.y, 1.0))[:-1]
 
     def error(steps):
         length = end / steps
         options = {"first_step": length, "max_step": length, "rtol": 1e6, "atol": 1e6}
-        solution = solve_ivp(motion.rates, (0.0, end), motion.state, solver, **options)
+        solution = solve_ivp(motion.rates, (0.0, end), motion.y, solver, **options)
         assert len(solution.t) == pytest.approx(steps + 1, abs=1)
         return np.linalg.norm(solution.y[:, -1] - exact)
 

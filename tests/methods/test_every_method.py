@@ -11,7 +11,8 @@ import pytest
 
 from precursors import Chain, simulate
 from precursors.methods import METHODS, columns
-from precursors.methods.events import SLIDES, Motion, jacobian, scaled
+from precursors.methods.columns import MOBILITY, time_unit
+from precursors.methods.events import EventMotion, jacobian
 from precursors.methods.regularised import equations
 
 # theta, mu_k, and a time [s] after a block has slid backward: block 3 of 3 and block 1, which turn round, and
@@ -76,14 +77,14 @@ def differences(function, state: np.ndarray, step: float) -> np.ndarray:
 @pytest.mark.parametrize("modes", [[1, 1, 1, 1], [-1, 0, 1, 0], [0, 0, 0, 1], [1, -1, 0, 0]])
 def test_the_jacobian_of_located_events_is_that_of_differences(modes):
     chain = Chain.from_slider(n_blocks=4, theta="5/6", drive_stiffness=3e6)
-    motion, now = Motion(chain, 1.0, None), np.array(modes)
-    motion.settings[:] = abs(now), now * motion.friction, now, 1 - abs(now)
+    motion = EventMotion(chain, 1.0, None)
     state = np.random.default_rng(5).standard_normal(8)
-    state[4:] *= now != 0
-    found = jacobian(motion.settings, scaled(chain)[2], np.zeros((8, 8)))
+    state[4:] *= np.array(modes) != 0
+    motion.put(modes, state[:4], state[4:])
+    found = jacobian(motion.system, motion.state, np.zeros((8, 8)))
     of_differences = differences(lambda y: motion.rates(0.0, y), state, 1e-3)
     # Velocities of blocks that stick are 0, so that a change of them is nothing that happens.
-    slides = np.append(np.ones(4, bool), motion.settings[SLIDES] != 0)
+    slides = np.append(np.ones(4, bool), motion.state[MOBILITY, 1:-1] != 0)
     np.testing.assert_allclose(found[:, slides], of_differences[:, slides], rtol=0, atol=1e-10)
 
 
@@ -91,7 +92,7 @@ def test_the_jacobian_of_regularised_friction_is_that_of_differences():
     chain = Chain.from_slider(n_blocks=4, theta="-5/6")
     width = 1e-2
     rates, matrix = equations(chain, width)
-    unit = width * chain.mass / scaled(chain)[0]  # of velocities, in which friction turns over
+    unit = width * chain.mass / time_unit(chain)  # of velocities, in which friction turns over
     state = unit * np.random.default_rng(6).uniform(-3, 3, 8)
     of_differences = differences(lambda y: rates(0.0, y), state, 1e-5 * unit)
     np.testing.assert_allclose(matrix(0.0, state), of_differences, rtol=1e-6, atol=1e-6)
@@ -99,5 +100,5 @@ def test_the_jacobian_of_regularised_friction_is_that_of_differences():
 
 def test_code_is_compiled_again_after_an_edit_of_any_module_that_has_some():
     modules = Path(columns.__file__).parent.glob("*.py")
-    compiled = re.compile(r"^@(inner|apart|outer|compiled)\b", re.MULTILINE)
+    compiled = re.compile(r"^@(inner|apart|outer|template)\b", re.MULTILINE)
     assert {file.name for file in modules if compiled.search(file.read_text())} == set(columns.COMPILED)

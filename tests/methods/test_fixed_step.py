@@ -11,7 +11,7 @@ from precursors import Chain, Run, TransitionLimitError, find_slips, simulate
 from precursors.accuracy.failures.common import FIVE_SLIPS, transitions_right
 from precursors.accuracy.failures.literal_friction import load_after_limit
 from precursors.methods import METHODS, DivergedError, rk4_located
-from precursors.methods.columns import sliding_forward, system_of
+from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
 from precursors.methods.fixed_step import FIRST_ROOM, march
 from precursors.methods.rk4 import run_rk4
 from precursors.methods.stability import bisect, highest_frequency
@@ -86,18 +86,17 @@ def test_at_a_fine_step_every_method_gives_the_transitions_of_short_chains(name,
 def test_a_slip_of_the_method_in_the_table_is_made_of_its_smooth_steps(name):
     chain, step = Chain.from_slider(n_blocks=1), 1e-6
     run = METHODS[name].solve(chain, 3.6, step, None).run
-    system = system_of(chain)
     release, stop = run.transitions[:2]
     n_steps = round(run.intervals[1] / step)
     for n, stops in ((n_steps - 1, False), (n_steps, True)):
-        state = sliding_forward(system, np.zeros(1))
-        state.spring_force[1] = release["tangential_load"]
+        system, state = sliding_forward(chain, np.zeros(1))
+        state[FORCE, 1] = release["tangential_load"]
         SMOOTH[name].slide(system, state, step, n)
-        assert bool(state.velocity[1] < 0.0) is stops
+        assert bool(state[VELOCITY, 1] < 0.0) is stops
     assert run.intervals[1] == pytest.approx(n_steps * step, rel=CLOCK_ROUNDING)
     # Moreau-Jean time stepping stops the block within the last step, the others after it.
     last_step = LAST_STEP if name.startswith("moreau_jean") else 0.0
-    assert stop["tangential_load"] == pytest.approx(state.spring_force[1], rel=ROUNDING, abs=last_step)
+    assert stop["tangential_load"] == pytest.approx(state[FORCE, 1], rel=ROUNDING, abs=last_step)
 
 
 def test_only_rk4_as_it_stands_makes_steps_while_all_blocks_stick(chain):
@@ -118,7 +117,7 @@ def test_a_record_gets_more_room_and_ends_at_the_limit_of_transitions():
     run = METHODS["rk4_skip"].solve(chain, 10.0, 1e-6, None).run
     assert len(run.transitions) > 2 * FIRST_ROOM
     with pytest.raises(TransitionLimitError, match="max_transitions = 10 reached") as limit:
-        march(run_rk4, (True,), chain, 10.0, 1e-6, max_transitions=10)
+        march(run_rk4, (), chain, 10.0, 1e-6, max_transitions=10)
     first = limit.value.run
     np.testing.assert_array_equal(first.transitions, run.transitions[: len(first.transitions)])
     assert first.intervals.sum() == pytest.approx(first.duration)

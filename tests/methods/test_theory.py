@@ -11,7 +11,7 @@ from scipy.linalg import expm
 
 from precursors import Chain, simulate
 from precursors.methods import METHODS, moreau_jean, newmark
-from precursors.methods.columns import sliding_forward, system_of
+from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
 from precursors.methods.fixed_step import slide
 from precursors.methods.stability import (
     bisect,
@@ -80,15 +80,12 @@ def in_velocities(chain: Chain, spring_force: np.ndarray, velocity: np.ndarray) 
 
 def smooth_error(name: str, n_steps: int) -> float:
     chain = Chain.from_slider()
-    system = system_of(chain)
-    state = sliding_forward(system, VELOCITIES)
+    system, state = sliding_forward(chain, VELOCITIES)
     SMOOTH[name].slide(system, state, STRETCH / n_steps, n_steps)
     force, velocity = np.split(exact_motion(chain, STRETCH), 2)
     assert (velocity > 0).all()
     return float(
-        np.linalg.norm(
-            in_velocities(chain, state.spring_force[1:-1] - force, state.velocity[1:-1] - velocity)
-        )
+        np.linalg.norm(in_velocities(chain, state[FORCE, 1:-1] - force, state[VELOCITY, 1:-1] - velocity))
     )
 
 

@@ -1,4 +1,4 @@
-"""The chain in columns: what compiled methods know of it, its forces, and its motion while nothing switches.
+"""The chain in columns: what every method knows of it, its forces, and its motion while nothing switches.
 
 The state is the force T_i in the spring behind each block and the block's velocity v_i (Eqs. 2-6):
 
@@ -6,26 +6,32 @@ The state is the force T_i in the spring behind each block and the block's veloc
 
 with c = K, k, k, ... and v_0 = V. Unlike positions, these numbers do not grow with the drive, so their
 rounding does not grow either. Column 0 of every array is the drive, columns 1..N the blocks, column N + 1
-the free end."""
+the free end.
+
+Units are SI, or those of solvers with a tolerance, which meet numbers near one: force in N, time in
+tau = sqrt(m / stiffest spring), velocity in N/tau. Then 1/m and the largest c_i are 1."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
-from numba import njit
-from numpy.typing import NDArray
+from numba import int64, njit
 
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.switching import COULOMB, FORWARD_ONLY, KINETIC
+from precursors.model.switching import COULOMB, FORWARD_ONLY
+from precursors.model.switching import KINETIC as KINETIC_LIMIT
 from precursors.solver.kernel.compiled import entry
 
 # Numba counts references to all arrays of a tuple at each call, which costs more than a step. So what is
-# called in every step is inlined.
-apart = njit(error_model="numpy", fastmath={"contract"})
+# called in every step is inlined. Assignments to slices are loops here: Numba compiles their errors' texts.
+# A function is compiled anew for a literal number, unless its variable has a type.
+apart = njit(error_model="numpy", fastmath={"contract"}, locals={"first": int64})
 inner = njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
+# Written into its only caller before that is compiled, not compiled for itself as well.
+template = njit(inline="always")
 # Python calls these; their code is kept until one of these files is edited, or their own.
 COMPILED = (
     "columns.py",
@@ -41,100 +47,95 @@ COMPILED = (
 )
 outer = entry(Path(__file__).parent, COMPILED, error_model="numpy", fastmath={"contract"}, nogil=True)
 
+# Rows of a system, which stay: the spring behind each column [N/m], 1/m, mu_s w and mu_k w [N]; the largest
+# forces [N] that do not release a stuck block backward and do not turn a stopping block round.
+SPRING, INVERSE_MASS, STRENGTH, KINETIC, BACKWARD, TURNING = range(6)
+# Rows of a state, which change: spring force [N], velocity [m/s], mode, 1/m where a block slides, mode_i mu_k
+# w_i [N]. The first two are also those of its rates, and of states that a method tries.
+FORCE, VELOCITY, MODE, MOBILITY, FRICTION = range(5)
 
-class System(NamedTuple):
-    """What stays: 1/m, V, and for each column the spring behind it [N/m], mu_s w and mu_k w [N].
-
-    `backward` [N] is the largest force that does not release a stuck block backward, `turning` [N] the
-    largest that does not turn a stopping block round: see `SWITCHING_RULES`.
-    """
-
-    inverse_mass: float
-    drive_velocity: float
-    spring: FloatArray
-    strength: FloatArray
-    kinetic_friction: FloatArray
-    backward: FloatArray
-    turning: FloatArray
-
-
-# Rule of switching: from mu_s w and mu_k w to `System.backward` and `System.turning`. The first is ours.
+# Rule of switching: from mu_s w and mu_k w to the rows BACKWARD and TURNING. The first is ours.
 SWITCHING_RULES: dict[str, Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]] = {
     COULOMB: lambda strength, _kinetic: (strength, strength),
-    KINETIC: lambda strength, kinetic: (strength, kinetic),
+    KINETIC_LIMIT: lambda strength, kinetic: (strength, kinetic),
     FORWARD_ONLY: lambda strength, _kinetic: (np.full_like(strength, np.inf),) * 2,
 }
 
 
-class State(NamedTuple):
-    """What changes: spring force [N], velocity [m/s], mode, 1/m where a block slides, mode_i mu_k w_i [N]."""
-
-    spring_force: FloatArray
-    velocity: FloatArray
-    mode: NDArray[np.int64]
-    mobility: FloatArray
-    friction: FloatArray
+def time_unit(chain: Chain) -> float:
+    """tau [s]."""
+    return math.sqrt(chain.mass / float(np.max(chain.springs)))
 
 
-def system_of(chain: Chain, rule: str = COULOMB) -> System:
-    """Put a chain into columns, with a rule of switching."""
-    friction = chain.strength, chain.kinetic_friction
-    columns = chain.springs, *friction, *SWITCHING_RULES[rule](*friction)
-    return System(1.0 / chain.mass, chain.drive_velocity, *(np.pad(values, 1) for values in columns))
+def at_rest(chain: Chain, rule: str = COULOMB, scaled: bool = False) -> tuple[FloatArray, FloatArray]:
+    """System and state of a chain whose blocks all stick, springs at natural length; `scaled`: in tau."""
+    system, state = np.zeros((6, chain.n_blocks + 2)), np.zeros((5, chain.n_blocks + 2))
+    blocks = system[:, 1:-1]
+    blocks[SPRING], blocks[INVERSE_MASS] = chain.springs, 1.0 / chain.mass
+    blocks[STRENGTH], blocks[KINETIC] = chain.strength, chain.kinetic_friction
+    blocks[BACKWARD], blocks[TURNING] = SWITCHING_RULES[rule](blocks[STRENGTH], blocks[KINETIC])
+    state[VELOCITY, 0] = chain.drive_velocity
+    if scaled:
+        blocks[SPRING] /= np.max(chain.springs)
+        blocks[INVERSE_MASS] = 1.0
+        state[VELOCITY, 0] *= chain.mass / time_unit(chain)
+    return system, state
 
 
-def at_rest(system: System) -> State:
-    """All blocks stick, springs at natural length."""
-    n = len(system.spring)
-    state = State(np.zeros(n), np.zeros(n), np.zeros(n, np.int64), np.zeros(n), np.zeros(n))
-    state.velocity[0] = system.drive_velocity
-    return state
+def set_modes(system: FloatArray, state: FloatArray, modes: FloatArray) -> None:
+    """Set the modes of all blocks, shape (N,), and what follows from them."""
+    state[MODE, 1:-1] = modes
+    state[MOBILITY], state[FRICTION] = abs(state[MODE]) * system[INVERSE_MASS], state[MODE] * system[KINETIC]
 
 
-def sliding_forward(system: System, velocities: FloatArray) -> State:
-    """All blocks slide forward with the given velocities [m/s], shape (N,), springs at natural length."""
-    state = at_rest(system)
-    state.velocity[1:-1] = velocities
-    state.mode[1:-1] = 1
-    state.mobility[1:-1] = system.inverse_mass
-    state.friction[:] = system.kinetic_friction
-    return state
+def sliding_forward(chain: Chain, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """System and state of blocks that slide forward [m/s], shape (N,), springs at natural length."""
+    system, state = at_rest(chain)
+    set_modes(system, state, np.ones(chain.n_blocks))
+    state[VELOCITY, 1:-1] = velocities
+    return system, state
+
+
+# Equations of motion
+
+
+@inner
+def net_force(y, i):
+    """Force of the springs on block i (Eqs. 2-4)."""
+    return y[FORCE, i] - y[FORCE, i + 1]
 
 
 @inner
 def by_mode(_system, state, i, net, velocity, _parameter):
     """Velocity of block i as the springs see it, and its acceleration: friction is that of its mode."""
-    return velocity, state.mobility[i] * (net - state.friction[i])
+    return velocity, state[MOBILITY, i] * (net - state[FRICTION, i])
 
 
 @inner
-def rates(law, parameter, system, state, last, spring_force, velocity, force_rate, acceleration):
-    """Right-hand side (Eqs. 2-6) of blocks 1..last under a law of friction; blocks ahead of these rest."""
-    behind = velocity[0]
+def rates(law, parameter, system, state, last, y, rate):
+    """Rates of a state y under a law of friction (Eqs. 2-6); blocks ahead of 1..last rest."""
+    behind = y[VELOCITY, 0]
     for i in range(1, last + 1):
-        net = spring_force[i] - spring_force[i + 1]
-        here, acceleration[i] = law(system, state, i, net, velocity[i], parameter)
-        force_rate[i] = system.spring[i] * (behind - here)
+        here, rate[VELOCITY, i] = law(system, state, i, net_force(y, i), y[VELOCITY, i], parameter)
+        rate[FORCE, i] = system[SPRING, i] * (behind - here)
         behind = here
-    force_rate[last + 1] = system.spring[last + 1] * behind
-    acceleration[last + 1] = 0.0
+    rate[FORCE, last + 1] = system[SPRING, last + 1] * behind
+    rate[VELOCITY, last + 1] = 0.0
 
 
 @inner
 def accelerate(state, last, h):
-    """Change the velocities of blocks 1..last by h times the acceleration (Eqs. 2-4)."""
-    force, velocity, mobility, friction = state.spring_force, state.velocity, state.mobility, state.friction
+    """Change the velocities of blocks 1..last by h times the acceleration."""
     for i in range(1, last + 1):
-        velocity[i] += h * mobility[i] * (force[i] - force[i + 1] - friction[i])
+        state[VELOCITY, i] += h * state[MOBILITY, i] * (net_force(state, i) - state[FRICTION, i])
 
 
 @inner
 def stretch(system, state, last, h):
     """Change the spring forces by what blocks 1..last move in a time h at their velocities."""
-    force, velocity, spring = state.spring_force, state.velocity, system.spring
     for i in range(1, last + 1):
-        force[i] += h * spring[i] * (velocity[i - 1] - velocity[i])
-    force[last + 1] += h * spring[last + 1] * velocity[last]
+        state[FORCE, i] += h * system[SPRING, i] * (state[VELOCITY, i - 1] - state[VELOCITY, i])
+    state[FORCE, last + 1] += h * system[SPRING, last + 1] * state[VELOCITY, last]
 
 
 @inner
@@ -144,7 +145,7 @@ def solve_springs(system, state, last, weight, result, factor):
     `result` is r and becomes x, by elimination of the tridiagonal system; x_0 is given, and x_i = r_i where
     block i sticks.
     """
-    spring, mobility = system.spring, state.mobility
+    spring, mobility = system[SPRING], state[MOBILITY]
     factor[0] = 0.0
     for i in range(1, last + 1):
         behind, ahead = weight * mobility[i] * spring[i], weight * mobility[i] * spring[i + 1]
@@ -156,26 +157,22 @@ def solve_springs(system, state, last, weight, result, factor):
         result[i] += factor[i] * result[i + 1]
 
 
-@inner
-def rows(state, n):
-    """Arrays of n rows to work in; row 3 begins with the drive's velocity, for a trial velocity."""
-    result = np.zeros((n, state.velocity.shape[0]))
-    result[3, 0] = state.velocity[0]
-    return result
+# Stick and slip (Eq. 5)
 
 
 @inner
-def mode_at_rest(net, forward, backward):
-    """Mode of a block without velocity under the net force of its springs, held up to two limits."""
-    if net > forward:
-        return 1
-    return -1 if net < -backward else 0
+def event_function(system, state, y, i):
+    """What is positive while block i keeps its mode in a state y: its velocity along it, or a margin [N]."""
+    if state[MODE, i] != 0.0:
+        return state[MODE, i] * y[VELOCITY, i]
+    net = net_force(y, i)
+    return min(system[STRENGTH, i] - net, system[BACKWARD, i] + net)
 
 
 @inner
 def resting_mode(system, state, i):
-    """Mode of a block with zero velocity: by the rule of switching it sticks or follows the force."""
-    net = state.spring_force[i] - state.spring_force[i + 1]
-    if state.mode[i] == 0:
-        return mode_at_rest(net, system.strength[i], system.backward[i])
-    return mode_at_rest(net, system.turning[i], system.turning[i])
+    """Mode of a block that stops: by the rule of switching it sticks, or slides on along the force."""
+    net, limit = net_force(state, i), system[TURNING, i]
+    if net > limit:
+        return 1
+    return -1 if net < -limit else 0

@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from precursors.methods.common import Method, Result
-from precursors.methods.events import Motion, event_functions, jacobian, march_restarting, rates
+from precursors.methods.events import EventMotion, event_functions, jacobian, march_restarting, rates_of
 from precursors.model.chain import Chain, FloatArray
 
 Formula = Literal["Adams", "BDF"]
@@ -45,33 +45,35 @@ def solve_cvode(
     RuntimeError
         If CVODE reports a failure.
     """
-    motion = Motion(chain, duration, until)
+    motion = EventMotion(chain, duration, until)
     solver = _solver(motion, tolerance, formula)
 
     def next_transition(time: float) -> tuple[float, int]:
-        solver.init_step(time, motion.state)
+        solver.init_step(time, motion.y)
         solution = solver.step(motion.remaining, tstop=motion.remaining)
         motion.evaluations += int(solution.nfev)
         if not solution.success:
             raise RuntimeError(f"CVODE at t = {motion.onset:.9g} s: {solution.message}")
-        motion.state[:] = solution.y
+        motion.y[:] = solution.y
         fired = np.flatnonzero(solution.i_events[-1]) if solution.status == EVENT_FOUND else [-1]
         return float(solution.t), int(fired[0])
 
     return march_restarting(motion, next_transition)
 
 
-def _solver(motion: Motion, tolerance: float, formula: Formula) -> Any:
+def _solver(motion: EventMotion, tolerance: float, formula: Formula) -> Any:
     from sksundae.cvode import CVODE
 
+    system, modes = motion.system, motion.state
+
     def right_hand_side(_time: float, state: FloatArray, result: FloatArray) -> None:
-        rates(state, motion.settings, motion.coupling, motion.drive_velocity, result)
+        rates_of(state, system, modes, result)
 
     def events(_time: float, state: FloatArray, result: FloatArray) -> None:
-        event_functions(state, motion.settings, motion.strength, result)
+        event_functions(state, system, modes, result)
 
     def matrix(_time: float, _state: FloatArray, _rates: FloatArray, result: FloatArray) -> None:
-        jacobian(motion.settings, motion.coupling, result)
+        jacobian(system, modes, result)
 
     n_events = 2 * motion.chain.n_blocks
     events.terminal = [True] * n_events  # type: ignore[attr-defined]

@@ -9,13 +9,31 @@ Python. Events are looked for at `PROBES` points of each step, so that two roots
 from __future__ import annotations
 
 import math
-from functools import partial
 
 import numpy as np
 from scipy.integrate import DOP853
 
+from precursors.methods.columns import (
+    apart,
+    by_mode,
+    event_function,
+    inner,
+    outer,
+    rates,
+    template,
+    time_unit,
+)
 from precursors.methods.common import Method, Result
-from precursors.methods.events import Motion, compiled, event_functions, march_restarting, rates
+from precursors.methods.events import NUDGE, nudge_starting
+from precursors.methods.fixed_step import (
+    LEGS_PER_CALL,
+    MOVING,
+    PAUSED,
+    begin_leg,
+    feels,
+    march,
+    switch,
+)
 from precursors.model.chain import Chain
 
 STAGES = 12
@@ -26,145 +44,178 @@ A[:STAGES, :STAGES], A[STAGES, :STAGES], A[STAGES + 1 :] = DOP853.A, DOP853.B, D
 DENSE, FIFTH, THIRD = map(np.ascontiguousarray, (DOP853.D, DOP853.E5, DOP853.E3))
 # Of the step: caution, exponent of the error and limits of the change, as in SciPy; the first over its order.
 SAFETY, EXPONENT, SHORTER, LONGER, FIRST_STEP = 0.9, -1.0 / 8.0, 0.2, 10.0, 3.0
-PROBES, CORRECTIONS, TIGHT, ROOT_ERROR = 8, 60, 1e-10, 1e-15
+PROBES, CORRECTIONS, ROOT_ERROR = 8, 60, 1e-15
 
 
-@compiled
-def stages(state, settings, coupling, drive_velocity, h, k, end, trial):
+@inner
+def stages(system, state, last, h, k, end, trial):
     """Rates `k` of all stages of a step h, the first being known, and the state at its end."""
     for stage in range(1, 16):
-        trial[:] = state
+        for row in range(2):
+            for i in range(1, last + 2):
+                trial[row, i] = state[row, i]
         for before in range(stage):
             share = h * A[stage, before]
             if share != 0.0:
-                for i in range(state.shape[0]):
-                    trial[i] += share * k[before, i]
-        rates(trial, settings, coupling, drive_velocity, k[stage])
+                for row in range(2):
+                    for i in range(1, last + 2):
+                        trial[row, i] += share * k[before, row, i]
+        rates(by_mode, 0.0, system, state, last, trial, k[stage])
         if stage == STAGES:
-            end[:] = trial
+            for row in range(2):
+                for i in range(1, last + 2):
+                    end[row, i] = trial[row, i]
 
 
-@compiled
-def error_of(state, end, h, k, tolerance):
+@inner
+def error_of(state, last, end, h, k, tolerance):
     """Error of a step, where 1 is allowed: the norm of II.10."""
     fifth = third = 0.0
-    for i in range(state.shape[0]):
-        scale = tolerance * (1.0 + max(abs(state[i]), abs(end[i])))
-        a = b = 0.0
-        for stage in range(STAGES):
-            a += FIFTH[stage] * k[stage, i]
-            b += THIRD[stage] * k[stage, i]
-        fifth += (a / scale) ** 2
-        third += (b / scale) ** 2
-    return h * fifth / math.sqrt((fifth + 0.01 * third) * state.shape[0]) if fifth > 0.0 else 0.0
+    for row in range(2):
+        for i in range(1, last + 2):
+            scale = tolerance * (1.0 + max(abs(state[row, i]), abs(end[row, i])))
+            a = b = 0.0
+            for stage in range(STAGES):
+                a += FIFTH[stage] * k[stage, row, i]
+                b += THIRD[stage] * k[stage, row, i]
+            fifth += (a / scale) * (a / scale)
+            third += (b / scale) * (b / scale)
+    n = 2 * (state.shape[1] - 2)
+    return h * fifth / math.sqrt((fifth + 0.01 * third) * n) if fifth > 0.0 else 0.0
 
 
-@compiled
-def polynomial(state, end, h, k, f):
+@inner
+def polynomial(state, last, end, h, k, f):
     """Coefficients `f` of the dense output."""
-    for i in range(state.shape[0]):
-        f[0, i] = end[i] - state[i]
-        f[1, i] = h * k[0, i] - f[0, i]
-        f[2, i] = 2.0 * f[0, i] - h * (k[0, i] + k[STAGES, i])
-        for row in range(4):
-            f[3 + row, i] = 0.0
-            for stage in range(16):
-                f[3 + row, i] += h * DENSE[row, stage] * k[stage, i]
+    for row in range(2):
+        for i in range(1, last + 2):
+            change = end[row, i] - state[row, i]
+            start = h * k[0, row, i] - change
+            f[0, row, i], f[1, row, i] = change, start
+            f[2, row, i] = 2.0 * change - h * (k[0, row, i] + k[STAGES, row, i])
+            for power in range(4):
+                total = 0.0
+                for stage in range(16):
+                    total += h * DENSE[power, stage] * k[stage, row, i]
+                f[3 + power, row, i] = total
 
 
-@compiled
-def functions_at(x, state, settings, strength, f, result, values):
-    """State at the part x of a step by the dense output, and the event functions in it."""
-    for i in range(state.shape[0]):
-        y = 0.0
-        for row in range(7):
-            y = (y + f[6 - row, i]) * (x if row % 2 == 0 else 1.0 - x)
-        result[i] = state[i] + y
-    event_functions(result, settings, strength, values)
+@apart
+def functions_at(x, system, state, last, f, result, values):
+    """State at the part x of a step by the dense output, and the event functions in it; the least of them."""
+    for row in range(2):
+        for i in range(1, last + 2):
+            y = 0.0
+            for power in range(7):
+                y = (y + f[6 - power, row, i]) * (x if power % 2 == 0 else 1.0 - x)
+            result[row, i] = state[row, i] + y
+    least = math.inf
+    for i in range(1, feels(state, last) + 1):
+        values[i] = event_function(system, state, result, i)
+        least = min(least, values[i])
+    return least
 
 
-@compiled
-def first_root(low, high, before, after, state, settings, strength, f):
-    """First root between two parts of a step, with values of the functions there, and its event."""
-    result, values = np.empty_like(state), np.empty_like(state)
-    root, event = high, -1
-    for j in range(state.shape[0]):
+@inner
+def first_root(low, high, before, after, system, state, last, f, result, values):
+    """First root between two parts of a step, with values of the functions there, and its block."""
+    root, block = high, 0
+    for j in range(1, feels(state, last) + 1):
         if after[j] >= 0.0:
             continue
         a, b, g, g_b, x = low, high, max(before[j], 0.0), after[j], high
         for _ in range(CORRECTIONS):  # false position, halving the value of an end that stays (Illinois)
             x_before, x = x, b - g_b * (b - a) / (g_b - g)
-            functions_at(x, state, settings, strength, f, result, values)
+            functions_at(x, system, state, last, f, result, values)
             if values[j] < 0.0:
                 b, g_b, g = x, values[j], 0.5 * g
             else:
                 a, g, g_b = x, values[j], 0.5 * g_b
             if x == x_before or b - a < ROOT_ERROR or values[j] == 0.0:
                 break
-        if event < 0 or x < root:
-            root, event = x, j
-    return root, event
+        if block == 0 or x < root:
+            root, block = x, j
+    return root, block
 
 
-@compiled
-def advance(state, settings, coupling, strength, drive_velocity, tolerance, clock):
-    """Go on to the next event, or to the end of the run: the number of the event, or -1.
+@inner
+def copy(y, last, result):
+    """Copy a state up to the next after the last block that slides."""
+    for row in range(2):
+        for i in range(1, last + 2):
+            result[row, i] = y[row, i]
 
-    `clock` is time, end, length of the next step [tau], and evaluations made.
-    """
-    n = state.shape[0]
-    k, f = np.empty((16, n)), np.empty((7, n))
-    end, trial, before, after = np.empty((4, n))
-    rates(state, settings, coupling, drive_velocity, k[0])
-    event_functions(state, settings, strength, before)
-    clock[3] += 1
-    while clock[0] < clock[1]:
-        h = min(clock[2], clock[1] - clock[0])
-        stages(state, settings, coupling, drive_velocity, h, k, end, trial)
-        clock[3] += 15
-        error = error_of(state, end, h, k, tolerance)
+
+@template
+def advance(motion, tolerance, until, watches):
+    """Go on to the next event where it `watches` for one, or to a time [tau]: the block, or 0."""
+    system, state, progress = motion.system, motion.state, motion.progress[0]
+    n, last = state.shape[1], progress.last
+    k, f = np.zeros((16, 2, n)), np.zeros((7, 2, n))
+    end, trial = np.zeros((2, n)), state[:2].copy()
+    before, after = np.zeros(n), np.zeros(n)
+    rates(by_mode, 0.0, system, state, last, state, k[0])
+    for i in range(1, feels(state, last) + 1):
+        before[i] = event_function(system, state, state, i)
+    progress.evaluations += 1
+    longest = FIRST_STEP * tolerance**-EXPONENT
+    while progress.elapsed < until:
+        remaining = until - progress.elapsed
+        h = min(longest, remaining)
+        stages(system, state, last, h, k, end, trial)
+        progress.evaluations += 15
+        error = error_of(state, last, end, h, k, tolerance)
         change = SAFETY * max(error, 1e-99) ** EXPONENT
         if not error < 1.0:
-            clock[2] = h * max(change, SHORTER)
+            longest = h * max(change, SHORTER)
             continue
-        if h == clock[2]:
-            clock[2] = h * min(change, LONGER)
-        polynomial(state, end, h, k, f)
-        for probe in range(1, PROBES + 1):
-            functions_at(probe / PROBES, state, settings, strength, f, trial, after)
-            if after.min() < 0.0:
-                bounds = (probe - 1) / PROBES, probe / PROBES
-                root, event = first_root(*bounds, before, after, state, settings, strength, f)
-                functions_at(root, state, settings, strength, f, trial, after)
-                clock[0] += root * h
-                state[:] = trial
-                return event
-            before[:] = after
-        clock[0] = clock[1] if h == clock[1] - clock[0] else clock[0] + h
-        state[:], k[0] = end, k[STAGES]
-    return -1
+        if h == longest:
+            longest = h * min(change, LONGER)
+        if watches:
+            polynomial(state, last, end, h, k, f)
+            for probe in range(1, PROBES + 1):
+                high = probe / PROBES
+                if functions_at(high, system, state, last, f, trial, after) < 0.0:
+                    low = (probe - 1) / PROBES
+                    root, block = first_root(low, high, before, after, system, state, last, f, trial, end[0])
+                    functions_at(root, system, state, last, f, trial, after)
+                    progress.elapsed += root * h
+                    copy(trial, last, state)
+                    return block
+                before, after = after, before
+        progress.elapsed = until if h == remaining else progress.elapsed + h
+        copy(end, last, state)
+        copy(k[STAGES], last, k[0])
+    return 0
 
 
-def next_transition(motion: Motion, time: float, tolerance: float = TIGHT) -> tuple[float, int]:
-    """Go on to the next transition: when it is [tau] and its event, or -1 at the end of the run."""
-    clock = np.array([time, motion.remaining, FIRST_STEP * tolerance**-EXPONENT, 0.0])
-    event = advance(
-        motion.state,
-        motion.settings,
-        motion.coupling,
-        motion.strength,
-        motion.drive_velocity,
-        tolerance,
-        clock,
-    )
-    motion.evaluations += int(clock[3])
-    return float(clock[0]), event
+@outer
+def run_dop853(motion, tolerance, window):
+    """Run until the end, a full record or a spent budget of transitions.
+
+    Transitions that are due within a window [tau] after another are made together at its end.
+    """
+    state, progress = motion.state, motion.progress[0]
+    for _ in range(LEGS_PER_CALL):
+        status = begin_leg(motion)
+        if status != MOVING:
+            return status
+        nudge_starting(state, NUDGE)
+        watches = window == 0.0 or progress.elapsed >= progress.noted + window
+        until = progress.remaining if watches else min(progress.noted + window, progress.remaining)
+        block = advance(motion, tolerance, until, watches)
+        switch(motion, block)
+    return PAUSED
 
 
-def solve_dop853(chain: Chain, duration: float, tolerance: float, until: str | None = None) -> Result:
-    """Run a chain by DOP853; rtol is the tolerance, atol the same number in N and N/tau (see `events`)."""
-    motion = Motion(chain, duration, until)
-    return march_restarting(motion, partial(next_transition, motion, tolerance=tolerance))
+def solve_dop853(
+    chain: Chain, duration: float, tolerance: float, until: str | None = None, window: float = 0.0
+) -> Result:
+    """Run a chain by DOP853; rtol is the tolerance, atol the same number in N and N/tau (see `columns`).
+
+    Transitions that are due within a window [s] after another are made together at its end.
+    """
+    return march(run_dop853, (window / time_unit(chain),), chain, duration, tolerance, until, scaled=True)
 
 
 METHODS = (

@@ -1,37 +1,55 @@
-"""What methods that locate transitions as events share: the motion, its event functions and the switching.
+"""A chain in motion for the solvers of others: their state, its event functions, and the switching.
 
-The solvers of others meet numbers near one: force in N, time in tau = sqrt(m / stiffest spring), velocity in
-N/tau. The state is y = (T_1..T_N, v_1..v_N), the force in the spring behind each block and its velocity:
+Such a solver gets y = (T_1..T_N, v_1..v_N) in N and N/tau, without the columns of the drive and of the free
+end, which would count in its error norm. Its relative tolerance means the same at 0 s and at 10 s, as each
+slip event has its own time, counted from its onset in tau.
 
-    dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = s_i (T_i - T_{i+1}) - mode_i mu_k w_i,
-
-with s_i = 1 where block i slides, v_0 = V, T_{N+1} = 0. These are Eqs. 2-6 as in `fixed_step`, without its
-columns for the drive and the free end, which would count in a solver's error norm. A solver's relative
-tolerance means the same at 0 s and at 10 s. Each slip event has its own time, counted from its onset.
-
-An event function falls through zero at a transition. Function 2 i (i from 0) is the velocity of block i
-in the direction of its mode while it slides, and its margin mu_s w_i - F_i against being released forward
-while it sticks; function 2 i + 1 is its margin against being released backward."""
+An event function falls through zero at a transition. Function 2 i (i from 0) is the velocity of block i + 1
+in the direction of its mode while it slides, and its margin mu_s w - F against being released forward while
+it sticks; function 2 i + 1 is its margin against being released backward."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from precursors.methods.columns import COMPILED, mode_at_rest
+from precursors.methods.columns import (
+    BACKWARD,
+    FORCE,
+    FRICTION,
+    MOBILITY,
+    MODE,
+    SPRING,
+    STRENGTH,
+    VELOCITY,
+    by_mode,
+    inner,
+    net_force,
+    outer,
+    rates,
+    set_modes,
+    time_unit,
+)
 from precursors.methods.common import Result
+from precursors.methods.fixed_step import (
+    FINISHED,
+    GLOBAL_SLIP,
+    MOVING,
+    PAUSED,
+    Motion,
+    begin_leg,
+    motion_from_rest,
+    obstacle,
+    run_of,
+    switch,
+    with_room,
+)
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.checks import checked_span
-from precursors.solver.kernel.compiled import entry
-from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError
 
-# Rows of `Motion.settings`: s_i, mode_i mu_k w_i, mode_i, 1 - s_i.
-SLIDES, FRICTION, MODE, STICKS = range(4)
 # A block that starts gets this velocity [N/tau] in the direction of its acceleration. From exactly zero, a
 # solver that brackets the stop within its first step takes the start for the root: SciPy's brentq returns it
 # and the block never gets away; heyoka's finds it, drops it for its direction and misses the stop.
@@ -39,25 +57,21 @@ NUDGE = 1e-100
 # More transitions than this, or more of them per block at one instant, are a solver that has lost its way.
 MAX_TRANSITIONS = 1_000_000
 MAX_AT_ONCE = 8
+# Rows of the settings: 1 for blocks that slide, mode_i mu_k w_i, mode_i, 1 for blocks that stick.
+SLIDES, FRICTIONS, MODES, STICKS = range(4)
 
-compiled = entry(Path(__file__).parent, COMPILED, error_model="numpy")
 
-
-class Motion:
-    """A chain in motion: its state, what each block does, and the transitions so far.
+class EventMotion:
+    """A chain in motion, with the numbers that a solver carries.
 
     Parameters
     ----------
-    chain : Chain
-        The chain, at rest with springs at natural length.
-    duration : float
-        Time to run [s].
-    until : {None, "global slip"}
-        Stop at the end of the first event in which all blocks slide at the same instant.
-    state : array, shape (2 N,), optional
-        Where a solver keeps the state y, if it wants to.
+    chain, duration, until
+        As in `precursors.simulate`.
+    y : array, shape (2 N,), optional
+        Where a solver keeps the state, if it wants to.
     settings : array, shape (4, N), optional
-        Where it keeps the rows SLIDES, FRICTION, MODE, STICKS.
+        Where it keeps what each block does, in the rows SLIDES, FRICTIONS, MODES and STICKS.
     nudge : float
         Velocity of a block that starts, see `NUDGE`.
     """
@@ -67,61 +81,61 @@ class Motion:
         chain: Chain,
         duration: float,
         until: str | None,
-        state: FloatArray | None = None,
+        y: FloatArray | None = None,
         settings: FloatArray | None = None,
         nudge: float = NUDGE,
     ) -> None:
         n = chain.n_blocks
-        self.chain, self.until, self.nudge = chain, until, nudge
-        self.duration = checked_span(duration, until)
-        self.tau, self.drive_velocity, self.coupling = scaled(chain)
-        self.strength, self.friction = chain.strength, chain.kinetic_friction
-        self.state = np.zeros(2 * n) if state is None else state
+        self.chain, self.nudge, self.tau = chain, nudge, time_unit(chain)
+        self.motion = motion_from_rest(chain, duration, until, scaled=True)
+        self.system, self.state = self.motion.system, self.motion.state
+        self.y = np.zeros(2 * n) if y is None else y
         self.settings = np.zeros((4, n)) if settings is None else settings
-        self.state[:] = 0.0
-        self.settings[:] = [[0.0], [0.0], [0.0], [1.0]]
-        self.onset = 0.0  # of the present or last slip event [s]
-        self.elapsed = 0.0  # since then, at the last transition [tau]
-        self.n_sliding = 0
-        self.was_global = False
-        self.evaluations = 0
-        self._at_once = 0
-        self._rows: list[tuple[float, int, int, float, float]] = []
-        self._waited = 0.0  # since the last transition [s]
+        self.slides, self.evaluations = False, 0
 
-    def next_event(self) -> bool:
+    def put(self, modes: ArrayLike, forces: ArrayLike, velocities: ArrayLike) -> None:
+        """Put the blocks into modes, the springs under forces [N], and give velocities [N/tau], each (N,)."""
+        set_modes(self.system, self.state, np.asarray(modes, float))
+        self.y[:] = np.concatenate([forces, velocities])
+        sliding = np.flatnonzero(self.state[MODE])
+        self.slides = len(sliding) > 0
+        self.motion.progress["sliding"] = len(sliding)
+        self.motion.progress["last"] = sliding.max(initial=0)
+
+    def begin(self) -> bool:
         """While all blocks stick, wait in closed form until block 1 slides; False if the run ends before."""
-        if self.was_global and self.until:
-            self.duration = self.onset
-            return False
-        force, strength = self.state, float(self.strength[0])
-        ahead = float(force[1]) if self.chain.n_blocks > 1 else 0.0
-        wait = max((strength - (float(force[0]) - ahead)) / self.chain.loading_rate, 0.0)
-        if self.onset + wait >= self.duration:
-            self._waited += self.duration - self.onset
-            return False
-        self.onset += wait
-        self._waited += wait
-        self.elapsed = 0.0
-        force[0] = ahead + strength
-        self.switch(0, 0.0)
-        return True
+        status = go_on(*self.motion, self.y, self.settings, self.nudge, -1, 0.0)
+        if status == PAUSED:
+            self.motion = with_room(self.motion)
+            return self.begin()
+        self.slides = status == MOVING
+        return self.slides
+
+    @property
+    def has_slid_globally(self) -> bool:
+        """Whether all blocks have slid at the same instant."""
+        return bool(self.motion.progress["was_global"][0])
+
+    @property
+    def onset(self) -> float:
+        """Onset of the present or last slip event [s]."""
+        return float(self.motion.progress["onset"][0])
 
     @property
     def remaining(self) -> float:
         """Time from the onset of the present event to the end of the run [tau]."""
-        return (self.duration - self.onset) / self.tau
+        return float(self.motion.progress["remaining"][0])
 
-    def rates(self, _time: float, state: FloatArray) -> FloatArray:
+    def rates(self, _time: float, y: FloatArray) -> FloatArray:
         """Right-hand side of the equations of motion in a state y."""
-        result = np.empty_like(state)
-        rates(state, self.settings, self.coupling, self.drive_velocity, result)
+        result = np.empty_like(y)
+        rates_of(y, self.system, self.state, result)
         return result
 
-    def event_functions(self, state: FloatArray) -> FloatArray:
+    def event_functions(self, y: FloatArray) -> FloatArray:
         """All event functions in a state y; what cannot happen is 1."""
-        result = np.empty_like(state)
-        event_functions(state, self.settings, self.strength, result)
+        result = np.empty_like(y)
+        event_functions(y, self.system, self.state, result)
         return result
 
     def switch(self, event: int, elapsed: float) -> bool:
@@ -129,55 +143,44 @@ class Motion:
 
         Returns whether a block still slides; if none does, the slip event has ended.
         """
-        while event >= 0:
-            block, old, new, event = settle(
-                self.state, self.settings, self.strength, self.friction, self.nudge, event
-            )
-            if new != old:
-                self._record(block + 1, new, elapsed)
-                self.n_sliding += abs(new) - abs(old)
-                if self.n_sliding == self.chain.n_blocks:
-                    self.was_global = True
-        if self.n_sliding == 0:
-            self.onset += elapsed * self.tau
-        return self.n_sliding > 0
-
-    def _record(self, block: int, mode: int, elapsed: float) -> None:
-        interval = self._waited + (elapsed - self.elapsed) * self.tau
-        self._at_once = self._at_once + 1 if interval == 0.0 else 0
-        self._rows.append((self.onset + elapsed * self.tau, block, mode, float(self.state[0]), interval))
-        self.elapsed, self._waited = elapsed, 0.0
-        if self._at_once > MAX_AT_ONCE * self.chain.n_blocks or len(self._rows) >= MAX_TRANSITIONS:
-            self.duration = self._rows[-1][0]
-            raise TransitionLimitError(
-                f"the solver makes transition after transition at t = {self.duration:.9g} s", self.run().run
-            )
+        status = go_on(*self.motion, self.y, self.settings, self.nudge, event, elapsed)
+        self.slides = status == MOVING
+        if status == PAUSED:
+            progress = self.motion.progress[0]
+            most = MAX_AT_ONCE * self.chain.n_blocks
+            if progress["at_once"] > most or progress["transitions"] >= MAX_TRANSITIONS:
+                run = run_of(self.motion, self.chain, GLOBAL_SLIP)
+                raise TransitionLimitError(
+                    f"the solver makes transition after transition at t = {run.duration:.9g} s", run
+                )
+            self.motion = with_room(self.motion)
+            self.slides = bool(progress["sliding"])
+        return self.slides
 
     def run(self) -> Result:
-        """Transitions and cost so far."""
-        time, block, mode, load, interval = zip(*self._rows, strict=True) if self._rows else ((),) * 5
-        since = self._waited
-        if self.n_sliding:
-            since += (self.remaining - self.elapsed) * self.tau
-        intervals = np.append(interval, since)
-        run = Run.from_transitions(self.chain, self.duration, time, block, mode, load, intervals)
-        return Result(run, self.evaluations)
+        """Transitions and cost so far: of a run that is over, or goes on to its end in its present modes."""
+        status = FINISHED
+        if self.slides:
+            self.motion.progress["elapsed"] = self.remaining
+        elif self.has_slid_globally and self.motion.progress["until_global"]:
+            status = GLOBAL_SLIP
+        return Result(run_of(self.motion, self.chain, status), self.evaluations)
 
 
-def march_events(motion: Motion, slip: Callable[[Motion], Any]) -> Result:
+def march_events(motion: EventMotion, slip: Callable[[EventMotion], Any]) -> Result:
     """Run a chain: all-stuck phases in closed form, slip events by `slip(motion)`.
 
     `slip` integrates from the state in `motion` and calls `motion.switch` at each event until that returns
     False or `motion.remaining` is over.
     """
-    while motion.next_event():
+    while motion.begin():
         slip(motion)
-        if motion.n_sliding:
+        if motion.slides:
             break
     return motion.run()
 
 
-def march_restarting(motion: Motion, next_transition: Callable[[float], tuple[float, int]]) -> Result:
+def march_restarting(motion: EventMotion, next_transition: Callable[[float], tuple[float, int]]) -> Result:
     """Run a chain by a solver that is started anew at each transition.
 
     `next_transition(time)` integrates the state in `motion` from a time [tau] to the next root of an event
@@ -185,9 +188,9 @@ def march_restarting(motion: Motion, next_transition: Callable[[float], tuple[fl
     has fired at the same instant, it is overdue after this one or fires again at once.
     """
 
-    def slip(motion: Motion) -> None:
+    def slip(motion: EventMotion) -> None:
         time = 0.0
-        while motion.n_sliding and time < motion.remaining:
+        while motion.slides and time < motion.remaining:
             time, event = next_transition(time)
             if event >= 0:
                 motion.switch(event, time)
@@ -195,79 +198,82 @@ def march_restarting(motion: Motion, next_transition: Callable[[float], tuple[fl
     return march_events(motion, slip)
 
 
-def time_unit(chain: Chain) -> float:
-    """tau [s]."""
-    return math.sqrt(chain.mass / float(np.max(chain.springs)))
-
-
-def scaled(chain: Chain) -> tuple[float, float, FloatArray]:
-    """tau [s], the drive's velocity [N/tau] and the springs c_i (the stiffest is 1)."""
-    tau = time_unit(chain)
-    return tau, chain.drive_velocity * chain.mass / tau, chain.springs / np.max(chain.springs)
-
-
-@compiled
-def rates(state, settings, coupling, drive_velocity, result):
-    """Right-hand side of the equations of motion (Eqs. 2-6)."""
-    n = coupling.shape[0]
-    behind = drive_velocity
+@inner
+def take(state, y):
+    """Take over a solver's state."""
+    n = state.shape[1] - 2
     for i in range(n):
-        velocity = state[n + i]
-        ahead = state[i + 1] if i + 1 < n else 0.0
-        result[i] = coupling[i] * (behind - velocity)
-        result[n + i] = settings[SLIDES, i] * (state[i] - ahead) - settings[FRICTION, i]
-        behind = velocity
+        state[FORCE, i + 1], state[VELOCITY, i + 1] = y[i], y[n + i]
 
 
-def jacobian(settings: FloatArray, coupling: FloatArray, result: FloatArray) -> FloatArray:
-    """Matrix of the equations of motion, shape (2 N, 2 N), filled into zeros."""
-    n = len(coupling)
-    i = np.arange(n)
-    result[i, n + i] = -coupling
-    result[i[1:], n + i[:-1]] = coupling[1:]
-    result[n + i, i] = settings[SLIDES]
-    result[n + i[:-1], i[1:]] = -settings[SLIDES, :-1]
-    return result
+@inner
+def nudge_starting(state, nudge):
+    """Give blocks that slide, but are at rest, a velocity."""
+    for i in range(1, state.shape[1] - 1):
+        if state[MODE, i] != 0.0 and state[VELOCITY, i] == 0.0:
+            state[VELOCITY, i] = state[MODE, i] * nudge
 
 
-@compiled
-def event_functions(state, settings, strength, result):
+@inner
+def give(state, y, settings, nudge):
+    """Give a solver its state and settings."""
+    nudge_starting(state, nudge)
+    n = state.shape[1] - 2
+    for i in range(n):
+        y[i], y[n + i] = state[FORCE, i + 1], state[VELOCITY, i + 1]
+        settings[SLIDES, i], settings[STICKS, i] = state[MOBILITY, i + 1], 1.0 - state[MOBILITY, i + 1]
+        settings[MODES, i], settings[FRICTIONS, i] = state[MODE, i + 1], state[FRICTION, i + 1]
+
+
+@outer
+def rates_of(y, system, state, result):
+    """Right-hand side of the equations of motion."""
+    take(state, y)
+    n = state.shape[1] - 2
+    rate = np.zeros((2, n + 2))
+    rates(by_mode, 0.0, system, state, n, state, rate)
+    for i in range(n):
+        result[i], result[n + i] = rate[FORCE, i + 1], rate[VELOCITY, i + 1]
+
+
+@outer
+def event_functions(y, system, state, result):
     """All event functions, shape (2 N,); what cannot happen is 1."""
-    n = strength.shape[0]
-    for i in range(n):
-        if settings[MODE, i] != 0.0:
-            result[2 * i] = settings[MODE, i] * state[n + i]
-            result[2 * i + 1] = 1.0
-        else:
-            net = state[i] - (state[i + 1] if i + 1 < n else 0.0)
-            result[2 * i] = strength[i] - net
-            result[2 * i + 1] = strength[i] + net
+    take(state, y)
+    for i in range(state.shape[1] - 2):
+        mode, net = state[MODE, i + 1], net_force(state, i + 1)
+        slides = mode != 0.0
+        result[2 * i] = mode * state[VELOCITY, i + 1] if slides else system[STRENGTH, i + 1] - net
+        result[2 * i + 1] = 1.0 if slides else system[BACKWARD, i + 1] + net
 
 
-@compiled
-def settle(state, settings, strength, friction, nudge, event):
-    """Make one transition: (block from 0, old mode, new mode, next event function that is below zero or -1).
+@outer
+def go_on(system, state, progress, record, y, settings, nudge, event, elapsed):
+    """Make the transition of an event and those overdue with it, or wait (-1) until block 1 slides.
 
-    A stuck block is released in the direction of its force. A block that stops sticks within mu_s w, or
-    slides on in the direction of the force (Eq. 5).
+    Returns MOVING where a block slides, and PAUSED where room or patience is at its end.
     """
-    n = strength.shape[0]
-    block = event // 2
-    net = state[block] - (state[block + 1] if block + 1 < n else 0.0)
-    old = int(settings[MODE, block])
-    new = 1 - 2 * (event % 2) if old == 0 else mode_at_rest(net, strength[block], strength[block])
-    settings[SLIDES, block] = abs(new)
-    settings[FRICTION, block] = new * friction[block]
-    settings[MODE, block] = new
-    settings[STICKS, block] = 1 - abs(new)
-    state[n + block] = new * nudge
-    overdue = -1
-    for i in range(n):
-        if settings[MODE, i] != 0.0:
-            if settings[MODE, i] * state[n + i] < 0.0:
-                overdue = 2 * i
-        else:
-            net = state[i] - (state[i + 1] if i + 1 < n else 0.0)
-            if abs(net) > strength[i]:
-                overdue = 2 * i + (net < 0.0)
-    return block, old, new, overdue
+    motion, n = Motion(system, state, progress, record), state.shape[1] - 2
+    if event < 0:
+        status = begin_leg(motion)
+    else:
+        take(state, y)
+        progress[0].elapsed = elapsed
+        switch(motion, event // 2 + 1)
+        status = MOVING if progress[0].sliding > 0 else FINISHED
+        if obstacle(motion) == PAUSED or progress[0].at_once > MAX_AT_ONCE * n:
+            status = PAUSED
+    give(state, y, settings, nudge)
+    return status
+
+
+def jacobian(system: FloatArray, state: FloatArray, result: FloatArray) -> FloatArray:
+    """Matrix of the equations of motion, shape (2 N, 2 N), filled into zeros."""
+    spring, slides = system[SPRING, 1:-1], state[MOBILITY, 1:-1]
+    n = len(spring)
+    i = np.arange(n)
+    result[i, n + i] = -spring
+    result[i[1:], n + i[:-1]] = spring[1:]
+    result[n + i, i] = slides
+    result[n + i[:-1], i[1:]] = -slides[:-1]
+    return result

@@ -1,6 +1,6 @@
-"""What compiled methods share that walk in steps: switching, waiting, recording, and the run itself.
+"""A chain in motion: its transitions, its waiting while all blocks stick, and its run from rest to the end.
 
-A method is a compiled function (motion, step, *parameters) -> status. It works in legs: the steps up to
+A compiled method is a function (motion, setting, *parameters) -> status. It works in legs: the steps up to
 the next change of a mode. `begin_leg` waits while all blocks stick, and says when the run has ended."""
 
 from __future__ import annotations
@@ -13,9 +13,27 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.methods.columns import State, System, apart, at_rest, inner, resting_mode, system_of
+from precursors.methods.columns import (
+    BACKWARD,
+    FORCE,
+    FRICTION,
+    INVERSE_MASS,
+    KINETIC,
+    MOBILITY,
+    MODE,
+    STRENGTH,
+    VELOCITY,
+    apart,
+    at_rest,
+    event_function,
+    inner,
+    net_force,
+    resting_mode,
+    template,
+    time_unit,
+)
 from precursors.methods.common import DivergedError, Kind, Method, Result, Smooth
-from precursors.model.chain import Chain
+from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span, positive
 from precursors.model.switching import COULOMB
 from precursors.solver.run import Run
@@ -27,15 +45,21 @@ STEPS_IN_LEG, LEGS_PER_CALL = 1000, 5000
 FIRST_ROOM = 4096  # transitions
 HAIR = 1e-12  # of a step: more than the rounding of a clock that adds thousands of them
 
+# Short times since the onset of a slip event, in the unit of the system, are not rounded as long ones.
 PROGRESS = np.dtype(
     [
+        ("unit", "f8"),  # [s]
         ("duration", "f8"),  # of the run [s]
-        ("until_global", "i8"),  # whether it ends with the first global slip
-        ("onset", "f8"),  # of the slip event [s]; short times since then are not rounded as long ones
-        ("elapsed", "f8"),  # since the onset [s]
-        ("noted", "f8"),  # the same at the last transition [s]
+        ("loading_rate", "f8"),  # K V [N/s]
+        ("waits", "i8"),  # whether it waits in closed form while all blocks stick, or makes each step
+        ("until_global", "i8"),  # whether the run ends with the first global slip
+        ("onset", "f8"),  # of the slip event [s]
+        ("remaining", "f8"),  # from the onset to the end of the run [unit]
+        ("elapsed", "f8"),  # since the onset [unit]
+        ("noted", "f8"),  # the same at the last transition [unit]
         ("waited", "f8"),  # from the last transition to the onset [s]
         ("transitions", "i8"),
+        ("at_once", "i8"),  # transitions since time last went on
         ("sliding", "i8"),  # number of sliding blocks
         ("was_global", "i8"),  # whether all blocks have slid at the same instant
         ("last", "i8"),  # farthest sliding block
@@ -48,89 +72,106 @@ RECORD = np.dtype(
 
 
 class Motion(NamedTuple):
-    """A chain in motion: what stays, what changes, how far it is, and its transitions so far."""
+    """A chain in motion: what stays, what changes, how far it is (one row), and its transitions so far."""
 
-    system: System
-    state: State
-    progress: np.void
+    system: FloatArray
+    state: FloatArray
+    progress: NDArray[np.void]
     record: NDArray[np.void]
 
 
-def motion_from_rest(chain: Chain, duration: float, until: str | None, rule: str = COULOMB) -> Motion:
-    """A chain at the start of its run."""
-    system = system_of(chain, rule)
-    progress = np.zeros(1, PROGRESS)[0]
+def motion_from_rest(
+    chain: Chain,
+    duration: float,
+    until: str | None,
+    rule: str = COULOMB,
+    scaled: bool = False,
+    waits: bool = True,
+) -> Motion:
+    """A chain at the start of its run, see `march`."""
+    progress = np.zeros(1, PROGRESS)
     progress["duration"], progress["until_global"] = checked_span(duration, until), until is not None
-    return Motion(system, at_rest(system), progress, np.empty(FIRST_ROOM, RECORD))
+    progress["unit"], progress["loading_rate"] = time_unit(chain) if scaled else 1.0, chain.loading_rate
+    progress["remaining"], progress["waits"] = progress["duration"] / progress["unit"], waits
+    return Motion(*at_rest(chain, rule, scaled), progress, np.empty(FIRST_ROOM, RECORD))
 
 
 # Switching between stick and slip
 
 
-@inner
-def set_mode(motion, i, new):
-    """Set a block's new mode; the number of sliding blocks and the farthest one follow."""
-    state, progress = motion.state, motion.progress
-    old = state.mode[i]
-    state.mode[i] = new
-    state.mobility[i] = motion.system.inverse_mass if new != 0 else 0.0
-    state.friction[i] = new * motion.system.kinetic_friction[i]
-    progress.sliding += abs(new) - abs(old)
-    if progress.sliding == state.mode.shape[0] - 2:
-        progress.was_global = 1
-    last = max(progress.last, i)
-    while last > 0 and state.mode[last] == 0:
-        last -= 1
-    progress.last = last
-
-
-@apart
-def record_transition(motion, i, new):
-    """Write down a transition."""
-    progress, row = motion.progress, motion.record[motion.progress.transitions]
-    row.time = progress.onset + progress.elapsed
-    row.block, row.mode, row.tangential_load = i, new, motion.state.spring_force[1]
-    row.interval = progress.waited + (progress.elapsed - progress.noted)
-    progress.noted, progress.waited = progress.elapsed, 0.0
-    progress.transitions += 1
-
-
 @apart
 def change_mode(motion, i, new):
-    """Set a block's new mode and record it."""
-    set_mode(motion, i, new)
+    """Set a block's new mode and record it; the number of sliding blocks and the farthest one follow."""
+    system, state, progress = motion.system, motion.state, motion.progress[0]
+    progress.sliding += abs(new) - int(abs(state[MODE, i]))
+    state[MODE, i] = new
+    state[MOBILITY, i] = system[INVERSE_MASS, i] if new != 0 else 0.0
+    state[FRICTION, i] = new * system[KINETIC, i]
+    last = max(progress.last, i)
+    while last > 0 and state[MODE, last] == 0.0:
+        last -= 1
+    progress.last = last
     record_transition(motion, i, new)
 
 
 @inner
-def all_keep_their_modes(system, state, last):
-    """Whether no sliding block's velocity has changed its sign and no stuck block's force exceeds mu_s w.
+def record_transition(motion, i, new):
+    """Write down a transition."""
+    progress = motion.progress[0]
+    row = motion.record[progress.transitions]
+    row.time = progress.onset + progress.elapsed * progress.unit
+    row.block, row.mode, row.tangential_load = i, new, motion.state[FORCE, 1]
+    row.interval = progress.waited + (progress.elapsed - progress.noted) * progress.unit
+    progress.noted, progress.waited = progress.elapsed, 0.0
+    progress.transitions += 1
+    progress.at_once = progress.at_once + 1 if row.interval == 0.0 else 0
+    if progress.sliding == motion.state.shape[1] - 2:
+        progress.was_global = 1
 
-    Beyond the block after the last that slides no force changes, so no block is released there.
-    """
-    force, velocity, mode, backward = state.spring_force, state.velocity, state.mode, system.backward
-    for i in range(1, min(last + 1, mode.shape[0] - 2) + 1):
-        if mode[i] != 0:
-            if not velocity[i] * mode[i] >= 0.0:
+
+@apart
+def change_state(motion, i):
+    """Release a stuck block in the direction of its force, or let a sliding one stop or turn round."""
+    state = motion.state
+    old = int(state[MODE, i])
+    if old == 0:
+        net = net_force(state, i)
+        new = 1 if net > 0.0 else (-1 if net < 0.0 else 0)
+    else:
+        state[VELOCITY, i] = 0.0
+        new = resting_mode(motion.system, state, i)
+    if new != old:
+        change_mode(motion, i, new)
+
+
+@inner
+def feels(state, last):
+    """Farthest block whose force can change: beyond the next after the last that slides, none does."""
+    return min(last + 1, state.shape[1] - 2)
+
+
+@inner
+def all_keep_their_modes(system, state, last):
+    """Whether no sliding block's velocity has changed its sign and no stuck block's force exceeds mu_s w."""
+    for i in range(1, feels(state, last) + 1):
+        if state[MODE, i] != 0.0:
+            if not state[VELOCITY, i] * state[MODE, i] >= 0.0:
                 return False
-        elif not -backward[i] <= force[i] - force[i + 1] <= system.strength[i]:
+        elif not -system[BACKWARD, i] <= net_force(state, i) <= system[STRENGTH, i]:
             return False
     return True
 
 
 @apart
-def switch(motion):
-    """Change modes at the end of a step: a block whose velocity has changed its sign stops or turns round."""
-    state = motion.state
-    for i in range(1, min(motion.progress.last + 1, state.mode.shape[0] - 2) + 1):
-        old = state.mode[i]
-        if old != 0:
-            if state.velocity[i] * old >= 0.0:
-                continue
-            state.velocity[i] = 0.0
-        new = resting_mode(motion.system, state, i)
-        if new != old:
-            change_mode(motion, i, new)
+def switch(motion, first):
+    """Change the state of a block at its event (or of none, 0), then of all that do not keep their modes."""
+    system, state = motion.system, motion.state
+    farthest = feels(state, motion.progress[0].last)
+    if first > 0:
+        change_state(motion, first)
+    for i in range(1, farthest + 1):
+        if not event_function(system, state, state, i) >= 0.0:
+            change_state(motion, i)
 
 
 # Waiting, and the end of a run
@@ -138,62 +179,56 @@ def switch(motion):
 
 @inner
 def step_length(progress, step):
-    """The step [s], cut at the end of the run."""
-    return min(step, progress.duration - progress.onset - progress.elapsed)
-
-
-@inner
-def start_clock(progress):
-    """Count the time from now on."""
-    progress.onset += progress.elapsed
-    progress.waited += progress.elapsed - progress.noted
-    progress.elapsed = progress.noted = 0.0
+    """The step, cut at the end of the run."""
+    return min(step, progress.remaining - progress.elapsed)
 
 
 @apart
-def rest(motion, waits):
-    """All blocks stick: end the run, or wait in closed form (where `waits`) until block 1 is at its limit.
+def rest(motion):
+    """All blocks stick: end the run, or wait until block 1 is at its limit.
 
     Returns MOVING where the run goes on.
     """
-    system, force, progress = motion.system, motion.state.spring_force, motion.progress
+    state, progress = motion.state, motion.progress[0]
     if progress.was_global and progress.until_global:
         return GLOBAL_SLIP
-    if progress.noted > 0.0 or waits:
-        start_clock(progress)
-    if not waits:
-        return MOVING
-    loading_rate = system.spring[1] * system.drive_velocity
-    limit = force[2] + system.strength[1]
-    wait = max((limit - force[1]) / loading_rate, 0.0)
-    remaining = max(progress.duration - progress.onset, 0.0)
-    if wait >= remaining:
-        force[1] += loading_rate * remaining
-        progress.elapsed = remaining
-        return FINISHED
-    force[1] = max(force[1], limit)
-    progress.elapsed = wait
-    start_clock(progress)
+    if progress.noted > 0.0 or progress.waits:  # count the time from now on
+        progress.onset += progress.elapsed * progress.unit
+        progress.waited += (progress.elapsed - progress.noted) * progress.unit
+        progress.elapsed = progress.noted = 0.0
+    wait = 0.0
+    if progress.waits:
+        limit = state[FORCE, 2] + motion.system[STRENGTH, 1]
+        wait = max((limit - state[FORCE, 1]) / progress.loading_rate, 0.0)
+        remaining = max(progress.duration - progress.onset, 0.0)
+        if wait >= remaining:
+            state[FORCE, 1] += progress.loading_rate * remaining
+            progress.elapsed = remaining / progress.unit
+            return FINISHED
+        state[FORCE, 1] = max(state[FORCE, 1], limit)
+    progress.onset += wait
+    progress.waited += wait
+    progress.remaining = (progress.duration - progress.onset) / progress.unit
     return MOVING
 
 
 @inner
 def obstacle(motion):
     """Why no step can be made: a full record, or numbers that have overflowed; MOVING if one can."""
-    if motion.progress.transitions + motion.state.mode.shape[0] > motion.record.shape[0]:
+    if motion.progress[0].transitions + motion.state.shape[1] > motion.record.shape[0]:
         return PAUSED
-    return MOVING if math.isfinite(motion.state.spring_force[1]) else DIVERGED
+    return MOVING if math.isfinite(motion.state[FORCE, 1]) else DIVERGED
 
 
 @apart
-def begin_leg(motion, waits):
+def begin_leg(motion):
     """Whether steps are to be made (MOVING) or why not; where all blocks stick, wait and release block 1."""
     status = obstacle(motion)
-    if status == MOVING and motion.progress.sliding == 0:
-        status = rest(motion, waits)
-        if status == MOVING and waits:
+    if status == MOVING and motion.progress[0].sliding == 0:
+        status = rest(motion)
+        if status == MOVING and motion.progress[0].waits:
             change_mode(motion, 1, 1)
-    if status == MOVING and step_length(motion.progress, motion.progress.duration) <= 0.0:
+    if status == MOVING and motion.progress[0].remaining <= motion.progress[0].elapsed:
         return FINISHED
     return status
 
@@ -201,19 +236,19 @@ def begin_leg(motion, waits):
 # Methods that switch once a step
 
 
-@inner
-def run_in_steps(motion, step, waits, advance, starts, work):
+@template
+def run_in_steps(motion, step, advance, starts, work):
     """Run until the end, a full record or a spent budget of legs.
 
     `advance(system, state, last, h, work)` makes a step of h [s] and returns the evaluations made. If it
     `starts`, a leg begins with a step of no length, which evaluates the forces. A block whose velocity has
     changed its sign at the end of a step is stopped there, and sticks or turns round; a stuck block whose
-    force exceeds mu_s w at the end of a step is released there. While all blocks stick each step is made as
-    well, or (`waits`) the wait is in closed form.
+    force exceeds mu_s w at the end of a step is released there. While all blocks stick, it
+    waits.
     """
-    system, state, progress = motion.system, motion.state, motion.progress
+    system, state, progress = motion.system, motion.state, motion.progress[0]
     for _ in range(LEGS_PER_CALL):
-        status = begin_leg(motion, waits)
+        status = begin_leg(motion)
         if status != MOVING:
             return status
         if starts:
@@ -224,7 +259,7 @@ def run_in_steps(motion, step, waits, advance, starts, work):
             progress.elapsed += h
             if h < step or not all_keep_their_modes(system, state, progress.last):
                 break
-        switch(motion)
+        switch(motion, 0)
     return PAUSED
 
 
@@ -236,25 +271,31 @@ def march(
     parameters: tuple[Any, ...],
     chain: Chain,
     duration: float,
-    step: float,
+    setting: float,
     until: str | None = None,
     max_transitions: int = MAX_TRANSITIONS,
     rule: str = COULOMB,
+    scaled: bool = False,
+    waits: bool = True,
 ) -> Result:
-    """Run a compiled fixed-step method from rest.
+    """Run a compiled method from rest.
 
     Parameters
     ----------
     method : compiled function
-        (motion, step, *parameters) -> status.
+        (motion, setting, *parameters) -> status.
     parameters
-        What the method has besides its step.
+        What the method has besides its setting.
     chain, duration, until
         As in `precursors.simulate`.
-    step : float
-        Step [s].
+    setting : float
+        Step [s], or tolerance.
     rule : str
         A key of `SWITCHING_RULES`.
+    scaled : bool
+        Whether the method meets the numbers of solvers with a tolerance, see `columns`.
+    waits : bool
+        Whether it waits in closed form while all blocks stick, or makes each step then as well.
 
     Raises
     ------
@@ -265,29 +306,27 @@ def march(
     TransitionLimitError
         If there are more than `max_transitions`.
     """
-    positive("step", step, "s")
-    motion = motion_from_rest(chain, duration, until, rule)
-    progress = motion.progress
+    positive("tolerance" if scaled else "step", setting, "1" if scaled else "s")
+    motion = motion_from_rest(chain, duration, until, rule, scaled, waits)
     status = PAUSED
-    while status == PAUSED and progress["transitions"] < max_transitions:
-        if progress["transitions"] + chain.n_blocks + 2 > len(motion.record):
-            motion = motion._replace(record=np.resize(motion.record, 2 * len(motion.record) + chain.n_blocks))
-        status = method(motion, step, *parameters)
-    run = _run_of(motion, chain, status)
+    while status == PAUSED and motion.progress["transitions"][0] < max_transitions:
+        motion = with_room(motion)
+        status = method(motion, setting, *parameters)
+    run = run_of(motion, chain, status)
     if status == DIVERGED:
-        raise DivergedError(f"the numbers overflow at t = {_reached(progress):.9g} s: shorten the step", run)
+        raise DivergedError(f"the numbers overflow at t = {run.duration:.9g} s: shorten the step", run)
     if status == PAUSED:
         raise TransitionLimitError(
-            f"max_transitions = {max_transitions} reached at t = {_reached(progress):.9g} s", run
+            f"max_transitions = {max_transitions} reached at t = {run.duration:.9g} s", run
         )
-    return Result(run, int(progress["evaluations"]))
+    return Result(run, int(motion.progress["evaluations"][0]))
 
 
 def slide(
     method: Callable[..., int],
     parameters: tuple[Any, ...],
-    system: System,
-    state: State,
+    system: FloatArray,
+    state: FloatArray,
     step: float,
     n_steps: int,
 ) -> None:
@@ -295,33 +334,39 @@ def slide(
 
     Blocks that count as stuck, that nothing holds and that nothing releases keep their motion and their mode.
     """
-    never = np.full_like(system.strength, np.inf)
-    free = system._replace(strength=never, backward=never)
-    progress = np.zeros(1, PROGRESS)[0]
-    progress["sliding"] = progress["last"] = len(state.mode) - 2
+    free = system.copy()
+    free[[STRENGTH, BACKWARD]] = np.inf
+    progress = np.zeros(1, PROGRESS)
+    progress["sliding"] = progress["last"] = state.shape[1] - 2
     # The clock adds step after step; the last is shorter by a hair, so that none of no length follows.
-    progress["duration"] = np.cumsum(np.append(0.0, np.full(n_steps, step)))[-1] - HAIR * step
-    stuck = state._replace(mode=np.zeros_like(state.mode))
-    motion = Motion(free, stuck, progress, np.empty(FIRST_ROOM, RECORD))
+    progress["remaining"] = np.cumsum(np.append(0.0, np.full(n_steps, step)))[-1] - HAIR * step
+    modes = state[MODE].copy()
+    state[MODE] = 0.0
+    motion = Motion(free, state, progress, np.empty(FIRST_ROOM, RECORD))
     while method(motion, step, *parameters) == PAUSED:
         pass
+    state[MODE] = modes
 
 
-def _reached(progress: np.void) -> float:
-    return float(progress["onset"] + progress["elapsed"])
+def with_room(motion: Motion) -> Motion:
+    """The motion with a longer record where its own is full."""
+    if motion.progress["transitions"][0] + motion.state.shape[1] <= len(motion.record):
+        return motion
+    return motion._replace(record=np.resize(motion.record, 2 * len(motion.record) + motion.state.shape[1]))
 
 
-def _run_of(motion: Motion, chain: Chain, status: int) -> Run:
+def run_of(motion: Motion, chain: Chain, status: int) -> Run:
     """The run so far; of a diverged one what is finite."""
-    progress, rows = motion.progress, motion.record[: motion.progress["transitions"]]
+    progress = motion.progress[0]
+    rows, unit = motion.record[: progress["transitions"]], progress["unit"]
     n = len(rows)
     if status == DIVERGED:
         n = int(np.isfinite(rows["tangential_load"]).sum())
-    since = progress["waited"] + (progress["elapsed"] - progress["noted"]) + rows["interval"][n:].sum()
+    since = progress["waited"] + (progress["elapsed"] - progress["noted"]) * unit + rows["interval"][n:].sum()
     good, intervals = rows[:n], np.append(rows["interval"][:n], since)
-    duration = float(progress["duration"]) if status == FINISHED else _reached(progress)
-    load = good["tangential_load"]
-    return Run.from_transitions(chain, duration, good["time"], good["block"], good["mode"], load, intervals)
+    reached = progress["duration"] if status == FINISHED else progress["onset"] + progress["elapsed"] * unit
+    time, block, mode, load = (good[name] for name in ("time", "block", "mode", "tangential_load"))
+    return Run.from_transitions(chain, float(reached), time, block, mode, load, intervals)
 
 
 def fixed_step(
@@ -331,17 +376,18 @@ def fixed_step(
     *parameters: Any,
     smooth: tuple[int, float, Callable[[float], float]] | None = None,
     kind: Kind = "once a step",
+    waits: bool = True,
     **others: Any,
 ) -> Method:
     """Make the row of a compiled fixed-step method.
 
-    `method` and its parameters are those of `march`; `smooth` is order, limit and energy factor of `Smooth`.
+    `method`, its parameters and `waits` are those of `march`; `smooth` is the rest of `Smooth`.
     """
     return Method(
         name,
         label,
         "step [s]",
-        partial(march, method, parameters),
+        partial(march, method, parameters, waits=waits),
         smooth=Smooth(partial(slide, method, parameters), *smooth) if smooth else None,
         kind=kind,
         **others,

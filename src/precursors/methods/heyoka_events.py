@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from precursors.methods.columns import SPRING, STRENGTH, VELOCITY, at_rest
 from precursors.methods.common import Method, Result
-from precursors.methods.events import FRICTION, MODE, NUDGE, SLIDES, STICKS, Motion, march_events, scaled
+from precursors.methods.events import NUDGE, EventMotion, march_events
 from precursors.model.chain import Chain
 
 # The tightest is rounding, heyoka's own default.
@@ -30,25 +31,25 @@ def integrator_of(chain: Chain, tolerance: float, callback: Callable[[int], Call
     import heyoka as hy
 
     n = chain.n_blocks
-    _, drive_velocity, coupling = scaled(chain)
-    strength = chain.strength
+    system, state = at_rest(chain, scaled=True)
+    strength, coupling = system[STRENGTH, 1:-1], system[SPRING, 1:-1]
     force = [hy.expression(f"T{i}") for i in range(n)]
     velocity = [hy.expression(f"v{i}") for i in range(n)]
-    setting = [[hy.par[row * n + i] for i in range(n)] for row in range(4)]
+    slides, friction, mode, sticks = ([hy.par[row * n + i] for i in range(n)] for row in range(4))
     net = [force[i] - force[i + 1] for i in range(n - 1)] + [force[-1]]
-    behind = [drive_velocity, *velocity[:-1]]
+    behind = [state[VELOCITY, 0], *velocity[:-1]]
     falling = {"direction": hy.event_direction.negative}
     events = []
     for i in range(n):
-        forward = setting[MODE][i] * velocity[i] + setting[STICKS][i] * (strength[i] - net[i])
-        backward = setting[SLIDES][i] + setting[STICKS][i] * (strength[i] + net[i])
+        forward = mode[i] * velocity[i] + sticks[i] * (strength[i] - net[i])
+        backward = slides[i] + sticks[i] * (strength[i] + net[i])
         events += [
             hy.t_event(function, callback=callback(2 * i + side), **falling)
             for side, function in enumerate((forward, backward))
         ]
     return hy.taylor_adaptive(
         [(force[i], coupling[i] * (behind[i] - velocity[i])) for i in range(n)]
-        + [(velocity[i], setting[SLIDES][i] * net[i] - setting[FRICTION][i]) for i in range(n)],
+        + [(velocity[i], slides[i] * net[i] - friction[i]) for i in range(n)],
         np.zeros(2 * n),
         t_events=events,
         pars=np.zeros(4 * n),
@@ -63,7 +64,7 @@ class _Integrator:
     def __init__(self, chain: Chain, tolerance: float) -> None:
         import heyoka as hy
 
-        self.motion: Motion | None = None
+        self.motion: EventMotion | None = None
         self.solver: Any = integrator_of(chain, tolerance, self._callback)
         self.outcome_end = hy.taylor_outcome.time_limit
 
@@ -78,19 +79,19 @@ class _Integrator:
     def run(self, chain: Chain, duration: float, until: str | None, nudge: float) -> Result:
         solver = self.solver
         state, settings = solver.state, solver.pars.reshape(4, -1)
-        self.motion = Motion(chain, duration, until, state, settings, nudge)
+        self.motion = EventMotion(chain, duration, until, state, settings, nudge)
         try:
             return march_events(self.motion, self._slip)
         finally:
             self.motion = None
 
-    def _slip(self, motion: Motion) -> None:
+    def _slip(self, motion: EventMotion) -> None:
         solver = self.solver
         solver.time = 0.0
         solver.reset_cooldowns()
         outcome, _, _, steps, *_ = solver.propagate_until(motion.remaining)
         motion.evaluations += steps * solver.order
-        if motion.n_sliding and outcome != self.outcome_end:
+        if motion.slides and outcome != self.outcome_end:
             raise RuntimeError(f"heyoka stopped at t = {motion.onset:.9g} s: {outcome}")
 
 

@@ -17,7 +17,18 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from precursors.methods.columns import apart, inner, outer, rows
+from precursors.methods.columns import (
+    INVERSE_MASS,
+    KINETIC,
+    MODE,
+    STRENGTH,
+    VELOCITY,
+    apart,
+    inner,
+    net_force,
+    outer,
+    template,
+)
 from precursors.methods.common import Method, Result
 from precursors.methods.fixed_step import (
     FINISHED,
@@ -31,7 +42,7 @@ from precursors.methods.fixed_step import (
     rest,
     step_length,
 )
-from precursors.methods.rk4 import step_of_law
+from precursors.methods.rk4 import room, step_of_law
 from precursors.model.chain import Chain
 from precursors.model.checks import not_negative, positive
 from precursors.solver.simulate import MAX_TRANSITIONS
@@ -89,22 +100,22 @@ solve_literally = partial(solve, dead_zone=0.0)
 def by_velocity(system, _state, i, net, velocity, dead_zone):
     """The law of friction with the dead zone; at dv = 0 it is Eqs. 4-6 as printed."""
     if abs(velocity) <= dead_zone:
-        held = min(max(net, -system.strength[i]), system.strength[i])
-        return 0.0, system.inverse_mass * (net - held)
-    friction = math.copysign(system.kinetic_friction[i], velocity)
-    return velocity, system.inverse_mass * (net - friction)
+        held = min(max(net, -system[STRENGTH, i]), system[STRENGTH, i])
+        return 0.0, system[INVERSE_MASS, i] * (net - held)
+    friction = math.copysign(system[KINETIC, i], velocity)
+    return velocity, system[INVERSE_MASS, i] * (net - friction)
 
 
-@inner
+@template
 def law_step(system, state, h, dead_zone, work):
     """One step h [s] of Runge and Kutta's method with the law in each evaluation."""
-    step_of_law(by_velocity, dead_zone, system, state, state.mode.shape[0] - 2, h, work)
+    step_of_law(by_velocity, dead_zone, system, state, state.shape[1] - 2, h, work)
 
 
 @outer
 def slide(system, state, h, n_steps, dead_zone):
     """Make n steps of the whole chain, with nothing recorded."""
-    work = rows(state, 6)
+    work = room(state)
     for _ in range(n_steps):
         law_step(system, state, h, dead_zone, work)
 
@@ -121,42 +132,39 @@ def mode_of(v, dead_zone):
 def all_keep_their_modes(state, dead_zone):
     """Whether no block has entered, left or crossed the dead zone."""
     changes = 0
-    for i in range(1, state.mode.shape[0] - 1):
-        changes += mode_of(state.velocity[i], dead_zone) != state.mode[i]
+    for i in range(1, state.shape[1] - 1):
+        changes += mode_of(state[VELOCITY, i], dead_zone) != state[MODE, i]
     return changes == 0
 
 
 @apart
 def record_modes(motion, dead_zone):
     """Record the blocks that have entered, left or crossed the dead zone in a step."""
-    state, progress = motion.state, motion.progress
-    n_blocks = state.mode.shape[0] - 2
-    for i in range(1, n_blocks + 1):
-        old, new = state.mode[i], mode_of(state.velocity[i], dead_zone)
+    state, progress = motion.state, motion.progress[0]
+    for i in range(1, state.shape[1] - 1):
+        old, new = int(state[MODE, i]), mode_of(state[VELOCITY, i], dead_zone)
         if new != old:
-            state.mode[i] = new
-            record_transition(motion, i, new)
+            state[MODE, i] = new
             progress.sliding += abs(new) - abs(old)
-            if progress.sliding == n_blocks:
-                progress.was_global = 1
+            record_transition(motion, i, new)
 
 
 @inner
 def all_can_rest(system, state):
     """Whether no force exceeds mu_s w."""
-    for i in range(1, state.mode.shape[0] - 1):
-        if abs(state.spring_force[i] - state.spring_force[i + 1]) > system.strength[i]:
-            return False
-    return True
+    excess = 0.0
+    for i in range(1, state.shape[1] - 1):
+        excess = max(excess, abs(net_force(state, i)) - system[STRENGTH, i])
+    return excess == 0.0
 
 
 @apart
 def begin_leg(motion):
     """Whether steps are to be made (MOVING) or why not; where all blocks rest, wait."""
     status = obstacle(motion)
-    if status == MOVING and motion.progress.sliding == 0 and all_can_rest(motion.system, motion.state):
-        status = rest(motion, True)
-    if status == MOVING and step_length(motion.progress, motion.progress.duration) <= 0.0:
+    if status == MOVING and motion.progress[0].sliding == 0 and all_can_rest(motion.system, motion.state):
+        status = rest(motion)
+    if status == MOVING and motion.progress[0].remaining <= motion.progress[0].elapsed:
         return FINISHED
     return status
 
@@ -164,8 +172,8 @@ def begin_leg(motion):
 @outer
 def run_karnopp(motion, step, dead_zone):
     """Run until the end, a full record or a spent budget of legs."""
-    system, state, progress = motion.system, motion.state, motion.progress
-    work = rows(state, 6)
+    system, state, progress = motion.system, motion.state, motion.progress[0]
+    work = room(state)
     for _ in range(LEGS_PER_CALL):
         status = begin_leg(motion)
         if status != MOVING:

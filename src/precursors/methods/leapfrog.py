@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import math
 
-from precursors.methods.columns import accelerate, by_mode, inner, outer, rates, rows, stretch
+import numpy as np
+
+from precursors.methods.columns import accelerate, by_mode, inner, outer, rates, stretch
 from precursors.methods.fixed_step import fixed_step, run_in_steps
 
 LIMIT = 2.0  # largest stable omega dt, of both symplectic methods
@@ -38,13 +40,12 @@ def symplectic_step(system, state, last, h, before):
 
 
 @inner
-def euler_step(system, state, last, h, work):
+def euler_step(system, state, last, h, rate):
     """A step of the forces and of the motion, both from where the step begins."""
-    force, velocity, force_rate, acceleration = state.spring_force, state.velocity, work[0], work[1]
-    rates(by_mode, 0.0, system, state, last, force, velocity, force_rate, acceleration)
+    rates(by_mode, 0.0, system, state, last, state, rate)
     for i in range(1, last + 2):
-        force[i] += h * force_rate[i]
-        velocity[i] += h * acceleration[i]
+        for row in range(2):
+            state[row, i] += h * rate[row, i]
     return 1
 
 
@@ -55,13 +56,13 @@ def run_symplectic(motion, step, before):
     The forces at the end of a step of Verlet are those at the start of the next: one evaluation a step, and
     one more where friction has changed in between.
     """
-    return run_in_steps(motion, step, True, symplectic_step, before < 1.0, before)
+    return run_in_steps(motion, step, symplectic_step, before < 1.0, before)
 
 
 @outer
 def run_euler(motion, step):
     """The same with one evaluation a step."""
-    return run_in_steps(motion, step, True, euler_step, False, rows(motion.state, 4))
+    return run_in_steps(motion, step, euler_step, False, np.zeros(motion.state.shape))
 
 
 METHODS = (

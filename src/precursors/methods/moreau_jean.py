@@ -17,7 +17,23 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from precursors.methods.columns import inner, outer, rows, solve_springs
+import numpy as np
+
+from precursors.methods.columns import (
+    FORCE,
+    FRICTION,
+    INVERSE_MASS,
+    KINETIC,
+    MOBILITY,
+    MODE,
+    SPRING,
+    STRENGTH,
+    VELOCITY,
+    inner,
+    net_force,
+    outer,
+    solve_springs,
+)
 from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
     MOVING,
@@ -43,11 +59,12 @@ def energy_factor(z: float, theta: float) -> float:
 @inner
 def explicit_forces(system, state, last, h, theta, known):
     """Spring forces T* without the share of the new velocities."""
-    force, velocity, spring = state.spring_force, state.velocity, system.spring
+    force, velocity, spring = state[FORCE], state[VELOCITY], system[SPRING]
     part = theta * (1.0 - theta) * h
     for i in range(1, last + 2):
         known[i] = force[i] + part * spring[i] * (velocity[i - 1] - velocity[i])
-    known[last + 2 :] = force[last + 2 :]
+    for i in range(last + 2, force.shape[0]):
+        known[i] = force[i]
 
 
 @inner
@@ -55,16 +72,16 @@ def solve_velocities(system, state, last, h, theta, work):
     """New velocities of the blocks 1..last that slide."""
     known, factor, new = work[0], work[1], work[3]
     for i in range(1, last + 1):
-        slides = h * state.mobility[i]
-        net = known[i] - known[i + 1] - state.friction[i]
-        new[i] = state.velocity[i] + slides * net if slides > 0.0 else 0.0
+        slides = h * state[MOBILITY, i]
+        net = known[i] - known[i + 1] - state[FRICTION, i]
+        new[i] = state[VELOCITY, i] + slides * net if slides > 0.0 else 0.0
     solve_springs(system, state, last, (theta * h) ** 2, new, factor)
 
 
 @inner
 def finish(system, state, last, h, theta, new):
     """Take over the new velocities and stretch the springs."""
-    force, velocity, spring = state.spring_force, state.velocity, system.spring
+    force, velocity, spring = state[FORCE], state[VELOCITY], system[SPRING]
     for i in range(1, last + 2):
         before, after = velocity[i - 1] - velocity[i], new[i - 1] - new[i]
         force[i] += h * spring[i] * (theta * after + (1.0 - theta) * before)
@@ -76,23 +93,23 @@ def finish(system, state, last, h, theta, new):
 def set_trial(system, state, trial, i, mode):
     """Give a block the mobility and the friction of a mode that is being tried."""
     trial[i] = mode
-    state.mobility[i] = system.inverse_mass if mode != 0 else 0.0
-    state.friction[i] = mode * system.kinetic_friction[i]
+    state[MOBILITY, i] = system[INVERSE_MASS, i] if mode != 0 else 0.0
+    state[FRICTION, i] = mode * system[KINETIC, i]
 
 
 @inner
 def static_friction(system, state, i, h, theta, work):
     """Friction R_i that keeps block i at v' = 0, or brings it there [N]."""
-    known, new, spring, reach = work[0], work[3], system.spring, theta * theta * h
+    known, new, spring, reach = work[0], work[3], system[SPRING], theta * theta * h
     behind = known[i] + reach * spring[i] * (new[i - 1] - new[i])
     ahead = known[i + 1] + reach * spring[i + 1] * (new[i] - new[i + 1])
-    return behind - ahead + state.velocity[i] / (system.inverse_mass * h)
+    return behind - ahead + state[VELOCITY, i] / (system[INVERSE_MASS, i] * h)
 
 
 @inner
 def step_modes(system, state, last, h, theta, work, trial):
     """Find modes and new velocities of a step; return the farthest sliding block and the solutions made."""
-    n_blocks = state.mode.shape[0] - 2
+    n_blocks = state.shape[1] - 2
     new = work[3]
     explicit_forces(system, state, last, h, theta, work[0])
     most = SOLUTIONS_PER_BLOCK * (n_blocks + 1)
@@ -106,7 +123,7 @@ def step_modes(system, state, last, h, theta, work, trial):
                     changed = True
             else:
                 friction = static_friction(system, state, i, h, theta, work)
-                if abs(friction) > system.strength[i]:
+                if abs(friction) > system[STRENGTH, i]:
                     set_trial(system, state, trial, i, 1 if friction > 0.0 else -1)
                     changed = True
                     last = max(last, i)
@@ -123,14 +140,14 @@ def run_moreau_jean(motion, step, theta):
     static friction at the end of that step, it turns. Each solution of the tridiagonal system counts as an
     evaluation.
     """
-    system, state, progress = motion.system, motion.state, motion.progress
-    work = rows(state, 4)
-    trial = state.mode.copy()
+    system, state, progress = motion.system, motion.state, motion.progress[0]
+    work, trial = np.zeros((4, state.shape[1])), state[MODE].copy()
+    work[3, 0] = state[VELOCITY, 0]
     for _ in range(LEGS_PER_CALL):
-        status = begin_leg(motion, True)
+        status = begin_leg(motion)
         if status != MOVING:
             return status
-        trial[1] = state.mode[1]
+        trial[1] = state[MODE, 1]
         last = progress.last
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
@@ -141,11 +158,11 @@ def run_moreau_jean(motion, step, theta):
             if h < step or solutions > 1:
                 break
         for i in range(1, last + 1):
-            old, new = state.mode[i], trial[i]
+            old, new = int(state[MODE, i]), int(trial[i])
             if old != 0 and new == 0:
-                state.velocity[i] = 0.0
-                net = state.spring_force[i] - state.spring_force[i + 1]
-                if old * net < -system.strength[i]:
+                state[VELOCITY, i] = 0.0
+                net = net_force(state, i)
+                if old * net < -system[STRENGTH, i]:
                     set_trial(system, state, trial, i, -old)
                     new = -old
             if new != old:

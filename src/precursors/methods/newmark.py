@@ -17,7 +17,16 @@ from functools import partial
 
 import numpy as np
 
-from precursors.methods.columns import inner, outer, rows, solve_springs
+from precursors.methods.columns import (
+    FORCE,
+    FRICTION,
+    MOBILITY,
+    SPRING,
+    VELOCITY,
+    inner,
+    outer,
+    solve_springs,
+)
 from precursors.methods.fixed_step import fixed_step, run_in_steps
 
 NEWMARK, HHT = 0.0, -0.1
@@ -36,16 +45,16 @@ def energy_factor(z: float, alpha: float) -> float:
 def newmark_step(system, state, last, h, settings):
     """One step h [s] of blocks 1..last; a step of no length finds the accelerations to begin with."""
     alpha, work = settings
-    beta, gamma = 0.25 * (1.0 - alpha) ** 2, 0.5 - alpha
-    force, velocity, spring = state.spring_force, state.velocity, system.spring
     acceleration, new, factor, moved = work[0], work[1], work[2], work[3]
+    force, velocity, spring = state[FORCE], state[VELOCITY], system[SPRING]
+    beta, gamma = 0.25 * (1.0 - alpha) ** 2, 0.5 - alpha
     moved[0], moved[last + 1] = h * velocity[0], 0.0
     for i in range(1, last + 1):
         moved[i] = h * velocity[i] + h * h * (0.5 - beta) * acceleration[i]
     for i in range(1, last + 1):
         behind = force[i] + (1.0 + alpha) * spring[i] * (moved[i - 1] - moved[i])
         ahead = force[i + 1] + (1.0 + alpha) * spring[i + 1] * (moved[i] - moved[i + 1])
-        new[i] = state.mobility[i] * (behind - ahead - state.friction[i])
+        new[i] = state[MOBILITY, i] * (behind - ahead - state[FRICTION, i])
     solve_springs(system, state, last, (1.0 + alpha) * beta * h * h, new, factor)
     for i in range(1, last + 1):
         moved[i] += beta * h * h * new[i]
@@ -59,7 +68,7 @@ def newmark_step(system, state, last, h, settings):
 @outer
 def run_newmark(motion, step, alpha):
     """Run with a step [s], see `run_in_steps`."""
-    return run_in_steps(motion, step, True, newmark_step, True, (alpha, rows(motion.state, 4)))
+    return run_in_steps(motion, step, newmark_step, True, (alpha, np.zeros(motion.state.shape)))
 
 
 METHODS = tuple(

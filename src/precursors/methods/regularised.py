@@ -21,8 +21,9 @@ import numpy as np
 from scipy.integrate import BDF, Radau
 from scipy.optimize import brentq, minimize_scalar
 
+from precursors.methods.columns import SPRING, VELOCITY, at_rest, set_modes, time_unit
 from precursors.methods.common import Method, Result
-from precursors.methods.events import jacobian, scaled, time_unit
+from precursors.methods.events import jacobian
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span, positive
 from precursors.solver.run import Run
@@ -75,12 +76,12 @@ def equations(
 ) -> tuple[Callable[[float, FloatArray], FloatArray], Callable[[float, FloatArray], FloatArray]]:
     """Right-hand side and Jacobian for the state y of `events`, friction being a function of velocity."""
     n = chain.n_blocks
-    tau, drive_velocity, coupling = scaled(chain)
-    law = (width * chain.mass / tau, chain.mu_s, chain.mu_k)
-    all_slide = np.repeat([[1.0], [0.0], [0.0], [0.0]], n, axis=1)
-    linear = jacobian(all_slide, coupling, np.zeros((2 * n, 2 * n)))
+    law = (width * chain.mass / time_unit(chain), chain.mu_s, chain.mu_k)
+    system, state = at_rest(chain, scaled=True)
+    set_modes(system, state, np.ones(n))
+    linear = jacobian(system, state, np.zeros((2 * n, 2 * n)))
     drive = np.zeros(2 * n)
-    drive[0] = coupling[0] * drive_velocity
+    drive[0] = system[SPRING, 1] * state[VELOCITY, 0]
     i = np.arange(n, 2 * n)
 
     def right_hand_side(_time: float, state: FloatArray) -> FloatArray:

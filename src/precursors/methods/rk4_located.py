@@ -12,18 +12,33 @@ import math
 
 import numpy as np
 
-from precursors.methods.columns import apart, by_mode, inner, outer, rates, resting_mode, rows
+from precursors.methods.columns import (
+    BACKWARD,
+    INVERSE_MASS,
+    MODE,
+    SPRING,
+    STRENGTH,
+    VELOCITY,
+    apart,
+    by_mode,
+    event_function,
+    inner,
+    net_force,
+    outer,
+    rates,
+)
 from precursors.methods.fixed_step import (
     LEGS_PER_CALL,
     MOVING,
     PAUSED,
     STEPS_IN_LEG,
     begin_leg,
-    change_mode,
+    change_state,
+    feels,
     fixed_step,
     step_length,
 )
-from precursors.methods.rk4 import step_from_rates
+from precursors.methods.rk4 import room, step_from_rates
 
 STEPS = (6e-6, 4e-6, 3e-6, 2e-6, 1e-6, 6e-7, 3e-7, 1e-7, 3e-8)
 # An event function below so many roundings of the forces is zero.
@@ -36,26 +51,17 @@ NEVER = 2.0  # a part of the step beyond its end
 
 
 @inner
-def event_function(system, state, i):
-    """What stays positive while block i keeps its mode: velocity [m/s] or margin of mu_s w [N]."""
-    if state.mode[i] != 0:
-        return state.mode[i] * state.velocity[i]
-    net = state.spring_force[i] - state.spring_force[i + 1]
-    return min(system.strength[i] - net, system.backward[i] + net)
-
-
-@inner
 def evaluate(system, state, last, rate, event):
-    """Rates of blocks 1..last (rows of `rate`); event functions of all that can change, and their rates."""
-    rates(by_mode, 0.0, system, state, last, state.spring_force, state.velocity, rate[0], rate[1])
-    for i in range(1, min(last + 1, state.mode.shape[0] - 2) + 1):
-        event[0, i] = event_function(system, state, i)
-        if state.mode[i] != 0:
-            event[1, i] = state.mode[i] * rate[1, i]
+    """Rates of blocks 1..last; event functions of all that can change, and their rates (rows of `event`)."""
+    rates(by_mode, 0.0, system, state, last, state, rate)
+    for i in range(1, feels(state, last) + 1):
+        event[0, i] = event_function(system, state, state, i)
+        if state[MODE, i] != 0.0:
+            event[1, i] = state[MODE, i] * rate[VELOCITY, i]
         else:
-            net = state.spring_force[i] - state.spring_force[i + 1]
-            sign = 1.0 if system.strength[i] - net < system.backward[i] + net else -1.0
-            event[1, i] = -sign * (rate[0, i] - rate[0, i + 1])
+            net = net_force(state, i)
+            sign = 1.0 if system[STRENGTH, i] - net < system[BACKWARD, i] + net else -1.0
+            event[1, i] = -sign * net_force(rate, i)
 
 
 @inner
@@ -118,16 +124,20 @@ def first_zero(g0, b0, g1, b1, rounding):
 @inner
 def roundings(system):
     """Roundings of the event functions: of a force while a block sticks [N], of a velocity [m/s]."""
-    force = ROUNDINGS * np.sum(system.strength)
-    return force, force * math.sqrt(system.inverse_mass / np.max(system.spring))
+    total = stiffest = 0.0
+    for i in range(1, system.shape[1] - 1):
+        total += system[STRENGTH, i]
+        stiffest = max(stiffest, system[SPRING, i])
+    force = ROUNDINGS * total
+    return force, force * math.sqrt(system[INVERSE_MASS, 1] / stiffest)
 
 
 @inner
 def first_transition(state, last, h, before, after, rounding):
     """Block that changes its state first in a step, and the part of the step at which it does."""
     first, block = NEVER, 0
-    for i in range(1, min(last + 1, state.mode.shape[0] - 2) + 1):
-        zero = rounding[0] if state.mode[i] == 0 else rounding[1]
+    for i in range(1, feels(state, last) + 1):
+        zero = rounding[0] if state[MODE, i] == 0.0 else rounding[1]
         s = first_zero(before[0, i], h * before[1, i], after[0, i], h * after[1, i], zero)
         if s < first:
             first, block = s, i
@@ -135,78 +145,65 @@ def first_transition(state, last, h, before, after, rounding):
 
 
 @inner
-def step_from(motion, start, rate, h, work):
-    """Go back to the start of a step, and make one of h [s] instead."""
-    state = motion.state
-    state.spring_force[:], state.velocity[:] = start[0], start[1]
-    work[4], work[5] = rate[0], rate[1]
-    step_from_rates(by_mode, 0.0, motion.system, state, motion.progress.last, h, work)
-
-
-@apart
-def change_state(motion, i):
-    """Release a block, or let it stop or turn round."""
-    state = motion.state
-    if state.mode[i] == 0:
-        new = 1 if state.spring_force[i] > state.spring_force[i + 1] else -1
-    else:
-        state.velocity[i] = 0.0
-        new = resting_mode(motion.system, state, i)
-    if new != state.mode[i]:
-        change_mode(motion, i, new)
+def copy(y, result):
+    """Copy spring forces and velocities."""
+    for row in range(2):
+        for i in range(y.shape[1]):
+            result[row, i] = y[row, i]
 
 
 @outer
 def run_located(motion, step):
     """Run until the end, a full record or a spent budget of legs."""
-    system, state, progress = motion.system, motion.state, motion.progress
-    most_idle, rounding = 4 * (state.mode.shape[0] - 2), roundings(system)
-    work = rows(state, 6)
-    # At a step's start: the state, its rates, and event functions with theirs; rates and functions at its
-    # end.
-    start, rate, event = work[:2].copy(), work[:2].copy(), work[:2].copy()
-    rate_after, event_after = work[:2].copy(), work[:2].copy()
+    system, state, progress = motion.system, motion.state, motion.progress[0]
+    most_idle, rounding = 4 * (state.shape[1] - 2), roundings(system)
+    rate, trial, total = room(state)
+    # The state at a step's start, and event functions with their rates; rates and functions at its end.
+    start, event = np.zeros(state.shape), np.zeros(state.shape)
+    rate_after, event_after = np.zeros(rate.shape), np.zeros(state.shape)
     idle = 0
     for _ in range(LEGS_PER_CALL):
-        status = begin_leg(motion, True)
+        status = begin_leg(motion)
         if status != MOVING:
             return status
         last = progress.last
         evaluate(system, state, last, rate, event)
         progress.evaluations += 1
-        h, s, i = step, NEVER, 0
         for _ in range(STEPS_IN_LEG):
-            h = step_length(progress, step)
-            start[0], start[1] = state.spring_force, state.velocity
-            work[4], work[5] = rate[0], rate[1]
-            step_from_rates(by_mode, 0.0, system, state, last, h, work)
-            evaluate(system, state, last, rate_after, event_after)
-            progress.evaluations += 4
-            s, i = first_transition(state, last, h, event, event_after, rounding)
-            # Where blocks change without time going on, rounding can decide in a circle: make a whole step.
-            if s <= 1.0 and idle <= most_idle:
+            h, s, i = step_length(progress, step), 1.0, 0
+            copy(state, start)
+            for correction in range(CORRECTIONS + 1):
+                step_from_rates(by_mode, 0.0, system, state, last, s * h, (rate, trial, total))
+                progress.evaluations += 3
+                if correction == 0:
+                    evaluate(system, state, last, rate_after, event_after)
+                    progress.evaluations += 1
+                    s, i = first_transition(state, last, h, event, event_after, rounding)
+                    # Where blocks change without time going on, rounding can decide in a circle: make a whole
+                    # step.
+                    if s > 1.0 or idle > most_idle:
+                        i = 0
+                        break
+                else:
+                    zero = rounding[0] if state[MODE, i] == 0.0 else rounding[1]
+                    g = event_function(system, state, state, i)
+                    ends = event[0, i], h * event[1, i], event_after[0, i], h * event_after[1, i]
+                    slope = cubic_slope(s, *ends)
+                    if abs(g) <= zero or slope >= 0.0 or correction == CORRECTIONS:
+                        break
+                    s = min(max(s - g / slope, 0.0), 1.0)
+                copy(start, state)
+            if i > 0:
+                idle = idle + 1 if s * h <= IDLE * step else 0
+                progress.elapsed += s * h
+                change_state(motion, i)
                 break
-            s = NEVER
             progress.elapsed += h
             rate, rate_after = rate_after, rate
             event, event_after = event_after, event
             idle = 0
             if h < step:
                 break
-        if s > 1.0:
-            continue
-        zero = rounding[0] if state.mode[i] == 0 else rounding[1]
-        for correction in range(CORRECTIONS):
-            step_from(motion, start, rate, s * h, work)
-            progress.evaluations += 3
-            g = event_function(system, state, i)
-            slope = cubic_slope(s, event[0, i], h * event[1, i], event_after[0, i], h * event_after[1, i])
-            if abs(g) <= zero or slope >= 0.0 or correction == CORRECTIONS - 1:
-                break
-            s = min(max(s - g / slope, 0.0), 1.0)
-        idle = idle + 1 if s * h <= IDLE * step else 0
-        progress.elapsed += s * h
-        change_state(motion, i)
     return PAUSED
 
 

@@ -15,8 +15,9 @@ from typing import Any, Literal
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from precursors.methods.columns import MODE, STRENGTH
 from precursors.methods.common import Method, Result
-from precursors.methods.events import MODE, NUDGE, Motion, jacobian, march_restarting
+from precursors.methods.events import NUDGE, EventMotion, jacobian, march_restarting
 from precursors.model.chain import Chain, FloatArray
 
 Solver = Literal["RK45", "DOP853", "LSODA", "Radau"]
@@ -60,19 +61,19 @@ def solve_scipy(
     RuntimeError
         If SciPy reports a failure.
     """
-    motion = Motion(chain, duration, until, nudge=nudge)
+    motion = EventMotion(chain, duration, until, nudge=nudge)
     n = chain.n_blocks
 
     def next_transition(time: float) -> tuple[float, int]:
         events = dict(watched(motion, direction))
         options: dict[str, Any] = {}
         if solver in IMPLICIT:
-            matrix = jacobian(motion.settings, motion.coupling, np.zeros((2 * n, 2 * n)))
+            matrix = jacobian(motion.system, motion.state, np.zeros((2 * n, 2 * n)))
             options["jac"] = matrix if solver == "Radau" else lambda _t, _y: matrix
         solution = solve_ivp(
             motion.rates,
             (time, motion.remaining),
-            motion.state,
+            motion.y,
             method=solver,
             events=list(events.values()),
             rtol=tolerance,
@@ -83,23 +84,23 @@ def solve_scipy(
         motion.evaluations += solution.nfev
         if not solution.success:
             raise RuntimeError(f"{solver} at t = {motion.onset:.9g} s: {solution.message}")
-        motion.state[:] = solution.y[:, -1]
+        motion.y[:] = solution.y[:, -1]
         fired = [number for number, times in zip(events, solution.t_events or (), strict=True) if len(times)]
         return float(solution.t[-1]), fired[0] if fired else -1
 
     return march_restarting(motion, next_transition)
 
 
-def watched(motion: Motion, direction: float = FALLING) -> Iterator[tuple[int, EventFunction]]:
+def watched(motion: EventMotion, direction: float = FALLING) -> Iterator[tuple[int, EventFunction]]:
     """Numbers and functions of the events that can come next."""
     n = motion.chain.n_blocks
-    mode = motion.settings[MODE]
+    mode = motion.state[MODE, 1:-1]
     for i in range(n):
         if mode[i] != 0.0:
             yield 2 * i, _terminal(_velocity(n + i, float(mode[i])), direction)
         elif mode[max(i - 1, 0) : i + 2].any():
             for side in (0, 1):
-                margin = _margin(i, n, float(motion.strength[i]), 1.0 - 2.0 * side)
+                margin = _margin(i, n, float(motion.system[STRENGTH, i + 1]), 1.0 - 2.0 * side)
                 yield 2 * i + side, _terminal(margin, direction)
 
 

@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from precursors.methods.columns import State, sliding_forward, system_of
+from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
 from precursors.model.chain import Chain, FloatArray
 
 # Energy that becomes so many times larger within so many steps has no limit. Bounded energy can rise by
@@ -48,16 +48,15 @@ def highest_mode(chain: Chain) -> FloatArray:
     return np.linalg.eigh(stiffness_matrix(chain))[1][:, -1]
 
 
-def energy(chain: Chain, state: State) -> float:
+def energy(chain: Chain, state: FloatArray) -> float:
     """Kinetic energy and that of the springs [J]."""
-    springs = state.spring_force[1:-1] ** 2 / chain.springs
-    return 0.5 * float(chain.mass * state.velocity[1:-1] @ state.velocity[1:-1] + springs.sum())
+    force, velocity = state[FORCE, 1:-1], state[VELOCITY, 1:-1]
+    return 0.5 * float(chain.mass * velocity @ velocity + (force**2 / chain.springs).sum())
 
 
 def energy_left(chain: Chain, slide: Slide, step: float, n_steps: int, velocities: FloatArray) -> float:
     """Energy after n steps of all blocks sliding from some velocities [m/s], over that at the start."""
-    system = system_of(chain)
-    state = sliding_forward(system, velocities)
+    system, state = sliding_forward(chain, velocities)
     before = energy(chain, state)
     slide(system, state, step, n_steps)
     with np.errstate(over="ignore", invalid="ignore"):

@@ -6,7 +6,7 @@ import numpy as np
 
 from precursors.accuracy.failures.common import Failure, Number, curves
 from precursors.methods import karnopp
-from precursors.methods.columns import at_rest, system_of
+from precursors.methods.columns import FORCE, at_rest
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import simulate
 
@@ -17,13 +17,12 @@ POINTS = 66
 
 def load_after_limit(chain: Chain, step: float, times: FloatArray) -> FloatArray:
     """F_X [N] with Eq. 4 as printed, at some times [s] after block 1 has first reached its limit."""
-    system = system_of(chain)
-    state = at_rest(system)
-    state.spring_force[1] = chain.strength[0]
+    system, state = at_rest(chain)
+    state[FORCE, 1] = chain.strength[0]
     load = []
     for time in np.diff(times, prepend=0.0):
         karnopp.slide(system, state, step, round(time / step), 0.0)
-        load.append(float(state.spring_force[1]))
+        load.append(float(state[FORCE, 1]))
     return np.array(load)
 
 

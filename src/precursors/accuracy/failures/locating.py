@@ -11,8 +11,8 @@ from scipy.integrate import solve_ivp
 
 from precursors.accuracy.failures.common import Failure, Number, Threshold, curves, transitions_right
 from precursors.methods import METHODS
-from precursors.methods.dop853 import TIGHT, next_transition
-from precursors.methods.events import NUDGE, Motion, march_events
+from precursors.methods.dop853 import solve_dop853
+from precursors.methods.events import NUDGE, EventMotion
 from precursors.methods.scipy_events import solve_scipy
 from precursors.methods.stability import bisect
 from precursors.model.chain import Chain, FloatArray
@@ -21,8 +21,9 @@ from precursors.solver.simulate import TransitionLimitError, simulate
 
 METHOD, MERGING = "DOP853 with events", "DOP853, transitions merged"
 MISSED, MERGED = "two roots of a velocity are missed", "two of three transitions lose their order"
-# At this tolerance DOP853 steps over two roots of a velocity; at most so long [s] its steps do and do not.
-LOOSE = 1e-7
+# At the loose tolerance DOP853 steps over two roots of a velocity; with steps of at most so many seconds, it
+# does not and does.
+LOOSE, TIGHT = 1e-7, 1e-10
 SHORT_STEP, LONG_STEP = 1e-6, 4e-6
 # Times [s] within which transitions are made at once; the first changes no sequence, the second does.
 WINDOWS = (1e-7, 3e-7, 1e-6)
@@ -32,48 +33,22 @@ RESTART_END = 1.0  # s
 SMALLEST = math.nextafter(0.0, 1.0)
 
 
-def integrate(motion: Motion, start: float, end: float, tolerance: float = TIGHT, dense: bool = False) -> Any:
-    """Integrate a motion without transitions between two times since its slip's onset [tau]."""
-    return solve_ivp(
-        motion.rates,
-        (start, end),
-        motion.state,
-        "DOP853",
-        rtol=tolerance,
-        atol=tolerance,
-        dense_output=dense,
-    )
-
-
-def merging_slip(motion: Motion, window: float) -> None:
-    """Go through a slip; what is due within a window [s] after a transition is made at its end."""
-    time, sliding = 0.0, True
-    while sliding and time < motion.remaining:
-        after = min(time + window / motion.tau, motion.remaining)
-        motion.state[:] = integrate(motion, time, after).y[:, -1]
-        overdue = np.flatnonzero(motion.event_functions(motion.state) < 0.0).tolist()
-        time, event = (after, overdue[0]) if overdue else next_transition(motion, after)
-        sliding = motion.switch(event, time)
-
-
 def solve_merging(chain: Chain, duration: float, window: float, until: str | None = None) -> Run:
     """Run a chain whose transitions are made at once where they lie closer than a window [s]."""
-    return march_events(Motion(chain, duration, until), partial(merging_slip, window=window)).run
+    return solve_dop853(chain, duration, TIGHT, until, window).run
 
 
-def motion_after(run: Run, number: int) -> Motion:
+def motion_after(run: Run, number: int) -> EventMotion:
     """The motion of an exact run from its transition of this number (from 1) on."""
     chain = run.chain
-    motion = Motion(chain, run.duration, None)
+    motion = EventMotion(chain, run.duration, None)
     modes = np.zeros(chain.n_blocks)
     for _, block, mode, _ in run.transitions[:number].tolist():
         modes[block - 1] = mode
-    motion.settings[:] = abs(modes), modes * motion.friction, modes, 1.0 - abs(modes)
     time, block, mode, _ = run.transitions[number - 1].tolist()
     velocities = run.at([time])[1][0] * chain.mass / motion.tau
     velocities[block - 1] = mode * NUDGE
-    motion.state[:] = np.concatenate([run.spring_forces([time])[0], velocities])
-    motion.n_sliding = int(abs(modes).sum())
+    motion.put(modes, run.spring_forces([time])[0], velocities)
     return motion
 
 
@@ -92,8 +67,9 @@ def missed_roots() -> Failure:
     column = chain.n_blocks + int(exact.transitions["block"][wrong]) - 1
     motion = motion_after(exact, wrong)
     end = 3.0 * float(exact.intervals[wrong]) / motion.tau
-    path = integrate(motion, 0.0, end, dense=True).sol
-    steps = integrate(motion, 0.0, end, tolerance=LOOSE)
+    integrate: Any = partial(solve_ivp, motion.rates, (0.0, end), motion.y, "DOP853")
+    path = integrate(rtol=TIGHT, atol=TIGHT, dense_output=True).sol
+    steps = integrate(rtol=LOOSE, atol=LOOSE)
     times, to_velocity = np.linspace(0.0, end, 301), motion.tau / chain.mass
     velocity = path(times)[column] * to_velocity
     negative = np.flatnonzero(velocity[1:] < 0.0) + 1

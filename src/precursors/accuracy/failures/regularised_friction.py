@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
 from precursors.accuracy.failures.common import Failure, Number, Threshold, curves
-from precursors.methods.events import time_unit
+from precursors.methods.columns import time_unit
 from precursors.methods.regularised import creep_velocity, equations
 from precursors.methods.stability import bisect, highest_frequency
 from precursors.model.chain import Chain
