@@ -5,6 +5,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
+from precursors.model import printed
 from precursors.model.config import check_config, check_file, read_numbers
 from precursors.model.scenes import (
     scene_additions,
@@ -59,7 +60,7 @@ ASKED = scenes_with(config, "answers")
 FORMATS = ["svg", *[name for name in config["figure_formats"] if name != "svg"]]
 SLIDERS = {scene: scene_slider(config, scene) for scene in config["fig13"]}
 RUNS = {scene: f"results/runs/{scene}.h5" for scene in config["fig13"]}
-PAPER_PRINTS = {scene: config["scenes"][scene].get("paper", {}) for scene in SCENES}
+PAPER_PRINTS = {scene: printed.SCENES.get(scene, {}) for scene in SCENES}
 TABLES = {}  # of all rooms: see tables.smk
 # What reads a file, by its ending.
 READERS = {

@@ -6,9 +6,10 @@ import yaml
 
 from precursors.ensembles.studies import make_study, study_arguments
 from precursors.ensembles.study import Study
+from precursors.model import printed
 
 CONFIG = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8"))
-PAPER = {scene: CONFIG["scenes"][scene]["paper"] for scene in CONFIG["fig13"]}
+PAPER = {scene: printed.SCENES[scene] for scene in CONFIG["fig13"]}
 
 
 def study_of(name: str, settings: dict[str, object]) -> Study:

@@ -91,8 +91,7 @@ def resolution_members() -> pd.DataFrame:
 
 def model_comparison() -> pd.DataFrame:
     """All answers of all models, timed once."""
-    settings = CONFIG["hierarchy"]
-    return compare_models(SCENES, settings["tolerances"], rounds=1)
+    return compare_models(SCENES, rounds=1)
 
 
 TABLES: dict[str, Callable[[], pd.DataFrame]] = {

@@ -8,16 +8,14 @@ import numpy as np
 import pandas as pd
 import pytest
 from golden import small_tables
-from golden.small_tables import CONFIG, SCENES
+from golden.small_tables import SCENES
 
 from precursors import Chain
 from precursors.figures import model_comparison, style
-from precursors.hierarchy.compare_models import compare_models, waveform_error, with_smallest
+from precursors.hierarchy.compare_models import TOLERANCES, compare_models, waveform_error, with_smallest
 from precursors.hierarchy.models import MODELS
 from precursors.support import timing
 from precursors.support.files import read_table
-
-TOLERANCES = CONFIG["hierarchy"]["tolerances"]
 
 
 @pytest.fixture(scope="module")

@@ -60,7 +60,6 @@ WRONG = [
     ("fig13", ["fig10", "fig11"], ["fig13: ", "too short"]),
     ("figure_formats", ["doc"], ["figure_formats[0]: 'doc' is not one of"]),
     ("accuracy.compared", ["none"], ["holds 'none'", "trailing"]),
-    ("hierarchy.tolerances.waveforms", 0.1, ["hierarchy.tolerances: 'waveforms'"]),
     ("ensembles.resolution.runs", [40], ["resolution.runs", "one number for each of n_blocks"]),
 ]
 

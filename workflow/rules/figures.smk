@@ -39,9 +39,7 @@ FIGURES = {
             "mu_sapp": "results/tables/mu_sapp.csv",
         },
         "options": {
-            "printed": [
-                config["scenes"][scene].get("paper", {}).get("events_counted") for scene in config["fig13"]
-            ],
+            "printed": [PAPER_PRINTS[scene].get("events_counted") for scene in config["fig13"]],
             "scenes": config["fig13"],
         },
         "look": config["figure"],

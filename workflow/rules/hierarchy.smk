@@ -3,11 +3,7 @@
 TABLES |= {
     "model_comparison": {
         "function": "hierarchy.compare_models:model_comparison",
-        "options": {
-            "sliders": SLIDERS,
-            "tolerances": config["hierarchy"]["tolerances"],
-            "repetitions": config["hierarchy"]["repetitions"],
-        },
+        "options": {"sliders": SLIDERS},
         "seconds": 4,
     },
     **{

@@ -1,10 +1,16 @@
-"""Numbers that the paper prints, by the sign of theta: -1 for the larger load at the trailing edge."""
+"""Numbers that the paper prints."""
 
-# Events counted in Fig. 13 (Sect. 5.2), and in the experiment (Sect. 3.2.2), which is never fitted.
-EVENTS_COUNTED = {-1: 6, 0: 9, 1: 14}
-EVENTS_OF_EXPERIMENT = {-1: 11, 0: 19, 1: 27}
 # Of all simulations and experiments.
 MU_SAPP = 0.49
+# Of each scene: the events are those counted in Fig. 13 (Sect. 5.2).
+SCENES = {
+    "fig10": {"events_counted": 9, "mu_sapp": MU_SAPP},
+    "fig11": {"events_counted": 6, "mu_sapp": MU_SAPP},
+    "fig12": {"events_counted": 14, "mu_sapp": MU_SAPP},
+}
+# Events of the experiment (Sect. 3.2.2), which is never fitted, by the sign of theta: -1 for the larger load
+# at the trailing edge.
+EVENTS_OF_EXPERIMENT = {-1: 11, 0: 19, 1: 27}
 # Uniform loading (Sect. 3.2.1): F_X at the first global slip, and how long a global slip lasts.
 FIRST_GLOBAL_SLIP_N, SLIP_DURATION_S = 200.0, 0.002
 # Fig. 7: F_ZA and F_ZB, and how far the load cells are apart.

@@ -46,7 +46,7 @@ def of_claim(find: Find) -> Find:
     return FINDINGS.setdefault(find.__name__.replace("_", "-"), find)
 
 
-def printed_count(scene: str, count: int, t: Tables) -> Finding:
+def printed_count(scene: str, count: float, t: Tables) -> Finding:
     """Events of Fig. 13."""
     return in_draws(t, lambda runs: runs["events_counted"][[scene]], lambda counts: counts == count, count)
 
@@ -61,9 +61,8 @@ def printed_friction(scene: str, t: Tables) -> Finding:
     )
 
 
-SIDES = {TRAILING: ("trailing", -1), UNIFORM: ("uniform", 0), LEADING: ("leading", 1)}
-for scene, (side, sign) in SIDES.items():
-    FINDINGS[f"count-{side}"] = partial(printed_count, scene, printed.EVENTS_COUNTED[sign])
+for scene, side in {TRAILING: "trailing", UNIFORM: "uniform", LEADING: "leading"}.items():
+    FINDINGS[f"count-{side}"] = partial(printed_count, scene, printed.SCENES[scene]["events_counted"])
     FINDINGS[f"friction-{side}"] = partial(printed_friction, scene)
 
 
