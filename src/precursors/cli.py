@@ -10,12 +10,15 @@ import json
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import replace
 from difflib import get_close_matches
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
+
+from precursors.support.files import check_writable, write_table
 
 if TYPE_CHECKING:
     from precursors.solver.run import Run
@@ -108,8 +111,6 @@ def slips(arguments: argparse.Namespace) -> None:
     if arguments.counted:
         table = table[table["counted"]]
     if arguments.output:
-        from precursors.support.files import write_table
-
         write_table(table, arguments.output)
     if arguments.json:
         found = table.astype(object).where(table.notna(), None)
@@ -171,7 +172,7 @@ def run_of(arguments: argparse.Namespace) -> Run:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
         return run_of_options(arguments)
-    if slider_of(arguments) or given(arguments, LARGER) or given(arguments, RUN):
+    if given(arguments, ("theta", "n_blocks", "weights", *CHAIN, *LARGER, *RUN)):
         raise ValueError(f"{arguments.file}: a run file cannot be combined with options of a chain")
     from precursors.solver.run import Run, RunFileError
 
@@ -183,16 +184,19 @@ def run_of(arguments: argparse.Namespace) -> Run:
 
 def run_of_options(arguments: argparse.Namespace) -> Run:
     """Run the chain of the options."""
-    from dataclasses import replace
-
     from precursors.model.chain import Chain, parse_theta
-    from precursors.model.scenes import SLIDER
+    from precursors.model.scenes import SLIDER, measured
     from precursors.solver.simulate import TransitionLimitError, simulate
 
-    slider = SLIDER | slider_of(arguments)
-    if slider["weights"] is None:
+    slider = given(arguments, ("theta", "n_blocks", *CHAIN))
+    if arguments.weights is None:
+        slider = SLIDER | slider
         slider["theta"] = parse_theta(slider["theta"])
         del slider["weights"]
+    elif slider.keys() & {"theta", "n_blocks", "normal_load"}:
+        raise ValueError("--weights cannot be combined with --theta, --blocks or --normal-load")
+    else:
+        slider = measured(SLIDER | slider, arguments.weights)
     chain, added = Chain.from_slider(**slider), given(arguments, LARGER)
     how = {"duration": DURATION, **given(arguments, RUN)}
     try:
@@ -218,30 +222,15 @@ def given(arguments: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]
     return {name: value for name in names if (value := getattr(arguments, name)) is not None}
 
 
-@contextmanager
-def telling_that_it_compiles(command: str) -> Iterator[None]:
-    """Tell whoever uses the solver for the first time why it takes so long."""
-    if command == "audit":  # which compiles nothing and imports no compiler
-        yield
-        return
+def announcing(command: str) -> AbstractContextManager[Any]:
+    """Tell whoever uses the solver for the first time why it takes so long; an audit needs no compiler."""
+    if command == "audit":
+        return nullcontext()
     from numba.core import event
 
     from precursors.solver.kernel.compiled import Announcement
 
-    with event.install_listener("numba:compile", Announcement()):
-        yield
-
-
-def slider_of(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Arguments of `Chain.from_slider` that were given."""
-    from precursors.model.scenes import measured
-
-    slider = given(arguments, ("theta", "n_blocks", *CHAIN))
-    if arguments.weights is None:
-        return slider
-    if slider.keys() & {"theta", "n_blocks", "normal_load"}:
-        raise ValueError("--weights cannot be combined with --theta, --blocks or --normal-load")
-    return measured(slider, arguments.weights)
+    return event.install_listener("numba:compile", Announcement())
 
 
 def show_values(values: Mapping[str, Any], as_json: bool) -> None:
@@ -273,18 +262,20 @@ def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
     def option(name: str) -> str:
         return f"--{name.replace('_', '-')}"
 
-    chain = command.add_argument_group("the chain", "the defaults are the paper's") if is_shown else command
+    def group(title: str, about: str | None = None) -> Any:
+        return command.add_argument_group(title, about) if is_shown else command
+
+    chain = group("the chain", "the defaults are the paper's")
     add(chain, "--theta", metavar="X", help='non-uniformity of the normal loading, for example "5/6" (0)')
     add(chain, "--blocks", dest="n_blocks", type=int, metavar="N", help="number of blocks (10)")
     text = "table with the normal load of each block [N]; replaces --theta, --blocks and --normal-load"
     add(chain, "--weights", metavar="FILE", help=text)
     for name, (default, meaning) in CHAIN.items():
         add(chain, option(name), type=number, metavar="X", help=f"{meaning} ({default})")
-    title = "a larger chain", "each adds to the paper's chain; 0 by default"
-    larger = command.add_argument_group(*title) if is_shown else command
+    larger = group("a larger chain", "each adds to the paper's chain; 0 by default")
     for name, meaning in LARGER.items():
         add(larger, option(name), type=number, metavar="X", help=meaning)
-    run = command.add_argument_group("the run") if is_shown else command
+    run = group("the run")
     add(run, "--duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
     until: dict[str, Any] = {"dest": "until", "action": "store_const", "const": "global slip"}
     add(run, "--until-global-slip", help="stop at the end of the first global slip", **until)
@@ -322,11 +313,11 @@ def add_options(command: argparse.ArgumentParser, name: str) -> None:
     add("--json", action="store_true", help="print one JSON value")
 
 
-COMMANDS: dict[str, tuple[Callable[[argparse.Namespace], None], str, tuple[str, ...]]] = {
-    "simulate": (simulate, "run a chain and summarise it", ()),
-    "slips": (slips, "list the slip events of a run", ()),
-    "plot": (plot, "draw a run", FIGURE_ENDINGS),
-    "audit": (audit, "check that runs are motions of the model, without the solver's code", ()),
+COMMANDS: dict[str, tuple[Callable[[argparse.Namespace], None], str]] = {
+    "simulate": (simulate, "run a chain and summarise it"),
+    "slips": (slips, "list the slip events of a run"),
+    "plot": (plot, "draw a run"),
+    "audit": (audit, "check that runs are motions of the model, without the solver's code"),
 }
 
 
@@ -350,20 +341,16 @@ def help_of(name: str) -> str:
     return command.format_help()
 
 
-class PrintVersion(argparse.Action):
-    """Look the version up only when it is asked for."""
+def print_version() -> None:
+    """Print the version, and in a checkout the commit and its software hash identifiers."""
+    from importlib.metadata import version
 
-    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
-        """Print the version, and in a checkout the commit and its software hash identifiers."""
-        from importlib.metadata import version
+    from precursors.support.provenance import git_state
 
-        from precursors.support.provenance import git_state
-
-        print(f"precursors {version('precursors')}")
-        if state := git_state(Path(__file__).parents[2]):
-            print(f"commit {state['commit']}{', and files have changed since' if state['changed'] else ''}")
-            print(state["swh_revision"], state["swh_directory"], sep="\n")
-        parser.exit()
+    print(f"precursors {version('precursors')}")
+    if state := git_state(Path(__file__).parents[2]):
+        print(f"commit {state['commit']}{', and files have changed since' if state['changed'] else ''}")
+        print(state["swh_revision"], state["swh_directory"], sep="\n")
 
 
 def parser() -> Parser:
@@ -372,12 +359,12 @@ def parser() -> Parser:
     top = Parser(
         "precursors", description="Simulate stick-slip chains exactly.", epilog=EPILOG, formatter_class=raw
     )
-    top.add_argument("--version", action=PrintVersion, nargs=0, help="show version, commit and identifiers")
-    subparsers = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, (run, meaning, endings) in COMMANDS.items():
+    top.add_argument("--version", action="store_true", help="show version, commit and identifiers")
+    subparsers = top.add_subparsers(dest="command", metavar="COMMAND")
+    for name, (run, meaning) in COMMANDS.items():
         command = subparsers.add_parser(name, help=meaning, description=f"{meaning[0].upper()}{meaning[1:]}.")
         add_options(command, name)
-        command.set_defaults(run=run, endings=endings)
+        command.set_defaults(run=run)
     return top
 
 
@@ -401,12 +388,15 @@ def main(argv: Sequence[str] | None = None) -> int:
 
         argcomplete.autocomplete(top, print_suppressed=True)
     arguments = top.parse_args(join_negative_values(sys.argv[1:] if argv is None else argv))
+    if arguments.version:
+        print_version()
+        return DONE
+    if arguments.command is None:
+        top.error(f"needed is one of {', '.join(COMMANDS)}")
     try:
         if getattr(arguments, "output", None):
-            from precursors.support.files import check_writable
-
-            check_writable(arguments.output, arguments.endings)
-        with telling_that_it_compiles(arguments.command):
+            check_writable(arguments.output, FIGURE_ENDINGS if arguments.command == "plot" else ())
+        with announcing(arguments.command):
             arguments.run(arguments)
         if sys.stdout:  # None where it was closed
             sys.stdout.flush()

@@ -248,7 +248,7 @@ def test_the_version_is_told(cli):
 @pytest.mark.parametrize(
     ("arguments", "code", "about"),
     [
-        ((), WRONG_USE, "COMMAND"),
+        ((), WRONG_USE, "needed is one of simulate"),
         (("fly",), WRONG_USE, "'fly'"),
         (("simulat",), WRONG_USE, "did you mean simulate?"),
         (("slips", "--thta", "0"), WRONG_USE, "did you mean --theta?"),
