@@ -117,4 +117,5 @@ def test_the_version_to_cite_is_that_of_the_package_and_of_the_changelog():
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))["version"]
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     assert latest == cited == project["version"]
+    assert project["license"] == "MIT"
     assert f"version {cited}, commit" in " ".join(README.split())

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import errno
-import json
 import os
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -87,50 +86,19 @@ def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
         table.to_csv(temporary, index=False, lineterminator="\n")
 
 
-def read_table(
-    path: str | os.PathLike[str], columns: Mapping[str, type] | None = None, **how: Any
-) -> pd.DataFrame:
-    """Read a CSV table.
-
-    Parameters
-    ----------
-    path : path
-        The file.
-    columns : mapping of str to type, optional
-        Columns that must be there, and their types; others may be there too.
-    **how
-        As for `pandas.read_csv`.
+def read_table(path: str | os.PathLike[str], **how: Any) -> pd.DataFrame:
+    """Read a CSV table; `how` as for `pandas.read_csv`.
 
     Raises
     ------
     OSError
         If the file cannot be read.
     ValueError
-        If it is not a table, or a column is missing or has the wrong type.
+        If it is not a table.
     """
     import pandas as pd  # here, as a run needs no tables
 
     try:
-        table = pd.read_csv(path, **how)
-        missing = [name for name in columns or {} if name not in table.columns]
-        if missing:
-            raise ValueError(f"column {missing[0]} is missing")
-        return table.astype(columns or {})
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{path}: {' '.join(str(error).split())}") from None
-
-
-def read_json(path: str | os.PathLike[str]) -> Any:
-    """Read a JSON file.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be read.
-    ValueError
-        If it is not JSON.
-    """
-    try:
-        return json.loads(Path(path).read_bytes())
+        return pd.read_csv(path, **how)
     except ValueError as error:
-        raise ValueError(f"{path} is not JSON: {error}") from None
+        raise ValueError(f"{path}: {' '.join(str(error).split())}") from None
