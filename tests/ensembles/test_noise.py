@@ -6,7 +6,7 @@ import pytest
 from ensembles.studies import noise_of
 
 from precursors.ensembles.noise import compared, differences_table, median_difference, noise_table
-from precursors.ensembles.study import NOISE, chain_of, run_members
+from precursors.ensembles.study import NOISE, chain_of
 
 
 def members_of(**mu_sapp: list[float]) -> pd.DataFrame:
@@ -28,12 +28,6 @@ def test_draw_0_is_the_scene_and_the_others_have_noise_in_every_normal_load():
             change = weights / scene - 1
             assert (change != 0).all()
             assert (np.abs(change) <= NOISE).all()
-
-
-def test_the_scenes_without_noise_have_the_papers_counts():
-    table = noise_table(run_members(noise_of())).set_index(["scene", "quantity"])["without_noise"]
-    assert [table[scene, "events_counted"] for scene in ("fig11", "fig10", "fig12")] == [6, 9, 14]
-    assert [table[scene, "events_to_global_slip"] for scene in ("fig11", "fig10", "fig12")] == [7, 16, 56]
 
 
 def test_a_distribution_is_that_of_the_noisy_runs_with_a_global_slip():

@@ -1,4 +1,4 @@
-"""Each number is tabulated for every N, and carried on to infinite N by the laws of the textbook."""
+"""Each number is tabulated for every N, and extrapolated to infinite N."""
 
 import numpy as np
 import pandas as pd
@@ -8,8 +8,7 @@ from ensembles.studies import CONFIG, study_of
 from precursors import Chain, simulate
 from precursors.analysis.summary import summarise
 from precursors.ensembles import resolution
-from precursors.ensembles.noise import noise_table
-from precursors.ensembles.study import WITH_UNITS, run_members
+from precursors.ensembles.study import WITH_UNITS
 
 SETTINGS = {"seed": 1, "n_blocks": [2, 10, 12], "runs": [6, 9, 3]}
 
@@ -19,19 +18,6 @@ def test_each_chain_is_run_once_without_noise_and_else_with_it_but_for_the_scene
     runs = study.members.groupby(["scene", "n_blocks"])["load_noise"]
     assert runs.size().to_dict() == {(scene, n): r for scene in CONFIG["fig13"] for n, r in ((2, 7), (12, 4))}
     assert all((noise == 0.0).sum() == 1 for _, noise in runs)
-
-
-def test_the_table_has_statistics_of_each_number_for_every_scene_and_number_of_blocks():
-    rows = resolution.with_front_speed(run_members(study_of("resolution_members", SETTINGS)), length=0.1)
-    table = noise_table(rows, resolution.POINT, resolution.QUANTITIES).set_index(
-        ["scene", "n_blocks", "quantity"]
-    )
-    assert len(table) == 3 * 2 * len(resolution.QUANTITIES)
-    friction = table.loc[("fig10", 12, "mu_sapp")]
-    of_point = rows[(rows["scene"] == "fig10") & (rows["n_blocks"] == 12)]
-    noisy = of_point.loc[of_point["load_noise"] > 0, "mu_sapp"]
-    assert (friction["q50"], friction["n"]) == (noisy.median(), 3)
-    assert friction["without_noise"] == of_point.loc[of_point["load_noise"] == 0, "mu_sapp"].item()
 
 
 def test_both_counts_are_told_apart_and_compared_with_the_uniform_loading():
@@ -64,7 +50,7 @@ def runs_of(laws: dict[str, np.ndarray], n_blocks: np.ndarray) -> pd.DataFrame:
     return pd.concat([on_law, *others, never], ignore_index=True)
 
 
-def test_an_exact_law_is_carried_on_exactly_and_has_an_interval():
+def test_an_exact_law_is_extrapolated_exactly_and_has_an_interval():
     n_blocks = np.array([5, 20, 40, 80, 160])
     mu_sapp = 0.45 + 0.5 / n_blocks
     mu_sapp[0] = 9.9  # below the smallest N that takes part

@@ -102,16 +102,17 @@ def test_four_times_the_mass_halves_the_speed_at_which_the_bound_breaks(table):
     assert row.found == pytest.approx(float(light["found"].item()) / 2, rel=0.02)
 
 
-def test_the_symbols_see_a_wrong_sign_in_the_equation_of_motion(monkeypatch):
-    true = derivation.net_spring_forces
-    monkeypatch.setattr(derivation, "net_spring_forces", lambda n: [*true(n)[:-1], -true(n)[-1]])
-    assert [row.holds for row in eq15.in_symbols(4)] == [False, True]
-
-
-def test_the_symbols_see_another_misprint(monkeypatch):
-    true = derivation.balances
-    monkeypatch.setattr(derivation, "balances_as_printed", true)
-    assert [row.holds for row in eq15.in_symbols(4)] == [True, False]
+@pytest.mark.parametrize(
+    ("name", "broken", "holds"),
+    [
+        ("net_spring_forces", lambda true: lambda n: [*true(n)[:-1], -true(n)[-1]], [False, True]),
+        ("balances_as_printed", lambda _: derivation.balances, [True, False]),
+    ],
+    ids=["a wrong sign in the equation of motion", "another misprint"],
+)
+def test_the_symbols_see_what_is_broken(monkeypatch, name, broken, holds):
+    monkeypatch.setattr(derivation, name, broken(getattr(derivation, name)))
+    assert [row.holds for row in eq15.in_symbols(4)] == holds
 
 
 @pytest.mark.parametrize(
