@@ -13,9 +13,8 @@ from accuracy.made_up import CHAIN, DURATION, TRUE, has_all_transitions, made_up
 from precursors import Chain, Run, TransitionLimitError, simulate
 from precursors.accuracy.compare import Truth, compare
 from precursors.accuracy.proof import ExactChain, certify
-from precursors.accuracy.work_precision import Case, charted_values, measure_methods, proved_cases
+from precursors.accuracy.work_precision import SHORTEST, Case, charted_values, measure_methods, proved_cases
 from precursors.methods import METHODS, Method, Result
-from precursors.support import timing
 
 FIVE = TRUE[:5]  # two slips, the second not over
 # A call of a fake method takes so long, on a clock that the test moves [s].
@@ -112,9 +111,7 @@ class TestMeasuring:
     def test_a_method_is_given_up_before_the_first_value_that_takes_too_long(self, fake):
         table = measured({"rk4": [CALL, 40 * CALL, 0.5 * CALL]}, longest=10 * CALL)
         assert table["value"].tolist() == [CALL]
-        assert fake.calls.count(CALL) == 2 + (
-            5 - 1 if CALL > timing.SHORTEST else 5 * round(timing.SHORTEST / CALL)
-        )
+        assert fake.calls.count(CALL) == 2 + (5 - 1 if CALL > SHORTEST else 5 * round(SHORTEST / CALL))
         assert 0.5 * CALL not in fake.calls
 
     @pytest.mark.parametrize("first", [WARM_CALL, 0.05, 0.82, 1.9, 10.0])
@@ -126,7 +123,7 @@ class TestMeasuring:
 
         METHODS["rk4"] = replace(METHODS["rk4"], solve=solve)
         table = measured({"rk4": [1e-6]}, longest=2.0)
-        assert len(fake.calls) == 2 + 5 * round(timing.SHORTEST / WARM_CALL)
+        assert len(fake.calls) == 2 + 5 * round(SHORTEST / WARM_CALL)
         assert table["seconds"].item() == pytest.approx(WARM_CALL)
 
     def test_a_run_that_breaks_off_is_a_row_with_what_there_is(self, fake):

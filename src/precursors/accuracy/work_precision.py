@@ -24,6 +24,9 @@ ROUNDS, ROUNDS_FULL = 3, 5
 # A method is given up at a setting with which one call takes longer [s]: in the default chart, in the
 # full one.
 LONGEST, LONGEST_FULL = 2.0, 5.0
+# What a method compiles, loads or builds for a chain and a value, it does in a run that is so short [s].
+WARM_UP = 0.4
+SHORTEST = 0.005  # s, of a round: see `timing.measure`
 COLUMNS = [
     "scene",
     "theta",
@@ -79,10 +82,10 @@ class Case:
     truth: Truth
     is_proved: bool
 
-    def run(self, method: Method, value: float) -> Result:
+    def run(self, method: Method, value: float, duration: float | None = None) -> Result:
         """Run a method with a value of its setting; of a run that breaks off, what there is."""
         try:
-            return method.solve(self.chain, self.duration, value, self.until)
+            return method.solve(self.chain, duration or self.duration, value, self.until)
         except (DivergedError, TransitionLimitError) as error:
             return Result(error.run, 0)
 
@@ -135,7 +138,7 @@ def measure_methods(
     values : mapping
         Values of the setting for each method, from loose to tight.
     rounds : int
-        Number of rounds, after a warm-up, of which the median is taken; methods take turns in a round.
+        Number of rounds, after a short warm-up, of which the median is taken; methods take turns in a round.
     longest : float
         A method is given up at a value with which a call takes longer [s].
 
@@ -151,6 +154,7 @@ def measure_methods(
     timings = timing.measure(
         {key: partial(case.run, of.method, of.value) for key, of in enumerate(attempts)},
         rounds,
+        SHORTEST,
         seconds={key: of.seconds for key, of in enumerate(attempts)},
     )
     rows = [_row(case, of, timings[key].seconds) for key, of in enumerate(attempts)]
@@ -169,7 +173,8 @@ class _Attempt:
 
 def _attempts(case: Case, method: Method, values: Sequence[float], longest: float) -> Iterator[_Attempt]:
     for value in values:
-        result, seconds = timing.second_call(partial(case.run, method, value))
+        warm_up = partial(case.run, method, value, min(WARM_UP, case.duration))
+        result, seconds = timing.second_call(partial(case.run, method, value), warm_up)
         if seconds.wall > longest:
             return
         yield _Attempt(method, value, result, seconds)

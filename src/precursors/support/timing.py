@@ -102,12 +102,12 @@ def measure(
     return {name: Timing(tuple(wall[name]), tuple(cpu[name])) for name in tasks}
 
 
-def second_call(task: Callable[[], T]) -> tuple[T, Seconds]:
-    """Result of the second of two calls, and its time.
+def second_call(task: Callable[[], T], warm_up: Callable[[], object] | None = None) -> tuple[T, Seconds]:
+    """Result of the second of two calls, and its time; the first is a shorter one, if that is given.
 
     What the first one compiles, loads or imports is no part of it, however long the first one takes.
     """
-    task()
+    (warm_up or task)()
     clock, processor = time.perf_counter(), time.process_time()
     result = task()
     return result, Seconds(time.perf_counter() - clock, time.process_time() - processor)

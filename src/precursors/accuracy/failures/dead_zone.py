@@ -56,21 +56,21 @@ def jumped_over(turn: float) -> float:
     In units of what a step takes from the velocity; beyond the zone, where friction has turned round, a step
     gives back `turn` of these. So the block may tremble about the zone without end.
     """
-    v = ZONES[:, None] + STARTS
-    caught = np.zeros(v.shape, dtype=bool)
+    zone = np.repeat(ZONES, len(STARTS))
+    v = zone + np.tile(STARTS, len(ZONES))
 
     def rate(velocity: FloatArray) -> FloatArray:
-        beyond = np.where(velocity < -ZONES[:, None], turn, 0.0)
-        return np.where(velocity > ZONES[:, None], -1.0, beyond)
+        beyond = np.where(velocity < -zone, turn, 0.0)
+        return np.where(velocity > zone, -1.0, beyond)
 
     for _ in range(TREMBLING):
+        outside = abs(v) > zone
+        zone, v = zone[outside], v[outside]
         k1 = rate(v)
         k2 = rate(v + 0.5 * k1)
         k3 = rate(v + 0.5 * k2)
-        change = (k1 + 2.0 * k2 + 2.0 * k3 + rate(v + k3)) / 6.0
-        caught |= abs(v) <= ZONES[:, None]
-        v = np.where(caught, v, v + change)
-    return float(max(ZONES[~np.all(caught, axis=1)], default=0.0))
+        v = v + (k1 + 2.0 * k2 + 2.0 * k3 + rate(v + k3)) / 6.0
+    return float(zone.max(initial=0.0))
 
 
 def predicted_dead_zone(exact: Run) -> float:

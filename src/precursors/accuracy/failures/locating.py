@@ -10,6 +10,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from precursors.accuracy.failures.common import Failure, Number, Threshold, curves, transitions_right
+from precursors.analysis.slips import find_slips
 from precursors.methods import METHODS
 from precursors.methods.dop853 import solve_dop853
 from precursors.methods.events import NUDGE, EventMotion
@@ -58,19 +59,25 @@ def missed_roots() -> Failure:
     exact = simulate(chain, 10.0, "global slip")
     n = len(exact.transitions)
 
-    def right(max_step: float) -> int:
-        return transitions_right(solve_scipy(chain, 10.0, LOOSE, "global slip", max_step=max_step).run, exact)
+    wrong = transitions_right(solve_scipy(chain, 10.0, LOOSE, "global slip").run, exact)
+    end_of_slip = float(
+        find_slips(exact)["end"][lambda ends: ends > exact.transitions["time"][wrong]].iloc[0]
+    )
 
-    longest = bisect(lambda max_step: right(max_step) < n, SHORT_STEP, LONG_STEP, BISECTIONS)
+    def misses(max_step: float) -> bool:
+        return (
+            transitions_right(solve_scipy(chain, end_of_slip, LOOSE, max_step=max_step).run, exact) <= wrong
+        )
+
+    longest = bisect(misses, SHORT_STEP, LONG_STEP, BISECTIONS)
     # The motion up to three times as long as the true one, from the last right transition on.
-    wrong = right(math.inf)
     column = chain.n_blocks + int(exact.transitions["block"][wrong]) - 1
     motion = motion_after(exact, wrong)
-    end = 3.0 * float(exact.intervals[wrong]) / motion.tau
-    integrate: Any = partial(solve_ivp, motion.rates, (0.0, end), motion.y, "DOP853")
+    span = 3.0 * float(exact.intervals[wrong]) / motion.tau
+    integrate: Any = partial(solve_ivp, motion.rates, (0.0, span), motion.y, "DOP853")
     path = integrate(rtol=TIGHT, atol=TIGHT, dense_output=True).sol
     steps = integrate(rtol=LOOSE, atol=LOOSE)
-    times, to_velocity = np.linspace(0.0, end, 301), motion.tau / chain.mass
+    times, to_velocity = np.linspace(0.0, span, 301), motion.tau / chain.mass
     velocity = path(times)[column] * to_velocity
     negative = np.flatnonzero(velocity[1:] < 0.0) + 1
     below_zero = float(np.ptp(times[negative]) * motion.tau)
