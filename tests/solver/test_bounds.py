@@ -114,6 +114,21 @@ def test_a_function_lies_between_its_bounds(length):
     assert proved > PROVED * positive > 0
 
 
+@pytest.mark.parametrize("height", [-10, 10])
+@pytest.mark.parametrize("k", range(8))
+def test_a_function_lies_between_its_bounds_whichever_coefficient_is_the_extreme_one(k, height):
+    """One of the Bernstein coefficients of degree 6 or, as the last, the rest alone: u^6 (1 - u)."""
+    b = [Fraction(1 + height * (i == k)) for i in range(7)]
+    differences = [sum((-1) ** (j - i) * math.comb(j, i) * b[i] for i in range(j + 1)) for j in range(7)]
+    terms = [math.comb(6, j) * difference for j, difference in enumerate(differences)]
+    if k == 7:
+        terms = [Fraction(0)] * 6 + [Fraction(height), Fraction(-height)]
+    low, high = bounds_of(terms)
+    values = [float(value(terms, u)) for u in TIMES]
+    assert low <= min(values)
+    assert high >= max(values)
+
+
 def test_a_function_that_dips_below_zero_by_a_rounding_is_never_proved():
     """(u - r)^2 times a positive series, less a little: no proof, wherever r is and whatever follows."""
     for seed in range(EXACT_WINDOWS):

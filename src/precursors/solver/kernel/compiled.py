@@ -24,7 +24,7 @@ untyped: Any = numba
 KEPT = 20  # states of the sources whose machine code is kept
 
 # Numba compiles a function anew for an argument that is a literal number, unless its variable has a type.
-INDEX = {"block_1": int64}
+INDEX = dict.fromkeys(("block_1", "first_row", "last_row"), int64)
 _options: dict[str, Any] = {"error_model": "numpy", "locals": INDEX}
 # Products may be fused with sums, but not in the event loop, in starts and in units.
 inner: Any = untyped.njit(**_options, fastmath={"contract"}, forceinline=True)

@@ -42,16 +42,8 @@ def run_batch(batch, limits, progress, record, states, memory):
         mine = progress_at(row_address(progress, j))
         my_record, my_states = row_address(record, used), row_address(states, stored)
         if not limits.goes_on:
-            take_start(
-                batch.positions[j],
-                batch.velocities[j],
-                batch.parameters[j],
-                chain,
-                motion,
-                mine,
-                my_record,
-                my_states,
-            )
+            start = batch.positions[j], batch.velocities[j]
+            take_start(start, batch.parameters[j], chain, motion, mine, my_record, my_states)
         mine.status = find_transitions(chain, motion, limits, mine, my_record, my_states)
         if mine.status == PAUSED:
             return j, True
@@ -70,8 +62,9 @@ def clear(memory):
 
 
 @unfused
-def take_start(positions, velocities, parameters, chain, motion, progress, record, states):
+def take_start(start, parameters, chain, motion, progress, record, states):
     """Take a start at time 0. In the first state all modes are 0; blocks that move are transitions."""
+    positions, velocities = start
     mass, stiffness, spring, _, _, _ = parameters
     stiffest = farthest = before = 0.0
     for i in range(chain.n_blocks):
@@ -231,13 +224,15 @@ def next_transition(window, roundings, chain, motion, progress):
     end = last_column(chain, progress.farthest)
     whole = motion.whole
     begin(end, motion)
-    expand(2, PROOF_ORDER, end, chain, motion)
+    first_row, last_row = 2, PROOF_ORDER
+    expand(first_row, last_row, end, chain, motion)
     if whole[1] != window:
         powers(window, PROOF_ORDER, whole)
     share, guessed = guess(end, motion)
     s, i, side = min(max(MARGIN * share, LEAST), 1.0) * window, 0, 1
     rows = order_at(s)
-    expand(PROOF_ORDER + 2, rows, end, chain, motion)
+    first_row = PROOF_ORDER + 2
+    expand(first_row, rows, end, chain, motion)
     if guessed > 0:
         root = find_root(share * window, guessed, rows, motion, progress)
         if NEAR * window < root <= s:

@@ -106,9 +106,10 @@ def propagate(span, chain, motion):
     end = last_column(chain, farthest)
     for i in range(1, end + 1):
         take_net_force(i, motion)
+    first_row = 2
     while span > 0.0:
         s = min(span, WINDOW)
         begin(end, motion)
-        expand(2, order_at(s), end, chain, motion)
+        expand(first_row, order_at(s), end, chain, motion)
         move(s, end, chain, motion)
         span -= s
