@@ -190,8 +190,8 @@ def heyoka_ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
 def in_callbacks() -> Iterable[Row]:
     """Part of the processor time of heyoka.py and CVODE in the functions that they call back, a median."""
     callbacks: dict[str, list[tuple[object, str]]] = {
-        "heyoka": [(events.Motion, "switch")],
-        "cvode_adams": [(cvode_events, "rates"), (cvode_events, "event_functions")],
+        "heyoka": [(events.EventMotion, "switch")],
+        "cvode_adams": [(cvode_events, "rates_of"), (cvode_events, "event_functions")],
     }
     for name in filter(METHODS.__contains__, callbacks):
         method = METHODS[name]
