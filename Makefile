@@ -99,13 +99,12 @@ $(READY): requirements.lock
 	$(BIN)/python -m pip install -q $(WHEELS) --no-deps --require-hashes -r .venv/uv.txt
 	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
-	@# Compile the solver, the cascades and the methods with fixed steps, on two cores.
-	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.hierarchy.quasistatic import quasistatic_slips; \
-	  from precursors.hierarchy.larger import LargerChain, simulate_larger; \
-	  chain = Chain.from_slider(); simulate(chain, 0.4).at([0.4]); \
-	  quasistatic_slips(chain); simulate_larger(LargerChain(chain, 0.02), 0.1)" & \
+	@# Compile what is not in the user's cache, on two cores.
+	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.hierarchy.larger import LargerChain, simulate_larger; \
+	  chain = Chain.from_slider(); simulate(chain, 0.4).at([0.4]); simulate_larger(LargerChain(chain, 0.02), 0.1)" & \
 	$(BIN)/python -c "from precursors import Chain; from precursors.methods import METHODS; \
-	  [METHODS[name].solve(Chain.from_slider(), 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'dop853', \
+	  from precursors.hierarchy.quasistatic import quasistatic_slips; chain = Chain.from_slider(); quasistatic_slips(chain); \
+	  [METHODS[name].solve(chain, 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'dop853', \
 	  'leapfrog', 'forward_euler', 'newmark', 'moreau_jean_half', 'karnopp', 'cvode_adams') if name in METHODS]" & \
 	wait
 	touch $(READY)
