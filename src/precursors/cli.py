@@ -388,16 +388,16 @@ def main(argv: Sequence[str] | None = None) -> int:
 
         argcomplete.autocomplete(top, print_suppressed=True)
     arguments = top.parse_args(join_negative_values(sys.argv[1:] if argv is None else argv))
-    if arguments.version:
-        print_version()
-        return DONE
-    if arguments.command is None:
+    if arguments.command is None and not arguments.version:
         top.error(f"needed is one of {', '.join(COMMANDS)}")
     try:
         if getattr(arguments, "output", None):
             check_writable(arguments.output, FIGURE_ENDINGS if arguments.command == "plot" else ())
-        with announcing(arguments.command):
-            arguments.run(arguments)
+        if arguments.version:
+            print_version()
+        else:
+            with announcing(arguments.command):
+                arguments.run(arguments)
         if sys.stdout:  # None where it was closed
             sys.stdout.flush()
         return DONE

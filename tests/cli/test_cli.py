@@ -171,10 +171,9 @@ def test_slips_of_a_chain_may_be_those_of_fig_13_only_and_go_to_a_file(cli, tmp_
     assert pd.read_csv(path)["counted"].tolist() == [True] * 14
 
 
-def test_a_reader_that_has_enough_is_no_error():
-    command = subprocess.Popen(
-        [*COMMAND, "slips", "--theta", "5/6"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    )
+@pytest.mark.parametrize("arguments", [["slips", "--theta", "5/6"], ["--version"]])
+def test_a_reader_that_has_enough_is_no_error(arguments):
+    command = subprocess.Popen([*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     command.stdout.close()
     assert command.stderr.read() == b""
     assert command.wait() == DONE

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -162,6 +164,13 @@ def test_a_narrow_figure_has_its_panels_below_each_other_in_the_asked_size(width
     assert figure.get_size_inches()[0] == pytest.approx(width / style.MM_PER_INCH)
     assert len({round(axes.get_position().x0, 2) for axes in figure.axes}) == columns
     assert {axes.xaxis.label.get_size() for axes in figure.axes} == {9.0}
+
+
+def test_symbols_have_the_font_of_the_text(tmp_path):
+    look = style.Look(font="DejaVu Serif")
+    style.save(draw("scene", look=look), tmp_path / "figure.pdf", look)
+    fonts = re.findall(rb"/BaseFont /\w+\+(\w+)", (tmp_path / "figure.pdf").read_bytes())
+    assert {font.removesuffix(b"-Italic") for font in fonts} == {b"DejaVuSerif"}
 
 
 def test_a_measurement_lies_over_the_load_and_over_the_lengths():

@@ -113,7 +113,11 @@ class Look:
         """The settings of Matplotlib that follow."""
         sizes = dict.fromkeys(("font.size", "axes.labelsize", "axes.titlesize"), self.font_size)
         small = dict.fromkeys(("xtick.labelsize", "ytick.labelsize", "legend.fontsize"), self.small)
-        return _SETTINGS | sizes | small | {"font.family": self.font}
+        settings = _SETTINGS | sizes | small | {"font.family": self.font}
+        if self.font != Look.font:  # symbols in it, too
+            settings |= dict.fromkeys((f"mathtext.{kind}" for kind in ("rm", "cal", "bf")), self.font)
+            settings |= {"mathtext.fontset": "custom", "mathtext.it": f"{self.font}:italic"}
+        return settings
 
 
 @contextmanager
