@@ -34,14 +34,9 @@ class TrueTransition(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """What runs are compared with: a run in doubles, and what rounding to doubles took from it.
+    """What runs are compared with: the true transitions, rounded to doubles in a run, and what that left.
 
-    Attributes
-    ----------
-    run : Run
-        The true transitions, rounded.
-    time_rest, load_rest : array, shape (n_transitions,)
-        True times [s] and tangential loads [N] less the rounded ones.
+    `time_rest` [s] and `load_rest` [N], shape (n_transitions,), are true numbers less rounded ones.
     """
 
     run: Run
@@ -98,20 +93,11 @@ class Truth:
 class Comparison:
     """How far a run agrees with the truth, and how closely as far as it does.
 
-    Attributes
-    ----------
-    transitions_right : int
-        Transitions with the right block and mode before the first wrong or missing one.
-    transitions_found, transitions_true : int
-        All transitions of the run, and of the truth.
-    slips_right, slips_found, slips_true : int
-        The same of slip events; one is right if its front is, and whether all blocks slid at once.
-    time_errors, load_errors : array, shape (transitions_right,)
-        Errors of the times [s] and tangential loads [N] of the transitions that are right.
-    load_error : float
-        Largest error of F_X at the onsets of the slips that are right [N]; NaN if none is.
-    first_difference : float
-        Time [s] of the first transition that is true or found but not both; infinite if there is none.
+    A transition is right if its block and mode are; a slip event, if its front is, and whether all blocks
+    slid at once. What is right ends with the first that is wrong or missing. `time_errors` [s] and
+    `load_errors` [N] are those of right transitions, `load_error` the largest of F_X at the onsets of right
+    slips [N], NaN if none is; `first_difference` is the time [s] of the first transition that is true or
+    found but not both, infinite if there is none.
     """
 
     transitions_right: int

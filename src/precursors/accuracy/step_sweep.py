@@ -43,19 +43,9 @@ def step_sweep_table(runs: Mapping[str, Run], thetas: Mapping[str, float], full:
 
 
 def sweep(exact: Run, steps: Mapping[str, Iterable[float]]) -> Iterator[dict[str, object]]:
-    """The exact solver's numbers up to the end of the first global slip, then each method's at each step.
+    """The exact solver's numbers up to the end of the first global slip, then each method's at each step [s].
 
-    Parameters
-    ----------
-    exact : Run
-        The exact solver's run, to the first global slip or longer; its duration limits the other runs.
-    steps : mapping of str to iterable of float
-        Steps [s] by name of the method.
-
-    Yields
-    ------
-    dict
-        See `row`.
+    The duration of the exact run, to the first global slip or longer, limits the other runs. Rows: see `row`.
     """
     truth = Truth.of_run(exact).until_global_slip()
     yield row("exact", math.nan, truth.run, truth)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Literal
 
@@ -27,51 +27,21 @@ LONGEST, LONGEST_FULL = 2.0, 5.0
 # What a method compiles, loads or builds for a chain and a value, it does in a run that is so short [s].
 WARM_UP = 0.4
 SHORTEST = 0.005  # s, of a round: see `timing.measure`
-COLUMNS = [
-    "scene",
-    "theta",
-    "until",
-    "truth",
-    "method",
-    "label",
-    "kind",
-    "color",
-    "marker",
-    "setting",
-    "value",
-    "evaluations",
-    "seconds",
-    "error_load_N",
-    "error_time_s",
+COUNTS = (
     "transitions_right",
     "transitions_found",
     "transitions_true",
     "slips_right",
     "slips_found",
     "slips_true",
-]
+)
 
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """What all methods are asked to do.
+    """What all methods are asked to do: a scene's chain, for a duration [s] or until its first global slip.
 
-    Attributes
-    ----------
-    scene : str
-        Name of the scene.
-    theta : float
-        Degree of non-uniformity of its normal loading.
-    chain : Chain
-        The chain.
-    duration : float
-        Time [s], or its limit.
-    until : "global slip" or None
-        Where the run ends; None: after `duration`.
-    truth : Truth
-        The true run, over the same time.
-    is_proved : bool
-        Whether the truth has a proof; else it is the run of the exact solver.
+    The true run goes over the same time; it is proved, or else the run of the exact solver.
     """
 
     scene: str
@@ -131,21 +101,14 @@ def measure_methods(
 ) -> pd.DataFrame:
     """Time methods with several settings, and compare each run with the truth.
 
-    Parameters
-    ----------
-    case : Case
-        What to run.
-    values : mapping
-        Values of the setting for each method, from loose to tight.
-    rounds : int
-        Number of rounds, after a short warm-up, of which the median is taken; methods take turns in a round.
-    longest : float
-        A method is given up at a value with which a call takes longer [s].
+    `values` of each method's setting go from loose to tight. A time is the median of some rounds in which
+    methods take turns, after a short warm-up. A method is given up at a value with which a call takes longer
+    than `longest` [s].
 
     Returns
     -------
     DataFrame
-        A row per method and value, with `COLUMNS`; `evaluations` is NaN for a method that counts none, and
+        A row per method and value; `evaluations` is NaN for a method that counts none, and
         errors are those of `Comparison`, NaN for the exact solver where it is itself the truth.
     """
     attempts = [
@@ -157,8 +120,7 @@ def measure_methods(
         SHORTEST,
         seconds={key: of.seconds for key, of in enumerate(attempts)},
     )
-    rows = [_row(case, of, timings[key].seconds) for key, of in enumerate(attempts)]
-    return pd.DataFrame(rows, columns=COLUMNS)
+    return pd.DataFrame([_row(case, of, timings[key].seconds) for key, of in enumerate(attempts)])
 
 
 @dataclass(frozen=True)
@@ -185,7 +147,7 @@ def _row(case: Case, attempt: _Attempt, seconds: float) -> dict[str, object]:
     found = compare(result.run, case.truth)
     # The exact solver's distance from itself is no error.
     is_the_truth = method.name == "exact" and not case.is_proved
-    return asdict(found) | {
+    return {
         "scene": case.scene,
         "theta": case.theta,
         "until": case.until or "end",
@@ -201,4 +163,5 @@ def _row(case: Case, attempt: _Attempt, seconds: float) -> dict[str, object]:
         "seconds": seconds,
         "error_load_N": math.nan if is_the_truth else found.load_error,
         "error_time_s": math.nan if is_the_truth else found.time_error,
+        **{name: getattr(found, name) for name in COUNTS},
     }

@@ -27,16 +27,7 @@ def solve_cvode(
     until: str | None = None,
     formula: Formula = "Adams",
 ) -> Result:
-    """Run a chain by CVODE.
-
-    Parameters
-    ----------
-    chain, duration, until
-        As in `precursors.simulate`.
-    tolerance : float
-        rtol; atol is the same number in N and N/tau (see `events`).
-    formula : {"Adams", "BDF"}
-        The linear multistep formula.
+    """Run a chain by CVODE; rtol is the tolerance, atol the same number in N and N/tau (see `events`).
 
     Raises
     ------

@@ -62,18 +62,10 @@ SLIDES, FRICTIONS, MODES, STICKS = range(4)
 
 
 class EventMotion:
-    """A chain in motion, with the numbers that a solver carries.
+    """A chain in motion, with the numbers that a solver carries, or keeps itself.
 
-    Parameters
-    ----------
-    chain, duration, until
-        As in `precursors.simulate`.
-    y : array, shape (2 N,), optional
-        Where a solver keeps the state, if it wants to.
-    settings : array, shape (4, N), optional
-        Where it keeps what each block does, in the rows SLIDES, FRICTIONS, MODES and STICKS.
-    nudge : float
-        Velocity of a block that starts, see `NUDGE`.
+    `y`, shape (2 N,), is the state; `settings`, shape (4, N), is what each block does, in the rows SLIDES,
+    FRICTIONS, MODES and STICKS. `nudge` is the velocity of a block that starts, see `NUDGE`.
     """
 
     def __init__(

@@ -278,24 +278,11 @@ def march(
     scaled: bool = False,
     waits: bool = True,
 ) -> Result:
-    """Run a compiled method from rest.
+    """Run a compiled method from rest: `method` is (motion, setting, *parameters) -> status.
 
-    Parameters
-    ----------
-    method : compiled function
-        (motion, setting, *parameters) -> status.
-    parameters
-        What the method has besides its setting.
-    chain, duration, until
-        As in `precursors.simulate`.
-    setting : float
-        Step [s], or tolerance.
-    rule : str
-        A key of `SWITCHING_RULES`.
-    scaled : bool
-        Whether the method meets the numbers of solvers with a tolerance, see `columns`.
-    waits : bool
-        Whether it waits in closed form while all blocks stick, or makes each step then as well.
+    `setting` is a step [s] or, where the method meets the numbers of solvers with a tolerance (`scaled`, see
+    `columns`), a tolerance. `rule` is a key of `SWITCHING_RULES`. A method `waits` in closed form while all
+    blocks stick, or makes each step then as well. The others are those of `precursors.simulate`.
 
     Raises
     ------

@@ -103,21 +103,10 @@ def _integrator(chain: Chain, tolerance: float) -> _Integrator:
 def solve_heyoka(
     chain: Chain, duration: float, tolerance: float, until: str | None = None, nudge: float = NUDGE
 ) -> Result:
-    """Run a chain by heyoka.py.
+    """Run a chain by heyoka.py; the tolerance sets the order of the series too, 0 is heyoka's own, rounding.
 
-    Parameters
-    ----------
-    chain, duration, until
-        As in `precursors.simulate`.
-    tolerance : float
-        heyoka's tolerance; it sets the order of the series too. 0 is its default, rounding.
-    nudge : float
-        Velocity with which a block starts, see `events.NUDGE`.
-
-    Returns
-    -------
-    Result
-        A step of a series of order p counts as p evaluations: each derivative applies the equations once.
+    A step of a series of order p counts as p evaluations: each derivative applies the equations once. `nudge`
+    is explained in `events.NUDGE`.
 
     Raises
     ------

@@ -105,18 +105,10 @@ def solve_regularised(
     solver: Solver = "Radau",
     tolerance: float = TOLERANCE,
 ) -> Result:
-    """Run a chain with regularised friction.
+    """Run a chain with friction that turns over within a width [m/s], by SciPy's Radau or BDF.
 
-    Parameters
-    ----------
-    chain, duration, until
-        As in `precursors.simulate`.
-    width : float
-        Velocity over which friction turns over [m/s].
-    solver : {"Radau", "BDF"}
-        SciPy's method.
-    tolerance : float
-        Its rtol; atol is the same number in N and N/tau (see `events`), but at most a hundredth of the width.
+    `tolerance` is rtol; atol is the same number in N and N/tau (see `events`), but at most a hundredth of the
+    width.
 
     Raises
     ------

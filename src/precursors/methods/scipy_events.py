@@ -37,22 +37,10 @@ def solve_scipy(
     nudge: float = NUDGE,
     direction: float = FALLING,
 ) -> Result:
-    """Run a chain by `scipy.integrate.solve_ivp`.
+    """Run a chain by `scipy.integrate.solve_ivp`; rtol is the tolerance, atol the same in N and N/tau.
 
-    Parameters
-    ----------
-    chain, duration, until
-        As in `precursors.simulate`.
-    tolerance : float
-        rtol; atol is the same number in N and N/tau (see `events`).
-    solver : {"RK45", "DOP853", "LSODA", "Radau"}
-        SciPy's method.
-    max_step : float
-        Longest step [s].
-    nudge : float
-        Velocity with which a block starts, see `events.NUDGE`.
-    direction : float
-        SciPy's direction of the events. Its default, 0, takes any root, also one that a restart lies on.
+    `max_step` is the longest step [s]; `nudge` is explained in `events.NUDGE`. SciPy's `direction` of an
+    event takes any root where it is 0, its default, also one that a restart lies on.
 
     Raises
     ------

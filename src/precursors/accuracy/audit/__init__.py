@@ -18,18 +18,10 @@ from precursors.solver.run import Run
 
 @dataclass(frozen=True)
 class Audit:
-    """Outcome of an audit.
+    """Outcome of an audit: what exceeds its tolerance, in at most `checks.MAX_PROBLEMS` short sentences.
 
-    Attributes
-    ----------
-    roundings : float
-        Largest deviation of a force, a velocity or the energy, in roundings.
-    energy_residual : float
-        Work of the drive minus change of energy minus friction heat, relative to what was turned over.
-    n_intervals : int
-        Number of intervals that were propagated.
-    problems : tuple of str
-        What exceeds its tolerance, one short sentence each, at most `checks.MAX_PROBLEMS`.
+    `roundings` is the largest deviation of a force, a velocity or the energy, in roundings; `energy_residual`
+    is the work of the drive minus change of energy minus friction heat, relative to what was turned over.
     """
 
     roundings: float = math.nan

@@ -19,14 +19,8 @@ class Conditions:
     """What must not be negative in an interval, as functions of the time s since its start.
 
     One column for each sliding block (its velocity [m/s] in the direction of its mode), then two for each
-    stuck block whose force can change (mu_s w - force and mu_s w + force [N]).
-
-    Attributes
-    ----------
-    sliding, stuck : array
-        The blocks, counted from 0.
-    fourth : array
-        Bounds of the fourth derivative of each column.
+    stuck block whose force can change (mu_s w - force and mu_s w + force [N]). `fourth` bounds the fourth
+    derivative of each column.
     """
 
     def __init__(

@@ -17,22 +17,10 @@ FIVE_SLIPS = 1.25
 
 @dataclass(frozen=True)
 class Number:
-    """A measured number that shows a failure.
+    """A measured number that shows a failure of a method with a setting; `exact` is what is right, or NaN.
 
-    Attributes
-    ----------
-    method, setting : str
-        What failed, and its setting with unit.
-    quantity, unit : str
-        What was measured.
-    measured : float
-        What the method gave.
-    exact : float
-        What is right; NaN where there is no such number.
-    predicted : float
-        What the method should give; NaN where nothing is known.
-    theory : str
-        From what that follows, if not from the method and the chain.
+    `predicted` is what the method should give, NaN where nothing is known; `theory` says from what that
+    follows, if not from the method and the chain.
     """
 
     method: str
@@ -47,20 +35,9 @@ class Number:
 
 @dataclass(frozen=True)
 class Threshold:
-    """A value of a method's setting from which it fails.
+    """A value of a method's setting from which it fails, predicted and measured: infinity if it never does.
 
-    Attributes
-    ----------
-    method : str
-        Its label.
-    n_blocks : int
-        N of the chain.
-    fails, unit : str
-        What happens there; the unit of both values.
-    theory : str
-        The formula that predicts it.
-    predicted, measured : float
-        Both values; infinity where it never fails.
+    `method` is its label, `fails` what happens there, `theory` the formula that predicts it.
     """
 
     method: str

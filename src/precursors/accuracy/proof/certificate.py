@@ -65,16 +65,7 @@ class CertifiedTransition(NamedTuple):
 class Tie(NamedTuple):
     """Where a proof ends because instants cannot be told apart.
 
-    Attributes
-    ----------
-    time : Enclosure
-        When [s].
-    blocks : tuple of int
-        The blocks concerned.
-    question : str
-        What the proof could not decide.
-    closeness : Fraction
-        Length of the time within which it is undecided [s].
+    When [s], the blocks concerned, what could not be decided, and the length of time within which it is [s].
     """
 
     time: Enclosure
@@ -85,30 +76,11 @@ class Tie(NamedTuple):
 
 @dataclass(frozen=True)
 class Certificate:
-    """The transitions of a chain, proved.
+    """All transitions of a chain from its start [m, m/s] in order, proved.
 
-    Attributes
-    ----------
-    chain : ExactChain
-        The parameters.
-    duration : Fraction
-        Time [s] the certificate is about.
-    until : "global slip" or None
-        Whether it ends with the first event in which all blocks slide at the same instant.
-    start_positions : tuple of Fraction, shape (N,)
-        Positions at time 0 [m].
-    start_velocities : tuple of Fraction, shape (N,)
-        Velocities at time 0 [m/s].
-    width : Fraction
-        No time has a radius above this [s].
-    transitions : tuple of CertifiedTransition
-        All transitions in order.
-    tie : Tie or None
-        Where the proof ends before `duration`, because of a tie.
-    bits : int
-        Working precision at the start of the proof.
-    restarts : int
-        How often the proof was begun again with more bits.
+    It is about a `duration` [s], or ends with the first event in which all blocks slide at the same instant
+    (`until`), or before at a `tie`. No time has a radius above `width` [s]. `bits` is the working precision
+    at the start of the proof, which was begun again `restarts` times with more.
     """
 
     chain: ExactChain

@@ -30,18 +30,11 @@ class Undecided(Exception):
 
 @dataclass(frozen=True, eq=False)
 class EventFunction:
-    """A function of time [T] that is positive until its block changes its state.
+    """A function of time [T] that is positive until its block 1..N changes its state.
 
-    Attributes
-    ----------
-    block : int
-        Block 1..N.
-    direction : int
-        0 for the velocity of a sliding block; +1 or -1 for a stuck block's margin in that direction.
-    value, slope, bend : arb_poly
-        The function and its first two derivatives, enclosing those of every run.
-    fresh : bool
-        Zero at the transition at the start, with a slope that is not negative.
+    `direction` is 0 for the velocity of a sliding block, +1 or -1 for a stuck block's margin in that
+    direction. The function and its first two derivatives enclose those of every run. A `fresh` one is zero at
+    the transition at the start, with a slope that is not negative.
     """
 
     block: int
@@ -99,16 +92,8 @@ def first_root(
 ) -> tuple[EventFunction, arb] | None:
     """Return the function that crosses zero first and an enclosure of its root; None if none does by `end`.
 
-    Parameters
-    ----------
-    functions : list of EventFunction
-        All of them.
-    end, valid : float
-        Times [T] to search, and up to which the polynomials hold.
-    back : arb
-        Time [T] before zero at which a run may have had the transition at the start.
-    bits : int
-        Working precision.
+    Times are in T: the polynomials hold up to `valid`, and a run may have had the transition at the start by
+    `back` before zero.
 
     Raises
     ------

@@ -60,16 +60,9 @@ def time_unit(chain: ExactChain) -> Fraction:
 class Constants:
     """A chain in the units above, in balls; index 0 is the drive, N + 1 the free end.
 
-    Attributes
-    ----------
-    coupling, strength, friction : list of arb
-        c_i [1], mu_s w_i [N], mu_k w_i [N].
-    drive : arb
-        u_0 [N].
-    frequency_squared : arb
-        Bound of the squares of all frequencies [1/T^2].
-    force_reach, force_rate_reach : list of arb
-        Largest change of the net force on a block, and of its rate, at unit distance.
+    coupling c_i [1], strength mu_s w_i and friction mu_k w_i [N], drive u_0 [N], frequency_squared a bound of
+    all [1/T^2]; force_reach and force_rate_reach are the largest changes of the net force on a block, and of
+    its rate, at unit distance.
     """
 
     coupling: list[arb]
@@ -98,16 +91,10 @@ class Constants:
 
 @dataclass
 class State:
-    """A centre, exact, and the distance within which every run of the model is from it.
+    """A centre, exact, and a bound of the distance [N] within which every run of the model is from it.
 
-    Attributes
-    ----------
-    force, rate : list of arb
-        T_i and u_i [N], exact; index 0 and N + 1 are the drive and the free end, kept at zero.
-    mode : list of int
-        +1, 0 or -1 for each block.
-    distance : arb
-        Bound of the distance [N] to every run of the model.
+    The lists have T_i and u_i [N] and the mode of each block; index 0 and N + 1 are the drive and the free
+    end, kept at zero.
     """
 
     force: list[arb]
