@@ -78,9 +78,10 @@ SCRIPT = re.compile(
     r"|(?<= )(?P<operator>[<>]=?|[!=]==|&&|\|\||[-+*/])(?= )|(?<![\w.#])(?P<number>\d+(?:\.\d+)?)(?![\w.])"
 )
 BALL = re.compile(r"arb\(0, |around$")  # about zero
-SETTINGS = {"values", "quick", "whole", "quick_whole", "STEPS", "SIZES", "ROUNDS"}  # what is charted
-# Arguments that change no result: guards against a slip of ours, and how code is compiled.
+SETTINGS = {"values", "quick", "whole", "quick_whole", "ROUNDS"}  # what is charted
+# Arguments that change no result: guards against a slip of ours, signs of symbols, how code is compiled.
 NEUTRAL = {"strict", "frozen", "slots", "exist_ok", "parents", "stacklevel", "maxsize", "nogil", "cache"}
+NEUTRAL |= {"positive", "real"}
 Function = tuple[str, int]  # a file and the line where the function begins, 0 for the module
 
 
@@ -99,9 +100,8 @@ class Fault(NamedTuple):
         old = " ".join(text[self.start : self.end].decode().split())
         line = text[text.rfind(b"\n", 0, self.start) + 1 :].split(b"\n", 1)[0].decode().strip()
         place = self.path.relative_to(LIBRARY) if self.path.is_relative_to(LIBRARY) else self.path
-        return f"{place}: {old} -> {self.new}" + (
-            f" in: {line}" if re.fullmatch(r"[\w.]+|\W{1,3}", old) else ""
-        )
+        where = f" in: {line}" if re.fullmatch(r"[\w.]+|\W{1,3}", old) else ""
+        return f"{place}: {old} -> {self.new}{where}"
 
 
 def first_line(node: ast.FunctionDef) -> int:
