@@ -119,6 +119,8 @@ def test_a_function_lies_between_its_bounds(length):
 def test_a_function_lies_between_its_bounds_whichever_coefficient_is_the_extreme_one(k, height):
     """One of the Bernstein coefficients of degree 6 or, as the last, the rest alone: u^6 (1 - u)."""
     b = [Fraction(1 + height * (i == k)) for i in range(7)]
+    if k == 5:
+        b[6] -= 6 * height  # or the last coefficient of degree 7, (6 b_5 + b_6) / 7, would tell
     differences = [sum((-1) ** (j - i) * math.comb(j, i) * b[i] for i in range(j + 1)) for j in range(7)]
     terms = [math.comb(6, j) * difference for j, difference in enumerate(differences)]
     if k == 7:
