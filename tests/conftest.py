@@ -1,16 +1,12 @@
-"""Property tests: the same examples on every run; others, and more, with --hypothesis-profile=explore."""
+"""What all tests share: threads as in the workflow's jobs, and a clock that only a test moves."""
 
 import os
 
 import pytest
-from hypothesis import settings
 
 from precursors.support import timing
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in the workflow's jobs
-settings.register_profile("repeatable", derandomize=True, database=None, deadline=None, max_examples=200)
-settings.register_profile("explore", deadline=None, max_examples=20_000)
-settings.load_profile("repeatable")
 
 
 class Clock:

@@ -55,7 +55,7 @@ LEFT = ("results", "wheelhouse", ".venv", ".git", ".snakemake", ".*_cache")
 ASIDE = ("tests/cluster/*", "tests/golden/test_golden.py", "tests/workflow/test_[dfr]*")
 # What takes long to import: loaded once, before a process is forked for each fault.
 HEAVY = (
-    "flint", "h5py", "hypothesis", "jsonschema", "matplotlib.pyplot", "numba", "pandas",
+    "flint", "h5py", "jsonschema", "matplotlib.pyplot", "numba", "pandas",
     "scipy.integrate", "scipy.linalg", "scipy.optimize", "scipy.stats", "snakemake.cli", "sympy", "yaml",
 )  # fmt: skip
 SHARE = 0.85

@@ -12,8 +12,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from chains import SLIDER, audited, first_transitions, lone_slip, positions_under, releases
-from hypothesis import event, given
-from hypothesis import strategies as st
 from reference import read_golden, read_held_out
 from reference.goldens import SCENES
 
@@ -501,49 +499,6 @@ class TestEdgesOfTheModel:
         expected = chain.drive_velocity * (1 - np.cos(omega * times))
         np.testing.assert_allclose(velocities[:, 0], expected, atol=1e-10 * chain.drive_velocity)
         audited(run)
-
-
-def decades(low: float, high: float):
-    return st.floats(low, high).map(lambda exponent: 10.0**exponent)
-
-
-@st.composite
-def runs(draw):
-    """A chain of 1..12 blocks, and a start, that the audit can walk through in milliseconds."""
-    n_blocks = draw(st.integers(1, 12))
-    weight = st.one_of(st.just(0.0), st.just(40.0), decades(-2, 2))
-    others = draw(st.lists(weight, min_size=n_blocks - 1, max_size=n_blocks - 1))
-    weights = draw(st.permutations([draw(st.sampled_from([1.0, 40.0])), *others]))
-    mu_s = draw(st.one_of(st.just(0.7), st.just(0.0), st.floats(0.05, 1.5)))
-    mu_k = mu_s * draw(st.one_of(st.just(1.0), st.just(0.0), st.floats(0.0, 1.0)))
-    stiffness, ratio = 25e6, draw(decades(-6, 6))
-    mass = draw(decades(-6, 0))
-    stiffest = stiffness * max(1.0, ratio)
-    duration = draw(decades(1, 3.5)) / (2 * math.sqrt(stiffest / mass))
-    # What the drive adds to the load in the run, relative to the total weight.
-    loading = draw(decades(-3, 1)) * sum(weights) / duration
-    chain = Chain(weights, mass, stiffness, stiffness * ratio, loading / (stiffness * ratio), mu_s, mu_k)
-    per_block = st.lists(st.integers(-24, 24).map(lambda n: n / 16), min_size=n_blocks, max_size=n_blocks)
-    # Forces of the size of the friction: of larger ones a rounding may exceed what the audit lets pass.
-    start: dict[str, np.ndarray] = {}
-    if draw(st.booleans()):
-        pushes = np.array(draw(per_block)) * chain.weights * max(mu_s, 0.1)
-        start["start_positions"] = positions_under(chain, pushes)
-    if draw(st.booleans()):
-        impacts = np.array(draw(per_block)) * max(weights) * max(mu_s, 0.1)
-        start["start_velocities"] = impacts / math.sqrt(stiffest * mass)
-    return chain, duration, start
-
-
-@given(runs())
-def test_any_chain_moves_as_the_model_does(case):
-    chain, duration, start = case
-    with time_limit(60):
-        run = first_transitions(chain, 60, duration=duration, **start)
-    n = len(run.transitions)
-    event("no transition" if n == 0 else "at the cap" if n == 60 else "some transitions")
-    assert run.duration == duration or n == 60
-    audited(run)
 
 
 def test_a_run_that_is_cut_in_two_has_the_transitions_of_the_whole():
