@@ -8,8 +8,8 @@ ours and how code is compiled (`NEUTRAL`).
 
 First every test is run without a fault, which says what it costs and which functions it enters. Then each
 fault meets the tests that enter its function, quick ones first, until one fails or they have cost `SECONDS`:
-first the files of its own room and those that name its module. Nothing is seen to enter a compiled function
-or a script of the page: tests that import its module meet it.
+first the files of its own room and those that name its module, then other tests of these files. Nothing is
+seen to enter a compiled function or a script of the page: tests that import its module meet it.
 
 `survivors.md` says in a line why a fault cannot be seen, or need not be. Such a fault counts as one that
 survives, and is not tried. The command fails where less than `SHARE` is seen.
@@ -37,6 +37,7 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from importlib.machinery import SourceFileLoader
+from itertools import product
 from multiprocessing.connection import Connection
 from pathlib import Path
 from time import perf_counter
@@ -314,28 +315,30 @@ def attempt(place: Path, job: Job) -> Outcome:
 
 def chosen_tests(fault: Fault, sound: dict[str, Outcome]) -> Job:
     """The tests that a fault meets: files that have most to do with it first, and quick tests first."""
-    stem, all_entered = (
-        fault.path.stem,
-        {place for o in sound.values() for t in o.tests for place in t.entered},
-    )
-    places = [place for place in (fault.function, (fault.function[0], 0)) if place in all_entered]
+    stem, every = fault.path.stem, [test for outcome in sound.values() for test in outcome.tests]
+    places = fault.function, (fault.function[0], 0)
+    place = next((place for place in places if any(place in test.entered for test in every)), None)
     room = "workflow" if fault.path.is_relative_to(SCRIPTS) else fault.path.parts[2].removesuffix(".py")
+
+    def enters(test: Test) -> bool:
+        return place is None or place in test.entered
+
     found = []
     for file, outcome in sound.items():
         is_named = re.search(rf"\b{stem}\b", (ROOT / file).read_text()) is not None
-        meet = [t for t in outcome.tests if (places[0] in t.entered if places else is_named)]
-        if tests := sorted((stem not in t.name, t.seconds, t.name) for t in meet):
+        if (place or is_named) and any(map(enters, outcome.tests)):
             start = outcome.seconds - sum(test.seconds for test in outcome.tests)
             far = 2 - is_named - (Path(file).parts[1] == room)
-            found.append((far, start + sum(seconds for _, seconds, _ in tests), start, tests))
+            found.append((far, outcome.seconds, start, outcome.tests))
     files, cost = list[dict[str, float]](), 0.0
     limit = COMPILING if fault.path.parent.name in COMPILED else LIMIT
-    for *_, start, tests in sorted(found):
+    # Others of a file see what a test that entered the function has left in a cache: they come last.
+    for first, (*_, start, tests) in product((True, False), sorted(found)):
         chosen = dict[str, float]()
-        for _, seconds, name in tests:
-            expected = seconds + (0.0 if chosen else start)
-            if cost + expected <= SECONDS or not cost:
-                chosen[name] = limit + TIMES * expected
+        for test in sorted(tests, key=lambda test: (stem not in test.name, test.seconds)):
+            expected = test.seconds + (0.0 if chosen else start)
+            if enters(test) == first and (cost + expected <= SECONDS or not cost):
+                chosen[test.name] = limit + TIMES * expected
                 cost += expected
         files += [chosen] if chosen else []
     return Job(files, fault)
