@@ -5,7 +5,8 @@ import pandas as pd
 import pytest
 from ensembles.studies import noise_of
 
-from precursors.ensembles.noise import compared, differences_table, median_difference, noise_table
+from precursors.analysis.run_statistics import compared, median_difference
+from precursors.ensembles.noise import differences_table, noise_table
 from precursors.ensembles.study import NOISE, chain_of
 
 

@@ -132,10 +132,9 @@ FIGURES = {
     "larger": {
         "shows": "a chain with a length",
         "section": "hierarchy",
-        # The full study, as it is committed.
         "tables": {
-            "nucleation": str(ROOT / "paper/tables/larger_nucleation_full.csv"),
-            "table": str(ROOT / "paper/tables/larger_full.csv"),
+            "nucleation": "results/tables/larger_nucleation.csv",
+            "table": "results/tables/larger.csv",
         },
     },
     "model_comparison": {

@@ -9,6 +9,8 @@ import pandas as pd
 import scipy
 from numpy.typing import ArrayLike
 
+# Two intervals of this confidence hold both medians in 95 % of cases or more (Bonferroni).
+EACH_OF_TWO = 0.975
 QUANTILES = {"q05": 0.05, "q25": 0.25, "q50": 0.5, "q75": 0.75, "q95": 0.95}
 
 
@@ -38,6 +40,20 @@ def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, floa
     if not left_out:
         return math.nan, math.nan
     return float(values[left_out - 1]), float(values[-left_out])
+
+
+def median_difference(values: pd.Series, others: pd.Series) -> tuple[float, float]:
+    """95 % interval of the difference of two medians, for any distributions."""
+    low, high = median_interval(values, EACH_OF_TWO)
+    other_low, other_high = median_interval(others, EACH_OF_TWO)
+    return low - other_high, high - other_low
+
+
+def compared(low: float, high: float, tolerance: float) -> str:
+    """Whether an interval of a difference lies within the tolerance, outside of it, or across its edge."""
+    if -tolerance <= low and high <= tolerance:
+        return "same"
+    return "different" if low > tolerance or high < -tolerance else "undecided"
 
 
 def share_interval(hits: int, of: int, share: float = 0.95) -> tuple[float, float]:

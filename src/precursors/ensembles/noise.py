@@ -9,14 +9,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.run_statistics import median_interval, statistics
+from precursors.analysis.run_statistics import compared, median_difference, statistics
 from precursors.ensembles.study import NOISE, Study, gather, stack
 
 # Two numbers are the same if they differ by no more than this: friction coefficients by a unit of the last
 # digit of the paper's 0.49, times by what can be read from the axis of Figs. 10-12.
 TOLERANCES = {"mu_sapp": 0.01, "events_counted": 0.0, "events_to_global_slip": 0.0, "time_s": 0.05}
-# Two intervals of this confidence hold both medians in 95 % of cases or more (Bonferroni).
-EACH_OF_TWO = 0.975
 
 
 def noise_study(
@@ -92,17 +90,3 @@ def differences_table(members: pd.DataFrame) -> pd.DataFrame:
             found = {"difference": difference, "low": low, "high": high, "tolerance": tolerance}
             rows.append(pair | found | {"verdict": compared(low, high, tolerance)})
     return pd.DataFrame(rows)
-
-
-def median_difference(values: pd.Series, others: pd.Series) -> tuple[float, float]:
-    """95 % interval of the difference of two medians, for any distributions."""
-    low, high = median_interval(values, EACH_OF_TWO)
-    other_low, other_high = median_interval(others, EACH_OF_TWO)
-    return low - other_high, high - other_low
-
-
-def compared(low: float, high: float, tolerance: float) -> str:
-    """Whether an interval of a difference lies within the tolerance, outside of it, or across its edge."""
-    if -tolerance <= low and high <= tolerance:
-        return "same"
-    return "different" if low > tolerance or high < -tolerance else "undecided"

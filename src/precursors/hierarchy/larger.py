@@ -27,9 +27,11 @@ from precursors.solver.kernel.compiled import entry
 from precursors.solver.run import Run
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 
-# Of the shorter of sqrt(m/k) and the time in which falling friction multiplies a velocity by e.
-STEP, STEP_OF_COULOMB = 0.1, 0.01
+# Of the shorter of sqrt(m/k) and the time in which falling friction multiplies a velocity by e. With friction
+# that jumps, this gives all transitions of the paper's scenes up to the first global slip, in order.
+STEP, STEP_OF_COULOMB = 0.1, 5e-4
 LEAP = 0.5  # of the length l_c at which creep runs away
+BALANCED = 1e-3  # of mu_s w_i: a smaller net force does not end creep
 SLOW = 0.1  # of v_c: a block that is slower counts as one that sticks
 SMALLEST_DROP = 1e-4  # of F_Z: an event in which F_X falls by less is left out where friction falls
 POINTS = 1e-4  # of F_Z: change of F_X from one point of the curve to the next
@@ -76,14 +78,13 @@ def critical_length(larger: LargerChain) -> float:
 
     It is pi/(2 q) with t_v E S q^2 + 2 sqrt(rho E S) q = a, rho = M/L, a = (mu_s - mu_k) F_Z/(L v_c).
     """
-    chain = larger.chain
-    n, length = chain.n_blocks, chain.length
-    rigidity = chain.stiffness * length / n  # E S
-    inertia = math.sqrt(n * chain.mass / length * rigidity)
-    fall = (chain.mu_s - chain.mu_k) * chain.normal_load / (length * larger.weakening_velocity)
-    viscous = (larger.relaxation_time + larger.viscosity / chain.stiffness) * rigidity
+    chain, v_c = larger.chain, larger.weakening_velocity
+    rigidity = chain.stiffness * chain.length / chain.n_blocks  # E S
+    inertia = v_c * math.sqrt(chain.n_blocks * chain.mass / chain.length * rigidity)
+    fall = (chain.mu_s - chain.mu_k) * chain.normal_load / chain.length  # a v_c
+    viscous = (larger.relaxation_time + larger.viscosity / chain.stiffness) * rigidity * v_c
     # The root without a difference of nearly equal numbers, which is right without viscosity as well.
-    return 0.5 * math.pi * (inertia + math.sqrt(inertia**2 + viscous * fall)) / fall
+    return 0.5 * math.pi * (inertia + math.sqrt(inertia**2 + viscous * fall)) / fall if fall else math.inf
 
 
 def tilt(chain: Chain, push_height: float) -> FloatArray:
@@ -93,6 +94,12 @@ def tilt(chain: Chain, push_height: float) -> FloatArray:
         return np.zeros(1)
     place = (np.arange(1, n + 1) - (n + 1) / 2) / n  # from the middle of the contact, over its length
     return 12.0 * push_height / chain.length * place / (n * (1.0 - 1.0 / n**2))
+
+
+@compiled
+def strength(m, load, i):
+    """Largest static friction mu_s w_i [N] while F_X is `load`."""
+    return m.mu_s * (m.weights[i] + m.tilt[i] * load)
 
 
 @compiled
@@ -107,22 +114,29 @@ def net_force(m, force, velocity, i):
 
 
 @compiled
-def middle(m, force, velocity, mode, last, h, u, r):
-    """Velocities `u` in the middle of a step h, of the blocks up to `last` (Thomas' algorithm)."""
-    n = force.shape[0]
-    load = force[0] + 0.5 * h * m.springs[0] * (m.drive_velocity - velocity[0])
-    behind, u_behind, r_behind = 0.5 * h * m.springs[0], m.drive_velocity, 0.0
+def mean_velocities(m, force, velocity, mode, last, h, leaps, u, r):
+    """Velocities `u` over a step h of the blocks up to `last` (Thomas' algorithm).
+
+    They balance the forces in the middle of the step. In a leap there is no inertia, and the forces at its
+    end are balanced at the friction of the velocities before.
+    """
+    n, reach, inertia = force.shape[0], 0.5 * h, 2.0 * m.mass / h
+    if leaps:
+        reach, inertia = h, 0.0
+    load = force[0] + reach * m.springs[0] * (m.drive_velocity - velocity[0])
+    behind, u_behind, r_behind = reach * m.springs[0], m.drive_velocity, 0.0
     for i in range(last + 1):
-        ahead = 0.5 * h * m.springs[i + 1] + m.dashpots[i + 1] if i + 1 < n else 0.0
+        ahead = reach * m.springs[i + 1] + m.dashpots[i + 1] if i + 1 < n else 0.0
         if mode[i] == 0:
             u[i] = r[i] = 0.0
         else:
             w = m.weights[i] + m.tilt[i] * load
-            pivot = 2.0 * m.mass / h + behind + ahead - behind * r_behind
-            push = 2.0 * m.mass / h * velocity[i] + force[i] - (force[i + 1] if i + 1 < n else 0.0)
+            pivot = inertia + behind + ahead - behind * r_behind
+            push = inertia * velocity[i] + force[i] - (force[i + 1] if i + 1 < n else 0.0)
             if abs(velocity[i]) < m.weakening_velocity:
-                pivot -= (m.mu_s - m.mu_k) * w / m.weakening_velocity
-                push -= mode[i] * m.mu_s * w
+                fall = (m.mu_s - m.mu_k) * w / m.weakening_velocity
+                push -= mode[i] * m.mu_s * w - (fall * velocity[i] if leaps else 0.0)
+                pivot -= 0.0 if leaps else fall
             else:
                 push -= mode[i] * m.mu_k * w
             u[i] = (push + behind * u_behind) / pivot
@@ -133,128 +147,79 @@ def middle(m, force, velocity, mode, last, h, u, r):
 
 
 @compiled
-def advance(m, force, velocity, mode, last, h, work, ends):
+def advance(m, force, velocity, mode, last, watched, h, leaps, work, ends):
     """State at the end of a step h; the part of it at which a block first stops or is released, and which."""
     n, u = force.shape[0], work[0]
     new_force, new_velocity = ends
-    middle(m, force, velocity, mode, last, h, u, work[1])
+    mean_velocities(m, force, velocity, mode, last, h, leaps, u, work[1])
     new_force[:], new_velocity[:] = force, velocity
     for i in range(min(n, last + 2)):
         moved = u[i] if i <= last else 0.0
         behind = u[i - 1] if i > 0 else m.drive_velocity
         new_force[i] += h * m.springs[i] * (behind - moved)
         if mode[i] != 0:
-            new_velocity[i] = 2.0 * moved - velocity[i]
+            new_velocity[i] = moved if leaps else 2.0 * moved - velocity[i]
     part, block = 1.0, -1
-    for i in range(n if m.tilt[0] != 0.0 else min(n, last + 2)):
+    for i in range(watched):
         at = 2.0
         if mode[i] != 0:
             if mode[i] * new_velocity[i] < 0.0:
                 at = max(mode[i] * velocity[i], 0.0) / abs(velocity[i] - new_velocity[i])
         else:
-            after = m.mu_s * (m.weights[i] + m.tilt[i] * new_force[0])
-            after -= abs(net_force(m, new_force, new_velocity, i))
+            net = net_force(m, new_force, new_velocity, i)
+            way = 1.0 if net > 0.0 else -1.0
+            after = strength(m, new_force[0], i) - way * net
             if after < 0.0:
-                before = m.mu_s * (m.weights[i] + m.tilt[i] * force[0])
-                before -= abs(net_force(m, force, velocity, i))
-                at = max(before, 0.0) / (max(before, 0.0) - after)
+                before = max(strength(m, force[0], i) - way * net_force(m, force, velocity, i), 0.0)
+                at = before / (before - after)
         if at < part or (at == 1.0 and block < 0):
             part, block = at, i
     return part, block
 
 
 @compiled
-def rest(m, force, velocity, mode, left, heat):
-    """Load a chain at rest until a block is released, for `left` [s] at most: the time [s]."""
-    rate, block, wait = m.springs[0] * m.drive_velocity, -1, left
-    for i in range(force.shape[0]):
-        net = net_force(m, force, velocity, i)
-        way = 1.0 if net > 0.0 or i == 0 else -1.0
-        margin = m.mu_s * (m.weights[i] + m.tilt[i] * force[0]) - way * net
-        closing = rate * ((way if i == 0 else 0.0) - m.mu_s * m.tilt[i])
-        if closing > 0.0 and margin < closing * wait:
-            wait, block = max(margin, 0.0) / closing, i
-    heat[0] += wait * (force[0] + 0.5 * rate * wait) * m.drive_velocity
-    force[0] += rate * wait
-    if block >= 0:
-        mode[block] = 1 if block == 0 or net_force(m, force, velocity, block) > 0.0 else -1
-    return wait
-
-
-@compiled
 def is_stable(m, load, p):
-    """Whether blocks 1..p may creep: well below the length at which creep runs away (see docs/models.md)."""
+    """Whether blocks 1..p may creep: well below the length at which creep runs away (see docs/models.md).
+
+    The gravest mode of the stretch is a quarter of a wave; each normal load counts by its square.
+    """
     if m.weakening_velocity == 0.0:
         return False
-    weight = 0.0
+    whole, angle, weight = p == m.springs.shape[0], math.pi / (2 * p + 1), 0.0
     for i in range(p):
-        weight += (m.weights[i] + m.tilt[i] * load) / p
+        share = 1.0 / p if whole else math.cos((i + 0.5) * angle) ** 2 * 4.0 / (2 * p + 1)
+        weight += share * (m.weights[i] + m.tilt[i] * load)
     fall = (m.mu_s - m.mu_k) * weight / m.weakening_velocity
-    if p < m.springs.shape[0]:
-        shape = (2.0 * math.sin(0.5 * math.pi / (2 * p + 1))) ** 2
-        stiffness, damping = m.springs[p] * shape, m.dashpots[p] * shape
-    else:
-        stiffness, damping = m.springs[0] / p, 0.0
-    return fall - damping < m.leap * 2.0 * math.sqrt(m.mass * stiffness)
+    if whole:
+        return fall < m.leap * 2.0 * math.sqrt(m.mass * m.springs[0] / p)
+    shape = (2.0 * math.sin(0.5 * angle)) ** 2
+    return fall - m.dashpots[p] * shape < m.leap * 2.0 * math.sqrt(m.mass * m.springs[p] * shape)
 
 
 @compiled
-def creep(m, force, velocity, mode, p, left, curve, heat):
-    """Let blocks 1..p creep until block p + 1 is released, for `left` [s] at most: the time [s].
-
-    It is the motion without inertia at friction mu(v), to first order in V: T_i = g_i F_X + b_i.
-    """
-    n, (g, b) = force.shape[0], curve
-    g[0], b[0], compliance, shortened = 1.0, 0.0, 0.0, 0.0
-    for i in range(min(p + 1, n)):
-        compliance += g[i] / m.springs[i]
-        shortened += force[i] / m.springs[i]
-        g[i + 1] = g[i] - m.mu_s * m.tilt[i]
-    rate = m.drive_velocity / compliance if p < n else 0.0  # of F_X [N/s]
-    speed = m.drive_velocity
-    for i in range(p):
-        speed -= rate * g[i] / m.springs[i]
-        velocity[i] = speed
-    for i in range(p):
-        fall = (m.mu_s - m.mu_k) * (m.weights[i] + m.tilt[i] * force[0]) / m.weakening_velocity
-        b[i + 1] = b[i] - m.mu_s * m.weights[i] + fall * velocity[i]
-        if i > 0:
-            b[i + 1] += m.dashpots[i] * (velocity[i - 1] - velocity[i])
-        if i + 1 < n:
-            b[i + 1] -= m.dashpots[i + 1] * (velocity[i] - velocity[i + 1])
-    if p == n:
-        load, wait = -b[n] / g[n], left
-    else:
-        for i in range(p + 1):
-            shortened -= b[i] / m.springs[i]
-        load = shortened / compliance
-        edge = m.mu_s * m.weights[p] - b[p] - m.dashpots[p] * velocity[p - 1]
-        edge += force[p + 1] if p + 1 < n else 0.0
-        wait = max((edge / (g[p] - m.mu_s * m.tilt[p]) - load) / rate, 0.0)
-        if wait < left:
-            mode[p] = 1
-        wait = min(wait, left)
-    add_heat(m, load + 0.5 * rate * wait, velocity, velocity, mode, p - 1, wait, heat)
-    for i in range(min(p + 1, n)):
-        force[i] = g[i] * (load + rate * wait) + b[i]
-    return wait
-
-
-@compiled
-def add_heat(m, load, u, velocity, mode, last, h, heat):
-    """Add the work of the drive [J] and the heat of friction and of dashpots in a step."""
-    n = u.shape[0]
-    heat[0] += h * load * m.drive_velocity
+def is_calm(m, force, velocity, last):
+    """Whether blocks 1..last + 1 are as slow as in creep, and their forces balanced."""
     for i in range(last + 1):
-        w = m.weights[i] + m.tilt[i] * load
+        share = 1.0 - (1.0 - m.mu_k / m.mu_s) * velocity[i] / m.weakening_velocity
+        excess = net_force(m, force, velocity, i) / strength(m, force[0], i) - share
+        if abs(velocity[i]) > m.drive_velocity or abs(excess) > BALANCED:
+            return False
+    return True
+
+
+@compiled
+def heat_of_step(m, load, u, velocity, mode, last, h):
+    """Heat of friction and of dashpots in a step [J]."""
+    heat = 0.0
+    for i in range(last + 1):
         mu = m.mu_k
         if abs(velocity[i]) < m.weakening_velocity:
             mu = m.mu_s - (m.mu_s - m.mu_k) * abs(u[i]) / m.weakening_velocity
-        heat[1] += h * mu * w * mode[i] * u[i]
-        if i > 0:
-            heat[2] += h * m.dashpots[i] * (u[i - 1] - u[i]) ** 2
-    if last + 1 < n:
-        heat[2] += h * m.dashpots[last + 1] * u[last] ** 2
+        ahead = u[i + 1] if i < last else 0.0
+        heat += h * mu * (m.weights[i] + m.tilt[i] * load) * mode[i] * u[i]
+        if i + 1 < u.shape[0]:
+            heat += h * m.dashpots[i + 1] * (u[i] - ahead) ** 2
+    return heat
 
 
 @compiled
@@ -262,98 +227,76 @@ def switch(m, force, velocity, mode, i):
     """Release block i if it sticks; let it stick or turn if it stops, and stick if it does not start."""
     was_still, velocity[i] = velocity[i] == 0.0, 0.0
     net = net_force(m, force, velocity, i)
-    holds = was_still or abs(net) <= m.mu_s * (m.weights[i] + m.tilt[i] * force[0])
+    holds = was_still or abs(net) <= strength(m, force[0], i)
     mode[i] = 0 if mode[i] != 0 and holds else (1 if net > 0.0 else -1)
 
 
 @compiled
-def with_row(table, n, row):
-    """The table with a row n; it is made longer when it is full."""
-    if n == table.shape[0]:
-        longer = np.empty((2 * n, table.shape[1]))
-        longer[:n] = table
-        table = longer
-    for i in range(row.shape[0]):
-        table[n, i] = row[i]
-    return table
+def march(m, force, velocity, duration, until_global, step, lifting_load, max_rows):
+    """Run from rest: rows (time, block, mode, F_X), points (time, F_X), why and when it ended, energies [J].
 
-
-@compiled
-def march(m, force, velocity, heat, limits):
-    """Run from rest: rows (time, block, mode, F_X), points (time, F_X), why and when it ended, which block.
-
-    `limits` are duration [s], whether the first global slip ends the run, step [s], drop of F_X [N] below
-    which an event is left out, change of F_X [N] from point to point, numbers of rows and of steps.
+    `step` [s] is that while nothing slides ahead of each block. At `lifting_load` [N] a block is lifted.
     """
-    duration, until_global, step, smallest_drop, resolution, max_rows, max_steps = limits
-    n = force.shape[0]
-    work, ends, curve = np.empty((4, n)), np.empty((2, n)), np.empty((2, n + 1))
+    n, total = force.shape[0], m.weights.sum()
+    smallest_drop = SMALLEST_DROP * total if m.weakening_velocity > 0.0 else -math.inf
+    work, ends = np.empty((3, n)), np.empty((2, n))
     mode, seen = np.zeros(n, np.int64), np.zeros(n, np.int64)
-    rows, points, n_rows, n_points, begin = np.empty((1024, 4)), np.zeros((1024, 2)), 0, 1, 0
-    time, n_seen, was_global, is_slow, steps = 0.0, 0, False, True, 0
-    why, where = DONE, -1
-    slow = SLOW * m.weakening_velocity
-    while time < duration:
-        last = n - 1
+    rows, points, begin = [(0.0, 0.0, 0.0, 0.0)], [(0.0, 0.0)], 1
+    time, drive, heat, n_seen, was_global, leaps, steps, why = 0.0, 0.0, 0.0, 0, False, True, 0, DONE
+    slow, creeping, stable = SLOW * m.weakening_velocity, -1, False
+    while time < duration and why == DONE:
+        last, steps = n - 1, steps + 1
         while last >= 0 and mode[last] == 0:
             last -= 1
-        is_slow = is_slow and last >= 0 and mode[: last + 1].all() and is_stable(m, force[0], last + 1)
-        if last < 0 or is_slow:
-            before = force[0]
-            if is_slow:
-                h = creep(m, force, velocity, mode, last + 1, duration - time, curve, heat)
-            else:
-                h = rest(m, force, velocity, mode, duration - time, heat)
-                is_slow = mode[0] == 1
-            time += h
-            if abs(force[0] - points[n_points - 1, 1]) > resolution:
-                points = with_row(points, n_points, np.array([time - h, before]))
-                points = with_row(points, n_points + 1, np.array([time, force[0]]))
-                n_points += 2
-            continue
-        steps += 1
+        watched = n if m.tilt[0] != 0.0 else min(n, last + 2)
+        if last != creeping:
+            creeping, stable = last, last >= 0 and is_stable(m, force[0], last + 1)
+        leaps = last < 0 or (
+            stable and (mode[: last + 1] == 1).all() and (leaps or is_calm(m, force, velocity, last))
+        )
         before, work[2] = force[0], velocity
-        h = min(step, duration - time)
-        part, block = advance(m, force, velocity, mode, last, h, work, ends)
+        h = duration - time if leaps else min(step[last], duration - time)
+        part, block = advance(m, force, velocity, mode, last, watched, h, leaps, work, ends)
         if block >= 0:
             h *= part
+            if leaps:
+                velocity[:] = ends[1]
             if h > 0.0:
-                advance(m, force, velocity, mode, last, h, work, ends)
+                advance(m, force, velocity, mode, last, watched, h, leaps, work, ends)
         if h > 0.0:
-            add_heat(m, 0.5 * (force[0] + ends[0, 0]), work[0], velocity, mode, last, h, heat)
+            load = 0.5 * (force[0] + ends[0, 0])
+            drive += h * load * m.drive_velocity
+            heat += heat_of_step(m, load, work[0], velocity, mode, last, h)
             force[:], velocity[:] = ends[0], ends[1]
             time += h
         if block >= 0:
             switch(m, force, velocity, mode, block)
-        for i in range(n):
-            if m.weights[i] + m.tilt[i] * force[0] < 0.0:
-                why, where = LIFTED, i
-        for i in range(min(last + 2, n)):
+        for i in range(watched):
             way = mode[i] if abs(velocity[i]) > slow or slow == 0.0 else 0
             if way == seen[i]:
                 continue
-            begin = n_rows if n_seen == 0 else begin
+            begin = len(rows) if n_seen == 0 else begin
             n_seen += (way != 0) - (seen[i] != 0)
             seen[i] = way
             at = 1.0  # part of the step
             if slow > 0.0 and abs(velocity[i]) != abs(work[2, i]):
                 at = (slow - abs(work[2, i])) / (abs(velocity[i]) - abs(work[2, i]))
             load = before + at * (force[0] - before)
-            rows = with_row(rows, n_rows, np.array([time - (1.0 - at) * h, i + 1, way, load]))
-            n_rows += 1
+            rows.append((time - (1.0 - at) * h, i + 1.0, float(way), load))
             was_global = was_global or n_seen == n
-            if n_seen == 0 and rows[begin, 3] - force[0] < smallest_drop:
-                n_rows = begin
+            if n_seen == 0 and rows[begin][3] - force[0] < smallest_drop:
+                while len(rows) > begin:
+                    rows.pop()
             elif n_seen == 0 and was_global and until_global:
                 why = GLOBAL
-        if abs(force[0] - points[n_points - 1, 1]) > resolution:
-            points = with_row(points, n_points, np.array([time, force[0]]))
-            n_points += 1
-        if n_rows > max_rows or steps > max_steps:
+        if abs(force[0] - points[-1][1]) > POINTS * total:
+            points.append((time, force[0]))
+        if force[0] > lifting_load:
+            why = LIFTED
+        elif len(rows) - 1 > max_rows or steps > MAX_STEPS:
             why = LIMIT
-        if why != DONE:
-            break
-    return rows[:n_rows], points[:n_points], why, time, where
+    points.append((time, force[0]))
+    return np.array(rows)[1:], np.array(points), why, time, drive, heat
 
 
 def simulate_larger(
@@ -368,17 +311,11 @@ def simulate_larger(
 
     Parameters
     ----------
-    larger : LargerChain
-        The chain.
-    duration : float
-        Time to run [s], the limit where `until` is given.
-    until : {None, "global slip"}
-        Stop at the end of the first event in which all blocks slide at the same instant.
+    larger, duration, until, max_transitions
+        As for `simulate`.
     step : float
         Step, in the shorter of sqrt(m/k) and the time in which falling friction multiplies a velocity by
-        e; by default `default_step`.
-    max_transitions : int
-        Largest number of transitions.
+        e; by default `STEP`, or `STEP_OF_COULOMB`.
     leap : float
         Stretches of creep shorter than so much of l_c are leapt over; 0 leaps over none.
 
@@ -386,7 +323,7 @@ def simulate_larger(
     -------
     Run
         With the transitions of blocks that slide faster than `SLOW` v_c, without events in which F_X falls by
-        less than `SMALLEST_DROP` F_Z; `load_points`; and in `larger` the numbers of the chain, the step [s]
+        less than `SMALLEST_DROP` F_Z; `load_points`; and in `larger` the numbers of the chain, the step
         and `energy_error`, the energy that the balance lacks, relative to the work of the drive.
 
     Raises
@@ -396,8 +333,9 @@ def simulate_larger(
     TransitionLimitError
         If there are more transitions or steps than the limits; `run` is what was computed.
     """
-    duration, step = checked_span(duration, until), step or default_step(larger)
+    duration = checked_span(duration, until)
     chain, v_c = larger.chain, larger.weakening_velocity
+    step = step or (STEP if v_c else STEP_OF_COULOMB)
     viscosity = larger.viscosity + larger.relaxation_time * chain.stiffness
     tilts = tilt(chain, larger.push_height)
     m = Model(
@@ -412,24 +350,26 @@ def simulate_larger(
         drive_velocity=chain.drive_velocity,
         leap=leap,
     )
-    seconds = 2.0 / chain.fastest_frequency_bound * step
+    n = chain.n_blocks
+    seconds = np.full(n, 2.0 / chain.fastest_frequency_bound * step)
     if v_c and chain.mu_k < chain.mu_s:
         fall = (chain.mu_s - chain.mu_k) * (chain.weights + abs(tilts) * chain.mu_s * chain.normal_load)
-        seconds = min(seconds, chain.mass * v_c / fall.max() * step)
-    (force, velocity), heat, load = np.zeros((2, chain.n_blocks)), np.zeros(3), chain.normal_load
-    drop = SMALLEST_DROP * load if v_c else -math.inf
-    limits = duration, until is not None, seconds, drop, POINTS * load, max_transitions, MAX_STEPS
-    rows, points, why, time, where = march(m, force, velocity, heat, limits)
+        seconds = np.minimum(seconds, chain.mass * v_c / np.maximum.accumulate(fall) * step)
+    lifting = np.divide(chain.weights, -tilts, out=np.full(n, np.inf), where=tilts < 0.0)
+    force, velocity = np.zeros((2, n))
+    limits = duration, until is not None, seconds, lifting.min(), max_transitions
+    rows, points, why, time, work, heat = march(m, force, velocity, *limits)
     if why == LIFTED:
         raise ValueError(
-            f"push_height = {larger.push_height:g} m lifts block {where + 1} at F_X = {force[0]:.4g} N"
+            f"push_height = {larger.push_height:g} m lifts block {lifting.argmin() + 1} "
+            f"at F_X = {lifting.min():.4g} N"
         )
     when, block, mode, loads = rows[np.argsort(rows[:, 0], kind="stable")].T
     run = Run.from_transitions(chain, time, when, block, mode, loads)
     stored = (force**2 / chain.springs).sum() / 2.0 + chain.mass * (velocity**2).sum() / 2.0
     numbers = {name: getattr(larger, name) for name in ADDITIONS}
-    numbers |= {"step_s": seconds, "energy_error": (heat[0] - heat[1:].sum() - stored) / heat[0]}
-    run = replace(run, larger=numbers, load_points=np.vstack([points, [time, force[0]]]))
+    numbers |= {"step": step, "energy_error": (work - heat - stored) / work}
+    run = replace(run, larger=numbers, load_points=points)
     if why == LIMIT:
         raise TransitionLimitError(f"the larger chain met its limit of work at t = {time:.9g} s", run)
     return run
@@ -442,13 +382,8 @@ def simulate_with_accuracy(larger: LargerChain, duration: float, until: Until = 
     runs have, and the change of their number.
     """
     run = simulate_larger(larger, duration, until, **limits)
-    finer = simulate_larger(larger, duration, until, default_step(larger) / 2.0, **limits)
+    finer = simulate_larger(larger, duration, until, run.larger["step"] / 2.0, **limits)
     a, b = (find_precursors(find_slips(r))["load_before"].to_numpy() for r in (run, finer))
     n = min(len(a), len(b))
     found = {"halved_load_N": float(abs(a[:n] - b[:n]).max(initial=0.0)), "halved_events": len(b) - len(a)}
-    return replace(run, larger={**(run.larger or {}), **found})
-
-
-def default_step(larger: LargerChain) -> float:
-    """Step in the shortest time of the chain: where friction jumps, far smaller."""
-    return STEP if larger.weakening_velocity else STEP_OF_COULOMB
+    return replace(run, larger={**run.larger, **found})

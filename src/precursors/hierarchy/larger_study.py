@@ -10,69 +10,63 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.run_statistics import median_interval
+from precursors.analysis.run_statistics import compared, median_difference, median_interval
 from precursors.analysis.slip_rows import first_global, up_to_first_global
 from precursors.analysis.slips import find_precursors, find_slips
 from precursors.hierarchy.larger import LargerChain, critical_length, simulate_larger
-from precursors.hierarchy.models import LIMIT, longest_run
+from precursors.hierarchy.models import longest_run
 from precursors.model.chain import Chain, parse_theta
-from precursors.model.checks import Until
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
 KINK = 0.7  # of L: beyond it the experiment's precursors grow faster
 SAME = 0.01  # two coefficients that are closer are the same: a unit of the last digit that the paper prints
-RESAMPLES = 2000
-STEP = 0.25  # of `simulate_larger` where friction falls; medians do not need the default
-LONGEST = 2.5  # longest run, in times in which the drive reaches mu_s F_Z
-SLIP: Until = "global slip"
-ADDED = ("weakening_velocity", "relaxation_time", "push_height")
-POINT = ["study", *ADDED, "theta", "n_blocks", "critical_length"]
+# Steps of `simulate_larger` for v_c > 0 and v_c = 0: medians of noisy runs do not need the defaults.
+STEP, STEP_OF_COULOMB = 0.25, 0.01
+POINT = [
+    "study",
+    "weakening_velocity",
+    "relaxation_time",
+    "push_height",
+    "theta",
+    "n_blocks",
+    "critical_length",
+]
 
 
-def nucleation_table(slider: Mapping[str, Any], study: Mapping[str, Any]) -> pd.DataFrame:
+def nucleation_table(
+    slider: Mapping[str, Any], study: Mapping[str, Any], smallest_drop: float
+) -> pd.DataFrame:
     """Length at which smooth growth ends, beside the theory: a row for each pair of v_c and t_v.
 
     Creep of length l behind the drive needs F_X = mu_s F_Z l/L. So the load at which the first event begins
-    gives the length that crept until then. Columns: the pair, n_blocks, theory and measured (l_c / L [1]),
-    and ratio, measured over theory.
+    gives the length that crept until then; F_X falls in it by `smallest_drop` [N] or more. Columns: the pair,
+    n_blocks, theory and measured (l_c / L [1]), and ratio, measured over theory.
     """
     rows = []
     for n, (weakening_velocity, relaxation_time) in product(study["n_blocks"], study["pairs"]):
         chain = Chain.from_slider(**{**slider, "theta": 0.0, "n_blocks": n})
         larger = LargerChain(chain, weakening_velocity, relaxation_time)
         theory = critical_length(larger) / chain.length
-        run = simulate_larger(larger, 1.6 * theory * static_load_time(chain), step=STEP)
-        measured = find_slips(run)["load_before"].iloc[0] / (chain.mu_s * chain.normal_load)
+        # The drive reaches mu_s F_Z in a tenth of the longest run.
+        run = simulate_larger(larger, 0.16 * theory * longest_run(chain), step=STEP)
+        slips = find_slips(run)
+        first = (slips["load_before"] - slips["load_after"] >= smallest_drop).argmax()
+        measured = slips["load_before"].iloc[first] / (chain.mu_s * chain.normal_load)
         row = {"weakening_velocity": weakening_velocity, "relaxation_time": relaxation_time}
-        row |= {"n_blocks": chain.n_blocks, "theory": theory, "measured": measured}
+        row |= {"n_blocks": n, "theory": theory, "measured": measured}
         rows.append(row | {"ratio": measured / theory})
     return pd.DataFrame(rows)
 
 
-def static_load_time(chain: Chain) -> float:
-    """Time [s] in which the drive reaches mu_s F_Z against all springs in a row."""
-    return longest_run(chain) / LIMIT
-
-
-def points_of(study: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """The points of a study: each pair of v_c and t_v with each push_height, n_blocks and theta."""
-    heights, blocks, thetas = study.get("push_height", [0.0]), study["n_blocks"], study["theta"]
-    names = ("weakening_velocity", "relaxation_time", "push_height", "n_blocks", "theta")
-    every = product(study["pairs"], heights, blocks, thetas)
-    return [dict(zip(names, (*pair, *others), strict=True)) for pair, *others in every]
-
-
-def larger_tables(
-    slider: Mapping[str, Any], settings: Mapping[str, Any], full: str
-) -> dict[str, pd.DataFrame]:
-    """Medians, differences of loadings, and where creep runs away: by file name, which ends in `full`."""
+def larger_tables(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> dict[str, pd.DataFrame]:
+    """Medians, differences of loadings, and where creep runs away, by file name."""
     studies = settings["studies"].items()
     runs = pd.concat([run_study(slider, name, study, settings) for name, study in studies])
     return {
-        f"larger{full}": medians_table(runs),
-        f"larger_differences{full}": differences_table(runs),
-        f"larger_nucleation{full}": nucleation_table(slider, settings["nucleation"]),
+        "larger": medians_table(runs),
+        "larger_differences": differences_table(runs),
+        "larger_nucleation": nucleation_table(slider, settings["nucleation"], settings["smallest_drops"][0]),
     }
 
 
@@ -81,8 +75,7 @@ def run_study(
 ) -> pd.DataFrame:
     """Run every point of a study with noise in the normal loads: a row for each point and draw.
 
-    A point without any number of `LargerChain` is the exact chain. The noise depends on the number of blocks
-    and on the draw only. A run without a global slip has NaN.
+    The noise depends on the number of blocks and on the draw only. A run without a global slip has NaN.
 
     Parameters
     ----------
@@ -95,28 +88,26 @@ def run_study(
     common : mapping
         seed, noise (relative) and smallest_drops [N] of all studies.
     """
-    rows = []
-    for point in points_of(study):
-        chain = Chain.from_slider(**{**slider, "theta": point["theta"], "n_blocks": point["n_blocks"]})
-        random = np.random.default_rng([common["seed"], chain.n_blocks])
-        noise = common["noise"] * random.uniform(-1.0, 1.0, (study["runs"], chain.n_blocks))
-        additions = {key: point[key] for key in ADDED}
-        theory = (
-            critical_length(LargerChain(chain, **additions)) / chain.length
-            if point["weakening_velocity"]
-            else np.nan
-        )
-        for draw, change in enumerate(noise):
-            noisy = replace(chain, weights=chain.weights * (1.0 + change))
-            limit = LONGEST * static_load_time(chain)
-            if any(additions.values()):
-                step = STEP if point["weakening_velocity"] else None
-                run = simulate_larger(LargerChain(noisy, **additions), limit, SLIP, step)
-            else:
-                run = simulate(noisy, limit, SLIP)
-            row = {"study": name, **point, "theta": parse_theta(point["theta"]), "critical_length": theory}
-            rows.append(row | {"draw": draw} | numbers(run, common["smallest_drops"]))
+    heights, rows = study.get("push_height", [0.0]), []
+    for pair, height, theta, n in product(study["pairs"], heights, study["theta"], study["n_blocks"]):
+        chain = Chain.from_slider(**{**slider, "theta": theta, "n_blocks": n})
+        larger = LargerChain(chain, *pair, push_height=height)
+        theory = critical_length(larger) / chain.length
+        point = dict(zip(POINT, (name, *pair, height, parse_theta(theta), n, theory), strict=True))
+        random = np.random.default_rng([common["seed"], n])
+        for draw in range(study["runs"]):
+            weights = chain.weights * (1.0 + common["noise"] * random.uniform(-1.0, 1.0, n))
+            run = run_to_slip(replace(larger, chain=replace(chain, weights=weights)))
+            rows.append(point | {"draw": draw} | numbers(run, common["smallest_drops"]))
     return pd.DataFrame(rows)
+
+
+def run_to_slip(larger: LargerChain) -> Run:
+    """Run to the end of the first global slip; the paper's chain by its own solver, which is faster."""
+    limit, v_c = longest_run(larger.chain) / 4.0, larger.weakening_velocity
+    if v_c or larger.relaxation_time or larger.push_height:
+        return simulate_larger(larger, limit, "global slip", STEP if v_c else STEP_OF_COULOMB)
+    return simulate(larger.chain, limit, "global slip")
 
 
 def numbers(run: Run, smallest_drops: Iterable[float]) -> dict[str, float]:
@@ -144,16 +135,15 @@ def medians_table(runs: pd.DataFrame) -> pd.DataFrame:
     """Medians over the runs of a point with their 95 % intervals (name_low, name_high): a row for each point.
 
     runs is the number of runs, no_slip that of runs without a global slip; critical_length is l_c/L by the
-    theory, NaN for the exact chain.
+    theory, 0 for the paper's chain.
     """
     rows = []
-    for point, of_point in runs.groupby(POINT, sort=False, dropna=False):
+    for point, of_point in runs.groupby(POINT, sort=False):
         row = dict(zip(POINT, point, strict=True))
         row |= {"runs": len(of_point), "no_slip": int(of_point["mu_sapp"].isna().sum())}
         for name in runs.columns.drop([*POINT, "draw"]):
-            values = of_point[name].dropna()
-            low, high = median_interval(values)
-            row |= {name: values.median(), f"{name}_low": low, f"{name}_high": high}
+            low, high = median_interval(of_point[name].dropna())
+            row |= {name: of_point[name].median(), f"{name}_low": low, f"{name}_high": high}
         rows.append(row)
     return pd.DataFrame(rows)
 
@@ -161,23 +151,15 @@ def medians_table(runs: pd.DataFrame) -> pd.DataFrame:
 def differences_table(runs: pd.DataFrame) -> pd.DataFrame:
     """Whether mu_sapp is the same for two loadings: a row for each pair of theta.
 
-    difference is that of the medians (theta_b less theta_a), low and high its 95 % interval (bootstrap).
-    verdict is "same" if the interval lies within `SAME` of 0, "different" if it lies beyond on one side, and
-    "undecided" otherwise.
+    difference is that of the medians (theta_b less theta_a), low and high its 95 % interval, and verdict what
+    `compared` says of this interval and `SAME`.
     """
-    random, rows = np.random.default_rng(0), []
-    keys = [key for key in POINT if key != "theta"]
-    for point, of_point in runs.dropna(subset="mu_sapp").groupby(keys, sort=False, dropna=False):
-        samples = {
-            float(x): of_point.loc[of_point["theta"] == x, "mu_sapp"] for x in of_point["theta"].unique()
-        }
-        for a, b in combinations(sorted(samples), 2):
-            drawn = [
-                np.median(random.choice(samples[x], (RESAMPLES, len(samples[x]))), axis=1) for x in (a, b)
-            ]
-            low, high = np.quantile(drawn[1] - drawn[0], [0.025, 0.975])
-            within, beyond = max(-low, high) < SAME, max(low, -high) > SAME
+    rows, keys = [], [key for key in POINT if key != "theta"]
+    for point, of_point in runs.dropna(subset="mu_sapp").groupby(keys, sort=False):
+        samples = dict(iter(of_point.groupby("theta")["mu_sapp"]))
+        for a, b in combinations(samples, 2):
+            low, high = median_difference(samples[b], samples[a])
             row = dict(zip(keys, point, strict=True)) | {"theta_a": a, "theta_b": b}
-            row |= {"difference": np.median(samples[b]) - np.median(samples[a]), "low": low, "high": high}
-            rows.append(row | {"verdict": "same" if within else "different" if beyond else "undecided"})
+            row |= {"difference": samples[b].median() - samples[a].median(), "low": low, "high": high}
+            rows.append(row | {"verdict": compared(low, high, SAME)})
     return pd.DataFrame(rows)

@@ -13,6 +13,7 @@ import pandas as pd
 from precursors.analysis.slip_rows import first_global
 from precursors.analysis.slips import find_precursors, find_slips, mu_sapp
 from precursors.hierarchy import rigid, statics
+from precursors.hierarchy.larger import LargerChain, simulate_larger
 from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, cascade, quasistatic_slips
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.scenes import PAPERS_MODEL
@@ -22,6 +23,8 @@ from precursors.solver.simulate import simulate
 
 # Longest run, in units of the time in which the drive reaches mu_s F_Z against all springs in a row.
 LIMIT = 10.0
+# The larger chain that stands for all: its creep runs away at 0.21 L, and it is smooth enough for this step.
+LARGER, LARGER_STEP = {"weakening_velocity": 0.006, "relaxation_time": 1e-4}, 0.5
 
 # What one may ask of a chain, up to and including its first global slip, and its unit.
 UNITS = {
@@ -74,7 +77,7 @@ class Motion:
     mu_sapp : float
         Apparent static friction coefficient (Eq. 1); NaN without a global slip.
     waveform : array, shape (n_transitions + 1, 2)
-        Time [s] and load [N] at the start and at each transition.
+        Time [s] and load [N] at the start and at each transition, or at the `load_points` of a larger chain.
     """
 
     n_blocks: int
@@ -88,15 +91,21 @@ def run_to_global_slip(chain: Chain) -> Run:
     return simulate(chain, longest_run(chain), until="global slip")
 
 
-def move(chain: Chain) -> Motion:
+def run_larger(chain: Chain) -> Run:
+    """Run the larger chain of `LARGER` to the end of its first global slip."""
+    return simulate_larger(LargerChain(chain, **LARGER), longest_run(chain), "global slip", LARGER_STEP)
+
+
+def move(chain: Chain, solve: Callable[[Chain], Run] = run_to_global_slip) -> Motion:
     """Follow a chain through time to the end of its first global slip."""
-    run = run_to_global_slip(chain)
+    run = solve(chain)
     slips, transitions = find_slips(run), run.transitions
     first = first_global(slips)
     friction = np.nan if first is None else mu_sapp(slips["largest_load"].iloc[first], run.chain.normal_load)
     times, loads = transitions["time"], transitions["tangential_load"]
     waveform = np.column_stack([np.append(0.0, times), np.append(0.0, loads)])
-    return Motion(run.chain.n_blocks, slips, friction, waveform)
+    points = waveform if run.load_points is None else run.load_points
+    return Motion(run.chain.n_blocks, slips, friction, points)
 
 
 def longest_run(chain: Chain) -> float:
@@ -157,6 +166,7 @@ MODELS: dict[str, Model] = {
     ),
     "quasistatic": Model("quasi-static chain", _EVENTS, _cascade(ENERGY_CONSERVED), cascade),
     PAPERS_MODEL: Model("paper's chain", _MOTION, move, run_to_global_slip),
+    "larger": Model("larger chain", _MOTION, partial(move, solve=run_larger), run_larger),
 }
 
 
