@@ -111,12 +111,6 @@ def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> No
     np.testing.assert_allclose(slip_load(chain, since), run.tangential_load(onset + since), rtol=1e-6)
 
 
-def test_the_rigid_slider_has_the_whole_mass_and_the_closed_form_duration() -> None:
-    chain = SLIDER(theta="5/6")
-    assert rigid_slip_duration(chain) == pytest.approx(np.pi * np.sqrt(0.012 / 0.8e6), rel=1e-3)
-    assert MODELS["rigid"].ask(chain, "mu_sapp") == chain.mu_s
-
-
 @pytest.mark.parametrize("theta", THETAS)
 @pytest.mark.parametrize("overshoot", [ENERGY_CONSERVED, OVERDAMPED, 0.4])
 @pytest.mark.parametrize("n_blocks", [1, 2, 10, 23])

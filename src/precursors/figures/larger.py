@@ -13,7 +13,7 @@ from precursors.figures import style
 HEIGHT_MM = 72.0
 COLORS = (style.BLUE, style.GREEN, style.VERMILION, style.PURPLE)
 MARKERS = ("o", "s", "^", "v")
-TIMES = {0.0: "o", 1e-6: "s", 5e-6: "^", 2e-5: "D"}  # relaxation time to marker
+TIMES = {0.0: "o", 1e-6: "s", 5e-6: "^", 2e-5: "D", 2e-4: "v"}  # relaxation time to marker
 
 
 def draw(nucleation: pd.DataFrame, table: pd.DataFrame) -> Figure:
