@@ -10,7 +10,7 @@ import yaml
 
 from precursors import Chain, find_slips, simulate
 from precursors.hierarchy import quasistatic
-from precursors.hierarchy.models import MODELS, UNITS, answers_table, move
+from precursors.hierarchy.models import MODELS, UNITS, move, scene_answers
 from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
 from precursors.hierarchy.rigid import load_drop, onset_load, rigid_slip_duration, slip_load
 from precursors.hierarchy.statics import first_precursor_load, front_load_law
@@ -204,12 +204,12 @@ def test_the_schema_of_the_configuration_knows_the_names_of_the_models() -> None
 
 
 def test_answers_are_a_table_with_a_row_for_each_number() -> None:
-    table = answers_table(SLIDER(theta="5/6"), "quasistatic").set_index("quantity")
+    table = scene_answers({"theta": "5/6"}, "quasistatic").set_index("quantity")
     assert table.loc["events_counted", "value"] == 14.0
     assert list(table.loc["front_loads", "block"]) == list(range(1, 11))
     assert table.loc[["first_load", "mu_sapp"], "block"].isna().all()
     assert set(table["unit"]) == {"1", "N"}
-    wave = answers_table(SLIDER(), "rigid").query("quantity == 'waveform'")
+    wave = scene_answers({}, "rigid").query("quantity == 'waveform'")
     assert wave["time_s"].is_monotonic_increasing
     assert wave["value"].max() == pytest.approx(280.0)
 

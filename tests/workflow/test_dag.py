@@ -7,8 +7,7 @@ import pandas as pd
 import pytest
 from conftest import ROOT, copy_workflow
 
-from precursors import Chain
-from precursors.hierarchy.models import answers_table
+from precursors.hierarchy.models import scene_answers
 
 PAPERS = ("fig10", "fig11", "fig12")
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all lists of jobs.
@@ -205,5 +204,5 @@ def test_the_answer_of_a_model_is_computed(workspace):
     outcome = workspace.run("-c1", "results/tables/asked_answers.csv")
     assert outcome.code == 0, outcome.text
     answers = pd.read_csv(workspace.path / "results/tables/asked_answers.csv")
-    expected = answers_table(Chain.from_slider(theta="9/10"), "chain").reset_index(drop=True)
+    expected = scene_answers({"theta": "9/10"}, "chain").reset_index(drop=True)
     pd.testing.assert_frame_equal(answers, expected, check_dtype=False)

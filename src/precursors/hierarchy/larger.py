@@ -382,8 +382,9 @@ def simulate_with_accuracy(larger: LargerChain, duration: float, until: Until = 
     runs have, and the change of their number.
     """
     run = simulate_larger(larger, duration, until, **limits)
-    finer = simulate_larger(larger, duration, until, run.larger["step"] / 2.0, **limits)
+    numbers = run.larger or {}
+    finer = simulate_larger(larger, duration, until, numbers["step"] / 2.0, **limits)
     a, b = (find_precursors(find_slips(r))["load_before"].to_numpy() for r in (run, finer))
     n = min(len(a), len(b))
     found = {"halved_load_N": float(abs(a[:n] - b[:n]).max(initial=0.0)), "halved_events": len(b) - len(a)}
-    return replace(run, larger={**run.larger, **found})
+    return replace(run, larger=numbers | found)

@@ -129,16 +129,10 @@ def front_loads(motion: Motion) -> FloatArray:
     return np.append(motion.slips["load_before"].to_numpy(), np.nan)[event]
 
 
-def first_global_slip(motion: Motion) -> Mapping[str, float]:
-    """Onset and end of the first global slip [s]; NaN without one."""
-    first = first_global(motion.slips)
-    return {name: np.nan if first is None else motion.slips[name].iloc[first] for name in ("onset", "end")}
-
-
 def slip_duration(motion: Motion) -> float:
-    """Duration of the first global slip [s]."""
-    slip = first_global_slip(motion)
-    return float(slip["end"] - slip["onset"])
+    """Duration of the first global slip [s]; NaN without one."""
+    first = first_global(motion.slips)
+    return np.nan if first is None else float((motion.slips["end"] - motion.slips["onset"]).iloc[first])
 
 
 def events_counted(motion: Motion) -> float:
@@ -171,19 +165,7 @@ MODELS: dict[str, Model] = {
 
 
 def scene_answers(slider: Mapping[str, Any], model: str) -> pd.DataFrame:
-    """`answers_table` of a slider."""
-    return answers_table(Chain.from_slider(**slider), model)
-
-
-def answers_table(chain: Chain, model: str) -> pd.DataFrame:
-    """Ask a model all that it answers about a chain, up to the end of the first global slip.
-
-    Parameters
-    ----------
-    chain : Chain
-        The paper's chain.
-    model : str
-        A key of `MODELS`.
+    """Ask a model all that it answers about a slider, up to the end of the first global slip.
 
     Returns
     -------
@@ -191,7 +173,7 @@ def answers_table(chain: Chain, model: str) -> pd.DataFrame:
         One row per number: model, quantity, value and its unit; block (1..N) for the load at which the front
         first reaches each block; time_s [s] for the tangential load over time.
     """
-    prepared = MODELS[model].prepare(chain)
+    prepared = MODELS[model].prepare(Chain.from_slider(**slider))
     tables = []
     for quantity, answer in MODELS[model].answers.items():
         value = np.asarray(answer(prepared))
