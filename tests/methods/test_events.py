@@ -214,8 +214,3 @@ def test_a_restart_exactly_on_a_root_never_gets_away_from_it(uniform):
     with pytest.raises(TransitionLimitError, match=r"transition after transition at t = 0\.35 s") as stuck:
         solve_scipy(uniform, 10.0, 1e-9, nudge=0.0, direction=0.0)
     assert set(stuck.value.run.transitions["time"]) == {0.35}
-
-
-def test_a_start_with_the_sign_of_the_acceleration_gets_away_from_the_root(uniform):
-    result = solve_scipy(uniform, 10.0, 1e-9, "global slip", direction=0.0)
-    assert right_and_error(result.run, read_golden("fig10"))[0] == FIRST_SLIP

@@ -12,14 +12,9 @@ from precursors.solver.run import Run
 
 @dataclass(frozen=True)
 class Result:
-    """What a method returns.
+    """What a method returns: a run without states, so that `run.at` is refused, and what it cost.
 
-    Attributes
-    ----------
-    run : Run
-        Transitions, intervals, chain and duration. It has no states, so `run.at` is refused.
-    evaluations : int
-        How often the forces of the whole chain were evaluated: a cost that does not depend on the machine.
+    `evaluations` is how often the forces of the whole chain were evaluated, whatever the machine.
     """
 
     run: Run
@@ -30,16 +25,9 @@ class Result:
 class Smooth:
     """A fixed-step method while nothing switches: what is proved about it in theory.
 
-    Attributes
-    ----------
-    slide : callable
-        (system, state, step [s], number of steps): makes steps with all blocks sliding, see `fixed_step`.
-    order : int
-        Order of convergence.
-    limit : float
-        Largest stable omega dt, for the highest angular frequency omega of the chain.
-    energy_factor : callable
-        Factor on the energy of a mode in one step, as a function of omega dt.
+    `slide` (system, state, step [s], number of steps) makes steps with all blocks sliding, see `fixed_step`.
+    `limit` is the largest stable omega dt, for the highest angular frequency omega of the chain;
+    `energy_factor` is the factor on the energy of a mode in one step, as a function of omega dt.
     """
 
     slide: Callable[..., None]
