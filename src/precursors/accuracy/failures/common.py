@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ import pandas as pd
 from numpy.typing import ArrayLike
 
 from precursors.accuracy.compare import Truth, compare
+from precursors.model.chain import FloatArray
 from precursors.solver.run import Run
 
 # The first five slips of theta = 0, with 30 transitions [s].
@@ -65,6 +67,14 @@ def curves(x: str, y: str, **points: tuple[ArrayLike, ArrayLike]) -> pd.DataFram
         for name, (xs, ys) in points.items()
     ]
     return pd.concat(parts, ignore_index=True)
+
+
+def runge_kutta_step(rate: Callable[[FloatArray], FloatArray], y: FloatArray, h: float) -> FloatArray:
+    """One step of Runge and Kutta's method, as `methods.rk4` makes it, under any rate of change."""
+    k1 = rate(y)
+    k2 = rate(y + 0.5 * h * k1)
+    k3 = rate(y + 0.5 * h * k2)
+    return y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + rate(y + h * k3))
 
 
 def transitions_right(run: Run, exact: Run) -> int:

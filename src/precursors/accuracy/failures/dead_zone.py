@@ -12,6 +12,7 @@ from precursors.accuracy.failures.common import (
     Number,
     Threshold,
     curves,
+    runge_kutta_step,
     transitions_right,
 )
 from precursors.accuracy.failures.stability import margin
@@ -66,10 +67,7 @@ def jumped_over(turn: float) -> float:
     for _ in range(TREMBLING):
         outside = abs(v) > zone
         zone, v = zone[outside], v[outside]
-        k1 = rate(v)
-        k2 = rate(v + 0.5 * k1)
-        k3 = rate(v + 0.5 * k2)
-        v = v + (k1 + 2.0 * k2 + 2.0 * k3 + rate(v + k3)) / 6.0
+        v = runge_kutta_step(rate, v, 1.0)
     return float(zone.max(initial=0.0))
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
-from precursors.accuracy.failures.common import Failure, Number, Threshold, curves
+from precursors.accuracy.failures.common import Failure, Number, Threshold, curves, runge_kutta_step
 from precursors.methods.columns import time_unit
 from precursors.methods.regularised import creep_velocity, equations
 from precursors.methods.stability import bisect, highest_frequency
@@ -76,10 +76,7 @@ def creep_grows(chain: Chain, width: float, step: float) -> bool:
     state = np.append(np.zeros(n), START * width * chain.mass / time_unit(chain) * (-1.0) ** np.arange(n))
     start = abs(state).max()
     for _ in range(STEPS):
-        k1 = rate(state)
-        k2 = rate(state + 0.5 * h * k1)
-        k3 = rate(state + 0.5 * h * k2)
-        state = state + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + rate(state + h * k3))
+        state = runge_kutta_step(rate, state, h)
     return bool(abs(state[n:]).max() > start)
 
 
