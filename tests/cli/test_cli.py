@@ -231,6 +231,7 @@ def test_audit_refuses_a_run_with_one_transition_moved_by_a_nanosecond(cli, tmp_
     code, _, err = cli("audit", tmp_path / "moved.h5")
     assert code == 1
     assert "not a motion of the model" in err
+    assert "1 of 1 files do not hold a motion of the model" in err
 
 
 def test_the_version_is_told(cli):
