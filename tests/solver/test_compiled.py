@@ -59,7 +59,8 @@ class Small:
     def use(self, **environment: str) -> tuple[int, int, str]:
         """What the entry point returns for 2, how often it came from the cache, and what stderr says."""
         inherited = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
-        inherited |= {"XDG_CACHE_HOME": str(self.cache)}
+        # Python would take bytecode for that of an edit in the same second.
+        inherited |= {"XDG_CACHE_HOME": str(self.cache), "PYTHONDONTWRITEBYTECODE": "1"}
         process = subprocess.run(
             [sys.executable, "-c", USE],
             cwd=self.directory,
