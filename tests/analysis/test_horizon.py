@@ -19,7 +19,7 @@ from precursors.accuracy.proof import Certificate
 from precursors.accuracy.solver_vs_proof import Validation, error_table, summary, validate
 from precursors.analysis import horizon as module
 from precursors.analysis import lyapunov
-from precursors.analysis.horizon import PredictedErrors, predicted_errors
+from precursors.analysis.horizon import PredictedErrors, horizon, predicted_errors
 from precursors.analysis.lyapunov import lyapunov_exponent
 
 ROOT = Path(__file__).parents[2]
@@ -209,7 +209,7 @@ def test_equal_coefficients_of_friction_are_judged_at_once() -> None:
 def test_a_tolerance_must_be_a_positive_number(tolerance: object) -> None:
     run = simulate(Chain.from_slider(), 0.4)
     with pytest.raises(ValueError, match="tolerance must be"):
-        predicted_errors(run).horizon(tolerance)  # type: ignore[arg-type]
+        horizon(run, tolerance)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("theta", LINEARISED)

@@ -8,7 +8,7 @@ from chains import SLIDER
 from reference import read_viscous
 from scipy.integrate import solve_ivp
 
-from precursors import Run, TransitionLimitError, audit, find_slips, simulate
+from precursors import Run, TransitionLimitError, audit, find_precursors, find_slips, simulate
 from precursors.analysis.load_curve import load_curve
 from precursors.hierarchy.larger import (
     SLOW,
@@ -176,8 +176,12 @@ def test_leaps_over_stable_creep_change_no_event():
 
 
 def test_a_run_says_what_half_the_step_changes_and_survives_its_file(tmp_path):
-    run = simulate_with_accuracy(LargerChain(SLIDER(20), **PAIR), 3.0, SLIP)
+    larger = LargerChain(SLIDER(20), **PAIR)
+    run = simulate_with_accuracy(larger, 3.0, SLIP)
+    finer = simulate_larger(larger, 3.0, SLIP, step=run.larger["step"] / 2.0)
     assert run.larger["halved_events"] == 0
+    loads = [find_precursors(find_slips(r))["load_before"] for r in (run, finer)]
+    assert run.larger["halved_load_N"] == pytest.approx(np.abs(loads[0] - loads[1]).max(), rel=1e-9)
     assert 0.0 < run.larger["halved_load_N"] < 0.5
     run.save(tmp_path / "run.h5")
     again = Run.load(tmp_path / "run.h5")

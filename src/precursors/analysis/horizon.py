@@ -51,7 +51,6 @@ class PredictedErrors:
 
     def horizon(self, tolerance: float) -> float:
         """Predictability time [s]; see the function `horizon`."""
-        positive("tolerance", tolerance, "s")
         wrong = np.flatnonzero((self.time_error > tolerance) & np.isfinite(self.time_error))
         first = np.inf
         if wrong.size:
