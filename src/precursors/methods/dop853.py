@@ -25,15 +25,7 @@ from precursors.methods.columns import (
 )
 from precursors.methods.common import Method, Result
 from precursors.methods.events import NUDGE, nudge_starting
-from precursors.methods.fixed_step import (
-    LEGS_PER_CALL,
-    MOVING,
-    PAUSED,
-    begin_leg,
-    feels,
-    march,
-    switch,
-)
+from precursors.methods.fixed_step import begin_leg, feels, march, switch
 from precursors.model.chain import Chain
 
 STAGES = 12
@@ -191,21 +183,17 @@ def advance(motion, tolerance, until, watches):
 
 @outer
 def run_dop853(motion, tolerance, window):
-    """Run until the end, a full record or a spent budget of transitions.
+    """Run from event to event.
 
     Transitions that are due within a window [tau] after another are made together at its end.
     """
     state, progress = motion.state, motion.progress[0]
-    for _ in range(LEGS_PER_CALL):
-        status = begin_leg(motion)
-        if status != MOVING:
-            return status
+    while begin_leg(motion):
         nudge_starting(state, NUDGE)
         watches = window == 0.0 or progress.elapsed >= progress.noted + window
         until = progress.remaining if watches else min(progress.noted + window, progress.remaining)
         block = advance(motion, tolerance, until, watches)
         switch(motion, block)
-    return PAUSED
 
 
 def solve_dop853(

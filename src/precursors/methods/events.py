@@ -247,7 +247,8 @@ def go_on(system, state, progress, record, y, settings, nudge, event, elapsed):
     """
     motion, n = Motion(system, state, progress, record), state.shape[1] - 2
     if event < 0:
-        status = begin_leg(motion)
+        begin_leg(motion)
+        status = progress[0].status
     else:
         take(state, y)
         progress[0].elapsed = elapsed

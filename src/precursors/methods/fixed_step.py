@@ -1,7 +1,7 @@
 """A chain in motion: its transitions, its waiting while all blocks stick, and its run from rest to the end.
 
-A compiled method is a function (motion, setting, *parameters) -> status. It works in legs: the steps up to
-the next change of a mode. `begin_leg` waits while all blocks stick, and says when the run has ended."""
+A compiled method is a function (motion, setting, *parameters). It works in legs, the steps up to the next
+change of a mode, while there is one to begin: `begin_leg` waits while all blocks stick, and ends the run."""
 
 from __future__ import annotations
 
@@ -64,6 +64,8 @@ PROGRESS = np.dtype(
         ("was_global", "i8"),  # whether all blocks have slid at the same instant
         ("last", "i8"),  # farthest sliding block
         ("evaluations", "i8"),
+        ("legs", "i8"),  # begun since Python called
+        ("status", "i8"),  # MOVING while there is a leg to begin, or why not
     ]
 )
 RECORD = np.dtype(
@@ -221,16 +223,22 @@ def obstacle(motion):
 
 
 @apart
-def begin_leg(motion):
-    """Whether steps are to be made (MOVING) or why not; where all blocks stick, wait and release block 1."""
-    status = obstacle(motion)
-    if status == MOVING and motion.progress[0].sliding == 0:
+def begin_leg(motion, can_rest=True, releases=True):
+    """Whether to make the steps of another leg; `status` says why not.
+
+    Where all blocks stick and `can_rest`, it waits and, if it `releases`, lets block 1 slide.
+    """
+    progress = motion.progress[0]
+    status = obstacle(motion) if progress.legs < LEGS_PER_CALL else PAUSED
+    if status == MOVING and progress.sliding == 0 and can_rest:
         status = rest(motion)
-        if status == MOVING and motion.progress[0].waits:
+        if status == MOVING and progress.waits and releases:
             change_mode(motion, 1, 1)
-    if status == MOVING and motion.progress[0].remaining <= motion.progress[0].elapsed:
-        return FINISHED
-    return status
+    if status == MOVING and progress.remaining <= progress.elapsed:
+        status = FINISHED
+    progress.legs = progress.legs + 1 if status == MOVING else 0
+    progress.status = status
+    return status == MOVING
 
 
 # Methods that switch once a step
@@ -238,19 +246,15 @@ def begin_leg(motion):
 
 @template
 def run_in_steps(motion, step, advance, starts, work):
-    """Run until the end, a full record or a spent budget of legs.
+    """Run in steps.
 
     `advance(system, state, last, h, work)` makes a step of h [s] and returns the evaluations made. If it
     `starts`, a leg begins with a step of no length, which evaluates the forces. A block whose velocity has
     changed its sign at the end of a step is stopped there, and sticks or turns round; a stuck block whose
-    force exceeds mu_s w at the end of a step is released there. While all blocks stick, it
-    waits.
+    force exceeds mu_s w at the end of a step is released there.
     """
     system, state, progress = motion.system, motion.state, motion.progress[0]
-    for _ in range(LEGS_PER_CALL):
-        status = begin_leg(motion)
-        if status != MOVING:
-            return status
+    while begin_leg(motion):
         if starts:
             progress.evaluations += advance(system, state, progress.last, 0.0, work)
         for _ in range(STEPS_IN_LEG):
@@ -260,14 +264,13 @@ def run_in_steps(motion, step, advance, starts, work):
             if h < step or not all_keep_their_modes(system, state, progress.last):
                 break
         switch(motion, 0)
-    return PAUSED
 
 
 # From Python
 
 
 def march(
-    method: Callable[..., int],
+    method: Callable[..., None],
     parameters: tuple[Any, ...],
     chain: Chain,
     duration: float,
@@ -278,7 +281,7 @@ def march(
     scaled: bool = False,
     waits: bool = True,
 ) -> Result:
-    """Run a compiled method from rest: `method` is (motion, setting, *parameters) -> status.
+    """Run a compiled method from rest: `method` is (motion, setting, *parameters).
 
     `setting` is a step [s] or, where the method meets the numbers of solvers with a tolerance (`scaled`, see
     `columns`), a tolerance. `rule` is a key of `SWITCHING_RULES`. A method `waits` in closed form while all
@@ -298,7 +301,8 @@ def march(
     status = PAUSED
     while status == PAUSED and motion.progress["transitions"][0] < max_transitions:
         motion = with_room(motion)
-        status = method(motion, setting, *parameters)
+        method(motion, setting, *parameters)
+        status = int(motion.progress["status"][0])
     run = run_of(motion, chain, status)
     if status == DIVERGED:
         raise DivergedError(f"the numbers overflow at t = {run.duration:.9g} s: shorten the step", run)
@@ -310,7 +314,7 @@ def march(
 
 
 def slide(
-    method: Callable[..., int],
+    method: Callable[..., None],
     parameters: tuple[Any, ...],
     system: FloatArray,
     state: FloatArray,
@@ -330,8 +334,9 @@ def slide(
     modes = state[MODE].copy()
     state[MODE] = 0.0
     motion = Motion(free, state, progress, np.empty(FIRST_ROOM, RECORD))
-    while method(motion, step, *parameters) == PAUSED:
-        pass
+    progress["status"] = PAUSED
+    while progress["status"] == PAUSED:
+        method(motion, step, *parameters)
     state[MODE] = modes
 
 
@@ -359,7 +364,7 @@ def run_of(motion: Motion, chain: Chain, status: int) -> Run:
 def fixed_step(
     name: str,
     label: str,
-    method: Callable[..., int],
+    method: Callable[..., None],
     *parameters: Any,
     smooth: tuple[int, float, Callable[[float], float]] | None = None,
     kind: Kind = "once a step",

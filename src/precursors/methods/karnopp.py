@@ -30,18 +30,7 @@ from precursors.methods.columns import (
     template,
 )
 from precursors.methods.common import Method, Result
-from precursors.methods.fixed_step import (
-    FINISHED,
-    LEGS_PER_CALL,
-    MOVING,
-    PAUSED,
-    STEPS_IN_LEG,
-    march,
-    obstacle,
-    record_transition,
-    rest,
-    step_length,
-)
+from precursors.methods.fixed_step import STEPS_IN_LEG, begin_leg, march, record_transition, step_length
 from precursors.methods.rk4 import room, step_of_law
 from precursors.model.chain import Chain
 from precursors.model.checks import not_negative, positive
@@ -158,26 +147,13 @@ def all_can_rest(system, state):
     return excess == 0.0
 
 
-@apart
-def begin_leg(motion):
-    """Whether steps are to be made (MOVING) or why not; where all blocks rest, wait."""
-    status = obstacle(motion)
-    if status == MOVING and motion.progress[0].sliding == 0 and all_can_rest(motion.system, motion.state):
-        status = rest(motion)
-    if status == MOVING and motion.progress[0].remaining <= motion.progress[0].elapsed:
-        return FINISHED
-    return status
-
-
 @outer
 def run_karnopp(motion, step, dead_zone):
-    """Run until the end, a full record or a spent budget of legs."""
+    """Run in steps with the law in each evaluation."""
     system, state, progress = motion.system, motion.state, motion.progress[0]
     work = room(state)
-    for _ in range(LEGS_PER_CALL):
-        status = begin_leg(motion)
-        if status != MOVING:
-            return status
+    # No block is released: its velocity decides.
+    while begin_leg(motion, progress.sliding == 0 and all_can_rest(system, state), False):
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
             law_step(system, state, h, dead_zone, work)
@@ -186,7 +162,6 @@ def run_karnopp(motion, step, dead_zone):
             if h < step or progress.sliding == 0 or not all_keep_their_modes(state, dead_zone):
                 break
         record_modes(motion, dead_zone)
-    return PAUSED
 
 
 METHODS = (

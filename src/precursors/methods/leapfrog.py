@@ -56,13 +56,13 @@ def run_symplectic(motion, step, before):
     The forces at the end of a step of Verlet are those at the start of the next: one evaluation a step, and
     one more where friction has changed in between.
     """
-    return run_in_steps(motion, step, symplectic_step, before < 1.0, before)
+    run_in_steps(motion, step, symplectic_step, before < 1.0, before)
 
 
 @outer
 def run_euler(motion, step):
     """The same with one evaluation a step."""
-    return run_in_steps(motion, step, euler_step, False, np.zeros(motion.state.shape))
+    run_in_steps(motion, step, euler_step, False, np.zeros(motion.state.shape))
 
 
 METHODS = (

@@ -34,16 +34,7 @@ from precursors.methods.columns import (
     outer,
     solve_springs,
 )
-from precursors.methods.fixed_step import (
-    LEGS_PER_CALL,
-    MOVING,
-    PAUSED,
-    STEPS_IN_LEG,
-    begin_leg,
-    change_mode,
-    fixed_step,
-    step_length,
-)
+from precursors.methods.fixed_step import STEPS_IN_LEG, begin_leg, change_mode, fixed_step, step_length
 
 # theta: of order 2 while nothing switches, without damping; of order 1, damping what is faster than a step.
 TRAPEZOIDAL, IMPLICIT = 0.5, 1.0
@@ -134,7 +125,7 @@ def step_modes(system, state, last, h, theta, work, trial):
 
 @outer
 def run_moreau_jean(motion, step, theta):
-    """Run until the end, a full record or a spent budget of legs.
+    """Run in steps.
 
     A block that turns round needs a step to stop in, whose friction brakes it: where its springs overcome the
     static friction at the end of that step, it turns. Each solution of the tridiagonal system counts as an
@@ -143,10 +134,7 @@ def run_moreau_jean(motion, step, theta):
     system, state, progress = motion.system, motion.state, motion.progress[0]
     work, trial = np.zeros((4, state.shape[1])), state[MODE].copy()
     work[3, 0] = state[VELOCITY, 0]
-    for _ in range(LEGS_PER_CALL):
-        status = begin_leg(motion)
-        if status != MOVING:
-            return status
+    while begin_leg(motion):
         trial[1] = state[MODE, 1]
         last = progress.last
         for _ in range(STEPS_IN_LEG):
@@ -167,7 +155,6 @@ def run_moreau_jean(motion, step, theta):
                     new = -old
             if new != old:
                 change_mode(motion, i, new)
-    return PAUSED
 
 
 METHODS = tuple(

@@ -68,7 +68,7 @@ def newmark_step(system, state, last, h, settings):
 @outer
 def run_newmark(motion, step, alpha):
     """Run with a step [s], see `run_in_steps`."""
-    return run_in_steps(motion, step, newmark_step, True, (alpha, np.zeros(motion.state.shape)))
+    run_in_steps(motion, step, newmark_step, True, (alpha, np.zeros(motion.state.shape)))
 
 
 METHODS = tuple(

@@ -82,7 +82,7 @@ def room(state):
 @outer
 def run_rk4(motion, step):
     """Run with a step [s], see `run_in_steps`."""
-    return run_in_steps(motion, step, rk4_step, False, room(motion.state))
+    run_in_steps(motion, step, rk4_step, False, room(motion.state))
 
 
 SMOOTH = (4, LIMIT, energy_factor)

@@ -28,9 +28,6 @@ from precursors.methods.columns import (
     rates,
 )
 from precursors.methods.fixed_step import (
-    LEGS_PER_CALL,
-    MOVING,
-    PAUSED,
     STEPS_IN_LEG,
     begin_leg,
     change_state,
@@ -154,7 +151,7 @@ def copy(y, result):
 
 @outer
 def run_located(motion, step):
-    """Run until the end, a full record or a spent budget of legs."""
+    """Run in steps that end where a block changes its state."""
     system, state, progress = motion.system, motion.state, motion.progress[0]
     most_idle, rounding = 4 * (state.shape[1] - 2), roundings(system)
     rate, trial, total = room(state)
@@ -162,10 +159,7 @@ def run_located(motion, step):
     start, event = np.zeros(state.shape), np.zeros(state.shape)
     rate_after, event_after = np.zeros(rate.shape), np.zeros(state.shape)
     idle = 0
-    for _ in range(LEGS_PER_CALL):
-        status = begin_leg(motion)
-        if status != MOVING:
-            return status
+    while begin_leg(motion):
         last = progress.last
         evaluate(system, state, last, rate, event)
         progress.evaluations += 1
@@ -204,7 +198,6 @@ def run_located(motion, step):
             idle = 0
             if h < step:
                 break
-    return PAUSED
 
 
 METHODS = (
