@@ -15,7 +15,7 @@ from precursors.methods import dop853
 from precursors.methods.columns import time_unit
 from precursors.methods.cvode_events import solve_cvode
 from precursors.methods.dop853 import solve_dop853
-from precursors.methods.events import EventMotion
+from precursors.methods.events import MAX_AT_ONCE, EventMotion
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy, watched
 
@@ -214,3 +214,5 @@ def test_a_restart_exactly_on_a_root_never_gets_away_from_it(uniform):
     with pytest.raises(TransitionLimitError, match=r"transition after transition at t = 0\.35 s") as stuck:
         solve_scipy(uniform, 10.0, 1e-9, nudge=0.0, direction=0.0)
     assert set(stuck.value.run.transitions["time"]) == {0.35}
+    # It is given up soon, and not when its record is full.
+    assert len(stuck.value.run.transitions) <= MAX_AT_ONCE * uniform.n_blocks + 3

@@ -10,8 +10,8 @@ import pytest
 from precursors import Chain, Run, TransitionLimitError, find_slips, simulate
 from precursors.accuracy.failures.common import FIVE_SLIPS, transitions_right
 from precursors.accuracy.failures.literal_friction import load_after_limit
-from precursors.methods import METHODS, DivergedError, rk4_located
-from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
+from precursors.methods import METHODS, DivergedError, moreau_jean, rk4_located
+from precursors.methods.columns import FORCE, VELOCITY, at_rest, set_modes, sliding_forward
 from precursors.methods.fixed_step import FIRST_ROOM, march
 from precursors.methods.rk4 import run_rk4
 from precursors.methods.stability import bisect, highest_frequency
@@ -166,6 +166,31 @@ def test_eq_4_taken_literally_creeps_by_the_step_not_by_the_model(chain):
     assert 1e-8 < slow / 10 < 1e-7
     assert max(load_after_limit(chain, 1e-7, np.array([0.02, 0.04]))) < chain.strength[0]
     assert max(load_after_limit(chain, 1e-8, np.array([0.02, 0.04]))) > chain.strength[0]
+
+
+@pytest.mark.parametrize("theta", [moreau_jean.TRAPEZOIDAL, moreau_jean.IMPLICIT])
+@pytest.mark.parametrize("modes", [[1, 1, 1, 1], [1, 0, -1, 1], [0, 0, 1, 0], [-1, 1, 0, 0]])
+def test_moreau_jean_balances_every_block_in_a_step_with_the_friction_that_it_finds(theta, modes):
+    """m (v' - v) = h (T*_i - T*_{i+1} - R_i): friction of a block that slides is kinetic, else v' = 0."""
+    chain, h = Chain.from_slider(n_blocks=4, theta="5/6", drive_stiffness=3e6), 3e-7
+    random = np.random.default_rng(7)
+    system, state = at_rest(chain)
+    state[FORCE, 1:-1], state[VELOCITY, 1:-1] = 30 * random.normal(size=4), random.normal(size=4)
+    before = state.copy()
+    set_modes(system, state, np.array(modes, float))
+    work = np.zeros((4, 6))
+    work[3, 0] = chain.drive_velocity
+    moreau_jean.explicit_forces.py_func(system, state, 4, h, theta, work[0])
+    moreau_jean.solve_velocities.py_func(system, state, 4, h, theta, work)
+    found = [moreau_jean.static_friction.py_func(system, state, i, h, theta, work) for i in range(1, 5)]
+    friction = np.where(modes, modes * chain.kinetic_friction, found)
+    after = np.append(chain.drive_velocity, work[3, 1:5])
+    assert not after[1:][np.array(modes) == 0].any()
+    mean = theta * after + (1 - theta) * before[VELOCITY, :-1]
+    forces = np.append(before[FORCE, 1:-1] - theta * h * chain.springs * np.diff(mean), 0.0)
+    impulses = h * (-np.diff(forces) - friction)
+    change = chain.mass * (after[1:] - before[VELOCITY, 1:-1])
+    np.testing.assert_allclose(impulses, change, rtol=0, atol=ROUNDING * abs(change).max())
 
 
 def test_located_steps_see_every_dip_of_a_cubic():

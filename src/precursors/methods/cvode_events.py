@@ -67,7 +67,6 @@ def _solver(motion: EventMotion, tolerance: float, formula: Formula) -> Any:
         jacobian(system, modes, result)
 
     n_events = 2 * motion.chain.n_blocks
-    events.terminal = [True] * n_events  # type: ignore[attr-defined]
     events.direction = [-1] * n_events  # type: ignore[attr-defined]
     return CVODE(
         right_hand_side,
