@@ -44,6 +44,34 @@ SOLVE = """(() => {
   });
 })()"""
 
+# Pixels in the middle of each block's line at times, and the colours of bars.
+PIXELS_OF_BARS = """((times) => {
+  const draw = slideBars, canvas = element("slips"), ratio = canvas.width / canvas.clientWidth;
+  let figure;
+  slideBars = (...given) => { figure = given[1]; draw(...given); };
+  showSlips();
+  slideBars = draw;
+  const copy = new OffscreenCanvas(canvas.width, canvas.height);
+  const picture = copy.getContext("2d", { willReadFrequently: true });
+  picture.drawImage(canvas, 0, 0);
+  const at = (x, y) => [...picture.getImageData(x * ratio, y * ratio, 1, 1).data.slice(0, 3)];
+  const colour = (kind) => [1, 3, 5].map((i) => parseInt(palette[kind].slice(i, i + 2), 16));
+  const blocks = Array.from({ length: runs[0].n }, (_, i) => i + 1);
+  return [blocks.map((b) => times.map((t) => at(figure.x(t), figure.y(b)))),
+    Object.fromEntries(KINDS.map((kind) => [kind, colour(kind)]))];
+})(%s)"""
+# Names and rectangles of the row, in their order, the net forces and the limits.
+RECTANGLES_OF_ROW = """(() => {
+  const made = [], { fillText, strokeRect, fillRect } = CanvasRenderingContext2D.prototype;
+  const noted = (kind) => (...given) => made.push([kind, ...given]);
+  Object.assign(CanvasRenderingContext2D.prototype,
+    { fillText: noted("name"), strokeRect: noted("limit"), fillRect: noted("force") });
+  DRAW.row();
+  Object.assign(CanvasRenderingContext2D.prototype, { fillText, strokeRect, fillRect });
+  const { net, strength } = frameAt(state.time);
+  return [made, Array.from(net), Array.from(strength)];
+})()"""
+
 
 def of_page(slider):
     """A slider as solver.js takes it."""
@@ -339,6 +367,44 @@ def test_the_row_of_blocks_moves_as_the_library_says(page):
         shifts = np.array(page.evaluate(f"frameAt({time}).shifts"))
         positions = run.at([time])[0][0]
         assert shifts - shifts[-1] == pytest.approx(positions - positions[-1], abs=2e-7)
+
+
+def test_in_the_slips_over_time_a_block_has_a_bar_while_it_slides(page):
+    run = simulate(Chain.from_slider(), 3.0)
+    for step, forward in ((1, "partial"), (3, "global")):
+        click(page, f'[data-step="{step}"]')
+        page.evaluate("state.view = 'event'")
+        start, end = page.evaluate("[view().start, view().end]")
+        times = np.linspace(start, end, 202)[1:-1]
+        # A bar is wider than its slide by a pixel or two: times next to a transition do not count.
+        apart = abs(times[:, None] - run.transitions["time"]).min(axis=1)
+        times = times[apart > (end - start) / 300]
+        seen, colours = page.evaluate(PIXELS_OF_BARS % times.tolist())
+        names = {tuple(colour): kind for kind, colour in colours.items()}
+        for block, pixels in enumerate(seen, start=1):
+            rows = run.transitions[run.transitions["block"] == block]
+            modes = np.append(0, rows["mode"])[np.searchsorted(rows["time"], times)]
+            expected = [{0: None, 1: forward, -1: "backward"}[mode] for mode in modes]
+            assert [names.get(tuple(pixel)) for pixel in pixels] == expected
+            assert block > 4 or forward in expected
+
+
+def test_the_bars_of_the_row_are_net_forces_within_their_limits(page):
+    click(page, '[data-step="1"]')
+    drawn, net, strength = page.evaluate(RECTANGLES_OF_ROW)
+    limits = [k for k, (kind, *_) in enumerate(drawn) if kind == "limit"]
+    assert len(limits) == 10
+    for k, force, limit in zip(limits, net, strength, strict=True):
+        (_, x, y, width, height), (_, *bar) = drawn[k], drawn[k + 1]
+        share = force / limit * height / 2
+        assert bar == pytest.approx([x, y + height / 2 - max(share, 0.0), width, abs(share)])
+        assert height / drawn[limits[0]][4] == pytest.approx(limit / strength[0])
+    places = np.array([drawn[k][1] + drawn[k][3] / 2 for k in limits])
+    pitch = places[1] - places[0]
+    assert np.diff(places) == pytest.approx(pitch)
+    names = {text: x for kind, text, x, *_ in drawn if kind == "name"}
+    assert max(abs(names[k + 1] - place) for k, place in enumerate(places)) < pitch / 2
+    assert max(abs(force) for force in net) > 1.0
 
 
 def test_play_goes_through_an_event_in_slow_motion_and_stops_at_the_end_of_the_view(page):
