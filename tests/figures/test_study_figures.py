@@ -44,7 +44,7 @@ class TestWorkPrecision:
     def test_every_method_has_a_colour_and_a_marker_of_its_own(self):
         new = (Method(name, name, "step [s]", METHODS["rk4"].solve, (1e-6,)) for name in ("first", "second"))
         every = list(with_looks([*METHODS.values(), *new]))
-        for looks in zip(*((method.color, method.marker) for method in every), strict=True):
+        for looks in zip(*(method.look for method in every), strict=True):
             assert len(set(looks)) == len(every)
 
     def test_evaluations_are_drawn_where_they_are_counted(self):
@@ -54,7 +54,7 @@ class TestWorkPrecision:
 
     def test_all_methods_fit_into_the_key(self):
         (row,) = examples.work_precision((0.0,), ("end",))["table"].head(1).to_dict("records")
-        looks = [(m.name, m.label, m.color, m.marker) for m in METHODS.values()]
+        looks = [(m.name, m.label, *m.look) for m in METHODS.values()]
         rows = [row | dict(zip(("method", "label", "color", "marker"), look, strict=True)) for look in looks]
         figure = draw("work_precision", table=pd.DataFrame(rows))
         box, (width, height) = figure.get_tightbbox(), figure.get_size_inches()

@@ -80,7 +80,7 @@ case = Case("fast", 0.0, chain, 0.01, "global slip", truth, False)
 table = measure_methods(case, {"scipy_rk23": charted_values(case)["scipy_rk23"]}, 1)
 lines = [line for axes in work_precision.draw(table).axes for line in axes.lines if len(line.get_xdata())]
 print(len(table), *{to_hex(line.get_color()).upper() for line in lines})
-print(*(method.color for name, method in METHODS.items() if name != "scipy_rk23"))
+print(*(method.look[0] for name, method in METHODS.items() if name != "scipy_rk23"))
 """
 
 

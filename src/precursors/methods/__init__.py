@@ -36,16 +36,12 @@ SPARE = (
 
 
 def with_looks(methods: Iterable[Method]) -> Iterator[Method]:
-    """Give methods without a colour and a marker those of `SPARE` that no other has."""
+    """Give methods without a colour and a marker those of `SPARE` whose colour no other has."""
     every = list(methods)
-    taken = {method.color for method in every}
+    taken = {method.look[0] for method in every}
     spare = cycle([look for look in SPARE if look[0] not in taken] or SPARE)
     for method in every:
-        if method.color and method.marker:
-            yield method
-        else:
-            color, marker = next(spare)
-            yield replace(method, color=method.color or color, marker=method.marker or marker)
+        yield method if all(method.look) else replace(method, look=next(spare))
 
 
 _ALL = (

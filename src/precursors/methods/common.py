@@ -63,7 +63,7 @@ class Method:
         The method without switching, where theory says something about it.
     kind : Kind
         How it finds its transitions.
-    color, marker : str
+    look : tuple of str
         Its colour and Matplotlib's name of its marker in charts ("3,1,180" is a tuple); by default what no
         other has.
     """
@@ -78,8 +78,7 @@ class Method:
     quick_whole: tuple[float, ...] = ()
     smooth: Smooth | None = None
     kind: Kind = "located"
-    color: str = ""
-    marker: str = ""
+    look: tuple[str, str] = ("", "")
 
     def values_of(self, until: Any, full: bool) -> tuple[float, ...]:
         """Values to chart up to the first global slip (`until`) or for the whole run (None)."""

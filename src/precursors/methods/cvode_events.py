@@ -89,8 +89,7 @@ METHODS = (
         values=(1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
         whole=(1e-8, 1e-12),
         quick=(1e-8,),
-        color="#E69F00",
-        marker="s",
+        look=("#E69F00", "s"),
     ),
     Method(
         "cvode_bdf",
@@ -98,7 +97,6 @@ METHODS = (
         "relative tolerance",
         partial(solve_cvode, formula="BDF"),
         values=(1e-3, 1e-5, 1e-7, 1e-9),
-        color="#A87400",
-        marker="D",
+        look=("#A87400", "D"),
     ),
 )

@@ -216,7 +216,6 @@ METHODS = (
         whole=(1e-7, 1e-9, 1e-11, 1e-13),
         quick=(1e-5, 1e-7, 1e-9, 1e-11),
         quick_whole=(1e-11,),
-        color="#000080",
-        marker="H",
+        look=("#000080", "H"),
     ),
 )

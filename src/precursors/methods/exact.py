@@ -25,7 +25,6 @@ METHODS = (
         whole=(0.0,),
         quick=(0.0,),
         quick_whole=(0.0,),
-        color="#000000",
-        marker="*",
+        look=("#000000", "*"),
     ),
 )

@@ -126,7 +126,6 @@ METHODS = (
         whole=TOLERANCES,
         quick=TOLERANCES,
         quick_whole=(1e-6, 1e-8, 2.2e-16),
-        color="#D55E00",
-        marker="o",
+        look=("#D55E00", "o"),
     ),
 )

@@ -175,8 +175,7 @@ METHODS = (
         quick=(1e-6, 1e-7),
         quick_whole=(1e-7,),
         kind="friction law",
-        color="#5A5A5A",
-        marker="3,1,0",
+        look=("#5A5A5A", "3,1,0"),
     ),
     # At finer steps it records more than ten million changes of sign.
     Method(
@@ -186,7 +185,6 @@ METHODS = (
         solve_literally,
         values=(3e-6,),
         kind="friction law",
-        color="#B5B5B5",
-        marker="5,1,36",
+        look=("#B5B5B5", "5,1,36"),
     ),
 )

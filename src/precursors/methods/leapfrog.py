@@ -77,12 +77,11 @@ METHODS = (
             quick=(1e-6, 1e-7, 1e-8, 3e-9),
             quick_whole=(1e-7,),
             smooth=(order, LIMIT, energy_factor),
-            color=color,
-            marker=marker,
+            look=look,
         )
-        for name, label, before, order, color, marker in (
-            ("leapfrog", "leapfrog", VERLET, 2, "#56B4E9", "X"),
-            ("semi_implicit_euler", "semi-implicit Euler", SEMI_IMPLICIT, 1, "#2B7FB0", "P"),
+        for name, label, before, order, look in (
+            ("leapfrog", "leapfrog", VERLET, 2, ("#56B4E9", "X")),
+            ("semi_implicit_euler", "semi-implicit Euler", SEMI_IMPLICIT, 1, ("#2B7FB0", "P")),
         )
     ),
     fixed_step(
@@ -93,7 +92,6 @@ METHODS = (
         whole=(1e-7, 1e-8),
         quick=(1e-7, 1e-8),
         smooth=(1, 0.0, euler_energy_factor),
-        color="#C2185B",
-        marker="3,1,180",
+        look=("#C2185B", "3,1,180"),
     ),
 )

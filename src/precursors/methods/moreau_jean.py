@@ -167,11 +167,10 @@ METHODS = tuple(
         whole=(1e-6, 1e-7, 1e-8),
         quick=quick,
         quick_whole=quick_whole,
-        color=color,
-        marker=marker,
+        look=look,
         smooth=(order, math.inf, partial(energy_factor, theta=theta)),
     )
-    for name, label, theta, order, quick, quick_whole, color, marker in (
+    for name, label, theta, order, quick, quick_whole, look in (
         (
             "moreau_jean_half",
             "Moreau-Jean, trapezoidal",
@@ -179,9 +178,8 @@ METHODS = tuple(
             2,
             (1e-6, 1e-7, 1e-8),
             (1e-7,),
-            "#8C3A6B",
-            "8",
+            ("#8C3A6B", "8"),
         ),
-        ("moreau_jean_one", "Moreau-Jean, implicit", IMPLICIT, 1, (1e-6, 1e-7), (), "#CC79A7", "4,1,0"),
+        ("moreau_jean_one", "Moreau-Jean, implicit", IMPLICIT, 1, (1e-6, 1e-7), (), ("#CC79A7", "4,1,0")),
     )
 )

@@ -80,12 +80,11 @@ METHODS = tuple(
         values=(1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9),
         whole=(1e-6, 1e-7, 1e-8),
         quick=quick,
-        color=color,
-        marker=marker,
+        look=look,
         smooth=(2, math.inf, partial(energy_factor, alpha=alpha)),
     )
-    for name, label, alpha, quick, color, marker in (
-        ("newmark", "Newmark", NEWMARK, (1e-6, 1e-7, 1e-8), "#6B8E23", "4,1,45"),
-        ("hht", "HHT", HHT, (1e-7,), "#A9C25D", "10,1,0"),
+    for name, label, alpha, quick, look in (
+        ("newmark", "Newmark", NEWMARK, (1e-6, 1e-7, 1e-8), ("#6B8E23", "4,1,45")),
+        ("hht", "HHT", HHT, (1e-7,), ("#A9C25D", "10,1,0")),
     )
 )

@@ -176,8 +176,7 @@ METHODS = tuple(
         partial(solve_regularised, solver=solver),
         values=(1e-5,),
         kind="friction law",
-        color=color,
-        marker=marker,
+        look=look,
     )
-    for solver, (color, marker) in _LOOKS.items()
+    for solver, look in _LOOKS.items()
 )

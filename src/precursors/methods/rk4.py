@@ -94,8 +94,7 @@ METHODS = (
         waits=False,
         values=STEPS[:5],
         smooth=SMOOTH,
-        color="#00573F",
-        marker="p",
+        look=("#00573F", "p"),
     ),
     fixed_step(
         "rk4_skip",
@@ -106,7 +105,6 @@ METHODS = (
         quick=(1e-6, 1e-7, 1e-8, 3e-9),
         quick_whole=(1e-6, 1e-7),
         smooth=SMOOTH,
-        color="#009E73",
-        marker="h",
+        look=("#009E73", "h"),
     ),
 )

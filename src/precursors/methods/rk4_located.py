@@ -210,7 +210,6 @@ METHODS = (
         quick=(3e-6, 1e-6, 6e-7, 3e-7, 1e-7),
         quick_whole=(1e-6, 1e-7, 3e-8),
         kind="located",
-        color="#63C9A8",
-        marker="d",
+        look=("#63C9A8", "d"),
     ),
 )

@@ -109,16 +109,15 @@ def _terminal(function: EventFunction, direction: float) -> EventFunction:
 
 
 _VALUES: dict[Solver, dict[str, Any]] = {
-    "RK45": {"values": (1e-4, 1e-6, 1e-8), "color": "#00436A", "marker": "v"},
+    "RK45": {"values": (1e-4, 1e-6, 1e-8), "look": ("#00436A", "v")},
     "DOP853": {
         "values": (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
         "whole": (1e-13,),
         "quick": (1e-11,),
-        "color": "#0072B2",
-        "marker": "^",
+        "look": ("#0072B2", "^"),
     },
-    "LSODA": {"values": (1e-4, 1e-6, 1e-8, 1e-10), "whole": (1e-10,), "color": "#4F9FD0", "marker": "<"},
-    "Radau": {"values": (1e-4, 1e-5), "color": "#8FBFE0", "marker": ">"},
+    "LSODA": {"values": (1e-4, 1e-6, 1e-8, 1e-10), "whole": (1e-10,), "look": ("#4F9FD0", "<")},
+    "Radau": {"values": (1e-4, 1e-5), "look": ("#8FBFE0", ">")},
 }
 METHODS = tuple(
     Method(
