@@ -124,6 +124,14 @@ def rates(law, parameter, system, state, last, y, rate):
 
 
 @inner
+def copy(y, last, result):
+    """Copy spring forces and velocities up to the next after the last block that slides."""
+    for row in range(2):
+        for i in range(1, last + 2):
+            result[row, i] = y[row, i]
+
+
+@inner
 def accelerate(state, last, h):
     """Change the velocities of blocks 1..last by h times the acceleration."""
     for i in range(1, last + 1):
@@ -167,6 +175,13 @@ def event_function(system, state, y, i):
         return state[MODE, i] * y[VELOCITY, i]
     net = net_force(y, i)
     return min(system[STRENGTH, i] - net, system[BACKWARD, i] + net)
+
+
+@inner
+def move_by(system, state, i, mode):
+    """Give a block the mobility and the friction of a mode."""
+    state[MOBILITY, i] = system[INVERSE_MASS, i] if mode != 0 else 0.0
+    state[FRICTION, i] = mode * system[KINETIC, i]
 
 
 @inner

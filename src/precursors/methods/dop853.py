@@ -16,6 +16,7 @@ from scipy.integrate import DOP853
 from precursors.methods.columns import (
     apart,
     by_mode,
+    copy,
     event_function,
     inner,
     outer,
@@ -43,9 +44,7 @@ PROBES, CORRECTIONS, ROOT_ERROR = 8, 60, 1e-15
 def stages(system, state, last, h, k, end, trial):
     """Rates `k` of all stages of a step h, the first being known, and the state at its end."""
     for stage in range(1, 16):
-        for row in range(2):
-            for i in range(1, last + 2):
-                trial[row, i] = state[row, i]
+        copy(state, last, trial)
         for before in range(stage):
             share = h * A[stage, before]
             if share != 0.0:
@@ -54,9 +53,7 @@ def stages(system, state, last, h, k, end, trial):
                         trial[row, i] += share * k[before, row, i]
         rates(by_mode, 0.0, system, state, last, trial, k[stage])
         if stage == STAGES:
-            for row in range(2):
-                for i in range(1, last + 2):
-                    end[row, i] = trial[row, i]
+            copy(trial, last, end)
 
 
 @inner
@@ -128,14 +125,6 @@ def first_root(low, high, before, after, system, state, last, f, result, values)
         if block == 0 or x < root:
             root, block = x, j
     return root, block
-
-
-@inner
-def copy(y, last, result):
-    """Copy a state up to the next after the last block that slides."""
-    for row in range(2):
-        for i in range(1, last + 2):
-            result[row, i] = y[row, i]
 
 
 @template

@@ -16,10 +16,6 @@ from numpy.typing import NDArray
 from precursors.methods.columns import (
     BACKWARD,
     FORCE,
-    FRICTION,
-    INVERSE_MASS,
-    KINETIC,
-    MOBILITY,
     MODE,
     STRENGTH,
     VELOCITY,
@@ -27,6 +23,7 @@ from precursors.methods.columns import (
     at_rest,
     event_function,
     inner,
+    move_by,
     net_force,
     resting_mode,
     template,
@@ -107,8 +104,7 @@ def change_mode(motion, i, new):
     system, state, progress = motion.system, motion.state, motion.progress[0]
     progress.sliding += abs(new) - int(abs(state[MODE, i]))
     state[MODE, i] = new
-    state[MOBILITY, i] = system[INVERSE_MASS, i] if new != 0 else 0.0
-    state[FRICTION, i] = new * system[KINETIC, i]
+    move_by(system, state, i, new)
     last = max(progress.last, i)
     while last > 0 and state[MODE, last] == 0.0:
         last -= 1

@@ -82,9 +82,6 @@ def solve(
     return march(run_karnopp, (width,), chain, duration, step, until, max_transitions)
 
 
-solve_literally = partial(solve, dead_zone=0.0)
-
-
 @inner
 def by_velocity(system, _state, i, net, velocity, dead_zone):
     """The law of friction with the dead zone; at dv = 0 it is Eqs. 4-6 as printed."""
@@ -182,7 +179,7 @@ METHODS = (
         "literal",
         "Eq. 4 taken literally",
         "step [s]",
-        solve_literally,
+        partial(solve, dead_zone=0.0),
         values=(3e-6,),
         kind="friction law",
         look=("#B5B5B5", "5,1,36"),

@@ -23,13 +23,13 @@ from precursors.methods.columns import (
     FORCE,
     FRICTION,
     INVERSE_MASS,
-    KINETIC,
     MOBILITY,
     MODE,
     SPRING,
     STRENGTH,
     VELOCITY,
     inner,
+    move_by,
     net_force,
     outer,
     solve_springs,
@@ -84,8 +84,7 @@ def finish(system, state, last, h, theta, new):
 def set_trial(system, state, trial, i, mode):
     """Give a block the mobility and the friction of a mode that is being tried."""
     trial[i] = mode
-    state[MOBILITY, i] = system[INVERSE_MASS, i] if mode != 0 else 0.0
-    state[FRICTION, i] = mode * system[KINETIC, i]
+    move_by(system, state, i, mode)
 
 
 @inner

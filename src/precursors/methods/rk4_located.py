@@ -21,6 +21,7 @@ from precursors.methods.columns import (
     VELOCITY,
     apart,
     by_mode,
+    copy,
     event_function,
     inner,
     net_force,
@@ -141,14 +142,6 @@ def first_transition(state, last, h, before, after, rounding):
     return first, block
 
 
-@inner
-def copy(y, result):
-    """Copy spring forces and velocities."""
-    for row in range(2):
-        for i in range(y.shape[1]):
-            result[row, i] = y[row, i]
-
-
 @outer
 def run_located(motion, step):
     """Run in steps that end where a block changes its state."""
@@ -165,7 +158,7 @@ def run_located(motion, step):
         progress.evaluations += 1
         for _ in range(STEPS_IN_LEG):
             h, s, i = step_length(progress, step), 1.0, 0
-            copy(state, start)
+            copy(state, last, start)
             for correction in range(CORRECTIONS + 1):
                 step_from_rates(by_mode, 0.0, system, state, last, s * h, (rate, trial, total))
                 progress.evaluations += 3
@@ -186,7 +179,7 @@ def run_located(motion, step):
                     if abs(g) <= zero or slope >= 0.0 or correction == CORRECTIONS:
                         break
                     s = min(max(s - g / slope, 0.0), 1.0)
-                copy(start, state)
+                copy(start, last, state)
             if i > 0:
                 idle = idle + 1 if s * h <= IDLE * step else 0
                 progress.elapsed += s * h
