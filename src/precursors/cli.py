@@ -159,11 +159,13 @@ def audit(arguments: argparse.Namespace) -> None:
             wrong = [f"{path}: not a motion of the model: {problem}" for problem in audit(run).problems]
         except RunFileError as error:
             wrong = [str(error)]
-        if wrong:
+        if not wrong:
+            print(f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s")
+        elif len(arguments.files) == 1:
+            raise Refused(wrong[0])
+        else:
             failed += 1
             print(wrong[0], file=sys.stderr)
-        else:
-            print(f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s")
     if failed:
         raise Refused(f"{failed} of {len(arguments.files)} files do not hold a motion of the model")
 

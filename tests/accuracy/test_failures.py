@@ -9,9 +9,9 @@ from reference.goldens import SCENES
 from scipy.integrate import solve_ivp
 
 from precursors import Chain, simulate
-from precursors.accuracy.compare import Truth, compare
+from precursors.accuracy.compare import Truth, compare, transitions_right
 from precursors.accuracy.failures import FAILURE_MODES, Failure
-from precursors.accuracy.failures.common import Threshold, transitions_right
+from precursors.accuracy.failures.common import Threshold
 from precursors.accuracy.failures.dead_zone import jumped_over
 from precursors.accuracy.failures.forward_only import solve_forward_only
 from precursors.accuracy.failures.locating import motion_after, solve_merging

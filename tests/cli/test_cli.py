@@ -220,8 +220,11 @@ def test_audit_refuses_a_damaged_file_and_lets_a_whole_run_pass(cli, run_file, t
     (tmp_path / "damaged.h5").write_bytes(run_file.read_bytes()[:-1000])
     code, out, err = cli("audit", tmp_path / "damaged.h5", run_file)
     assert code == REFUSED
-    assert "damaged.h5" in err.splitlines()[0]
+    why, summary = err.splitlines()
+    assert "damaged.h5" in why
+    assert summary == "precursors audit: 1 of 2 files do not hold a motion of the model"
     assert out.startswith(f"{run_file}: a motion of the model, ")
+    assert cli("audit", tmp_path / "damaged.h5") == (REFUSED, "", f"precursors audit: {why}\n")
 
 
 def test_audit_refuses_a_run_with_one_transition_moved_by_a_nanosecond(cli, tmp_path):
@@ -229,9 +232,9 @@ def test_audit_refuses_a_run_with_one_transition_moved_by_a_nanosecond(cli, tmp_
     run.transitions["time"][100] += 1e-9
     run.save(tmp_path / "moved.h5")
     code, _, err = cli("audit", tmp_path / "moved.h5")
-    assert code == 1
-    assert "not a motion of the model" in err
-    assert "1 of 1 files do not hold a motion of the model" in err
+    assert code == REFUSED
+    (line,) = err.splitlines()
+    assert "moved.h5: not a motion of the model: t = " in line
 
 
 def test_the_version_is_told(cli):

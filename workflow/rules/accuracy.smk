@@ -43,7 +43,7 @@ TABLES |= {
             "thetas": {chain: parse_theta(CHAINS[chain].get("theta", 0)) for chain in COMPARED},
             "full": config["full"],
         },
-        "seconds": 300 if config["full"] else 15,
+        "seconds": 300 if config["full"] else 10,
     },
     "step_sweep": {
         "function": "accuracy.step_sweep:step_sweep_table",
@@ -59,7 +59,7 @@ TABLES |= {
         "tables": ["failures", "thresholds"],
         "beside": FAILURE_MODES,
         "folder": "failures/",
-        "seconds": 7,
+        "seconds": 4,
     },
 }
 

@@ -134,8 +134,7 @@ def compare(run: Run, truth: Truth) -> Comparison:
             f"the run must have as many blocks as the truth, {true_run.chain.n_blocks}, "
             f"but has {run.chain.n_blocks}"
         )
-    found, true = run.transitions, true_run.transitions
-    n = _agreeing(found[["block", "mode"]], true[["block", "mode"]])
+    found, true, n = run.transitions, true_run.transitions, transitions_right(run, true_run)
     slips = find_slips(run)
     n_slips = _agreeing(slips[OUTCOME].to_records(index=False), truth.slips[OUTCOME].to_records(index=False))
     onsets = np.searchsorted(true["time"], truth.slips["onset"][:n_slips])
@@ -153,6 +152,11 @@ def compare(run: Run, truth: Truth) -> Comparison:
         load_error=_largest(abs(at_onsets.to_numpy())),
         first_difference=float(min([*found["time"][n : n + 1], *true["time"][n : n + 1]], default=np.inf)),
     )
+
+
+def transitions_right(run: Run, true: Run) -> int:
+    """Number of transitions before the first that is missing or whose block or mode is wrong."""
+    return _agreeing(run.transitions[["block", "mode"]], true.transitions[["block", "mode"]])
 
 
 def _rounded(numbers: list[Fraction]) -> tuple[FloatArray, FloatArray]:

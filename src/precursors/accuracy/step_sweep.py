@@ -8,9 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 import pandas as pd
 
-from precursors.accuracy.compare import Truth, compare
-from precursors.analysis.slip_rows import first_global
-from precursors.analysis.slips import apparent_friction, find_precursors, find_slips, slip_table
+from precursors.accuracy.compare import Truth, transitions_right
+from precursors.analysis.slips import apparent_friction, slip_table
 from precursors.methods import METHODS, DivergedError
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
@@ -47,14 +46,14 @@ def sweep(exact: Run, steps: Mapping[str, Iterable[float]]) -> Iterator[dict[str
 
     The duration of the exact run, to the first global slip or longer, limits the other runs. Rows: see `row`.
     """
-    truth = Truth.of_run(exact).until_global_slip()
-    yield row("exact", math.nan, truth.run, truth)
+    truth = Truth.of_run(exact).until_global_slip().run
+    yield row("exact", math.nan, truth, truth)
     for method, values in steps.items():
         for step in map(float, values):
             yield row(method, step, _run(exact.chain, exact.duration, method, step), truth)
 
 
-def row(method: str, step: float, run: Run, truth: Truth) -> dict[str, object]:
+def row(method: str, step: float, run: Run, truth: Run) -> dict[str, object]:
     """What a run that stopped after its first global slip gives.
 
     Returns
@@ -64,16 +63,16 @@ def row(method: str, step: float, run: Run, truth: Truth) -> dict[str, object]:
         (Eq. 1) and global_slip_time_s, the onset of the first global slip [s], NaN without one;
         transitions_right before the first wrong one, and transitions_true, all there are.
     """
-    slips = find_slips(run)
-    first, friction, compared = first_global(slips), apparent_friction(slip_table(run)), compare(run, truth)
+    slips = slip_table(run)
+    friction = apparent_friction(slips)
     return {
         "method": method,
         "step_s": step,
-        "events_counted": len(find_precursors(slips)),
+        "events_counted": int(slips["counted"].sum()),
         "mu_sapp": friction.mu_sapp if friction else math.nan,
-        "global_slip_time_s": math.nan if first is None else float(slips["onset"].iloc[first]),
-        "transitions_right": compared.transitions_right,
-        "transitions_true": compared.transitions_true,
+        "global_slip_time_s": friction.time if friction else math.nan,
+        "transitions_right": transitions_right(run, truth),
+        "transitions_true": len(truth.transitions),
     }
 
 

@@ -19,14 +19,16 @@ from precursors.support import timing
 if TYPE_CHECKING:
     from precursors.accuracy.proof import Certificate
 
-# Rounds of which a time is the median.
+# Rounds of which a time is the median. In the default chart, a call that takes longer than `LONG` [s] is
+# timed once: it is a mean over what else the machine does, as the short calls of a round together are.
 ROUNDS, ROUNDS_FULL = 3, 5
+LONG, LONG_FULL = 0.05, math.inf
 # A method is given up at a setting with which one call takes longer [s]: in the default chart, in the
 # full one.
 LONGEST, LONGEST_FULL = 2.0, 5.0
 # What a method compiles, loads or builds for a chain and a value, it does in a run that is so short [s].
 WARM_UP = 0.4
-SHORTEST = 0.005  # s, of a round: see `timing.measure`
+SHORTEST = 0.0025  # s, of a round: see `timing.measure`
 COUNTS = (
     "transitions_right",
     "transitions_found",
@@ -79,9 +81,9 @@ def work_precision_table(
     certificates: Mapping[str, Certificate], thetas: Mapping[str, float], full: bool
 ) -> pd.DataFrame:
     """Measure all methods on the proved chains, in both cases of each."""
-    rounds, longest = (ROUNDS_FULL, LONGEST_FULL) if full else (ROUNDS, LONGEST)
+    limits = (ROUNDS_FULL, LONGEST_FULL, LONG_FULL) if full else (ROUNDS, LONGEST, LONG)
     tables = [
-        measure_methods(case, charted_values(case, full), rounds, longest)
+        measure_methods(case, charted_values(case, full), *limits)
         for scene, certificate in certificates.items()
         for case in proved_cases(scene, thetas[scene], certificate)
     ]
@@ -98,12 +100,13 @@ def measure_methods(
     values: Mapping[str, Sequence[float]],
     rounds: int = ROUNDS,
     longest: float = LONGEST,
+    long: float = math.inf,
 ) -> pd.DataFrame:
     """Time methods with several settings, and compare each run with the truth.
 
     `values` of each method's setting go from loose to tight. A time is the median of some rounds in which
-    methods take turns, after a short warm-up. A method is given up at a value with which a call takes longer
-    than `longest` [s].
+    methods take turns, after a short warm-up; a call that takes longer than `long` [s] is timed once. A
+    method is given up at a value with which a call takes longer than `longest` [s].
 
     Returns
     -------
@@ -114,13 +117,15 @@ def measure_methods(
     attempts = [
         attempt for name, some in values.items() for attempt in _attempts(case, METHODS[name], some, longest)
     ]
+    short = {key: of for key, of in enumerate(attempts) if of.seconds.wall <= long}
     timings = timing.measure(
-        {key: partial(case.run, of.method, of.value) for key, of in enumerate(attempts)},
+        {key: partial(case.run, of.method, of.value) for key, of in short.items()},
         rounds,
         SHORTEST,
-        seconds={key: of.seconds for key, of in enumerate(attempts)},
+        seconds={key: of.seconds for key, of in short.items()},
     )
-    return pd.DataFrame([_row(case, of, timings[key].seconds) for key, of in enumerate(attempts)])
+    seconds = [timings[k].seconds if k in short else of.seconds.wall for k, of in enumerate(attempts)]
+    return pd.DataFrame(list(map(partial(_row, case), attempts, seconds)))
 
 
 @dataclass(frozen=True)

@@ -80,21 +80,19 @@ def measure(
     cpu = {name: [had[name].cpu] if name in had else [] for name in tasks}
     collecting = gc.isenabled()
     gc.collect()
-    gc.freeze()  # what the libraries hold for good need not be looked through before every task
+    gc.freeze()  # what the libraries hold for good need not be looked through in every round
+    gc.disable()
     try:
         for number in range(rounds):
+            gc.collect()
             for name, task in tasks.items():
                 if number == 0 and name in had:
                     continue
-                gc.collect()
-                gc.disable()
                 clock, processor = time.perf_counter(), time.process_time()
                 for _ in range(repeats[name]):
                     task()
                 wall[name].append((time.perf_counter() - clock) / repeats[name])
                 cpu[name].append((time.process_time() - processor) / repeats[name])
-                if collecting:
-                    gc.enable()
     finally:
         gc.unfreeze()
         if collecting:

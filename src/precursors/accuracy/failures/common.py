@@ -9,9 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
-from precursors.accuracy.compare import Truth, compare
 from precursors.model.chain import FloatArray
-from precursors.solver.run import Run
 
 # The first five slips of theta = 0, with 30 transitions [s].
 FIVE_SLIPS = 1.25
@@ -75,8 +73,3 @@ def runge_kutta_step(rate: Callable[[FloatArray], FloatArray], y: FloatArray, h:
     k2 = rate(y + 0.5 * h * k1)
     k3 = rate(y + 0.5 * h * k2)
     return y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + rate(y + h * k3))
-
-
-def transitions_right(run: Run, exact: Run) -> int:
-    """Number of transitions before the first that is not the exact run's."""
-    return compare(run, Truth.of_run(exact)).transitions_right

@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import (
     FIVE_SLIPS,
     Failure,
@@ -13,7 +14,6 @@ from precursors.accuracy.failures.common import (
     Threshold,
     curves,
     runge_kutta_step,
-    transitions_right,
 )
 from precursors.accuracy.failures.stability import margin
 from precursors.methods import METHODS, karnopp

@@ -7,7 +7,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from precursors.accuracy.failures.common import Failure, Number, curves, transitions_right
+from precursors.accuracy.compare import transitions_right
+from precursors.accuracy.failures.common import Failure, Number, curves
 from precursors.analysis.slips import apparent_friction, slip_table
 from precursors.methods import METHODS, DivergedError
 from precursors.methods.rk4 import LIMIT as RK4_LIMIT

@@ -6,7 +6,8 @@ from functools import partial
 
 import numpy as np
 
-from precursors.accuracy.failures.common import Failure, Number, curves, transitions_right
+from precursors.accuracy.compare import transitions_right
+from precursors.accuracy.failures.common import Failure, Number, curves
 from precursors.analysis.slips import apparent_friction, slip_table
 from precursors.methods.fixed_step import march
 from precursors.methods.rk4_located import run_located

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from precursors.accuracy.failures.common import Failure, Number, Threshold, curves, transitions_right
+from precursors.accuracy.compare import transitions_right
+from precursors.accuracy.failures.common import Failure, Number, Threshold, curves
 from precursors.analysis.slips import find_slips
 from precursors.methods import METHODS
 from precursors.methods.dop853 import solve_dop853

@@ -18,7 +18,8 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from precursors.accuracy.failures.common import FIVE_SLIPS, Threshold, transitions_right
+from precursors.accuracy.compare import transitions_right
+from precursors.accuracy.failures.common import FIVE_SLIPS, Threshold
 from precursors.methods import METHODS, DivergedError
 from precursors.methods.common import Smooth
 from precursors.methods.stability import (
