@@ -103,6 +103,13 @@ def strength(m, load, i):
 
 
 @compiled
+def copy(target, source):
+    """Copy an array; a slice would compile two seconds longer."""
+    for i in range(source.shape[0]):
+        target[i] = source[i]
+
+
+@compiled
 def net_force(m, force, velocity, i):
     """Net force of springs and dashpots on block i [N]."""
     net = force[i]
@@ -152,7 +159,8 @@ def advance(m, force, velocity, mode, last, watched, h, leaps, work, ends):
     n, u = force.shape[0], work[0]
     new_force, new_velocity = ends
     mean_velocities(m, force, velocity, mode, last, h, leaps, u, work[1])
-    new_force[:], new_velocity[:] = force, velocity
+    copy(new_force, force)
+    copy(new_velocity, velocity)
     for i in range(min(n, last + 2)):
         moved = u[i] if i <= last else 0.0
         behind = u[i - 1] if i > 0 else m.drive_velocity
@@ -254,20 +262,22 @@ def march(m, force, velocity, duration, until_global, step, lifting_load, max_ro
         leaps = last < 0 or (
             stable and (mode[: last + 1] == 1).all() and (leaps or is_calm(m, force, velocity, last))
         )
-        before, work[2] = force[0], velocity
+        before = force[0]
+        copy(work[2], velocity)
         h = duration - time if leaps else min(step[last], duration - time)
         part, block = advance(m, force, velocity, mode, last, watched, h, leaps, work, ends)
         if block >= 0:
             h *= part
             if leaps:
-                velocity[:] = ends[1]
+                copy(velocity, ends[1])
             if h > 0.0:
                 advance(m, force, velocity, mode, last, watched, h, leaps, work, ends)
         if h > 0.0:
             load = 0.5 * (force[0] + ends[0, 0])
             drive += h * load * m.drive_velocity
             heat += heat_of_step(m, load, work[0], velocity, mode, last, h)
-            force[:], velocity[:] = ends[0], ends[1]
+            copy(force, ends[0])
+            copy(velocity, ends[1])
             time += h
         if block >= 0:
             switch(m, force, velocity, mode, block)

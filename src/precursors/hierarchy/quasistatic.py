@@ -23,6 +23,7 @@ Two values of the overshoot have a meaning:
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import NamedTuple
 
@@ -120,17 +121,28 @@ def slip_of_event(cascade, net, max_stages):
 
     `net` [N] becomes what it is after the event. The set is 0 if the event does not come to rest.
     """
-    slip, direction, at_once = np.zeros_like(net), np.zeros_like(net), 0
+    n, at_once = net.shape[0], 0
+    slip, direction = np.zeros(n), np.zeros(n)
     direction[0] = 1.0
     for _ in range(max_stages):
         step = slip_of_stage(cascade, net, direction)
-        slip += step
-        net -= lost_force(cascade.springs, step)
-        at_once = max(at_once, np.count_nonzero(direction))
-        direction = np.where(np.abs(net) > cascade.limit, np.sign(net), 0.0)
-        if not direction.any():
+        lost, moving, beyond = lost_force(cascade.springs, step), 0, 0
+        for i in range(n):
+            slip[i] += step[i]
+            net[i] -= lost[i]
+            moving += direction[i] != 0.0
+            direction[i] = beyond_strength(cascade, net[i], i)
+            beyond += direction[i] != 0.0
+        at_once = max(at_once, moving)
+        if beyond == 0:
             return slip, at_once
     return slip, 0
+
+
+@compiled
+def beyond_strength(cascade, net, i):
+    """Direction in which a net force [N] moves block i, or 0 if static friction holds it."""
+    return math.copysign(1.0, net) if abs(net) > cascade.limit[i] else 0.0
 
 
 @compiled
@@ -139,26 +151,37 @@ def slip_of_stage(cascade, net, direction):
 
     `joined` is 0 for the blocks that begin, 1, 2, ... for those that join, and PUT_OUT for those that left.
     """
-    joined, last = np.zeros(net.shape[0], np.int64), 0
+    n, last = net.shape[0], 0
+    joined = np.zeros(n, np.int64)
     while True:
-        step = cascade.reach * balance(cascade, net, direction)
-        turned = step * direction < 0.0
-        if turned.any():
-            if (turned & (joined > 0)).any():
-                turned &= joined > 0
-            elif last > 0:
-                turned = (joined == last) & (direction != 0.0)
+        step = balance(cascade, net, direction)
+        turned, turned_later = 0, 0
+        for i in range(n):
+            step[i] *= cascade.reach
+            if step[i] * direction[i] < 0.0:
+                turned += 1
+                turned_later += joined[i] > 0
+        if turned > 0:
+            # Those that joined leave first; if none of them turned, the last that joined.
+            latest = last if turned_later == 0 else 0
+            if latest > 0:
                 last -= 1
-            direction[turned] = 0.0
-            joined[turned] = PUT_OUT
+            for i in range(n):
+                turns = step[i] * direction[i] < 0.0 and (turned_later == 0 or joined[i] > 0)
+                if latest > 0:
+                    turns = joined[i] == latest and direction[i] != 0.0
+                if turns:
+                    direction[i], joined[i] = 0.0, PUT_OUT
             continue
         last += 1
-        after = net - lost_force(cascade.springs, step)
-        joins = (direction == 0.0) & (joined != PUT_OUT) & (np.abs(after) > cascade.limit)
-        if not joins.any():
+        lost, joins = lost_force(cascade.springs, step), 0
+        for i in range(n):
+            if direction[i] == 0.0 and joined[i] != PUT_OUT:
+                direction[i] = beyond_strength(cascade, net[i] - lost[i], i)
+                if direction[i] != 0.0:
+                    joined[i], joins = last, joins + 1
+        if joins == 0:
             return step
-        direction[joins] = np.sign(after[joins])
-        joined[joins] = last
 
 
 @compiled
@@ -183,7 +206,8 @@ def balance(cascade, net, direction):
 @compiled
 def lost_force(springs, step):
     """Forces [N] by which displacements [m] lower the net forces of the springs on the blocks."""
-    lost = springs * step
-    lost[1:] -= springs[1:] * step[:-1]
-    lost[:-1] -= lost[1:]
+    lost, ahead = np.empty_like(step), 0.0
+    for i in range(step.shape[0] - 1, -1, -1):
+        behind = springs[i] * step[i] - (springs[i] * step[i - 1] if i > 0 else 0.0)
+        lost[i], ahead = behind - ahead, behind
     return lost
