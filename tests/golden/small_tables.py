@@ -7,7 +7,7 @@ end with the first global slip, after which errors have grown by 1e7.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +21,8 @@ from precursors.ensembles import noise, resolution
 from precursors.ensembles.printed_digits import digits_table
 from precursors.ensembles.study import run_members
 from precursors.hierarchy.compare_models import compare_models
+from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
+from precursors.hierarchy.larger_study import larger_tables
 from precursors.reproduction.definitions import definitions_table
 
 SMALL = Path(__file__).parent / "small"
@@ -31,7 +33,8 @@ SCENES = {name: Chain.from_slider(theta=theta) for name, theta in (("lead", "5/6
 ROUNDING, STEPS = 1e-8, 1e-6
 RELATIVE = {"failures": STEPS, "failure_curves": STEPS, "definitions": STEPS}
 # Errors relative to the paper's chain are differences of numbers near one.
-ABSOLUTE = {"model_comparison": 1e-12}
+# What the energy of a larger chain lacks is of the size of roundings in some runs.
+ABSOLUTE = {"model_comparison": 1e-12, "larger_runs": 1e-12}
 # Beyond its limit RK4 multiplies roundings without bound: where its runs end differs with the processor.
 CHAOTIC = "silent_instability"
 
@@ -89,6 +92,41 @@ def resolution_members() -> pd.DataFrame:
     return resolution.with_front_speed(run_members(study_of("resolution_members", settings)), 0.1)
 
 
+def larger_runs() -> pd.DataFrame:
+    """Short runs of larger chains: blocks, theta, what is added, duration; where they end, and their sums."""
+    cases = [
+        (20, 0, {"weakening_velocity": 0.035}, 0.6),
+        (8, "-5/6", {"weakening_velocity": 0.01, "relaxation_time": 5e-6, "push_height": 0.003}, 3.0),
+        (10, 0, {"weakening_velocity": 0.006, "relaxation_time": 1e-4}, 3.5),
+        (12, "-1/2", {"weakening_velocity": 0.07, "viscosity": 100.0}, 0.8),
+        (6, "5/6", {"viscosity": 50.0}, 2.2),
+        (5, "1/3", {"push_height": 0.003}, 2.5),
+        (4, 0, {}, 3.0),
+        (1, 0, {"weakening_velocity": 0.02, "push_height": 0.003}, 8.0),
+    ]
+    rows = []
+    for n, theta, added, duration in cases:
+        run = simulate_with_accuracy(
+            LargerChain(Chain.from_slider(n_blocks=n, theta=theta), **added), duration
+        )
+        sums = {name: run.transitions[name].astype(float).sum() for name in run.transitions.dtype.names or ()}
+        points = {"points": len(run.load_points), "of_points": run.load_points.sum()}
+        rows.append({"transitions": len(run.transitions), **sums, **points, **(run.larger or {})})
+    return pd.DataFrame(rows)
+
+
+def small_larger_tables() -> dict[str, pd.DataFrame]:
+    """The tables of the larger chain for a few blocks."""
+    settings = CONFIG["hierarchy"]["larger"] | {
+        "nucleation": {"n_blocks": [20], "pairs": [[0.02, 0], [0.003, 2e-4]]},
+        "studies": {
+            "loadings": {"pairs": [[0, 0], [0.003, 2e-4]], "n_blocks": [5], "theta": [0, "5/6"], "runs": 7},
+            "height": {"pairs": [[0, 0]], "push_height": [0.005], "n_blocks": [4], "theta": [0], "runs": 7},
+        },
+    }
+    return larger_tables(CONFIG["chain"], settings)
+
+
 def model_comparison() -> pd.DataFrame:
     """All answers of all models, timed once."""
     return compare_models(SCENES, rounds=1)
@@ -109,6 +147,11 @@ ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
     "failures": lambda: failures(_measured),
     "failure_curves": lambda: failure_curves(_measured),
     "model_comparison": model_comparison,
+    "larger_runs": larger_runs,
+    **{
+        name: partial(lambda name: small_larger_tables()[name], name)
+        for name in ("larger", "larger_differences", "larger_nucleation")
+    },
 }
 
 

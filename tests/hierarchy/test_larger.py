@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from chains import SLIDER
+from golden.small_tables import assert_kept, larger_runs, small_larger_tables
 from reference import read_viscous
 from scipy.integrate import solve_ivp
 
@@ -19,11 +20,10 @@ from precursors.hierarchy.larger import (
     tilt,
 )
 
-# Relative, of the loads of transitions at the default step, against DOP853.
-LOADS = 1e-4
-# At the default step, up to the first global slip: 8e-5 s and 6e-3 N are measured, at theta = 5/6.
-EXACT_TIME, EXACT_LOAD = 2e-4, 2e-2
-ENERGY = 1e-3  # of the work of the drive; 2e-5 is measured
+# Tolerances beside the cases are two to three times what is measured at the default step.
+ENERGY = 5e-8  # of the work of the drive; 1.6e-8 is measured
+# Leaps neglect inertia: 3e-4 of the loads is measured.
+LEAP = 1e-3
 PAIR = {"weakening_velocity": 0.01, "relaxation_time": 5e-6}  # l_c = 0.089 L
 SLIP = "global slip"
 
@@ -85,33 +85,38 @@ def by_dop853(larger: LargerChain, duration: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize(
-    ("n", "added", "duration"),
+    ("n", "added", "duration", "tolerance"),
     [
-        (1, {"weakening_velocity": 0.05}, 0.6),
-        (2, {"weakening_velocity": 0.02, "relaxation_time": 1e-5}, 0.25),
-        (3, {"weakening_velocity": 0.05, "relaxation_time": 2e-6, "push_height": 0.002}, 0.2),
+        (1, {"weakening_velocity": 0.05}, 0.6, 5e-6),
+        (2, {"weakening_velocity": 0.02, "relaxation_time": 1e-5}, 0.25, 2e-5),
+        (3, {"weakening_velocity": 0.05, "relaxation_time": 2e-6, "push_height": 0.002}, 0.2, 2e-4),
+        (4, {"weakening_velocity": 0.02, "push_height": 0.003}, 0.2, 1e-4),
     ],
 )
-def test_loads_are_those_of_dop853_with_located_transitions(n, added, duration):
+def test_loads_are_those_of_dop853_with_located_transitions(n, added, duration, tolerance):
     larger = LargerChain(SLIDER(n, theta="1/4", drive_velocity=1e-3), **added)
     run, expected = simulate_larger(larger, duration), by_dop853(larger, duration)
     assert len(expected) > 1
     assert order(run) == [(int(b), int(m)) for _, b, m, _ in expected]
-    np.testing.assert_allclose(run.transitions["tangential_load"], expected[:, 3], rtol=LOADS)
+    np.testing.assert_allclose(run.transitions["tangential_load"], expected[:, 3], rtol=tolerance)
 
 
-@pytest.mark.parametrize("theta", ["-5/6", 0, "5/6"])
-def test_with_nothing_added_it_has_the_transitions_of_the_exact_chain_in_order(theta):
+@pytest.mark.parametrize(
+    ("theta", "seconds", "newtons"), [("-5/6", 1e-7, 1e-5), (0, 4e-7, 4e-5), ("5/6", 2e-4, 2e-2)]
+)
+def test_with_nothing_added_it_has_the_transitions_of_the_exact_chain_in_order(theta, seconds, newtons):
     exact = simulate(SLIDER(theta=theta), until=SLIP)
     run = simulate_larger(LargerChain(exact.chain), 10.0, SLIP)
     assert order(run) == order(exact)
-    np.testing.assert_allclose(run.transitions["time"], exact.transitions["time"], rtol=0, atol=EXACT_TIME)
+    np.testing.assert_allclose(run.transitions["time"], exact.transitions["time"], rtol=0, atol=seconds)
     loads = exact.transitions["tangential_load"]
-    np.testing.assert_allclose(run.transitions["tangential_load"], loads, rtol=0, atol=EXACT_LOAD)
+    np.testing.assert_allclose(run.transitions["tangential_load"], loads, rtol=0, atol=newtons)
 
 
-@pytest.mark.parametrize("name", ["backward", "stiff_viscosity", "papers_chain"])
-def test_viscosity_alone_has_the_transitions_of_the_reference(name):
+@pytest.mark.parametrize(
+    ("name", "tolerance"), [("backward", 2e-4), ("stiff_viscosity", 1e-8), ("papers_chain", 6e-8)]
+)
+def test_viscosity_alone_has_the_transitions_of_the_reference(name, tolerance):
     scene, golden = read_viscous()[name]
     text = dict(scene.slider)
     viscosity = float(text.pop("viscosity"))
@@ -120,14 +125,14 @@ def test_viscosity_alone_has_the_transitions_of_the_reference(name):
     run = simulate_larger(LargerChain(chain, viscosity=viscosity), float(scene.duration), scene.until)
     assert order(run) == [(t.block, t.mode) for t in golden]
     loads = [float(t.tangential_load) for t in golden]
-    np.testing.assert_allclose(run.transitions["tangential_load"], loads, rtol=1e-4, atol=1e-4)
+    np.testing.assert_allclose(run.transitions["tangential_load"], loads, rtol=tolerance)
 
 
 @pytest.mark.parametrize(
     "added", [{"weakening_velocity": 0.03}, PAIR | {"push_height": 0.003}, {"viscosity": 50.0}]
 )
 def test_the_drives_work_becomes_heat_and_stored_energy(added):
-    run = simulate_larger(LargerChain(SLIDER(20), **added), 3.0, SLIP)
+    run = simulate_larger(LargerChain(SLIDER(10), **added), 3.0, SLIP)
     assert len(find_slips(run)) > 2
     assert abs(run.larger["energy_error"]) < ENERGY
 
@@ -169,10 +174,16 @@ def test_precursors_begin_where_creep_has_reached_l_c():
 
 
 def test_leaps_over_stable_creep_change_no_event():
-    larger = LargerChain(SLIDER(20), **PAIR)
-    leapt, stepped = (find_slips(simulate_larger(larger, 3.0, SLIP, leap=leap)) for leap in (0.5, 0.0))
+    larger = LargerChain(SLIDER(20), weakening_velocity=0.03, relaxation_time=5e-6)  # l_c = 0.21 L
+    leapt, stepped = (find_slips(simulate_larger(larger, 3.0, SLIP, leap=leap)) for leap in (0.5, -np.inf))
     assert leapt["front"].tolist() == stepped["front"].tolist()
-    np.testing.assert_allclose(leapt["load_before"], stepped["load_before"], rtol=2e-3)
+    np.testing.assert_allclose(leapt["load_before"], stepped["load_before"], rtol=LEAP)
+    assert (leapt["load_before"] != stepped["load_before"]).any()
+
+
+def test_runs_of_every_kind_and_the_tables_of_the_study_are_those_that_are_kept():
+    for name, table in {"larger_runs": larger_runs(), **small_larger_tables()}.items():
+        assert_kept(name, table)
 
 
 def test_a_run_says_what_half_the_step_changes_and_survives_its_file(tmp_path):
@@ -218,3 +229,8 @@ def test_a_limit_that_is_met_keeps_the_run_so_far():
     with pytest.raises(TransitionLimitError, match="met its limit of work") as met:
         simulate_larger(LargerChain(SLIDER(), **PAIR), 10.0, max_transitions=50)
     assert len(met.value.run.transitions) > 50
+
+
+def test_what_is_no_chain_is_said_where_the_larger_chain_is_made():
+    with pytest.raises(TypeError, match=r"^chain must be a Chain, but is 'x'$"):
+        LargerChain("x")

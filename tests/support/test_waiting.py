@@ -1,6 +1,7 @@
 """Who waits at a terminal is told how much of long work is done, and nobody else."""
 
 import io
+import time
 
 import pytest
 
@@ -36,3 +37,12 @@ def test_a_terminal_has_one_line_that_ends_empty(told):
 
 def test_short_work_and_other_files_are_told_nothing(told):
     assert told(True, second=3600.0) == told(False) == ""
+
+
+def test_work_in_a_thread_is_told_as_well_and_its_result_or_error_handed_back(monkeypatch):
+    monkeypatch.setattr("sys.stderr", Stream(True))
+    monkeypatch.setattr(waiting, "SECOND", 0.01)
+    assert waiting.in_thread("running", lambda: time.sleep(0.1) or 7, lambda: 0.5) == 7
+    assert waiting.sys.stderr.getvalue().startswith("\rrunning: 50% 0 s left")
+    with pytest.raises(ZeroDivisionError):
+        waiting.in_thread("running", lambda: 1 // 0, lambda: 0.5)

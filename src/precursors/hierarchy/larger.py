@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -26,19 +27,20 @@ from precursors.model.scenes import ADDITIONS
 from precursors.solver.kernel.compiled import entry
 from precursors.solver.run import Run
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
+from precursors.support.waiting import in_thread
 
 # Of the shorter of sqrt(m/k) and the time in which falling friction multiplies a velocity by e. With friction
 # that jumps, this gives all transitions of the paper's scenes up to the first global slip, in order.
 STEP, STEP_OF_COULOMB = 0.1, 5e-4
-LEAP = 0.5  # of the length l_c at which creep runs away
+LEAP = 0.5  # of the excess of falling friction over viscosity at which creep runs away
 BALANCED = 1e-3  # of mu_s w_i: a smaller net force does not end creep
 SLOW = 0.1  # of v_c: a block that is slower counts as one that sticks
 SMALLEST_DROP = 1e-4  # of F_Z: an event in which F_X falls by less is left out where friction falls
 POINTS = 1e-4  # of F_Z: change of F_X from one point of the curve to the next
 MAX_STEPS = 1_000_000_000
-DONE, GLOBAL, LIFTED, LIMIT = range(4)
+DONE, LIFTED, LIMIT = range(3)
 
-compiled = entry(Path(__file__).parent, ["larger.py"], error_model="numpy")
+compiled = entry(Path(__file__).parent, ["larger.py"], error_model="numpy", nogil=True)
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,8 @@ class LargerChain:
     push_height: float = 0.0
 
     def __post_init__(self) -> None:
+        if not isinstance(self.chain, Chain):
+            raise TypeError(f"chain must be a Chain, but is {self.chain!r}")
         for name, unit in ADDITIONS.items():
             object.__setattr__(self, name, not_negative(name, getattr(self, name), unit))
         if self.relaxation_time and self.viscosity:
@@ -59,7 +63,7 @@ class LargerChain:
 
 
 class Model(NamedTuple):
-    """What the compiled functions need of a chain."""
+    """What the compiled functions need of a chain; `leap` is that of `simulate_larger`."""
 
     springs: FloatArray
     dashpots: FloatArray
@@ -70,7 +74,7 @@ class Model(NamedTuple):
     mu_k: float
     weakening_velocity: float
     drive_velocity: float
-    leap: float  # shorter stretches are leapt over, in lengths at which creep runs away
+    leap: float
 
 
 def critical_length(larger: LargerChain) -> float:
@@ -240,10 +244,11 @@ def switch(m, force, velocity, mode, i):
 
 
 @compiled
-def march(m, force, velocity, duration, until_global, step, lifting_load, max_rows):
+def march(m, force, velocity, duration, until_global, step, lifting_load, max_rows, now):
     """Run from rest: rows (time, block, mode, F_X), points (time, F_X), why and when it ended, energies [J].
 
-    `step` [s] is that while nothing slides ahead of each block. At `lifting_load` [N] a block is lifted.
+    `step` [s] is that while nothing slides ahead of each block. At `lifting_load` [N] a block is lifted. The
+    time reached is in `now` for those who wait.
     """
     n, total = force.shape[0], m.weights.sum()
     smallest_drop = SMALLEST_DROP * total if m.weakening_velocity > 0.0 else -math.inf
@@ -279,6 +284,7 @@ def march(m, force, velocity, duration, until_global, step, lifting_load, max_ro
             copy(force, ends[0])
             copy(velocity, ends[1])
             time += h
+            now[0] = time
         if block >= 0:
             switch(m, force, velocity, mode, block)
         for i in range(watched):
@@ -295,10 +301,9 @@ def march(m, force, velocity, duration, until_global, step, lifting_load, max_ro
             rows.append((time - (1.0 - at) * h, i + 1.0, float(way), load))
             was_global = was_global or n_seen == n
             if n_seen == 0 and rows[begin][3] - force[0] < smallest_drop:
-                while len(rows) > begin:
-                    rows.pop()
+                del rows[begin:]
             elif n_seen == 0 and was_global and until_global:
-                why = GLOBAL
+                duration = time
         if abs(force[0] - points[-1][1]) > POINTS * total:
             points.append((time, force[0]))
         if force[0] > lifting_load:
@@ -317,24 +322,20 @@ def simulate_larger(
     max_transitions: int = MAX_TRANSITIONS,
     leap: float = LEAP,
 ) -> Run:
-    """Run a larger chain from rest with springs at natural length.
+    """Run a larger chain from rest with springs at natural length; other arguments are those of `simulate`.
+
+    Transitions are those of blocks that slide faster than `SLOW` v_c, without events in which F_X falls by
+    less than `SMALLEST_DROP` F_Z. The run has `load_points`, and in `larger` the numbers of the chain, the
+    step, and `energy_error`: the energy that the balance lacks, over the work of the drive.
 
     Parameters
     ----------
-    larger, duration, until, max_transitions
-        As for `simulate`.
     step : float
         Step, in the shorter of sqrt(m/k) and the time in which falling friction multiplies a velocity by
         e; by default `STEP`, or `STEP_OF_COULOMB`.
     leap : float
-        Stretches of creep shorter than so much of l_c are leapt over; 0 leaps over none.
-
-    Returns
-    -------
-    Run
-        With the transitions of blocks that slide faster than `SLOW` v_c, without events in which F_X falls by
-        less than `SMALLEST_DROP` F_Z; `load_points`; and in `larger` the numbers of the chain, the step
-        and `energy_error`, the energy that the balance lacks, relative to the work of the drive.
+        Creep is leapt over where falling friction exceeds viscosity by less than so much of the excess at
+        which creep runs away; -inf: nowhere.
 
     Raises
     ------
@@ -344,23 +345,13 @@ def simulate_larger(
         If there are more transitions or steps than the limits; `run` is what was computed.
     """
     duration = checked_span(duration, until)
-    chain, v_c = larger.chain, larger.weakening_velocity
+    chain, v_c, n = larger.chain, larger.weakening_velocity, larger.chain.n_blocks
     step = step or (STEP if v_c else STEP_OF_COULOMB)
-    viscosity = larger.viscosity + larger.relaxation_time * chain.stiffness
-    tilts = tilt(chain, larger.push_height)
-    m = Model(
-        springs=chain.springs,
-        dashpots=np.append(0.0, np.full(chain.n_blocks - 1, viscosity)),
-        weights=chain.weights.copy(),
-        tilt=tilts,
-        mass=chain.mass,
-        mu_s=chain.mu_s,
-        mu_k=chain.mu_k,
-        weakening_velocity=v_c,
-        drive_velocity=chain.drive_velocity,
-        leap=leap,
-    )
-    n = chain.n_blocks
+    dashpots = np.full(n, larger.viscosity + larger.relaxation_time * chain.stiffness)
+    dashpots[0] = 0.0
+    tilts, loads = tilt(chain, larger.push_height), chain.weights.copy()
+    friction = chain.mass, chain.mu_s, chain.mu_k, v_c
+    m = Model(chain.springs, dashpots, loads, tilts, *friction, chain.drive_velocity, leap)
     seconds = np.full(n, 2.0 / chain.fastest_frequency_bound * step)
     if v_c and chain.mu_k < chain.mu_s:
         fall = (chain.mu_s - chain.mu_k) * (chain.weights + abs(tilts) * chain.mu_s * chain.normal_load)
@@ -368,14 +359,16 @@ def simulate_larger(
     lifting = np.divide(chain.weights, -tilts, out=np.full(n, np.inf), where=tilts < 0.0)
     force, velocity = np.zeros((2, n))
     limits = duration, until is not None, seconds, lifting.min(), max_transitions
-    rows, points, why, time, work, heat = march(m, force, velocity, *limits)
+    now = np.zeros(1)
+    rows, points, why, time, work, heat = in_thread(
+        "running", partial(march, m, force, velocity, *limits, now), lambda: now[0] / duration
+    )
     if why == LIFTED:
         raise ValueError(
             f"push_height = {larger.push_height:g} m lifts block {lifting.argmin() + 1} "
             f"at F_X = {lifting.min():.4g} N"
         )
-    when, block, mode, loads = rows[np.argsort(rows[:, 0], kind="stable")].T
-    run = Run.from_transitions(chain, time, when, block, mode, loads)
+    run = Run.from_transitions(chain, time, *rows[np.argsort(rows[:, 0], kind="stable")].T)
     stored = (force**2 / chain.springs).sum() / 2.0 + chain.mass * (velocity**2).sum() / 2.0
     numbers = {name: getattr(larger, name) for name in ADDITIONS}
     numbers |= {"step": step, "energy_error": (work - heat - stored) / work}

@@ -24,15 +24,8 @@ KINK = 0.7  # of L: beyond it the experiment's precursors grow faster
 SAME = 0.01  # two coefficients that are closer are the same: a unit of the last digit that the paper prints
 # Steps of `simulate_larger` for v_c > 0 and v_c = 0: medians of noisy runs do not need the defaults.
 STEP, STEP_OF_COULOMB = 0.25, 0.01
-POINT = [
-    "study",
-    "weakening_velocity",
-    "relaxation_time",
-    "push_height",
-    "theta",
-    "n_blocks",
-    "critical_length",
-]
+PAIR = ["weakening_velocity", "relaxation_time"]
+POINT = ["study", *PAIR, "push_height", "theta", "n_blocks", "critical_length"]
 
 
 def nucleation_table(slider: Mapping[str, Any], study: Mapping[str, Any]) -> pd.DataFrame:
@@ -43,19 +36,17 @@ def nucleation_table(slider: Mapping[str, Any], study: Mapping[str, Any]) -> pd.
     Columns: the pair, n_blocks, theory and measured (l_c / L [1]), and ratio, measured over theory.
     """
     rows = []
-    for n, (weakening_velocity, relaxation_time) in product(study["n_blocks"], study["pairs"]):
+    for n, pair in product(study["n_blocks"], study["pairs"]):
         chain = Chain.from_slider(**{**slider, "theta": 0.0, "n_blocks": n})
-        larger = LargerChain(chain, weakening_velocity, relaxation_time)
+        larger = LargerChain(chain, *pair)
         theory = critical_length(larger) / chain.length
         # The drive reaches mu_s F_Z in a tenth of the longest run.
         run = simulate_larger(larger, 0.16 * theory * longest_run(chain), step=STEP)
         slips = find_slips(run)
         first = (slips["load_after"] < (1.0 - SEEN) * slips["load_before"]).argmax()
         measured = slips["load_before"].iloc[first] / (chain.mu_s * chain.normal_load)
-        row = {"weakening_velocity": weakening_velocity, "relaxation_time": relaxation_time}
-        row |= {"n_blocks": n, "theory": theory, "measured": measured}
-        rows.append(row | {"ratio": measured / theory})
-    return pd.DataFrame(rows)
+        rows.append((*pair, n, theory, measured, measured / theory))
+    return pd.DataFrame(rows, columns=[*PAIR, "n_blocks", "theory", "measured", "ratio"])
 
 
 def larger_tables(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> dict[str, pd.DataFrame]:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor, wait
 from threading import current_thread, main_thread
 from typing import TypeVar
 
 Step = TypeVar("Step")
+Result = TypeVar("Result")
 SECOND = 1.0
 
 
@@ -29,3 +31,12 @@ def tell(work: str, steps: Iterable[Step], done: Callable[[], float]) -> Iterato
     finally:
         if last > start:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def in_thread(work: str, function: Callable[[], Result], done: Callable[[], float]) -> Result:
+    """Result of a compiled function that holds no lock of Python; how much is done is told as by `tell`."""
+    with ThreadPoolExecutor(1) as pool:
+        running = pool.submit(function)
+        for _ in tell(work, iter(lambda: bool(wait([running], SECOND).not_done), False), done):
+            pass
+    return running.result()
