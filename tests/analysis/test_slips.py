@@ -109,9 +109,11 @@ def test_any_list_of_transitions_has_the_events_of_a_plain_loop():
         pd.testing.assert_frame_equal(find_slips(run), expected, check_dtype=False, check_exact=True)
 
 
-def test_something_else_than_a_run_is_named():
+def test_something_else_than_a_run_or_its_slips_is_named():
     with pytest.raises(TypeError, match="slips are found in a Run, but this is Chain"):
         find_slips(Chain.from_slider())
+    with pytest.raises(TypeError, match="precursors are found in the table of find_slips, but this is int"):
+        find_precursors(5)
 
 
 def test_short_events_are_dropped_equal_ones_kept_and_nothing_after_the_global_slip():

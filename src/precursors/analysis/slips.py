@@ -89,6 +89,10 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
     `short` may name another reading, a key of SHORT_EVENTS. Without a global slip all events that are not
     short are returned.
     """
+    if not isinstance(slips, pd.DataFrame):
+        raise TypeError(
+            f"precursors are found in the table of find_slips, but this is {type(slips).__name__}"
+        )
     until_global = up_to_first_global(slips)
     front = until_global["front"]
     farthest_before = front.cummax().shift(fill_value=0)

@@ -142,7 +142,6 @@ def rest(chain, motion, limits, progress, record):
     loading_rate = chain.coupling[1] * chain.drive_velocity
     wait = max((chain.strength[1] - motion.net_force[1]) / loading_rate, 0.0)
     if wait >= remaining:
-        force[1], second[1] = two_sum(force[1], loading_rate * remaining + second[1])
         start_clock(remaining, progress)
         return FINISHED
     if wait > 0.0:
