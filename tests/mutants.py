@@ -4,15 +4,15 @@ A fault is one edit: a comparison, a sign or a product the other way round, anot
 negated, a statement left out, in the library, in the workflow's scripts and in the explorer's JavaScript. No
 fault is what cannot change a result: a number or JavaScript that only says where ink goes, the sign of a ball
 about zero (`BALL`), a setting at which something is charted (`SETTINGS`), a guard against a slip of
-ours and how code is compiled (`NEUTRAL`).
+ours and how code is compiled (`NEUTRAL`), where ticks and panels stand (`LAYOUT`).
 
 First every test is run without a fault, which says what it costs and which functions it enters. Then each
-fault meets the tests that enter its function, quick ones first, until one fails or they have cost `SECONDS`:
-first the files of its own room and those that name its module, then other tests of these files. Nothing is
-seen to enter a compiled function or a script of the page: tests that import its module meet it.
+fault meets the tests that enter its function, until one fails or they have cost `SECONDS`: quick ones first,
+and files of its own room and those that name its module before others. Nothing is seen to enter a compiled
+function or a script of the page: tests that import its module meet it.
 
-`survivors.md` says in a line why a fault cannot be seen, or need not be. Such a fault counts as one that
-survives, and is not tried. The command fails where less than `SHARE` is seen.
+`survivors.md` says why a fault cannot be seen, or need not be. Such a fault counts as one that survives, and
+is not tried. The command fails where less than `SHARE` is seen with one of the seeds.
 """
 
 from __future__ import annotations
@@ -64,15 +64,11 @@ SECONDS = 10.0  # processor time of the tests that a fault meets, when they have
 # Of one test [s]: beside so many times what it costs without a fault; more where it may have to compile.
 TIMES, LIMIT, COMPILING = 5.0, 10.0, 60.0
 PATIENCE = 300.0  # s, for all that a fault meets, where a test waits for something that never comes
-OPPOSITE: dict[type[ast.AST], type[Any]] = {
-    ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq,
-    ast.And: ast.Or, ast.Or: ast.And, ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div,
-    ast.Div: ast.Mult,
-}  # fmt: skip
-OF_SCRIPTS = {
-    "<": "<=", "<=": "<", ">": ">=", ">=": ">", "===": "!==", "!==": "===", "&&": "||", "||": "&&",
-    "+": "-", "-": "+", "*": "/", "/": "*",
-}  # fmt: skip
+PAIRS = (ast.Lt, ast.LtE), (ast.Gt, ast.GtE), (ast.Eq, ast.NotEq), (ast.And, ast.Or), (ast.Add, ast.Sub)
+OPPOSITE: dict[type[ast.AST], type[Any]] = dict((*PAIRS, (ast.Mult, ast.Div)))
+OPPOSITE |= {new: old for old, new in OPPOSITE.items()}
+OF_SCRIPTS = {"<": "<=", ">": ">=", "===": "!==", "&&": "||", "+": "-", "*": "/"}
+OF_SCRIPTS |= {new: old for old, new in OF_SCRIPTS.items()}
 # Comments and texts, then an operator between blanks, then a number.
 SCRIPT = re.compile(
     r"""//.*|/\*[\s\S]*?\*/|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'|`(?:\\.|[^`\\])*`"""
@@ -82,7 +78,9 @@ BALL = re.compile(r"arb\(0, |around$")  # about zero
 SETTINGS = {"values", "quick", "whole", "quick_whole", "ROUNDS"}  # what is charted
 # Arguments that change no result: guards against a slip of ours, signs of symbols, how code is compiled.
 NEUTRAL = {"strict", "frozen", "slots", "exist_ok", "parents", "stacklevel", "maxsize", "nogil", "cache"}
-NEUTRAL |= {"positive", "real"}
+NEUTRAL |= {"positive", "real", "indent"}
+LAYOUT = {"align_ylabels", "grid", "minorticks_off", "set_major_locator", "set_minor_locator", "tick_params"}
+LAYOUT |= {"subplots_adjust", "tick_top"}
 Function = tuple[str, int]  # a file and the line where the function begins, 0 for the module
 
 
@@ -107,7 +105,7 @@ class Fault(NamedTuple):
 
 def first_line(node: ast.FunctionDef) -> int:
     """The line of a function's first decorator, or of its name."""
-    return min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
+    return min(part.lineno for part in [node, *node.decorator_list])
 
 
 def is_neutral(node: ast.AST) -> bool:
@@ -115,6 +113,8 @@ def is_neutral(node: ast.AST) -> bool:
     match node:
         case ast.keyword(arg=name) | ast.Assign([ast.Name(name)]):
             return name in SETTINGS | NEUTRAL
+        case ast.Expr(ast.Call(ast.Attribute(attr=name))):
+            return name in LAYOUT
     return isinstance(node, ast.JoinedStr | ast.Raise | ast.Import | ast.ImportFrom)
 
 
@@ -345,51 +345,61 @@ def chosen_tests(fault: Fault, sound: dict[str, Outcome]) -> Job:
 
 
 def main() -> int:
-    """Try a sample of the faults, and print those that pass."""
+    """Try a sample of the faults for each seed, and print those that pass."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--number", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=secrets.randbelow(10**6), help="default: a new one")
+    parser.add_argument("--number", type=int, default=100, help="faults for each seed")
+    parser.add_argument("--seed", type=int, nargs="+", help="default: a new one")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--under", default="", help="only files whose path begins so")
     chosen = parser.parse_args()
-    begin = perf_counter()
-    print(f"--seed {chosen.seed}", flush=True)
+    begin, seeds = perf_counter(), chosen.seed or [secrets.randbelow(10**6)]
+    print("--seed", *seeds, flush=True)
     for name in HEAVY:
         importlib.import_module(name)
-    faults = chosen_faults(chosen.under, chosen.number, chosen.seed)
+    samples = {seed: chosen_faults(chosen.under, chosen.number, seed) for seed in seeds}
     words = (ROOT / "tests/survivors.md").read_text()
     explained = dict(re.findall(r"^- `(.+)`\n  (.+)", words, re.MULTILINE))
-    survivors = [fault.told() for fault in faults if fault.told() in explained]
-    tests = (path.relative_to(ROOT) for path in ROOT.glob("tests/*/test_*.py"))
-    files = sorted(str(path) for path in tests if not any(path.match(pattern) for pattern in ASIDE))
+    faults = [fault for sample in samples.values() for fault in sample]
+    tried = [fault for fault in dict.fromkeys(faults) if fault.told() not in explained]
+    survivors = {fault for fault in faults if fault.told() in explained}
     fork = multiprocessing.get_context("fork")
     with tempfile.TemporaryDirectory() as directory, ProcessPoolExecutor(chosen.jobs, fork) as pool:
         place = Path(directory).resolve()
-        shutil.copytree(ROOT, place / "whole", symlinks=True, ignore=shutil.ignore_patterns(*LEFT))
-        (place / "whole/results").symlink_to(ROOT / "results")
-        compileall.compile_dir(place / "whole/src", quiet=2)
-        code = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "precursors").expanduser()
-        if code.is_dir():  # machine code that is kept
-            shutil.copytree(code, place / "precursors")
-        outcomes = pool.map(partial(attempt, place), [Job([{file: 0.0}]) for file in files])
-        sound = dict(zip(files, outcomes, strict=True))
-        for file in [file for file, outcome in sound.items() if not outcome.passed]:
-            print(f"{file} fails without a fault: left out", flush=True)
-            del sound[file]
+        sound = record(pool, place)
         print(f"{len(sound)} test files without a fault: {perf_counter() - begin:.0f} s", flush=True)
-        tried = [fault for fault in faults if fault.told() not in explained]
         jobs = [chosen_tests(fault, sound) for fault in tried]
         for fault, outcome in zip(tried, pool.map(partial(attempt, place), jobs), strict=True):
             if outcome.passed:
-                survivors.append(fault.told())
-                print(f"survives {len(outcome.tests)} tests: {survivors[-1]}", flush=True)
-    seen, used = 1 - len(survivors) / len(faults), resource.getrusage(resource.RUSAGE_CHILDREN)
-    print(
-        f"{seen:.1%} of {len(faults)} faults are seen (--seed {chosen.seed}); survivors.md explains "
-        f"{len(faults) - len(tried)} of {len(survivors)} survivors; it took {perf_counter() - begin:.0f} s, "
-        f"and {used.ru_utime + used.ru_stime:.0f} s of processor time"
-    )
-    return int(seen < SHARE)
+                survivors.add(fault)
+                print(f"survives {len(outcome.tests)} tests: {fault.told()}", flush=True)
+    shares = []
+    for seed, sample in samples.items():
+        left = [fault for fault in sample if fault in survivors]
+        known = sum(fault.told() in explained for fault in left)
+        shares.append(1 - len(left) / len(sample))
+        print(f"--seed {seed}: {shares[-1]:.1%} of {len(sample)} faults are seen; ", end="")
+        print(f"survivors.md explains {known} of {len(left)} survivors")
+    used = sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+    print(f"{perf_counter() - begin:.0f} s, {used:.0f} s of processor time")
+    return int(min(shares) < SHARE)
+
+
+def record(pool: ProcessPoolExecutor, place: Path) -> dict[str, Outcome]:
+    """Copy the project to `place`, and run every test file there, those that fail left out."""
+    tests = (path.relative_to(ROOT) for path in ROOT.glob("tests/*/test_*.py"))
+    files = sorted(str(path) for path in tests if not any(path.match(pattern) for pattern in ASIDE))
+    shutil.copytree(ROOT, place / "whole", symlinks=True, ignore=shutil.ignore_patterns(*LEFT))
+    (place / "whole/results").symlink_to(ROOT / "results")
+    compileall.compile_dir(place / "whole/src", quiet=2)
+    code = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "precursors").expanduser()
+    if code.is_dir():  # machine code that is kept
+        shutil.copytree(code, place / "precursors")
+    found = pool.map(partial(attempt, place), [Job([{file: 0.0}]) for file in files])
+    sound = dict(zip(files, found, strict=True))
+    for file in [file for file, outcome in sound.items() if not outcome.passed]:
+        print(f"{file} fails without a fault: left out", flush=True)
+        del sound[file]
+    return sound
 
 
 if __name__ == "__main__":

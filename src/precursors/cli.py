@@ -62,12 +62,7 @@ RUN = ("duration", "until", "max_transitions")
 # Columns of the slip table that are the same in every row.
 SAME = ["theta", "n_blocks", "normal_load_N", "length_m"]
 DURATION = 10.0  # s
-FIGURE_FILE = Path("precursors.png")
 FIGURE_ENDINGS = (".png", ".svg", ".pdf", ".eps")
-
-
-class Refused(RuntimeError):
-    """A run does not hold or was cut short; the message says which and why."""
 
 
 def simulate(arguments: argparse.Namespace) -> None:
@@ -140,7 +135,7 @@ def plot(arguments: argparse.Namespace) -> None:
     if arguments.figure == "lengths":
         figure = precursor_lengths.draw([slips], data=data, title=arguments.title, look=look)
     else:
-        trace = load_trace(run, tolerance=1e-3)  # [N]; half the points, and a page shows the same
+        trace = load_trace(run)
         title = f"N = {run.chain.n_blocks}" if arguments.title is None else arguments.title
         figure = scene.draw(slips, trace, title, data=data, inset=arguments.inset, look=look)
     style.save(figure, arguments.output, look)
@@ -162,12 +157,12 @@ def audit(arguments: argparse.Namespace) -> None:
         if not wrong:
             print(f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s")
         elif len(arguments.files) == 1:
-            raise Refused(wrong[0])
+            raise RuntimeError(wrong[0])
         else:
             failed += 1
             print(wrong[0], file=sys.stderr)
     if failed:
-        raise Refused(f"{failed} of {len(arguments.files)} files do not hold a motion of the model")
+        raise RuntimeError(f"{failed} of {len(arguments.files)} files do not hold a motion of the model")
 
 
 def run_of(arguments: argparse.Namespace) -> Run:
@@ -181,7 +176,7 @@ def run_of(arguments: argparse.Namespace) -> Run:
     try:
         return Run.load(arguments.file)
     except RunFileError as error:
-        raise Refused(str(error)) from error
+        raise RuntimeError(error) from error
 
 
 def run_of_options(arguments: argparse.Namespace) -> Run:
@@ -211,11 +206,10 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
         else:
             run = simulate(chain, **how)
     except TransitionLimitError as error:
-        kept = ""
-        if arguments.command == "simulate" and arguments.output:
-            replace(error.run, slider=slider).save(arguments.output)
-            kept = f"; the run so far is in {arguments.output}"
-        raise Refused(f"{error}{kept}") from error
+        if arguments.command != "simulate" or not arguments.output:
+            raise
+        replace(error.run, slider=slider).save(arguments.output)
+        raise RuntimeError(f"{error}; the run so far is in {arguments.output}") from error
     return replace(run, slider=slider)
 
 
@@ -258,30 +252,30 @@ def number(text: str) -> float:
 def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
     """Add the options of a chain and of its run, which stand in the help of `simulate` only."""
 
-    def add(group: Any, name: str, help: str, **how: Any) -> None:
-        group.add_argument(name, help=help if is_shown else argparse.SUPPRESS, **how)
+    def group(title: str, about: str) -> Callable[..., object]:
+        options: Any = command.add_argument_group(title, about) if is_shown else command
 
-    def option(name: str) -> str:
-        return f"--{name.replace('_', '-')}"
+        def add(name: str, help: str, **how: Any) -> None:
+            option = f"--{name.replace('_', '-')}"
+            options.add_argument(option, help=help if is_shown else argparse.SUPPRESS, **how)
 
-    def group(title: str, about: str | None = None) -> Any:
-        return command.add_argument_group(title, about) if is_shown else command
+        return add
 
-    chain = group("the chain", "the defaults are the paper's")
-    add(chain, "--theta", metavar="X", help='non-uniformity of the normal loading, for example "5/6" (0)')
-    add(chain, "--blocks", dest="n_blocks", type=int, metavar="N", help="number of blocks (10)")
+    add = group("the chain", "the defaults are the paper's")
+    add("theta", metavar="X", help='non-uniformity of the normal loading, for example "5/6" (0)')
+    add("blocks", dest="n_blocks", type=int, metavar="N", help="number of blocks (10)")
     text = "table with the normal load of each block [N]; replaces --theta, --blocks and --normal-load"
-    add(chain, "--weights", metavar="FILE", help=text)
+    add("weights", metavar="FILE", help=text)
     for name, (default, meaning) in CHAIN.items():
-        add(chain, option(name), type=number, metavar="X", help=f"{meaning} ({default})")
-    larger = group("a larger chain", "each adds to the paper's chain; 0 by default")
+        add(name, type=number, metavar="X", help=f"{meaning} ({default})")
+    add = group("a larger chain", "each adds to the paper's chain; 0 by default")
     for name, meaning in LARGER.items():
-        add(larger, option(name), type=number, metavar="X", help=meaning)
-    run = group("the run")
-    add(run, "--duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
-    until: dict[str, Any] = {"dest": "until", "action": "store_const", "const": "global slip"}
-    add(run, "--until-global-slip", help="stop at the end of the first global slip", **until)
-    add(run, "--max-transitions", type=int, metavar="N", help="limit of transitions")
+        add(name, type=number, metavar="X", help=meaning)
+    add = group("the run", "from rest, with every spring at its natural length")
+    add("duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
+    text = "stop at the end of the first global slip"
+    add("until_global_slip", dest="until", action="store_const", const="global slip", help=text)
+    add("max_transitions", type=int, metavar="N", help="limit of transitions")
 
 
 def add_options(command: argparse.ArgumentParser, name: str) -> None:
@@ -310,8 +304,8 @@ def add_options(command: argparse.ArgumentParser, name: str) -> None:
         add("--font", default="DejaVu Sans", metavar="NAME", help="an installed font (DejaVu Sans)")
         add("--title", metavar="TEXT", help="title of the figure")
         add("--no-inset", dest="inset", action="store_false", help="without the magnified view")
-        text = f"a {', '.join(FIGURE_ENDINGS)} file ({FIGURE_FILE})"
-        add("--output", default=FIGURE_FILE, help=text, **output)
+        text = f"a {', '.join(FIGURE_ENDINGS)} file (precursors.png)"
+        add("--output", default=Path("precursors.png"), help=text, **output)
     add("--json", action="store_true", help="print one JSON value")
 
 

@@ -48,9 +48,9 @@ def load_curve(run: Run, tolerance: float = TOLERANCE_N) -> tuple[FloatArray, Fl
     return times, loads
 
 
-def load_trace(run: Run, tolerance: float = TOLERANCE_N) -> pd.DataFrame:
+def load_trace(run: Run) -> pd.DataFrame:
     """Points of the exact F_X: straight lines between them draw it, see `load_curve`."""
-    times, loads = load_curve(run, tolerance)
+    times, loads = load_curve(run)
     return pd.DataFrame({"time_s": times, "tangential_load_N": loads})
 
 

@@ -308,12 +308,11 @@ def _unfinished(run: Run, end: _End) -> TransitionLimitError:
     if len(run.transitions) >= end.most:
         return TransitionLimitError(
             f"max_transitions = {end.most} reached {where}, last at block {run.transitions['block'][-1]}: "
-            "raise max_transitions, shorten duration, or give longest_slip",
+            "raise max_transitions or shorten duration",
             run,
         )
     return TransitionLimitError(
-        f"{MAX_WINDOWS:g} steps of the motion made {where}, blocks slide nearly all the time: "
-        "shorten duration, or give longest_slip",
+        f"{MAX_WINDOWS:g} steps made {where}, as blocks slide nearly all the time: shorten duration",
         run,
     )
 
