@@ -3,57 +3,70 @@
 import contextlib
 import gc
 
+import pytest
+
 from precursors.support import timing
 from precursors.support.timing import Seconds
 
 
-def test_tasks_take_turns():
+@pytest.fixture
+def task(clock):
+    """A task whose first call takes 1 s, and each one more than the one before."""
+    calls = []
+
+    def task():
+        calls.append(1)
+        clock.now += len(calls)
+        return len(calls)
+
+    return task
+
+
+def test_tasks_take_turns_after_each_is_called_twice():
     calls = []
     timings = timing.measure({"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}, 3, 0.0)
     assert "".join(calls) == "aabb" + "ababab"
     assert [len(of.wall) for of in timings.values()] == [3, 3]
 
 
-def test_short_tasks_are_repeated_and_the_mean_of_a_round_counts(clock):
-    calls = []
+@pytest.mark.parametrize(
+    ("shortest", "warm", "wall"),
+    [
+        (10.0, None, (5.0, 10.0, 15.0)),  # 2 s when warm: five calls a round, 3 to 7 s, ...
+        (40.0, 10.0, (2.5, 6.5, 10.5)),
+        (40.0, 41.0, (41.0, 1.0, 2.0)),  # was long enough to be the first round
+        (40.0, 40.0, (1.0, 2.0, 3.0)),
+    ],
+)
+def test_a_round_counts_the_mean_of_calls_that_take_long_enough_together(task, shortest, warm, wall):
+    seconds = warm and {"task": Seconds(warm, warm / 2)}
+    measured = timing.measure({"task": task}, 3, shortest, seconds)["task"]
+    assert measured.wall == wall
+    assert measured.cpu == tuple(of / 2 for of in wall)
+    assert measured.seconds == sorted(wall)[1]
 
-    def take_longer_and_longer():
-        calls.append(1)
-        clock.now += len(calls)
 
-    measured = timing.measure({"task": take_longer_and_longer}, 3, 40.0, {"task": Seconds(10.0, 10.0)})[
-        "task"
-    ]
-    assert measured.wall == measured.cpu == (2.5, 6.5, 10.5)
-    assert measured.seconds == 6.5
-
-
-def test_a_warm_call_that_was_long_enough_is_the_first_round(clock):
-    calls = []
-
-    def task():
-        calls.append(1)
-        clock.now += 50.0
-
-    measured = timing.measure({"task": task}, 3, 40.0, {"task": Seconds(60.0, 61.0)})["task"]
-    assert (measured.wall, measured.cpu) == ((60.0, 50.0, 50.0), (61.0, 50.0, 50.0))
-    assert len(calls) == 2
+def test_the_second_call_counts_and_a_shorter_one_may_come_before_it(task):
+    assert timing.second_call(task) == (2, Seconds(2.0, 1.0))
+    assert timing.second_call(task, warm_up=list) == (3, Seconds(3.0, 1.5))
 
 
 def test_a_ratio_is_the_median_of_the_rounds_ratios():
-    one, other = (
-        timing.Timing((1.0, 10.0, 1.0), (1.0, 1.0, 1.0)),
-        timing.Timing((3.0, 20.0, 4.0), (5.0,) * 3),
-    )
+    one = timing.Timing((1.0, 10.0, 1.0), (1.0, 1.0, 1.0))
+    other = timing.Timing((3.0, 20.0, 4.0), (5.0,) * 3)
     assert one.times_faster_than(other) == (3.0, 5.0)
 
 
-def test_garbage_is_collected_again_afterwards():
+def test_garbage_is_collected_between_tasks_only_and_again_afterwards(clock):
+    seen = []
+
     def fail():
+        seen.append((gc.isenabled(), gc.get_freeze_count() > 0, gc.collect()))
         raise KeyError
 
-    for task in (list, fail):
-        with contextlib.suppress(KeyError):
-            timing.measure({"task": task}, 1, 1.0, {"task": Seconds(0.5, 0.5)})
-        assert gc.isenabled()
-        assert gc.get_freeze_count() == 0
+    gc.collect()
+    with contextlib.suppress(KeyError):
+        timing.measure({"task": fail}, 1, 1.0, {"task": Seconds(0.5, 0.5)})
+    assert seen == [(False, True, 0)]
+    assert gc.isenabled()
+    assert gc.get_freeze_count() == 0

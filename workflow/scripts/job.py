@@ -32,7 +32,7 @@ def job() -> Iterator[Any]:
     )
     seconds = snakemake.resources.get("seconds", 0)
     if seconds >= LONG:
-        print(f"{name}: some {seconds} s", file=sys.stderr, flush=True)
+        print(f"{name}: some {seconds} s", file=sys.stderr)
     try:
         yield snakemake
     except Exception as error:

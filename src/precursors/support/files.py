@@ -65,9 +65,9 @@ def check_writable(path: str | os.PathLike[str], endings: Sequence[str] = ()) ->
     target = Path(path).resolve()
     if endings and target.suffix.lower() not in endings:
         raise ValueError(f"{path} must end in {', '.join(endings[:-1])} or {endings[-1]}")
-    parent = next(above for above in target.parents if above.exists())
     if target.is_dir():
         raise OSError(f"cannot write {path}: it is a directory")
+    parent = next(above for above in target.parents if above.exists())
     if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
         raise OSError(f"cannot write {path}: {parent} is not a directory that can be written to")
     if shutil.disk_usage(parent).free < LEAST_ROOM:

@@ -70,34 +70,24 @@ def measure(
         How long each task took when it was warm: see `second_call`. One that took longer than `shortest` has
         had its first round.
     """
-    had: dict[Key, Seconds] = {}
-    if seconds is None:
-        seconds = {name: second_call(task)[1] for name, task in tasks.items()}
-    else:
-        had = {name: of for name, of in seconds.items() if of.wall > shortest}
-    repeats = {name: max(1, round(shortest / max(seconds[name].wall, 1e-9))) for name in tasks}
-    wall = {name: [had[name].wall] if name in had else [] for name in tasks}
-    cpu = {name: [had[name].cpu] if name in had else [] for name in tasks}
+    warm = seconds or {name: second_call(task)[1] for name, task in tasks.items()}
+    found = {name: [warm[name]] if seconds and warm[name].wall > shortest else [] for name in tasks}
+    repeats = {name: max(1, round(shortest / max(warm[name].wall, 1e-9))) for name in tasks}
     collecting = gc.isenabled()
     gc.collect()
-    gc.freeze()  # what the libraries hold for good need not be looked through in every round
+    gc.freeze()  # what the libraries hold for good need not be looked through before every task
     gc.disable()
     try:
-        for number in range(rounds):
-            gc.collect()
+        for done in range(rounds):
             for name, task in tasks.items():
-                if number == 0 and name in had:
-                    continue
-                clock, processor = time.perf_counter(), time.process_time()
-                for _ in range(repeats[name]):
-                    task()
-                wall[name].append((time.perf_counter() - clock) / repeats[name])
-                cpu[name].append((time.process_time() - processor) / repeats[name])
+                if len(found[name]) == done:
+                    gc.collect()
+                    found[name].append(_timed(task, repeats[name])[1])
     finally:
         gc.unfreeze()
         if collecting:
             gc.enable()
-    return {name: Timing(tuple(wall[name]), tuple(cpu[name])) for name in tasks}
+    return {name: Timing(*zip(*found[name], strict=True)) for name in tasks}
 
 
 def second_call(task: Callable[[], T], warm_up: Callable[[], object] | None = None) -> tuple[T, Seconds]:
@@ -106,6 +96,12 @@ def second_call(task: Callable[[], T], warm_up: Callable[[], object] | None = No
     What the first one compiles, loads or imports is no part of it, however long the first one takes.
     """
     (warm_up or task)()
+    return _timed(task)
+
+
+def _timed(task: Callable[[], T], calls: int = 1) -> tuple[T, Seconds]:
+    """Result of the last of some calls in a row, and the mean time of a call."""
     clock, processor = time.perf_counter(), time.process_time()
-    result = task()
-    return result, Seconds(time.perf_counter() - clock, time.process_time() - processor)
+    for _ in range(calls):
+        result = task()
+    return result, Seconds((time.perf_counter() - clock) / calls, (time.process_time() - processor) / calls)

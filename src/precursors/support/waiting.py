@@ -27,10 +27,10 @@ def tell(work: str, steps: Iterable[Step], done: Callable[[], float]) -> Iterato
             if is_told and (now := time.monotonic()) - last > SECOND:
                 part, last = done(), now
                 left = f"{(now - start) * (1 / part - 1):.0f} s left" if part else ""
-                print(f"\r{work}: {part:.0%} {left}\x1b[K", end="", file=sys.stderr, flush=True)
+                print(f"\r{work}: {part:.0%} {left}\x1b[K", end="", file=sys.stderr)
     finally:
         if last > start:
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+            print("\r\x1b[K", end="", file=sys.stderr)
 
 
 def in_thread(work: str, function: Callable[[], Result], done: Callable[[], float]) -> Result:
