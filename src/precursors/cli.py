@@ -200,8 +200,6 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
         if any(added.values()):
             from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 
-            if sys.stderr.isatty():
-                print("running the larger chain, and again with half the step; Ctrl-C stops", file=sys.stderr)
             run = simulate_with_accuracy(LargerChain(chain, **added), **how)
         else:
             run = simulate(chain, **how)
