@@ -19,7 +19,7 @@ from precursors.accuracy.proof import Certificate
 from precursors.accuracy.solver_vs_proof import Validation, error_table, summary, validate
 from precursors.analysis import horizon as module
 from precursors.analysis import lyapunov
-from precursors.analysis.horizon import PredictedErrors, horizon, predicted_errors
+from precursors.analysis.horizon import PredictedErrors, horizon, neighbours, predicted_errors
 from precursors.analysis.lyapunov import lyapunov_exponent
 
 ROOT = Path(__file__).parents[2]
@@ -286,3 +286,25 @@ def test_what_moves_at_the_start_has_no_error():
     error = predicted_errors(run).time_error
     assert (error[:10] == 0.0).all()
     assert (error[10:] > 0.0).all()
+
+
+def test_neighbours_differ_by_64_roundings_in_every_number():
+    """And the error of the first release, at mu_s w_1 / (K V), follows from how far theirs are apart."""
+    chain = Chain.from_slider()
+    run = simulate(chain, 1.0, start_positions=np.full(10, 1e-6), start_velocities=np.full(10, 1e-3))
+    others = neighbours(run)
+    assert len(others) == 16
+    start = ("start_positions", "start_velocities")
+    mine, *theirs = (
+        np.hstack([*list(vars(one.chain).values())[:7], *(getattr(one, name) for name in start)])
+        for one in (run, *others)
+    )
+    roundings = (np.array(theirs) / mine - 1.0) / (np.finfo(float).eps / 2)
+    np.testing.assert_allclose(roundings.std(axis=0), 64.0, rtol=0.6)
+    assert np.sqrt(np.mean(roundings**2)) == pytest.approx(64.0, rel=0.05)
+    assert np.corrcoef(roundings.T)[~np.eye(mine.size, dtype=bool)].max() < 0.9
+    first = predicted_errors(simulate(chain, 1.0))
+    release = [one.chain.strength[0] / one.chain.loading_rate for one in (run, *others)]
+    apart = np.sqrt(np.mean((np.array(release[1:]) - release[0]) ** 2))
+    rounding = np.finfo(float).eps * release[0]
+    assert first.time_error[0] == pytest.approx(6.0 / 64.0 * apart + rounding, rel=0.1)

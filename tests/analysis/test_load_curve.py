@@ -26,11 +26,16 @@ def test_straight_lines_between_the_rows_of_a_trace_draw_every_slip_of_ten_secon
     assert len(trace.to_csv(index=False)) < MOST_BYTES
 
 
-@pytest.mark.parametrize(("n_blocks", "tolerance"), [(1, TOLERANCE_N), (40, TOLERANCE_N), (10, 1e-2)])
-def test_they_do_so_for_other_chains_and_tolerances_with_no_point_in_vain(n_blocks, tolerance):
-    run = simulate(Chain.from_slider(n_blocks=n_blocks), 4.0)
+@pytest.mark.parametrize(
+    ("n_blocks", "tolerance", "n_points"), [(1, TOLERANCE_N, 1343), (10, TOLERANCE_N, 3013), (10, 1e-2, 613)]
+)
+def test_they_do_so_for_other_chains_and_tolerances_with_no_more_points_than_before(
+    n_blocks, tolerance, n_points
+):
+    run = simulate(Chain.from_slider(n_blocks=n_blocks), 4.0 if n_blocks == 1 else 2.9)
     times, loads = load_curve(run, tolerance)
     assert tolerance / 100 < worst_in_slips(run, times, loads) <= tolerance
+    assert len(times) == n_points
 
 
 def test_a_run_that_ends_within_a_slip_is_drawn_to_its_end():

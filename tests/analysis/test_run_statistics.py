@@ -7,7 +7,12 @@ import pandas as pd
 import pytest
 from scipy.stats import binom
 
-from precursors.analysis.run_statistics import median_interval, share_interval, statistics
+from precursors.analysis.run_statistics import (
+    median_difference,
+    median_interval,
+    share_interval,
+    statistics,
+)
 
 
 @pytest.mark.parametrize(
@@ -38,6 +43,16 @@ def test_the_interval_of_a_share_holds_every_probability_in_at_least_95_of_100_c
     assert covered.mean() < largest_mean
 
 
-def test_values_that_are_not_known_do_not_count():
-    found = statistics(pd.Series([1.0, np.nan, 3.0]))
-    assert (found["mean"], found["q50"], found["n"]) == (2.0, 2.0, 2)
+def test_the_statistics_of_21_numbers_are_those_of_the_textbooks():
+    """0, 1, ..., 20, and one that is not known; the sixth from either end holds the median."""
+    values = pd.Series([*np.random.default_rng(1).permutation(21), np.nan])
+    ends = {"q50_low": 5.0, "q50_high": 15.0}
+    quantiles = {"q05": 1.0, "q25": 5.0, "q50": 10.0, "q75": 15.0, "q95": 19.0}
+    expected = {"mean": 10.0, "deviation": np.sqrt(38.5), **quantiles, **ends, "n": 21}
+    assert statistics(values) == pytest.approx(expected)
+
+
+def test_the_interval_of_a_difference_of_medians_ends_at_values_of_both():
+    """Of 0, 1, ..., 39 the 13th from either end holds the median in 97.5 % of cases."""
+    values = pd.Series(np.arange(40.0))
+    assert median_difference(values + 100.0, values) == (100.0 - 15.0, 100.0 + 15.0)

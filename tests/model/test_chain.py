@@ -161,3 +161,33 @@ def test_a_wrong_end_of_a_run_is_named(duration, until, words):
     with pytest.raises(ValueError, match=words):
         checked_span(duration, until)
     assert checked_span(2, "global slip") == 2.0
+
+
+@pytest.mark.parametrize(
+    ("name", "at_the_limit", "beyond"),
+    [
+        ("weights", [1e-60], [0.99e-60]),
+        ("weights", [1e60], [1.01e60]),
+        ("weights", [0.0, 1.0], [0.0, 0.0]),
+        ("weights", np.ones(100_000), np.ones(100_001)),
+        ("drive_velocity", 1e-60, 0.99e-60),
+        ("drive_velocity", 1e60, 1.01e60),
+        ("stiffness", 0.99e12, 1.01e12),
+        ("drive_stiffness", 0.99e12, 1.01e12),
+        # sqrt((4 k + K)/m) is between 1e-20 and 1e20.
+        ("mass", 4.99e40, 5.01e40),
+        ("mass", 5.01e-40, 4.99e-40),
+        ("mu_s", 1e60, 1.01e60),
+        ("mu_s", 0.25, 0.249),
+        ("mu_k", 0.5, 0.501),
+        ("mu_k", 0.0, -1e-9),
+        ("length", 1e-60, 0.0),
+    ],
+)
+def test_every_number_may_be_at_its_limit_and_not_beyond(name, at_the_limit, beyond):
+    numbers = {"weights": [1.0, 2.0], "mass": 1.0, "stiffness": 1.0, "drive_stiffness": 1.0}
+    numbers |= {"drive_velocity": 1.0, "mu_s": 0.5, "mu_k": 0.25}
+    chain = Chain(**numbers | {name: at_the_limit})
+    np.testing.assert_array_equal(getattr(chain, name), at_the_limit)
+    with pytest.raises(ValueError, match=r"\A[^\n]+\Z"):
+        Chain(**numbers | {name: beyond})

@@ -33,6 +33,8 @@ ROUNDING = 1e-12  # of a window; numpy.roots knows a simple root to some roundin
 # A bound that is far too small costs time. In a typical window one step reaches this part of the way to the
 # root, and this part of the functions without a root is proved to have none.
 ONE_STEP, PROVED = 0.3, 0.5
+# Safe steps to the first roots of all windows. Less is better: write it down here.
+ROOT_STEPS = 1667
 # Gershgorin's bound over the largest frequency: the ends of a short chain make it loose.
 LOOSEST = 1.35
 # Times at which a series is evaluated with all digits, and how far below zero a dip is that has to be seen.
@@ -117,7 +119,10 @@ def test_a_function_lies_between_its_bounds(length):
 @pytest.mark.parametrize("height", [-10, 10])
 @pytest.mark.parametrize("k", range(8))
 def test_a_function_lies_between_its_bounds_whichever_coefficient_is_the_extreme_one(k, height):
-    """One of the Bernstein coefficients of degree 6 or, as the last, the rest alone: u^6 (1 - u)."""
+    """One of the Bernstein coefficients of degree 6 or, as the last, the rest alone: u^6 (1 - u).
+
+    The bound is that coefficient, and no more than it.
+    """
     b = [Fraction(1 + height * (i == k)) for i in range(7)]
     if k == 5:
         b[6] -= 6 * height  # or the last coefficient of degree 7, (6 b_5 + b_6) / 7, would tell
@@ -126,6 +131,8 @@ def test_a_function_lies_between_its_bounds_whichever_coefficient_is_the_extreme
     if k == 7:
         terms = [Fraction(0)] * 6 + [Fraction(height), Fraction(-height)]
     low, high = bounds_of(terms)
+    extreme = 1 + height if k < 7 else height / 7
+    assert extreme == pytest.approx(low if height < 0 else high)
     values = [float(value(terms, u)) for u in TIMES]
     assert low <= min(values)
     assert high >= max(values)
@@ -160,12 +167,21 @@ def test_one_step_passes_no_root_and_is_not_far_too_short(windows):
 @pytest.mark.parametrize("shift", [0, 1, 2])
 def test_the_search_ends_at_the_first_root_or_proves_that_there_is_none(windows, shift):
     """Also where the series begins with roots at the start, which were dealt with already."""
+    progress = SimpleNamespace(root_steps=0)
     for c, root in windows:
-        progress = SimpleNamespace(root_steps=0)
+        before = progress.root_steps
         found = roots.first_root.py_func(len(c) + shift, 1e-15, np.append(np.zeros(shift), c), progress)
         assert found == pytest.approx(root, abs=1e-9) if root <= 1.0 else found > 1.0
         # Where the first term outweighs all that are negative, no step is needed to know it.
-        assert (progress.root_steps == 0) == (c[0] + np.minimum(c[1:], 0.0).sum() > 0.0)
+        assert (progress.root_steps == before) == (c[0] + np.minimum(c[1:], 0.0).sum() > 0.0)
+    assert progress.root_steps == pytest.approx(ROOT_STEPS, rel=0.002)  # fused products may round one
+
+
+def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
+    """sum_n (n - 6) s^n/n! over n >= 9, as a closed form: (s - 6) e^s less its first terms."""
+    terms = [WINDOW**n / math.factorial(n) for n in range(9)]
+    rest = WINDOW * (math.exp(WINDOW) - sum(terms[:8])) - 6 * (math.exp(WINDOW) - sum(terms))
+    assert bounds.TAIL * WINDOW**9 / math.factorial(9) == pytest.approx(rest, rel=1e-9)
 
 
 @pytest.mark.parametrize("length", [0.25, 1.0, WINDOW])

@@ -4,12 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from chains import first_transitions
+from random_chains import mild_chain
 
 from precursors import Chain, simulate
 
 THETAS = [-5 / 6, 0.0, 5 / 6]
 # Before chaos has doubled roundings many times.
 DURATION, ROUNDING = 2.0, 1e-12
+# Of the duration: some tens of transitions of chains drawn at random.
+RANDOM = 1e-9
 
 
 @pytest.mark.parametrize("theta", THETAS)
@@ -54,3 +58,21 @@ def test_mirrored_starts_have_mirrored_transitions(seed):
     assert run["block"].tolist() == (n + 1 - other["block"]).tolist()
     assert run["mode"].tolist() == other["mode"].tolist()
     np.testing.assert_allclose(run["time"], other["time"], rtol=0, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_run_that_goes_on_from_its_state_at_any_time_has_the_transitions_of_the_whole(seed):
+    """The drive is at 0 when a run begins, so that the chain is moved back by what the drive went."""
+    rng = np.random.default_rng(seed)
+    case = mild_chain(rng)
+    whole = first_transitions(case.chain, case.most, duration=case.duration, **case.start)
+    cut = rng.uniform(0.2, 0.8) * whole.duration
+    # Times before it let the state be found from an earlier one, and from one within the same slip.
+    positions, velocities = whole.at([cut / 2, 0.999 * cut, cut])
+    start = {"start_positions": positions[2] - case.chain.drive_velocity * cut}
+    start |= {"start_velocities": velocities[2]}
+    rest = whole.transitions[whole.transitions["time"] > cut]
+    found = first_transitions(case.chain, 100, duration=1.01 * (whole.duration - cut), **start).transitions
+    found = found[found["time"] > 0.0][: len(rest)]
+    assert found[["block", "mode"]].tolist() == rest[["block", "mode"]].tolist()
+    np.testing.assert_allclose(found["time"] + cut, rest["time"], rtol=0, atol=RANDOM * case.duration)

@@ -468,18 +468,6 @@ class TestEdgesOfTheModel:
         audited(run)
 
 
-def test_a_run_that_is_cut_in_two_has_the_transitions_of_the_whole():
-    """The drive is at 0 when a run begins, so that the chain is moved back by what the drive went."""
-    chain, cut, end = Chain.from_slider(), 2.0, 2.7
-    whole, first = simulate(chain, end), simulate(chain, cut)
-    positions, velocities = first.at([cut])
-    second = simulate(chain, end - cut, None, positions[0] - chain.drive_velocity * cut, velocities[0])
-    found = [*first.transitions["time"], *(second.transitions["time"] + cut)]
-    np.testing.assert_allclose(found, whole.transitions["time"], rtol=0, atol=1e-12)
-    blocks = [*first.transitions["block"], *second.transitions["block"]]
-    np.testing.assert_array_equal(blocks, whole.transitions["block"])
-
-
 def test_a_run_ends_when_a_slip_has_lasted_too_long():
     chain = Chain.from_slider()
     whole = simulate(chain, until="global slip")
