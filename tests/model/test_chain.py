@@ -41,10 +41,10 @@ def test_weights_add_up_to_the_total_load_and_are_linear(n_blocks, theta):
         assert weights[-1] - weights[0] == pytest.approx(2 * theta * 400.0 / n_blocks, abs=1e-12)
 
 
-def test_load_cells_of_1_to_3_give_five_sixths_to_the_last_bit():
-    assert theta_from_load_cells(100.0, 300.0, spacing=0.06, length=0.1) == float(Fraction(5, 6))
-    assert theta_from_load_cells(300.0, 100.0, spacing=0.06, length=0.1) == -float(Fraction(5, 6))
-    assert theta_from_load_cells(200.0, 200.0, spacing=0.06, length=0.1) == 0.0
+def test_load_cells_of_1_to_3_give_five_sixths_exactly():
+    assert theta_from_load_cells(100.0, 300.0, spacing=0.06, length=0.1) == Fraction(5, 6)
+    assert theta_from_load_cells(300.0, 100.0, spacing=0.06, length=0.1) == -Fraction(5, 6)
+    assert theta_from_load_cells(200.0, 200.0, spacing=0.06, length=0.1) == 0
 
 
 def test_a_fraction_is_read_as_theta():

@@ -9,7 +9,7 @@ import yaml
 
 from precursors.model.chain import Chain
 from precursors.model.config import check_config, check_file, read_numbers
-from precursors.model.scenes import scene_chain, scene_slider, scenes_with
+from precursors.model.scenes import scene_slider, scenes_with
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
@@ -94,7 +94,9 @@ def refused(config):
 def test_the_papers_configuration_is_accepted():
     check_config(PAPERS, SCHEMA)
     assert scenes_with(PAPERS, "run") == ["fig10", "fig11", "fig12"]
-    assert [scene_chain(PAPERS, name).normal_load for name in PAPERS["scenes"]] == pytest.approx([400.0] * 3)
+    assert [
+        Chain.from_slider(**scene_slider(PAPERS, name)).normal_load for name in PAPERS["scenes"]
+    ] == pytest.approx([400.0] * 3)
     assert [scene_slider(PAPERS, name)["theta"] for name in PAPERS["scenes"]] == [0.0, -5 / 6, 5 / 6]
 
 
@@ -157,7 +159,7 @@ def test_measured_normal_loads_are_those_of_the_blocks_from_a_list_or_a_file(tmp
     for weights in (MEASURED["weights"], str(tmp_path / "loads.csv")):
         config = changed("scenes.steep", MEASURED | {"weights": weights})
         check_config(config, SCHEMA)
-        chain = scene_chain(config, "steep")
+        chain = Chain.from_slider(**scene_slider(config, "steep"))
         assert chain.weights.tolist() == [30.0, 40.0, 50.0]
         assert chain == Chain.from_slider(n_blocks=3, normal_load=120.0, theta=0.25)
         slider = scene_slider(config, "steep")

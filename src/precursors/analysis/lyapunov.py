@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 
 from precursors.analysis.events import slip_events
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.checks import whole
 from precursors.model.statics import positions_from_compressions
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
@@ -67,41 +66,27 @@ class LyapunovExponent:
     end: float
 
 
-def lyapunov_exponent(
-    run: Run, n_stretches: int = N_STRETCHES, transient: float = TRANSIENT
-) -> LyapunovExponent:
+def lyapunov_exponent(run: Run) -> LyapunovExponent:
     """Largest Lyapunov exponent of a run, from the distance of a second one (Benettin et al. 1980).
 
     A run in double precision follows the exact one only for a while. After that it is another typical run,
     which serves a mean as well. The uncertainty comes from the means over stretches of equally many events,
     by Student's t.
 
-    Parameters
-    ----------
-    run : Run
-        A long run.
-    n_stretches : int
-        Number of stretches, at least 2.
-    transient : float
-        Part of the run's events left out at its start, 0 <= transient < 1.
-
     Raises
     ------
     ValueError
-        If an argument is out of range, the run has fewer events than stretches, or all differences die out
-        (one block: every event ends in the same state).
+        If the run has fewer events than stretches, or all differences die out (one block: every event ends in
+        the same state).
     """
-    n_stretches = whole("n_stretches", n_stretches, at_least=2)
-    if not 0.0 <= transient < 1.0:
-        raise ValueError(f"transient must be at least 0 and below 1, but is {transient!r}")
     onset, growth = _growth(run)
-    kept = np.arange(int(transient * len(onset)), len(onset))
-    n_each = (len(kept) - 1) // n_stretches
+    kept = np.arange(int(TRANSIENT * len(onset)), len(onset))
+    n_each = (len(kept) - 1) // N_STRETCHES
     if n_each < 1:
         raise ValueError(
-            f"the run must have more than {n_stretches} slip events after its transient, but has {len(kept)}"
+            f"the run must have more than {N_STRETCHES} slip events after its transient, but has {len(kept)}"
         )
-    ends = kept[-1] - n_each * np.arange(n_stretches, -1, -1)
+    ends = kept[-1] - n_each * np.arange(N_STRETCHES, -1, -1)
     time = run.transitions["time"][onset]
     log, seconds, number = (np.diff(x[ends]) for x in (growth, time, onset))
     return LyapunovExponent(

@@ -127,16 +127,13 @@ class Chain:
         """
         loads = linear_weights(n_blocks, normal_load, theta) if weights is None else _weights(weights)
         n = len(loads)
+        youngs_modulus = positive("youngs_modulus", youngs_modulus, "Pa")
+        cross_section = positive("cross_section", cross_section, "m^2")
         length = positive("length", length, "m")
         return cls(
             weights=loads,
             mass=positive("slider_mass", slider_mass, "kg") / n,
-            stiffness=neighbour_stiffness(
-                n,
-                positive("youngs_modulus", youngs_modulus, "Pa"),
-                positive("cross_section", cross_section, "m^2"),
-                length,
-            ),
+            stiffness=n * youngs_modulus * cross_section / length,
             drive_stiffness=drive_stiffness,
             drive_velocity=drive_velocity,
             mu_s=mu_s,
@@ -210,11 +207,6 @@ _POSITIVE = {
 }
 
 
-def neighbour_stiffness(n_blocks: Any, youngs_modulus: Any, cross_section: Any, length: Any) -> Any:
-    """Stiffness k = N E S/L [N/m] of the spring between neighbours (Eq. 10), of one slider or of many."""
-    return n_blocks * youngs_modulus * cross_section / length
-
-
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:
     """Normal loads w_i that change linearly along the slider [N], shape (N,) (Eq. 7; w_1 = F_Z at N = 1)."""
     n = whole("n_blocks", n_blocks, at_least=1, at_most=MOST_BLOCKS)
@@ -250,22 +242,17 @@ def parse_theta(theta: float | str) -> float:
     raise ValueError(f'theta must be a number between -1 and 1, or a fraction as "5/6", but is {theta!r}')
 
 
-def theta_from_load_cells(load_a: float, load_b: float, spacing: float, length: float) -> float:
+def theta_from_load_cells(load_a: float, load_b: float, spacing: float, length: float) -> Fraction:
     """Degree of non-uniformity from two load cells: (F_ZB - F_ZA)/F_Z * L/d, as in the paper's Sect. 5.2.
 
     The straight line through the readings of two cells a distance `spacing` [m] apart is extended over the
-    contact of length `length` [m]. Loads of 100 N and 300 N at 60 mm on 100 mm give the double next to 5/6.
+    contact of length `length` [m]. Nothing is rounded: 100 N and 300 N at 60 mm on 100 mm give 5/6.
 
     Raises
     ------
     ValueError
         If a load is negative, both are zero, a length is not positive, or theta is not between -1 and 1.
     """
-    return float(exact_theta_from_load_cells(load_a, load_b, spacing, length))
-
-
-def exact_theta_from_load_cells(load_a: float, load_b: float, spacing: float, length: float) -> Fraction:
-    """The same of the numbers as they are written, not rounded: 5/6 is 5/6."""
     a = Fraction(repr(not_negative("load_a", load_a, "N")))
     b = Fraction(repr(not_negative("load_b", load_b, "N")))
     span = Fraction(repr(positive("length", length, "m"))) / Fraction(repr(positive("spacing", spacing, "m")))

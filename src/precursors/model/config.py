@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from precursors.model.chain import Chain, parse_theta
-from precursors.model.scenes import Config, scene_additions, scene_chain, scenes_with_theta
+from precursors.model.scenes import Config, scene_additions, scene_slider, scenes_with_theta
 
 
 def check_file(path: str | os.PathLike[str]) -> None:
@@ -116,7 +116,7 @@ def _check_chains(config: Config) -> None:
         Chain.from_slider(**config["chain"])
         for name in config["scenes"]:
             where = f"scenes.{name}"
-            scene_chain(config, name)
+            Chain.from_slider(**scene_slider(config, name))
             scene_additions(config, name)
         for name, values in config["accuracy"]["proved"].items():
             where = f"accuracy.proved.{name}"

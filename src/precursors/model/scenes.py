@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from precursors.model.chain import Chain, exact_theta_from_load_cells, parse_theta
+from precursors.model.chain import Chain, parse_theta, theta_from_load_cells
 from precursors.support.spreadsheet import read_columns
 
 Config = Mapping[str, Any]
@@ -125,12 +125,5 @@ def scene_as_written(config: Config, name: str) -> dict[str, Any]:
     if "normal_load" in scene:
         raise ValueError("normal_load must not be given beside load cells, whose sum it is")
     a, b = scene["load_cell_a"], scene["load_cell_b"]
-    theta = exact_theta_from_load_cells(
-        a, b, spacing=config["load_cells"]["spacing"], length=slider["length"]
-    )
+    theta = theta_from_load_cells(a, b, spacing=config["load_cells"]["spacing"], length=slider["length"])
     return slider | {"theta": theta, "normal_load": Fraction(repr(a)) + Fraction(repr(b))}
-
-
-def scene_chain(config: Config, name: str) -> Chain:
-    """The chain of a scene (Eqs. 7, 9 and 10)."""
-    return Chain.from_slider(**scene_slider(config, name))

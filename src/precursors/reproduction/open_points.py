@@ -51,7 +51,7 @@ def slider(t: Tables, column: str) -> float:
 
 def theta_of_cells(t: Tables) -> float:
     """theta of the straight line through the load cells of Fig. 7."""
-    return theta_from_load_cells(*printed.CELL_LOADS_N, printed.CELL_SPACING_M, slider(t, "length_m"))
+    return float(theta_from_load_cells(*printed.CELL_LOADS_N, printed.CELL_SPACING_M, slider(t, "length_m")))
 
 
 def cell_moment(t: Tables) -> float:

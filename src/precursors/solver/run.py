@@ -112,35 +112,22 @@ class Run:
             If a time lies outside the run, or the run has no stored states to start from.
         """
         when = self._times(times)
-        force, velocity = self._evaluate(when)
+        force, velocity = self.forces_and_velocities(when)
         # x_1 = V t - T_1/K (Eq. 3), x_2 = x_1 - T_2/k, ...
         behind = np.cumsum(force / self.chain.springs, axis=1)
         return self.chain.drive_velocity * when[:, None] - behind, velocity
 
     def tangential_load(self, times: ArrayLike) -> FloatArray:
         """Tangential load F_X = K(V t - x_1) [N], shape (len(times),) (Eq. 3)."""
-        return self._evaluate(self._times(times))[0][:, 0]
+        return self.forces_and_velocities(times)[0][:, 0]
 
     def spring_forces(self, times: ArrayLike) -> FloatArray:
         """Force in the spring behind each block [N], shape (len(times), N); column 0 is F_X."""
-        return self._evaluate(self._times(times))[0]
+        return self.forces_and_velocities(times)[0]
 
     def forces_and_velocities(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Spring forces [N] and velocities [m/s], each (len(times), N): the state, apart from the drive's."""
-        return self._evaluate(self._times(times))
-
-    def _times(self, times: ArrayLike) -> FloatArray:
-        when = np.atleast_1d(number_array("times", times, "s"))
-        if when.ndim > 1:
-            raise ValueError(f"times must be one number [s] or a list of them, but have shape {when.shape}")
-        outside = ~((when >= 0.0) & (when <= self.duration))
-        if outside.any():
-            raise ValueError(
-                f"times must be between 0 and {self.duration:g} s, but one is {when[outside][0]} s"
-            )
-        return when
-
-    def _evaluate(self, when: FloatArray) -> tuple[FloatArray, FloatArray]:
+        when = self._times(times)
         if self.larger is not None:
             raise ValueError("the run of a larger chain knows its transitions and load_points only")
         if len(self.states.after) == 0:
@@ -154,6 +141,17 @@ class Run:
         )
         back = np.argsort(order, kind="stable")
         return force[back], velocity[back]
+
+    def _times(self, times: ArrayLike) -> FloatArray:
+        when = np.atleast_1d(number_array("times", times, "s"))
+        if when.ndim > 1:
+            raise ValueError(f"times must be one number [s] or a list of them, but have shape {when.shape}")
+        outside = ~((when >= 0.0) & (when <= self.duration))
+        if outside.any():
+            raise ValueError(
+                f"times must be between 0 and {self.duration:g} s, but one is {when[outside][0]} s"
+            )
+        return when
 
     def save(self, path: str | PathLike[str], slider: dict[str, Any] | None = None) -> None:
         """Write the run to an HDF5 file, whole or not at all.
