@@ -44,6 +44,7 @@ from time import perf_counter
 from types import CodeType
 from typing import Any, NamedTuple
 
+import psutil
 import pytest
 from browser import find_browser
 
@@ -222,8 +223,12 @@ def mark_functions(copy: Path) -> set[Function]:
 
 
 def spent() -> float:
-    """Processor time of this process and of those that it started and waited for [s]."""
-    return sum(os.times()[:4])
+    """Processor time of this process and of those that it started, a browser among them [s]."""
+    seconds = sum(os.times()[:4])
+    for process in psutil.Process().children(recursive=True):
+        with contextlib.suppress(psutil.Error):
+            seconds += sum(process.cpu_times()[:2])
+    return seconds
 
 
 class Test(NamedTuple):
@@ -254,7 +259,7 @@ class Watch:
 
     def __init__(self, entered: set[Function], job: Job) -> None:
         self.entered, self.most = entered, {name: most for file in job.files for name, most in file.items()}
-        self.shared, self.tests, self.before = set[Function](), list[Test](), 0.0
+        self.shared, self.tests, self.before, self.cost = set[Function](), list[Test](), 0.0, 0.0
 
     def pytest_runtest_logstart(self, nodeid: str) -> None:
         if nodeid in self.most:
@@ -262,11 +267,14 @@ class Watch:
             resource.setrlimit(resource.RLIMIT_CPU, (limit, resource.RLIM_INFINITY))
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        now = spent()
+        self.cost = max(self.cost, now)  # a browser that has ended is not counted any longer
         if report.when == "call":
-            self.tests.append(Test(report.nodeid, spent() - self.before, frozenset(self.entered)))
+            self.tests.append(Test(report.nodeid, now - self.before, frozenset(self.entered)))
         else:  # what imports and fixtures enter counts for every test of the file
             self.shared |= self.entered
-        self.before = spent()
+        if report.when != "setup" or not self.tests:  # what fixtures cost: of the first test for the file
+            self.before = now
         self.entered.clear()
 
 
@@ -284,7 +292,7 @@ def run_tests(copy: Path, job: Job, answer: Connection) -> None:
     options = ["-x", "-q", "--tb=no", "-p", "no:cacheprovider", "-p", "no:xdist"]
     passed = all(pytest.main([*options, *file], plugins=[watch]) == 0 for file in job.files)
     tests = (test._replace(entered=test.entered | watch.shared) for test in watch.tests)
-    answer.send(Outcome(passed, spent(), tuple(tests)))
+    answer.send(Outcome(passed, max(spent(), watch.cost), tuple(tests)))
 
 
 def attempt(place: Path, job: Job) -> Outcome:

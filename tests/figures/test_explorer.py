@@ -9,16 +9,15 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
-from browser import browser, find_browser
+from figures.explorer_sessions import GOLDEN, SOURCE, THETAS
 
 from precursors import Chain, cli, find_precursors, find_slips, simulate
-from precursors.figures.explorer.page import Proved, Scene, counted_events, proved_slider, write_explorer
+from precursors.figures.explorer.page import counted_events, proved_slider
 from precursors.model.scenes import SLIDER, scene_slider
 from precursors.solver.simulate import TransitionLimitError
 
 ROOT = Path(__file__).parents[2]
-GOLDEN = ROOT / "tests/golden"
-SOURCE = ROOT / "src/precursors/figures/explorer"
+
 MOST_BYTES = 120e3
 # Errors of times [s] up to the end of the first global slip; later they grow with the chaos of the motion.
 UP_TO_GLOBAL_SLIP = 1e-10
@@ -28,8 +27,6 @@ TARGET = 44  # px, smallest width and height of what a finger meets
 DESKTOP, PHONE = (1400, 900), (390, 844)
 TEXT_CONTRAST, MARK_CONTRAST = 4.5, 3.0  # WCAG 2.2 AA
 
-THETAS = {"fig10": 0.0, "fig11": -5 / 6, "fig12": 5 / 6}
-FAST = SLIDER | {"theta": 5 / 6, "drive_velocity": 0.01}
 COUNTED = {0: 9, -5 / 6: 6, 5 / 6: 14}  # events, as in the paper
 SETTLED = (
     "!playing && runs[0] && runs.every(run => run.isFinal && run.id === asked)"
@@ -114,36 +111,6 @@ def run_in(page, cases):
     asked = json.dumps([[of_page(slider), duration, most] for slider, duration, most in cases])
     solver = (SOURCE / "solver.js").read_text(encoding="utf-8").replace('"use strict";', "")
     return page.evaluate(SOLVE % (solver, asked))
-
-
-@pytest.fixture(scope="module")
-def file(tmp_path_factory):
-    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    scenes = []
-    for name, theta in THETAS.items():
-        slips = find_slips(simulate(Chain.from_slider(theta=theta), 10.0))
-        rows = find_precursors(slips)
-        events = [[r.onset, r.load_before, r.front / 10] for r in rows.itertuples()]
-        scenes.append(Scene(f"{name} a <!--<script>\"'", SLIDER | {"theta": theta}, events))
-    proved = [Proved(scene.slider, 10.0) for scene in scenes] + [Proved(FAST, 0.2)]
-    write_explorer(scenes, proved, 10.0, path)
-    return path
-
-
-@pytest.fixture(scope="module")
-def new_page():
-    path = find_browser()
-    if path is None:
-        pytest.skip("no Chromium or Chrome here: the explorer is not tried in a browser")
-    with browser(path) as opened:
-        yield opened
-
-
-@pytest.fixture(scope="module")
-def opened(new_page):
-    page = new_page()
-    page.open("about:blank")
-    return page
 
 
 @pytest.fixture
@@ -407,54 +374,7 @@ def test_the_bars_of_the_row_are_net_forces_within_their_limits(page):
     assert max(abs(force) for force in net) > 1.0
 
 
-def test_play_goes_through_an_event_in_slow_motion_and_stops_at_the_end_of_the_view(page):
-    click(page, '[data-step="1"]')
-    click(page, '[data-view="event"]')
-    page.evaluate("element('play').click()")
-    page.wait_for("element('moment').innerText.includes('slow motion: 1 ms takes 4 s')")
-    page.wait_for("!playing")
-    assert page.evaluate("state.time") == pytest.approx(page.evaluate("view().end"), abs=1e-9)
-
-
-def test_less_motion_goes_from_event_to_event(page):
-    page.prefer(prefers_reduced_motion="reduce")
-    onset, end = page.evaluate("[event().onset, event().end]")
-    page.evaluate("element('play').click()")
-    times = page.evaluate(
-        "new Promise(done => { const seen = []; const look = () => {"
-        "if (state.time !== seen.at(-1)) seen.push(state.time);"
-        "seen.length === 3 ? done(seen) : requestAnimationFrame(look); }; look(); })"
-    )
-    assert times[:2] == [onset, end]
-    page.evaluate("stop()")
-
-
 # Measurements
-
-READ = "(new Function('postMessage', 'onmessage', %s + '; return readMeasurement;')()(%s))"
-
-
-@pytest.mark.parametrize(
-    ("lines", "points"),
-    [
-        ("0 1\n0.5 2.5\n", [[0, 0.5], [1, 2.5]]),
-        ("t,F\n0,1\n0.5,2.5", [[0, 0.5], [1, 2.5]]),
-        ("time, load\n0.0, 1\n0.5, 2.5", [[0, 0.5], [1, 2.5]]),
-        ("Zeit [s];Kraft [N]\r\n0,0;1,0\r\n0,5;2,5\r\n", [[0, 0.5], [1, 2.5]]),
-        ('\ufeff"t"\t"F"\n0\t1\n5e-1\t2,5\n', [[0, 0.5], [1, 2.5]]),
-        ("# rig 3\n\n0,0 1\n0,5 2,5", [[0, 0.5], [1, 2.5]]),
-        ("0;1\n0,5;abc", "Line 2: “abc” is not a number."),
-        ("t;F\n0;1\n0.5", "Line 3: there must be two numbers, time [s] and load [N]."),
-        ("0 1\n2 1\n1 1", "Line 3: the time goes back to 1 s."),
-        ("no\nnumbers", "No line of the file has two numbers, time [s] and load [N]."),
-    ],
-)
-def test_a_measurement_is_read_or_the_wrong_line_is_named(opened, lines, points):
-    source = (SOURCE / "solver.js").read_text("utf-8") + (SOURCE / "worker.js").read_text("utf-8")
-    found = opened.evaluate(READ % (json.dumps(source), json.dumps(lines)))
-    assert found == (
-        {"problem": points} if isinstance(points, str) else dict(zip(("time", "load"), points, strict=True))
-    )
 
 
 def test_a_measurement_with_decimal_commas_is_laid_over_the_curve(page, tmp_path):
@@ -475,14 +395,6 @@ def test_a_measurement_with_decimal_commas_is_laid_over_the_curve(page, tmp_path
 
 
 # Address, command, picture
-
-
-def test_the_address_holds_the_state(page, file):
-    set_slider(page, "#theta", 0.25)
-    click(page, "#next")
-    told, address = (text(page, "answers"), text(page, "readout")), page.evaluate("location.hash")
-    show(page, file, address=address)
-    assert (text(page, "answers"), text(page, "readout")) == told
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from figures import examples
+from figures import examples, explorer_sessions
 from golden import small_tables
 from matplotlib import image
 
@@ -33,6 +33,7 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
         replace(golden / f"small/{name}.csv", partial(small_tables.write, make()))
     for name in examples.EXAMPLES:
         replace(golden / f"small/{name}.png", partial(examples.save_small, examples.draw(name)))
+    replace(golden / "small/explorer.csv", partial(explorer_sessions.recorded().to_csv, index=False))
 
 
 def replace(path: Path, write: Callable[[Path], object]) -> None:

@@ -1,0 +1,28 @@
+"""A browser, and the explorer's page as a file."""
+
+import pytest
+from browser import browser, find_browser
+from figures.explorer_sessions import write_example
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
+    write_example(path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def new_page():
+    path = find_browser()
+    if path is None:
+        pytest.skip("no Chromium or Chrome here: the explorer is not tried in a browser")
+    with browser(path) as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def opened(new_page):
+    page = new_page()
+    page.open("about:blank")
+    return page
