@@ -12,9 +12,14 @@ from golden.small_tables import SCENES
 
 from precursors import Chain
 from precursors.figures import model_comparison, style
-from precursors.hierarchy.compare_models import TOLERANCES, compare_models, waveform_error, with_smallest
+from precursors.hierarchy.compare_models import (
+    SHORTEST,
+    TOLERANCES,
+    compare_models,
+    waveform_error,
+    with_smallest,
+)
 from precursors.hierarchy.models import MODELS
-from precursors.support import timing
 from precursors.support.files import read_table
 
 
@@ -65,7 +70,7 @@ def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(clo
     models = {"chain": replace(MODELS["chain"], solve=solve)}
     table = compare_models({"even": SCENES["even"]}, TOLERANCES, models, rounds)
     assert table["cost_s"].tolist() == pytest.approx([warm] * len(TOLERANCES))
-    assert len(calls) == 2 + rounds * round(timing.SHORTEST / warm)  # one run answers all questions
+    assert len(calls) == 2 + rounds * round(SHORTEST / warm)  # one run answers all questions
 
 
 def test_an_error_has_its_interval_and_the_whole_of_it_must_be_within_the_tolerance(comparison) -> None:

@@ -89,7 +89,7 @@ rule run_chunk:
     log:
         "results/logs/run_chunk/{study}_{chunk}.log",
     resources:
-        seconds=lambda wildcards: 12 if wildcards.study == "resolution_members" else 2,
+        seconds=lambda wildcards: 6 if wildcards.study == "resolution_members" else 2,
     params:
         arguments=lambda wildcards: study_arguments(config, wildcards.study),
         code=digest("run_chunk", *(f"ensembles.{study.split('.')[0]}" for study in STUDIES.values())),

@@ -4,7 +4,7 @@ TABLES |= {
     "model_comparison": {
         "function": "hierarchy.compare_models:model_comparison",
         "options": {"sliders": SLIDERS},
-        "seconds": 6,
+        "seconds": 3,
     },
     "larger": {
         "function": "hierarchy.larger_study:larger_tables",

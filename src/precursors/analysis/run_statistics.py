@@ -21,7 +21,7 @@ def statistics(values: pd.Series) -> dict[str, float]:
     return {
         "mean": values.mean(),
         "deviation": values.std(),
-        **{name: float(values.quantile(share)) for name, share in QUANTILES.items()},
+        **dict(zip(QUANTILES, values.quantile([*QUANTILES.values()]), strict=True)),
         "q50_low": low,
         "q50_high": high,
         "n": len(values),

@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
-from precursors.analysis.slip_rows import first_global
-from precursors.analysis.slips import find_precursors, find_slips, mu_sapp
+from precursors.analysis.events import slip_events
+from precursors.analysis.slips import mu_sapp
 from precursors.hierarchy import rigid, statics
 from precursors.hierarchy.larger import LargerChain, simulate_larger
-from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, cascade, quasistatic_slips
+from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.scenes import PAPERS_MODEL
 from precursors.model.statics import load_bound
@@ -64,26 +65,28 @@ class Model:
         return self.answers[quantity](self.prepare(chain))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Motion:
-    """A run up to the end of its first global slip.
+    """A chain up to the end of its first global slip, or to where it is given up.
 
     Attributes
     ----------
-    n_blocks : int
-        Number N of blocks.
-    slips : DataFrame
-        Its slip events, see `find_slips`.
-    mu_sapp : float
-        Apparent static friction coefficient (Eq. 1); NaN without a global slip.
+    chain : Chain
+        The chain.
+    slips : structured array
+        Its slip events, with the columns of `find_slips`; the last one is the global slip.
     waveform : array, shape (n_transitions + 1, 2)
         Time [s] and load [N] at the start and at each transition, or at the `load_points` of a larger chain.
     """
 
-    n_blocks: int
-    slips: pd.DataFrame
-    mu_sapp: float
+    chain: Chain
+    slips: NDArray[np.void]
     waveform: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
+
+    @property
+    def global_slip(self) -> NDArray[np.void]:
+        """The first global slip, in an array of one row, or of none."""
+        return self.slips[self.slips["is_global"]]
 
 
 def run_to_global_slip(chain: Chain) -> Run:
@@ -99,13 +102,10 @@ def run_larger(chain: Chain) -> Run:
 def move(chain: Chain, solve: Callable[[Chain], Run] = run_to_global_slip) -> Motion:
     """Follow a chain through time to the end of its first global slip."""
     run = solve(chain)
-    slips, transitions = find_slips(run), run.transitions
-    first = first_global(slips)
-    friction = np.nan if first is None else mu_sapp(slips["largest_load"].iloc[first], run.chain.normal_load)
-    times, loads = transitions["time"], transitions["tangential_load"]
+    times, loads = run.transitions["time"], run.transitions["tangential_load"]
     waveform = np.column_stack([np.append(0.0, times), np.append(0.0, loads)])
     points = waveform if run.load_points is None else run.load_points
-    return Motion(run.chain.n_blocks, slips, friction, points)
+    return Motion(chain, slip_events([run]), points)
 
 
 def longest_run(chain: Chain) -> float:
@@ -114,36 +114,41 @@ def longest_run(chain: Chain) -> float:
     return LIMIT * chain.mu_s * chain.normal_load * compliance / chain.drive_velocity
 
 
-def _cascade(overshoot: float) -> Callable[[Chain], Motion]:
-    def move_without_inertia(chain: Chain) -> Motion:
-        slips = quasistatic_slips(chain, overshoot)
-        return Motion(chain.n_blocks, slips, mu_sapp(slips["largest_load"].iloc[-1], chain.normal_load))
-
-    return move_without_inertia
+def move_without_inertia(chain: Chain, overshoot: float = ENERGY_CONSERVED) -> Motion:
+    """Follow a quasi-static chain to its first global slip."""
+    return Motion(chain, quasistatic_slips(chain, overshoot))
 
 
 def front_loads(motion: Motion) -> FloatArray:
     """F_X at the onset of the first event whose front reaches block 1..N or beyond [N]; NaN if none."""
-    farthest = motion.slips["front"].cummax().to_numpy()
-    event = np.searchsorted(farthest, np.arange(1, motion.n_blocks + 1))
-    return np.append(motion.slips["load_before"].to_numpy(), np.nan)[event]
+    farthest = np.maximum.accumulate(motion.slips["front"])
+    event = np.searchsorted(farthest, np.arange(1, motion.chain.n_blocks + 1))
+    return np.append(motion.slips["load_before"], np.nan)[event]
+
+
+def apparent_friction(motion: Motion) -> float:
+    """mu_sapp (Eq. 1); NaN without a global slip."""
+    loads = motion.global_slip["largest_load"]
+    return float(mu_sapp(loads[0], motion.chain.normal_load)) if len(loads) else np.nan
 
 
 def slip_duration(motion: Motion) -> float:
     """Duration of the first global slip [s]; NaN without one."""
-    first = first_global(motion.slips)
-    return np.nan if first is None else float((motion.slips["end"] - motion.slips["onset"]).iloc[first])
+    slip = motion.global_slip
+    return float(slip["end"][0] - slip["onset"][0]) if len(slip) else np.nan
 
 
 def events_counted(motion: Motion) -> float:
     """Number of events counted in Fig. 13; NaN without a global slip."""
-    return np.nan if first_global(motion.slips) is None else float(len(find_precursors(motion.slips)))
+    front = motion.slips["front"]
+    counted = np.count_nonzero(front == np.maximum.accumulate(front))
+    return float(counted) if len(motion.global_slip) else np.nan
 
 
 _EVENTS: dict[str, Callable[[Motion], Any]] = {
-    "first_load": lambda motion: float(motion.slips["load_before"].iloc[0]),
+    "first_load": lambda motion: float(motion.slips["load_before"][0]),
     "events_counted": events_counted,
-    "mu_sapp": lambda motion: motion.mu_sapp,
+    "mu_sapp": apparent_friction,
     "front_loads": front_loads,
 }
 _MOTION = _EVENTS | {"slip_duration": slip_duration, "waveform": lambda motion: motion.waveform}
@@ -156,9 +161,12 @@ MODELS: dict[str, Model] = {
     ),
     "rigid": Model("rigid slider", rigid.ANSWERS),
     "overdamped": Model(
-        "overdamped chain", _EVENTS, _cascade(OVERDAMPED), partial(cascade, overshoot=OVERDAMPED)
+        "overdamped chain",
+        _EVENTS,
+        partial(move_without_inertia, overshoot=OVERDAMPED),
+        partial(quasistatic_slips, overshoot=OVERDAMPED),
     ),
-    "quasistatic": Model("quasi-static chain", _EVENTS, _cascade(ENERGY_CONSERVED), cascade),
+    "quasistatic": Model("quasi-static chain", _EVENTS, move_without_inertia, quasistatic_slips),
     PAPERS_MODEL: Model("paper's chain", _MOTION, move, run_to_global_slip),
     "larger": Model("larger chain", _MOTION, partial(move, solve=run_larger), run_larger),
 }

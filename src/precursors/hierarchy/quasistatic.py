@@ -28,8 +28,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import pandas as pd
+from numpy.typing import NDArray
 
+from precursors.analysis.events import EVENT
 from precursors.analysis.slips import COLUMNS
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.kernel.compiled import entry
@@ -39,6 +40,7 @@ MAX_EVENTS = 1_000_000
 MAX_STAGES = 100_000  # of one event, each with less elastic energy than the one before
 ROUNDING = 1e-12  # of F_Z: a block that far beyond its strength still rests
 PUT_OUT = -1
+SLIP = np.dtype([(name, EVENT[name]) for name in COLUMNS])
 
 compiled = entry(Path(__file__).parent, ["quasistatic.py"], error_model="numpy")
 
@@ -54,15 +56,8 @@ class Cascade(NamedTuple):
 
 def quasistatic_slips(
     chain: Chain, overshoot: float = ENERGY_CONSERVED, max_events: int = MAX_EVENTS
-) -> pd.DataFrame:
-    """Slip events of the quasi-static chain, from rest to its first global slip, as `find_slips` has them."""
-    return pd.DataFrame(cascade(chain, overshoot, max_events), columns=COLUMNS)
-
-
-def cascade(
-    chain: Chain, overshoot: float = ENERGY_CONSERVED, max_events: int = MAX_EVENTS
-) -> list[tuple[float, ...]]:
-    """Rows of `quasistatic_slips`.
+) -> NDArray[np.void]:
+    """Slip events of the quasi-static chain, from rest to its first global slip, as `find_slips` has them.
 
     An event ends when it begins; `n_simultaneous` is the largest set that moves.
 
@@ -95,7 +90,7 @@ def cascade(
     numbers = Cascade(chain.springs, limit, chain.kinetic_friction, 1.0 + overshoot)
     strength, stiffness, n = float(chain.strength[0]), chain.drive_stiffness, chain.n_blocks
     net, load, largest, moved = np.zeros(n), 0.0, 0.0, 0.0
-    rows: list[tuple[float, ...]] = []
+    rows = []
     for event in range(1, max_events + 1):
         load += strength - net[0]
         net[0] = strength
@@ -111,7 +106,7 @@ def cascade(
         largest = max(largest, before)
         rows.append((time, time, before, load, largest, slid[-1] + 1, len(slid), at_once, len(slid) == n))
         if len(slid) == n:
-            return rows
+            return np.array(rows, SLIP)
     raise RuntimeError(f"no global slip within {max_events} events: raise max_events")
 
 
