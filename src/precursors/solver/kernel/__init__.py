@@ -30,7 +30,7 @@ Column 0 of every array is the drive, columns 1..N are the blocks. Beyond them i
 | `safe_step` | `bounds.safe_step` |
 | `first_root` | `roots.first_root`, for functions that `proof.prove` leaves open |
 | `next_transition` | `events.next_transition`: `guess`, `find_root`, `prove` and, where it fails, `search` |
-| its last lines | `friction.resting_mode` |
+| its last lines | `friction.mode_at_rest` |
 | `find_transitions` | `events.find_transitions`: `rest` where all blocks stick, `slide` where some move |
 
 Beside them, `units` scales a chain, `layout` and `arrays` say what is where, `lanes` works on four blocks at

@@ -6,9 +6,8 @@ from precursors.solver.kernel.arrays import progress_at, recorded
 from precursors.solver.kernel.compiled import inner, inner_unfused, outer, seldom, unfused
 from precursors.solver.kernel.friction import (
     farthest_sliding,
-    resting_mode,
+    mode_at_rest,
     set_mode,
-    starting_mode,
     take_mode,
     take_neighbours,
 )
@@ -16,6 +15,7 @@ from precursors.solver.kernel.guess import LEAST, MARGIN, NEAR, find_root, guess
 from precursors.solver.kernel.layout import FINISHED, PAUSED, PROOF_ORDER, ROUNDINGS, STOPPED, WIDTH, WINDOW
 from precursors.solver.kernel.pointers import EIGHT, numbers, row_address
 from precursors.solver.kernel.proof import prove, search
+from precursors.solver.kernel.roots import zero_below
 from precursors.solver.kernel.series import begin, expand, order_at, powers
 from precursors.solver.kernel.springs import move, take_net_force, two_sum
 from precursors.solver.kernel.units import lay_out
@@ -78,7 +78,10 @@ def take_start(start, parameters, chain, motion, progress, record, states):
         take_net_force(i, motion)
         # A position of size x is known to its rounding: a block at its limit to within that still sticks.
         rounding = ROUNDINGS * (chain.strength[i] + 4.0 * stiffest * farthest)
-        mode = motion.mode[i] = starting_mode(i, rounding, chain, motion)
+        mode = mode_at_rest(motion.net_force[i], chain.strength[i] + rounding)
+        if motion.velocity[i] != 0.0:
+            mode = 1 if motion.velocity[i] > 0.0 else -1
+        motion.mode[i] = mode
         take_mode(i, chain, motion)
         if mode != 0:
             count_sliding(1, chain, progress)
@@ -204,7 +207,10 @@ def slide(chain, motion, limits, progress, record):
     if i == 0:
         return PAUSED
     old = motion.mode[i]
-    new = resting_mode(i, roundings, chain, motion) if old != 0 else side
+    new = side
+    if old != 0:
+        # A block that sticks at the limit lets go at once where its force grows: its margin decides.
+        new = mode_at_rest(motion.net_force[i], chain.strength[i] + zero_below(i, roundings, chain, motion))
     set_mode(i, new, chain, motion)
     progress.farthest = max(progress.farthest, i)
     if new != old:

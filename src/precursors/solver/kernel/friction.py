@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from precursors.solver.kernel.compiled import inner, inner_unfused, seldom
-from precursors.solver.kernel.roots import zero_below
+from precursors.solver.kernel.compiled import inner, seldom
 
 
 @inner
@@ -36,15 +35,11 @@ def take_neighbours(i, chain, motion):
 
 
 @inner
-def resting_mode(i, roundings, chain, motion):
-    """Mode of a block whose velocity is zero: it sticks within its strength, or follows the force (Eq. 5).
-
-    A block that sticks at the limit lets go at once where its force grows: its margin decides, not rounding.
-    """
-    net = motion.net_force[i]
-    if abs(net) <= chain.strength[i] + zero_below(i, roundings, chain, motion):
+def mode_at_rest(force, limit):
+    """Mode of a block whose velocity is zero: it sticks within its limit, or follows the force (Eq. 5)."""
+    if abs(force) <= limit:
         return 0
-    return 1 if net > 0.0 else -1
+    return 1 if force > 0.0 else -1
 
 
 @seldom
@@ -54,12 +49,3 @@ def farthest_sliding(start, mode):
     while i > 1 and mode[i] == 0:
         i -= 1
     return i
-
-
-@inner_unfused
-def starting_mode(i, rounding, chain, motion):
-    """Mode of a block at time 0: it slides where it moves, or where its springs overcome friction (Eq. 5)."""
-    net, velocity = motion.net_force[i], motion.velocity[i]
-    if velocity == 0.0 and abs(net) <= chain.strength[i] + rounding:
-        return 0
-    return 1 if velocity > 0.0 or (velocity == 0.0 and net > 0.0) else -1

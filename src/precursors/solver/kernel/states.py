@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from precursors.model.chain import Chain, FloatArray
-from precursors.solver.kernel.arrays import ROW, memory_for, recorded, words
+from precursors.solver.kernel.arrays import BY_COLUMN, ROW, memory_for, recorded, words
 from precursors.solver.kernel.compiled import inner, outer, unfused
 from precursors.solver.kernel.events import last_column
 from precursors.solver.kernel.friction import farthest_sliding, set_mode, take_mode
@@ -30,59 +30,48 @@ def evaluate(
     for name in TRANSITION.names or ():
         record[name][:-1] = transitions[name]
     record["interval"] = intervals
+    # Transitions before each time, the time since the last of them, and the last state that comes before:
+    # NumPy sorts complex numbers by their real parts, then by their imaginary ones.
+    done = np.searchsorted(transitions["time"], sorted_times, side="right")
+    since = sorted_times - np.append(0.0, transitions["time"])[done]
+    nearest = np.searchsorted(states.after + 1j * states.offset, done + 1j * since, side="right") - 1
     force, velocity = found = np.empty((2, len(sorted_times), chain.n_blocks))
     numbers, weights = np.array(parameters(chain)), np.array(chain.weights)
-    go_through(numbers, weights, sorted_times, found, words(record), states, memory_for(chain.n_blocks))
+    wanted, memory = (done, since, nearest), memory_for(chain.n_blocks)
+    go_through(numbers, weights, wanted, found, words(record), states, memory)
     return force, velocity
 
 
 @outer
-def go_through(parameters, weights, sorted_times, found, record, states, memory):
+def go_through(parameters, weights, wanted, found, record, states, memory):
     """Fill `found` with spring forces and velocities, from stored states and transitions."""
     chain, motion = lay_out(parameters, weights, memory)
-    velocity, force, rest, mode = motion.velocity, motion.spring_force, motion.force_rest, motion.mode
-    n_blocks, n_transitions, rows = chain.n_blocks, record.shape[0] - 1, row_address(record, 0)
-    kept = np.empty((3, n_blocks + 1))
-    target = done = 0
-    row = -1
+    rows, columns = row_address(record, 0), memory[: (3 + BY_COLUMN) * motion.wide]
+    target, since, nearest = wanted
+    done, state = 0, -1
     offset = 0.0
-    for q in range(sorted_times.shape[0]):
-        now = sorted_times[q]
-        while target < n_transitions and recorded(target, rows).time <= now:
-            target += 1
-        since = now - recorded(target - 1, rows).time if target > 0 else now
-        best = nearest_state(max(row, 0), target, since, states)
-        if best > row and (row < 0 or states.after[best] > done):
-            done, offset = states.after[best], states.offset[best]
-            take_state(best, states, chain, motion)
-        row = best
-        while done < target:
+    for q in range(target.shape[0]):
+        if nearest[q] > state and (state < 0 or states.after[nearest[q]] > done):
+            done, offset = states.after[nearest[q]], states.offset[nearest[q]]
+            take_state(nearest[q], states, chain, motion)
+        state = nearest[q]
+        while done < target[q]:
             transition = recorded(done, rows)
             propagate((transition.interval - offset) / chain.tau, chain, motion)
             set_mode(transition.block, transition.mode, chain, motion)
             done += 1
             offset = 0.0
         # Whole windows are gone through once, so that many times in one slip cost no more than the slip.
-        while since - offset > WINDOW * chain.tau and mode[farthest_sliding(n_blocks, mode)] != 0:
+        is_moving = motion.mode[farthest_sliding(chain.n_blocks, motion.mode)] != 0
+        while since[q] - offset > WINDOW * chain.tau and is_moving:
             propagate(WINDOW, chain, motion)
             offset += WINDOW * chain.tau
-        for i in range(1, n_blocks + 1):
-            kept[0, i], kept[1, i], kept[2, i] = velocity[i], force[i], rest[i]
-        propagate(max(since - offset, 0.0) / chain.tau, chain, motion)
-        for i in range(1, n_blocks + 1):
-            found[0, q, i - 1], found[1, q, i - 1] = force[i], velocity[i] * chain.speed
-            velocity[i], force[i], rest[i] = kept[0, i], kept[1, i], kept[2, i]
-
-
-@inner
-def nearest_state(row, target, since, states):
-    """The last stored state, from `row` on, up to `since` [s] after `target` transitions."""
-    after, offset = states.after, states.offset
-    while row + 1 < after.shape[0] and (
-        after[row + 1] < target or (after[row + 1] == target and offset[row + 1] <= since)
-    ):
-        row += 1
-    return row
+        here = columns.copy()
+        propagate(max(since[q] - offset, 0.0) / chain.tau, chain, motion)
+        for i in range(1, chain.n_blocks + 1):
+            found[0, q, i - 1] = motion.spring_force[i]
+            found[1, q, i - 1] = motion.velocity[i] * chain.speed
+        columns[:] = here
 
 
 @inner
