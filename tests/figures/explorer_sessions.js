@@ -14,6 +14,7 @@ var set = (query, value) => { const e = document.querySelector(query); e.value =
 function watch(count, isCalm = false) {
   const kept = { requestAnimationFrame, cancelAnimationFrame, matchMedia }, now = performance.now, seen = [];
   let clock = 1000, frames = [];
+  drawDirty();
   performance.now = () => clock;
   Object.assign(window, {
     requestAnimationFrame: (frame) => frames.push(frame),
