@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 import yaml
 from ensembles.studies import PAPER, noise_of, study_of
+from methods.kept_runs import kept_runs
 
 from precursors import Chain, simulate
 from precursors.accuracy.failures import FAILURE_MODES, Failure
@@ -23,6 +24,7 @@ from precursors.ensembles.study import run_members
 from precursors.hierarchy.compare_models import compare_models
 from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 from precursors.hierarchy.larger_study import larger_tables
+from precursors.methods import METHODS
 from precursors.reproduction.definitions import definitions_table
 
 SMALL = Path(__file__).parent / "small"
@@ -152,6 +154,7 @@ ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
         name: partial(lambda name: small_larger_tables()[name], name)
         for name in ("larger", "larger_differences", "larger_nucleation")
     },
+    "methods": lambda: pd.concat(map(kept_runs, METHODS)),
 }
 
 
