@@ -1,4 +1,4 @@
-"""Short runs of all methods are those that are kept: they see changes of `columns`, `fixed_step`, `events`."""
+"""Short runs of all methods are those that are kept: `columns`, `fixed_step`, `events` and each method."""
 
 import pandas as pd
 import pytest
