@@ -1,11 +1,11 @@
-"""Every method counts its evaluations as its definition says."""
+"""Methods count their evaluations as their definitions say; `kept_runs` holds the counts of all."""
 
 from collections.abc import Callable
 
 import pytest
 
-from precursors import Chain, simulate
-from precursors.methods import METHODS, cvode_events, events, heyoka_events, regularised, rk4_located
+from precursors import Chain
+from precursors.methods import METHODS, cvode_events, events, rk4_located
 
 STEP = 1e-6  # s
 # One block slides once, from the instant at which it reaches its limit: that is all that the run has.
@@ -60,18 +60,6 @@ def test_of_dop853():
     assert evaluations % 15 == 1
 
 
-def test_of_a_taylor_series():
-    pytest.importorskip("heyoka")
-    evaluations, _ = counted("heyoka", 1e-9)
-    order = heyoka_events._integrator(CHAIN, 1e-9).solver.order
-    assert evaluations >= order
-    assert evaluations % order == 0
-
-
-def test_of_the_exact_solver_are_what_its_run_says():
-    assert counted("exact", 0.0)[0] == round(simulate(CHAIN, DURATION).evaluations) > 0
-
-
 @pytest.mark.parametrize(
     ("name", "setting", "where", "function"),
     [
@@ -96,16 +84,3 @@ def test_of_solvers_that_call_for_them(name, setting, where, function, monkeypat
 
     monkeypatch.setattr(where, function, counts)
     assert METHODS[name].solve(CHAIN, DURATION, setting, None).evaluations == calls > 0
-
-
-@pytest.mark.parametrize("solver", regularised.SOLVERS)
-def test_of_regularised_friction(solver, monkeypatch):
-    equations = regularised.equations
-    calls = []
-
-    def counts(chain, width):
-        rates, matrix = equations(chain, width)
-        return lambda time, state: calls.append(time) or rates(time, state), matrix
-
-    monkeypatch.setattr(regularised, "equations", counts)
-    assert METHODS[f"regularised_{solver.lower()}"].solve(CHAIN, 0.1, 1e-5, None).evaluations == len(calls)

@@ -7,15 +7,13 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 from reference.goldens import SCENES, read_golden
-from scipy.integrate import DOP853, solve_ivp
-from scipy.linalg import expm
+from scipy.integrate import DOP853
 
 from precursors import Chain, Run, TransitionLimitError, find_slips
 from precursors.methods import dop853
-from precursors.methods.columns import time_unit
 from precursors.methods.cvode_events import solve_cvode
 from precursors.methods.dop853 import solve_dop853
-from precursors.methods.events import MAX_AT_ONCE, EventMotion
+from precursors.methods.events import MAX_AT_ONCE, EventMotion, event_functions
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy, watched
 
@@ -28,9 +26,6 @@ ROUNDING_GROWN = 1e-7  # s
 # At these tolerances DOP853 steps over two roots of a velocity; with steps up to SHORT_STEP it does not.
 LOOSE = (1e-6, 1e-7, 1e-8)
 SHORT_STEP = 1e-6  # s
-# An order is measured over halvings of the step; fewer or larger steps are not yet small, more meet rounding.
-ORDERS = {"RK45": (5, 64), "DOP853": (8, 12)}
-ORDER_TOLERANCE = 0.3
 STEP_ROUNDING = 1e-13  # N and N/tau, of numbers of order 1
 
 
@@ -96,7 +91,7 @@ def test_a_step_of_compiled_dop853_is_scipys_with_its_error_and_its_dense_output
     for x in (0.2, 0.7):
         least = dop853.functions_at(x, system, state, 10, f, trial, values)
         assert y(trial) == pytest.approx(stepper.dense_output()(x * h), abs=STEP_ROUNDING)
-        assert least == pytest.approx(min(motion.event_functions(y(trial))))
+        assert least == pytest.approx(min(event_functions_of(motion, y(trial))))
 
 
 @needs("heyoka")
@@ -126,10 +121,16 @@ def in_motion(chain: Chain, modes: list[int], forces: list[float], velocities: l
     return motion
 
 
+def event_functions_of(motion: EventMotion, y: np.ndarray) -> np.ndarray:
+    result = np.empty_like(y)
+    event_functions(y, motion.system, motion.state, result)
+    return result
+
+
 def test_scipy_watches_sliding_blocks_and_both_margins_of_stuck_blocks_beside_them():
     chain = Chain.from_slider(n_blocks=5)
     motion = in_motion(chain, [1, -1, 0, 0, 0], [30.0, 20.0, -25.0, 2.0, 1.0], [3.0, -2.0, 0.0, 0.0, 0.0])
-    everything = motion.event_functions(motion.y)
+    everything = event_functions_of(motion, motion.y)
     found = {number: function(0.0, motion.y) for number, function in watched(motion)}
     assert found == {number: everything[number] for number in (0, 2, 4, 5)}
     # Velocities along the modes, then 80 * 0.7 N -+ the net force on block 3.
@@ -164,29 +165,6 @@ def test_a_run_that_ends_within_a_slip_ends_at_its_duration(uniform):
     assert len(run.transitions) == 1
     assert run.duration == end
     assert math.fsum(run.intervals) == pytest.approx(end, abs=1e-15)
-
-
-@pytest.mark.parametrize("solver", ORDERS)
-def test_on_a_smooth_stretch_the_order_is_that_of_the_formula(uniform, solver):
-    """Steps of equal length from 1/2 m/s and springs at natural length, against the matrix's exponential."""
-    motion = in_motion(uniform, [1] * 10, [0.0] * 10, [0.5 * uniform.mass / time_unit(uniform)] * 10)
-    order, n_steps = ORDERS[solver]
-    end = 3.0  # tau, three radians of the fastest oscillation over two
-
-    # The equations are linear: columns of their matrix are differences from the zero state.
-    constant = motion.rates(0.0, np.zeros(20))
-    matrix = np.column_stack([motion.rates(0.0, unit) - constant for unit in np.eye(20)])
-    augmented = np.block([[matrix, constant[:, None]], [np.zeros((1, 21))]])
-    exact = (expm(augmented * end) @ np.append(motion.y, 1.0))[:-1]
-
-    def error(steps):
-        length = end / steps
-        options = {"first_step": length, "max_step": length, "rtol": 1e6, "atol": 1e6}
-        solution = solve_ivp(motion.rates, (0.0, end), motion.y, solver, **options)
-        assert len(solution.t) == pytest.approx(steps + 1, abs=1)
-        return np.linalg.norm(solution.y[:, -1] - exact)
-
-    assert np.log2(error(n_steps) / error(2 * n_steps)) == pytest.approx(order, abs=ORDER_TOLERANCE)
 
 
 @pytest.mark.parametrize("tolerance", LOOSE)

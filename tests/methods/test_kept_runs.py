@@ -1,4 +1,9 @@
-"""Short runs of all methods are those that are kept: `columns`, `fixed_step`, `events` and each method."""
+"""Short runs of all methods are those that are kept.
+
+They depend on all that methods share (columns, common, events, fixed_step) and on each of them: cvode_events,
+dop853, exact, heyoka_events, karnopp, leapfrog, moreau_jean, newmark, regularised, rk4, rk4_located and
+scipy_events.
+"""
 
 import pandas as pd
 import pytest

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from precursors import Chain, simulate
+from precursors import Chain
 from precursors.methods import METHODS, moreau_jean, newmark
 from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
 from precursors.methods.fixed_step import slide
@@ -32,10 +32,6 @@ LIMIT_TOLERANCE = 5e-4
 FACTOR_TOLERANCE = 1e-9
 # An order is measured over one halving of the step.
 ORDER_TOLERANCE = 0.1
-# Relative rounding of a step with omega dt = 100, by whose square the springs' forces outweigh inertia.
-STIFF_ROUNDING = 100**2 * float(np.finfo(float).eps)
-# Relative error of sums of some hundred terms in double precision, through several windows.
-ROUNDING = 1e-12
 # A stretch in which all blocks slide forward: four radians of the fastest oscillation.
 STRETCH = 1.5e-5
 VELOCITIES = 0.5 + 0.1 * np.sin(1.0 + 2.0 * np.arange(10.0))
@@ -95,19 +91,6 @@ def test_the_order_on_a_smooth_stretch_is_that_of_the_method(name):
     assert order == pytest.approx(SMOOTH[name].order, abs=ORDER_TOLERANCE)
 
 
-@pytest.mark.parametrize("pieces", [1, 7, 64])
-def test_the_exact_solver_has_no_order_in_whatever_pieces_it_goes(pieces):
-    chain, time = Chain.from_slider(), STRETCH / pieces
-    position, velocity = np.zeros(10), VELOCITIES
-    for _ in range(pieces):
-        run = simulate(chain, time, start_positions=position, start_velocities=velocity)
-        positions, velocities = run.at([time])
-        position, velocity = positions[0] - chain.drive_velocity * time, velocities[0]
-    force = chain.springs * (np.append(0.0, position[:-1]) - position)
-    exact = in_velocities(chain, *np.split(exact_motion(chain, STRETCH), 2))
-    assert in_velocities(chain, force, velocity) == pytest.approx(exact, abs=ROUNDING * np.abs(exact).max())
-
-
 @pytest.mark.parametrize("name", UNSTABLE)
 def test_energy_has_no_limit_beyond_the_step_that_theory_allows(free, name):
     found = largest_stable_step(free, SMOOTH[name].slide)
@@ -144,8 +127,8 @@ def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(free, 
 def test_hht_damps_a_mode_by_the_largest_eigenvalue_of_a_step(free):
     hht, omega, mode = SMOOTH["hht"], highest_frequency(free), highest_mode(free)
     # Its energy swings meanwhile, by a few per cent in all.
-    left = energy_left(free, hht.slide, 3.0 / omega, 40, mode)
-    assert left ** (1 / 40) == pytest.approx(hht.energy_factor(3.0), rel=5e-3)
+    left = energy_left(free, hht.slide, 1.0 / omega, 200, mode)
+    assert left ** (1 / 200) == pytest.approx(hht.energy_factor(1.0), rel=5e-4)
     assert hht.energy_factor(3.0) < 0.9
     # At infinite frequency: J. Chung and G. M. Hulbert, J. Appl. Mech. 60 (1993) 371, Eq. 23.
     alpha = newmark.HHT
@@ -160,13 +143,3 @@ def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free):
         return is_unstable(free, partial(slide, moreau_jean.run_moreau_jean, (theta,)), step)
 
     assert bisect(is_unstable_at, 0.6, 0.4) == pytest.approx(0.5, rel=2e-3)
-
-
-def test_moreau_jean_keeps_the_energy_at_one_half_and_loses_it_at_one(free):
-    step, n_steps = 100 / highest_frequency(free), 4000
-    half, one = (
-        energy_left(free, SMOOTH[name].slide, step, n_steps, VELOCITIES)
-        for name in ("moreau_jean_half", "moreau_jean_one")
-    )
-    assert half == pytest.approx(1.0, rel=n_steps * STIFF_ROUNDING)
-    assert one < 1e-12

@@ -33,18 +33,8 @@ inner = njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
 # Written into its only caller before that is compiled, not compiled for itself as well.
 template = njit(inline="always")
 # Python calls these; their code is kept until one of these files is edited, or their own.
-COMPILED = (
-    "columns.py",
-    "dop853.py",
-    "events.py",
-    "fixed_step.py",
-    "karnopp.py",
-    "leapfrog.py",
-    "moreau_jean.py",
-    "newmark.py",
-    "rk4.py",
-    "rk4_located.py",
-)
+MODULES = "columns dop853 events fixed_step karnopp leapfrog moreau_jean newmark rk4 rk4_located"
+COMPILED = [f"{name}.py" for name in MODULES.split()]
 outer = entry(Path(__file__).parent, COMPILED, error_model="numpy", fastmath={"contract"}, nogil=True)
 
 # Rows of a system, which stay: the spring behind each column [N/m], 1/m, mu_s w and mu_k w [N]; the largest

@@ -11,7 +11,6 @@ it sticks; function 2 i + 1 is its margin against being released backward."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -95,13 +94,8 @@ class EventMotion:
         self.motion.progress["last"] = sliding.max(initial=0)
 
     def begin(self) -> bool:
-        """While all blocks stick, wait in closed form until block 1 slides; False if the run ends before."""
-        status = go_on(*self.motion, self.y, self.settings, self.nudge, -1, 0.0)
-        if status == PAUSED:
-            self.motion = with_room(self.motion)
-            return self.begin()
-        self.slides = status == MOVING
-        return self.slides
+        """Wait in closed form until block 1 slides; False if the run ends before or while a block slides."""
+        return not self.slides and self.switch(-1, 0.0)
 
     @property
     def has_slid_globally(self) -> bool:
@@ -124,16 +118,10 @@ class EventMotion:
         rates_of(y, self.system, self.state, result)
         return result
 
-    def event_functions(self, y: FloatArray) -> FloatArray:
-        """All event functions in a state y; what cannot happen is 1."""
-        result = np.empty_like(y)
-        event_functions(y, self.system, self.state, result)
-        return result
-
     def switch(self, event: int, elapsed: float) -> bool:
         """Make the transition of an event function that has reached zero, and any that is overdue with it.
 
-        Returns whether a block still slides; if none does, the slip event has ended.
+        Returns whether a block still slides; if none does, the slip event has ended. Event -1 is the wait.
         """
         status = go_on(*self.motion, self.y, self.settings, self.nudge, event, elapsed)
         self.slides = status == MOVING
@@ -159,19 +147,6 @@ class EventMotion:
         return Result(run_of(self.motion, self.chain, status), self.evaluations)
 
 
-def march_events(motion: EventMotion, slip: Callable[[EventMotion], Any]) -> Result:
-    """Run a chain: all-stuck phases in closed form, slip events by `slip(motion)`.
-
-    `slip` integrates from the state in `motion` and calls `motion.switch` at each event until that returns
-    False or `motion.remaining` is over.
-    """
-    while motion.begin():
-        slip(motion)
-        if motion.slides:
-            break
-    return motion.run()
-
-
 def march_restarting(motion: EventMotion, next_transition: Callable[[float], tuple[float, int]]) -> Result:
     """Run a chain by a solver that is started anew at each transition.
 
@@ -179,15 +154,13 @@ def march_restarting(motion: EventMotion, next_transition: Callable[[float], tup
     function. It returns the time of that and the function's number, or the end of the run and -1. If another
     has fired at the same instant, it is overdue after this one or fires again at once.
     """
-
-    def slip(motion: EventMotion) -> None:
+    while motion.begin():
         time = 0.0
         while motion.slides and time < motion.remaining:
             time, event = next_transition(time)
             if event >= 0:
                 motion.switch(event, time)
-
-    return march_events(motion, slip)
+    return motion.run()
 
 
 @inner
@@ -247,6 +220,7 @@ def go_on(system, state, progress, record, y, settings, nudge, event, elapsed):
     """
     motion, n = Motion(system, state, progress, record), state.shape[1] - 2
     if event < 0:
+        progress[0].legs = 0
         begin_leg(motion)
         status = progress[0].status
     else:

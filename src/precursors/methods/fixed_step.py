@@ -92,7 +92,7 @@ def motion_from_rest(
     progress["duration"], progress["until_global"] = checked_span(duration, until), until is not None
     progress["unit"], progress["loading_rate"] = time_unit(chain) if scaled else 1.0, chain.loading_rate
     progress["remaining"], progress["waits"] = progress["duration"] / progress["unit"], waits
-    return Motion(*at_rest(chain, rule, scaled), progress, np.empty(FIRST_ROOM, RECORD))
+    return Motion(*at_rest(chain, rule, scaled), progress, np.empty(FIRST_ROOM + chain.n_blocks, RECORD))
 
 
 # Switching between stick and slip

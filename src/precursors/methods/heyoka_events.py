@@ -15,7 +15,7 @@ import numpy as np
 
 from precursors.methods.columns import SPRING, STRENGTH, VELOCITY, at_rest
 from precursors.methods.common import Method, Result
-from precursors.methods.events import NUDGE, EventMotion, march_events
+from precursors.methods.events import NUDGE, EventMotion
 from precursors.model.chain import Chain
 
 # The tightest is rounding, heyoka's own default.
@@ -79,20 +79,15 @@ class _Integrator:
     def run(self, chain: Chain, duration: float, until: str | None, nudge: float) -> Result:
         solver = self.solver
         state, settings = solver.state, solver.pars.reshape(4, -1)
-        self.motion = EventMotion(chain, duration, until, state, settings, nudge)
-        try:
-            return march_events(self.motion, self._slip)
-        finally:
-            self.motion = None
-
-    def _slip(self, motion: EventMotion) -> None:
-        solver = self.solver
-        solver.time = 0.0
-        solver.reset_cooldowns()
-        outcome, _, _, steps, *_ = solver.propagate_until(motion.remaining)
-        motion.evaluations += steps * solver.order
-        if motion.slides and outcome != self.outcome_end:
-            raise RuntimeError(f"heyoka stopped at t = {motion.onset:.9g} s: {outcome}")
+        self.motion = motion = EventMotion(chain, duration, until, state, settings, nudge)
+        while motion.begin():
+            solver.time = 0.0
+            solver.reset_cooldowns()
+            outcome, _, _, steps, *_ = solver.propagate_until(motion.remaining)
+            motion.evaluations += steps * solver.order
+            if motion.slides and outcome != self.outcome_end:
+                raise RuntimeError(f"heyoka stopped at t = {motion.onset:.9g} s: {outcome}")
+        return motion.run()
 
 
 @lru_cache(maxsize=32)

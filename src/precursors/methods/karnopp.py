@@ -138,10 +138,10 @@ def record_modes(motion, dead_zone):
 @inner
 def all_can_rest(system, state):
     """Whether no force exceeds mu_s w."""
-    excess = 0.0
+    released = 0
     for i in range(1, state.shape[1] - 1):
-        excess = max(excess, abs(net_force(state, i)) - system[STRENGTH, i])
-    return excess == 0.0
+        released += abs(net_force(state, i)) > system[STRENGTH, i]
+    return released == 0
 
 
 @outer

@@ -60,8 +60,6 @@ def creep_velocity(load: float, weight: float, width: float, mu_s: float) -> flo
 
 def peak_velocity(width: float, mu_s: float, mu_k: float) -> float:
     """Velocity [m/s] of largest friction: slower blocks creep, faster ones slide."""
-    if mu_s == mu_k:
-        return STRIBECK * width
     peak = minimize_scalar(
         lambda z: -float(friction_coefficient(np.array(z), 1.0, mu_s, mu_k)),
         bounds=(0.0, STRIBECK),
@@ -98,17 +96,12 @@ def equations(
 
 
 def solve_regularised(
-    chain: Chain,
-    duration: float,
-    width: float,
-    until: str | None = None,
-    solver: Solver = "Radau",
-    tolerance: float = TOLERANCE,
+    chain: Chain, duration: float, width: float, until: str | None = None, solver: Solver = "Radau"
 ) -> Result:
     """Run a chain with friction that turns over within a width [m/s], by SciPy's Radau or BDF.
 
-    `tolerance` is rtol; atol is the same number in N and N/tau (see `events`), but at most a hundredth of the
-    width.
+    rtol is `TOLERANCE`, and atol the same number in N and N/tau (see `events`), but at most a hundredth of
+    the width.
 
     Raises
     ------
@@ -121,9 +114,9 @@ def solve_regularised(
     tau, velocity_unit = time_unit(chain), chain.mass / time_unit(chain)
     right_hand_side, matrix = equations(chain, width)
     threshold = peak_velocity(width, chain.mu_s, chain.mu_k) * velocity_unit
-    atol = np.repeat([tolerance, min(tolerance, 0.01 * width * velocity_unit)], n)
+    atol = np.repeat([TOLERANCE, min(TOLERANCE, 0.01 * width * velocity_unit)], n)
     stepper = SOLVERS[solver](
-        right_hand_side, 0.0, np.zeros(2 * n), duration / tau, rtol=tolerance, atol=atol, jac=matrix
+        right_hand_side, 0.0, np.zeros(2 * n), duration / tau, rtol=TOLERANCE, atol=atol, jac=matrix
     )
     mode = np.zeros(n, np.int64)
     rows: list[tuple[float, int, int, float]] = []
