@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
-from itertools import count, islice
 from types import SimpleNamespace
 
 import numpy as np
@@ -20,12 +19,9 @@ from precursors.methods.stability import stiffness_matrix
 from precursors.solver.kernel import bounds, lanes, roots
 from precursors.solver.kernel.arrays import PROGRESS, System, memory_for, row
 from precursors.solver.kernel.events import last_column
-from precursors.solver.kernel.friction import take_mode, take_neighbours
-from precursors.solver.kernel.guess import guess
 from precursors.solver.kernel.layout import NEGLIGIBLE, ORDER, ORDERS, PARTS, WIDTH, WINDOW, order_for
 from precursors.solver.kernel.proof import prove, search
-from precursors.solver.kernel.series import begin, expand, powers
-from precursors.solver.kernel.springs import move, take_net_force
+from precursors.solver.kernel.series import powers
 from precursors.solver.kernel.units import lay_out, parameters, set_up
 
 WINDOWS, HARD_WINDOWS, EXACT_WINDOWS = 400, 200, 100
@@ -218,66 +214,6 @@ def rate_of(chain: Chain, modes: np.ndarray) -> np.ndarray:
     rate[n:-1, :n] = abs(modes)[:, None] * bonds.T / chain.mass
     rate[n:-1, -1] = -modes * chain.kinetic_friction / chain.mass
     return rate
-
-
-@njit(error_model="numpy")
-def is_open(parameters, weights, memory, force, velocity, modes, block, s):
-    """Whether a block may let go before time s of a window from a state, in the kernel's units."""
-    chain, motion = lay_out(parameters, weights, memory)
-    for i in range(1, len(modes) + 1):
-        motion.spring_force[i], motion.velocity[i] = force[i - 1], velocity[i - 1]
-        motion.mode[i] = modes[i - 1]
-        take_mode(i, chain, motion)
-    for i in range(1, len(modes) + 1):
-        take_net_force(i, motion)
-        take_neighbours(i, chain, motion)
-    end = last_column(chain, len(modes))
-    begin(end, motion)
-    expand(2, ORDER, end, chain, motion)
-    powers(s, ORDER, motion.whole)
-    guess(end, motion)
-    move(s, end, chain, motion)
-    prove(end, 0, motion)
-    group = 1 + (block - 1) // WIDTH * WIDTH
-    return (motion.open[group] >> (block - group)) & 1
-
-
-def turning_window(seed: int) -> tuple[Chain, np.ndarray, np.ndarray, int, float] | None:
-    """A chain, modes, a state, a block that passes its limit just before a time of the window, and that time.
-
-    At that time the force is within the limit again: the end of the window does not tell.
-    """
-    random = np.random.default_rng(seed)
-    n, block = 12, int(random.integers(2, 11))
-    modes = np.where(np.arange(n) == block, 0, 1)
-    chain = Chain(np.ones(n), 1e-3, 25e6, 25e6, 1e-4, 0.7, 0.0)
-    # Neighbours move against each other: the fastest motion, whose series falls off last.
-    velocity = modes * random.normal(size=n) ** 2 * (-1) ** np.arange(n)
-    state = np.concatenate([random.normal(size=n) / 10, velocity, [1.0]])
-    units, rate = scale(chain), rate_of(chain, modes)
-    state[n:-1] *= units.speed
-    terms, derivative = [], state
-    for k in range(ORDER):
-        terms.append((derivative[block] - derivative[block + 1]) / math.factorial(k))
-        derivative = units.tau * rate @ derivative
-    push = np.polynomial.Polynomial(terms) * np.sign(terms[0])
-    turns = push.deriv().roots()
-    turns = np.sort(turns.real[(abs(turns.imag) < 1e-9) & (turns.real > 0.0)])
-    if push.deriv()(0.0) < 0.0 or not turns.size or not 0.7 < turns[0] < 0.95 * WINDOW:
-        return None
-    s = turns[0] * (1 + 10 ** random.uniform(-6, -4))
-    limit = (push(turns[0]) + push(s)) / 2
-    weights = np.where(np.arange(n) == block, limit / chain.mu_s, 1e3)
-    return replace(chain, weights=weights), modes, state, block + 1, s
-
-
-def test_a_force_that_passes_the_limit_just_before_the_end_is_never_proved_to_stay_below():
-    """Then only the bound of the rest of the series tells that there is a root."""
-    found = filter(None, map(turning_window, count()))
-    for chain, modes, state, block, s in islice(found, EXACT_WINDOWS):
-        n, memory = chain.n_blocks, memory_for(chain.n_blocks)
-        force, velocity = state[:n], state[n:-1] / scale(chain).speed
-        assert is_open(parameters(chain), chain.weights, memory, force, velocity, modes, block, s)
 
 
 @njit(error_model="numpy")

@@ -1,8 +1,10 @@
 """The method in plain Python finds the transitions of the compiled kernel, in as many steps as it did."""
 
+from itertools import product
+
 import numpy as np
 import pytest
-from chains import SLIDER, first_transitions
+from chains import SLIDER, first_transitions, positions_under
 from random_chains import mild_chain
 
 from precursors import simulate
@@ -56,6 +58,16 @@ def test_every_transition_of_ten_seconds_is_the_same(theta):
     assert rows[:, 2].tolist() == compiled["block"].tolist()
     assert rows[:, 3].tolist() == compiled["mode"].tolist()
     assert abs(rows[:, 0] - compiled["time"]).max() < TO_THE_END
+
+
+@pytest.mark.parametrize(("over", "mode"), [(1e-9, 1), (0.0, 0), (-1e-9, 0)])
+def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks(over, mode):
+    """Its limit is 28 N; its positions are known to their roundings, 1e-10 N."""
+    for block, side in product((1, 4, 9), (1, -1)):
+        push = np.full(10, 14.0)
+        push[block] = side * 28.0 * (1.0 + over)
+        state = plain.at_start(SLIDER(), positions_under(SLIDER(), push), np.zeros(10))
+        assert state.mode.tolist() == [side * mode * (i == block + 1) for i in range(12)]
 
 
 @pytest.mark.parametrize("first", range(0, 200, 20))

@@ -6,8 +6,10 @@ from io import BytesIO
 import h5py
 import numpy as np
 import pytest
+from chains import first_transitions
 
 from precursors import Chain, Run, RunFileError, simulate
+from precursors.model.statics import maximal_strain_positions
 from precursors.solver.run import States
 
 POSITION_ROUNDING = 1e-19  # m; roundings of V t, which is 3e-5 m here
@@ -104,6 +106,23 @@ def test_a_saved_run_comes_back_bit_for_bit(run, tmp_path):
     assert [p.name for p in path.parent.iterdir()] == ["run.h5"]
 
 
+@pytest.mark.parametrize("theta", [-1.0, 1.0])
+@pytest.mark.parametrize("duration", [1e-9, 1e-3])
+def test_a_run_whose_values_are_at_the_limits_comes_back_too(tmp_path, theta, duration):
+    """Without a transition, with all of them at time 0 and with one at its end; of blocks 1 and N."""
+    chain = Chain.from_slider(n_blocks=30, theta=theta)
+    start = maximal_strain_positions(chain)
+    runs = [simulate(chain, duration), simulate(chain, duration, start_positions=start)]
+    runs.append(simulate(chain, duration, start_velocities=-np.ones(30)))
+    runs += [first_transitions(chain, most, start_positions=start, duration=duration) for most in (29, 31)]
+    for run in runs:
+        run.save(tmp_path / "run.h5")
+        back = Run.load(tmp_path / "run.h5")
+        np.testing.assert_array_equal(back.transitions, run.transitions)
+        for kept, known in zip(back.states, run.states, strict=True):
+            np.testing.assert_array_equal(kept, known)
+
+
 def test_the_file_says_what_its_numbers_are(run, tmp_path):
     run.save(tmp_path / "run.h5")
     with h5py.File(tmp_path / "run.h5") as file:
@@ -113,8 +132,8 @@ def test_the_file_says_what_its_numbers_are(run, tmp_path):
 
 
 def test_two_saves_give_the_same_bytes(run, tmp_path):
-    run.save(tmp_path / "a.h5")
-    run.save(tmp_path / "b.h5")
+    run.save(tmp_path / "a.h5", {"theta": 0.0, "n_blocks": 10})
+    run.save(tmp_path / "b.h5", {"n_blocks": 10, "theta": 0.0})
     assert (tmp_path / "a.h5").read_bytes() == (tmp_path / "b.h5").read_bytes()
 
 

@@ -43,8 +43,10 @@ def counted(monkeypatch):
         return run_batch(batch, limits, progress, *others)
 
     def count(chain, most, **options):
-        first_transitions(chain, most, **options)
-        return [int(calls[-1][name]) for name in COUNTED]
+        run = first_transitions(chain, most, **options)
+        counts = {name: int(calls[-1][name]) for name in COUNTED}
+        assert counts["derivatives"] == round(run.evaluations * chain.n_blocks)
+        return list(counts.values())
 
     monkeypatch.setattr(kernel, "run_batch", watched)
     return count
