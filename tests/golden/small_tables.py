@@ -122,7 +122,7 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
     settings = CONFIG["hierarchy"]["larger"] | {
         "nucleation": {"n_blocks": [20], "pairs": [[0.02, 0], [0.003, 2e-4]]},
         "studies": {
-            "loadings": {"pairs": [[0, 0], [0.003, 2e-4]], "n_blocks": [5], "theta": [0, "5/6"], "runs": 7},
+            "loadings": {"pairs": [[0, 0], [0.003, 2e-4]], "n_blocks": [10], "theta": [0, "5/6"], "runs": 7},
             "height": {"pairs": [[0, 0]], "push_height": [0.005], "n_blocks": [4], "theta": [0], "runs": 7},
         },
     }

@@ -63,7 +63,10 @@ class LargerChain:
 
 
 class Model(NamedTuple):
-    """What the compiled functions need of a chain; `leap` is that of `simulate_larger`."""
+    """What the compiled functions need of a chain; `leap` is that of `simulate_larger`.
+
+    Springs and dashpots, like forces and velocities, end with a 0: nothing is ahead of block N.
+    """
 
     springs: FloatArray
     dashpots: FloatArray
@@ -116,12 +119,8 @@ def copy(target, source):
 @compiled
 def net_force(m, force, velocity, i):
     """Net force of springs and dashpots on block i [N]."""
-    net = force[i]
-    if i > 0:
-        net += m.dashpots[i] * (velocity[i - 1] - velocity[i])
-    if i + 1 < force.shape[0]:
-        net -= force[i + 1] + m.dashpots[i + 1] * (velocity[i] - velocity[i + 1])
-    return net
+    behind = force[i] + m.dashpots[i] * (velocity[i - 1] - velocity[i])
+    return behind - (force[i + 1] + m.dashpots[i + 1] * (velocity[i] - velocity[i + 1]))
 
 
 @compiled
@@ -131,19 +130,19 @@ def mean_velocities(m, force, velocity, mode, last, h, leaps, u, r):
     They balance the forces in the middle of the step. In a leap there is no inertia, and the forces at its
     end are balanced at the friction of the velocities before.
     """
-    n, reach, inertia = force.shape[0], 0.5 * h, 2.0 * m.mass / h
+    reach, inertia = 0.5 * h, 2.0 * m.mass / h
     if leaps:
         reach, inertia = h, 0.0
     load = force[0] + reach * m.springs[0] * (m.drive_velocity - velocity[0])
     behind, u_behind, r_behind = reach * m.springs[0], m.drive_velocity, 0.0
     for i in range(last + 1):
-        ahead = reach * m.springs[i + 1] + m.dashpots[i + 1] if i + 1 < n else 0.0
+        ahead = reach * m.springs[i + 1] + m.dashpots[i + 1]
         if mode[i] == 0:
             u[i] = r[i] = 0.0
         else:
             w = m.weights[i] + m.tilt[i] * load
             pivot = inertia + behind + ahead - behind * r_behind
-            push = inertia * velocity[i] + force[i] - (force[i + 1] if i + 1 < n else 0.0)
+            push = inertia * velocity[i] + force[i] - force[i + 1]
             if abs(velocity[i]) < m.weakening_velocity:
                 fall = (m.mu_s - m.mu_k) * w / m.weakening_velocity
                 push -= mode[i] * m.mu_s * w - (fall * velocity[i] if leaps else 0.0)
@@ -160,12 +159,11 @@ def mean_velocities(m, force, velocity, mode, last, h, leaps, u, r):
 @compiled
 def advance(m, force, velocity, mode, last, watched, h, leaps, work, ends):
     """State at the end of a step h; the part of it at which a block first stops or is released, and which."""
-    n, u = force.shape[0], work[0]
-    new_force, new_velocity = ends
+    u, (new_force, new_velocity) = work[0], ends
     mean_velocities(m, force, velocity, mode, last, h, leaps, u, work[1])
     copy(new_force, force)
     copy(new_velocity, velocity)
-    for i in range(min(n, last + 2)):
+    for i in range(min(len(mode), last + 2)):
         moved = u[i] if i <= last else 0.0
         behind = u[i - 1] if i > 0 else m.drive_velocity
         new_force[i] += h * m.springs[i] * (behind - moved)
@@ -197,7 +195,7 @@ def is_stable(m, load, p):
     """
     if m.weakening_velocity == 0.0:
         return False
-    whole, angle, weight = p == m.springs.shape[0], math.pi / (2 * p + 1), 0.0
+    whole, angle, weight = p == m.weights.shape[0], math.pi / (2 * p + 1), 0.0
     for i in range(p):
         share = 1.0 / p if whole else math.cos((i + 0.5) * angle) ** 2 * 4.0 / (2 * p + 1)
         weight += share * (m.weights[i] + m.tilt[i] * load)
@@ -229,8 +227,7 @@ def heat_of_step(m, load, u, velocity, mode, last, h):
             mu = m.mu_s - (m.mu_s - m.mu_k) * abs(u[i]) / m.weakening_velocity
         ahead = u[i + 1] if i < last else 0.0
         heat += h * mu * (m.weights[i] + m.tilt[i] * load) * mode[i] * u[i]
-        if i + 1 < u.shape[0]:
-            heat += h * m.dashpots[i + 1] * (u[i] - ahead) ** 2
+        heat += h * m.dashpots[i + 1] * (u[i] - ahead) ** 2
     return heat
 
 
@@ -250,9 +247,9 @@ def march(m, force, velocity, duration, until_global, step, lifting_load, max_ro
     `step` [s] is that while nothing slides ahead of each block. At `lifting_load` [N] a block is lifted. The
     time reached is in `now` for those who wait.
     """
-    n, total = force.shape[0], m.weights.sum()
+    n, total = m.weights.shape[0], m.weights.sum()
     smallest_drop = SMALLEST_DROP * total if m.weakening_velocity > 0.0 else -math.inf
-    work, ends = np.empty((3, n)), np.empty((2, n))
+    work, ends = np.empty((3, n + 1)), np.empty((2, n + 1))
     mode, seen = np.zeros(n, np.int64), np.zeros(n, np.int64)
     rows, points, begin = [(0.0, 0.0, 0.0, 0.0)], [(0.0, 0.0)], 1
     time, drive, heat, n_seen, was_global, leaps, steps, why = 0.0, 0.0, 0.0, 0, False, True, 0, DONE
@@ -295,7 +292,7 @@ def march(m, force, velocity, duration, until_global, step, lifting_load, max_ro
             n_seen += (way != 0) - (seen[i] != 0)
             seen[i] = way
             at = 1.0  # part of the step
-            if slow > 0.0 and abs(velocity[i]) != abs(work[2, i]):
+            if abs(velocity[i]) != abs(work[2, i]):
                 at = (slow - abs(work[2, i])) / (abs(velocity[i]) - abs(work[2, i]))
             load = before + at * (force[0] - before)
             rows.append((time - (1.0 - at) * h, i + 1.0, float(way), load))
@@ -347,17 +344,18 @@ def simulate_larger(
     duration = checked_span(duration, until)
     chain, v_c, n = larger.chain, larger.weakening_velocity, larger.chain.n_blocks
     step = step or (STEP if v_c else STEP_OF_COULOMB)
-    dashpots = np.full(n, larger.viscosity + larger.relaxation_time * chain.stiffness)
-    dashpots[0] = 0.0
+    springs = np.append(chain.springs, 0.0)
+    dashpots = np.zeros(n + 1)
+    dashpots[1:-1] = larger.viscosity + larger.relaxation_time * chain.stiffness
     tilts, loads = tilt(chain, larger.push_height), chain.weights.copy()
     friction = chain.mass, chain.mu_s, chain.mu_k, v_c
-    m = Model(chain.springs, dashpots, loads, tilts, *friction, chain.drive_velocity, leap)
+    m = Model(springs, dashpots, loads, tilts, *friction, chain.drive_velocity, leap)
     seconds = np.full(n, 2.0 / chain.fastest_frequency_bound * step)
     if v_c and chain.mu_k < chain.mu_s:
         fall = (chain.mu_s - chain.mu_k) * (chain.weights + abs(tilts) * chain.mu_s * chain.normal_load)
         seconds = np.minimum(seconds, chain.mass * v_c / np.maximum.accumulate(fall) * step)
     lifting = np.divide(chain.weights, -tilts, out=np.full(n, np.inf), where=tilts < 0.0)
-    force, velocity = np.zeros((2, n))
+    force, velocity = np.zeros((2, n + 1))
     limits = duration, until is not None, seconds, lifting.min(), max_transitions
     now = np.zeros(1)
     rows, points, why, time, work, heat = in_thread(
@@ -369,6 +367,7 @@ def simulate_larger(
             f"at F_X = {lifting.min():.4g} N"
         )
     run = Run.from_transitions(chain, time, *rows[np.argsort(rows[:, 0], kind="stable")].T)
+    force, velocity = force[:-1], velocity[:-1]
     stored = (force**2 / chain.springs).sum() / 2.0 + chain.mass * (velocity**2).sum() / 2.0
     numbers = {name: getattr(larger, name) for name in ADDITIONS}
     numbers |= {"step": step, "energy_error": (work - heat - stored) / work}

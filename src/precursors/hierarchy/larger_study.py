@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.run_statistics import compared, median_difference, median_interval
-from precursors.analysis.slip_rows import first_global, up_to_first_global
 from precursors.analysis.slips import find_precursors, find_slips
 from precursors.hierarchy.larger import LargerChain, critical_length, simulate_larger
 from precursors.hierarchy.models import longest_run
@@ -81,7 +80,7 @@ def run_study(
     heights, rows = study.get("push_height", [0.0]), []
     for pair, height, theta, n in product(study["pairs"], heights, study["theta"], study["n_blocks"]):
         chain = Chain.from_slider(**{**slider, "theta": theta, "n_blocks": n})
-        larger = LargerChain(chain, pair[0], pair[1], push_height=height)
+        larger = LargerChain(chain, *pair, push_height=height)
         theory = critical_length(larger) / chain.length
         point = dict(zip(POINT, (name, *pair, height, parse_theta(theta), n, theory), strict=True))
         random = np.random.default_rng([common["seed"], n])
@@ -101,15 +100,14 @@ def run_to_slip(larger: LargerChain) -> Run:
 
 
 def numbers(run: Run, smallest_drops: Iterable[float]) -> dict[str, float]:
-    """What is kept of a run up to its first global slip.
+    """What is kept of a run that ends with its first global slip.
 
     events_counted is that of Fig. 13, mu_sapp Eq. 1, and events_over_x the number of events in which F_X
     falls by x [N] or more. growth says how much faster L_p grows with F_X beyond `KINK` L than before.
     """
     slips = find_slips(run)
-    if first_global(slips) is None:
+    if not slips["is_global"].any():
         return {}
-    slips = up_to_first_global(slips)
     drop, last = slips["load_before"] - slips["load_after"], slips.iloc[-1]
     passed = slips["load_before"].to_numpy()[(slips["front"] >= KINK * run.chain.n_blocks).argmax()]
     rest = last["load_before"] - passed
