@@ -80,7 +80,7 @@ def run_study(
     heights, rows = study.get("push_height", [0.0]), []
     for pair, height, theta, n in product(study["pairs"], heights, study["theta"], study["n_blocks"]):
         chain = Chain.from_slider(**{**slider, "theta": theta, "n_blocks": n})
-        larger = LargerChain(chain, *pair, push_height=height)
+        larger = LargerChain(chain, pair[0], pair[1], push_height=height)
         theory = critical_length(larger) / chain.length
         point = dict(zip(POINT, (name, *pair, height, parse_theta(theta), n, theory), strict=True))
         random = np.random.default_rng([common["seed"], n])
