@@ -78,6 +78,7 @@ def test_what_is_measured_is_what_theory_predicts(mode):
 def test_numbers_and_curves_are_those_that_are_kept():
     small_tables.assert_kept("failures", small_tables.failures(measured))
     small_tables.assert_kept("failure_curves", small_tables.failure_curves(measured))
+    small_tables.assert_kept("limits", small_tables.limits(measured))
 
 
 @cache

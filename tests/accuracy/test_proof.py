@@ -8,10 +8,12 @@ import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
 from flint import arb, arb_poly, ctx
+from golden import small_tables
 from reference import HeldOut, Transition, read_golden, read_held_out
 from reference.goldens import SCENES
 
@@ -24,7 +26,7 @@ from precursors.accuracy.proof import (
     certify,
     verify,
 )
-from precursors.accuracy.proof.motion import expand, tail, time_unit
+from precursors.accuracy.proof.motion import expand, order_for, tail, time_unit
 from precursors.accuracy.proof.tube import Proof
 
 # Half a unit of the last of the golden digits, relative.
@@ -208,21 +210,64 @@ def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy() -> None:
             assert added == pytest.approx(math.hypot(3e-9 / float(constants.coupling[i]) ** 0.5, 1e-10))
 
 
+@pytest.mark.parametrize("span", [0.25, 1.0, 1.125])
 @pytest.mark.parametrize("derivative", [0, 1, 2])
-def test_the_taylor_remainder_is_within_its_bound(derivative: int) -> None:
+def test_the_taylor_remainder_is_within_its_bound(derivative: int, span: float) -> None:
     *_, (proof, _) = proofs(ExactChain.from_slider(theta="-5/6"), AT_ZERO, 45, 256)
     assert sum(map(bool, proof.state.mode)) > 2
     with ctx.workprec(256):
         constants = proof.constants(256)
-        short, long = (expand(constants, proof.state, order) for order in (20, 80))
-        bound = tail(constants, short, arb(1), derivative)
+        short, long = (expand(constants, proof.state, order) for order in (14, 80))
+        bound = tail(constants, short, arb(span), derivative)
         largest = Fraction(0)
         for i, row in short.items():
             rest = arb_poly([0] * len(row) + long[i][len(row) :])
             for _ in range(derivative):
                 rest = rest.derivative()
-            largest = max(largest, *(abs(fraction(rest(arb(t)).mid())) for t in (-1, 1)))
+            largest = max(largest, *(abs(fraction(rest(arb(t)).mid())) for t in (-span, span)))
     assert largest <= fraction(bound) < 20 * largest
+
+
+@pytest.mark.parametrize(("span", "bits"), [(0.0, 64), (0.1, 64), (1.0, 20), (1.0, 64), (1.125, 500)])
+def test_the_order_is_the_first_even_one_whose_term_is_small_enough(span: float, bits: int) -> None:
+    """No frequency is above 2 / T, so that a term of order n is at most (2 span)^n / n!, of the largest."""
+    enough = [n for n in range(6, 200, 2) if Fraction(2 * span) ** n * 2**bits <= math.factorial(n)]
+    assert order_for(span, bits) == enough[0]
+
+
+@pytest.mark.parametrize("slider", [{}, {"drive_stiffness": "4e9"}, {"n_blocks": 1}, {"slider_mass": "1e-9"}])
+def test_the_unit_of_time_is_the_largest_power_of_two_for_which_all_frequencies_are_known_to_be_small(
+    slider: dict[str, Any],
+) -> None:
+    chain = ExactChain.from_slider(**slider)
+    springs = [*chain.springs, Fraction(0)]
+    bound = 2 * max(a + b for a, b in pairwise(springs)) / chain.mass
+    unit = time_unit(chain)
+    assert bound * unit**2 <= 4 < bound * (2 * unit) ** 2
+    assert 2 ** round(math.log2(unit)) == unit
+
+
+def test_the_enclosures_grow_as_those_that_are_kept() -> None:
+    small_tables.assert_kept("enclosures", small_tables.enclosures())
+
+
+def test_what_is_published_holds_what_is_proved_and_is_hardly_wider() -> None:
+    chain = ExactChain.from_slider(n_blocks=3, theta="1/2")
+    certificate = certify(chain, 20, width="1e-20")
+    at_rest = ((Fraction(0),) * 3,) * 2
+    proof = Proof(chain, Fraction(20), False, at_rest, certificate.bits, Fraction("1e-20"))
+    radii = []
+    for published, proved in zip(certificate.transitions, proof.run(), strict=True):
+        for enclosure, ball in (
+            (published.time, proved.time),
+            (published.tangential_load, proved.tangential_load),
+        ):
+            radius = fraction(ball.rad())
+            wrong = abs(enclosure.midpoint - fraction(ball.mid()))
+            assert wrong + radius <= enclosure.radius <= Fraction(103, 100) * (radius + Fraction(1, 10**45))
+            radii.append(float(radius))
+    assert min(radii) < 1e-46
+    assert max(radii) > 1e-36
 
 
 def test_two_runs_are_driven_apart_by_releases_only_and_by_as_much_as_is_allowed_for() -> None:

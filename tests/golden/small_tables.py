@@ -7,17 +7,22 @@ end with the first global slip, after which errors have grown by 1e7.
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import yaml
+from accuracy.falsified import audits
 from ensembles.studies import PAPER, noise_of, study_of
 from methods.kept_runs import kept_runs
 
 from precursors import Chain, simulate
 from precursors.accuracy.failures import FAILURE_MODES, Failure
+from precursors.accuracy.failures.stability import LOST, thresholds
+from precursors.accuracy.proof import ExactChain
+from precursors.accuracy.proof.tube import Proof
 from precursors.ensembles import noise, resolution
 from precursors.ensembles.printed_digits import digits_table
 from precursors.ensembles.study import run_members
@@ -33,7 +38,8 @@ SCENES = {name: Chain.from_slider(theta=theta) for name, theta in (("lead", "5/6
 # Times and loads of a run are right to 1e-9 s and 1e-6 N whatever the processor, and so are their statistics.
 # A method with steps is off by the roundings of some 1e6 steps, a bisection by none or by a step of its own.
 ROUNDING, STEPS = 1e-8, 1e-6
-RELATIVE = {"failures": STEPS, "failure_curves": STEPS, "definitions": STEPS}
+RELATIVE = dict.fromkeys(("failures", "failure_curves", "limits", "definitions", "enclosures"), STEPS)
+RELATIVE["audits"] = 1e-2  # deviations as printed, with three digits
 # Errors relative to the paper's chain are differences of numbers near one.
 # What the energy of a larger chain lacks is of the size of roundings in some runs.
 ABSOLUTE = {"model_comparison": 1e-12, "larger_runs": 1e-12}
@@ -50,6 +56,13 @@ def failures(measured: Callable[[str], Failure]) -> pd.DataFrame:
         for number in measured(name).numbers
     ]
     return pd.DataFrame(rows)
+
+
+def limits(measured: Callable[[str], Failure]) -> pd.DataFrame:
+    """All thresholds; how a run beyond a limit ends with friction differs with the processor, too."""
+    found = [*thresholds(), *(limit for mode in FAILURE_MODES for limit in measured(mode).thresholds)]
+    table = pd.DataFrame(map(vars, found))
+    return table.assign(measured=table["measured"].where(table["fails"] != LOST, 0.0))
 
 
 def failure_curves(measured: Callable[[str], Failure]) -> pd.DataFrame:
@@ -79,6 +92,56 @@ def definitions() -> pd.DataFrame:
     runs = [simulate(Chain.from_slider(**slider, theta=theta), 3.0) for theta in ("-5/6", 0, "5/6")]
     table = definitions_table(runs, slider, 3.0, [0.833], [5.0], paper)
     return table.drop(columns=[column for column in table if column.endswith("_paper")])
+
+
+# Chain, start [m, m/s], and number of transitions.
+PROVED = {
+    "falling loads": (ExactChain.from_slider(theta="-5/6"), [0] * 10, [0] * 10, 60),
+    "one block": (ExactChain.from_slider(n_blocks=1), [0], [0], 8),
+    "stiff drive": (
+        ExactChain.from_slider(n_blocks=3, drive_stiffness="3e7", mu_k="0.1"),
+        [0] * 3,
+        [0] * 3,
+        24,
+    ),
+    "moving, overloaded": (
+        ExactChain.from_slider(n_blocks=4, theta="1/3"),
+        ["0", "3e-6", "-2e-6", "0"],
+        ["-1e-3", "0", "0", "2e-3"],
+        30,
+    ),
+}
+
+
+def enclosures() -> pd.DataFrame:
+    """How a proof of 128 bits goes on: steps, modes, radii of times and loads, the distance and the gap."""
+    rows = []
+    for name, (chain, positions, velocities, n) in PROVED.items():
+        start = tuple(map(Fraction, positions)), tuple(map(Fraction, velocities))
+        proof = Proof(chain, Fraction(100), False, start, 128, Fraction(1))
+        steps, done = 0, 0
+        while done < n:
+            for transition in proof.transitions[done:]:
+                ball, load = transition.time, transition.tangential_load
+                rows.append(
+                    {
+                        "chain": name,
+                        "steps": steps,
+                        "block": transition.block,
+                        "mode": transition.mode,
+                        "fresh": str(sorted(proof.fresh)),
+                        "bits": proof.precision(),
+                        "time_s": float(ball.mid()),
+                        "time_radius_s": float(ball.rad()),
+                        "load_radius_N": float(load.rad()),
+                        "distance_N": float(proof.state.distance),
+                        "gap_T": float(proof.gap),
+                    }
+                )
+            done = len(proof.transitions)
+            steps += 1
+            assert proof.slide() if any(proof.state.mode) else proof.load()
+    return pd.DataFrame(rows)
 
 
 @cache
@@ -146,8 +209,11 @@ TABLES: dict[str, Callable[[], pd.DataFrame]] = {
 }
 # These take seconds and are compared where other tests need them, too.
 ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
+    "audits": audits,
+    "enclosures": enclosures,
     "failures": lambda: failures(_measured),
     "failure_curves": lambda: failure_curves(_measured),
+    "limits": lambda: limits(_measured),
     "model_comparison": model_comparison,
     "larger_runs": larger_runs,
     **{

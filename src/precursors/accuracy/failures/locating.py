@@ -141,7 +141,7 @@ def merged_transitions() -> Failure:
 
     longest = bisect(lambda window: right(window) < n, *WINDOWS[:2], BISECTIONS)
     # Of three transitions, the last two are merged where both lie within a window after the first.
-    intervals = exact.intervals[1:-1]
+    intervals = exact.intervals[:-1]
     three = float((intervals[:-1] + intervals[1:]).min())
     number = partial(Number, MERGING, f"within {WINDOWS[1]:.0e} s")
     theory = "shortest time with three transitions, read off the exact run"

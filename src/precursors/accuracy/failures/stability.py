@@ -164,15 +164,16 @@ def is_right(exact: Run, name: str, value: float) -> bool:
 def margin(exact: Run) -> float:
     """Smallest relative change of mu_s or mu_k from which transitions of the exact run change."""
 
-    def changes(name: str, sign: float, part: float) -> bool:
-        chain = replace(exact.chain, **{name: (1.0 + sign * part) * getattr(exact.chain, name)})
-        return transitions_right(simulate(chain, 2.0 * exact.duration), exact) < len(exact.transitions)
+    def changes(part: float) -> bool:
+        chains = (
+            replace(exact.chain, **{name: factor * getattr(exact.chain, name)})
+            for name in ("mu_s", "mu_k")
+            for factor in (1.0 + part, 1.0 - part)
+        )
+        runs = (simulate(chain, 2.0 * exact.duration) for chain in chains)
+        return any(transitions_right(run, exact) < len(exact.transitions) for run in runs)
 
-    return min(
-        bisect(partial(changes, name, sign), 1e-6, 0.1, BISECTIONS)
-        for name in ("mu_s", "mu_k")
-        for sign in (1.0, -1.0)
-    )
+    return bisect(changes, 1e-6, 0.1, BISECTIONS)
 
 
 def first(holds: Callable[[float], bool], values: Iterable[float]) -> float:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import pandas as pd
@@ -41,12 +40,6 @@ def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
     if "weights" in config["scenes"][name]:
         raise ValueError(f"scenes.{name} must have theta or load cells for a proof, but has weights")
     return ExactChain.from_slider(**scene_as_written(config, name))
-
-
-def certificate_path(directory: str | Path, name: str) -> list[str]:
-    """The certificate of a chain in a directory, if it is there."""
-    path = Path(directory) / f"{name}.json.gz"
-    return [str(path)] if path.is_file() else []
 
 
 def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bool:

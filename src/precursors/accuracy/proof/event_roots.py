@@ -114,7 +114,7 @@ def first_root(
         if other < root:
             root, first = other, function
     for other, function in found:
-        if function is not first and not other > root:
+        if function is not first and other.overlaps(root):
             question = f"whether first {first.what} or {function.what}"
             raise Undecided(question, (first.block, function.block), root.union(other))
     return first, root

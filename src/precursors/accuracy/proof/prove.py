@@ -216,13 +216,11 @@ def _rounded(enclosure: Enclosure) -> Enclosure:
 
 
 def _magnitude(x: Fraction) -> int:
-    """An integer within one of log10 of x > 0, however large or small."""
+    """An integer within one of log10 of x > 0, however large or small; -1 for 0."""
     return math.floor((x.numerator.bit_length() - x.denominator.bit_length()) * math.log10(2))
 
 
 def _round_up(x: Fraction) -> Fraction:
     """Round a number that is not negative up to about three digits."""
-    if x == 0:
-        return x
     unit = Fraction(10) ** (_magnitude(x) - 2)
     return math.ceil(x / unit) * unit

@@ -1,0 +1,261 @@
+"""Event functions enclose the exact ones; their first root is found, of polynomials with known roots too."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from flint import arb, arb_poly, ctx
+from scipy.linalg import expm
+
+from precursors.accuracy.proof.event_roots import (
+    EventFunction,
+    Undecided,
+    event_functions,
+    first_root,
+    newton,
+)
+from precursors.accuracy.proof.exact_chain import ExactChain
+from precursors.accuracy.proof.tube import Proof
+
+BITS, END, VALID = 64, 1.0, 1.125
+# How closely a root is isolated: Newton's method has stopped to halve the enclosure.
+ISOLATED = 1e-15
+# NumPy's roots of random polynomials of degree 5 are good to so much.
+NUMPY = 1e-12
+
+
+def function(value: list[float], block: int = 1, way: int = 0, width: float = 0.0, fresh: bool = False):
+    """An event function from its coefficients, known to within some width."""
+    u = arb_poly(value)
+    slope, around = u.derivative(), arb(0, width)
+    return EventFunction(
+        block, way, u + around, slope + around, slope.derivative() + around, fresh and way == 0
+    )
+
+
+def through(*roots: float, **how):
+    """The polynomial with these roots, positive before the first."""
+    coefficients = np.polynomial.polynomial.polyfromroots(roots)
+    return function(((-1.0) ** len(roots) * coefficients).tolist(), **how)
+
+
+def find(*functions: EventFunction, end: float = END, back: float = 0.0, bits: int = BITS):
+    with ctx.workprec(bits):
+        found = first_root(list(functions), end, VALID, arb(back), bits)
+        return found and (found[0].block, found[1])
+
+
+def assert_root(found: tuple[int, arb] | None, block: int, root: float, width: float = ISOLATED) -> None:
+    assert found is not None
+    assert found[0] == block
+    assert abs(float(found[1].mid()) - root) <= width
+    assert float(found[1].rad()) <= width
+
+
+ROOTS = {
+    "one": ((0.3,), 0.3),
+    "at once": ((0.001,), 0.001),
+    "the first of two": ((0.25, 0.75), 0.25),
+    "the first of three": ((0.2, 0.4, 0.6), 0.2),
+    "two close together": ((0.375, 0.375 + 2.0**-20), 0.375),
+    "before the start there is another": ((-0.5, -0.25, 0.6), 0.6),
+    "at the end": ((1.0,), 1.0),
+    "a little beyond the end": ((1.0 + 2.0**-50,), None),
+    "beyond the end": ((1.05,), None),
+    "far beyond the end": ((2.0, 3.0), None),
+    "before the start only": ((-0.1, -0.2), None),
+    "on a half": ((0.5,), 0.5),
+    "on a quarter of a half": ((0.125, 0.625), 0.125),
+}
+
+
+@pytest.mark.parametrize(("roots", "first"), ROOTS.values(), ids=ROOTS)
+def test_the_first_root_is_found_and_no_other(roots, first):
+    found = find(through(*roots))
+    if first is None:
+        assert found is None
+    else:
+        assert_root(found, 1, first)
+
+
+def test_a_function_without_a_real_root_has_none_however_low_it_dips():
+    for dip in (1.0, 1e-3, 1e-6):
+        assert find(function([0.25 + dip, -1.0, 1.0])) is None
+
+
+def test_random_polynomials_have_the_first_root_that_numpy_finds():
+    generator, n_roots = np.random.default_rng(7), 0
+    for _ in range(200):
+        coefficients = generator.normal(size=6)
+        coefficients[0] = abs(coefficients[0])
+        roots = np.polynomial.polynomial.polyroots(coefficients)
+        real = sorted(roots.real[(abs(roots.imag) < 1e-12) & (roots.real > 0) & (roots.real < END)])
+        found = find(function(coefficients.tolist()))
+        if real:
+            n_roots += 1
+            assert_root(found, 1, real[0], NUMPY)
+        else:
+            assert found is None
+    assert 50 < n_roots < 150
+
+
+def test_of_several_functions_the_first_to_cross_is_found_in_any_order():
+    three = [through(0.7, block=1), through(0.3, 0.5, block=2), through(0.9, block=3)]
+    for functions in (three, three[::-1], three[1:] + three[:1]):
+        assert_root(find(*functions), 2, 0.3)
+
+
+def test_a_root_that_is_known_to_a_width_is_enclosed_and_the_enclosure_is_about_as_wide():
+    found = find(through(0.3, width=1e-6))
+    assert_root(found, 1, 0.3, width=1.1e-6)
+    assert float(found[1].rad()) > 0.9e-6
+
+
+UNDECIDED = {
+    "a double root": ((through(0.375, 0.375, block=4),), "whether block 4 stops", (4,)),
+    "no root, but wide": (
+        (function([0.26, -1.0, 1.0], 5, 1, 0.02),),
+        "whether block 5 is released forward",
+        (5,),
+    ),
+    "backward": ((function([0.26, -1.0, 1.0], 5, -1, 0.02),), "whether block 5 is released backward", (5,)),
+    "two at once": (
+        (through(0.875, block=7), through(0.375, block=2), through(0.375, 0.75, block=6, way=1)),
+        "whether first block 2 stops or block 6 is released forward",
+        (2, 6),
+    ),
+}
+
+
+@pytest.mark.parametrize(("functions", "question", "blocks"), UNDECIDED.values(), ids=UNDECIDED)
+def test_what_cannot_be_decided_is_asked(functions, question, blocks):
+    with pytest.raises(Undecided, match=f"^{question}$") as asked:
+        find(*functions)
+    assert asked.value.blocks == blocks
+    assert abs(float(asked.value.time.mid()) - 0.4375) < 0.1
+
+
+@pytest.mark.parametrize("bits", [64, 128])
+def test_a_double_root_is_given_up_at_a_width_that_follows_from_the_bits(bits):
+    with pytest.raises(Undecided) as asked:
+        find(through(0.375, 0.375), bits=bits)
+    assert 2.0 ** -(bits // 2 + 8) / 2 <= float(asked.value.time.rad()) < 2.0 ** -(bits // 2 + 8)
+
+
+def test_a_block_that_has_just_begun_to_slide_does_not_stop_at_once():
+    assert find(function([0.0, 1.0, 1.0], fresh=True)) is None
+    assert find(function([0.0, 0.0, 1.0], fresh=True), back=1e-3) is None
+    assert_root(find(function([0.0, 0.5, -1.0], fresh=True)), 1, 0.5)
+    for start in (function([0.0, 0.5, -1.0]), function([0.0, 0.0, 1.0])):
+        with pytest.raises(Undecided, match="whether block 1 stops"):
+            find(start)
+
+
+def test_a_run_may_have_its_root_before_the_start():
+    assert find(function([1e-3, 1.0]), back=0.5e-3) is None
+    with pytest.raises(Undecided, match="whether block 1 stops"):
+        find(function([1e-3, 1.0]), back=2e-3)
+    assert_root(find(through(0.01), back=5e-3), 1, 0.01)
+    with pytest.raises(Undecided, match="whether block 1 stops"):
+        find(through(0.01), back=2e-2)
+
+
+@pytest.mark.parametrize("bits", [64, 256, 1024])
+def test_newtons_method_gives_as_many_digits_as_are_asked_for_and_no_more(bits):
+    u = arb_poly([0.5, 0, -1])
+    _, root = find(function([0.5, 0, -1]))
+    with ctx.workprec(bits + 32):
+        x = newton(u, u.derivative(), root, bits)
+        wrong = abs(x - arb(0.5).sqrt())
+        assert x.rad() == 0
+        assert wrong < arb(2) ** -bits
+        assert wrong > arb(2) ** (-bits - 24)
+
+
+def equations(proof: Proof) -> np.ndarray:
+    """The matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1); blocks with mode 0 do not move."""
+    n, mode, of = proof.n, proof.state.mode, proof.constants(64)
+    c, friction = ([float(x) for x in row] for row in (of.coupling, of.friction))
+    matrix = np.zeros((2 * n + 1, 2 * n + 1))
+    matrix[0, -1] = c[1] * float(of.drive)
+    for i in range(1, n + 1):
+        for j, sign in ((i - 1, 1), (i, -1)):
+            if j:
+                matrix[i - 1, n + j - 1] = sign * c[i]
+        if mode[i]:
+            matrix[n + i - 1, [i - 1, -1]] = 1.0, -mode[i] * friction[i]
+            if i < n:
+                matrix[n + i - 1, i] = -1.0
+    return matrix
+
+
+def exact_rows(proof: Proof, function: EventFunction, matrix: np.ndarray) -> list[np.ndarray]:
+    """The event function and its derivatives, as far as it has any, as rows that multiply y."""
+    n, i, way = proof.n, function.block, function.direction
+    row = np.zeros(2 * n + 1)
+    if way == 0:
+        row[n + i - 1] = proof.state.mode[i]
+        return [row, row @ matrix, row @ matrix @ matrix]
+    row[i - 1], row[-1] = -way, float(proof.constants(64).strength[i])
+    row[i : min(i + 1, n)] = way
+    return [row, (row - row[-1] * np.eye(2 * n + 1)[-1]) @ matrix]
+
+
+@pytest.fixture(scope="module")
+def sliding() -> Proof:
+    """Theta = -5/6 in the event in which block 10 first turns round: some blocks slide, some are stuck."""
+    chain = ExactChain.from_slider(theta="-5/6")
+    proof = Proof(chain, Fraction(10), False, ((Fraction(0),) * 10,) * 2, 256, Fraction(1))
+    while len(proof.transitions) < 53:
+        assert proof.slide() if any(proof.state.mode) else proof.load()
+    return proof
+
+
+@pytest.mark.parametrize("bits", [12, 24])
+def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_than_they_must(sliding, bits):
+    """Beside the matrix exponential, with so few bits that the remainder of the series is seen."""
+    functions, matrix = functions_of(sliding, 0.0, bits), equations(sliding)
+    y = np.array([float(x) for x in (*sliding.state.force[1:-1], *sliding.state.rate[1:-1], 1.0)])
+    closest = np.zeros(3)
+    for t in (-0.25, 0.5, VALID):
+        flow = expm(matrix * t) @ y
+        for of in functions:
+            for k, row in enumerate(exact_rows(sliding, of, matrix)):
+                found = (of.value, of.slope, of.bend)[k](arb(t))
+                wrong, radius = abs(float(found.mid()) - row @ flow), float(found.rad())
+                assert wrong <= radius
+                closest[k] = max(closest[k], wrong / radius)
+    assert (closest > 0.02).all()
+
+
+def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no_farther_one(sliding):
+    """At the start, where a function and its derivatives are linear in T_i / sqrt c_i and u_i."""
+    n, distance, state = sliding.n, 1e-6, sliding.state
+    everything = replace(state, mode=[0, *[1] * n, 0])
+    moving = copy.copy(sliding)
+    moving.state = everything
+    matrix = equations(moving)
+    scale = np.append(np.sqrt([float(c) for c in sliding.constants(64).coupling[1:-1]]), np.ones(n))
+    functions = functions_of(sliding, distance, 64)
+    for of in functions:
+        for k, row in enumerate(exact_rows(sliding, of, matrix)):
+            ball = (of.value, of.slope, of.bend)[k](arb(0))
+            reach = 2 * distance * np.linalg.norm(row[:-1] * scale)
+            assert reach * (1 - 1e-9) <= float(ball.rad()) <= 1.001 * reach
+    slides = {i for i in range(1, n + 1) if state.mode[i]}
+    near = {1} | {i + way for i in slides for way in (1, -1)} & set(range(1, n + 1))
+    expected = {(i, 0) for i in slides} | {(i, way) for i in near - slides for way in (1, -1)}
+    assert {(of.block, of.direction) for of in functions} == expected
+    assert len(slides) > 3
+    assert len(near - slides) > 1
+    assert {of.block for of in functions if of.fresh} == sliding.fresh == {10}
+
+
+def functions_of(proof: Proof, distance: float, bits: int) -> list[EventFunction]:
+    state = replace(proof.state, distance=arb(distance))
+    with ctx.workprec(64):
+        return event_functions(proof.constants(64), state, proof.fresh, VALID, bits)
