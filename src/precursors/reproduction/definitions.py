@@ -79,7 +79,7 @@ def definitions_table(
                 run = march(run_located, (), run.chain, duration, STEP, rule=rule).run
             papers = {f"{name}_paper": printed.get(name) for name in ("events_counted", "mu_sapp")}
             rows.append({**reading, "theta": theta, **numbers(run, definition), **papers})
-    return compared(pd.DataFrame(rows))
+    return with_agreement(pd.DataFrame(rows))
 
 
 def readings(
@@ -114,7 +114,7 @@ def numbers(run: Run, definition: Definition) -> dict[str, float | None]:
     }
 
 
-def compared(table: pd.DataFrame) -> pd.DataFrame:
+def with_agreement(table: pd.DataFrame) -> pd.DataFrame:
     """The table with columns that say which numbers are the paper's, and how many of the six of a reading."""
     friction, papers = (table[name].astype(float) for name in ("mu_sapp", "mu_sapp_paper"))
     table["events_counted_is_papers"] = table["events_counted"].astype(float) == table["events_counted_paper"]

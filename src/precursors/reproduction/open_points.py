@@ -10,10 +10,10 @@ import pandas as pd
 from numpy.typing import ArrayLike
 
 from precursors.model import printed
-from precursors.model.chain import linear_weights, theta_from_load_cells
+from precursors.model.chain import linear_weights
 from precursors.reproduction import eq15
 from precursors.reproduction.claim import shown
-from precursors.reproduction.inputs import SCENES, UNIFORM
+from precursors.reproduction.inputs import LEADING, SCENES, UNIFORM
 from precursors.reproduction.tables import Tables, before_global, one, rows
 from precursors.support.files import read_table
 
@@ -44,35 +44,36 @@ def short_events(t: Tables) -> Pair:
     return 0, [len(rows(before_global(t, scene), counted=False)) for scene in SCENES]
 
 
-def slider(t: Tables, column: str) -> float:
-    """A column of the slider, the same in all scenes."""
-    return float(t[f"{UNIFORM}_slips"][column].iloc[0])
+def slider(t: Tables, column: str, scene: str = UNIFORM) -> float:
+    """A column of the slider, the same for all events of a scene."""
+    return float(t[f"{scene}_slips"][column].iloc[0])
 
 
 def theta_of_cells(t: Tables) -> float:
     """theta of the straight line through the load cells of Fig. 7."""
-    return float(theta_from_load_cells(*printed.CELL_LOADS_N, printed.CELL_SPACING_M, slider(t, "length_m")))
+    return slider(t, "theta", LEADING)
 
 
-def cell_moment(t: Tables) -> float:
-    """Moment of the loads of the cells about the middle of the contact, over F_Z L."""
+def difference_of_cells() -> float:
+    """Difference of the loads of the cells over F_Z."""
     low, high = printed.CELL_LOADS_N
-    return (high - low) / (high + low) * printed.CELL_SPACING_M / 2 / slider(t, "length_m")
+    return (high - low) / (high + low)
 
 
 def ratio_at_cells(t: Tables) -> Pair:
     """Ratio of the normal loads at the load cells."""
-    theta, n = theta_of_cells(t), slider(t, "n_blocks")
-    there = theta * (printed.CELL_SPACING_M / slider(t, "length_m")) / (1 - 1 / n)
+    there = difference_of_cells() / (1 - 1 / slider(t, "n_blocks"))
     return (1 + there) / (1 - there), printed.CELL_LOADS_N[1] / printed.CELL_LOADS_N[0]
 
 
 def theta_by_moments(t: Tables) -> Pair:
     """theta by moments with ten blocks, and with a line contact, against that of the straight line."""
-    n = int(slider(t, "n_blocks"))
+    n, theta = int(slider(t, "n_blocks")), theta_of_cells(t)
+    # About the middle of the contact, over F_Z L. The line through the cells says how far they are apart.
+    cells = difference_of_cells() ** 2 / theta / 2
     centres = (np.arange(n) + 0.5) / n - 0.5
     blocks = float(linear_weights(n, 1.0, 1.0) @ centres)
-    return [cell_moment(t) / blocks, cell_moment(t) / (1 / 6)], theta_of_cells(t)
+    return [cells / blocks, cells / (1 / 6)], theta
 
 
 def end_to_end(t: Tables) -> Pair:
