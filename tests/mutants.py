@@ -4,7 +4,8 @@ A fault is one edit: a comparison, a sign or a product the other way round, anot
 negated, a statement left out, in the library, in the workflow's scripts and in the explorer's JavaScript. No
 fault is what cannot change a result: a number or JavaScript that only says where ink goes, the sign of a ball
 about zero (`BALL`), a setting at which something is charted (`SETTINGS`), a guard against a slip of
-ours and how code is compiled (`NEUTRAL`), where ticks and panels stand (`LAYOUT`).
+ours and how code is compiled (`NEUTRAL`), where ticks and panels stand (`LAYOUT`), how much room is made and
+how much is done at once (`ROOM`).
 
 First every test is run without a fault, which says what it costs and which functions it enters. Then each
 fault meets the tests that enter its function, until one fails or they have cost `SECONDS`: quick ones first,
@@ -80,6 +81,9 @@ SETTINGS = {"values", "quick", "whole", "quick_whole", "ROUNDS"}  # what is char
 # Arguments that change no result: guards against a slip of ours, signs of symbols, how code is compiled.
 NEUTRAL = {"strict", "frozen", "slots", "exist_ok", "parents", "stacklevel", "maxsize", "nogil", "cache"}
 NEUTRAL |= {"positive", "real", "indent"}
+# Of arrays that grow as needed, of batches and of a line of the cache: runs do not depend on them.
+ROOM = {"FIRST_ROOM", "SHARED_ROOM", "LARGEST_BATCH", "BATCHES_PER_THREAD"}
+ROOM |= {"WINDOWS_PER_CALL", "KEPT", "LINE"}
 LAYOUT = {"align_ylabels", "grid", "minorticks_off", "set_major_locator", "set_minor_locator", "tick_params"}
 LAYOUT |= {"subplots_adjust", "tick_top"}
 Function = tuple[str, int]  # a file and the line where the function begins, 0 for the module
@@ -113,7 +117,7 @@ def is_neutral(node: ast.AST) -> bool:
     """Whether no result depends on a node: a setting of a chart, any of which would do, or a guard."""
     match node:
         case ast.keyword(arg=name) | ast.Assign([ast.Name(name)]):
-            return name in SETTINGS | NEUTRAL
+            return name in SETTINGS | NEUTRAL | ROOM
         case ast.Expr(ast.Call(ast.Attribute(attr=name))):
             return name in LAYOUT
     return isinstance(node, ast.JoinedStr | ast.Raise | ast.Import | ast.ImportFrom)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import FloatArray
 from precursors.model.checks import positive
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate_many
@@ -28,6 +28,8 @@ SIGMAS = 6.0
 # Neighbours run a little longer than the run, so that none lacks a transition that comes just before the end.
 LONGER = 1.0 + 1e-6
 SEED = 2010
+# What neighbours differ in, beside their weights and starts.
+NUMBERS = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k")
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,29 +107,16 @@ def neighbours(run: Run) -> list[Run]:
     # Eq. 7 adds two numbers: a small weight is rounded like its difference from the mean.
     size = np.where(chain.weights > 0, chain.weights + abs(chain.weights - chain.normal_load / n), 0.0)
     weights, positions, velocities = chain.weights + draw(n) * size, draw(n), draw(n)
-    chains = [_changed(chain, of_one, *factors) for of_one, factors in zip(weights, 1 + draw(6), strict=True)]
+    chains = []
+    for of_one, factors in zip(weights, 1 + draw(len(NUMBERS)), strict=True):
+        changed = {name: f * getattr(chain, name) for name, f in zip(NUMBERS, factors, strict=True)}
+        changed["mu_k"] = min(changed["mu_k"], changed["mu_s"])
+        chains.append(replace(chain, weights=of_one, **changed))
     return simulate_many(
         chains,
         run.duration * LONGER,
         start_positions=list(run.start_positions * (1 + positions)),
         start_velocities=list(run.start_velocities * (1 + velocities)),
-    )
-
-
-def _changed(
-    chain: Chain, weights: FloatArray, mass: float, k: float, drive: float, v: float, s: float, f: float
-) -> Chain:
-    """A chain with other weights, and its other values multiplied by factors."""
-    mu_s = s * chain.mu_s
-    return replace(
-        chain,
-        weights=weights,
-        mass=mass * chain.mass,
-        stiffness=k * chain.stiffness,
-        drive_stiffness=drive * chain.drive_stiffness,
-        drive_velocity=v * chain.drive_velocity,
-        mu_s=mu_s,
-        mu_k=min(f * chain.mu_k, mu_s),
     )
 
 

@@ -8,23 +8,13 @@ from typing import TypeVar
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.events import slip_events
+from precursors.analysis.events import EVENT, slip_events
 from precursors.analysis.slip_rows import first_global, up_to_first_global
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Run
 
 Loads = TypeVar("Loads", float, FloatArray)
-COLUMNS = [
-    "onset",
-    "end",
-    "load_before",
-    "load_after",
-    "largest_load",
-    "front",
-    "n_slid",
-    "n_simultaneous",
-    "is_global",
-]
+COLUMNS = list(EVENT.names or ())[3:]
 WITH_UNITS = {
     "onset": "onset_s",
     "end": "end_s",

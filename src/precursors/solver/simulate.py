@@ -28,9 +28,11 @@ WINDOWS_PER_CALL = 500_000
 # Blocks that slide without end would keep the kernel busy for ever: some 10 minutes at N = 10.
 MAX_WINDOWS = 1_000_000_000
 # Transitions that a run may have before it gets a record of its own, and that a thread's record has room for.
-FIRST_ROOM, SHARED_ROOM = 2048, 16384
+FIRST_ROOM = 2048
+SHARED_ROOM = 16384
 # Chains of a batch: many for little work between batches, few for all threads to end together.
-LARGEST_BATCH, BATCHES_PER_THREAD = 64, 8
+LARGEST_BATCH = 64
+BATCHES_PER_THREAD = 8
 
 
 class _End(NamedTuple):
