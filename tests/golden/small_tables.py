@@ -106,8 +106,8 @@ PROVED = {
     ),
     "moving, overloaded": (
         ExactChain.from_slider(n_blocks=4, theta="1/3"),
-        ["0", "3e-6", "-2e-6", "0"],
-        ["-1e-3", "0", "0", "2e-3"],
+        ["0", "0", "2e-6", "-1.1e-5"],
+        ["-1e-3", "2e-3", "0", "0"],
         30,
     ),
 }
@@ -132,6 +132,7 @@ def enclosures() -> pd.DataFrame:
                         "fresh": str(sorted(proof.fresh)),
                         "bits": proof.precision(),
                         "time_s": float(ball.mid()),
+                        "load_N": float(load.mid()),
                         "time_radius_s": float(ball.rad()),
                         "load_radius_N": float(load.rad()),
                         "distance_N": float(proof.state.distance),

@@ -101,7 +101,7 @@ class Proof:
         chain, n = self.chain, self.n
         x = (Fraction(0), *positions)
         exact = [Fraction(0), *(k * (x[i] - x[i + 1]) for i, k in enumerate(chain.springs)), Fraction(0)]
-        state = State([arb(0)] * (n + 2), [arb(0)] * (n + 2), [0] * (n + 2), arb(0))
+        state = State([], [], [0] * (n + 2), arb(0))
         constants = self.constants(ctx.prec)
         rate = [Fraction(0), *(v * chain.mass / self.unit_seconds for v in velocities), Fraction(0)]
         state.absorb(constants, [ball(f) for f in exact], [ball(u) for u in rate])
@@ -178,8 +178,8 @@ class Proof:
             return self.advance_window(WINDOW)
         event, root = first
         if root.upper() > WINDOW:
-            # The others are proved up to the end of the window only: stop short of the root.
-            return self.advance_window(float(root.lower()) * 0.75)
+            # The others are proved up to the end of the window only: stop short of the root, which is there.
+            return self.advance_window(WINDOW / 2)
         self.change(event, root)
         return self.record(event.block)
 
