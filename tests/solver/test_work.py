@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from chains import SLIDER, audited, first_transitions
 from random_chains import mild_chain
+from reference.worst_cases import read
 
 from precursors import Chain, simulate
 from precursors.solver import kernel
@@ -31,6 +32,12 @@ LENGTHS = {
 }
 # Of so many chains drawn at random, half of which start strained and moving.
 N_RANDOM, RANDOM = 100, [3245, 9816, 1223520, 157, 7773]
+# Of the worst cases of a kind: velocities that graze zero, blocks exactly at their limit or without a load.
+WORST = {
+    "grazing": [611, 3231, 491240, 57, 1732],
+    "at the limit": [496, 1747, 267800, 147, 1447],
+    "zero loads": [328, 322, 36232, 8, 506],
+}
 
 
 @pytest.fixture
@@ -66,6 +73,15 @@ def test_random_chains_take_as_much_work_as_they_did(counted):
     cases = [mild_chain(np.random.default_rng(number)) for number in range(N_RANDOM)]
     counts = [counted(case.chain, case.most, duration=case.duration, **case.start) for case in cases]
     assert np.sum(counts, axis=0).tolist() == RANDOM
+
+
+@pytest.mark.parametrize(("kind", "expected"), WORST.items())
+def test_the_worst_cases_take_as_much_work_as_they_did(counted, kind, expected):
+    cases = [case for case in read() if case["kind"] == kind]
+    counts = [
+        counted(Chain(**case["chain"]), 1000, duration=case["duration"], **case["start"]) for case in cases
+    ]
+    assert np.sum(counts, axis=0).tolist() == expected
 
 
 def test_blocks_that_feel_the_drive_late_cost_no_search(counted):

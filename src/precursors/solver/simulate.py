@@ -239,12 +239,8 @@ class _Workspace(threading.local):
 _workspace = _Workspace()
 
 
-class _Part(NamedTuple):
-    """What was recorded of one run."""
-
-    transitions: NDArray[np.void]
-    intervals: FloatArray
-    states: States
+# What was recorded of one run: transitions, intervals [s] and states.
+_Part = tuple[NDArray[np.void], FloatArray, States]
 
 
 def _run_batch(
@@ -291,15 +287,16 @@ def _run(
     chain: Chain, positions: FloatArray, velocities: FloatArray, last: np.void, part: _Part, end: _End
 ) -> Run:
     """A run from its start, where it ended, and what was recorded of it."""
+    transitions, intervals, states = part
     time = float(last["onset"] + (last["onset_error"] + last["elapsed"] * last["tau"]))
     return Run(
         chain=chain,
         duration=end.duration if last["status"] == kernel.FINISHED else time,
-        transitions=part.transitions,
-        intervals=part.intervals,
+        transitions=transitions,
+        intervals=intervals,
         start_positions=positions,
         start_velocities=velocities,
-        states=part.states,
+        states=states,
         evaluations=float(last["derivatives"]) / chain.n_blocks,
     )
 
@@ -333,7 +330,7 @@ def _parts(work: _Workspace, progress: Progress) -> list[_Part]:
     for n, m in zip(used, stored, strict=True):
         last, last_state = first + n, first_state + m
         rows = slice(first_state, last_state)
-        parts.append(_Part(transitions[first:last], intervals[first : last + 1], _rows(states, rows)))
+        parts.append((transitions[first:last], intervals[first : last + 1], _rows(states, rows)))
         first, first_state = last + 1, last_state
     return parts
 
@@ -367,7 +364,7 @@ def _go_on(
         n, stored = int(run["transitions"]), int(run["stored"])
     record["interval"][n] = run["since"] * run["tau"]
     transitions, intervals = _columns(record[: n + 1])
-    return _Part(transitions[:n], intervals, States.from_rows(states[:stored]))
+    return transitions[:n], intervals, States.from_rows(states[:stored])
 
 
 def _columns(record: NDArray[np.void]) -> tuple[NDArray[np.void], FloatArray]:

@@ -37,7 +37,7 @@ def run_batch(batch, limits, progress, record, states, memory):
             full = used + max(limits.transitions, n_blocks) >= record.shape[0]
             if full or stored + limits.states > states.shape[0] or windows > limits.windows:
                 return j, False
-            clear(memory)
+            memory[:] = 0.0
         chain, motion = lay_out(batch.parameters[j], batch.weights[j], memory)
         mine = progress_at(row_address(progress, j))
         my_record, my_states = row_address(record, used), row_address(states, stored)
@@ -52,13 +52,6 @@ def run_batch(batch, limits, progress, record, states, memory):
         stored += mine.stored
         windows += mine.windows
     return batch.weights.shape[0], False
-
-
-@seldom
-def clear(memory):
-    """Clear what the chain before has left."""
-    for i in range(memory.shape[0]):
-        memory[i] = 0.0
 
 
 @unfused
