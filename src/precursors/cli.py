@@ -247,6 +247,14 @@ def number(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number or a fraction such as 5/6") from None
 
 
+def whole(text: str) -> int:
+    """Read a whole number."""
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number such as 1000") from None
+
+
 def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
     """Add the options of a chain and of its run, which stand in the help of `simulate` only."""
 
@@ -261,7 +269,7 @@ def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
 
     add = group("the chain", "the defaults are the paper's")
     add("theta", metavar="X", help='non-uniformity of the normal loading, for example "5/6" (0)')
-    add("blocks", dest="n_blocks", type=int, metavar="N", help="number of blocks (10)")
+    add("blocks", dest="n_blocks", type=whole, metavar="N", help="number of blocks (10)")
     text = "table with the normal load of each block [N]; replaces --theta, --blocks and --normal-load"
     add("weights", metavar="FILE", help=text)
     for name, (default, meaning) in CHAIN.items():
@@ -273,7 +281,7 @@ def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
     add("duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
     text = "stop at the end of the first global slip"
     add("until_global_slip", dest="until", action="store_const", const="global slip", help=text)
-    add("max_transitions", type=int, metavar="N", help="limit of transitions")
+    add("max_transitions", type=whole, metavar="N", help="limit of transitions")
 
 
 def add_options(command: argparse.ArgumentParser, name: str) -> None:
@@ -320,6 +328,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Exit with one line on standard error."""
+        message = message.replace("ignored explicit argument", "takes no value, but has")
         choices = re.findall(r"\w+", message.partition("choose from")[2])
         known = choices or re.findall(r"--[a-z][a-z-]+", " ".join(map(help_of, COMMANDS)))
         wrong = re.search(r"(?:arguments: |choice: ')([\w-]+)", message)

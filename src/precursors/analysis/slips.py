@@ -79,10 +79,9 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
     `short` may name another reading, a key of SHORT_EVENTS. Without a global slip all events that are not
     short are returned.
     """
-    if not isinstance(slips, pd.DataFrame):
-        raise TypeError(
-            f"precursors are found in the table of find_slips, but this is {type(slips).__name__}"
-        )
+    if not isinstance(slips, pd.DataFrame) or not {"front", "is_global"} <= set(slips):
+        given = "another table" if isinstance(slips, pd.DataFrame) else type(slips).__name__
+        raise TypeError(f"precursors are found in the table of find_slips, but this is {given}")
     until_global = up_to_first_global(slips)
     front = until_global["front"]
     farthest_before = front.cummax().shift(fill_value=0)

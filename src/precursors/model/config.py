@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from precursors.model.chain import Chain, parse_theta
-from precursors.model.scenes import Config, scene_additions, scene_slider, scenes_with_theta
+from precursors.model.checks import positive
+from precursors.model.scenes import Config, scene_additions, scene_duration, scene_slider, scenes_with_theta
 
 
 def check_file(path: str | os.PathLike[str]) -> None:
@@ -97,11 +98,15 @@ def check_config(config: Config, schema_path: str | os.PathLike[str]) -> None:
     error = best_match(Draft202012Validator(schema).iter_errors(config))
     if error is not None:
         where = error.json_path.removeprefix("$").lstrip(".") or "top level"
-        hint = ""
+        hint, message = "", error.message
+        if error.validator == "pattern" and "description" in error.schema:
+            message = f"{error.instance!r} must be {error.schema['description']}"
+        elif error.validator == "minItems":
+            hint = f": at least {error.validator_value} are needed"
         with suppress(TypeError, ValueError):
             if isinstance(error.instance, str) and math.isfinite(float(error.instance)):
                 hint = ": this is text; write a number without quotes, as 2.5e+9 and not as 2.5e9"
-        raise ValueError(f"configuration: {where}: {error.message}{hint}")
+        raise ValueError(f"configuration: {where}: {message}{hint}")
     try:
         _check_chains(config)
         _check_names_and_lengths(config)
@@ -118,6 +123,7 @@ def _check_chains(config: Config) -> None:
             where = f"scenes.{name}"
             Chain.from_slider(**scene_slider(config, name))
             scene_additions(config, name)
+            positive("duration", scene_duration(config, name), "s")
         for name, values in config["accuracy"]["proved"].items():
             where = f"accuracy.proved.{name}"
             Chain.from_slider(**{key: value for key, value in values.items() if key != "duration"})

@@ -63,7 +63,7 @@ def check_writable(path: str | os.PathLike[str], endings: Sequence[str] = ()) ->
         If it is a directory, or its directory cannot be made or written to, or has no room.
     """
     target = Path(path).resolve()
-    if endings and target.suffix.lower() not in endings:
+    if endings and not target.name.lower().endswith(tuple(endings)):
         raise ValueError(f"{path} must end in {', '.join(endings[:-1])} or {endings[-1]}")
     if target.is_dir():
         raise OSError(f"cannot write {path}: it is a directory")

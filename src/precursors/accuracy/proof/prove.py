@@ -80,8 +80,9 @@ def certify(
     if not isinstance(exact_chain, ExactChain):
         raise TypeError(f"what is proved must be a chain, but is {type(chain).__name__}")
     limit, widest = exact("duration", duration), exact("width", width)
-    if limit <= 0 or widest <= 0:
-        raise ValueError(f"duration and width must be above 0 s, but are {limit} s and {widest} s")
+    for name, value in (("duration", limit), ("width", widest)):
+        if value <= 0:
+            raise ValueError(f"{name} must be above 0 s, but is {value} s")
     start = (
         exact_start("start_positions", exact_chain, start_positions, "m"),
         exact_start("start_velocities", exact_chain, start_velocities, "m/s"),
