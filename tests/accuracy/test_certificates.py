@@ -189,7 +189,7 @@ def test_a_bad_parameter_is_named(argument: dict[str, object], message: str) -> 
 @pytest.mark.parametrize(
     ("argument", "message"),
     [
-        ({"duration": 0}, "must be above 0 s, but are 0 s"),
+        ({"duration": 0}, "must be above 0 s, but is 0 s"),
         ({"until": "slip"}, "until"),
         ({"start_positions": ["0"]}, "start_positions must have one value"),
         ({"start_velocities": [0] * 9}, r"start_velocities must have one value \[m/s\] for each of the 10"),
