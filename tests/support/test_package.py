@@ -16,6 +16,8 @@ import precursors
 ROOT = Path(__file__).parents[2]
 # The compiler, and what only simulations and tables need.
 HEAVY = {"numba", "h5py", "pandas"}
+# What the rules of the workflow import.
+RULES = "from precursors.ensembles import studies; from precursors.reproduction import inputs, shown"
 
 
 def loaded(program: str) -> set[str]:
@@ -47,6 +49,11 @@ def test_a_name_that_is_not_there_is_refused():
         ("from precursors import Chain", HEAVY),
         ("import precursors.model.scenes", HEAVY),
         ("import precursors.figures.scene", HEAVY - {"pandas"}),
+        (
+            "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.1)",
+            {"h5py", "pandas", "matplotlib"},
+        ),
+        (RULES, HEAVY | {"matplotlib", "scipy", "sympy"}),
     ],
 )
 def test_nothing_is_loaded_before_it_is_needed(program, missing):

@@ -26,12 +26,6 @@ def test_every_file_of_the_manifest_is_made_by_the_workflow_and_kept(untouched):
     assert all(entry["comment"] for entry in read("codecheck.yml")["manifest"])
 
 
-def test_the_configuration_is_of_version_2_and_begins_a_document():
-    text = (ROOT / "codecheck.yml").read_text(encoding="utf-8")
-    assert text.startswith("---\n")
-    assert read("codecheck.yml")["version"].endswith("/spec/config/2.0/")
-
-
 def test_a_file_that_differs_is_named(tmp_path, capsys, monkeypatch):
     (tmp_path / "results").mkdir()
     (tmp_path / "codecheck.yml").write_text("manifest: [{file: results/a.csv}, {file: results/b.csv}]")
@@ -66,9 +60,3 @@ def test_the_article_has_the_title_and_the_authors_of_the_metadata():
         author["name"] for author in citation["authors"]
     ]
     assert Path(ROOT / metadata["bibliography"]).is_file()
-
-
-def test_code_and_text_have_their_licences():
-    assert read("CITATION.cff")["license"] == "MIT"
-    assert "CC BY 4.0" in (ROOT / "paper/paper.typ").read_text(encoding="utf-8")
-    assert "Attribution 4.0" in (ROOT / "LICENSE-text").read_text(encoding="utf-8")

@@ -109,42 +109,20 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(fi
 
 
 @pytest.mark.parametrize(
-    ("module", "jobs"),
+    ("module", "run", "left"),
     [
-        ("figures/scene", {"draw_reproduction"}),
-        ("figures/work_precision", {"draw_speed"}),
-        ("reproduction/claims", {"tabulate_claims"}),
+        ("figures/scene", {"draw_reproduction"}, {"tabulate", "simulate", "draw_accuracy"}),
+        ("figures/style", {"draw_reproduction", "draw_accuracy"}, {"tabulate", "simulate"}),
+        ("methods/moreau_jean", {"tabulate_work_precision", "draw_speed"}, {"take", "run_chunk", "simulate"}),
+        ("analysis/slips", {"simulate_scene fig10", "tabulate_reproduction"}, {"take_certificates"}),
+        ("solver/kernel/events", of(*PAPERS) | {"run_chunk"}, set()),
     ],
 )
-def test_an_edit_of_a_figure_or_a_claim_makes_it_again_and_computes_nothing(finished, module, jobs):
+def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(finished, module, run, left):
     finished.append(f"src/precursors/{module}.py", CODE)
-    assert finished.would_run() - PAPER == jobs
-
-
-def test_an_edit_of_the_style_draws_all_figures_and_computes_nothing(finished):
-    finished.append("src/precursors/figures/style.py", CODE)
     jobs = finished.would_run()
-    assert {"draw_reproduction", "draw_accuracy", "draw_hierarchy"} <= jobs
-    assert {job for job in jobs if not job.startswith("draw_")} <= {"write_explorer"} | PAPER
-
-
-def test_an_edit_of_a_method_measures_again_and_simulates_nothing(finished):
-    finished.append("src/precursors/methods/moreau_jean.py", CODE)
-    jobs = finished.would_run()
-    assert {"tabulate_work_precision", "draw_speed"} <= jobs
-    assert not ({"take_certificates", "run_chunk"} | of(*PAPERS)) & jobs
-
-
-def test_an_edit_of_the_slips_leaves_the_proofs_as_they_are(finished):
-    finished.append("src/precursors/analysis/slips.py", CODE)
-    jobs = finished.would_run()
-    assert of(*PAPERS) | {"tabulate_reproduction"} <= jobs
-    assert "take_certificates" not in jobs
-
-
-def test_an_edit_of_the_solver_simulates_again(finished):
-    finished.append("src/precursors/solver/kernel/events.py", CODE)
-    assert of(*PAPERS) | {"run_chunk"} <= finished.would_run()
+    assert run <= jobs
+    assert not [job for job in jobs if job.startswith(tuple(left))]
 
 
 def test_an_edit_of_the_paper_sets_it_again(finished):
@@ -167,14 +145,16 @@ def test_an_edit_of_a_scene_runs_that_scene_only_and_another_model_answers_its_o
     assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
 
 
-def test_a_new_title_simulates_nothing(finished):
-    finished.edit("config.yaml", "title: uniform normal loading", "title: same load on every block")
-    assert finished.would_run() == {"draw_reproduction", "write_explorer"} | PAPER
-
-
-def test_another_look_draws_the_papers_figures_again(finished):
-    finished.edit("config.yaml", "figure: {}", "figure: {width_mm: 85, font_size: 9}")
-    assert finished.would_run() - PAPER == {"draw_reproduction"}
+@pytest.mark.parametrize(
+    ("old", "new", "jobs"),
+    [
+        ("title: uniform normal loading", "title: the same load", {"draw_reproduction", "write_explorer"}),
+        ("figure: {}", "figure: {width_mm: 85, font_size: 9}", {"draw_reproduction"}),
+    ],
+)
+def test_another_title_or_look_simulates_nothing(finished, old, new, jobs):
+    finished.edit("config.yaml", old, new)
+    assert finished.would_run() - PAPER == jobs
 
 
 def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):

@@ -9,13 +9,6 @@ import pytest
 from browser import browser, find_browser
 from conftest import ROOT, Workspace
 
-CATEGORIES = {
-    "Reproduction",
-    "Speed and accuracy",
-    "Sensitivity",
-    "Models",
-    "Tables",
-}
 FIGURES = ["results/figures/fig09.svg", "results/figures/fig10.svg"]
 
 
@@ -62,13 +55,6 @@ def test_every_figure_of_the_report_has_a_caption_and_a_label_of_its_own(whole):
         assert len(result["labels"]) == 1, path
     labels = Counter(tuple(result["labels"].items()) for result in results.values())
     assert max(labels.values()) == 1
-
-
-def test_the_categories_of_the_report_are_few(whole):
-    (found,) = re.findall(
-        r"^    var categories = (\{.*\});$", whole[1].read_text("utf-8"), flags=re.MULTILINE
-    )
-    assert set(json.loads(found)) == CATEGORIES
 
 
 @pytest.fixture(scope="module")

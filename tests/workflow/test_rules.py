@@ -2,9 +2,7 @@
 
 import re
 import subprocess
-import sys
 
-import pytest
 from conftest import ROOT
 
 # One environment, built from requirements.lock by the Makefile, serves all rules.
@@ -41,22 +39,3 @@ def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(un
     outcome = workspace.run("-n", "-s", "workflow/Snakefile", *targets)
     assert outcome.code == 0, outcome.text
     assert targets | {"simulate_scene fig10"} <= outcome.jobs
-
-
-@pytest.mark.parametrize(
-    ("code", "unwanted"),
-    [
-        (
-            "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.1)",
-            "h5py pandas matplotlib",
-        ),
-        (
-            "from precursors.ensembles import studies\nfrom precursors.reproduction import inputs, shown",
-            "h5py matplotlib numba pandas scipy sympy",
-        ),
-    ],
-    ids=["a run", "reading the rules"],
-)
-def test_slow_packages_are_imported_where_they_are_used_only(code, unwanted):
-    shown = f"{code}; import sys; print(*sorted(set('{unwanted}'.split()) & sys.modules.keys()))"
-    assert subprocess.run([sys.executable, "-c", shown], capture_output=True, text=True).stdout == "\n"
