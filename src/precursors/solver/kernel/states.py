@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from precursors.model.chain import Chain, FloatArray
-from precursors.solver.kernel.arrays import BY_COLUMN, ROW, memory_for, recorded, words
+from precursors.solver.kernel.arrays import ROW, memory_for, recorded, words
 from precursors.solver.kernel.compiled import inner, outer, unfused
 from precursors.solver.kernel.events import last_column
 from precursors.solver.kernel.friction import farthest_sliding, set_mode, take_mode
@@ -30,11 +30,11 @@ def evaluate(
     for name in TRANSITION.names or ():
         record[name][:-1] = transitions[name]
     record["interval"] = intervals
-    # Transitions before each time, the time since the last of them, and the last state that comes before:
-    # NumPy sorts complex numbers by their real parts, then by their imaginary ones.
-    done = np.searchsorted(transitions["time"], sorted_times, side="right")
-    since = sorted_times - np.append(0.0, transitions["time"])[done]
-    nearest = np.searchsorted(states.after + 1j * states.offset, done + 1j * since, side="right") - 1
+    # Transitions before each time, the time since the last of them, and the last state that comes before.
+    begin_at = np.append(0.0, transitions["time"])
+    done = np.searchsorted(begin_at[1:], sorted_times, side="right")
+    since = sorted_times - begin_at[done]
+    nearest = np.searchsorted(begin_at[states.after] + states.offset, sorted_times, side="right") - 1
     force, velocity = found = np.empty((2, len(sorted_times), chain.n_blocks))
     numbers, weights = np.array(parameters(chain)), np.array(chain.weights)
     wanted, memory = (done, since, nearest), memory_for(chain.n_blocks)
@@ -46,15 +46,18 @@ def evaluate(
 def go_through(parameters, weights, wanted, found, record, states, memory):
     """Fill `found` with spring forces and velocities, from stored states and transitions."""
     chain, motion = lay_out(parameters, weights, memory)
-    rows, columns = row_address(record, 0), memory[: (3 + BY_COLUMN) * motion.wide]
+    rows = row_address(record, 0)
+    # Velocities and spring forces in two doubles stand side by side: what a motion changes for good.
+    state = memory[3 * motion.wide : 6 * motion.wide]
+    before = np.empty_like(state)
     target, since, nearest = wanted
-    done, state = 0, -1
+    done, last = 0, -1
     offset = 0.0
     for q in range(target.shape[0]):
-        if nearest[q] > state and (state < 0 or states.after[nearest[q]] > done):
+        if nearest[q] > last and (last < 0 or states.after[nearest[q]] > done):
             done, offset = states.after[nearest[q]], states.offset[nearest[q]]
             take_state(nearest[q], states, chain, motion)
-        state = nearest[q]
+        last = nearest[q]
         while done < target[q]:
             transition = recorded(done, rows)
             propagate((transition.interval - offset) / chain.tau, chain, motion)
@@ -66,12 +69,14 @@ def go_through(parameters, weights, wanted, found, record, states, memory):
         while since[q] - offset > WINDOW * chain.tau and is_moving:
             propagate(WINDOW, chain, motion)
             offset += WINDOW * chain.tau
-        here = columns.copy()
+        for i in range(state.shape[0]):
+            before[i] = state[i]
         propagate(max(since[q] - offset, 0.0) / chain.tau, chain, motion)
         for i in range(1, chain.n_blocks + 1):
             found[0, q, i - 1] = motion.spring_force[i]
             found[1, q, i - 1] = motion.velocity[i] * chain.speed
-        columns[:] = here
+        for i in range(state.shape[0]):
+            state[i] = before[i]
 
 
 @inner
