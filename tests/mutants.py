@@ -77,7 +77,7 @@ SCRIPT = re.compile(
     r"|(?<= )(?P<operator>[<>]=?|[!=]==|&&|\|\||[-+*/])(?= )|(?<![\w.#])(?P<number>\d+(?:\.\d+)?)(?![\w.])"
 )
 BALL = re.compile(r"arb\(0, |around$")  # about zero
-SETTINGS = {"values", "quick", "whole", "quick_whole", "ROUNDS"}  # what is charted
+SETTINGS = {"CHARTED", "values", "quick", "whole", "quick_whole", "ROUNDS"}  # what is charted
 # Arguments that change no result: guards against a slip of ours, signs of symbols, how code is compiled.
 NEUTRAL = {"strict", "frozen", "slots", "exist_ok", "parents", "stacklevel", "maxsize", "nogil", "cache"}
 NEUTRAL |= {"positive", "real", "indent"}

@@ -159,10 +159,16 @@ def solve_springs(system, state, last, weight, result, factor):
 
 
 @inner
+def along_mode(state, y, i):
+    """Velocity of a sliding block in the direction of its mode, in a state y."""
+    return state[MODE, i] * y[VELOCITY, i]
+
+
+@inner
 def event_function(system, state, y, i):
     """What is positive while block i keeps its mode in a state y: its velocity along it, or a margin [N]."""
     if state[MODE, i] != 0.0:
-        return state[MODE, i] * y[VELOCITY, i]
+        return along_mode(state, y, i)
     net = net_force(y, i)
     return min(system[STRENGTH, i] - net, system[BACKWARD, i] + net)
 
@@ -177,7 +183,5 @@ def move_by(system, state, i, mode):
 @inner
 def resting_mode(system, state, i):
     """Mode of a block that stops: by the rule of switching it sticks, or slides on along the force."""
-    net, limit = net_force(state, i), system[TURNING, i]
-    if net > limit:
-        return 1
-    return -1 if net < -limit else 0
+    net = net_force(state, i)
+    return int(np.sign(net)) if abs(net) > system[TURNING, i] else 0

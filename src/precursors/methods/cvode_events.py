@@ -21,18 +21,12 @@ EVENT_FOUND = 2
 
 
 def solve_cvode(
-    chain: Chain,
-    duration: float,
-    tolerance: float,
-    until: str | None = None,
-    formula: Formula = "Adams",
+    chain: Chain, duration: float, tolerance: float, until: str | None = None, formula: Formula = "Adams"
 ) -> Result:
     """Run a chain by CVODE; rtol is the tolerance, atol the same number in N and N/tau (see `events`).
 
     Raises
     ------
-    ImportError
-        Without scikit-sundae.
     RuntimeError
         If CVODE reports a failure.
     """

@@ -24,6 +24,7 @@ from precursors.methods.columns import (
     SPRING,
     STRENGTH,
     VELOCITY,
+    along_mode,
     by_mode,
     inner,
     net_force,
@@ -206,9 +207,8 @@ def event_functions(y, system, state, result):
     """All event functions, shape (2 N,); what cannot happen is 1."""
     take(state, y)
     for i in range(state.shape[1] - 2):
-        mode, net = state[MODE, i + 1], net_force(state, i + 1)
-        slides = mode != 0.0
-        result[2 * i] = mode * state[VELOCITY, i + 1] if slides else system[STRENGTH, i + 1] - net
+        slides, net = state[MODE, i + 1] != 0.0, net_force(state, i + 1)
+        result[2 * i] = along_mode(state, state, i + 1) if slides else system[STRENGTH, i + 1] - net
         result[2 * i + 1] = 1.0 if slides else system[BACKWARD, i + 1] + net
 
 

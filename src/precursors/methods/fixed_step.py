@@ -19,6 +19,7 @@ from precursors.methods.columns import (
     MODE,
     STRENGTH,
     VELOCITY,
+    along_mode,
     apart,
     at_rest,
     event_function,
@@ -133,8 +134,7 @@ def change_state(motion, i):
     state = motion.state
     old = int(state[MODE, i])
     if old == 0:
-        net = net_force(state, i)
-        new = 1 if net > 0.0 else (-1 if net < 0.0 else 0)
+        new = int(np.sign(net_force(state, i)))
     else:
         state[VELOCITY, i] = 0.0
         new = resting_mode(motion.system, state, i)
@@ -153,7 +153,7 @@ def all_keep_their_modes(system, state, last):
     """Whether no sliding block's velocity has changed its sign and no stuck block's force exceeds mu_s w."""
     for i in range(1, feels(state, last) + 1):
         if state[MODE, i] != 0.0:
-            if not state[VELOCITY, i] * state[MODE, i] >= 0.0:
+            if not along_mode(state, state, i) >= 0.0:
                 return False
         elif not -system[BACKWARD, i] <= net_force(state, i) <= system[STRENGTH, i]:
             return False

@@ -19,7 +19,7 @@ from precursors.methods.events import NUDGE, EventMotion
 from precursors.model.chain import Chain
 
 # The tightest is rounding, heyoka's own default.
-TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12, 1e-14, float(np.finfo(float).eps))
+CHARTED = (1e-6, 1e-8, 1e-10, 1e-12, 1e-14, float(np.finfo(float).eps))
 # Beyond it the code is compiled in compact mode, which heyoka's documentation recommends for large systems.
 LARGE = 20
 
@@ -58,41 +58,20 @@ def integrator_of(chain: Chain, tolerance: float, callback: Callable[[int], Call
     )
 
 
-class _Integrator:
-    """heyoka's integrator of one chain and the motion that it carries at present."""
+@lru_cache(maxsize=32)
+def _integrator(chain: Chain, tolerance: float) -> tuple[Any, list[EventMotion]]:
+    """heyoka's integrator of a chain, and a list of the one motion that it carries at present."""
+    present: list[EventMotion] = []
 
-    def __init__(self, chain: Chain, tolerance: float) -> None:
-        import heyoka as hy
-
-        self.motion: EventMotion | None = None
-        self.solver: Any = integrator_of(chain, tolerance, self._callback)
-        self.outcome_end = hy.taylor_outcome.time_limit
-
-    def _callback(self, event: int) -> Callback:
-        def callback(solver: Any, _direction: int) -> bool:
+    def callback(event: int) -> Callback:
+        def switch(solver: Any, _direction: int) -> bool:
             # The function that fired means something else from now on: its cooldown must not hide a root.
             solver.reset_cooldowns()
-            return self.motion.switch(event, solver.time)  # type: ignore[union-attr]
+            return present[0].switch(event, solver.time)
 
-        return callback
+        return switch
 
-    def run(self, chain: Chain, duration: float, until: str | None, nudge: float) -> Result:
-        solver = self.solver
-        state, settings = solver.state, solver.pars.reshape(4, -1)
-        self.motion = motion = EventMotion(chain, duration, until, state, settings, nudge)
-        while motion.begin():
-            solver.time = 0.0
-            solver.reset_cooldowns()
-            outcome, _, _, steps, *_ = solver.propagate_until(motion.remaining)
-            motion.evaluations += steps * solver.order
-            if motion.slides and outcome != self.outcome_end:
-                raise RuntimeError(f"heyoka stopped at t = {motion.onset:.9g} s: {outcome}")
-        return motion.run()
-
-
-@lru_cache(maxsize=32)
-def _integrator(chain: Chain, tolerance: float) -> _Integrator:
-    return _Integrator(chain, tolerance)
+    return integrator_of(chain, tolerance, callback), present
 
 
 def solve_heyoka(
@@ -102,13 +81,18 @@ def solve_heyoka(
 
     A step of a series of order p counts as p evaluations: each derivative applies the equations once. `nudge`
     is explained in `events.NUDGE`.
-
-    Raises
-    ------
-    ImportError
-        Without heyoka.
     """
-    return _integrator(chain, float(tolerance)).run(chain, duration, until, nudge)
+    solver, present = _integrator(chain, float(tolerance))
+    motion = EventMotion(chain, duration, until, solver.state, solver.pars.reshape(4, -1), nudge)
+    present[:] = [motion]
+    while motion.begin():
+        solver.time = 0.0
+        solver.reset_cooldowns()
+        outcome, _, _, steps, *_ = solver.propagate_until(motion.remaining)
+        motion.evaluations += steps * solver.order
+        if motion.slides and outcome.name != "time_limit":
+            raise RuntimeError(f"heyoka stopped at t = {motion.onset:.9g} s: {outcome}")
+    return motion.run()
 
 
 METHODS = (
@@ -117,9 +101,9 @@ METHODS = (
         "heyoka.py, Taylor series",
         "relative tolerance",
         solve_heyoka,
-        values=TOLERANCES,
-        whole=TOLERANCES,
-        quick=TOLERANCES,
+        values=CHARTED,
+        whole=CHARTED,
+        quick=CHARTED,
         quick_whole=(1e-6, 1e-8, 2.2e-16),
         look=("#D55E00", "o"),
     ),

@@ -1,5 +1,4 @@
-"""Friction as a part of the right-hand side, by Karnopp's dead zone or Eq. 4 as printed, with Runge-Kutta
-steps.
+"""Friction as a part of the right-hand side, by Karnopp's dead zone or Eq. 4 as printed, with RK4's steps.
 
 Karnopp: a block slower than a small velocity dv counts as resting. It does not stretch the springs, and
 its friction balances their force up to mu_s w; outside, friction is mu_k w against the velocity. There
@@ -16,6 +15,8 @@ from __future__ import annotations
 
 import math
 from functools import partial
+
+import numpy as np
 
 from precursors.methods.columns import (
     INVERSE_MASS,
@@ -71,10 +72,7 @@ def solve(
 
     While all blocks rest the wait is in closed form.
 
-    Raises
-    ------
-    ValueError, DivergedError, TransitionLimitError
-        As `march`.
+    It raises what `march` raises.
     """
     if dead_zone is None:
         dead_zone = PART_OF_SAFE_WIDTH * safe_width(chain, positive("step", step, "s"))
@@ -109,9 +107,7 @@ def slide(system, state, h, n_steps, dead_zone):
 @inner
 def mode_of(v, dead_zone):
     """Mode of a block with velocity v: in the dead zone it counts as resting."""
-    if abs(v) <= dead_zone:
-        return 0
-    return 1 if v > 0.0 else -1
+    return 0 if abs(v) <= dead_zone else int(np.sign(v))
 
 
 @inner

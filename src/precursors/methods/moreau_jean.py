@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -34,6 +35,7 @@ from precursors.methods.columns import (
     outer,
     solve_springs,
 )
+from precursors.methods.common import Method
 from precursors.methods.fixed_step import STEPS_IN_LEG, begin_leg, change_mode, fixed_step, step_length
 
 # theta: of order 2 while nothing switches, without damping; of order 1, damping what is faster than a step.
@@ -114,7 +116,7 @@ def step_modes(system, state, last, h, theta, work, trial):
             else:
                 friction = static_friction(system, state, i, h, theta, work)
                 if abs(friction) > system[STRENGTH, i]:
-                    set_trial(system, state, trial, i, 1 if friction > 0.0 else -1)
+                    set_trial(system, state, trial, i, np.sign(friction))
                     changed = True
                     last = max(last, i)
         if not changed:
@@ -156,29 +158,22 @@ def run_moreau_jean(motion, step, theta):
                 change_mode(motion, i, new)
 
 
-METHODS = tuple(
-    fixed_step(
-        name,
-        label,
-        run_moreau_jean,
-        theta,
-        values=(3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9),
-        whole=(1e-6, 1e-7, 1e-8),
-        quick=quick,
-        quick_whole=quick_whole,
-        look=look,
-        smooth=(order, math.inf, partial(energy_factor, theta=theta)),
-    )
-    for name, label, theta, order, quick, quick_whole, look in (
-        (
-            "moreau_jean_half",
-            "Moreau-Jean, trapezoidal",
-            TRAPEZOIDAL,
-            2,
-            (1e-6, 1e-7, 1e-8),
-            (1e-7,),
-            ("#8C3A6B", "8"),
-        ),
-        ("moreau_jean_one", "Moreau-Jean, implicit", IMPLICIT, 1, (1e-6, 1e-7), (), ("#CC79A7", "4,1,0")),
-    )
+def _method(name: str, label: str, theta: float, order: int, **others: Any) -> Method:
+    smooth = order, math.inf, partial(energy_factor, theta=theta)
+    values = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
+    others |= {"smooth": smooth, "values": values, "whole": values[3:8:2]}
+    return fixed_step(f"moreau_jean_{name}", f"Moreau-Jean, {label}", run_moreau_jean, theta, **others)
+
+
+METHODS = (
+    _method(
+        "half",
+        "trapezoidal",
+        TRAPEZOIDAL,
+        2,
+        quick=(1e-6, 1e-7, 1e-8),
+        quick_whole=(1e-7,),
+        look=("#8C3A6B", "8"),
+    ),
+    _method("one", "implicit", IMPLICIT, 1, quick=(1e-6, 1e-7), look=("#CC79A7", "4,1,0")),
 )

@@ -9,7 +9,7 @@ import numpy as np
 from precursors.methods.columns import FORCE, SPRING, VELOCITY, by_mode, inner, outer, rates, template
 from precursors.methods.fixed_step import fixed_step, run_in_steps
 
-STEPS = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
+CHARTED = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
 LIMIT = 2.0 * math.sqrt(2.0)  # largest stable omega dt
 
 
@@ -92,7 +92,7 @@ METHODS = (
         "RK4, every step",
         run_rk4,
         waits=False,
-        values=STEPS[:5],
+        values=CHARTED[:5],
         smooth=SMOOTH,
         look=("#00573F", "p"),
     ),
@@ -100,7 +100,7 @@ METHODS = (
         "rk4_skip",
         "RK4",
         run_rk4,
-        values=STEPS,
+        values=CHARTED,
         whole=(1e-6, 1e-7, 3e-8, 1e-8, 3e-9),
         quick=(1e-6, 1e-7, 1e-8, 3e-9),
         quick_whole=(1e-6, 1e-7),

@@ -38,7 +38,7 @@ from precursors.methods.fixed_step import (
 )
 from precursors.methods.rk4 import room, step_from_rates
 
-STEPS = (6e-6, 4e-6, 3e-6, 2e-6, 1e-6, 6e-7, 3e-7, 1e-7, 3e-8)
+CHARTED = (6e-6, 4e-6, 3e-6, 2e-6, 1e-6, 6e-7, 3e-7, 1e-7, 3e-8)
 # An event function below so many roundings of the forces is zero.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
 CORRECTIONS = 8
@@ -100,7 +100,7 @@ def first_zero(g0, b0, g1, b1, rounding):
     lowest = 1.0
     discriminant = b * b - 4.0 * a * b0
     if discriminant > 0.0:
-        q = -0.5 * (b + (1.0 if b > 0.0 else -1.0) * math.sqrt(discriminant))
+        q = -0.5 * (b + math.copysign(math.sqrt(discriminant), b))
         for turn in (q / a, b0 / q):
             if 0.0 < turn < 1.0 and b + 2.0 * a * turn > 0.0 and cubic_at(turn, g0, b0, g1, b1) < -rounding:
                 lowest = turn
@@ -198,8 +198,8 @@ METHODS = (
         "rk4_located",
         "RK4, transitions located",
         run_located,
-        values=STEPS,
-        whole=STEPS,
+        values=CHARTED,
+        whole=CHARTED,
         quick=(3e-6, 1e-6, 6e-7, 3e-7, 1e-7),
         quick_whole=(1e-6, 1e-7, 3e-8),
         kind="located",

@@ -84,48 +84,41 @@ def watched(motion: EventMotion, direction: float = FALLING) -> Iterator[tuple[i
     n = motion.chain.n_blocks
     mode = motion.state[MODE, 1:-1]
     for i in range(n):
+        found: list[EventFunction] = []
         if mode[i] != 0.0:
-            yield 2 * i, _terminal(_velocity(n + i, float(mode[i])), direction)
+            found = [_velocity(n + i, float(mode[i]))]
         elif mode[max(i - 1, 0) : i + 2].any():
-            for side in (0, 1):
-                margin = _margin(i, n, float(motion.system[STRENGTH, i + 1]), 1.0 - 2.0 * side)
-                yield 2 * i + side, _terminal(margin, direction)
+            found = [_margin(i, n, float(motion.system[STRENGTH, i + 1]), way) for way in (1.0, -1.0)]
+        for side, function in enumerate(found):
+            vars(function).update(terminal=True, direction=direction)
+            yield 2 * i + side, function
 
 
-def _velocity(column: int, direction: float) -> EventFunction:
-    return lambda _time, state: direction * state[column]
+def _velocity(column: int, way: float) -> EventFunction:
+    return lambda _time, state: way * state[column]
 
 
-def _margin(block: int, n_blocks: int, strength: float, direction: float) -> EventFunction:
+def _margin(block: int, n_blocks: int, strength: float, way: float) -> EventFunction:
     if block + 1 == n_blocks:
-        return lambda _time, state: strength - direction * state[block]
-    return lambda _time, state: strength - direction * (state[block] - state[block + 1])
+        return lambda _time, state: strength - way * state[block]
+    return lambda _time, state: strength - way * (state[block] - state[block + 1])
 
 
-def _terminal(function: EventFunction, direction: float) -> EventFunction:
-    function.terminal = True  # type: ignore[attr-defined]
-    function.direction = direction  # type: ignore[attr-defined]
-    return function
+def _method(solver: Solver, values: tuple[float, ...], **others: Any) -> Method:
+    label = f"SciPy {solver} with events"
+    solve = partial(solve_scipy, solver=solver)
+    return Method(f"scipy_{solver.lower()}", label, "relative tolerance", solve, values, **others)
 
 
-_VALUES: dict[Solver, dict[str, Any]] = {
-    "RK45": {"values": (1e-4, 1e-6, 1e-8), "look": ("#00436A", "v")},
-    "DOP853": {
-        "values": (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
-        "whole": (1e-13,),
-        "quick": (1e-11,),
-        "look": ("#0072B2", "^"),
-    },
-    "LSODA": {"values": (1e-4, 1e-6, 1e-8, 1e-10), "whole": (1e-10,), "look": ("#4F9FD0", "<")},
-    "Radau": {"values": (1e-4, 1e-5), "look": ("#8FBFE0", ">")},
-}
-METHODS = tuple(
-    Method(
-        f"scipy_{solver.lower()}",
-        f"SciPy {solver} with events",
-        "relative tolerance",
-        partial(solve_scipy, solver=solver),
-        **values,
-    )
-    for solver, values in _VALUES.items()
+METHODS = (
+    _method("RK45", values=(1e-4, 1e-6, 1e-8), look=("#00436A", "v")),
+    _method(
+        "DOP853",
+        values=(1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
+        whole=(1e-13,),
+        quick=(1e-11,),
+        look=("#0072B2", "^"),
+    ),
+    _method("LSODA", values=(1e-4, 1e-6, 1e-8, 1e-10), whole=(1e-10,), look=("#4F9FD0", "<")),
+    _method("Radau", values=(1e-4, 1e-5), look=("#8FBFE0", ">")),
 )
