@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from precursors import Chain, Run, TransitionLimitError, find_slips, simulate
-from precursors.accuracy.failures.common import FIVE_SLIPS, transitions_right
+from precursors.accuracy.compare import transitions_right
+from precursors.accuracy.failures.common import FIVE_SLIPS
 from precursors.accuracy.failures.literal_friction import load_after_limit
 from precursors.methods import METHODS, DivergedError, moreau_jean, rk4_located
 from precursors.methods.columns import FORCE, VELOCITY, at_rest, set_modes, sliding_forward
