@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from chains import first_transitions
 from numba import njit
-from random_chains import trial
 from scipy.linalg import expm
 
 from precursors import Chain
@@ -96,7 +95,7 @@ def bounds_of(terms: list[Fraction]) -> tuple[float, float]:
     return min(low, float(sum(terms))), high
 
 
-@pytest.mark.parametrize("length", [0.1, 0.5, 1.0, WINDOW])
+@pytest.mark.parametrize("length", [0.1, WINDOW])
 def test_a_function_lies_between_its_bounds(length):
     """Random series of 40 terms without rounding; windows of less length have smaller terms."""
     proved = positive = 0
@@ -373,13 +372,6 @@ def test_the_unit_of_time_is_within_the_reach_of_the_series(n_blocks, ratio):
     assert omega * scale(chain).tau <= 1 + 1e-14
     if n_blocks > 2:
         assert omega * scale(chain).tau > 1 / LOOSEST
-
-
-@pytest.mark.parametrize("number", range(0, 60, 4))
-def test_any_chain_is_within_the_reach_too(number):
-    chain = trial(number)[1].chain
-    omega = math.sqrt(max(np.linalg.eigvalsh(stiffness_matrix(chain))[-1], 0.0) / chain.mass)
-    assert omega * scale(chain).tau <= 1 + 1e-14
 
 
 @pytest.mark.parametrize("length", [0.5, 1.0, WINDOW])
