@@ -246,3 +246,13 @@ def test_the_report_says_what_was_found_in_a_few_lines(uniform):
 def test_something_else_than_a_run_is_named():
     with pytest.raises(TypeError, match="what is audited must be a Run, but is Chain"):
         audit(Chain.from_slider())
+
+
+@pytest.mark.parametrize(("theta", "evaluations"), [(0.0, 7740), ("-5/6", 4913)])
+def test_an_audit_evaluates_the_conditions_at_so_many_instants(theta, evaluations, monkeypatch):
+    """As few as suffice for the proof: its effort is seen here, in no outcome."""
+    seen = []
+    evaluate = Conditions.__call__
+    monkeypatch.setattr(Conditions, "__call__", lambda self, s: seen.append(len(s)) or evaluate(self, s))
+    audit(simulate(Chain.from_slider(theta=theta), until="global slip")).raise_if_failed()
+    assert sum(seen) == evaluations

@@ -74,20 +74,25 @@ def test_a_certificate_comes_back_from_its_file(small: Certificate, tmp_path: Pa
 
 
 FOREIGN = {
-    "empty": b"",
-    "text": b"no gzip",
-    "object": gzip.compress(b"{}"),
-    "list": gzip.compress(b"[1, 2]"),
-    "nested": gzip.compress(b"[" * 100_000),
-    "another format": gzip.compress(b'{"format": "else"}'),
+    "empty": (b"", "Expecting value"),
+    "text": (b"no gzip", "Not a gzipped file"),
+    "object": (gzip.compress(b"{}"), "'format'"),
+    "list": (gzip.compress(b"[1, 2]"), "list indices must be integers"),
+    "nested": (gzip.compress(b"[" * 100_000), "maximum recursion depth exceeded"),
+    "another format": (
+        gzip.compress(b'{"format": "else"}'),
+        "its format must be 'precursors certificate 1', but is 'else'",
+    ),
 }
 
 
-@pytest.mark.parametrize("content", FOREIGN.values(), ids=FOREIGN)
-def test_a_foreign_file_is_refused_in_one_line(content: bytes, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("content", "why"), FOREIGN.values(), ids=FOREIGN)
+def test_a_foreign_file_is_refused_in_one_line(content: bytes, why: str, tmp_path: Path) -> None:
     path = tmp_path / "foreign.json.gz"
     path.write_bytes(content)
-    with pytest.raises(CertificateError, match=r"foreign\.json\.gz is not a whole certificate: .+") as error:
+    with pytest.raises(
+        CertificateError, match=rf"foreign\.json\.gz is not a whole certificate: {why}"
+    ) as error:
         Certificate.load(path)
     assert "\n" not in str(error.value)
 
@@ -190,6 +195,7 @@ def test_a_bad_parameter_is_named(argument: dict[str, object], message: str) -> 
     ("argument", "message"),
     [
         ({"duration": 0}, "must be above 0 s, but is 0 s"),
+        ({"width": 0}, "must be above 0 s, but is 0 s"),
         ({"until": "slip"}, "until"),
         ({"start_positions": ["0"]}, "start_positions must have one value"),
         ({"start_velocities": [0] * 9}, r"start_velocities must have one value \[m/s\] for each of the 10"),

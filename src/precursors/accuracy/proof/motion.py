@@ -149,7 +149,7 @@ def expand(constants: Constants, state: State, order: int) -> Series:
     (n+1) (n+2) u_{i,n+2} = c_i (u_{i-1,n} - u_{i,n}) - c_{i+1} (u_{i,n} - u_{i+1,n}).
     """
     series: Series = {}
-    zeros = [arb(0)] * (order + 1)
+    zeros = [arb(0)] * order
     for first, last in state.sliding_rows():
         rows = [
             [state.rate[i], state.net_force(i) - state.mode[i] * constants.friction[i]]
@@ -223,7 +223,7 @@ def advance(
         rate[i] = u(step) + around
         slip[i] = u.integral()(step) + around * step
     force = list(state.force)
-    for i in range(1, len(force) - 1):
+    for i in range(1, len(force)):
         if i == 1 or i in polynomials or i - 1 in polynomials:
             force[i] = force[i] + constants.coupling[i] * (slip[i - 1] - slip[i])
     state.absorb(constants, force, rate)
