@@ -42,21 +42,6 @@ def free() -> Chain:
     return without_friction(Chain.from_slider())
 
 
-def test_the_table_says_what_is_known_of_each_method():
-    known = {name: (smooth.order, smooth.limit) for name, smooth in SMOOTH.items()}
-    assert known == {
-        "rk4": (4, np.sqrt(8.0)),
-        "rk4_skip": (4, np.sqrt(8.0)),
-        "leapfrog": (2, 2.0),
-        "semi_implicit_euler": (1, 2.0),
-        "forward_euler": (1, 0.0),
-        "newmark": (2, np.inf),
-        "hht": (2, np.inf),
-        "moreau_jean_half": (2, np.inf),
-        "moreau_jean_one": (1, np.inf),
-    }
-
-
 def exact_motion(chain: Chain, time: float) -> np.ndarray:
     """Spring forces and velocities of sliding blocks, by the exponential of the whole system's matrix."""
     n = chain.n_blocks

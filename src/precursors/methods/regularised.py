@@ -125,12 +125,13 @@ def solve_regularised(
         message = stepper.step()
         if stepper.status == "failed":
             raise RuntimeError(f"{solver} at t = {stepper.t * tau:.9g} s: {message}")
-        new = _modes(stepper.y[n:], threshold)
+        velocity = stepper.y[n:]
+        new = np.where(np.abs(velocity) > threshold, np.sign(velocity), 0.0).astype(np.int64)
         if (new == mode).all():
             continue
         dense = stepper.dense_output()
         crossings = sorted(
-            (_crossing(dense, n + i, threshold, stepper.t_old, stepper.t), i)
+            (_crossing(dense, n + i, mode[i] or new[i], threshold, stepper.t_old, stepper.t), i)
             for i in np.flatnonzero(new != mode).tolist()
         )
         for time, i in crossings:
@@ -144,20 +145,9 @@ def solve_regularised(
     return Result(Run.from_transitions(chain, duration, *columns), stepper.nfev)
 
 
-def _modes(velocity: FloatArray, threshold: float) -> np.ndarray:
-    return np.where(np.abs(velocity) > threshold, np.sign(velocity), 0.0).astype(np.int64)
-
-
-def _crossing(dense, column: int, threshold: float, start: float, end: float) -> float:
-    """When the speed in a column crosses the threshold in a step."""
-
-    def excess(time: float) -> float:
-        return abs(float(dense(time)[column])) - threshold
-
-    # A block that turns from sliding forward to sliding backward within the step is above it at both ends.
-    if excess(start) * excess(end) > 0.0:
-        return brentq(lambda time: float(dense(time)[column]), start, end)
-    return brentq(excess, start, end)
+def _crossing(dense, column: int, way: int, threshold: float, start: float, end: float) -> float:
+    """When the velocity in a column, in the direction of a mode, crosses the threshold in a step."""
+    return brentq(lambda time: way * float(dense(time)[column]) - threshold, start, end)
 
 
 _LOOKS: dict[Solver, tuple[str, str]] = {"Radau": ("#7A5C3E", "6,1,0"), "BDF": ("#C4A27A", "8,1,0")}
