@@ -256,7 +256,7 @@ def whole(text: str) -> int:
 
 
 def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
-    """Add the options of a chain and of its run, which stand in the help of `simulate` only."""
+    """Add the options of a chain and of its run."""
 
     def group(title: str, about: str) -> Callable[..., object]:
         options: Any = command.add_argument_group(title, about) if is_shown else command
@@ -284,14 +284,14 @@ def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
     add("max_transitions", type=whole, metavar="N", help="limit of transitions")
 
 
-def add_options(command: argparse.ArgumentParser, name: str) -> None:
-    """Add the options of a command."""
+def add_options(command: argparse.ArgumentParser, name: str, shows_all: bool = False) -> None:
+    """Add the options of a command; those of a chain stand in the help of `simulate` only, or of all."""
     add = command.add_argument
     if name == "audit":
         add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
         return
     output: dict[str, Any] = {"type": Path, "metavar": "FILE"}
-    add_chain(command, is_shown=name == "simulate")
+    add_chain(command, is_shown=shows_all or name == "simulate")
     if name == "simulate":
         add("--output", help="save the run (HDF5)", **output)
     else:
@@ -356,7 +356,7 @@ def print_version() -> None:
         print(state["swh_revision"], state["swh_directory"], sep="\n")
 
 
-def parser() -> Parser:
+def parser(shows_all: bool = False) -> Parser:
     """Build the parser of all commands."""
     raw = argparse.RawDescriptionHelpFormatter
     top = Parser(
@@ -366,7 +366,7 @@ def parser() -> Parser:
     subparsers = top.add_subparsers(dest="command", metavar="COMMAND")
     for name, (run, meaning) in COMMANDS.items():
         command = subparsers.add_parser(name, help=meaning, description=f"{meaning[0].upper()}{meaning[1:]}.")
-        add_options(command, name)
+        add_options(command, name, shows_all)
         command.set_defaults(run=run)
     return top
 
@@ -385,11 +385,12 @@ def join_negative_values(argv: Iterable[str]) -> list[str]:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; an error is one line on standard error."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # starting threads costs more than any matrix here
-    top = parser()
-    if "_ARGCOMPLETE" in os.environ:  # set by the shell when somebody presses Tab
+    completes = "_ARGCOMPLETE" in os.environ  # set by the shell when somebody presses Tab
+    top = parser(shows_all=completes)
+    if completes:
         import argcomplete
 
-        argcomplete.autocomplete(top, print_suppressed=True)
+        argcomplete.autocomplete(top)
     arguments = top.parse_args(join_negative_values(sys.argv[1:] if argv is None else argv))
     if arguments.command is None and not arguments.version:
         top.error(f"needed is one of {', '.join(COMMANDS)}")
