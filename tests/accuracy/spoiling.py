@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import random_chains
+from accuracy.falsified import changed, with_chain, without
 from chains import first_transitions
 from numpy.random import Generator
 
@@ -41,10 +42,7 @@ def dropped(run: Run, rng: Generator) -> Run | None:
     """One transition left out: its interval joins the next."""
     if not len(run.transitions):
         return None
-    k = int(rng.integers(len(run.transitions)))
-    intervals = np.delete(run.intervals, k)
-    intervals[k] = run.intervals[k] + run.intervals[k + 1]
-    return replace(run, intervals=intervals, transitions=np.delete(run.transitions, k))
+    return without(run, int(rng.integers(len(run.transitions))))
 
 
 def swapped(run: Run, rng: Generator) -> Run | None:
@@ -65,9 +63,9 @@ def turned(run: Run, rng: Generator) -> Run | None:
     """One transition to another mode."""
     if not len(run.transitions):
         return None
-    k, transitions = int(rng.integers(len(run.transitions))), run.transitions.copy()
-    transitions["mode"][k] = rng.choice([mode for mode in (-1, 0, 1) if mode != transitions["mode"][k]])
-    return replace(run, transitions=transitions)
+    k = int(rng.integers(len(run.transitions)))
+    others = [mode for mode in (-1, 0, 1) if mode != run.transitions["mode"][k]]
+    return changed(run, k, mode=rng.choice(others))
 
 
 def lighter(run: Run, rng: Generator) -> Run | None:
@@ -79,7 +77,7 @@ def lighter(run: Run, rng: Generator) -> Run | None:
     stopped = {block for k, block in enumerate(blocks) if block in blocks[:k]}
     if not (run.chain.mu_k > 0 and any(run.chain.weights[block - 1] > 0 for block in stopped)):
         return None
-    return replace(run, chain=replace(run.chain, mu_k=run.chain.mu_k * (1 - WRONG)))
+    return with_chain(run, "mu_k", 1 - WRONG)
 
 
 WAYS: dict[str, Callable[[Run, Generator], Run | None]] = {
