@@ -60,7 +60,7 @@ def dense_cascade(chain: Chain, overshoot: float) -> list[tuple[float, float, in
 
 
 def dense_stage(chain, stiffness, net, sign, overshoot, rounding):
-    seeds, batches, out = sign != 0, [], np.zeros(chain.n_blocks, bool)
+    seeds, out = sign != 0, np.zeros(chain.n_blocks, bool)
     while True:
         moving = np.flatnonzero(sign)
         step = np.zeros(chain.n_blocks)
@@ -70,8 +70,6 @@ def dense_stage(chain, stiffness, net, sign, overshoot, rounding):
         if turned.any():
             if (turned & ~seeds).any():
                 turned &= ~seeds
-            elif batches:
-                turned = batches.pop() & (sign != 0)
             out |= turned
             sign = np.where(turned, 0.0, sign)
             continue
@@ -79,7 +77,6 @@ def dense_stage(chain, stiffness, net, sign, overshoot, rounding):
         joins = (sign == 0) & ~out & (np.abs(after) > chain.strength + rounding)
         if not joins.any():
             return step, sign
-        batches.append(joins)
         sign = np.where(joins, np.sign(after), sign)
 
 

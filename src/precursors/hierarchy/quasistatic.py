@@ -7,8 +7,8 @@ S of the set would be in balance with kinetic friction after the displacements
     u* = B_SS^-1 (g - s mu_k w)_S,
 
 and they move by (1 + overshoot) u*. A block at rest that this pushes beyond mu_s w joins the set, which then
-moves anew from where it began. One that would move against its direction once it has joined is put out again.
-So are the last to join where they turn a block round that began the slip. When no block joins, all stop.
+moves anew from where it began. One that would move against its direction once it has joined is put out again,
+and so is one that began the slip where no other does. When no block joins, all stop.
 Those whose net force then exceeds mu_s w begin a further stage of the same event. Without time, "all blocks
 at the same instant" has no meaning: a global slip is an event in which every block slides.
 
@@ -39,7 +39,7 @@ ENERGY_CONSERVED, OVERDAMPED = 1.0, 0.0
 MAX_EVENTS = 1_000_000
 MAX_STAGES = 100_000  # of one event, each with less elastic energy than the one before
 ROUNDING = 1e-12  # of F_Z: a block that far beyond its strength still rests
-PUT_OUT = -1
+BEGAN, JOINED, PUT_OUT = range(3)
 SLIP = np.dtype([(name, EVENT[name]) for name in COLUMNS])
 
 compiled = entry(Path(__file__).parent, ["quasistatic.py"], error_model="numpy")
@@ -142,40 +142,28 @@ def beyond_strength(cascade, net, i):
 
 @compiled
 def slip_of_stage(cascade, net, direction):
-    """Displacements [m] of the set that `direction` begins, once no block joins or leaves it.
-
-    `joined` is 0 for the blocks that begin, 1, 2, ... for those that join, and PUT_OUT for those that left.
-    """
-    n, last = net.shape[0], 0
-    joined = np.zeros(n, np.int64)
+    """Displacements [m] of the set that `direction` begins, once no block joins or leaves it."""
+    n = net.shape[0]
+    state = np.zeros(n, np.int64)
     while True:
         step = balance(cascade, net, direction)
-        turned, turned_later = 0, 0
+        leaves = -1  # blocks in this state that turn round
         for i in range(n):
             step[i] *= cascade.reach
             if step[i] * direction[i] < 0.0:
-                turned += 1
-                turned_later += joined[i] > 0
-        if turned > 0:
-            # Those that joined leave first; if none of them turned, the last that joined.
-            latest = last if turned_later == 0 else 0
-            if latest > 0:
-                last -= 1
+                leaves = max(leaves, state[i])
+        if leaves >= 0:
             for i in range(n):
-                turns = step[i] * direction[i] < 0.0 and (turned_later == 0 or joined[i] > 0)
-                if latest > 0:
-                    turns = joined[i] == latest and direction[i] != 0.0
-                if turns:
-                    direction[i], joined[i] = 0.0, PUT_OUT
+                if step[i] * direction[i] < 0.0 and state[i] == leaves:
+                    direction[i], state[i] = 0.0, PUT_OUT
             continue
-        last += 1
-        lost, joins = lost_force(cascade.springs, step), 0
+        lost, joins = lost_force(cascade.springs, step), False
         for i in range(n):
-            if direction[i] == 0.0 and joined[i] != PUT_OUT:
+            if direction[i] == 0.0 and state[i] != PUT_OUT:
                 direction[i] = beyond_strength(cascade, net[i] - lost[i], i)
                 if direction[i] != 0.0:
-                    joined[i], joins = last, joins + 1
-        if joins == 0:
+                    state[i], joins = JOINED, True
+        if not joins:
             return step
 
 
