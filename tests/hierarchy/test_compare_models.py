@@ -13,13 +13,13 @@ from golden.small_tables import SCENES
 from precursors import Chain
 from precursors.figures import model_comparison, style
 from precursors.hierarchy.compare_models import (
+    DRAWS,
     SHORTEST,
     TOLERANCES,
     compare_models,
     waveform_error,
-    with_smallest,
 )
-from precursors.hierarchy.models import MODELS
+from precursors.hierarchy.models import MODELS, Motion, move
 from precursors.support.files import read_table
 
 
@@ -49,12 +49,6 @@ def test_the_smallest_model_for_each_question_is_named(comparison: pd.DataFrame)
     }
 
 
-def test_a_wider_tolerance_lets_a_smaller_model_answer(comparison: pd.DataFrame) -> None:
-    limit = comparison["question"].map(TOLERANCES | {"mu_sapp": 0.12, "slip_duration": 0.4})
-    wide = smallest(with_smallest(comparison.assign(is_answer=comparison["error_high"] <= limit)))
-    assert (wide["mu_sapp"], wide["slip_duration"]) == ("law", "rigid")
-
-
 def test_the_papers_chain_has_no_error_and_every_answer_a_cost(comparison: pd.DataFrame) -> None:
     assert (comparison.loc[comparison["model"] == "chain", "error"] == 0).all()
     assert (comparison["cost_s"] > 0).all()
@@ -62,23 +56,18 @@ def test_the_papers_chain_has_no_error_and_every_answer_a_cost(comparison: pd.Da
 
 def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(clock) -> None:
     calls, warm, rounds = [], 0.0005, 3
+    motion = move(SCENES["even"])
 
-    def solve(chain: Chain) -> None:
-        clock.now += warm if calls else 10.0
+    def prepare(chain: Chain) -> Motion:
+        clock.now += warm if len(calls) > 1 + DRAWS else 10.0
         calls.append(chain)
+        return motion
 
-    models = {"chain": replace(MODELS["chain"], solve=solve)}
+    models = {"chain": replace(MODELS["chain"], prepare=prepare)}
     table = compare_models({"even": SCENES["even"]}, TOLERANCES, models, rounds)
     assert table["cost_s"].tolist() == pytest.approx([warm] * len(TOLERANCES))
-    assert len(calls) == 2 + rounds * round(SHORTEST / warm)  # one run answers all questions
-
-
-def test_an_error_has_its_interval_and_the_whole_of_it_must_be_within_the_tolerance(comparison) -> None:
-    assert (comparison["error_low"] <= comparison["error"]).all()
-    assert (comparison["error"] <= comparison["error_high"]).all()
-    assert (comparison["is_answer"] == (comparison["error_high"] <= comparison["tolerance"])).all()
-    noisy = comparison["question"].isin(["mu_sapp", "mu_sapp_band"]) & (comparison["model"] == "overdamped")
-    assert (comparison.loc[noisy, "error_low"] < comparison.loc[noisy, "error_high"]).all()
+    # One run answers all questions, and each draw is run once.
+    assert len(calls) == 1 + DRAWS + 2 + rounds * round(SHORTEST / warm)
 
 
 def test_waveforms_are_compared_over_the_same_time() -> None:

@@ -74,7 +74,7 @@ def draw(table: pd.DataFrame) -> Figure:
             Patch(color=MISSED, label="not within it"),
             Patch(color=SILENT, label="no answer"),
         ]
-        lines = "In each cell: values of the scenes, $\\bf{largest\\ error}$, median time of an answer"
+        lines = "In each cell: values of the scenes, $\\bf{largest\\ error}$, median time of all answers"
         style.draw_key(figure, entries, title=lines, title_fontsize=7)
     return figure
 

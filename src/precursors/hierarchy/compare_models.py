@@ -31,7 +31,7 @@ TOLERANCES = {
     "slip_duration": 0.1,  # the experiment's duration is printed with one digit
     "waveform": 0.02,  # as front_loads
 }
-ROUNDS, SHORTEST = 3, 0.003  # how often an answer is timed, and for how long at least [s]
+ROUNDS, SHORTEST = 3, 0.003  # how often a model is timed, and for how long at least [s]
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ def compare_models(
     models : mapping
         The models, from the smallest to the largest; the paper's chain is among them.
     rounds : int
-        How often each answer is timed: see `timing.measure`.
+        How often each model is timed: see `timing.measure`.
 
     Returns
     -------
@@ -146,17 +146,17 @@ def compare_models(
         of the model, value and its unit (a statistic of runs with noise where the question has one), error
         against the paper's chain with its 95 % interval (error_low, error_high, which are the error where
         there is no noise), tolerance, is_answer (the whole interval is within it), is_smallest (the first
-        model that answers in every scene), and cost_s (median time of the solution alone [s]: of the run,
-        the cascade or the formula, without tables).
+        model that answers in every scene), and cost_s (median time of all the model's answers [s]).
     """
     rows = []
-    prepared = {(n, scene): m.prepare(chain) for n, m in models.items() for scene, chain in chains.items()}
-    noisy = {key: noisy_answers(models[key[0]], chains[key[1]]) for key in prepared}
-    costs = measure_costs(models, chains, prepared, rounds)
+    tasks = {(n, s): partial(m.ask, chain) for n, m in models.items() for s, chain in chains.items()}
+    answers = {key: ask() for key, ask in tasks.items()}
+    noisy = {(name, scene): noisy_answers(models[name], chains[scene]) for name, scene in tasks}
+    costs = timing.measure(tasks, rounds, SHORTEST)
     for name_of_question, question in QUESTIONS.items():
         quantity = question.quantity or name_of_question
-        for (name, scene), solution in prepared.items():
-            if quantity not in models[name].answers:
+        for (name, scene), answered in answers.items():
+            if quantity not in answered:
                 continue
             if question.statistic:
                 samples = (noisy[name, scene][quantity], noisy[PAPERS_MODEL, scene][quantity])
@@ -164,8 +164,7 @@ def compare_models(
                     question, *samples, chains[scene], name == PAPERS_MODEL
                 )
             else:
-                answer = models[name].answers[quantity](solution)
-                exact = models[PAPERS_MODEL].answers[quantity](prepared[PAPERS_MODEL, scene])
+                answer, exact = answered[quantity], answers[PAPERS_MODEL, scene][quantity]
                 error = low = high = question.error(answer, exact, chains[scene])
             rows.append(
                 {
@@ -182,42 +181,21 @@ def compare_models(
                     "error_unit": question.error_unit,
                     "tolerance": tolerances[name_of_question],
                     "is_answer": high <= tolerances[name_of_question],
-                    "cost_s": costs[name, scene, quantity],
+                    "cost_s": costs[name, scene].seconds,
                 }
             )
     return with_smallest(pd.DataFrame(rows))
 
 
-def measure_costs(
-    models: Mapping[str, Model],
-    chains: Mapping[str, Chain],
-    prepared: Mapping[tuple[str, str], Any],
-    rounds: int,
-) -> dict[tuple[str, str, str], float]:
-    """Median time [s] of each solution, by model, scene and quantity; one run answers all questions."""
-    tasks: dict[tuple[str, str, str], Callable[[], Any]] = {}
-    for (name, scene), solution in prepared.items():
-        model, chain = models[name], chains[scene]
-        for quantity, formula in model.answers.items():
-            key = (name, scene, "" if model.solve else quantity)
-            tasks[key] = partial(model.solve, chain) if model.solve else partial(formula, solution)
-    measured = timing.measure(tasks, rounds, SHORTEST)
-    return {
-        (name, scene, quantity): measured[name, scene, "" if models[name].solve else quantity].seconds
-        for name, scene in prepared
-        for quantity in models[name].answers
-    }
-
-
 def noisy_error(
-    question: Question, values: list[float], exact: list[float], chain: Chain, is_papers: bool
+    question: Question, values: FloatArray, exact: FloatArray, chain: Chain, is_papers: bool
 ) -> tuple[Any, float, float, float]:
     """Statistic of a model's runs, and its error against those of the chain with a 95 % interval.
 
     Both samples are drawn again and again. The chain has no error against itself.
     """
     assert question.statistic
-    answer = question.statistic(np.array(values), 0)
+    answer = question.statistic(values, 0)
     if is_papers:
         return answer, 0.0, 0.0, 0.0
     random = np.random.default_rng(SEED)
@@ -225,22 +203,18 @@ def noisy_error(
         question.statistic(random.choice(sample, (len(sample), RESAMPLES)), 0) for sample in (values, exact)
     )
     low, high = np.quantile(question.error(drawn, drawn_exact, chain), [0.025, 0.975])
-    error = question.error(answer, question.statistic(np.array(exact), 0), chain)
+    error = question.error(answer, question.statistic(exact, 0), chain)
     return answer, float(error), float(low), float(high)
 
 
-def noisy_answers(model: Model, chain: Chain) -> dict[str, list[float]]:
+def noisy_answers(model: Model, chain: Chain) -> dict[str, FloatArray]:
     """Answers to the noisy questions for chains with noise in the normal loads, the same for all models."""
     random = np.random.default_rng(SEED)
     noises = NOISE * random.uniform(-1.0, 1.0, (DRAWS, chain.n_blocks))
     noisy = {question.quantity or name for name, question in QUESTIONS.items() if question.statistic}
-    asked = [quantity for quantity in model.answers if quantity in noisy]
-    found: dict[str, list[float]] = {quantity: [] for quantity in asked}
-    for noise in noises if asked else ():
-        prepared = model.prepare(replace(chain, weights=chain.weights * (1.0 + noise)))
-        for quantity in asked:
-            found[quantity].append(model.answers[quantity](prepared))
-    return found
+    asked = noisy & set(model.answers)
+    drawn = [model.ask(replace(chain, weights=chain.weights * (1.0 + noise))) for noise in noises if asked]
+    return {quantity: np.array([answers[quantity] for answers in drawn]) for quantity in asked}
 
 
 def with_smallest(table: pd.DataFrame) -> pd.DataFrame:

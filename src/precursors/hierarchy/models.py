@@ -51,18 +51,16 @@ class Model:
         From a quantity, a key of `UNITS`, to the function that computes it from what `prepare` returns.
     prepare : callable
         From a chain to what the answers need.
-    solve : callable or None
-        From a chain to its solution without tables, which is timed; None where each answer is a formula.
     """
 
     label: str
     answers: Mapping[str, Callable[[Any], Any]]
     prepare: Callable[[Any], Any] = field(default=lambda chain: chain)
-    solve: Callable[[Chain], Any] | None = None
 
-    def ask(self, chain: Chain, quantity: str) -> Any:
-        """Answer one question about a chain."""
-        return self.answers[quantity](self.prepare(chain))
+    def ask(self, chain: Chain) -> dict[str, Any]:
+        """All answers about a chain, by quantity."""
+        prepared = self.prepare(chain)
+        return {quantity: answer(prepared) for quantity, answer in self.answers.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,15 +158,10 @@ MODELS: dict[str, Model] = {
         "front law", {"front_loads": statics.front_load_law, "mu_sapp": statics.apparent_friction_law}
     ),
     "rigid": Model("rigid slider", rigid.ANSWERS),
-    "overdamped": Model(
-        "overdamped chain",
-        _EVENTS,
-        partial(move_without_inertia, overshoot=OVERDAMPED),
-        partial(quasistatic_slips, overshoot=OVERDAMPED),
-    ),
-    "quasistatic": Model("quasi-static chain", _EVENTS, move_without_inertia, quasistatic_slips),
-    PAPERS_MODEL: Model("paper's chain", _MOTION, move, run_to_global_slip),
-    "larger": Model("larger chain", _MOTION, partial(move, solve=run_larger), run_larger),
+    "overdamped": Model("overdamped chain", _EVENTS, partial(move_without_inertia, overshoot=OVERDAMPED)),
+    "quasistatic": Model("quasi-static chain", _EVENTS, move_without_inertia),
+    PAPERS_MODEL: Model("paper's chain", _MOTION, move),
+    "larger": Model("larger chain", _MOTION, partial(move, solve=run_larger)),
 }
 
 
@@ -181,10 +174,9 @@ def scene_answers(slider: Mapping[str, Any], model: str) -> pd.DataFrame:
         One row per number: model, quantity, value and its unit; block (1..N) for the load at which the front
         first reaches each block; time_s [s] for the tangential load over time.
     """
-    prepared = MODELS[model].prepare(Chain.from_slider(**slider))
     tables = []
-    for quantity, answer in MODELS[model].answers.items():
-        value = np.asarray(answer(prepared))
+    for quantity, answer in MODELS[model].ask(Chain.from_slider(**slider)).items():
+        value = np.asarray(answer)
         table = pd.DataFrame({"value": np.atleast_1d(value if value.ndim < 2 else value[:, 1])})
         table["block"] = pd.array(
             range(1, len(table) + 1) if value.ndim == 1 else [None] * len(table), "Int64"
