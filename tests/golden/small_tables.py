@@ -24,13 +24,17 @@ from precursors.accuracy.failures.stability import LOST, thresholds
 from precursors.accuracy.proof import ExactChain
 from precursors.accuracy.proof.tube import Proof
 from precursors.ensembles import noise, resolution
+from precursors.ensembles.event_law import event_law_table
 from precursors.ensembles.printed_digits import digits_table
+from precursors.ensembles.studies import MAP
 from precursors.ensembles.study import run_members
+from precursors.ensembles.theta_window import theta_window_table
 from precursors.hierarchy.compare_models import compare_models
 from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 from precursors.hierarchy.larger_study import larger_tables
 from precursors.methods import METHODS
 from precursors.reproduction.definitions import definitions_table
+from precursors.reproduction.scene_numbers import measures_table
 
 SMALL = Path(__file__).parent / "small"
 CONFIG = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8"))
@@ -207,6 +211,17 @@ TABLES: dict[str, Callable[[], pd.DataFrame]] = {
     "counts_by_n": lambda: resolution.counts_table(resolution_members(), "fig10"),
     "resolution_limits": lambda: resolution.extrapolation_table(resolution_members(), 2),
     "resolution_exponents": lambda: resolution.exponents_table(resolution_members()),
+    "event_law": lambda: event_law_table(
+        run_members(study_of("event_law_members", {"seed": 1, "runs": 6, "n_blocks": [3, 4], "middle": 4})),
+        CONFIG["chain"],
+    ),
+    "theta_window": lambda: theta_window_table(
+        run_members(study_of("theta_window_members", {"window": 0.0034, "points": 3}))
+    ),
+    "map": lambda: run_members(study_of(MAP, {"points": 12})),
+    "measures": lambda: measures_table(
+        {theta: simulate(Chain.from_slider(theta=theta), until="global slip") for theta in ("-5/6", "5/6")}
+    ),
 }
 # These take seconds and are compared where other tests need them, too.
 ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
