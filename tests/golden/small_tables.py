@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 import yaml
 from accuracy.falsified import audits
-from ensembles.studies import PAPER, noise_of, study_of
+from ensembles.studies import PAPER, study_of
 from methods.kept_runs import kept_runs
 
 from precursors import Chain, simulate
@@ -24,11 +24,11 @@ from precursors.accuracy.failures.stability import LOST, thresholds
 from precursors.accuracy.proof import ExactChain
 from precursors.accuracy.proof.tube import Proof
 from precursors.ensembles import noise, resolution
-from precursors.ensembles.event_law import event_law_table
-from precursors.ensembles.printed_digits import digits_table
+from precursors.ensembles.event_law import event_law_tables
+from precursors.ensembles.printed_digits import digits_tables
 from precursors.ensembles.studies import MAP
-from precursors.ensembles.study import run_members
-from precursors.ensembles.theta_window import theta_window_table
+from precursors.ensembles.study import gather, run_members
+from precursors.ensembles.theta_window import theta_window_tables
 from precursors.hierarchy.compare_models import compare_models
 from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 from precursors.hierarchy.larger_study import larger_tables
@@ -150,16 +150,24 @@ def enclosures() -> pd.DataFrame:
 
 
 @cache
-def noise_members() -> pd.DataFrame:
-    """A small noise ensemble, with its runs."""
-    return run_members(noise_of(runs=8))
+def studies() -> dict[str, pd.DataFrame]:
+    """The tables of small studies: few runs of few blocks, with an octave and all cases of the law."""
 
+    def chunks(name: str, **settings: object) -> list[pd.DataFrame]:
+        return [run_members(study_of(name, settings)).rename_axis("member").reset_index()]
 
-@cache
-def resolution_members() -> pd.DataFrame:
-    """Few runs of few blocks, with an octave."""
-    settings = {"seed": 1, "n_blocks": [2, 4], "runs": [6, 6]}
-    return resolution.with_front_speed(run_members(study_of("resolution_members", settings)), 0.1)
+    tables = noise.noise_tables(chunks("noise_members", seed=1, runs=8))
+    few = chunks("resolution_members", seed=1, n_blocks=[2, 4], runs=[6, 6])
+    law = chunks("event_law_members", seed=1, runs=6, n_blocks=[3, 4], middle=4)
+    window = chunks("theta_window_members", window=0.0034, points=3)
+    return {
+        **tables,
+        **digits_tables(chunks("digits_members", seed=1, draws=8), PAPER),
+        **resolution.resolution_tables(few, tables["noise_members"], CONFIG["chain"], "fig10", 2),
+        **event_law_tables(law, CONFIG["chain"]),
+        **theta_window_tables(window),
+        "map": gather(chunks(MAP, points=12)),
+    }
 
 
 def larger_runs() -> pd.DataFrame:
@@ -204,21 +212,13 @@ def model_comparison() -> pd.DataFrame:
 
 TABLES: dict[str, Callable[[], pd.DataFrame]] = {
     "definitions": definitions,
-    "noise": lambda: noise.noise_table(noise_members()),
-    "noise_differences": lambda: noise.differences_table(noise_members()),
-    "digits": lambda: digits_table(run_members(study_of("digits_members", {"seed": 1, "draws": 8})), PAPER),
-    "resolution": lambda: noise.noise_table(resolution_members(), resolution.POINT, resolution.QUANTITIES),
-    "counts_by_n": lambda: resolution.counts_table(resolution_members(), "fig10"),
-    "resolution_limits": lambda: resolution.extrapolation_table(resolution_members(), 2),
-    "resolution_exponents": lambda: resolution.exponents_table(resolution_members()),
-    "event_law": lambda: event_law_table(
-        run_members(study_of("event_law_members", {"seed": 1, "runs": 6, "n_blocks": [3, 4], "middle": 4})),
-        CONFIG["chain"],
-    ),
-    "theta_window": lambda: theta_window_table(
-        run_members(study_of("theta_window_members", {"window": 0.0034, "points": 3}))
-    ),
-    "map": lambda: run_members(study_of(MAP, {"points": 12})),
+    **{
+        name: partial(lambda name: studies()[name], name)
+        for name in (
+            *("noise", "noise_differences", "digits", "resolution", "counts_by_n", "resolution_limits"),
+            *("resolution_exponents", "event_law", "theta_window", "map"),
+        )
+    },
     "measures": lambda: measures_table(
         {theta: simulate(Chain.from_slider(theta=theta), until="global slip") for theta in ("-5/6", "5/6")}
     ),
