@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 import yaml
 
-from precursors import Chain, find_slips, simulate
+from precursors import Chain, simulate
 from precursors.hierarchy import quasistatic
 from precursors.hierarchy.models import MODELS, UNITS, move, scene_answers
 from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
 from precursors.hierarchy.rigid import load_drop, onset_load, rigid_slip_duration, slip_load
-from precursors.hierarchy.statics import first_precursor_load, front_load_law
+from precursors.hierarchy.statics import front_load_law
 from precursors.model.statics import balance_matrix
 
 ROOT = Path(__file__).parents[2]
@@ -81,14 +81,6 @@ def dense_stage(chain, stiffness, net, sign, overshoot, rounding):
         sign = np.where(joins, np.sign(after), sign)
 
 
-@pytest.mark.parametrize("theta", THETAS)
-def test_the_load_of_the_first_precursor_is_the_exact_chains(theta) -> None:
-    chain = SLIDER(theta=theta)
-    exact = MODELS["chain"].ask(chain)["first_load"]
-    assert first_precursor_load(chain) == pytest.approx(exact, rel=ROUNDING)
-    assert MODELS["quasistatic"].ask(chain)["first_load"] == pytest.approx(exact, rel=ROUNDING)
-
-
 @pytest.mark.parametrize("velocity", [1e-4, 0.3])
 def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> None:
     chain = SLIDER(n_blocks=1, drive_velocity=velocity)
@@ -137,26 +129,6 @@ def assert_dense(chain: Chain, overshoot: float) -> None:
     np.testing.assert_allclose(slips["onset"], driven / chain.loading_rate, rtol=CASCADE_ROUNDING)
     np.testing.assert_array_equal(slips["end"], slips["onset"])
     np.testing.assert_array_equal(slips["largest_load"], np.maximum.accumulate(slips["load_before"]))
-
-
-def test_a_lone_block_slips_as_far_in_a_cascade_that_keeps_energy_as_in_the_exact_chain() -> None:
-    chain = SLIDER()
-    drop = (
-        chain.drive_stiffness * 2 * (chain.mu_s - chain.mu_k) * 40 / (chain.stiffness + chain.drive_stiffness)
-    )
-    event = quasistatic_slips(chain)[0]
-    assert event["load_before"] - event["load_after"] == pytest.approx(drop, rel=ROUNDING)
-    exact = find_slips(simulate(chain, 1.0)).iloc[0]
-    # During the exact slip of 21 us the drive goes on at 80 N/s.
-    assert event["load_after"] == pytest.approx(exact["load_after"], abs=80.0 * 22e-6)
-
-
-def test_onsets_of_cascades_follow_from_the_load_and_the_slip_of_block_1() -> None:
-    chain = SLIDER(drive_velocity=1e-7)  # so slow that the exact slips take no time beside the waits
-    exact = find_slips(simulate(chain, 3000.0, until="global slip"))
-    slips = quasistatic_slips(chain)
-    # Two events: block 1 alone, then blocks 1 and 2, whose order the cascade does not resolve.
-    np.testing.assert_allclose(slips["onset"][:2], exact["onset"][:2], rtol=1e-6)
 
 
 @pytest.mark.parametrize("theta", THETAS)
