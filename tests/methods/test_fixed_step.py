@@ -194,18 +194,22 @@ def test_moreau_jean_balances_every_block_in_a_step_with_the_friction_that_it_fi
     np.testing.assert_allclose(impulses, change, rtol=0, atol=ROUNDING * abs(change).max())
 
 
-def test_located_steps_see_every_dip_of_a_cubic():
-    """Also a dip within a step whose ends are positive; the zero is where the cubic first is negative."""
+@pytest.mark.parametrize("g0", [1.0, 0.0])
+def test_located_steps_see_every_dip_of_a_cubic(g0):
+    """Also between positive ends; the zero is where the cubic first falls, from above or after a rise."""
     s, dips = np.linspace(0.0, 1.0, 2001), 0
     random = np.random.default_rng(1)
     for p1, p2, g1 in random.uniform(-1.5, 1.0, (1000, 3)) * [1.0, 0.1, 0.1]:
-        b0, b1 = 3.0 * (p1 - 1.0), 3.0 * (g1 - p2)
+        p1 = p1 if g0 else abs(p1)
+        b0, b1 = 3.0 * (p1 - g0), 3.0 * (g1 - p2)
         r = 1.0 - s
-        cubic = r**3 + 3.0 * s * r * (p1 * r + p2 * s) + g1 * s**3
-        found = rk4_located.first_zero(1.0, b0, g1, b1, 1e-12)
+        cubic = g0 * r**3 + 3.0 * s * r * (p1 * r + p2 * s) + g1 * s**3
+        found = rk4_located.first_zero(g0, b0, g1, b1, 1e-12)
         if cubic.min() < 0.0:
             dips += g1 > 0.0
-            assert found == pytest.approx(s[np.argmax(cubic < 0.0)], abs=1e-3)
-        elif cubic.min() > 1e-3:
+            zero = s[np.argmax(cubic < 0.0)]
+            assert found == pytest.approx(zero, abs=1e-3)
+            assert abs(rk4_located.cubic_at(found, g0, b0, g1, b1)) < ROUNDING
+        elif cubic[20:].min() > 1e-3:
             assert found == rk4_located.NEVER
-    assert dips > 100
+    assert dips > 10
