@@ -22,13 +22,14 @@ RUNS: dict[str, tuple[Chain, float, str | None]] = {
     "two blocks": (Chain.from_slider(n_blocks=2, drive_velocity=SPEED), 0.1, "global slip"),
     "ten blocks": (Chain.from_slider(theta="5/6", drive_velocity=SPEED), 0.007, None),
 }
-# Values by what the setting is, or by the method where these are too coarse or too slow.
+# Values by what the setting is, or by the method where these are too coarse, too slow or hang on rounding.
 SETTINGS = {
     "none": (0.0,),
     "step [s]": (5e-6, 1e-6, 1e-7),
     "relative tolerance": (1e-4, 1e-8),
     "width [m/s]": (1e-4,),
     "forward_euler": (5e-7, 1e-7),
+    "rk4_located": (5e-6, 1e-6),
     "scipy_radau": (1e-3, 1e-5),
     "literal": (1e-6,),
 }
