@@ -50,12 +50,12 @@ FIGURES = {
         "tables": {"table": "results/tables/definitions.csv"},
     },
     "work_precision": {
-        "section": "speed",
+        "section": "accuracy",
         "shows": "errors against time",
         "tables": {"table": "results/tables/work_precision.csv"},
     },
     "work_precision_evaluations": {
-        "section": "speed",
+        "section": "accuracy",
         "shows": "errors against evaluations",
         "module": "work_precision",
         "tables": {"table": "results/tables/work_precision.csv"},
@@ -63,7 +63,7 @@ FIGURES = {
     },
     "speed": {
         "shows": "error against time, as published",
-        "section": "speed",
+        "section": "accuracy",
         "tables": {
             "table": str(ROOT / "paper/tables/work_precision_full.csv"),
             "sessions": str(ROOT / "paper/tables/beside_heyoka.csv"),
@@ -146,7 +146,6 @@ FIGURES = {
 # Their headings in the report; another section has its own name.
 SECTIONS = {
     "reproduction": "Reproduction",
-    "speed": "Speed and accuracy",
     "accuracy": "Speed and accuracy",
     "ensembles": "Sensitivity",
     "hierarchy": "Models",
