@@ -113,7 +113,11 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(fi
     [
         ("figures/scene", {"draw_reproduction"}, {"tabulate", "simulate", "draw_accuracy"}),
         ("figures/style", {"draw_reproduction", "draw_accuracy"}, {"tabulate", "simulate"}),
-        ("methods/moreau_jean", {"tabulate_work_precision", "draw_accuracy"}, {"take", "run_chunk", "simulate"}),
+        (
+            "methods/moreau_jean",
+            {"tabulate_work_precision", "draw_accuracy"},
+            {"take", "run_chunk", "simulate"},
+        ),
         ("analysis/slips", {"simulate_scene fig10", "tabulate_reproduction"}, {"take_certificates"}),
         ("solver/kernel/events", of(*PAPERS) | {"run_chunk"}, set()),
     ],

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from precursors.figures import style
 
-HEIGHT_MM = 69.0
+HEIGHT_MM = 78.0
 BINS = {"mu_sapp": 0.005, "events_counted": 1.0}  # their widths
 RUN: dict[str, Any] = {"color": style.BLUE, "marker": ".", "markersize": 1.5, "linestyle": "none"}
 ALONE: dict[str, Any] = {"color": style.VERMILION, "marker": "o", "markersize": 3.5, "linestyle": "none"}
@@ -44,6 +44,7 @@ def draw(members: pd.DataFrame) -> Figure:
             axes[1, 2 * i + 1].set_xlabel("runs", fontsize=7)
         axes[0, 0].set_ylabel(style.MU_SAPP_LABEL)
         axes[1, 0].set_ylabel(style.EVENTS_LABEL)
+        figure.align_ylabels(axes[:, 0])
         axes[1, 0].yaxis.set_major_locator(MaxNLocator(integer=True))
         figure.supxlabel(r"Change of $\theta$ [$10^{-3}$]", fontsize=8)
         entries = [style.mark("one run", **RUN | {"markersize": 4}), style.mark("the scene", **ALONE)]
