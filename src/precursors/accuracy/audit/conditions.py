@@ -9,7 +9,6 @@ import numpy as np
 from precursors.accuracy.audit.motion import Motion
 from precursors.model.chain import FloatArray
 
-_PHASE_PER_CELL = 1.0  # rad of the fastest mode: what a first cell can usually be proved for
 _FEWEST_CELLS = 2
 _PARTS = 8  # of a cell for which that does not suffice
 _NUMBERS_AT_ONCE = 200_000  # in an array: bounds the memory on long intervals and long chains
@@ -63,7 +62,8 @@ class Conditions:
         """
         columns = len(self.fourth)
         fastest = self.motion.modes.frequencies.max(initial=0.0)
-        n_cells = max(_FEWEST_CELLS, math.ceil(duration * fastest / _PHASE_PER_CELL)) if fastest else 1
+        # A cell of a radian of the fastest mode can usually be proved.
+        n_cells = max(_FEWEST_CELLS, math.ceil(duration * fastest)) if fastest else 1
         at_once = max(_FEWEST_CELLS, _NUMBERS_AT_ONCE // columns)
         lowest, when = np.full(columns, np.inf), np.zeros(columns)
         for k in range(0, n_cells, at_once):
