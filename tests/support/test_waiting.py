@@ -17,26 +17,40 @@ class Stream(io.StringIO):
 
 
 @pytest.fixture
-def told(monkeypatch):
-    def told(is_terminal, steps=5, second=0.0):
+def told(monkeypatch, clock):
+    def told(is_terminal, second_per_step, steps=5, first=1):
+        """What work of some steps is told, of which `first` is done after the first one."""
         monkeypatch.setattr("sys.stderr", Stream(is_terminal))
-        monkeypatch.setattr(waiting, "SECOND", second)
-        done = iter(range(1, steps + 1))
-        assert list(waiting.tell("auditing", range(steps), lambda: next(done) / steps)) == list(range(steps))
+        monkeypatch.setattr(waiting.time, "monotonic", clock.perf_counter)
+        passed = []
+        for step in waiting.tell("auditing", range(steps), lambda: (len(passed) - 1 + first) / steps):
+            passed.append(step)
+            clock.now += second_per_step
+        assert passed == list(range(steps))
         return waiting.sys.stderr.getvalue()
 
     return told
 
 
-def test_a_terminal_has_one_line_that_ends_empty(told):
-    *lines, last = told(True).split("\r")[1:]
-    assert [line.split()[1] for line in lines] == ["20%", "40%", "60%", "80%", "100%"]
-    assert last == "\x1b[K"
-    assert told(True, steps=0) == ""
-
-
-def test_short_work_and_other_files_are_told_nothing(told):
-    assert told(True, second=3600.0) == told(False) == ""
+@pytest.mark.parametrize(
+    ("second_per_step", "first", "text"),
+    [
+        (0.5, 1, "\rauditing: 60% 1 s left\x1b[K\r\x1b[K"),  # 1.5 s of 2.5 s; the next second is not over
+        (
+            2.0,
+            0,
+            "".join(
+                f"\rauditing: {told}\x1b[K"
+                for told in ("0% ", "20% 16 s left", "40% 9 s left", "60% 5 s left", "80% 2 s left")
+            )
+            + "\r\x1b[K",
+        ),
+        (0.1, 1, ""),
+    ],
+)
+def test_a_terminal_has_one_line_each_second_that_ends_empty(told, second_per_step, first, text):
+    assert told(True, second_per_step, first=first) == text
+    assert told(True, second_per_step, steps=0) == told(False, second_per_step) == ""
 
 
 def test_work_in_a_thread_is_told_as_well_and_its_result_or_error_handed_back(monkeypatch):

@@ -7,7 +7,6 @@ import sys
 from pathlib import Path
 
 import pandas as pd
-import pytest
 import yaml
 
 ROOT = Path(__file__).parents[2]
@@ -39,17 +38,6 @@ def test_a_file_that_differs_is_named(tmp_path, capsys, monkeypatch):
     assert "results/a.csv: as kept" in done.stdout
     assert "results/b.csv: DataFrame.iloc" in done.stdout
     assert "1 of 2 files as kept" in done.stdout
-
-
-@pytest.mark.parametrize("place", ["codecheck.yml", "metadata.yaml"])
-def test_the_original_is_cited_as_in_the_citation_file(place):
-    (paper,) = read("CITATION.cff")["references"]
-    text = (ROOT / place).read_text(encoding="utf-8")
-    assert f"https://doi.org/{paper['doi']}" in text
-    assert paper["title"] in text
-    assert all(
-        f"{author['given-names']}" in text and author["family-names"] in text for author in paper["authors"]
-    )
 
 
 def test_the_article_has_the_title_and_the_authors_of_the_metadata():

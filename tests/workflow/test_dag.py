@@ -65,12 +65,6 @@ def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
     assert not (workspace.path / "results").exists()
 
 
-def test_a_figure_needs_the_jobs_of_its_section_only(untouched):
-    workspace, _ = untouched
-    jobs = workspace.run("-n", "results/figures/model_comparison.svg").jobs
-    assert jobs == {"tabulate_model_comparison", "tabulate_larger", "draw_hierarchy"}
-
-
 def test_a_second_run_has_nothing_to_do(finished):
     before = finished.results()
     outcome = finished.run("-c2", "all")

@@ -1,4 +1,4 @@
-"""The report shows every figure and the main tables of the workflow, in a browser and without a network."""
+"""The report shows every figure, with a caption of its own, and the main tables of the workflow."""
 
 import json
 import re
@@ -6,10 +6,7 @@ import shutil
 from collections import Counter
 
 import pytest
-from browser import browser, find_browser
 from conftest import ROOT, Workspace
-
-FIGURES = ["results/figures/fig09.svg", "results/figures/fig10.svg"]
 
 
 def results_in(report):
@@ -55,35 +52,3 @@ def test_every_figure_of_the_report_has_a_caption_and_a_label_of_its_own(whole):
         assert len(result["labels"]) == 1, path
     labels = Counter(tuple(result["labels"].items()) for result in results.values())
     assert max(labels.values()) == 1
-
-
-@pytest.fixture(scope="module")
-def open_page():
-    path = find_browser()
-    if path is None:
-        pytest.skip("no Chromium here")
-    with browser(path) as opened:
-        yield opened
-
-
-@pytest.fixture
-def page(open_page, finished):
-    """The report on two figures that `make results` has made."""
-    for name in FIGURES:
-        shutil.copy(ROOT / name, finished.path / name)
-    page = open_page()
-    page.open(write_report(finished, *FIGURES).as_uri())
-    return page
-
-
-@pytest.mark.parametrize("width", [1400, 390])
-def test_the_report_opens_with_fig_13_and_the_way_to_the_pages_and_no_graph_of_rules(page, width):
-    page.call(
-        "Emulation.setDeviceMetricsOverride", width=width, height=844, deviceScaleFactor=1, mobile=False
-    )
-    page.settle()
-    source = "document.querySelector('.prose img').getAttribute('src')"
-    assert page.evaluate(source) == "figures/fig13.svg"
-    links = "[...document.querySelectorAll('.prose a')].map(a => a.getAttribute('href'))"
-    assert page.evaluate(links) == ["explorer.html", "paper.pdf", "supplement.pdf"]
-    assert page.evaluate("document.querySelector('#rulegraph').getBoundingClientRect().height") == 0

@@ -21,13 +21,6 @@ def test_a_rule_with_a_script_has_the_digest_of_that_script_as_a_parameter():
         assert re.findall(r'code=digest\(\s*"(\w+)"', text) == re.findall(r'scripts/(\w+)\.py"', text)
 
 
-def test_a_long_job_says_so_and_for_how_long(workspace):
-    workspace.edit("workflow/rules/accuracy.smk", '"seconds": 2,', '"seconds": 9,')
-    outcome = workspace.run("-c1", "--quiet", "rules", "host", "--", "results/tables/lyapunov.csv")
-    assert outcome.code == 0, outcome.text
-    assert "tabulate_lyapunov: some 9 s\n" in outcome.text
-
-
 def test_a_target_that_make_does_not_know_is_answered_with_one_that_it_does():
     told = subprocess.run(["make", "tset"], cwd=ROOT, capture_output=True, text=True, check=False).stderr
     assert "there is no target tset; did you mean test?" in told

@@ -38,12 +38,6 @@ from precursors.figures import style
 from precursors.reproduction.scene_numbers import reproduction_tables
 from precursors.support.files import read_table
 
-STEEP = """\
-  steep:
-    title: nearly all of the load at the leading edge
-    theta: "9/10"
-    duration: 0.5
-"""
 READERS = {".csv": "support.files:read_table"}
 SCRIPTS = ROOT / "workflow/scripts"
 PAIR, DURATION = ExactChain.from_slider(n_blocks=2, theta="1/2", drive_velocity="1e-3"), 0.5
@@ -243,24 +237,6 @@ def test_a_run_without_a_slip_gives_tables_without_rows(tmp_path):
     assert read_table(tmp_path / "trace.csv")["tangential_load_N"].tolist() == pytest.approx([0.0, 8.0])
     assert tables["mu_sapp"].empty
     assert tables["reproduction"]["reproduced"].isna().sum() == 4
-
-
-def test_a_scene_is_simulated_once_and_a_damaged_table_is_one_line(workspace):
-    workspace.edit("config.yaml", "\nfig13: [", f"{STEEP}\nfig13: [")
-    target = "results/tables/mu_sapp.csv"
-    outcome = workspace.run("-c2", target)
-    assert outcome.code == 0, outcome.text
-    assert len(outcome.jobs) == 5
-    assert len(read_table(workspace.path / "results/tables/steep_trace.csv")) > 10
-    assert "Nothing to be done" in workspace.run("-c2", target).text
-
-    log = workspace.path / "results/logs/tabulate_reproduction.log"
-    (workspace.path / "results/tables/steep_slips.csv").write_bytes(b"")
-    outcome = workspace.run("-c2", "--rerun-triggers", "mtime", "--", target)
-    assert outcome.code != 0
-    assert log.read_text(encoding="utf-8").count("\n") == 1
-    assert log.read_text(encoding="utf-8") in outcome.text
-    assert "Traceback" not in outcome.text
 
 
 def test_a_claim_is_printed_with_its_verdict_its_numbers_and_its_shares():

@@ -74,7 +74,6 @@ def measure(
     found = {name: [warm[name]] if seconds and warm[name].wall > shortest else [] for name in tasks}
     repeats = {name: max(1, round(shortest / max(warm[name].wall, 1e-9))) for name in tasks}
     collecting = gc.isenabled()
-    gc.collect()
     gc.freeze()  # what the libraries hold for good need not be looked through before every task
     gc.disable()
     try:
