@@ -172,8 +172,8 @@ def test_a_wrong_end_of_a_run_is_named(duration, until, words):
         ("weights", np.ones(100_000), np.ones(100_001)),
         ("drive_velocity", 1e-60, 0.99e-60),
         ("drive_velocity", 1e60, 1.01e60),
-        ("stiffness", 0.99e12, 1.01e12),
-        ("drive_stiffness", 0.99e12, 1.01e12),
+        ("stiffness", 1e12, 1.01e12),
+        ("drive_stiffness", 1e12, 1.01e12),
         # sqrt((4 k + K)/m) is between 1e-20 and 1e20.
         ("mass", 4.99e40, 5.01e40),
         ("mass", 5.01e-40, 4.99e-40),
@@ -191,3 +191,9 @@ def test_every_number_may_be_at_its_limit_and_not_beyond(name, at_the_limit, bey
     np.testing.assert_array_equal(getattr(chain, name), at_the_limit)
     with pytest.raises(ValueError, match=r"\A[^\n]+\Z"):
         Chain(**numbers | {name: beyond})
+
+
+def test_whole_numbers_are_taken_as_floats():
+    chain = Chain([1, 2], 1, 1, 1, 1, 1, 0, 1)
+    assert chain.weights.dtype == float
+    assert {type(value) for name, value in vars(chain).items() if name != "weights"} == {float}
