@@ -53,6 +53,7 @@ def test_a_name_that_is_not_there_is_refused():
             "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.1)",
             {"h5py", "pandas", "matplotlib"},
         ),
+        ("from precursors.cli import main; main(['audit', 'none.h5'])", {"numba"}),
         (RULES, HEAVY | {"matplotlib", "scipy", "sympy"}),
     ],
 )

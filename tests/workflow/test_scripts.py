@@ -224,9 +224,22 @@ def test_the_reproduction_stands_beside_the_paper(files, tmp_path):
     command = [sys.executable, SCRIPTS / "print_reproduction.py", outputs[1], tmp_path]
     told = subprocess.run(command, capture_output=True, text=True)
     assert told.stdout == REPRODUCTION + f"Figures: a.svg, b.svg in {tmp_path}\n"
-    wrong = subprocess.run([*command[:2], tmp_path / "none.csv", tmp_path], capture_output=True, text=True)
-    assert (wrong.returncode, wrong.stderr.count("\n")) == (1, 1)
-    assert wrong.stderr.startswith("reproduction: ")
+
+
+@pytest.mark.parametrize(
+    ("script", "arguments", "told"),
+    [
+        ("print_reproduction", ["none.csv", "figures"], "reproduction: "),
+        ("check_claims", ["none"], "check: "),
+        ("codecheck", [], "codecheck: "),
+    ],
+)
+def test_a_script_that_make_runs_says_in_one_line_which_file_is_missing(tmp_path, script, arguments, told):
+    command = [sys.executable, SCRIPTS / f"{script}.py", *arguments]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (1, "", 1)
+    assert done.stderr.startswith(told)
+    assert arguments[:1] == [] or arguments[0] in done.stderr
 
 
 def test_a_run_without_a_slip_gives_tables_without_rows(tmp_path):
