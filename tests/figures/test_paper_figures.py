@@ -166,6 +166,13 @@ def test_a_narrow_figure_has_its_panels_below_each_other_in_the_asked_size(width
     assert {axes.xaxis.label.get_size() for axes in figure.axes} == {9.0}
 
 
+def test_a_key_with_large_letters_stands_below_the_marks():
+    figure = draw("fig13", look=style.Look(85.0, 9.0))
+    figure.draw_without_rendering()
+    (legend,) = figure.legends
+    assert legend.get_window_extent().y1 < figure.axes[0].get_window_extent().y0
+
+
 def test_symbols_have_the_font_of_the_text(tmp_path):
     look = style.Look(font="DejaVu Serif")
     style.save(draw("scene", look=look), tmp_path / "figure.pdf", look)

@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 from precursors.figures import style
 
 HEIGHT_MM = 76.0
+# A key with larger letters than these has no room among the marks and stands below them, which takes so much.
+LETTERS_PT_PER_MM, KEY_MM = 0.1, 16.0
 # The filling tells the sign of theta, as in the paper; a second scene of the same sign has another outline.
 OUTLINES = "osD^vh"
 # All scenes meet at the global slip: circles of different size stay visible around each other.
@@ -64,10 +66,11 @@ def draw(
     look = look or style.Look()
     if data is not None and not ((data[:, 1] >= 0) & (data[:, 1] <= 1)).all():
         raise ValueError("measured lengths must be L_p/L, between 0 and 1")
-    with style.page(style.COLUMN_MM, HEIGHT_MM, look=look) as figure:
+    is_crowded = look.font_size > LETTERS_PT_PER_MM * (look.width_mm or style.COLUMN_MM)
+    with style.page(style.COLUMN_MM, HEIGHT_MM + KEY_MM * is_crowded, look=look) as figure:
         axes = figure.subplots()
         axes.set_title(fill(style.plain(title or ""), 48), loc="left")
-        entries = [_draw_events(axes, table, outline) for table, outline in _outlined(slips)]
+        entries: list[Any] = [_draw_events(axes, table, outline) for table, outline in _outlined(slips)]
         labels = [_label(table, slips, count) for table, count in zip(slips, counts, strict=True)]
         if any(len(_short_events(table)) for table in slips):
             entries.append((Line2D([], [], **SHORT, color=style.GREY),))
@@ -81,7 +84,9 @@ def draw(
         normal_loads = [table["normal_load_N"].iloc[0] for table in slips]
         if len(set(normal_loads)) == 1:
             _draw_friction_coefficient(axes, normal_loads[0], mu_sapp, scenes, look.small)
-        axes.legend(entries, labels, loc="best", handler_map={tuple: HandlerTuple(ndivide=1)}, handlelength=1)
+        how: dict[str, Any] = {"loc": "outside lower center" if is_crowded else "best", "handlelength": 1}
+        how["handler_map"] = {tuple: HandlerTuple(ndivide=1)}
+        (figure if is_crowded else axes).legend(entries, labels, **how)
     return figure
 
 
