@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ThreadPoolExecutor, wait
-from threading import current_thread, main_thread
+from concurrent.futures import Future, wait
+from threading import Thread, current_thread, main_thread
 from typing import TypeVar
 
 Step = TypeVar("Step")
@@ -34,9 +34,19 @@ def tell(work: str, steps: Iterable[Step], done: Callable[[], float]) -> Iterato
 
 
 def in_thread(work: str, function: Callable[[], Result], done: Callable[[], float]) -> Result:
-    """Result of a compiled function that holds no lock of Python; how much is done is told as by `tell`."""
-    with ThreadPoolExecutor(1) as pool:
-        running = pool.submit(function)
-        for _ in tell(work, iter(lambda: bool(wait([running], SECOND).not_done), False), done):
-            pass
-    return running.result()
+    """Result of a compiled function that holds no lock of Python; how much is done is told as by `tell`.
+
+    Ctrl-C does not wait for the function.
+    """
+    found = Future[Result]()
+
+    def run() -> None:
+        try:
+            found.set_result(function())
+        except BaseException as error:
+            found.set_exception(error)
+
+    Thread(target=run, daemon=True).start()
+    for _ in tell(work, iter(lambda: bool(wait([found], SECOND).not_done), False), done):
+        pass
+    return found.result()
