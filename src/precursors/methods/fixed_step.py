@@ -200,7 +200,6 @@ def rest(motion):
         wait = max((limit - state[FORCE, 1]) / progress.loading_rate, 0.0)
         remaining = max(progress.duration - progress.onset, 0.0)
         if wait >= remaining:
-            state[FORCE, 1] += progress.loading_rate * remaining
             progress.elapsed = remaining / progress.unit
             return FINISHED
         state[FORCE, 1] = max(state[FORCE, 1], limit)
@@ -285,12 +284,8 @@ def march(
 
     Raises
     ------
-    ValueError
-        If an argument is out of range.
-    DivergedError
-        If the numbers overflow.
-    TransitionLimitError
-        If there are more than `max_transitions`.
+    ValueError, DivergedError, TransitionLimitError
+        If an argument is out of range, the numbers overflow, or there are more than `max_transitions`.
     """
     positive("tolerance" if scaled else "step", setting, "1" if scaled else "s")
     motion = motion_from_rest(chain, duration, until, rule, scaled, waits)

@@ -44,10 +44,8 @@ def solve_scipy(
 
     Raises
     ------
-    TransitionLimitError
-        If the solver makes transition after transition without time going on.
-    RuntimeError
-        If SciPy reports a failure.
+    TransitionLimitError, RuntimeError
+        If transition follows transition without time going on, or SciPy reports a failure.
     """
     motion = EventMotion(chain, duration, until, nudge=nudge)
     n = chain.n_blocks
