@@ -7,7 +7,7 @@ from precursors.support import digest
 SCRIPT = '''\
 """Add."""
 from typing import TYPE_CHECKING
-from helper import help_out
+import helper
 from precursors.room.sums import add
 if TYPE_CHECKING:
     from precursors.room import types

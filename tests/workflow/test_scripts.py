@@ -289,6 +289,21 @@ def test_a_picture_is_as_kept_if_it_looks_the_same(tmp_path, shade, rows, told):
     assert codecheck.difference(tmp_path / "made.png", tmp_path / "kept.png") == told
 
 
+def test_a_file_that_differs_is_named(tmp_path):
+    (tmp_path / "results").mkdir()
+    (tmp_path / "codecheck.yml").write_text("manifest: [{file: results/a.csv}, {file: results/b.csv}]")
+    (tmp_path / "tests/golden").mkdir(parents=True)
+    for name, value in (("a", 1.0), ("b", 2.0)):
+        pd.DataFrame({"x": [value]}).to_csv(tmp_path / f"results/{name}.csv", index=False)
+        pd.DataFrame({"x": [1.0]}).to_csv(tmp_path / f"tests/golden/{name}.csv", index=False)
+    script = [sys.executable, SCRIPTS / "codecheck.py"]
+    done = subprocess.run(script, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert "results/a.csv: as kept" in done.stdout
+    assert "results/b.csv: DataFrame.iloc" in done.stdout
+    assert "1 of 2 files as kept" in done.stdout
+
+
 # Proofs
 
 
