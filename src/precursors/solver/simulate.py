@@ -326,6 +326,8 @@ def _parts(work: _Workspace, progress: Progress) -> list[_Part]:
     used, stored = progress["transitions"].tolist(), progress["stored"].tolist()
     transitions, intervals = _columns(work.record[: sum(used) + len(used)])
     states = States.from_rows(work.states[: sum(stored)])
+    if len(used) == 1:
+        return [(transitions[:-1], intervals, states)]
     parts, first, first_state = [], 0, 0
     for n, m in zip(used, stored, strict=True):
         last, last_state = first + n, first_state + m
