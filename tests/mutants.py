@@ -62,7 +62,7 @@ HEAVY = (
     "scipy.integrate", "scipy.linalg", "scipy.optimize", "scipy.stats", "snakemake.cli", "sympy", "yaml",
 )  # fmt: skip
 SHARE = 0.85
-SECONDS = 10.0  # processor time of the tests that a fault meets, when they have no fault
+SECONDS = 20.0  # processor time of the tests that a fault meets, when they have no fault
 # Of one test [s]: beside so many times what it costs without a fault; more where it may have to compile.
 TIMES, LIMIT, COMPILING = 5.0, 10.0, 60.0
 PATIENCE = 300.0  # s, for all that a fault meets, where a test waits for something that never comes
