@@ -262,15 +262,36 @@ def test_the_interval_of_an_exponent_holds_it_in_95_of_100_cases(monkeypatch: py
     assert np.mean(held) == pytest.approx(0.95, abs=3 * np.sqrt(0.95 * 0.05 / cases))
 
 
+def test_an_exponent_is_certain_where_differences_grow_in_proportion_to_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    onset, time = np.arange(400), np.cumsum(np.random.default_rng(5).exponential(size=400))
+    monkeypatch.setattr(lyapunov, "_growth", lambda _: (onset, 0.5 * time))
+    found = lyapunov_exponent(SimpleNamespace(transitions={"time": time}))  # type: ignore[arg-type]
+    assert found.per_second == pytest.approx(0.5)
+    assert found.per_second_uncertainty == pytest.approx(0.0, abs=1e-12)
+    assert found.per_transition_uncertainty > 0.01
+
+
 def test_one_block_has_no_exponent() -> None:
     run = simulate(Chain.from_slider(n_blocks=1, drive_velocity=0.02), 5.0)
     with pytest.raises(ValueError, match="all differences die out"):
         lyapunov_exponent(run)
 
 
-def test_a_run_with_too_few_events_has_no_exponent() -> None:
-    with pytest.raises(ValueError, match="more than 20 slip events after its transient, but has"):
-        lyapunov_exponent(simulate(Chain.from_slider(), 1.0))
+def test_a_run_needs_one_event_after_its_transient_for_each_stretch_and_one_to_begin_with(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run = SimpleNamespace(transitions={"time": np.arange(100.0)})
+    for n, used in ((20, None), (21, 20), (40, 20), (41, 40)):
+        first = n * lyapunov.TRANSIENT / (1 - lyapunov.TRANSIENT)  # number of events in the transient
+        found = np.arange(round(first) + n), np.arange(round(first) + n, dtype=float)
+        monkeypatch.setattr(lyapunov, "_growth", lambda _, found=found: found)
+        if used:
+            assert lyapunov_exponent(run).n_events == used  # type: ignore[arg-type]
+        else:
+            with pytest.raises(ValueError, match="more than 20 slip events after its transient, but has 20"):
+                lyapunov_exponent(run)  # type: ignore[arg-type]
 
 
 def test_what_moves_at_the_start_has_no_error():

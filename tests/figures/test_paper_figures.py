@@ -206,6 +206,15 @@ def test_scenes_that_differ_in_n_or_normal_load_say_so_and_have_no_common_fricti
     ]
 
 
+def test_the_friction_coefficient_is_a_mean_where_there_are_several_scenes():
+    for scenes, said in ((["fig10"], "$"), (["fig10", "fig12"], "mean $")):
+        numbers = pd.DataFrame({"scene": scenes, "mu_sapp": 0.49, "is_papers": True})
+        tables = [slips(theta=theta) for theta in (0.0, 5 / 6)[: len(scenes)]]
+        figure = draw("fig13", slips=tables, mu_sapp=numbers, scenes=scenes)
+        (text,) = (t.get_text() for t in figure.axes[0].texts if "mu" in t.get_text())
+        assert text.startswith(said)
+
+
 def test_two_scenes_with_the_same_sign_of_theta_have_different_outlines():
     figure = draw("fig13", slips=[slips(theta=0.2), slips(theta=0.4)])
     assert [len(markers(figure, outline)) for outline in "os"] == [1, 1]
