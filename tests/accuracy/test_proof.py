@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import pairwise
+from types import SimpleNamespace
 from typing import Any
 
 import mpmath
@@ -192,6 +193,18 @@ def test_the_taylor_remainder_is_within_its_bound(derivative: int, span: float) 
                 rest = rest.derivative()
             largest = max(largest, *(abs(fraction(rest(arb(t)).mid())) for t in (-span, span)))
     assert largest <= fraction(bound) < 20 * largest
+
+
+@pytest.mark.parametrize("derivative", [0, 1, 2])
+@pytest.mark.parametrize("last", [6, 9])
+def test_the_bound_of_the_remainder_is_its_first_term_where_one_block_oscillates(last, derivative) -> None:
+    """u'' = -omega^2 u: of every other coefficient 0, a_{n+2} = omega^2 a_n / ((n + 1)(n + 2)) in size."""
+    omega2, span = Fraction(4), Fraction(1, 1000)
+    constants, series = SimpleNamespace(frequency_squared=arb(4)), {1: [arb(0)] * (last + 1)}
+    series[1][last - 1] = arb(1)
+    bound = fraction(tail(constants, series, arb(1) / 1000, derivative))  # type: ignore[arg-type]
+    first = omega2 / (last * (last + 1)) * math.perm(last + 1, derivative) * span ** (last + 1 - derivative)
+    assert first <= bound < (1 + 4 * omega2 * span**2) * first
 
 
 @pytest.mark.parametrize(("span", "bits"), [(0.0, 64), (0.1, 64), (1.0, 20), (1.0, 64), (1.125, 500)])
