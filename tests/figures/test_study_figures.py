@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -11,8 +12,10 @@ from figures import examples
 from figures.examples import draw
 
 from precursors.accuracy.failures import FAILURE_MODES
+from precursors.ensembles.event_law import THETAS
+from precursors.figures.event_law import THETA_COLORS
 from precursors.figures.failure_gallery import PANELS, pretty
-from precursors.methods import METHODS, Method, with_looks
+from precursors.methods import METHODS, SPARE, Method, with_looks
 
 RULES = Path(__file__).parents[2] / "workflow/rules"
 
@@ -43,7 +46,8 @@ class TestWorkPrecision:
 
     def test_every_method_has_a_colour_and_a_marker_of_its_own(self):
         new = (Method(name, name, "step [s]", METHODS["rk4"].solve, (1e-6,)) for name in ("first", "second"))
-        every = list(with_looks([*METHODS.values(), *new]))
+        chosen = replace(METHODS["rk4"], name="with a spare colour", look=(SPARE[0][0], "$P$"))
+        every = list(with_looks([*METHODS.values(), chosen, *new]))
         for looks in zip(*(method.look for method in every), strict=True):
             assert len(set(looks)) == len(every)
 
@@ -80,3 +84,7 @@ class TestFailureGallery:
     )
     def test_powers_of_ten_are_written_as_mathematics(self, text, mathematics):
         assert pretty(text) == mathematics
+
+
+def test_each_theta_of_the_law_of_events_has_a_colour_and_a_marker():
+    assert tuple(THETA_COLORS) == THETAS
