@@ -28,7 +28,7 @@ all: results
 test: results $(DEV)
 	$(BIN)/pytest -n $(CORES) --dist worksteal
 
-# 100 single faults in copies of the project: prints those that no test sees, with 1200 s of processor time.
+# 100 single faults in copies of the project: prints those that no test sees, with some 1200 s of processor time.
 mutants: results $(DEV)
 	$(BIN)/python tests/mutants.py --jobs $(CORES)
 

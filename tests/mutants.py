@@ -78,9 +78,10 @@ SCRIPT = re.compile(
 )
 BALL = re.compile(r"arb\(0, |around$")  # about zero
 SETTINGS = {"CHARTED", "values", "quick", "whole", "quick_whole", "ROUNDS"}  # what is charted
-# Arguments that change no result: guards against a slip of ours, signs of symbols, how code is compiled.
+# Arguments that change no result: guards against a slip of ours, signs of symbols, how code is compiled,
+# when a line reaches the screen.
 NEUTRAL = {"strict", "frozen", "slots", "exist_ok", "parents", "stacklevel", "maxsize", "nogil", "cache"}
-NEUTRAL |= {"positive", "real", "indent"}
+NEUTRAL |= {"positive", "real", "indent", "eq", "forceinline", "flush"}
 # Of arrays that grow as needed, of batches and of a line of the cache: runs do not depend on them.
 ROOM = {"FIRST_ROOM", "SHARED_ROOM", "LARGEST_BATCH", "BATCHES_PER_THREAD"}
 ROOM |= {"WINDOWS_PER_CALL", "KEPT", "LINE"}
