@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from precursors import Chain
-from precursors.methods import METHODS, moreau_jean, newmark
+from precursors import Chain, simulate
+from precursors.methods import METHODS, karnopp, moreau_jean, newmark
 from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
 from precursors.methods.fixed_step import slide
 from precursors.methods.stability import (
@@ -128,3 +128,12 @@ def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free):
         return is_unstable(free, partial(slide, moreau_jean.run_moreau_jean, (theta,)), step)
 
     assert bisect(is_unstable_at, 0.6, 0.4) == pytest.approx(0.5, rel=2e-3)
+
+
+@pytest.mark.parametrize("dead_zone", [1e-5, 1e-4, 1e-3])
+def test_karnopps_block_leaves_its_dead_zone_late_by_the_delay_of_theory(dead_zone):
+    chain, step = Chain.from_slider(n_blocks=1, drive_velocity=1e-2), 1e-7
+    late = karnopp.solve(chain, 0.04, step, dead_zone=dead_zone).run.transitions["time"][0]
+    exact = simulate(chain, 0.04).transitions["time"][0]
+    # The block is seen to slide at the end of a step; the springs resist its way a little.
+    assert late - exact == pytest.approx(karnopp.release_delay(chain, dead_zone), abs=step, rel=1e-3)
