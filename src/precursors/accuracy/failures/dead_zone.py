@@ -89,8 +89,9 @@ def largest_dead_zone(exact: Run, step: float) -> float:
 
 def first_excess(chain: Chain, dead_zone: float) -> float:
     """What F_X exceeds mu_s w_1 by when block 1 first leaves the dead zone [N]."""
-    run = karnopp.solve(chain, FIVE_SLIPS, STEPS[0], None, dead_zone).run
-    return float(run.transitions["tangential_load"][0] - chain.strength.max())
+    end = 1.2 * chain.strength[0] / chain.loading_rate
+    run = karnopp.solve(chain, end, STEPS[0], None, dead_zone).run
+    return float(run.transitions["tangential_load"][0] - chain.strength[0])
 
 
 def dead_zone_too_small() -> Failure:
@@ -126,7 +127,7 @@ def dead_zone_too_large() -> Failure:
     wide = partial(Number, "Karnopp", f"zone = {TOO_LARGE:g} m/s")
     right = right_with(exact, step, TOO_LARGE)
     # Creep raises the load at which block 1 is released, as a greater mu_s does.
-    delay = margin(exact) * chain.strength.max() / chain.loading_rate
+    delay = margin(exact) * chain.strength[0] / chain.loading_rate
     limit = Threshold(
         METHODS["karnopp"].label,
         chain.n_blocks,

@@ -18,7 +18,7 @@ POINTS = 66
 def load_after_limit(chain: Chain, step: float, times: FloatArray) -> FloatArray:
     """F_X [N] with Eq. 4 as printed, at some times [s] after block 1 has first reached its limit."""
     system, state = at_rest(chain)
-    state[FORCE, 1] = chain.strength.max()  # as of any block
+    state[FORCE, 1] = chain.strength[0]
     load = []
     for time in np.diff(times, prepend=0.0):
         karnopp.slide(system, state, step, round(time / step), 0.0)
@@ -32,7 +32,7 @@ def literal_friction() -> Failure:
     run = simulate(chain, END)
     exact_times = np.concatenate([[0.0], run.transitions["time"], [END]])
     exact = run.tangential_load(exact_times)
-    limit = float(chain.strength.max())
+    limit = float(chain.strength[0])
     onset = limit / chain.loading_rate
     times = np.linspace(0.0, END - onset, POINTS)
     lines = {"exact": (exact_times, exact)}
