@@ -1,8 +1,11 @@
 """Chains and starts that several numerical tests use."""
 
 import math
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
+from reference import HeldOut
 
 from precursors import Chain, Run, TransitionLimitError, simulate
 from precursors.accuracy.audit import Audit, audit
@@ -17,6 +20,15 @@ def first_transitions(chain: Chain, most: int, **options) -> Run:
         return simulate(chain, max_transitions=most, **options)
     except TransitionLimitError as limit:
         return limit.run
+
+
+def held_out(case: HeldOut) -> dict[str, Any]:
+    """Arguments of `simulate` for a chain of the reference, rounded to double precision."""
+    names = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k")
+    numbers = {name: float(getattr(case.chain, name)) for name in names}
+    chain = Chain(weights=[float(w) for w in case.chain.weights], **numbers)
+    start = case.start_positions and [float(x) for x in case.start_positions]
+    return {"chain": chain, "duration": float(Fraction(case.duration)), "start_positions": start}
 
 
 def audited(run: Run) -> Audit:

@@ -22,35 +22,21 @@ MEASURED = {"title": "as measured", "weights": [30.0, 40.0, 50.0]}
 WRONG = [
     ("chain.youngs_modulus", "2.5e9", ["chain.youngs_modulus: '2.5e9'", "2.5e+9 and not as 2.5e9"]),
     ("chain.mu_k", "0.46", ["chain.mu_k: '0.46'", "this is text"]),
-    ("chain.mu_s", "high", ["chain.mu_s: 'high' is not of type 'number'"]),
     ("chain.mu_k", 0.8, ["chain: ", "mu_k", "0.8", "mu_s = 0.7"]),
     ("scenes.fig10.mu_k", 0.9, ["scenes.fig10: ", "mu_k", "0.9", "mu_s = 0.7"]),
-    ("chain.drive_stiffness", -0.8e6, ["chain.drive_stiffness: -800000.0", "minimum of 0"]),
     ("chain.n_blocks", 0, ["chain.n_blocks: 0", "minimum of 1"]),
-    ("chain.n_blocks", 2.5, ["chain.n_blocks: 2.5", "integer"]),
-    ("chain.n_blocks", True, ["chain.n_blocks: True"]),
-    ("chain.length", None, ["chain.length: None"]),
-    ("chain.length", 1e70, ["chain: ", "length", "1e+70"]),
     ("chain.length", math.nan, ["chain: ", "length", "nan"]),
     ("chain.length", MISSING, ["chain: 'length' is a required property"]),
     ("chain.mass", 0.0012, ["chain: ", "'mass' was unexpected"]),
     ("speed", 1.0, ["top level: ", "'speed' was unexpected"]),
-    ("duration", 1e7, ["duration: 10000000.0", "maximum of 1000000.0"]),
-    ("scenes", {}, ["scenes: "]),
     ("scenes.fig10.load_cel_a", 1.0, ["scenes.fig10: ", "'load_cel_a' was unexpected"]),
-    (
-        "scenes.fig10.load_cell_b",
-        MISSING,
-        ["scenes.fig10: ", "both load_cell_a and load_cell_b", "is load_cell_a"],
-    ),
+    ("scenes.fig10.load_cell_b", MISSING, ["both load_cell_a and load_cell_b", "is load_cell_a"]),
     ("scenes.fig10.theta", 0.1, ["either theta or both", "is theta and load_cell_a"]),
     ("scenes.fig10.load_cell_b", 5000.0, ["scenes.fig10: ", "-1"]),
     ("scenes.fig10.normal_load", 500.0, ["scenes.fig10: normal_load must not be given", "sum"]),
     ("scenes.steep", {"title": "steep"}, ["scenes.steep: ", "is neither"]),
-    ("scenes.steep", STEEP | {"title": ""}, ["scenes.steep.title"]),
     ("scenes.steep", STEEP | {"theta": 1.1}, ["scenes.steep.theta: 1.1", "maximum of 1"]),
     ("scenes.steep", STEEP | {"theta": "7/6"}, ["scenes.steep: ", "'7/6'", "-1"]),
-    ("scenes.steep", STEEP | {"theta": "1/0"}, ["scenes.steep: ", "'1/0'"]),
     ("scenes.st eep", STEEP, ["scenes: 'st eep' must be a name of at most 64 letters"]),
     ("scenes.steep", STEEP | {"duration": float("nan")}, ["scenes.steep: duration must be a finite number"]),
     ("scenes.steep\n", STEEP, ["scenes: 'steep"]),
@@ -99,11 +85,8 @@ def test_the_papers_configuration_is_accepted():
         Chain.from_slider(**scene_slider(PAPERS, name)).normal_load for name in PAPERS["scenes"]
     ] == pytest.approx([400.0] * 3)
     assert [scene_slider(PAPERS, name)["theta"] for name in PAPERS["scenes"]] == [0.0, -5 / 6, 5 / 6]
-
-
-@pytest.mark.parametrize("theta", [-1, 0, 1.0, "5/6", "-5/6", "0.5"])
-def test_a_scene_may_give_theta_as_a_number_or_a_fraction(theta):
-    check_config(changed("scenes.steep", STEEP | {"theta": theta}), SCHEMA)
+    for theta in (-1, 0.5, "5/6"):
+        check_config(changed("scenes.steep", STEEP | {"theta": theta}), SCHEMA)
 
 
 def test_a_scene_that_names_a_model_is_answered_and_not_run():
@@ -130,10 +113,8 @@ def test_every_value_of_the_file_is_checked(key, value):
     [
         ("a: 1\nb: {c: 2, c: 3}\n", "the key 'c' stands there twice in line 2, column 11"),
         ("a:\n\tb: 1\n", "found character '\\t' that cannot start any token in line 2, column 1"),
-        ("a: 1\t\n", "found character '\\t' that cannot start any token in line 1, column 5"),
         ("a: 010\n", "010 is not plain: write a decimal number, or a text in quotes in line 1, column 4"),
         ("a: [1, 1:30]\n", "1:30 is not plain"),
-        ("a: -1:30.5\n", "-1:30.5 is not plain"),
         ("a: [1\n", "line 2, column 1"),
         ("a: !!python/tuple [1]\n", "could not determine a constructor"),
         ("- 1\n", "must be a table of keys and values"),

@@ -77,11 +77,8 @@ SLIP = "global slip"
 # eta = sqrt(0.1 k m) is 54.77 N s/m and sqrt(k m) is 173.2 N s/m for every N (see docs/models.md).
 VISCOUS: dict[str, HeldOut] = {
     "papers_chain": HeldOut({"viscosity": "54.77"}, "5", until=SLIP),
-    "little_viscosity": HeldOut({"theta": "5/6", "viscosity": "1"}, "2.1"),
     "backward": HeldOut({"n_blocks": 3, "theta": "1/2", "mu_k": "0.05", "viscosity": "3"}, "3"),
     "stiff_viscosity": HeldOut({"n_blocks": 3, "theta": "1/3", "viscosity": "300"}, "8"),
-    "creep": HeldOut({"n_blocks": 3, "theta": "1/3", "viscosity": "400"}, "0.778"),
-    "many_blocks": HeldOut({"n_blocks": 26, "theta": "-2/5", "viscosity": "17.3"}, "1.6"),
 }
 
 

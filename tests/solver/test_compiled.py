@@ -78,26 +78,18 @@ def small(tmp_path):
     return Small(tmp_path / "with spaces, Ümläute and 摩擦")
 
 
-def test_what_was_compiled_is_used_again_and_an_edit_of_what_it_calls_is_seen(small):
+def test_another_clone_of_the_user_compiles_nothing_until_an_edit_of_what_is_called(small, tmp_path):
     assert small.use() == (7, 0, SAID)
-    assert small.use() == (7, 1, "")
-    small.write("part.py", PART.replace("3 * x", "5 * x"))
-    assert small.use() == (11, 0, SAID)
-    assert small.use() == (11, 1, "")
-
-
-def test_another_clone_of_the_user_compiles_nothing_until_its_sources_differ(small, tmp_path):
-    small.use()
     clone = Small(tmp_path / "clone")
     clone.cache = small.cache
     assert clone.use() == (7, 1, "")
     clone.write("part.py", PART.replace("3 * x", "5 * x"))
-    assert clone.use()[:2] == (11, 0)
+    assert clone.use() == (11, 0, SAID)
+    assert clone.use() == (11, 1, "")
     assert small.use() == (7, 1, "")
 
 
-@pytest.mark.parametrize("suffix", ["nbi", "nbc"])
-@pytest.mark.parametrize("size", [0, 100])
+@pytest.mark.parametrize(("suffix", "size"), [("nbi", 0), ("nbc", 100)])
 def test_a_file_that_was_cut_short_is_compiled_again(small, suffix, size):
     small.use()
     (file,) = small.cache.rglob(f"*.{suffix}")
@@ -117,19 +109,15 @@ def test_code_of_long_ago_is_removed_and_what_is_in_use_stays(small):
     assert set(small.cache.glob("precursors/*")) == {place, *others[2:]}
 
 
-def test_an_edit_a_new_module_and_a_new_name_change_the_checksum(tmp_path):
+def test_an_edit_of_any_module_and_a_new_name_change_the_checksum(tmp_path):
     copy = shutil.copytree(KERNEL, tmp_path / "kernel", ignore=shutil.ignore_patterns("__pycache__"))
-    sums = [checksum(copy)]
-    assert sums == [checksum(KERNEL)]
+    sums = [checksum(KERNEL)]
+    assert sums == [checksum(copy)]
     for module in sorted(copy.glob("*.py")):
-        with module.open("a") as file:
-            file.write("# edited\n")
+        module.write_text(module.read_text() + "# edited\n")
         sums.append(checksum(copy))
-    (copy / "guess.py").rename(copy / "guessed.py")
-    sums.append(checksum(copy))
-    (copy / "new.py").write_text("")
-    sums.append(checksum(copy))
-    assert len(set(sums)) == len(sums)
+    module.rename(copy / "zebra.py")
+    assert len({*sums, checksum(copy)}) == len(sums) + 1
 
 
 def test_the_code_lies_where_numba_is_asked_to_keep_it(small, tmp_path):

@@ -66,8 +66,11 @@ def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks
     for block, side in product((1, 4, 9), (1, -1)):
         push = np.full(10, 14.0)
         push[block] = side * 28.0 * (1.0 + over)
-        state = plain.at_start(SLIDER(), positions_under(SLIDER(), push), np.zeros(10))
-        assert state.mode.tolist() == [side * mode * (i == block + 1) for i in range(12)]
+        start = positions_under(SLIDER(), push)
+        modes = plain.at_start(SLIDER(), start, np.zeros(10)).mode
+        assert modes.tolist() == [side * mode * (i == block + 1) for i in range(12)]
+        compiled = simulate(SLIDER(), duration=1e-12, start_positions=start).transitions
+        assert compiled[["block", "mode"]].tolist() == [(block + 1, side)] * mode
 
 
 @pytest.mark.parametrize("first", range(0, 200, 20))
