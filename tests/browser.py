@@ -1,4 +1,4 @@
-"""A headless Chromium, driven over its DevTools pipe: pages, clicks, keys, and what goes wrong."""
+"""A headless Chromium, driven over its DevTools pipe: pages, and what goes wrong in them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import signal
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
@@ -55,13 +54,8 @@ class Page:
         self._session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
-        self.call(
-            "Emulation.setDeviceMetricsOverride",
-            width=width,
-            height=height,
-            deviceScaleFactor=1,
-            mobile=False,
-        )
+        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        self.call("Emulation.setDeviceMetricsOverride", **size)
         self.call("Page.navigate", url=url)
         self.wait_for("document.readyState === 'complete'")
 
@@ -100,25 +94,6 @@ class Page:
     def settle(self) -> None:
         """Wait until what was asked for is drawn."""
         self.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-
-    def click(self, x: float, y: float) -> None:
-        """Click on a pixel."""
-        for kind in ("mouseMoved", "mousePressed", "mouseReleased"):
-            pressed = {"button": "left", "clickCount": 1} if kind != "mouseMoved" else {}
-            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **pressed)
-
-    def press(self, key: str) -> None:
-        """Press a key by its name in the DOM: "Tab", "ArrowRight", " "."""
-        codes = {"Tab": 9, "Escape": 27, " ": 32, "ArrowLeft": 37, "ArrowRight": 39}
-        text = {"text": key} if key == " " else {}
-        self.call("Input.dispatchKeyEvent", type="keyDown", key=key, windowsVirtualKeyCode=codes[key], **text)
-        self.call("Input.dispatchKeyEvent", type="keyUp", key=key, windowsVirtualKeyCode=codes[key])
-
-    def choose_file(self, selector: str, path: str | Path) -> None:
-        """Choose a file in an element of the page."""
-        root = self.call("DOM.getDocument")["root"]["nodeId"]
-        node = self.call("DOM.querySelector", nodeId=root, selector=selector)["nodeId"]
-        self.call("DOM.setFileInputFiles", nodeId=node, files=[str(path)])
 
     def prefer(self, **features: str) -> None:
         """Set preferences of the user: prefers_color_scheme="dark"."""

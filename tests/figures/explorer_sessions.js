@@ -10,6 +10,25 @@ var tap = (id, x, y = 100) => element(id).dispatchEvent(new MouseEvent("click", 
 var wheel = (id, x, more) => element(id).dispatchEvent(new WheelEvent("wheel", { ...at(id, x, 100), ...more }));
 var key = (name, more = {}, query = "body") => document.querySelector(query).dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true, cancelable: true, ...more }));
 var set = (query, value) => { const e = document.querySelector(query); e.value = value; for (const kind of ["input", "change"]) e.dispatchEvent(new Event(kind, { bubbles: true })); };
+// A file that the reader chooses; what the page then says.
+function give(text) {
+  const files = new DataTransfer(), told = element("told");
+  files.items.add(new File([text], "own.csv"));
+  element("own").files = files.files;
+  element("own").dispatchEvent(new Event("change"));
+  return new Promise((done) => new MutationObserver(() => done()).observe(told, { childList: true }));
+}
+// The size of the picture that is saved.
+function save() {
+  const { click } = HTMLAnchorElement.prototype;
+  return new Promise((done) => {
+    HTMLAnchorElement.prototype.click = function () {
+      const picture = Object.assign(new Image(), { onload: () => done(`${picture.width} ${picture.height}`), src: this.href });
+    };
+    press("#picture");
+    HTMLAnchorElement.prototype.click = click;
+  });
+}
 // Frames of a film at 20 a second: times, events and clocks that are shown.
 function watch(count, isCalm = false) {
   const kept = { requestAnimationFrame, cancelAnimationFrame, matchMedia }, now = performance.now, seen = [];
@@ -49,7 +68,7 @@ function work(...asked) {
   }[kind]());
   const made = new Function("postMessage", "performance", "MessageChannel", "onmessage", `${SCRIPT}; return onmessage;`);
   const hear = made(tell, { now: () => (now += 1) }, function () { return channel(); });
-  const chain = (theta, nudge) => ({ blocks: 5, theta, normalLoad: 400, muS: 0.7, muK: 0.45, driveStiffness: 8e5, driveVelocity: 1e-4, mass: 0.012, stiffness: 2.5e6, nudge });
+  const chain = (theta, nudge) => ({ ...uniform.slider, n_blocks: 5, theta, nudge });
   for (const one of asked) {
     if (Array.isArray(one)) hear({ data: { id: one[0], chains: one[1].map((theta, i) => chain(theta, i / 10)), duration: 4, all: one[2] } });
     else if (one.id) hear({ data: one });
@@ -57,12 +76,13 @@ function work(...asked) {
   }
   return told.join(" | ");
 }
+// A figure: its texts, and for each look the number of points, their means in x and y and their mean square.
 function drawn(name) {
   const looks = {}, texts = [];
   let path = [];
   const note = (look, points) => {
-    const sums = (looks[look] ??= [0, 0, 0, 0, 0]);
-    for (const [x, y] of points) [1, x, y, x * x, y * y].forEach((term, i) => (sums[i] += term));
+    const sums = (looks[look] ??= [0, 0, 0, 0]);
+    for (const [x, y] of points) [1, x, y, x * x + 3 * y * y].forEach((term, i) => (sums[i] += term));
   };
   const corners = (x, y, w, h) => [[x, y], [x + w, y + h]];
   const noted = {
@@ -85,27 +105,25 @@ function drawn(name) {
   DRAW[name]();
   Object.assign(canvas, kept);
   bars.putImageData = put;
-  const told = Object.entries(looks).map(([look, [n, x, y, xx, yy]]) => {
-    const means = [x / n, y / n, Math.sqrt(xx / n), Math.sqrt(yy / n)];
-    return [`${name}: ${look}`, `${n} ${means.map((mean) => mean.toFixed(3)).join(" ")}`];
-  });
-  return [[`${name}: texts`, texts.join(" | ")], ...told];
+  const told = Object.entries(looks).map(([look, [n, x, y, squares]]) => `${look}: ${n} @${(x / n).toFixed(2)} @${(y / n).toFixed(2)} @${Math.sqrt(squares / n).toFixed(2)}`);
+  return [texts.join(" "), ...told.sort()].join(" | ");
 }
 function shownNow() {
-  const words = (id) => element(id).textContent.replace(/\s+/g, " ");
+  const words = (id) => element(id).innerText.replace(/\n/g, "").replace(/\s+/g, " ");
   const all = (query, what) => [...document.querySelectorAll(query)].map(what).join(" | ");
+  const [answers, readout] = ["answers", "readout"].map(words);
   return {
-    ...Object.fromEntries(Object.keys(DRAW).flatMap(drawn)),
-    ...Object.fromEntries(["answers", "readout", "moment", "step", "told", "ghost-name"].map((id) => [id, words(id)])),
-    address: location.hash,
-    command: command(),
-    view: [view().start, view().end, state.time].map((time) => `${(1e3 * time).toFixed(6)} ms`).join(" "),
-    inputs: all("input[type=range]", (e) => `${e.value} ${e.min} ${e.max} ${e.getAttribute("aria-valuetext")}`),
-    outputs: all("output", (e) => e.textContent),
-    pressed: all("[aria-pressed=true]", (e) => e.textContent),
-    disabled: all(":disabled", (e) => e.id),
-    hidden: all("[id][hidden]", (e) => e.id),
-    names: all("canvas", (e) => e.getAttribute("aria-label")),
-    cursor: element("cursor").style.transform.replace(/\.\d+/, ""),
+    ...Object.fromEntries(Object.keys(DRAW).map((name) => [name, drawn(name)])),
+    answers, readout, step: `${words("step")} | ${all("[data-scene]", (e) => e.title)}`,
+    told: words("told"), command: command(), address: location.hash,
+    moment: `${words("moment")} | ${[view().start, view().end, state.time].map((time) => (1e3 * time).toFixed(5)).join(" ")}`
+      + ` | ${element("cursor").style.transform.replace(/\.\d+/, "")}`,
+    controls: [
+      all("input[type=range]", (e) => `${e.value} ${e.getAttribute("aria-valuetext") ?? ""}`), all("output", (e) => e.textContent), words("ghost-name"),
+      ...["[aria-pressed=true]", ":disabled", "[id][hidden]"].map((query) => all(query, (e) => e.id || e.textContent)),
+      all(".tip", (e) => (e.checkVisibility() ? e.id : "")).replaceAll(" | ", ""),
+    ].join(" || "),
+    ranges: all("input[type=range]", (e) => `${e.min} ${e.max} ${e.step}`),
+    names: all("canvas", (e) => e.getAttribute("aria-label")?.replace(element("answers").textContent, "").replace(readout, "")),
   };
 }

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from figures import examples, explorer_sessions
+from figures import explorer_sessions, test_pictures
 from golden import small_tables
 from matplotlib import image
 
@@ -31,8 +31,8 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
             replace(golden / name, partial(shutil.copyfile, results / kind / name))
     for name, make in {**small_tables.TABLES, **small_tables.ELSEWHERE}.items():
         replace(golden / f"small/{name}.csv", partial(small_tables.write, make()))
-    for name in examples.EXAMPLES:
-        replace(golden / f"small/{name}.png", partial(examples.save_small, examples.draw(name)))
+    for name in test_pictures.PICTURES:
+        replace(golden / f"small/{name}.png", partial(test_pictures.save_small, name))
     replace(golden / "small/explorer.csv", partial(explorer_sessions.recorded().to_csv, index=False))
 
 

@@ -23,6 +23,7 @@ CHANGED = {
     "size of theta": "degree",
     "switching": "switching",
 }
+SYMBOLS = {"F_X": "$F_X$", "|F| <= mu_k w": r"$|F| \leq \mu_k w$", "size of theta": r"$|\theta|$"}
 
 
 def draw(table: pd.DataFrame) -> Figure:
@@ -62,7 +63,10 @@ def _name(reading: pd.Series) -> str:
     """What a reading has instead of ours."""
     if reading["changed"] not in CHANGED:
         return "our reading"
-    return f"{reading['changed']}: {reading[CHANGED[reading['changed']]]}".replace("size of theta", "|theta|")
+    name = f"{reading['changed']}: {reading[CHANGED[reading['changed']]]}"
+    for words, symbol in SYMBOLS.items():
+        name = name.replace(words, symbol)
+    return name
 
 
 def _number(value: float, form: str) -> str:

@@ -22,7 +22,6 @@ TEXT_SIZE = 7.0
 LAYOUT = {"left": 0.07, "right": 0.99, "bottom": 0.045, "top": 0.97, "wspace": 0.38, "hspace": 0.48}
 TITLE_PT = (-24.0, 3.0)
 ABOVE: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "bottom"}
-ABOVE |= {"annotation_clip": False}
 # A logarithmic axis that spans less than this factor, above this number, has decimal labels.
 FEW_DECADES, SHORT = 110.0, 1e-4
 MICRO, MILLI = 1e6, 1e3

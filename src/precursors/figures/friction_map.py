@@ -29,7 +29,7 @@ def draw(table: pd.DataFrame, scenes: Sequence[tuple[float, float]] = ()) -> Fig
 
     Crosses mark `scenes`, pairs of theta and mu_k/mu_s.
     """
-    share = 100.0 * table["n_global"] / table["n_all_events"].where(table["n_all_events"] > 0)
+    share = 100.0 * table["n_global"] / table["n_all_events"]
     table = table.assign(share_global=share, **{EVENTS: table[EVENTS].where(table["reached"])})
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         panels = figure.subplots(1, len(PANELS), sharey=True)

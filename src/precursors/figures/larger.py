@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import Any
 
 import pandas as pd
@@ -11,8 +12,8 @@ from matplotlib.figure import Figure
 from precursors.figures import style
 
 HEIGHT_MM = 72.0
-COLORS = (style.BLUE, style.GREEN, style.VERMILION, style.PURPLE)
-MARKERS = ("o", "s", "^", "v")
+COLORS = (style.BLUE, style.GREEN, style.VERMILION, style.PURPLE, style.ORANGE, style.SKY)
+MARKERS = "os^vPX"
 TIMES = {0.0: "o", 1e-6: "s", 5e-6: "^", 2e-5: "D", 2e-4: "v"}  # relaxation time to marker
 
 
@@ -67,8 +68,9 @@ def _draw_lengths(axes: Axes, nucleation: pd.DataFrame) -> None:
 
 
 def _draw_medians(axes: Axes, runs: pd.DataFrame, quantity: str) -> None:
-    for i, ((v_c, _), rows) in enumerate(runs.groupby(["weakening_velocity", "relaxation_time"], sort=False)):
-        color, marker = (style.GREY, "D") if v_c == 0 else (COLORS[(i - 1) % 4], MARKERS[(i - 1) % 4])
+    looks = cycle(zip(COLORS, MARKERS, strict=True))
+    for (v_c, _), rows in runs.groupby(["weakening_velocity", "relaxation_time"], sort=False):
+        color, marker = (style.GREY, "D") if v_c == 0 else next(looks)
         label = rf"$l_c = {rows['critical_length'].iloc[0]:.2f} L$"
         low, high = (abs(rows[quantity] - rows[f"{quantity}_{end}"]) for end in ("low", "high"))
         look: dict[str, Any] = {"color": color, "marker": marker, "markersize": 3.5, "linewidth": 1.0}

@@ -93,7 +93,7 @@ def draw(
             else:
                 _magnify(upper, slips, trace, spans[1])
             if column == 0 or stacked:
-                upper.set_ylabel("Tangential load $F_X$ [N]")
+                upper.set_ylabel("Load $F_X$ [N]" if is_narrow else "Tangential load $F_X$ [N]")
                 lower.set_ylabel("$L_p$ [mm]")
                 figure.align_ylabels([upper, lower])
         if len(spans) > 1:

@@ -142,24 +142,17 @@ def save(figure: Figure, path: str | Path, look: Look | None = None) -> None:
     """Write a figure as PNG (300 dpi), SVG, PDF or EPS, complete or not at all, always the same bytes.
 
     `look` is that of its page. EPS knows no transparency: it has the colours on white.
-
-    Raises
-    ------
-    ValueError
-        If the name ends in none of .png, .svg, .pdf and .eps.
     """
     ending = Path(path).suffix.lower()
-    if ending not in _METADATA:
-        raise ValueError(f"a figure must be a {', '.join(_METADATA)} file, but {path} ends in {ending!r}")
     settings, buffer = (look or Look()).settings, BytesIO()
     with matplotlib.style.context(settings, after_reset=True), write_whole(path) as temporary:
-        figure = _opaque(figure) if ending == ".eps" else figure
+        figure = opaque(figure) if ending == ".eps" else figure
         figure.savefig(buffer, format=ending[1:], dpi=PNG_DPI, metadata=_METADATA[ending])
         temporary.write_bytes(re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
 
 
-def _opaque(figure: Figure) -> Figure:
-    """A copy whose transparent colours are what they are on white."""
+def opaque(figure: Figure) -> Figure:
+    """Copy a figure; transparent colours become what they are on white."""
     copy: Figure = pickle.loads(pickle.dumps(figure))
     for artist in copy.findobj():
         alpha = artist.get_alpha()

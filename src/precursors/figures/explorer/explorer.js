@@ -54,8 +54,8 @@ const STEPS = [
   },
 ];
 
-const state = { slider: { ...uniform.slider }, wish: {}, moved: "mu_s", loads: null, twin: false, step: 1, pick: "partial", view: "first", event: null, time: 0, ghost: uniform };
-let runs = [], film = null, motions = new Map(), own = null, asked = 0, playing = null, shares = null, dirty = new Set(), worker = null;
+const state = { slider: { ...uniform.slider }, wish: {}, twin: false, step: 1, pick: "partial", view: "first", event: null, time: 0, ghost: uniform };
+let runs = [], film = null, motions = new Map(), own = null, asked = 0, playing = null, shares = null, dirty = new Set(), worker = null, wanted = null;
 
 function nearTheta(theta) {
   return SCENES.reduce((best, scene) => (Math.abs(scene.slider.theta - theta) < Math.abs(best.slider.theta - theta) ? scene : best));
@@ -83,23 +83,18 @@ function sceneButtons() {
   const sorted = [...SCENES].sort((a, b) => a.slider.theta - b.slider.theta);
   return sorted.map((scene) => `<button type="button" data-scene="${SCENES.indexOf(scene)}" aria-pressed="${isScene(scene)}" title="${plain(scene.title)}">θ = ${fraction(scene.slider.theta)}</button>`).join("");
 }
-const same = (slider) => !state.loads && Object.keys(slider).every((name) => slider[name] === state.slider[name]);
+const same = (slider) => !state.slider.weights && Object.keys(slider).every((name) => slider[name] === state.slider[name]);
 const isScene = (scene) => same(scene.slider);
 const event = () => (state.event === null ? null : runs[0]?.events[state.event]);
 const firstGlobal = (run = runs[0]) => run.events.find((event) => event.isGlobal);
-const normalLoad = () => (state.loads ? state.loads.reduce((sum, load) => sum + load, 0) : state.slider.normal_load);
-const ratio = () => (runs[0] ? (Math.max(0, ...runs[0].counted.map((event) => event.before)) / normalLoad()).toFixed(4) : "");
+const ratio = () => (runs[0] ? (Math.max(0, ...runs[0].counted.map((event) => event.before)) / runs[0].weights.reduce((sum, load) => sum + load)).toFixed(4) : "");
 
 // Ask for the run of what is set: while a slider is held only up to the first global slip.
 function solve(isHeld = false) {
-  const { theta, normal_load, mu_s, mu_k, n_blocks, drive_stiffness, drive_velocity, slider_mass, youngs_modulus, cross_section, length } = state.slider;
-  const chain = {
-    blocks: n_blocks, theta, normalLoad: normal_load, loads: state.loads, muS: mu_s, muK: mu_k, driveStiffness: drive_stiffness, driveVelocity: drive_velocity,
-    mass: slider_mass, stiffness: (youngs_modulus * cross_section) / length, nudge: 0,
-  };
+  const slider = { ...state.slider, nudge: 0 };
   asked += 1;
   document.body.dataset.asked = asked;
-  worker.postMessage({ id: asked, chains: state.twin ? [chain, { ...chain, nudge: NUDGE }] : [chain], duration: DURATION, all: !isHeld });
+  worker.postMessage({ id: asked, chains: state.twin ? [slider, { ...slider, nudge: NUDGE }] : [slider], duration: DURATION, all: !isHeld });
   showParameters();
   if (!isHeld) keepState();
 }
@@ -115,11 +110,10 @@ function hear({ data }) {
   if (data.isFinal) showProgress(0);
   const isNew = data.slot === 0 && data.id !== runs[0]?.id;
   Object.assign(data, { counted: countedOf(data.events) });
-  if (data.slot === 0) data.springs = state.slider;
   runs[data.slot] = data;
   if (!state.twin) runs.length = 1;
   if (data.slot === 0) {
-    if (isNew) motions.clear();
+    if (isNew) motions.clear(), (wanted = null);
     film = filmOf(data);
     placeTime();
   }
@@ -185,8 +179,7 @@ function view() {
 
 // The state of the row at a time: forces of the springs, modes, and displacements [m].
 function frameAt(time) {
-  const { events, arrays, n, springs, weights, strength } = runs[0], { drive_stiffness: K, drive_velocity: V } = springs;
-  const k = (n * springs.youngs_modulus * springs.cross_section) / springs.length;
+  const { events, arrays, n, k, weights, strength } = runs[0], { drive_stiffness: K, drive_velocity: V, length } = runs[0].slider;
   const next = lowerBound(events.map((e) => e.onset), time), at = next < events.length && events[next].onset === time ? next : next - 1;
   const now = at >= 0 && time < events[at].end ? at : null, row = now ?? at + 1;
   const rest = (number) => arrays.forces.slice(number * (n + 2), (number + 1) * (n + 2));
@@ -194,10 +187,10 @@ function frameAt(time) {
   if (now !== null) {
     const motion = motions.get(now);
     if (motion) {
-      const i = Math.max(lowerBound(motion.time, time * (1 + 1e-16)) - (time > motion.time[0] ? 1 : 0), 0);
+      const i = Math.max(lowerBound(motion.time, time) - 1, 0);
       forces = motion.forces.subarray(i * (n + 2), (i + 1) * (n + 2));
       modes = motion.modes.subarray(i * (n + 2), (i + 1) * (n + 2));
-    } else worker.postMessage({ id: runs[0].id, event: now });
+    } else askMotion(now);
   } else forces[1] = at < 0 ? K * V * time : events[at].after + K * V * (time - events[at].end);
   const positions = (t, f) => {
     const x = [V * t - f[1] / K];
@@ -205,21 +198,27 @@ function frameAt(time) {
     return x;
   };
   // The camera stays where the last slip left the far end, goes along if that end leaves the picture, and then eases back.
-  const x = positions(time, forces), room = 0.07 * springs.length / runs[0].magnified;
+  const x = positions(time, forces), room = (0.07 * length) / runs[0].magnified;
   const far = (number) => (number < 0 ? 0 : positions(events[number].onset, rest(number))[n - 1]);
   const kept = at < 0 ? 0 : far(at), camera = kept + Math.max(x[n - 1] - kept - room, 0);
   const ease = now === null && at >= 0 ? Math.min((time - events[at].end) / (0.3 * ((events[next]?.onset ?? runs[0].end) - events[at].end) || 1), 1) : 0;
   const seen = camera + (x[n - 1] - camera) * ease * ease * (3 - 2 * ease);
   return {
-    weights, strength: strength.slice(1, n + 1), net: Array.from({ length: n }, (_, i) => forces[i + 1] - forces[i + 2]), modes: modes.slice(1, n + 1), shifts: x.map((value) => value - seen),
-    magnified: runs[0].magnified, length: springs.length, pushed: Math.max(forces[1], 0) / runs[0].highest, isGlobal: now !== null && events[now].isGlobal, ground: seen, now, at, load: forces[1],
+    weights, strength: strength.slice(1), net: Array.from({ length: n }, (_, i) => forces[i + 1] - forces[i + 2]), modes: modes.slice(1, n + 1), shifts: x.map((value) => value - seen),
+    magnified: runs[0].magnified, length, pushed: Math.max(forces[1], 0) / runs[0].highest, isGlobal: now !== null && events[now].isGlobal, ground: seen, now, at, load: forces[1],
   };
+}
+
+// Ask for the motion in an event, once; the worker follows one event at a time.
+function askMotion(number) {
+  if (motions.has(number) || number === wanted) return;
+  wanted = number;
+  worker.postMessage({ id: runs[0].id, event: number });
 }
 
 function magnify(run) {
   run.highest = 1.02 * run.events.reduce((high, event) => Math.max(high, event.before), 1e-9);
-  const k = (run.n * run.springs.youngs_modulus * run.springs.cross_section) / run.springs.length;
-  const most = (0.34 * run.springs.length) / run.n / (run.highest / k), power = 10 ** Math.floor(Math.log10(most));
+  const most = (0.34 * run.slider.length) / run.n / (run.highest / run.k), power = 10 ** Math.floor(Math.log10(most));
   run.magnified = power * [5, 4, 3, 2, 1.5, 1].find((factor) => factor * power <= most);
 }
 
@@ -237,7 +236,7 @@ function showRow() {
   element("scrubber").value = (1000 * (along(film.time, film.wall, state.time) - low)) / (high - low || 1);
   const lasts = start >= 0 ? runs[0].events[start].end - runs[0].events[start].onset : 0, pace = Math.min(PACE, LONGEST / lasts) / 1000;
   const clock = now === null ? `${state.time.toFixed(3)} s, all blocks stuck` : `${runs[0].events[now].onset.toFixed(3)} s + ${((state.time - runs[0].events[now].onset) * 1e6).toFixed(0)} µs`;
-  element("moment").textContent = `${clock}, F_X = ${frame.load.toFixed(1)} N`.replace("F_X", "Fₓ") + (playing ? (now === null ? " – time lapse" : ` – slow motion: 1 ms takes ${pace.toPrecision(1)} s`) : "");
+  element("moment").textContent = `${clock}, Fₓ = ${frame.load.toFixed(1)} N` + (playing ? (now === null ? " – time lapse" : ` – slow motion: 1 ms takes ${pace.toPrecision(1)} s`) : "");
   if (shownEvent !== state.event || shownRun !== runs[0]) showReadout();
 }
 
@@ -249,9 +248,9 @@ function showReadout() {
   element("next").disabled = !events.length || state.event === events.length - 1;
   const kind = one?.isGlobal ? "global slip" : counted.includes(one) ? "precursor" : "shorter slip";
   const text = one
-    ? `Event ${state.event + 1} of ${events.length}, ${one.isGlobal ? "global slip" : firstGlobal() && one.onset > firstGlobal().onset ? "partial slip" : kind}: ${one.front === 1 ? "block 1 slides" : `blocks 1 to ${one.front} slide${one.front === n && !one.isGlobal ? ", never all at once," : ""}`} for ${((one.end - one.onset) * 1e6).toFixed(0)} µs from ${one.onset.toFixed(3)} s on. F_X goes from ${one.before.toFixed(2)} to ${one.after.toFixed(2)} N.`
+    ? `Event ${state.event + 1} of ${events.length}, ${one.isGlobal ? "global slip" : firstGlobal() && one.onset > firstGlobal().onset ? "partial slip" : kind}: ${one.front === 1 ? "block 1 slides" : `blocks 1 to ${one.front} slide${one.front === n && !one.isGlobal ? ", never all at once," : ""}`} for ${((one.end - one.onset) * 1e6).toFixed(0)} µs from ${one.onset.toFixed(3)} s on. Fₓ goes from ${one.before.toFixed(2)} to ${one.after.toFixed(2)} N.`
     : "Press Play, click an event in a figure, or press →.";
-  element("readout").textContent = text.replace("F_X", "Fₓ");
+  element("readout").textContent = text;
   element("row").setAttribute("aria-label", `A row of ${n} blocks, pushed from the left by a spring. ${text}`);
   element("lengths").setAttribute("aria-label", `Front length against load: ${counted.map((e) => `${e.front} blocks at ${e.before.toFixed(1)} N`).join(", ").slice(0, 900)}`);
 }
@@ -347,7 +346,7 @@ function showProgress(share) {
 
 function showParameters() {
   for (const [name, { write, step }] of Object.entries(SLIDERS)) {
-    const input = element(name), value = state.slider[name], text = name === "theta" && state.loads ? "by hand" : write(value);
+    const input = element(name), value = state.slider[name], text = name === "theta" && state.slider.weights ? "by hand" : write(value);
     input.value = step ? value : Math.log10(value);
     input.setAttribute("aria-valuetext", text);
     element(`${name}-value`).textContent = text;
@@ -374,7 +373,7 @@ function goToStep(number) {
   showStep();
 }
 function useScene(scene) {
-  Object.assign(state, { slider: { ...scene.slider }, wish: {}, loads: null, ghost: scene });
+  Object.assign(state, { slider: { ...scene.slider }, wish: {}, ghost: scene });
   solve();
 }
 
@@ -424,7 +423,7 @@ function play() {
     before = now;
     wall = isCalm ? film.wall[Math.min(at + (film.wall[at] <= wall ? 1 : 0), film.wall.length - 1)] : wall + passed;
     const next = Math.floor((lowerBound(film.wall, wall) - 1) / 2);
-    if (runs[0].events[next] && !motions.has(next)) worker.postMessage({ id: runs[0].id, event: next });
+    if (runs[0].events[next]) askMotion(next);
     state.time = Math.min(along(film.wall, film.time, wall), end);
     redraw("row");
     if (state.time >= Math.min(end, runs[0].end) || wall >= film.wall.at(-1)) return stop();
@@ -455,7 +454,7 @@ function zoom(factor, around = state.time) {
 // The state is in the address; what is there but makes no sense is ignored.
 function keepState() {
   const kept = new URLSearchParams(Object.keys(SLIDERS).map((name) => [name, state.slider[name]]));
-  if (state.loads) kept.set("loads", state.loads.map((load) => Number(load.toPrecision(6))).join(","));
+  if (state.slider.weights) kept.set("loads", loads().join(","));
   kept.set("step", state.step);
   if (state.twin) kept.set("twin", 1);
   kept.set("view", typeof state.view === "string" ? state.view : `${state.view.start},${state.view.end}`);
@@ -470,8 +469,7 @@ function restoreState() {
   }
   state.slider.mu_k = Math.min(state.slider.mu_k, state.slider.mu_s);
   if (kept.has("loads") && numbers("loads").length <= SLIDERS.n_blocks.high && numbers("loads").every((load) => load > 0 && load < 1e6)) {
-    state.loads = numbers("loads");
-    state.slider.n_blocks = state.loads.length;
+    Object.assign(state.slider, { weights: numbers("loads"), n_blocks: numbers("loads").length });
   }
   if (kept.has("step")) state.step = Math.min(Math.max(Math.round(Number(kept.get("step"))) || 0, 0), STEPS.length);
   state.pick = STEPS[state.step - 1]?.pick ?? null;
@@ -483,12 +481,13 @@ function restoreState() {
   state.ghost = SCENES.find(isScene) ?? nearTheta(state.slider.theta);
 }
 
+const loads = () => state.slider.weights.map((load) => Number(load.toPrecision(6)));
 // The command that draws this run.
 function command() {
   const names = { theta: "theta", n_blocks: "blocks", mu_s: "mu-s", mu_k: "mu-k", normal_load: "normal-load", drive_stiffness: "drive-stiffness", drive_velocity: "drive-velocity", slider_mass: "slider-mass", youngs_modulus: "youngs-modulus", cross_section: "cross-section", length: "length" };
-  const options = Object.entries(names).filter(([name]) => !(state.loads && ["theta", "n_blocks", "normal_load"].includes(name)));
+  const options = Object.entries(names).filter(([name]) => !(state.slider.weights && ["theta", "n_blocks", "normal_load"].includes(name)));
   const text = options.map(([name, option]) => ` --${option} ${state.slider[name]}`).join("");
-  return state.loads ? `echo "${state.loads.map((load) => Number(load.toPrecision(6))).join(" ")}" > loads.txt && precursors plot --weights loads.txt${text}` : `precursors plot${text}`;
+  return state.slider.weights ? `echo "${loads().join(" ")}" > loads.txt && precursors plot --weights loads.txt${text}` : `precursors plot${text}`;
 }
 async function copy(text) {
   const isCopied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
@@ -529,7 +528,7 @@ function setSlider(name, position) {
     state.slider[other] = name === "mu_s" ? Math.min(wish, value) : Math.max(wish, value);
     delete state.wish[name];
   }
-  if (name === "theta" || name === "n_blocks") state.loads = null;
+  if (name === "theta" || name === "n_blocks") state.slider.weights = null;
   state.slider[name] = value;
 }
 
@@ -539,8 +538,7 @@ function listen() {
   on("sliders", "change", () => solve());
   on("sliders", "submit", (happened) => happened.preventDefault());
   on("loads", "input", ({ target }) => {
-    state.loads ??= [...runs[0].weights];
-    state.loads[target.dataset.load] = Number(target.value);
+    state.slider.weights = runs[0].weights.with(target.dataset.load, Number(target.value));
     solve(true);
   });
   on("loads", "change", () => solve());

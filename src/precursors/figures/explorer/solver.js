@@ -11,20 +11,16 @@ const ROUNDING = 8 * Number.EPSILON;
 const MOST_TRANSITIONS = 200000;
 const MOST_WINDOWS = 2000000;
 
-// N blocks of a slider (Eqs. 9 and 10) under a straight line of normal loads (Eq. 7), or under given ones.
-function chainOf({ blocks, theta, normalLoad, loads, muS, muK, driveStiffness, driveVelocity, mass, stiffness }) {
-  const weights = loads ?? Array.from({ length: blocks }, (_, j) =>
-    blocks === 1 ? normalLoad : (normalLoad / blocks) * (1 + ((2 * j + 1 - blocks) / (blocks - 1)) * theta),
-  );
-  const n = weights.length, m = mass / n, k = n * stiffness;
-  const tau = 2 / Math.sqrt(Math.max(4 * k, 2 * k + driveStiffness) / m);
-  const c = new Float64Array(n + 2); // c[i] belongs to the spring behind block i
-  for (let i = 1; i <= n; i++) c[i] = ((i === 1 ? driveStiffness : k) * tau * tau) / m;
-  const perBlock = (mu) => Float64Array.from([0, ...weights.map((w) => mu * w), 0]);
-  return {
-    n, c, tau, weights, strength: perBlock(muS), friction: perBlock(muK), drive: (driveVelocity * m) / tau,
-    velocityUnit: tau / m, // m/s per N/tau
-  };
+// N blocks of a slider (Eqs. 9 and 10), which has the names of `Chain.from_slider`, under a straight line of normal loads
+// (Eq. 7) or under given ones.
+function chainOf(slider) {
+  const { n_blocks: n, theta, normal_load: load, drive_stiffness: K } = slider;
+  const weights = slider.weights ?? Array.from({ length: n }, (_, j) => (load / n) * (1 + ((2 * j + 1 - n) / (n - 1 || 1)) * theta));
+  const m = slider.slider_mass / n, k = (n * slider.youngs_modulus * slider.cross_section) / slider.length;
+  const tau = 2 / Math.sqrt(Math.max(4 * k, 2 * k + K) / m);
+  const c = Float64Array.from([0, K, ...Array(n - 1).fill(k), 0], (stiffness) => (stiffness * tau * tau) / m); // c[i]: behind block i
+  const perBlock = (mu) => Float64Array.from([NaN, ...weights.map((w) => mu * w)]);
+  return { n, c, tau, k, weights, strength: perBlock(slider.mu_s), friction: perBlock(slider.mu_k), drive: (slider.drive_velocity * m) / tau };
 }
 
 // Taylor rows of the velocities from their row 0: row r, which starts at r (n + 2), is the r-th derivative.
@@ -45,7 +41,7 @@ function expand({ n, c, friction }, rows, force, mode, last) {
 // Weights t^r / r! of a Taylor series, to order ORDER + 1.
 function setTerms(terms, t) {
   terms[0] = 1;
-  for (let r = 1; r < terms.length; r++) terms[r] = (terms[r - 1] * t) / r;
+  for (let r = 0; r <= ORDER; r++) terms[r + 1] = (terms[r] * t) / (r + 1);
 }
 
 // The first transition before `end`: [time, block, way]. Way 0 is the velocity of a block that slides, which reaches zero;
@@ -128,9 +124,8 @@ function advance({ n, c, drive }, rows, force, last, t, terms, slip) {
 // `note(t, block, mode, force, velocity)` hears every transition and window (block 0). The result is the duration [tau].
 function* slipEvent(chain, force, longest, note, window = WINDOW) {
   const { n, strength, drive } = chain;
-  const rows = new Float64Array((ORDER + 1) * (n + 2)), slip = new Float64Array(n + 2);
-  const terms = new Float64Array(ORDER + 2), series = new Float64Array(ORDER + 1);
-  const mode = new Int8Array(n + 2);
+  const rows = new Float64Array((ORDER + 1) * (n + 2)), slip = new Float64Array(n + 1);
+  const mode = new Int8Array(n + 1), terms = [], series = [];
   rows[0] = drive;
   let sliding = 1, farthest = 1, elapsed = 0;
   mode[1] = 1;

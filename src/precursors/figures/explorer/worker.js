@@ -30,8 +30,8 @@ function hearAgain({ id, all }) {
 function begin(request) {
   const runs = request.chains.map((slider) => {
     const chain = chainOf(slider);
-    const loads = chain.weights.map((load, j) => (j ? load : load * (1 + slider.nudge)));
-    return newRun(slider.nudge ? chainOf({ ...slider, loads }) : chain, request.duration);
+    const weights = chain.weights.map((load, j) => (j ? load : load * (1 + slider.nudge)));
+    return newRun(slider.nudge ? chainOf({ ...slider, weights }) : chain, request.duration);
   });
   job = { ...request, key: JSON.stringify(request.chains), runs, started: performance.now(), shown: false, first: false, done: false };
   job.steps = stages(job);
@@ -106,7 +106,7 @@ function send(slot, isFinal) {
   const told = events.map(({ force, ...event }) => event);
   postMessage(
     { kind: "run", id, slot, isFinal, arrays, bars, events: told, end: run.end, stopped: run.stopped, transitions: time.length,
-      n: chain.n, weights: chain.weights, strength: Array.from(chain.strength), tau: chain.tau },
+      n: chain.n, k: chain.k, weights: chain.weights, strength: Array.from(chain.strength), slider: job.chains[slot] },
     [...Object.values(arrays), ...Object.values(bars)].map((array) => array.buffer),
   );
 }

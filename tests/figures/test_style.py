@@ -1,0 +1,86 @@
+"""Files of figures are the same bytes each time; looks and orders that must agree do."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pytest
+from figures.test_pictures import PICTURES, slips
+from matplotlib import image
+
+from precursors.accuracy.failures import FAILURE_MODES
+from precursors.ensembles.event_law import THETAS
+from precursors.figures import precursor_lengths, style
+from precursors.figures.event_law import THETA_COLORS
+from precursors.figures.failure_gallery import PANELS
+from precursors.methods import METHODS, SPARE, Method, with_looks
+
+RULES = Path(__file__).parents[2] / "workflow/rules"
+# Colours have 255 levels; each way of mixing them rounds once.
+GREY_LEVELS = 1.5
+
+
+def test_every_format_has_the_same_bytes_whichever_file_is_first_and_settings_of_the_user_change_nothing(
+    tmp_path, caplog
+):
+    endings = ("png", "svg", "pdf", "eps")
+    for which, order in (("first", endings), ("second", endings[::-1])):
+        with matplotlib.rc_context({"font.size": 20} if which == "second" else {}):
+            figure = PICTURES["precursor_lengths"]()
+            for ending in order:
+                style.save(figure, tmp_path / f"{which}.{ending}")
+    for ending in endings:
+        first, second = ((tmp_path / f"{which}.{ending}").read_bytes() for which in ("first", "second"))
+        assert first == second, ending
+        for word in (b"dc:date", b"Software", b"Creation", b"Matplotlib v"):
+            assert word not in first
+    assert first.startswith(b"%!PS-Adobe-3.0 EPSF")
+    assert caplog.messages == []  # of transparency, which EPS does not know
+    assert image.imread(tmp_path / "first.png").shape[1] == int(300 * 85 / 25.4)
+
+
+def test_transparent_colours_look_the_same_when_they_are_opaque(tmp_path):
+    with style.page(40.0, 40.0, lay_out=False) as figure:
+        axes = figure.add_axes((0, 0, 1, 1))
+        axes.set_axis_off()
+        axes.axvspan(0.1, 0.2, color="red", alpha=0.5, linewidth=0.0)
+        axes.fill_between([0.3, 0.4], 0, 1, color="blue", alpha=0.25, linewidth=0.0)
+        axes.plot([0.5], [0.5], "o", color="green", alpha=0.4, markeredgewidth=0.0)
+        axes.plot([0.7], [0.7], "o", color="green", alpha=0.4, markerfacecolor="none")
+        axes.plot([0.7], [0.7], "k+")
+    style.save(figure, tmp_path / "transparent.png")
+    style.save(style.opaque(figure), tmp_path / "opaque.png")
+    one, other = (image.imread(tmp_path / f"{name}.png") for name in ("transparent", "opaque"))
+    assert 255 * np.abs(one - other).max() < GREY_LEVELS
+
+
+@pytest.mark.parametrize(
+    ("theta", "text"),
+    [(-5 / 6, "-5/6"), (0.0, "0"), (11 / 12, "11/12"), (1 / 13, "0.07692"), (0.833, "0.833")],
+)
+def test_theta_is_a_fraction_only_if_it_is_one_of_small_numbers(theta, text):
+    assert style.theta_text(theta) == rf"$\theta = {text}$"
+
+
+def test_measured_lengths_are_shares_of_the_whole():
+    with pytest.raises(ValueError, match="between 0 and 1"):
+        precursor_lengths.draw([slips()], data=np.array([[50.0, 30.0]]))
+
+
+def test_every_method_has_a_colour_and_a_marker_of_its_own():
+    new = (Method(name, name, "step [s]", METHODS["rk4"].solve, (1e-6,)) for name in ("first", "second"))
+    chosen = replace(METHODS["rk4"], name="with a spare colour", look=(SPARE[0][0], "$P$"))
+    every = list(with_looks([*METHODS.values(), chosen, *new]))
+    for looks in zip(*(method.look for method in every), strict=True):
+        assert len(set(looks)) == len(every)
+
+
+def test_panels_failure_modes_and_rule_have_the_same_order_and_every_theta_of_the_law_a_colour():
+    rule = (RULES / "accuracy.smk").read_text(encoding="utf-8")
+    listed = re.findall(r'"(\w+)"', rule.partition("FAILURE_MODES = [")[2].partition("]")[0])
+    assert list(PANELS) == list(FAILURE_MODES) == listed
+    assert tuple(THETA_COLORS) == THETAS
