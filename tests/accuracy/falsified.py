@@ -8,6 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 import pandas as pd
+from chains import first_transitions
+from random_chains import SEED, trial
 
 from precursors import Chain, Run, simulate
 from precursors.accuracy.audit import audit
@@ -21,6 +23,8 @@ STRAINED = 1e-5 * np.sin(np.arange(10.0))
 ENERGY_ROUNDING = 1e-13
 # A number with a unit, in a sentence of the auditor.
 NUMBER = r"-?[\d.]+(?:e[-+]\d+)?(?= (?:N|m/s|s)\b)"
+# What is done to a run of a random chain, and by how much: a part of an interval, and of mu_k.
+WAYS, WRONG = ("shifted", "dropped", "swapped", "turned", "mu_k"), 1e-6
 
 
 def without(run: Run, *removed: int) -> Run:
@@ -63,17 +67,17 @@ def with_chain(run: Run, name: str, factor: float) -> Run:
 
 def next_of_block(run: Run, k: int) -> int:
     """Number of the next transition of the block of transition k."""
-    later = np.flatnonzero(run.transitions["block"][k + 1 :] == run.transitions["block"][k])
-    return k + 1 + int(later[0])
+    return k + 1 + int(np.argmax(run.transitions["block"][k + 1 :] == run.transitions["block"][k]))
 
 
-def old_modes(run: Run) -> np.ndarray:
-    """Mode of each transition's block before it."""
-    mode, old = np.zeros(run.chain.n_blocks + 1, int), []
-    for entry in run.transitions:
-        old.append(mode[entry["block"]])
-        mode[entry["block"]] = entry["mode"]
-    return np.array(old)
+def first_backward(run: Run, old: int) -> int:
+    """Number of the first transition, after time 0, from an old mode to -1."""
+    mode = np.zeros(run.chain.n_blocks + 1, int)
+    for k, (time, block, new, _) in enumerate(run.transitions.tolist()):
+        if time > 0 and mode[block] == old and new == -1:
+            return k
+        mode[block] = new
+    raise LookupError("no block goes backward")
 
 
 def with_extra_release(run: Run) -> Run:
@@ -123,15 +127,12 @@ def falsified() -> Iterator[tuple[str, Run]]:
     yield "a little less mu_k", with_chain(uniform, "mu_k", 1 - 1e-9)
 
     falling = simulate(slider(theta="-5/6"), until="global slip")
-    turn = int(np.flatnonzero((falling.transitions["mode"] == -1) & (old_modes(falling) == 1))[0])
-    rest = next_of_block(falling, turn)
-    assert falling.transitions["mode"][rest] == 0
-    yield "a turn is a stick", without(changed(falling, turn, mode=0), rest)
+    turn = first_backward(falling, 1)
+    yield "a turn is a stick", without(changed(falling, turn, mode=0), next_of_block(falling, turn))
     yield "a turn is late", shifted(falling, turn, SHIFT)
 
     strained = simulate(slider(), 1.0, start_positions=STRAINED)
-    backward = (strained.transitions["mode"] == -1) & (old_modes(strained) == 0)
-    release = int(np.flatnonzero(backward & (strained.transitions["time"] > 0))[0])
+    release = first_backward(strained, 0)
     yield "a backward slip is missed", without(strained, release, next_of_block(strained, release))
     yield "a backward release is early", shifted(strained, release, -SHIFT)
     moving = simulate(slider(), 0.1, start_velocities=np.r_[np.zeros(9), 0.1])
@@ -146,7 +147,6 @@ def falsified() -> Iterator[tuple[str, Run]]:
     heavy = Chain(np.r_[4e6, np.full(9, 0.04)], 0.0012, 25e6, 0.8e6, 1e-4, 0.7, 0.45)
     light = simulate(heavy, 1e-3, start_velocities=np.r_[np.zeros(9), 1e-6])
     stop = next_of_block(light, 0)
-    assert light.transitions["block"][stop] == 10
     yield "a light block beside a heavy one is late", shifted(light, stop, 1e-6 * light.intervals[stop])
 
 
@@ -173,3 +173,43 @@ def audits() -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
+
+
+def spoiled(run: Run, way: str, rng: np.random.Generator) -> Run | None:
+    """The run with one mistake by chance; None where there is nothing to spoil."""
+    transitions, intervals, chain = run.transitions, run.intervals, run.chain
+    block, mode = transitions["block"], transitions["mode"]
+    if way == "shifted":
+        chosen = (intervals[:-1] > 0) & (intervals[1:] > WRONG * intervals[:-1])
+    elif way == "swapped":
+        # Two that come nearly together may come in either order.
+        soon = WRONG * np.sqrt(chain.mass / max(chain.stiffness, chain.drive_stiffness))
+        chosen = (intervals[1:-1] > soon) & (block[1:] != block[:-1])
+    elif way == "mu_k":
+        # Friction leaves a trace where a block that has weight moves and stops.
+        chosen = (mode == 0) & (chain.kinetic_friction[block - 1] > 0)
+    else:
+        chosen = block > 0
+    if not chosen.any():
+        return None
+    k = int(rng.choice(np.flatnonzero(chosen)))
+    match way:
+        case "shifted":
+            return shifted(run, k, WRONG * intervals[k])
+        case "dropped":
+            return without(run, k)
+        case "swapped":
+            swapped = transitions.copy()
+            swapped[["block", "mode"]][[k, k + 1]] = transitions[["block", "mode"]][[k + 1, k]]
+            return replace(run, transitions=swapped)
+        case "turned":
+            return changed(run, k, mode=rng.choice([new for new in (-1, 0, 1) if new != mode[k]]))
+    return with_chain(run, "mu_k", 1 - WRONG)
+
+
+def seen(number: int, way: str) -> bool | None:
+    """Whether the auditor sees that the run of a trial was spoiled; None where there is nothing to spoil."""
+    case = trial(number)[1]
+    run = first_transitions(case.chain, case.most, duration=case.duration, **case.start)
+    wrong = spoiled(run, way, np.random.default_rng([SEED, number, WAYS.index(way)]))
+    return None if wrong is None else not audit(wrong).ok

@@ -1,10 +1,14 @@
-"""Transitions of a run that nobody computed, and a proof that ends with a tie."""
+"""Transitions of a run that nobody computed, and proofs that are made step by step."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
 
 from precursors import Chain, Run
 from precursors.accuracy.compare import Comparison
 from precursors.accuracy.proof import Certificate, ExactChain, certify
+from precursors.accuracy.proof.tube import Proof
 
 CHAIN = Chain.from_slider(n_blocks=3)
 DURATION = 4.0
@@ -23,6 +27,8 @@ TRUE = [
     (3.5, 2, 0, 101.0),
     (3.625, 3, 0, 101.5),
 ]
+# Seven blocks, the middle one pushed aside: blocks 2 and 6 are released at the same instant, by symmetry.
+SYMMETRIC_START = ["0", "0", "0", "1e-5", "0", "0", "0"]
 
 
 def made_up(rows) -> Run:
@@ -36,6 +42,21 @@ def has_all_transitions(found: Comparison) -> bool:
 
 
 def tied_certificate() -> Certificate:
-    """A proof that ends with a tie: two blocks of a mirror-symmetric start let go at once."""
-    start = ["0", "0", "0", "1e-5", "0", "0", "0"]
-    return certify(ExactChain.from_slider(n_blocks=7), 1, start_positions=start)
+    """A proof that ends with a tie."""
+    return certify(ExactChain.from_slider(n_blocks=7), 1, start_positions=SYMMETRIC_START)
+
+
+def proof_of(
+    chain: ExactChain,
+    bits: int,
+    positions: Sequence[Fraction | str] = (),
+    velocities: Sequence[Fraction | str] = (),
+) -> Proof:
+    """A proof that has not begun; the chain starts from rest if nothing is given."""
+    starts = [tuple(map(Fraction, of or [0] * chain.n_blocks)) for of in (positions, velocities)]
+    return Proof(Certificate(chain, Fraction(100), None, *starts, Fraction(1), (), None, bits, 0))
+
+
+def go_on(proof: Proof) -> None:
+    """Take the next step of a proof."""
+    assert proof.slide() if any(proof.state.mode) else proof.load()

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import copy
 from dataclasses import replace
-from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
+from accuracy.made_up import go_on, proof_of
 from flint import arb, arb_poly, ctx
 from scipy.linalg import expm
 
@@ -19,6 +19,7 @@ from precursors.accuracy.proof.event_roots import (
     newton,
 )
 from precursors.accuracy.proof.exact_chain import ExactChain
+from precursors.accuracy.proof.motion import Constants, State, time_unit
 from precursors.accuracy.proof.tube import Proof
 
 BITS, END, VALID = 64, 1.0, 1.125
@@ -32,15 +33,13 @@ def function(value: list[float], block: int = 1, way: int = 0, width: float = 0.
     """An event function from its coefficients, known to within some width."""
     u = arb_poly(value)
     slope, around = u.derivative(), arb(0, width)
-    return EventFunction(
-        block, way, u + around, slope + around, slope.derivative() + around, fresh and way == 0
-    )
+    return EventFunction(block, way, fresh, u + around, slope + around, slope.derivative() + around)
 
 
 def through(*roots: float, **how):
     """The polynomial with these roots, positive before the first."""
     coefficients = np.polynomial.polynomial.polyfromroots(roots)
-    return function(((-1.0) ** len(roots) * coefficients).tolist(), **how)
+    return function(((-1.0) ** len(roots) * coefficients.real).tolist(), **how)
 
 
 def find(*functions: EventFunction, end: float = END, back: float = 0.0, bits: int = BITS):
@@ -58,7 +57,6 @@ def assert_root(found: tuple[int, arb] | None, block: int, root: float, width: f
 
 ROOTS = {
     "one": ((0.3,), 0.3),
-    "at once": ((0.001,), 0.001),
     "the first of two": ((0.25, 0.75), 0.25),
     "the first of three": ((0.2, 0.4, 0.6), 0.2),
     "two close together": ((0.375, 0.375 + 2.0**-20), 0.375),
@@ -68,8 +66,8 @@ ROOTS = {
     "beyond the end": ((1.05,), None),
     "far beyond the end": ((2.0, 3.0), None),
     "before the start only": ((-0.1, -0.2), None),
-    "on a half": ((0.5,), 0.5),
     "on a quarter of a half": ((0.125, 0.625), 0.125),
+    "none, but a low dip": ((0.5 + 1e-3j, 0.5 - 1e-3j), None),
 }
 
 
@@ -80,11 +78,6 @@ def test_the_first_root_is_found_and_no_other(roots, first):
         assert found is None
     else:
         assert_root(found, 1, first)
-
-
-def test_a_function_without_a_real_root_has_none_however_low_it_dips():
-    for dip in (1.0, 1e-3, 1e-6):
-        assert find(function([0.25 + dip, -1.0, 1.0])) is None
 
 
 def test_random_polynomials_have_the_first_root_that_numpy_finds():
@@ -169,17 +162,16 @@ def test_newtons_method_gives_as_many_digits_as_are_asked_for_and_no_more(bits):
     u = arb_poly([0.5, 0, -1])
     _, root = find(function([0.5, 0, -1]))
     with ctx.workprec(bits + 32):
-        x = newton(u, u.derivative(), root, bits)
+        x = newton(u, root, bits)
         wrong = abs(x - arb(0.5).sqrt())
         assert x.rad() == 0
         assert wrong < arb(2) ** -bits
         assert wrong > arb(2) ** (-bits - 24)
 
 
-def equations(proof: Proof) -> np.ndarray:
+def equations(of: Constants, mode: list[int]) -> np.ndarray:
     """The matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1); blocks with mode 0 do not move."""
-    n, mode, of = proof.n, proof.state.mode, proof.constants(64)
-    c, friction = ([float(x) for x in row] for row in (of.coupling, of.friction))
+    n, c, friction = len(mode) - 2, list(map(float, of.coupling)), list(map(float, of.friction))
     matrix = np.zeros((2 * n + 1, 2 * n + 1))
     matrix[0, -1] = c[1] * float(of.drive)
     for i in range(1, n + 1):
@@ -193,60 +185,71 @@ def equations(proof: Proof) -> np.ndarray:
     return matrix
 
 
+def vector(state: State) -> np.ndarray:
+    return np.array([float(x) for x in (*state.force[1:-1], *state.rate[1:-1], 1.0)])
+
+
 def exact_rows(proof: Proof, function: EventFunction, matrix: np.ndarray) -> list[np.ndarray]:
     """The event function and its derivatives, as far as it has any, as rows that multiply y."""
-    n, i, way = proof.n, function.block, function.direction
+    n, i, way = proof.chain.n_blocks, function.block, function.direction
     row = np.zeros(2 * n + 1)
     if way == 0:
         row[n + i - 1] = proof.state.mode[i]
         return [row, row @ matrix, row @ matrix @ matrix]
-    row[i - 1], row[-1] = -way, float(proof.constants(64).strength[i])
+    row[i - 1], row[-1] = -way, float(proof.bounds.strength[i])
     row[i : min(i + 1, n)] = way
     return [row, (row - row[-1] * np.eye(2 * n + 1)[-1]) @ matrix]
+
+
+def functions_of(proof: Proof, distance: float, bits: int, valid: float = VALID) -> list[EventFunction]:
+    with ctx.workprec(64):
+        state = replace(proof.state, distance=arb(distance))
+        return event_functions(proof.bounds, state, proof.fresh, valid, bits)
 
 
 @pytest.fixture(scope="module")
 def sliding() -> Proof:
     """Theta = -5/6 in the event in which block 10 first turns round: some blocks slide, some are stuck."""
-    chain = ExactChain.from_slider(theta="-5/6")
-    proof = Proof(chain, Fraction(10), False, ((Fraction(0),) * 10,) * 2, 256, Fraction(1))
+    proof = proof_of(ExactChain.from_slider(theta="-5/6"), 256)
     while len(proof.transitions) < 53:
-        assert proof.slide() if any(proof.state.mode) else proof.load()
+        go_on(proof)
     return proof
 
 
-@pytest.mark.parametrize("bits", [12, 24])
-def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_than_they_must(sliding, bits):
+# How close the exact motion comes to the bound of what 12 bits leave out: value, slope and bend of a speed,
+# the value of a margin (its rate is integrated, and the bound with it) and its slope.
+CLOSEST = {(0, 0): 0.7, (1, 0): 0.7, (2, 0): 0.7, (0, 1): 0.01, (1, 1): 0.15}
+
+
+@pytest.mark.parametrize("valid", [0.25, VALID])
+def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_than_they_must(sliding, valid):
     """Beside the matrix exponential, with so few bits that the remainder of the series is seen."""
-    functions, matrix = functions_of(sliding, 0.0, bits), equations(sliding)
-    y = np.array([float(x) for x in (*sliding.state.force[1:-1], *sliding.state.rate[1:-1], 1.0)])
-    closest = np.zeros(3)
-    for t in (-0.25, 0.5, VALID):
-        flow = expm(matrix * t) @ y
+    functions = functions_of(sliding, 0.0, 12, valid)
+    matrix, closest = equations(sliding.bounds, sliding.state.mode), dict.fromkeys(CLOSEST, 0.0)
+    for t in (-valid, -valid / 2, valid / 2, valid):
+        flow = expm(matrix * t) @ vector(sliding.state)
         for of in functions:
             for k, row in enumerate(exact_rows(sliding, of, matrix)):
                 found = (of.value, of.slope, of.bend)[k](arb(t))
                 wrong, radius = abs(float(found.mid()) - row @ flow), float(found.rad())
                 assert wrong <= radius
-                closest[k] = max(closest[k], wrong / radius)
-    assert (closest > 0.02).all()
+                key = k, abs(of.direction)
+                closest[key] = max(closest[key], wrong / radius)
+    assert all(closest[key] > least for key, least in CLOSEST.items()), closest
 
 
 def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no_farther_one(sliding):
     """At the start, where a function and its derivatives are linear in T_i / sqrt c_i and u_i."""
-    n, distance, state = sliding.n, 1e-6, sliding.state
-    everything = replace(state, mode=[0, *[1] * n, 0])
-    moving = copy.copy(sliding)
-    moving.state = everything
-    matrix = equations(moving)
-    scale = np.append(np.sqrt([float(c) for c in sliding.constants(64).coupling[1:-1]]), np.ones(n))
+    n, distance, mode = sliding.chain.n_blocks, 1e-6, sliding.state.mode
+    matrix = equations(sliding.bounds, [0, *[1] * n, 0])
+    scale = np.append(np.sqrt([float(c) for c in sliding.bounds.coupling[1:-1]]), np.ones(n))
     functions = functions_of(sliding, distance, 64)
     for of in functions:
         for k, row in enumerate(exact_rows(sliding, of, matrix)):
             ball = (of.value, of.slope, of.bend)[k](arb(0))
             reach = 2 * distance * np.linalg.norm(row[:-1] * scale)
             assert reach * (1 - 1e-9) <= float(ball.rad()) <= 1.001 * reach
-    slides = {i for i in range(1, n + 1) if state.mode[i]}
+    slides = {i for i in range(1, n + 1) if mode[i]}
     near = {1} | {i + way for i in slides for way in (1, -1)} & set(range(1, n + 1))
     expected = {(i, 0) for i in slides} | {(i, way) for i in near - slides for way in (1, -1)}
     assert {(of.block, of.direction) for of in functions} == expected
@@ -255,7 +258,28 @@ def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no
     assert {of.block for of in functions if of.fresh} == sliding.fresh == {10}
 
 
-def functions_of(proof: Proof, distance: float, bits: int) -> list[EventFunction]:
-    state = replace(proof.state, distance=arb(distance))
-    with ctx.workprec(64):
-        return event_functions(proof.constants(64), state, proof.fresh, VALID, bits)
+SLOW: dict[str, Any] = {"n_blocks": 2, "drive_stiffness": "1e3", "drive_velocity": "1e-20"}
+# Slider, modes, forces and rates of the state, distance [N], and by how much its bound is too large.
+CHANGES = {
+    "the drive": ({"n_blocks": 1, "mu_k": 0}, [1], [0], [0], 0, 4.8),
+    "friction": (SLOW, [1, -1], [0, 0], [0, 0], 0, 3.3),
+    "a velocity": (SLOW | {"mu_k": 0}, [1, 1], [0, 0], [3, -3], 0, 1.9),
+    "another velocity": (SLOW | {"mu_k": 0}, [1, 1], [0, 0], [3, -3], 18**0.5, 1.9),
+    "a force": (SLOW | {"mu_k": 0}, [1, 1], [0, 3], [0, 0], 0, 2.6),
+}
+
+
+@pytest.mark.parametrize(
+    ("slider", "mode", "force", "rate", "distance", "slack"), CHANGES.values(), ids=CHANGES
+)
+def test_no_net_force_changes_by_more_than_its_bound(slider, mode, force, rate, distance, slack):
+    """Beside the matrix exponential; a run may have the velocity, or be as far as that from the state."""
+    chain, gap = ExactChain.from_slider(**slider), 0.5
+    state = State([*map(arb, (0, *force, 0))], [*map(arb, (0, *rate, 0))], [0, *mode, 0], arb(distance))
+    constants = Constants.of(chain, time_unit(chain))
+    matrix, y = equations(constants, state.mode), vector(state)
+    changes = [(expm(matrix * t) @ y - y)[: len(mode)] for t in np.linspace(-2 * gap, 2 * gap, 41)]
+    largest = abs(np.diff(changes, append=0.0)).max()
+    if distance:
+        state.rate = [arb(0)] * len(state.rate)
+    assert largest <= float(state.largest_force_change(constants, arb(gap))) <= slack * largest

@@ -7,7 +7,6 @@ end with the first global slip, after which errors have grown by 1e7.
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from functools import cache, partial
 from pathlib import Path
 
@@ -15,6 +14,7 @@ import numpy as np
 import pandas as pd
 import yaml
 from accuracy.falsified import audits
+from accuracy.made_up import go_on, proof_of
 from ensembles.studies import PAPER, study_of
 from methods.kept_runs import kept_runs
 
@@ -22,7 +22,6 @@ from precursors import Chain, simulate
 from precursors.accuracy.failures import FAILURE_MODES, Failure
 from precursors.accuracy.failures.stability import LOST, thresholds
 from precursors.accuracy.proof import ExactChain
-from precursors.accuracy.proof.tube import Proof
 from precursors.ensembles import noise, resolution
 from precursors.ensembles.event_law import event_law_tables
 from precursors.ensembles.printed_digits import digits_tables
@@ -121,8 +120,7 @@ def enclosures() -> pd.DataFrame:
     """How a proof of 128 bits goes on: steps, modes, radii of times and loads, the distance and the gap."""
     rows = []
     for name, (chain, positions, velocities, n) in PROVED.items():
-        start = tuple(map(Fraction, positions)), tuple(map(Fraction, velocities))
-        proof = Proof(chain, Fraction(100), False, start, 128, Fraction(1))
+        proof = proof_of(chain, 128, positions, velocities)
         steps, done = 0, 0
         while done < n:
             for transition in proof.transitions[done:]:
@@ -145,7 +143,7 @@ def enclosures() -> pd.DataFrame:
                 )
             done = len(proof.transitions)
             steps += 1
-            assert proof.slide() if any(proof.state.mode) else proof.load()
+            go_on(proof)
     return pd.DataFrame(rows)
 
 

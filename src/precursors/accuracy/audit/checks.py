@@ -57,8 +57,9 @@ class Auditor:
         self.drive_momentum = math.sqrt(chain.mass) * chain.drive_velocity
         self.one = _UNIT * (_START_ROUNDINGS * math.sqrt(float(self.springs @ ends)) + self.drive_momentum)
         self.fastest = 2 * math.sqrt(self.springs.max() / chain.mass)
-        roots = np.sqrt(np.append(self.springs, 0.0))
-        self.per_load, self.per_force = float(roots[0]), roots[:-1] + roots[1:]
+        self.per_force = np.sqrt(self.springs)
+        self.per_load = float(self.per_force[0])
+        self.per_force[:-1] += np.sqrt(self.springs[1:])
         self.per_speed = 1 / math.sqrt(chain.mass)
         kept = max(32, int(_BYTES_OF_MODES // (16 * chain.n_blocks**2)))
         self.modes_of_row = lru_cache(maxsize=kept)(lambda first, last: normal_modes(chain, first, last))
@@ -85,7 +86,8 @@ class Auditor:
             if transition:
                 time, block, mode, load = transition
                 self.check_time(time, f"a transition of block {block}")
-                self.check_load(load, block)
+                what = f"block {block} has {load:.9g} N recorded as tangential load, wrong by"
+                self.check(abs(load - float(self.spring_force[0])), self.one * self.per_load, what, "N")
                 self.apply_transition(block, mode, at_start=not started)
         self.check_time(float(self.run.duration), "the duration")
         self.check_energy(start_energy)
@@ -99,15 +101,11 @@ class Auditor:
         kinetic = 0.5 * self.chain.mass * float(self.velocity @ self.velocity)
         return kinetic + 0.5 * float(self.spring_force[:-1] ** 2 @ (1 / self.springs))
 
-    def add_rounding(self, steps: float, motion: Motion, energy: float) -> None:
-        """Add one rounding for each step of an interval in which the energy is at most this [J]."""
-        size = math.sqrt(2 * energy) + math.sqrt(self.chain.mass) * motion.largest_speed()
-        self.one = math.hypot(self.one, _UNIT * steps * (size + self.drive_momentum))
-
-    def within(self, wrong: float, one: float) -> bool:
-        """Note a deviation, if positive; return whether it is within so many roundings of size `one`."""
+    def check(self, wrong: float, one: float, what: str, unit: str, time: float | None = None) -> None:
+        """Report a deviation of more than so many roundings of size `one`; one that is negative is none."""
         self.most = max(self.most, wrong / one if one > 0 else 0.0)
-        return wrong <= self.roundings * one
+        if not wrong <= self.roundings * one:
+            self.report(f"{what} {wrong:.3g} {unit}", time)
 
     def report(self, sentence: str, time: float | None = None) -> None:
         """Add a problem."""
@@ -119,9 +117,8 @@ class Auditor:
             self.report(f"block {i + 1} starts with {self.velocity[i]:.6g} m/s but is stuck")
             self.velocity[i] = 0.0
         excess = np.abs(self.net_force()) - self.strength
-        for i in np.flatnonzero((self.mode == 0) & (excess > 0)):
-            if not self.within(float(excess[i]), self.one * self.per_force[i]):
-                self.report(f"block {i + 1} starts stuck, with a force {excess[i]:.3g} N beyond mu_s w")
+        for block in (np.flatnonzero((self.mode == 0) & (excess > 0)) + 1).tolist():
+            self.check_force(block, "starts stuck beyond mu_s w", float(excess[block - 1]))
 
     def pass_interval(self, duration: float) -> None:
         """Check Coulomb's law inside an interval and move the state to its end."""
@@ -132,7 +129,8 @@ class Auditor:
         terms = self.advance(motion, duration)
         energy = max(before, self.energy())
         steps = 1 + self.fastest * duration if motion.speed.size else 1
-        self.add_rounding(steps, motion, energy)
+        size = math.sqrt(2 * energy) + math.sqrt(self.chain.mass) * motion.largest_speed()
+        self.one = math.hypot(self.one, _UNIT * steps * (size + self.drive_momentum))
         self.turnover = max(self.turnover, energy) + terms
         self.energy_rounding += _UNIT * steps * (energy + terms)
         n, stuck = len(conditions.sliding), conditions.stuck
@@ -140,15 +138,13 @@ class Auditor:
         one = self.one * np.append(np.full(n, self.per_speed), self.per_force[blocks[n:]])
         lowest, when = conditions.lowest(duration, self.roundings * one)
         for j in np.flatnonzero(lowest < 0):
-            wrong, block = float(-lowest[j]), blocks[j] + 1
-            if self.within(wrong, float(one[j])):
-                continue
+            block = blocks[j] + 1
             if j < n:
-                what = f"slides against its mode {self.mode[block - 1]:+d} at {wrong:.3g} m/s"
+                what, unit = f"slides against its mode {self.mode[block - 1]:+d} at", "m/s"
             else:
                 way = "forward" if j < n + len(stuck) else "backward"
-                what = f"is stuck, pushed {way} {wrong:.3g} N beyond mu_s w"
-            self.report(f"block {block} {what}", self.time + when[j])
+                what, unit = f"is stuck, pushed {way} beyond mu_s w by", "N"
+            self.check(float(-lowest[j]), float(one[j]), f"block {block} {what}", unit, self.time + when[j])
 
     def motion(self) -> Motion:
         """Motion of the blocks that slide from the carried state."""
@@ -172,28 +168,32 @@ class Auditor:
             -float(motion.modes.spring_shapes[0] @ motion.integral(duration)),
         )
         (displacement,), (velocity,), _ = motion.at(np.array([duration]))
-        heat = (self.friction * self.mode)[slides] * (motion.modes.shapes @ displacement)
+        heat = (self.mode * self.friction)[slides] * (motion.modes.shapes @ displacement)
         self.work += self.chain.drive_velocity * sum(impulses)
         self.heat += float(heat.sum())
         self.velocity[slides] = motion.modes.shapes @ velocity
         self.spring_force[0] += loading_rate * duration
         self.spring_force -= motion.modes.spring_shapes @ displacement
-        return self.chain.drive_velocity * sum(map(abs, impulses)) + float(abs(heat).sum())
+        terms = np.append(heat, self.chain.drive_velocity * np.array(impulses))
+        return float(abs(terms).sum())
 
     def apply_transition(self, block: int, mode: int, at_start: bool) -> None:
         """Check a transition against the switching rule, then change the block's mode."""
         i, old = block - 1, int(self.mode[block - 1])
         force, strength = float(self.net_force()[i]), float(self.strength[i])
+        along = force if mode > 0 else -force
         if mode == old:
             self.report(f"block {block} changes to mode {mode:+d}, which it already has")
         elif old == 0:
-            self.check_release(block, mode, force * mode - strength, at_start)
+            self.check_release(block, mode, along - strength, at_start)
         else:
-            self.check_stop(block)
+            speed = abs(float(self.velocity[i]))
+            what = f"block {block} changes its mode while it moves at"
+            self.check(speed, self.one * self.per_speed, what, "m/s")
             if mode == 0:
                 self.check_force(block, "sticks with a force beyond mu_s w", abs(force) - strength)
             else:
-                self.check_force(block, "turns round without a force beyond mu_s w", strength - force * mode)
+                self.check_force(block, "turns round without a force beyond mu_s w", strength - along)
             self.velocity[i] = 0.0
         self.mode[i] = mode
 
@@ -201,7 +201,7 @@ class Auditor:
         """A stuck block slides off at its limit; at the start it may be overloaded, or move."""
         velocity = float(self.velocity[block - 1])
         if at_start and velocity != 0:
-            if velocity * mode < 0:
+            if np.sign(velocity) != mode:
                 self.report(f"block {block} starts with {velocity:.6g} m/s in mode {mode:+d}")
         else:
             self.check_force(block, f"releases to {mode:+d} below the limit", -excess)
@@ -210,20 +210,7 @@ class Auditor:
 
     def check_force(self, block: int, what: str, wrong: float) -> None:
         """A net force is not wrong by more than its rounding."""
-        if not self.within(wrong, self.one * self.per_force[block - 1]):
-            self.report(f"block {block} {what}, by {wrong:.3g} N")
-
-    def check_stop(self, block: int) -> None:
-        """A block that stops sliding in its direction is at rest."""
-        speed = abs(float(self.velocity[block - 1]))
-        if not self.within(speed, self.one * self.per_speed):
-            self.report(f"block {block} changes its mode while it moves at {speed:.3g} m/s")
-
-    def check_load(self, load: float, block: int) -> None:
-        """The recorded tangential load is the force of the drive's spring."""
-        wrong = abs(load - float(self.spring_force[0]))
-        if not self.within(wrong, self.one * self.per_load):
-            self.report(f"block {block} has {load:.9g} N recorded as tangential load, wrong by {wrong:.3g} N")
+        self.check(wrong, self.one * self.per_force[block - 1], f"block {block} {what}, by", "N")
 
     def check_time(self, time: float, what: str) -> None:
         """A recorded time is the sum of the intervals up to it."""
@@ -235,5 +222,4 @@ class Auditor:
         """Work of the drive = change of kinetic and elastic energy + friction heat."""
         wrong = abs(self.work - (self.energy() - start_energy) - self.heat)
         self.energy_residual = wrong / self.turnover if self.turnover > 0 else 0.0
-        if not self.within(wrong, self.energy_rounding):
-            self.report(f"work, energy and heat are out of balance by {self.energy_residual:.3g} (relative)")
+        self.check(wrong, self.energy_rounding, "work, energy and heat are out of balance by", "J")

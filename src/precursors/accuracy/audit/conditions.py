@@ -70,18 +70,20 @@ class Conditions:
             # A row holds one edge of all cells, the next row the other.
             edges = duration / n_cells * np.arange(k, min(k + at_once, n_cells) + 1, dtype=float)[:, None]
             while edges.size and not np.any(lowest < -tolerance):
-                values, slopes = (x.reshape(*edges.shape, columns) for x in self(edges.ravel()))
-                _note(values.reshape(-1, columns), edges.ravel(), lowest, when)
-                is_open = np.any(self._bound(edges, values, slopes) < -2 * tolerance, axis=-1)
+                values, slopes = self(edges.ravel())
+                _note(values, edges.ravel(), lowest, when)
+                shape, width = (*edges.shape, columns), np.diff(edges, axis=0)[..., None]
+                bound = lower_bound(width, values.reshape(shape), slopes.reshape(shape), self.fourth)
+                is_open = np.any(bound < -2 * tolerance, axis=-1)
                 edges = np.linspace(edges[:-1][is_open], edges[1:][is_open], _PARTS + 1)
         return lowest, when
 
-    def _bound(self, edges: FloatArray, values: FloatArray, slopes: FloatArray) -> FloatArray:
-        """Bound the functions from below in each cell."""
-        width = np.diff(edges, axis=0)[..., None]
-        low, high = values[:-1], values[1:]
-        inner = np.minimum(low + slopes[:-1] * (width / 3), high - slopes[1:] * (width / 3))
-        return np.minimum(np.minimum(low, high), inner) - self.fourth * (width**4 / 384)
+
+def lower_bound(width: FloatArray, values: FloatArray, slopes: FloatArray, fourth: FloatArray) -> FloatArray:
+    """Bound functions from below in cells, from their values and slopes at both edges."""
+    low, high = values[:-1], values[1:]
+    inner = np.minimum(low + slopes[:-1] * (width / 3), high - slopes[1:] * (width / 3))
+    return np.minimum(np.minimum(low, high), inner) - fourth * (width**4 / 384)
 
 
 def _note(values: FloatArray, times: FloatArray, lowest: FloatArray, when: FloatArray) -> None:

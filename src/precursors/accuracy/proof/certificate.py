@@ -12,7 +12,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from precursors.accuracy.proof.exact_chain import ExactChain, Number, exact_start
+from precursors.accuracy.proof.exact_chain import ExactChain, exact_start
 from precursors.model.chain import written_fraction
 from precursors.model.checks import Until, checked_until
 from precursors.support.files import write_whole
@@ -46,10 +46,8 @@ class Enclosure(NamedTuple):
         """Largest value."""
         return self.midpoint + self.radius
 
-    def contains(self, other: Enclosure | Number) -> bool:
-        """Whether a number, or every number of another enclosure, lies inside."""
-        if not isinstance(other, Enclosure):
-            other = Enclosure(Fraction(other), Fraction(0))
+    def contains(self, other: Enclosure) -> bool:
+        """Whether every number of another enclosure lies inside."""
         return self.lower <= other.lower and other.upper <= self.upper
 
 
@@ -89,10 +87,10 @@ class Certificate:
     start_positions: tuple[Fraction, ...]
     start_velocities: tuple[Fraction, ...]
     width: Fraction
-    transitions: tuple[CertifiedTransition, ...] = ()
-    tie: Tie | None = None
-    bits: int = 0
-    restarts: int = 0
+    transitions: tuple[CertifiedTransition, ...]
+    tie: Tie | None
+    bits: int
+    restarts: int
 
     @property
     def proved_until(self) -> Fraction:
@@ -190,11 +188,8 @@ def _certificate(content: Mapping[str, Any]) -> Certificate:
 
 
 def _text(x: Fraction) -> str:
-    """Write a fraction exactly: as a decimal number, or else as it is."""
-    try:
-        return str(EXACT.divide(Decimal(x.numerator), Decimal(x.denominator)).normalize(EXACT)).lower()
-    except Inexact:
-        return str(x)
+    """Write a decimal number exactly."""
+    return str(EXACT.divide(Decimal(x.numerator), Decimal(x.denominator)).normalize(EXACT)).lower()
 
 
 def _enclosure_text(enclosure: Enclosure) -> tuple[str, str]:

@@ -7,13 +7,13 @@ holds for all.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from functools import reduce
 
 from flint import arb, arb_poly, ctx
 
-from precursors.accuracy.proof.motion import Constants, State, expand, force_rate_series, order_for, tail
-
-GRID = 40
+from precursors.accuracy.proof.motion import Constants, State, expand, force_rate
 
 
 class Undecided(Exception):
@@ -39,10 +39,10 @@ class EventFunction:
 
     block: int
     direction: int
+    fresh: bool
     value: arb_poly
     slope: arb_poly
     bend: arb_poly
-    fresh: bool
 
     @property
     def what(self) -> str:
@@ -58,10 +58,7 @@ def event_functions(
 
     `fresh` are the blocks that have just begun to slide.
     """
-    span = arb(valid)
-    series = expand(constants, state, order_for(valid, bits))
-    rests = [tail(constants, series, span, derivative) for derivative in (0, 1, 2)]
-    omega2 = constants.frequency_squared
+    polynomials, rests = expand(constants, state, valid, bits)
     # The centre is given the exact condition of a transition, and room for that.
     distance = 2 * state.distance
     functions = []
@@ -69,21 +66,19 @@ def event_functions(
         reach, rate_reach = constants.force_reach[i] * distance, constants.force_rate_reach[i] * distance
         mode = state.mode[i]
         if mode:
-            u = arb_poly([mode * a for a in series[i]])
-            value = u + arb(0, distance + rests[0])
-            slope = u.derivative() + arb(0, reach + rests[1])
-            bend = u.derivative().derivative() + arb(0, rate_reach + rests[2])
-            functions.append(EventFunction(i, 0, value, slope, bend, fresh=i in fresh))
+            function, curves = mode * polynomials[i], []
+            for off, rest in zip((distance, reach, rate_reach), rests, strict=True):
+                curves.append(function + arb(0, off + rest))
+                function = function.derivative()
+            functions.append(EventFunction(i, 0, i in fresh, *curves))
         elif i == 1 or state.mode[i - 1] or state.mode[i + 1]:
-            rate = arb_poly(force_rate_series(constants, series, i))
-            force = rate.integral() + (state.net_force(i) + arb(0, reach + omega2 * span * rests[0]))
-            rate += arb(0, rate_reach + omega2 * rests[0])
-            functions += [
-                EventFunction(
-                    i, way, constants.strength[i] - way * force, -way * rate, arb_poly([]), fresh=False
-                )
-                for way in (1, -1)
-            ]
+            around = arb(0, constants.frequency_squared * rests[0])
+            rate = force_rate(constants, polynomials, i) + around
+            force = rate.integral() + (state.net_force(i) + arb(0, reach))
+            rate += arb(0, rate_reach)
+            for way in (1, -1):
+                margin = constants.strength[i] - way * force
+                functions.append(EventFunction(i, way, i in fresh, margin, -way * rate, arb_poly([])))
     return functions
 
 
@@ -105,14 +100,10 @@ def first_root(
         root = _crossing(function, end, valid, back, bits)
         if root is not None:
             found.append((root, function))
-            # rounded up to a short binary number, so that halving stays exact
-            end = min(end, (int(float(root.upper()) * 2**GRID) + 2) / 2**GRID)
+            end = min(end, math.nextafter(float(root.upper()), math.inf))
     if not found:
         return None
-    root, first = found[0]
-    for other, function in found:
-        if other < root:
-            root, first = other, function
+    root, first = reduce(lambda a, b: b if b[0] < a[0] else a, found)
     for other, function in found:
         if function is not first and other.overlaps(root):
             question = f"whether first {first.what} or {function.what}"
@@ -171,9 +162,9 @@ def _falling_root(function: EventFunction, a: arb, b: arb, valid: float) -> arb 
         root = closer
 
 
-def newton(function: arb_poly, slope: arb_poly, root: arb, bits: int) -> arb:
+def newton(function: arb_poly, root: arb, bits: int) -> arb:
     """Return an exact number near the root, to about `bits` bits; what is left of it is counted later."""
-    x, good = root.mid(), 24
+    slope, x, good = function.derivative(), root.mid(), 24
     while good < bits:
         good = min(2 * good, bits)
         with ctx.workprec(good + 16):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from numbers import Real
+from numbers import Rational, Real
 from typing import Any
 
 import numpy as np
@@ -41,8 +41,6 @@ class ExactChain:
         for name in _NUMBERS:
             object.__setattr__(self, name, exact(name, getattr(self, name)))
         self.to_chain()
-        if self.mu_k > self.mu_s:
-            raise ValueError(f"mu_k must be at most mu_s = {self.mu_s}, but is {self.mu_k}")
 
     @classmethod
     def from_slider(
@@ -124,11 +122,11 @@ def exact(name: str, value: object) -> Fraction:
     try:
         if isinstance(value, str):
             return written_fraction(value)
-        if isinstance(value, Fraction | int) and not isinstance(value, bool):
+        if isinstance(value, Rational):
             return Fraction(value)
-        if isinstance(value, Real) and not isinstance(value, bool):
+        if isinstance(value, Real):
             return Fraction(repr(float(value)))
-    except (ValueError, ZeroDivisionError, OverflowError):
+    except (ValueError, ZeroDivisionError):
         pass
     raise ValueError(f'{name} must be a finite number, or one in quotes as "5/6", but is {value!r}')
 

@@ -21,6 +21,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
+from itertools import groupby
 
 from flint import arb, arb_poly, ctx, fmpq
 
@@ -30,8 +31,6 @@ from precursors.accuracy.proof.exact_chain import ExactChain
 BOUND_BITS = 64
 # Square of the largest frequency times T, at most (Gershgorin).
 LARGEST_FREQUENCY_SQUARED = 4
-
-Series = dict[int, list[arb]]
 
 
 def ball(x: Fraction) -> arb:
@@ -50,10 +49,10 @@ def time_unit(chain: ExactChain) -> Fraction:
     behind = chain.springs
     ahead = (*behind[1:], Fraction(0))
     fastest = max(2 * (k + k_ahead) for k, k_ahead in zip(behind, ahead, strict=True)) / chain.mass
-    exponent = math.floor(math.log2(LARGEST_FREQUENCY_SQUARED / fastest) / 2) + 1
-    while fastest * Fraction(4) ** exponent > LARGEST_FREQUENCY_SQUARED:
-        exponent -= 1
-    return Fraction(2) ** exponent
+    ratio = LARGEST_FREQUENCY_SQUARED / fastest
+    # the logarithm of the ratio to base 2, rounded down, or one more
+    power = ratio.numerator.bit_length() - ratio.denominator.bit_length()
+    return Fraction(2) ** ((power - (Fraction(2) ** power > ratio)) // 2)
 
 
 @dataclass(frozen=True)
@@ -106,31 +105,18 @@ class State:
         """Net force of the springs on block i [N]."""
         return self.force[i] - self.force[i + 1]
 
-    def sliding_rows(self) -> Iterator[tuple[int, int]]:
-        """First and last block of each row of neighbours that slide."""
-        first = None
-        for i in range(1, len(self.mode)):
-            if self.mode[i] and first is None:
-                first = i
-            elif not self.mode[i] and first is not None:
-                yield first, i - 1
-                first = None
+    def sliding_rows(self) -> Iterator[list[int]]:
+        """Blocks of each row of neighbours that slide."""
+        for slides, row in groupby(range(1, len(self.mode) - 1), key=lambda i: self.mode[i] != 0):
+            if slides:
+                yield list(row)
 
     def absorb(self, constants: Constants, force: list[arb], rate: list[arb]) -> None:
         """Take the midpoints of balls as the new centre and count the radii as distance."""
         with ctx.workprec(BOUND_BITS):
-            square = arb(0)
-            for i in range(1, len(self.mode) - 1):
-                square += force[i].rad() ** 2 / constants.coupling[i] + rate[i].rad() ** 2
-            self.distance = (self.distance + square.sqrt()).abs_upper()
+            radii = size(constants, [x.rad() for x in force], [x.rad() for x in rate])
+            self.distance = (self.distance + radii).abs_upper()
         self.force, self.rate = [x.mid() for x in force], [x.mid() for x in rate]
-
-    def norm(self, constants: Constants) -> arb:
-        """Bound the distance of any run within reach from the state at rest without forces [N]."""
-        square = arb(0)
-        for i in range(1, len(self.mode) - 1):
-            square += self.force[i] ** 2 / constants.coupling[i] + self.rate[i] ** 2
-        return (square.sqrt() + self.distance).abs_upper()
 
     def largest_force_change(self, constants: Constants, gap: arb) -> arb:
         """Bound how much a net force changes in any run during twice the gap [T], in N.
@@ -139,22 +125,38 @@ class State:
         """
         friction = sum((f**2 for f in constants.friction), arb(0)).sqrt()
         gain = (constants.coupling[1].sqrt() * constants.drive + friction) * 2 * gap
-        fastest = self.norm(constants) + gain + constants.drive
+        fastest = size(constants, self.force, self.rate) + self.distance + gain + constants.drive
         return (constants.frequency_squared * fastest * 2 * gap).abs_upper()
 
 
-def expand(constants: Constants, state: State, order: int) -> Series:
+def size(constants: Constants, force: list[arb], rate: list[arb]) -> arb:
+    """Distance of a state from rest without forces [N], see above."""
+    squares = (f**2 / c + u**2 for c, f, u in zip(constants.coupling, force, rate, strict=True) if c != 0)
+    return sum(squares, arb(0)).sqrt()
+
+
+def expand(
+    constants: Constants, state: State, span: float | arb, bits: int
+) -> tuple[dict[int, arb_poly], list[arb]]:
+    """Taylor polynomials of u_i of the sliding blocks, to about `bits` bits for times up to +-`span` [T].
+
+    The list bounds what lies beyond them, of all u_i and of their first two derivatives.
+    """
+    series = coefficients(constants, state, order_for(float(span), bits))
+    rests = [tail(constants, series, arb(span), derivative) for derivative in range(3)]
+    return {i: arb_poly(row) for i, row in series.items()}, rests
+
+
+def coefficients(constants: Constants, state: State, order: int) -> dict[int, list[arb]]:
     """Taylor coefficients 0..order of u_i of the sliding blocks, from the second-order form of Eq. 2,
 
     (n+1) (n+2) u_{i,n+2} = c_i (u_{i-1,n} - u_{i,n}) - c_{i+1} (u_{i,n} - u_{i+1,n}).
     """
-    series: Series = {}
+    series: dict[int, list[arb]] = {}
     zeros = [arb(0)] * order
-    for first, last in state.sliding_rows():
-        rows = [
-            [state.rate[i], state.net_force(i) - state.mode[i] * constants.friction[i]]
-            for i in range(first, last + 1)
-        ]
+    for blocks in state.sliding_rows():
+        first, last = blocks[0], blocks[-1]
+        rows = [[state.rate[i], state.net_force(i) - state.mode[i] * constants.friction[i]] for i in blocks]
         behind = [constants.drive, *zeros] if first == 1 else zeros
         coupling = constants.coupling[first + 1 : last + 2]
         for n in range(order - 1):
@@ -166,11 +168,11 @@ def expand(constants: Constants, state: State, order: int) -> Series:
                 next_pull = c * (here - ahead)
                 rows[j].append((pull - next_pull) / scale)
                 pull, here = next_pull, ahead
-        series.update(zip(range(first, last + 1), rows, strict=True))
+        series.update(zip(blocks, rows, strict=True))
     return series
 
 
-def tail(constants: Constants, series: Series, span: arb, derivative: int) -> arb:
+def tail(constants: Constants, series: dict[int, list[arb]], span: arb, derivative: int) -> arb:
     """Bound what lies beyond the last order of all u_i, or of a derivative, for times up to +-`span` [T].
 
     With a_n the largest coefficient, a_{n+2} <= omega^2 a_n / ((n+1)(n+2)); derivatives obey the same.
@@ -196,18 +198,12 @@ def order_for(span: float, bits: int) -> int:
     return order
 
 
-def force_rate_series(constants: Constants, series: Series, i: int) -> list[arb]:
-    """Taylor coefficients of the rate of the net force on a stuck block i."""
-    behind, ahead = series.get(i - 1), series.get(i + 1)
-    c, c_ahead = constants.coupling[i], constants.coupling[i + 1]
-    if behind and ahead:
-        rate = [c * a + c_ahead * b for a, b in zip(behind, ahead, strict=True)]
-    elif behind or ahead:
-        rate = [c * a for a in behind] if behind else [c_ahead * b for b in ahead or ()]
-    else:
-        rate = [arb(0)]
-    if i == 1:
-        rate[0] = rate[0] + c * constants.drive
+def force_rate(constants: Constants, polynomials: dict[int, arb_poly], i: int) -> arb_poly:
+    """Taylor polynomial of the rate of the net force on a stuck block i."""
+    rate = arb_poly([constants.coupling[1] * constants.drive] if i == 1 else [])
+    for neighbour, c in ((i - 1, constants.coupling[i]), (i + 1, constants.coupling[i + 1])):
+        if neighbour in polynomials:
+            rate += c * polynomials[neighbour]
     return rate
 
 

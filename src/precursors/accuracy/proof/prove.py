@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from decimal import ROUND_CEILING, Context, Decimal
 from fractions import Fraction
+from itertools import count
 from typing import TYPE_CHECKING
 
 from precursors.accuracy.proof.certificate import (
@@ -29,12 +30,12 @@ if TYPE_CHECKING:
 FIRST_BITS = 256
 MAX_BITS = 4096
 WIDTH = "1e-40"
-# More bits are lost in later seconds, where more blocks slide at once.
-MARGIN = 1.4
 # Midpoints are written with at most so many decimals, and no more than their radius deserves.
 DECIMALS = 45
 # A radius is written with this to spare, for a version of the ball arithmetic that rounds otherwise.
 SPARE = Fraction(101, 100)
+# Radii are rounded up to three digits, and to a few more decimals than midpoints have.
+ROUND_UP = Context(prec=3, Emin=-DECIMALS, rounding=ROUND_CEILING)
 
 
 def certify(
@@ -87,21 +88,26 @@ def certify(
         exact_start("start_positions", exact_chain, start_positions, "m"),
         exact_start("start_velocities", exact_chain, start_velocities, "m/s"),
     )
-    certificate = Certificate(exact_chain, limit, checked_until(until), *start, widest)
-    bits, restarts = FIRST_BITS, 0
-    while True:
-        proof, failure = _prove(certificate, bits)
-        if failure is None or bits >= max_bits:
+    until = checked_until(until)
+    for restarts in count():
+        bits = min(FIRST_BITS * 2**restarts, max_bits)
+        certificate = Certificate(exact_chain, limit, until, *start, widest, (), None, bits, restarts)
+        proof, failure = _prove(certificate)
+        if failure is None or bits == max_bits:
             break
-        restarts += 1
-        bits = min(_more_bits(proof, failure, limit), max_bits)
     tie = _tie(failure) if failure else None
     if tie and tie.closeness > widest:
         raise CertificateError(
             f"max_bits = {max_bits} do not suffice beyond t = {float(tie.time.midpoint):.9g} s of "
             f"{float(limit):g} s ({tie.question}): allow more, or prove a shorter duration"
         )
-    return replace(certificate, transitions=_published(proof), tie=tie, bits=bits, restarts=restarts)
+    transitions = tuple(
+        CertifiedTransition(
+            _rounded(_enclosure_of(t.time)), t.block, t.mode, _rounded(_enclosure_of(t.tangential_load))
+        )
+        for t in proof.transitions
+    )
+    return replace(certificate, transitions=transitions, tie=tie)
 
 
 def verify(certificate: Certificate | str | os.PathLike[str]) -> Certificate:
@@ -125,8 +131,8 @@ def verify(certificate: Certificate | str | os.PathLike[str]) -> Certificate:
     return certificate
 
 
-def _prove(certificate: Certificate, bits: int) -> tuple[Proof, Undecided | None]:
-    """Run the proof of a certificate's chain with so many bits; return it and why it stopped short, if so."""
+def _prove(certificate: Certificate) -> tuple[Proof, Undecided | None]:
+    """Prove the transitions of a certificate's chain with its bits; return why that stopped short, if so."""
     try:
         from precursors.accuracy.proof.event_roots import Undecided
         from precursors.accuracy.proof.tube import Proof
@@ -134,14 +140,7 @@ def _prove(certificate: Certificate, bits: int) -> tuple[Proof, Undecided | None
         if error.name != "flint":
             raise
         raise ModuleNotFoundError('a proof needs python-flint: pip install "precursors[proof]"') from error
-    proof = Proof(
-        certificate.chain,
-        certificate.duration,
-        certificate.until is not None,
-        (certificate.start_positions, certificate.start_velocities),
-        bits,
-        certificate.width,
-    )
+    proof = Proof(certificate)
     try:
         proof.run()
     except Undecided as failure:
@@ -149,33 +148,14 @@ def _prove(certificate: Certificate, bits: int) -> tuple[Proof, Undecided | None
     return proof, None
 
 
-def _more_bits(proof: Proof, failure: Undecided, duration: Fraction) -> int:
-    """Bits to try next, if bits go on being lost per second as they were up to the failure."""
-    lost, bits = proof.lost_bits(), proof.bits
-    left_to_do = float(duration) / max(float(failure.time), 0.05 * float(duration)) - 1
-    if lost < bits // 4:
-        return 2 * bits
-    return min(4 * bits, max(bits + bits // 4, bits + math.ceil(MARGIN * lost * left_to_do)))
-
-
-def _published(proof: Proof) -> tuple[CertifiedTransition, ...]:
-    """Round the balls of a proof outward to decimal numbers."""
-    return tuple(
-        CertifiedTransition(
-            _rounded(_enclosure_of(t.time)), t.block, t.mode, _rounded(_enclosure_of(t.tangential_load))
-        )
-        for t in proof.transitions
-    )
-
-
 def _tie(failure: Undecided) -> Tie:
     time = _enclosure_of(failure.time)
-    return Tie(_rounded(time), failure.blocks, failure.question, _round_up(2 * time.radius))
+    return Tie(_rounded(time), failure.blocks, failure.question, Fraction(_round_up(2 * time.radius)))
 
 
 def _differences(certificate: Certificate) -> Iterator[str]:
     """Where a certificate is not what its proof gives."""
-    proof, failure = _prove(certificate, certificate.bits)
+    proof, failure = _prove(certificate)
     for number, (said, proved) in enumerate(zip(certificate.transitions, proof.transitions, strict=False), 1):
         where = f"transition {number}, t = {float(proved.time):.9g} s"
         if (said.block, said.mode) != (proved.block, proved.mode):
@@ -186,15 +166,11 @@ def _differences(certificate: Certificate) -> Iterator[str]:
             yield f"{where}: its load is not proved within {float(said.tangential_load.radius):.3g} N"
     if len(certificate.transitions) != len(proof.transitions):
         yield f"{len(certificate.transitions)} transitions instead of {len(proof.transitions)}"
-    if (certificate.tie is None) != (failure is None):
-        yield "a tie is stated but not found, or found but not stated"
-    tie = certificate.tie
-    if (
-        tie
-        and failure
-        and not (tie.blocks == failure.blocks and tie.time.contains(_enclosure_of(failure.time)))
-    ):
-        yield f"the tie is at t = {float(failure.time):.9g} s, blocks {failure.blocks}"
+    blocks = certificate.tie.blocks if certificate.tie else "none"
+    if blocks != (found := failure.blocks if failure else "none"):
+        yield f"a tie of blocks {blocks} instead of {found}"
+    if certificate.tie and failure and not certificate.tie.time.contains(_enclosure_of(failure.time)):
+        yield f"the tie is at t = {float(failure.time):.9g} s"
 
 
 def _enclosure_of(ball: arb) -> Enclosure:
@@ -208,20 +184,14 @@ def _fraction(x: arb) -> Fraction:
 
 def _rounded(enclosure: Enclosure) -> Enclosure:
     """Round an enclosure outward to one of decimal numbers."""
-    decimals = DECIMALS
-    if enclosure.radius:
-        # 10^-decimals is at most a hundredth of the radius, or at the least decimals that are written
-        decimals = min(DECIMALS, max(0, 3 - _magnitude(enclosure.radius)))
+    # 10^-decimals is at most a hundredth of the radius, or at the least decimals that are written
+    digit = _round_up(enclosure.radius).adjusted()
+    decimals = min(DECIMALS, max(0, 2 - digit)) if enclosure.radius else DECIMALS
     midpoint = round(enclosure.midpoint, decimals)
-    return Enclosure(midpoint, _round_up((abs(midpoint - enclosure.midpoint) + enclosure.radius) * SPARE))
+    radius = _round_up((abs(midpoint - enclosure.midpoint) + enclosure.radius) * SPARE)
+    return Enclosure(midpoint, Fraction(radius))
 
 
-def _magnitude(x: Fraction) -> int:
-    """An integer within one of log10 of x > 0, however large or small; -1 for 0."""
-    return math.floor((x.numerator.bit_length() - x.denominator.bit_length()) * math.log10(2))
-
-
-def _round_up(x: Fraction) -> Fraction:
-    """Round a number that is not negative up to about three digits."""
-    unit = Fraction(10) ** (_magnitude(x) - 2)
-    return math.ceil(x / unit) * unit
+def _round_up(x: Fraction) -> Decimal:
+    """Round a number up to a decimal one of three digits."""
+    return ROUND_UP.divide(Decimal(x.numerator), Decimal(x.denominator))

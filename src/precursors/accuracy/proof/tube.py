@@ -24,8 +24,9 @@ from fractions import Fraction
 from itertools import count
 from typing import NamedTuple
 
-from flint import arb, arb_poly, ctx
+from flint import arb, ctx
 
+from precursors.accuracy.proof.certificate import Certificate
 from precursors.accuracy.proof.event_roots import (
     EventFunction,
     Undecided,
@@ -33,7 +34,6 @@ from precursors.accuracy.proof.event_roots import (
     first_root,
     newton,
 )
-from precursors.accuracy.proof.exact_chain import ExactChain
 from precursors.accuracy.proof.motion import (
     BOUND_BITS,
     Constants,
@@ -41,17 +41,15 @@ from precursors.accuracy.proof.motion import (
     advance,
     ball,
     expand,
-    force_rate_series,
+    force_rate,
     log2,
-    order_for,
-    tail,
     time_unit,
 )
 from precursors.support.waiting import tell
 
 # Rounding is kept so many bits below the distance that the runs have come to.
 GUARD_BITS = 40
-# Constants are kept for precisions that are a multiple of this.
+# Precisions are a multiple of this, for which constants are kept.
 PRECISION_STEP = 32
 # A window without a transition, and how far beyond its end the polynomials hold [T].
 WINDOW, VALID = 1.0, 1.125
@@ -68,45 +66,38 @@ class Proved(NamedTuple):
 
 
 class Proof:
-    """The motion of a chain from a given start, in balls, and the transitions proved so far."""
+    """The motion of a certificate's chain from its start, in balls, and the transitions proved so far."""
 
-    def __init__(
-        self,
-        chain: ExactChain,
-        duration: Fraction,
-        until_global_slip: bool,
-        start: tuple[tuple[Fraction, ...], tuple[Fraction, ...]],
-        bits: int,
-        width: Fraction,
-    ) -> None:
-        self.chain, self.n, self.bits = chain, chain.n_blocks, bits
-        self.until_global_slip = until_global_slip
-        self.unit_seconds = time_unit(chain)
+    def __init__(self, certificate: Certificate) -> None:
+        self.chain, self.bits = certificate.chain, certificate.bits
+        self.until = certificate.until
+        self.unit_seconds = time_unit(self.chain)
         self.transitions: list[Proved] = []
         self._constants: dict[int, Constants] = {}
-        with ctx.workprec(bits + GUARD_BITS):
+        with ctx.workprec(self.bits + GUARD_BITS):
             self.unit = ball(self.unit_seconds)
-            self.duration, self.width = ball(duration), ball(width)
+            self.duration, self.width = ball(certificate.duration), ball(certificate.width)
             self.clock = arb(0)
-            self.state = self.at_start(*start)
+            self.state = self.at_start(certificate.start_positions, certificate.start_velocities)
         with ctx.workprec(BOUND_BITS):
-            self.bounds = Constants.of(chain, self.unit_seconds)
+            self.bounds = self.constants()
         # how far the runs may be ahead or behind at the last transition [T], and who has just begun to slide
         self.gap = arb(0)
-        self.fresh = {i for i in range(1, self.n + 1) if self.state.mode[i] and not start[1][i - 1]}
+        self.fresh = {
+            i for i, v in enumerate(certificate.start_velocities, 1) if self.state.mode[i] and not v
+        }
         self.all_slid = False
 
     def at_start(self, positions: tuple[Fraction, ...], velocities: tuple[Fraction, ...]) -> State:
         """Given positions and velocities; a block slides that moves, or is beyond its strength."""
-        chain, n = self.chain, self.n
+        chain, n = self.chain, self.chain.n_blocks
         x = (Fraction(0), *positions)
         exact = [Fraction(0), *(k * (x[i] - x[i + 1]) for i, k in enumerate(chain.springs)), Fraction(0)]
-        state = State([], [], [0] * (n + 2), arb(0))
-        constants = self.constants(ctx.prec)
+        constants = self.constants()
+        least_distance = arb(2) ** (log2(max(constants.strength, key=float)) - self.bits)
+        state = State([], [], [0] * (n + 2), least_distance)
         rate = [Fraction(0), *(v * chain.mass / self.unit_seconds for v in velocities), Fraction(0)]
         state.absorb(constants, [ball(f) for f in exact], [ball(u) for u in rate])
-        self.least_distance = arb(2) ** (log2(max(constants.strength, key=float)) - self.bits)
-        state.distance += self.least_distance
         for i in range(1, n + 1):
             force = exact[i] - exact[i + 1]
             push = rate[i] or (force if abs(force) > chain.mu_s * chain.weights[i - 1] else 0)
@@ -115,13 +106,11 @@ class Proof:
                 self.transitions.append(Proved(arb(0), i, state.mode[i], ball(exact[1])))
         return state
 
-    def constants(self, bits: int) -> Constants:
-        """The chain in balls of at least so many bits."""
-        bits += -bits % PRECISION_STEP
-        if bits not in self._constants:
-            with ctx.workprec(bits):
-                self._constants[bits] = Constants.of(self.chain, self.unit_seconds)
-        return self._constants[bits]
+    def constants(self) -> Constants:
+        """The chain in balls of the working precision."""
+        if ctx.prec not in self._constants:
+            self._constants[ctx.prec] = Constants.of(self.chain, self.unit_seconds)
+        return self._constants[ctx.prec]
 
     def run(self) -> list[Proved]:
         """Prove all transitions up to the duration.
@@ -135,23 +124,22 @@ class Proof:
         for _ in tell("proving", count(), lambda: float((self.clock / self.duration).mid())):
             self.all_slid = self.all_slid or all(self.state.mode[1:-1])
             sliding = any(self.state.mode)
-            if not sliding and self.until_global_slip and self.all_slid:
-                return self.transitions
+            if not sliding and self.until and self.all_slid:
+                break
             try:
-                go_on = self.slide() if sliding else self.load()
+                if not (self.slide() if sliding else self.load()):
+                    break
             except Undecided as undecided:
                 with ctx.workprec(self.bits + GUARD_BITS):
                     undecided.time = self.clock + self.unit * undecided.time
                 raise
-            if not go_on:
-                break
         return self.transitions
 
     def load(self) -> bool:
         """Load the resting chain until block 1 is released: no other block feels the drive."""
         state, self.all_slid = self.state, False
         with ctx.workprec(self.precision()):
-            constants = self.constants(ctx.prec)
+            constants = self.constants()
             loading_rate = constants.coupling[1] * constants.drive
             lacking = constants.strength[1] - state.net_force(1)
             step = (lacking + arb(0, state.distance * self.bounds.force_reach[1])) / loading_rate
@@ -159,12 +147,9 @@ class Proof:
                 raise Undecided("whether block 1 is released at once", (1,), step)
             force = list(state.force)
             force[1] = constants.strength[1] + force[2]
-            if self.n > 1:
-                growth = 1 + self.bounds.coupling[2] / self.bounds.coupling[1]
-                with ctx.workprec(BOUND_BITS):
-                    state.distance = (state.distance * growth.sqrt()).abs_upper()
-            else:
-                state.distance = self.least_distance
+            growth = 1 + self.bounds.coupling[2] / self.bounds.coupling[1]
+            with ctx.workprec(BOUND_BITS):
+                state.distance = (state.distance * growth.sqrt()).abs_upper()
             state.absorb(constants, force, state.rate)
             self.clock += self.unit * step
             self.gap = arb(0)
@@ -189,7 +174,7 @@ class Proof:
         while True:
             with ctx.workprec(bits):
                 try:
-                    constants = self.constants(max(bits, BOUND_BITS))
+                    constants = self.constants()
                     functions = event_functions(constants, self.state, self.fresh, VALID, bits)
                     return first_root(functions, WINDOW, VALID, self.gap, bits)
                 except Undecided:
@@ -197,14 +182,13 @@ class Proof:
                         raise
             bits *= 2
 
-    def advance_window(self, step: float | arb) -> bool:
+    def advance_window(self, step: float) -> bool:
         """Advance without a transition."""
         with ctx.workprec(self.precision()):
-            constants, exact_step = self.constants(ctx.prec), arb(step)
-            series = expand(constants, self.state, order_for(float(exact_step), ctx.prec))
-            rest = tail(constants, series, exact_step, 0)
-            advance(constants, self.state, {i: arb_poly(row) for i, row in series.items()}, rest, exact_step)
-            self.clock += self.unit * exact_step
+            constants = self.constants()
+            polynomials, rests = expand(constants, self.state, step, ctx.prec)
+            advance(constants, self.state, polynomials, rests[0], arb(step))
+            self.clock += self.unit * step
             self.gap = arb(0)
             self.fresh = set()
             return not self.clock > self.duration
@@ -214,30 +198,25 @@ class Proof:
         state, i = self.state, event.block
         before = state.distance
         with ctx.workprec(self.precision()):
-            constants = self.constants(ctx.prec)
-            span = root.upper()
-            series = expand(constants, state, order_for(float(span), ctx.prec))
-            rest = tail(constants, series, span, 0)
-            polynomials = {j: arb_poly(row) for j, row in series.items()}
+            constants = self.constants()
+            polynomials, rests = expand(constants, state, root.upper(), ctx.prec)
             if event.direction:
-                rate = arb_poly(force_rate_series(constants, series, i))
-                function = constants.strength[i] - event.direction * (rate.integral() + state.net_force(i))
-                slope = -event.direction * rate
+                force = force_rate(constants, polynomials, i).integral() + state.net_force(i)
+                function = constants.strength[i] - event.direction * force
             else:
                 function = state.mode[i] * polynomials[i]
-                slope = function.derivative()
-            step = newton(function, slope, root, ctx.prec)
-            advance(constants, state, polynomials, rest, step)
-            force, velocity = list(state.force), list(state.rate)
+            step = newton(function, root, ctx.prec)
+            advance(constants, state, polynomials, rests[0], step)
+            forces, rates = list(state.force), list(state.rate)
             if event.direction:
                 # F = +-mu_s w: the spring behind takes up what is missing.
-                required = event.direction * constants.strength[i] + force[i + 1]
-                state.distance += (required - force[i]).abs_upper() / self.bounds.coupling[i].sqrt()
-                force[i] = required
+                required = event.direction * constants.strength[i] + forces[i + 1]
+                state.distance += (required - forces[i]).abs_upper() / self.bounds.coupling[i].sqrt()
+                forces[i] = required
             else:
-                state.distance += velocity[i].abs_upper()
-                velocity[i] = arb(0)
-            state.absorb(constants, force, velocity)
+                state.distance += rates[i].abs_upper()
+                rates[i] = arb(0)
+            state.absorb(constants, forces, rates)
             self.clock += self.unit * step
         with ctx.workprec(BOUND_BITS):
             undecided = Undecided(f"whether {event.what}", (i,), root)
@@ -296,10 +275,5 @@ class Proof:
         largest = max(
             log2(x) for x in (*self.bounds.strength, *self.state.force, *self.state.rate, arb(1)) if x != 0
         )
-        wanted = self.bits if self.state.distance == 0 else largest - log2(self.state.distance)
-        bits = max(ISOLATION_BITS, min(wanted, self.bits) + GUARD_BITS)
+        bits = max(ISOLATION_BITS, min(largest - log2(self.state.distance), self.bits) + GUARD_BITS)
         return bits + -bits % PRECISION_STEP
-
-    def lost_bits(self) -> int:
-        """How much the distance has grown, in bits."""
-        return log2(self.state.distance) - log2(self.least_distance)
