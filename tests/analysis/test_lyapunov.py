@@ -31,10 +31,10 @@ def exponent_of(monkeypatch):
 def test_the_exponents_are_those_of_the_linearised_motion(theta):
     exponent = lyapunov_exponent(simulate(SLIDER(theta=theta), 100.0))
     # Beyond the predictability time another rounding gives another run, and a mean over it another value.
-    assert exponent.per_second == pytest.approx(LINEARISED[theta], abs=exponent.per_second_uncertainty)
-    assert exponent.per_second_uncertainty < exponent.per_second
-    growth = exponent.per_second * (exponent.end - exponent.start)
-    assert exponent.per_transition * exponent.n_transitions == pytest.approx(growth)
+    assert exponent.exponent_per_s == pytest.approx(LINEARISED[theta], abs=exponent.uncertainty_per_s)
+    assert exponent.uncertainty_per_s < exponent.exponent_per_s
+    growth = exponent.exponent_per_s * (exponent.end_s - exponent.start_s)
+    assert exponent.exponent_per_transition * exponent.transitions == pytest.approx(growth)
 
 
 def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch):
@@ -43,10 +43,10 @@ def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch)
     slow = replace(chain, mass=4 * chain.mass, drive_velocity=chain.drive_velocity / 2)
     run = simulate(chain, 2.0)
     one, other = lyapunov_exponent(run), lyapunov_exponent(simulate(slow, 4.0))
-    assert other.per_second == pytest.approx(one.per_second / 2, rel=1e-12)
-    assert other.per_transition == pytest.approx(one.per_transition, rel=1e-12)
+    assert other.exponent_per_s == pytest.approx(one.exponent_per_s / 2, rel=1e-12)
+    assert other.exponent_per_transition == pytest.approx(one.exponent_per_transition, rel=1e-12)
     monkeypatch.setattr(lyapunov, "DISTANCE", 100 * lyapunov.DISTANCE)
-    assert lyapunov_exponent(run).per_second == pytest.approx(one.per_second, rel=1e-3)
+    assert lyapunov_exponent(run).exponent_per_s == pytest.approx(one.exponent_per_s, rel=1e-3)
 
 
 @pytest.mark.parametrize(("n", "used"), [(21, 20), (40, 20), (41, 40), (400, 380)])
@@ -57,19 +57,19 @@ def test_the_interval_of_an_exponent_is_that_of_the_mean_of_20_stretches(n, used
     found = exponent_of(7 * np.arange(n_all), growth, 0.3 / 7 * np.arange(7 * n_all))
     means = np.diff(growth[n_all - 1 - used :: used // 20]) / (used // 20)
     low, high = scipy.stats.t.interval(0.95, 19, means.mean(), scipy.stats.sem(means))
-    assert (found.n_events, found.n_transitions) == (used, 7 * used)
-    assert found.per_second == pytest.approx(means.mean() / 0.3)
-    assert found.per_second_uncertainty == pytest.approx((high - low) / 0.6)
-    assert found.per_transition == pytest.approx(means.mean() / 7)
-    assert found.per_transition_uncertainty == pytest.approx((high - low) / 14)
+    assert (found.events, found.transitions) == (used, 7 * used)
+    assert found.exponent_per_s == pytest.approx(means.mean() / 0.3)
+    assert found.uncertainty_per_s == pytest.approx((high - low) / 0.6)
+    assert found.exponent_per_transition == pytest.approx(means.mean() / 7)
+    assert found.uncertainty_per_transition == pytest.approx((high - low) / 14)
 
 
 def test_an_exponent_is_certain_where_differences_grow_in_proportion_to_time(exponent_of):
     time = np.cumsum(np.random.default_rng(5).exponential(size=400))
     found = exponent_of(np.arange(400), 0.5 * time, time)
-    assert found.per_second == pytest.approx(0.5)
-    assert found.per_second_uncertainty == pytest.approx(0.0, abs=1e-12)
-    assert found.per_transition_uncertainty > 0.01
+    assert found.exponent_per_s == pytest.approx(0.5)
+    assert found.uncertainty_per_s == pytest.approx(0.0, abs=1e-12)
+    assert found.uncertainty_per_transition > 0.01
 
 
 def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):

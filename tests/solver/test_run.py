@@ -166,12 +166,10 @@ def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, p
     [
         (lambda file: file.attrs.update(slider=np.bytes_(b"[" * 30_000)), "recursion"),
         (lambda file: file.attrs.update(larger=np.bytes_(b"[]")), "larger is not a table"),
-        (lambda file: file.create_dataset("load_points", (10**12, 2), float), "than its file can hold"),
-        (lambda file: file.update(load_points=h5py.SoftLink("/load_points")), "too many links"),
         (lambda file: file.attrs.update(format="precursors run 5"), "its format"),
     ],
 )
-def test_a_file_made_to_be_read_for_ever_is_refused_at_once(path, change, words):
+def test_a_file_whose_texts_are_not_those_of_a_run_is_refused(path, change, words):
     with h5py.File(path, "r+") as file:
         change(file)
     refused(path, words)

@@ -74,7 +74,7 @@ def slip_events(runs: Sequence[Run]) -> NDArray[np.void]:
     finished = n_sliding[lasts] == 0
     events["end"] = np.where(finished, time[lasts], np.nan)
     events["load_after"] = np.where(finished, load[lasts], np.nan)
-    events["front"] = np.maximum.reduceat(np.where(sliding, of_block, 0), firsts)
+    events["front"] = np.maximum.reduceat(sliding * of_block, firsts)
     events["n_slid"] = np.bincount(event[slides[is_first]], minlength=len(lasts))
     events["n_simultaneous"] = np.maximum.reduceat(n_sliding, firsts)
     events["is_global"] = events["n_simultaneous"] == n_blocks[events["run"]]

@@ -34,16 +34,9 @@ NUMBERS = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu
 
 @dataclass(frozen=True, eq=False)
 class PredictedErrors:
-    """The errors that a run predicts of itself.
+    """The errors that a run predicts of itself: times of its transitions and their errors [s].
 
-    Attributes
-    ----------
-    time, time_error : array, shape (n_transitions,)
-        Times of the transitions and their errors [s]; infinite where the order of transitions is unknown.
-    duration : float
-        Time that the run reached [s].
-    order_known_until : float
-        From when the order of transitions is unknown [s]; infinite if all of it is known.
+    Errors are infinite from `order_known_until` on, which is infinite itself where all of the order is known.
     """
 
     time: FloatArray
@@ -63,13 +56,7 @@ class PredictedErrors:
 
 
 def horizon(run: Run, tolerance: float) -> float:
-    """Predictability time [s]: until then transitions are in order, and their times right to a tolerance [s].
-
-    Raises
-    ------
-    ValueError
-        If the tolerance is not positive.
-    """
+    """Time [s] until which transitions are in order, and their times right to a tolerance [s]."""
     positive("tolerance", tolerance, "s")
     return predicted_errors(run).horizon(tolerance)
 
@@ -105,7 +92,7 @@ def neighbours(run: Run) -> list[Run]:
 
     chain, n = run.chain, run.chain.n_blocks
     # Eq. 7 adds two numbers: a small weight is rounded like its difference from the mean.
-    size = np.where(chain.weights > 0, chain.weights + abs(chain.weights - chain.normal_load / n), 0.0)
+    size = (chain.weights > 0) * (chain.weights + abs(chain.weights - chain.normal_load / n))
     weights, positions, velocities = chain.weights + draw(n) * size, draw(n), draw(n)
     chains = []
     for of_one, factors in zip(weights, 1 + draw(len(NUMBERS)), strict=True):

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import astuple, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -33,37 +33,24 @@ SEED = 2010
 DISTANCE = 1e-9
 # A distance that shrinks to less than this in one event is lost in rounding.
 LEAST = 1e-4
-# Of the table: the attributes of `LyapunovExponent`.
-COLUMNS = (
-    *("exponent_per_s", "uncertainty_per_s", "exponent_per_transition", "uncertainty_per_transition"),
-    *("events", "transitions", "start_s", "end_s"),
-)
 
 
 @dataclass(frozen=True)
 class LyapunovExponent:
     """Mean rate of growth of the logarithm of a small difference.
 
-    Attributes
-    ----------
-    per_second, per_second_uncertainty : float
-        Largest exponent [1/s] and half the width of its 95 % confidence interval.
-    per_transition, per_transition_uncertainty : float
-        The same for one transition [1].
-    n_events, n_transitions : int
-        Slip events and transitions averaged over.
-    start, end : float
-        Onsets between which was averaged [s].
+    `uncertainty` is half the width of the 95 % confidence interval. The means are those over so many slip
+    events and transitions, from one onset to another.
     """
 
-    per_second: float
-    per_second_uncertainty: float
-    per_transition: float
-    per_transition_uncertainty: float
-    n_events: int
-    n_transitions: int
-    start: float
-    end: float
+    exponent_per_s: float
+    uncertainty_per_s: float
+    exponent_per_transition: float
+    uncertainty_per_transition: float
+    events: int
+    transitions: int
+    start_s: float
+    end_s: float
 
 
 def lyapunov_exponent(run: Run) -> LyapunovExponent:
@@ -92,10 +79,10 @@ def lyapunov_exponent(run: Run) -> LyapunovExponent:
     return LyapunovExponent(
         *_mean_rate(log, seconds),
         *_mean_rate(log, number),
-        n_events=int(ends[-1] - ends[0]),
-        n_transitions=int(number.sum()),
-        start=float(time[ends[0]]),
-        end=float(time[ends[-1]]),
+        events=int(ends[-1] - ends[0]),
+        transitions=int(number.sum()),
+        start_s=float(time[ends[0]]),
+        end_s=float(time[ends[-1]]),
     )
 
 
@@ -138,9 +125,8 @@ def lyapunov_table(sliders: Mapping[str, Mapping[str, Any]], duration: float) ->
     """One row a scene, from a run of `duration` [s]; NaN where it has no exponent (one block, few events)."""
     rows = []
     for scene, slider in sliders.items():
-        found = dict.fromkeys(COLUMNS, math.nan)
+        found = dict.fromkeys((field.name for field in fields(LyapunovExponent)), math.nan)
         with suppress(ValueError):
-            exponent = lyapunov_exponent(simulate(Chain.from_slider(**slider), duration))
-            found = dict(zip(COLUMNS, astuple(exponent), strict=True))
+            found = asdict(lyapunov_exponent(simulate(Chain.from_slider(**slider), duration)))
         rows.append({"scene": scene, "theta": slider["theta"], **found})
     return pd.DataFrame(rows)

@@ -8,13 +8,16 @@ from typing import TypeVar
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.events import EVENT, slip_events
+from precursors.analysis.events import slip_events
 from precursors.analysis.slip_rows import first_global, up_to_first_global
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Run
 
 Loads = TypeVar("Loads", float, FloatArray)
-COLUMNS = list(EVENT.names or ())[3:]
+COLUMNS = [
+    *("onset", "end", "load_before", "load_after", "largest_load"),
+    *("front", "n_slid", "n_simultaneous", "is_global"),
+]
 WITH_UNITS = {
     "onset": "onset_s",
     "end": "end_s",
@@ -150,16 +153,12 @@ class ApparentFriction:
 
     Attributes
     ----------
-    mu_sapp : float
-        Apparent static friction coefficient [1].
-    load : float
-        The F_X that it stands for [N].
+    mu_sapp, load : float
+        Apparent static friction coefficient [1], and the F_X that it stands for [N].
     time : float
         Onset of the first global slip [s].
-    event : int
-        Number of the first global slip among all events, from 1.
-    events_counted : int
-        Events of Fig. 13, the first global slip included.
+    event, events_counted : int
+        Number of the first global slip among all events, from 1, and among those of Fig. 13.
     """
 
     mu_sapp: float

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from precursors.analysis.events import slip_events
 from precursors.analysis.slips import mu_sapp
+from precursors.model.checks import MOST_BLOCKS
 from precursors.solver.run import Run
 
 SUMMARY = np.dtype(
@@ -42,12 +43,9 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
         (those of Fig. 13), transitions; mu_sapp [1] (Eq. 1) and the load F_X [N] that it stands for. Of the
         first global slip: time (its onset), end and crossing_time (from its onset until block N first
         slides) [s]. Where reached is False there was no global slip: these are NaN, and the counts are those
-        of the whole run. n_global and n_all_events count the global slips and the events of the whole run,
-        n_alone the events up to the first global slip in which one block slid alone.
-
-    Notes
-    -----
-    A global slip that the end of the run cuts off has end NaN.
+        of the whole run. A global slip that the end of the run cuts off has end NaN. n_global and
+        n_all_events count the global slips and the events of the whole run, n_alone the events up to the
+        first global slip in which one block slid alone.
     """
     runs = list(runs)
     events = slip_events(runs)
@@ -70,7 +68,7 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     alone = until_global & (events["n_slid"] == 1)
     summaries["n_alone"] = np.bincount(events["run"], alone, minlength=len(runs))
     # Fronts of later runs are raised above all earlier ones, so that the running maximum begins anew.
-    front = events["front"] + events["run"] * (events["front"].max(initial=0) + 1)
+    front = events["front"] + events["run"] * MOST_BLOCKS
     counted = until_global & (front == np.maximum.accumulate(front))
     summaries["events_counted"] = np.bincount(events["run"], counted, minlength=len(runs))
 

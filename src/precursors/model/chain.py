@@ -25,6 +25,7 @@ from precursors.model.checks import (
 FloatArray = NDArray[np.float64]
 # Beyond these a single slip takes more windows of time than a run can have, or a time is lost in rounding.
 STIFFEST, FASTEST = 1e12, 1e20
+_POSITIVE = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "length")
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,11 +48,6 @@ class Chain:
         Coefficients of static and kinetic friction, 0 <= mu_k <= mu_s.
     length : float
         Length L of the contact [m], positive.
-
-    Raises
-    ------
-    ValueError
-        In one line that names the parameter, what it must be, and what it is.
     """
 
     weights: FloatArray
@@ -66,7 +62,7 @@ class Chain:
     def __post_init__(self) -> None:
         weights = _weights(self.weights)
         object.__setattr__(self, "weights", weights)
-        for name, unit in _POSITIVE.items():
+        for name, unit in zip(_POSITIVE, ("kg", "N/m", "N/m", "m/s", "m"), strict=True):
             object.__setattr__(self, name, positive(name, getattr(self, name), unit))
         if max(self.stiffness / self.drive_stiffness, self.drive_stiffness / self.stiffness) > STIFFEST:
             raise ValueError(
@@ -198,15 +194,6 @@ class Chain:
         return hash((self.weights.tobytes(), *(getattr(self, f.name) for f in fields(self)[1:])))
 
 
-_POSITIVE = {
-    "mass": "kg",
-    "stiffness": "N/m",
-    "drive_stiffness": "N/m",
-    "drive_velocity": "m/s",
-    "length": "m",
-}
-
-
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:
     """Normal loads w_i that change linearly along the slider [N], shape (N,) (Eq. 7; w_1 = F_Z at N = 1)."""
     n = whole("n_blocks", n_blocks, at_least=1, at_most=MOST_BLOCKS)
@@ -226,13 +213,7 @@ def written_fraction(text: str) -> Fraction:
 
 
 def parse_theta(theta: float | str) -> float:
-    """Read theta from a number between -1 and 1, or from a fraction written as "5/6".
-
-    Raises
-    ------
-    ValueError
-        If it is not such a number.
-    """
+    """Read theta from a number between -1 and 1, or from a fraction written as "5/6"."""
     try:
         value = written_fraction(theta) if isinstance(theta, str) else Fraction(number("theta", theta, "1"))
         if abs(value) <= 1:
@@ -247,11 +228,6 @@ def theta_from_load_cells(load_a: float, load_b: float, spacing: float, length: 
 
     The straight line through the readings of two cells a distance `spacing` [m] apart is extended over the
     contact of length `length` [m]. Nothing is rounded: 100 N and 300 N at 60 mm on 100 mm give 5/6.
-
-    Raises
-    ------
-    ValueError
-        If a load is negative, both are zero, a length is not positive, or theta is not between -1 and 1.
     """
     a = Fraction(repr(not_negative("load_a", load_a, "N")))
     b = Fraction(repr(not_negative("load_b", load_b, "N")))

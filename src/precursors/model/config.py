@@ -17,10 +17,7 @@ from precursors.model.scenes import Config, scene_additions, scene_duration, sce
 def check_file(path: str | os.PathLike[str]) -> None:
     """Refuse a YAML file that cannot be read, has a key twice, or a number that YAML reads as another.
 
-    Raises
-    ------
-    ValueError
-        One line: which file, where in it, and what is wrong.
+    The ValueError says in one line which file, where in it, and what is wrong.
     """
     import yaml
 
@@ -76,19 +73,9 @@ def read_numbers(values: Any) -> Any:
 
 
 def check_config(config: Config, schema_path: str | os.PathLike[str]) -> None:
-    """Refuse a configuration that the workflow cannot run.
+    """Refuse a configuration, as YAML gives it, that the workflow cannot run.
 
-    Parameters
-    ----------
-    config : mapping
-        The configuration as YAML gives it.
-    schema_path : path
-        The JSON schema, as YAML.
-
-    Raises
-    ------
-    ValueError
-        One line: which value, where, and what it must be.
+    The ValueError says in one line which value, where, and what it must be. The JSON schema is YAML, too.
     """
     import yaml
     from jsonschema import Draft202012Validator

@@ -44,13 +44,7 @@ def scene_duration(config: Config, name: str) -> float:
 
 
 def read_weights(path: str | PathLike[str]) -> list[float]:
-    """Normal loads [N] from a table with a number for each block, or with the block's number before it.
-
-    Raises
-    ------
-    OSError, ValueError
-        In one line, if the file cannot be read or understood.
-    """
+    """Normal loads [N] from a table with a number for each block, or with the block's number before it."""
     table = read_columns(path, ["normal load of each block [N]"])
     n, width = table.shape
     if width == 1 or (n == 1 and width != 2):
@@ -65,11 +59,7 @@ def read_weights(path: str | PathLike[str]) -> list[float]:
 
 def measured(slider: Mapping[str, Any], weights: str | PathLike[str] | Sequence[float]) -> dict[str, Any]:
     """A slider with measured normal loads [N], a list or a file; there is no theta."""
-    loads = (
-        list(weights)
-        if isinstance(weights, Sequence) and not isinstance(weights, str)
-        else read_weights(weights)
-    )
+    loads = read_weights(weights) if isinstance(weights, str | PathLike) else list(weights)
     known = {"weights": loads, "n_blocks": len(loads), "normal_load": math.fsum(loads), "theta": math.nan}
     return {**slider, **known}
 
@@ -83,13 +73,7 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
 
 
 def scene_additions(config: Config, name: str) -> dict[str, float]:
-    """What the scene adds to the paper's chain, keys of `ADDITIONS`.
-
-    Raises
-    ------
-    ValueError
-        If it gives two viscosities, or adds to a smaller model.
-    """
+    """What the scene adds to the paper's chain, keys of `ADDITIONS`; a smaller model takes nothing."""
     scene = config["scenes"][name]
     given = {key: float(scene[key]) for key in ADDITIONS if key in scene}
     if "viscosity" in given and "relaxation_time" in given:
@@ -100,12 +84,9 @@ def scene_additions(config: Config, name: str) -> dict[str, float]:
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:
-    """The same before any rounding: theta and F_Z = F_ZA + F_ZB of two load cells are fractions.
+    """Arguments for a scene before any rounding: theta and F_Z = F_ZA + F_ZB of load cells are fractions.
 
-    Raises
-    ------
-    ValueError
-        If the scene gives more than one of theta, load cells and weights, or none.
+    A scene must give one of theta, load cells and weights.
     """
     scene = config["scenes"][name]
     slider = {key: scene.get(key, value) for key, value in config["chain"].items()}

@@ -51,11 +51,6 @@ def largest_load_at_rest(chain: Chain) -> tuple[float, FloatArray]:
 
     A linear program: the y_i are free, and a block is at rest if |s_i y_i - s_{i+1} y_{i+1}| <= mu_s w_i
     with s = K, k, k, ...
-
-    Raises
-    ------
-    RuntimeError
-        If the solver finds no optimum.
     """
     # y_i in units of F_Z/s_i and forces in units of F_Z: the program is as well scaled for any K/k.
     unit = chain.normal_load / chain.springs

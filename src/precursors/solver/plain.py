@@ -81,7 +81,7 @@ def move(state: State, v: Floats, force: Floats, s: float) -> State:
 def safe_step(g: float, slope: float, curvature: float) -> float:
     """Positive root of g + slope s - curvature s^2/2 for g >= 0: no root of g lies before it."""
     root = math.sqrt(slope * slope + 2.0 * curvature * g)
-    rising = (slope + root) / curvature if curvature > 0.0 else math.inf
+    rising = (slope + root) / curvature if curvature else math.inf
     return 2.0 * g / (root - slope) if slope < 0.0 else rising
 
 
@@ -96,7 +96,7 @@ def first_root(series: Floats, zero: float, limit: float) -> float:
     while c[0] + np.minimum(c[1:], 0.0).sum() <= 0.0:
         step = safe_step(max(c[0], 0.0), c[1], float((N * (N - 1.0)) @ abs(c)))
         if c[0] <= zero or left * step <= 1e-17:  # the root, but for a last step of Newton
-            return s + (left * max(-c[0] / c[1], 0.0) if c[1] < 0.0 and c[0] > 0.0 else 0.0)
+            return s + left * max(-c[0] / c[1], 0.0) if c[1] < 0.0 else s
         if s + left * step >= limit:
             return math.inf
         # The series about the new place, on what is left of the window.

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from precursors.model.chain import Chain
 from precursors.solver.record import TRANSITION, States
@@ -38,11 +37,11 @@ UNITS = {
     "weights": "N",
     "load_points": "s, N",
 }
+PLAIN = ("start_positions", "start_velocities", "intervals")
 SCALARS = [field.name for field in fields(Chain)[1:]]
 # Compiled code takes these types only.
 KINDS = {"force": float, "velocity": float, "mode": np.int64, "after": np.int64, "offset": float}
 INTERVALS_APART = 1e-9  # of the duration; roundings of 1e7 intervals add up to less
-MOST_PER_BYTE = 1032  # gzip makes nothing smaller
 
 
 class RunFileError(ValueError):
@@ -54,7 +53,14 @@ def write_run(run: Run, path: str | PathLike[str]) -> None:
     import h5py  # here, as a run needs no file
 
     # HDF5 may end the interpreter when the disk is full, so the file is made in memory first.
-    memory = BytesIO()
+    memory, extra = BytesIO(), {} if run.load_points is None else {"load_points": run.load_points}
+    datasets = {
+        **extra,
+        "weights": run.chain.weights,
+        **{name: getattr(run, name) for name in PLAIN},
+        **{f"transitions/{name}": run.transitions[name] for name in TRANSITION.names or ()},
+        **{f"states/{name}": values for name, values in run.states._asdict().items()},
+    }
     with h5py.File(memory, "w", libver="v110") as file:
         texts = {
             "format": FORMAT,
@@ -68,23 +74,11 @@ def write_run(run: Run, path: str | PathLike[str]) -> None:
         file.attrs.update({name: np.bytes_(text.encode()) for name, text in texts.items()})
         file.attrs.update({name: getattr(run.chain, name) for name in SCALARS})
         file.attrs.update(duration=run.duration, evaluations=run.evaluations)
-        for name, values in _datasets(run).items():
+        for name, values in datasets.items():
             data = file.create_dataset(name, data=values, compression="gzip", shuffle=True, fletcher32=True)
             data.attrs["unit"] = np.bytes_(UNITS[name.split("/")[-1]])
     with write_whole(path) as temporary:
         temporary.write_bytes(memory.getvalue())
-
-
-def _datasets(run: Run) -> dict[str, NDArray[Any]]:
-    return {
-        **({} if run.load_points is None else {"load_points": run.load_points}),
-        "weights": run.chain.weights,
-        "start_positions": run.start_positions,
-        "start_velocities": run.start_velocities,
-        "intervals": run.intervals,
-        **{f"transitions/{name}": run.transitions[name] for name in TRANSITION.names or ()},
-        **{f"states/{name}": values for name, values in run.states._asdict().items()},
-    }
 
 
 def read_run(path: str | PathLike[str]) -> dict[str, Any]:
@@ -118,33 +112,23 @@ def _text(file: h5py.File, name: str) -> str:
     return bytes(file.attrs[name]).decode() if is_fixed else ""
 
 
-def _array(file: h5py.File, name: str) -> NDArray[Any]:
-    is_held = file[name].nbytes <= MOST_PER_BYTE * file.id.get_filesize()
-    _require(is_held, f"{name} is larger than its file can hold")
-    array: NDArray[Any] = file[name][()]
-    return array
-
-
 def _content(file: h5py.File) -> dict[str, Any]:
-    columns = {name: _array(file, f"transitions/{name}") for name in TRANSITION.names or ()}
+    columns = {name: file[f"transitions/{name}"][()] for name in TRANSITION.names or ()}
     transitions = np.empty(len(columns["time"]), dtype=TRANSITION)
     for name, values in columns.items():
         _require(values.shape == transitions.shape, f"transitions/{name} has shape {values.shape}")
         transitions[name] = values
     scalars = {name: float(file.attrs[name]) for name in SCALARS}
     return {
-        "chain": Chain(weights=_array(file, "weights"), **scalars),
+        "chain": Chain(weights=file["weights"][()], **scalars),
         "duration": float(file.attrs["duration"]),
         "transitions": transitions,
-        **{
-            name: _array(file, name).astype(float)
-            for name in ("intervals", "start_positions", "start_velocities")
-        },
-        "states": States._make(_array(file, f"states/{name}").astype(KINDS[name]) for name in States._fields),
+        **{name: file[name][()].astype(float) for name in PLAIN},
+        "states": States._make(file[f"states/{name}"][()].astype(KINDS[name]) for name in States._fields),
         "evaluations": float(file.attrs["evaluations"]),
         "slider": json.loads(_text(file, "slider")),
         "larger": json.loads(_text(file, "larger")),
-        "load_points": _array(file, "load_points").astype(float) if "load_points" in file else None,
+        "load_points": file["load_points"][()].astype(float) if "load_points" in file else None,
     }
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -16,7 +15,8 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import LARGEST, Until, checked_span, number_array, positive, whole
 from precursors.solver import kernel
 from precursors.solver.kernel.arrays import Progress
-from precursors.solver.record import TRANSITION, States, room_for_states
+from precursors.solver.kernel.compiled import untyped
+from precursors.solver.record import TRANSITION, IntArray, States, room_for_states
 from precursors.solver.run import Run
 from precursors.support.waiting import tell
 
@@ -85,10 +85,6 @@ def simulate(
 
     Raises
     ------
-    TypeError
-        If something else than a chain is given.
-    ValueError
-        If an argument is out of range.
     TransitionLimitError
         If the cap, or one on the work of chains that hardly ever rest, is met; its attribute `run` holds what
         was computed.
@@ -118,7 +114,7 @@ def simulate_many(
     duration, until, longest_slip
         As in `simulate`, for all of them.
     threads : int, optional
-        Threads to use; by default as many as there are cores for this process.
+        Threads to use; by default as many as Numba takes, one for each core of this process.
     start_positions, start_velocities : sequence of array_like, optional
         One start for each chain, as in `simulate`.
     progress : callable, optional
@@ -127,22 +123,13 @@ def simulate_many(
     Returns
     -------
     list of Run
-        In the order of `chains`.
-
-    Raises
-    ------
-    TypeError
-        If something else than a chain is given.
-    ValueError
-        If an argument is out of range.
-    TransitionLimitError
-        If a run meets the cap of `simulate`.
+        In the order of `chains`; `TransitionLimitError` if one of them meets the cap of `simulate`.
     """
     if isinstance(chains, Chain):
         raise TypeError("what simulate_many runs must be a list of chains, but is a Chain")
     chains = list(chains)
     end = _end(chains, duration, until, MAX_TRANSITIONS, longest_slip)
-    threads = available_cores() if threads is None else whole("threads", threads, at_least=1)
+    threads = untyped.config.NUMBA_NUM_THREADS if threads is None else whole("threads", threads, at_least=1)
     positions = _starts("start_positions", start_positions, "m", chains)
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)
 
@@ -202,11 +189,6 @@ def _starts(
     ]
 
 
-def available_cores() -> int:
-    """Number of cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
     """Numbers of chains of equal length, so many at a time as one call of the kernel takes."""
     most = min(LARGEST_BATCH, max(1, len(chains) // (threads * BATCHES_PER_THREAD)))
@@ -218,25 +200,31 @@ def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
             yield members[first : first + most]
 
 
-class _Workspace(threading.local):
-    """Memory, record and states of a thread for chains of one length, kept from call to call."""
+class _Workspace(NamedTuple):
+    """Memory, record and states for chains of one length; a state is stored after `stride` transitions."""
 
-    n_blocks = 0
-
-    def prepare(self, n_blocks: int) -> None:
-        """Make room for chains of `n_blocks`, if it is not there yet."""
-        if n_blocks == self.n_blocks:
-            return
-        # A state is stored after so many transitions that storing takes little time beside finding them.
-        self.stride = max(10, 1 + n_blocks // 3)
-        self.memory = kernel.memory_for(n_blocks)
-        self.record = np.empty(max(SHARED_ROOM, 2 * n_blocks), kernel.ROW)
-        self.words = kernel.words(self.record)
-        self.states = room_for_states(max(SHARED_ROOM // self.stride, 2), n_blocks)
-        self.n_blocks = n_blocks
+    n_blocks: int
+    stride: int
+    memory: FloatArray
+    record: NDArray[np.void]
+    words: IntArray
+    states: FloatArray
 
 
-_workspace = _Workspace()
+_own = threading.local()
+
+
+def _workspace_for(n_blocks: int) -> _Workspace:
+    """The workspace of this thread, kept from call to call."""
+    work: _Workspace | None = vars(_own).get("workspace")
+    if work is None or work.n_blocks != n_blocks:
+        # Storing takes little time beside finding so many transitions.
+        stride = max(10, 1 + n_blocks // 3)
+        record = np.empty(max(SHARED_ROOM, 2 * n_blocks), kernel.ROW)
+        states = room_for_states(max(SHARED_ROOM // stride, 2), n_blocks)
+        memory, words = kernel.memory_for(n_blocks), kernel.words(record)
+        work = _own.workspace = _Workspace(n_blocks, stride, memory, record, words, states)
+    return work
 
 
 # What was recorded of one run: transitions, intervals [s] and states.
@@ -247,8 +235,7 @@ def _run_batch(
     chains: Sequence[Chain], positions: FloatArray, velocities: FloatArray, end: _End
 ) -> list[Run]:
     """Run chains of equal length one after the other, in as few calls of the kernel as it takes."""
-    work, n = _workspace, len(chains)
-    work.prepare(chains[0].n_blocks)
+    work, n = _workspace_for(chains[0].n_blocks), len(chains)
     parameters = np.array([kernel.parameters(chain) for chain in chains])
     batch = kernel.Batch(parameters, np.array([chain.weights for chain in chains]), positions, velocities)
     progress = np.zeros(n, kernel.PROGRESS)
@@ -274,7 +261,8 @@ def _run_batch(
             finished, last = reached[:n_finished], slice(n_finished, n_finished + 1)
             record = work.record[int((finished["transitions"] + 1).sum()) :]
             states = work.states[int(finished["stored"].sum()) :]
-            parts.append(_go_on(_rows(here, last), limits, reached[last], record, states, end.most))
+            rest = work._replace(record=record, states=states)
+            parts.append(_go_on(_rows(here, last), limits, reached[last], rest, end.most))
         for j, part in enumerate(parts, done):
             run = _run(chains[j], positions[j], velocities[j], progress[j], part, end)
             if progress["status"][j] == kernel.PAUSED:
@@ -337,13 +325,11 @@ def _parts(work: _Workspace, progress: Progress) -> list[_Part]:
     return parts
 
 
-def _go_on(
-    batch: Any, limits: Any, progress: Progress, record: NDArray[np.void], states: FloatArray, most: int
-) -> _Part:
+def _go_on(batch: Any, limits: Any, progress: Progress, rest: _Workspace, most: int) -> _Part:
     """Run on a chain that the kernel left unfinished, in a record of its own that grows as needed."""
     [run], stride, duration = progress, limits.stride, limits.duration
     n, stored = int(run["transitions"]), int(run["stored"])
-    record, states = record[: n + 1], states[:stored]
+    record, states = rest.record[: n + 1], rest.states[:stored]
 
     def is_unfinished() -> bool:
         return bool(
@@ -352,17 +338,15 @@ def _go_on(
 
     for _ in tell("running", iter(is_unfinished, False), lambda: run["onset"] / duration):
         if n + 1 >= len(record):
-            record = _enlarged(record, 1 + min(max(FIRST_ROOM, 2 * n), most))
+            record = np.resize(record, 1 + min(max(FIRST_ROOM, 2 * n), most))
         if stored >= len(states):
             rows = max(FIRST_ROOM // stride, 2 * len(states))
             if rows * states.itemsize * states.shape[1] > STATES_BYTES:
                 states, stride = states[::2], 2 * stride
                 run["stored"], rows = len(states), rows // 2
-            states = _enlarged(states, rows)
+            states = np.resize(states, (rows, states.shape[1]))
         limits = limits._replace(transitions=len(record) - 1, states=len(states), stride=stride, goes_on=True)
-        kernel.run_batch(
-            batch, limits, kernel.words(progress), kernel.words(record), states, _workspace.memory
-        )
+        kernel.run_batch(batch, limits, kernel.words(progress), kernel.words(record), states, rest.memory)
         n, stored = int(run["transitions"]), int(run["stored"])
     record["interval"][n] = run["since"] * run["tau"]
     transitions, intervals = _columns(record[: n + 1])
@@ -375,9 +359,3 @@ def _columns(record: NDArray[np.void]) -> tuple[NDArray[np.void], FloatArray]:
     for name in TRANSITION.names or ():
         transitions[name] = record[name]
     return transitions, record["interval"].copy()
-
-
-def _enlarged(values: NDArray[Any], rows: int) -> NDArray[Any]:
-    larger = np.empty((rows, *values.shape[1:]), values.dtype)
-    larger[: len(values)] = values
-    return larger

@@ -37,21 +37,18 @@ class _FourModel(models.PrimitiveModel):
         super().__init__(dmm, fe_type, VECTOR)
 
 
-def _operation(result, *kinds):
+def _operation(build, result, *kinds):
     """Make a function of compiled code from one that builds its instructions, (builder, *values) -> value."""
 
-    def make(build):
-        def generate(context, builder, signature, arguments):
-            value = build(builder, *arguments)
-            return context.get_dummy_value() if result == types.void else value
+    def generate(context, builder, signature, arguments):
+        value = build(builder, *arguments)
+        return context.get_dummy_value() if result == types.void else value
 
-        @functools.wraps(build)
-        def typed(typingctx, *given):
-            return result(*kinds), generate
+    @functools.wraps(build)
+    def typed(typingctx, *given):
+        return result(*kinds), generate
 
-        return intrinsic(typed)
-
-    return make
+    return intrinsic(typed)
 
 
 def _group(builder, start, index):
@@ -59,9 +56,11 @@ def _group(builder, start, index):
     return builder.bitcast(builder.gep(start, [index]), VECTOR.as_pointer())
 
 
-def _splat(builder, scalar):
-    one = builder.insert_element(ir.Constant(VECTOR, ir.Undefined), scalar, ir.Constant(PLACE, 0))
-    return _shuffle(builder, one, one, [0] * WIDTH)
+def _pack(builder, *values):
+    vector = ir.Constant(VECTOR, ir.Undefined)
+    for lane, value in enumerate(values):
+        vector = builder.insert_element(vector, value, ir.Constant(PLACE, lane))
+    return vector
 
 
 def _shuffle(builder, a, b, lanes):
@@ -78,110 +77,46 @@ def _select(builder, comparison, a, b):
     return builder.select(builder.fcmp_ordered(comparison, a, b), a, b)
 
 
-def _across(builder, comparison, a):
-    """Select one of all lanes, by halves."""
-    step = WIDTH // 2
-    while step:
-        a = _select(builder, comparison, a, _shuffle(builder, a, a, [lane ^ step for lane in range(WIDTH)]))
-        step //= 2
-    return builder.extract_element(a, ir.Constant(PLACE, 0))
-
-
-@_operation(four, NUMBERS, types.intp)
-def load(builder, values, i):
-    """values[i : i + 4]."""
-    return builder.load(_group(builder, values, i), align=8)
-
-
-@_operation(types.void, NUMBERS, types.intp, four)
-def store(builder, values, i, value):
-    """values[i : i + 4] = value."""
-    builder.store(value, _group(builder, values, i), align=8)
-
-
-@_operation(four, types.float64)
-def spread(builder, value):
-    """The same value in all lanes."""
-    return _splat(builder, value)
-
-
-@_operation(four, types.float64)
-def ladder(builder, s):
-    """1, s, s^2, s^3."""
-    powers = [ir.Constant(DOUBLE, 1.0), s]
-    vector = ir.Constant(VECTOR, ir.Undefined)
-    for n in range(WIDTH):
-        if n > 1:
-            powers.append(builder.fmul(powers[n // 2], powers[n - n // 2]))
-        vector = builder.insert_element(vector, powers[n], ir.Constant(PLACE, n))
-    return vector
-
-
-@_operation(four, four, four)
-def behind(builder, before, here):
-    """Each lane's neighbour behind: the last lane of `before`, then all but the last of `here`."""
-    return _shuffle(builder, before, here, range(WIDTH - 1, 2 * WIDTH - 1))
-
-
-@_operation(four, four, four)
-def ahead(builder, here, after):
-    """Each lane's neighbour ahead: all but the first lane of `here`, then the first of `after`."""
-    return _shuffle(builder, here, after, range(1, WIDTH + 1))
-
-
-@_operation(four, four)
-def magnitude(builder, value):
-    """Absolute value."""
-    return _call(builder, "fabs", value)
-
-
-@_operation(four, four)
-def square_root(builder, value):
-    """Square root."""
-    return _call(builder, "sqrt", value)
-
-
-@_operation(four, four, four)
-def larger(builder, a, b):
-    """The larger of each pair."""
-    return _select(builder, ">", a, b)
-
-
-@_operation(four, four, four)
-def smaller(builder, a, b):
-    """The smaller of each pair."""
-    return _select(builder, "<", a, b)
-
-
-@_operation(types.float64, four)
-def largest(builder, a):
-    """The largest of the lanes."""
-    return _across(builder, ">", a)
-
-
-@_operation(types.float64, four)
-def smallest(builder, a):
-    """The smallest of the lanes."""
-    return _across(builder, "<", a)
-
-
-@_operation(four, four, four, four)
-def choose(builder, flag, a, b):
-    """a in lanes where flag > 0, b in the others."""
+def _where(builder, flag, a, b):
     return builder.select(builder.fcmp_ordered(">", flag, ZERO), a, b)
 
 
-@_operation(four, four, four)
-def only(builder, flag, a):
-    """a in lanes where flag > 0, zero in the others."""
-    return builder.select(builder.fcmp_ordered(">", flag, ZERO), a, ZERO)
+def _across(builder, comparison, a):
+    """Select one of all lanes, by halves."""
+    for step in (2, 1):
+        a = _select(builder, comparison, a, _shuffle(builder, a, a, [lane ^ step for lane in range(WIDTH)]))
+    return builder.extract_element(a, ir.Constant(PLACE, 0))
 
 
-@_operation(types.int64, four)
-def where_negative(builder, a):
-    """Bits of lanes in which a >= 0 does not hold: below zero, or not a number."""
+def _where_negative(builder, a):
     lanes = builder.not_(builder.fcmp_ordered(">=", a, ZERO))
     return builder.zext(builder.bitcast(lanes, BITS), ir.IntType(64))
+
+
+# values[i : i + 4], and values[i : i + 4] = a.
+load = _operation(lambda b, values, i: b.load(_group(b, values, i), align=8), four, NUMBERS, types.intp)
+store = _operation(
+    lambda b, values, i, a: b.store(a, _group(b, values, i), align=8), types.void, NUMBERS, types.intp, four
+)
+# One number in all lanes, or one in each.
+spread = _operation(lambda b, value: _pack(b, *WIDTH * [value]), four, types.float64)
+pack = _operation(lambda b, w, x, y, z: _pack(b, w, x, y, z), four, *WIDTH * [types.float64])
+# Each lane's neighbour behind: the last lane of `before`, then all but the last of `here`.
+behind = _operation(lambda b, before, here: _shuffle(b, before, here, range(3, 7)), four, four, four)
+# Each lane's neighbour ahead: all but the first lane of `here`, then the first of `after`.
+ahead = _operation(lambda b, here, after: _shuffle(b, here, after, range(1, 5)), four, four, four)
+magnitude = _operation(lambda b, a: _call(b, "fabs", a), four, four)
+square_root = _operation(lambda b, a: _call(b, "sqrt", a), four, four)
+# Of each pair of lanes, and of all lanes.
+larger = _operation(lambda b, x, y: _select(b, ">", x, y), four, four, four)
+smaller = _operation(lambda b, x, y: _select(b, "<", x, y), four, four, four)
+largest = _operation(lambda b, a: _across(b, ">", a), types.float64, four)
+smallest = _operation(lambda b, a: _across(b, "<", a), types.float64, four)
+# x in lanes where flag > 0, y or zero in the others.
+choose = _operation(_where, four, four, four, four)
+only = _operation(lambda b, flag, x: _where(b, flag, x, ZERO), four, four, four)
+# Bits of lanes in which a >= 0 does not hold: below zero, or not a number.
+where_negative = _operation(_where_negative, types.int64, four)
 
 
 def _lane_by_lane(operation, name):
@@ -196,7 +131,8 @@ def _lane_by_lane(operation, name):
 
     def generate(context, builder, signature, arguments):
         values = [
-            v if t == four else _splat(builder, v) for v, t in zip(arguments, signature.args, strict=True)
+            v if t == four else _pack(builder, *WIDTH * [v])
+            for v, t in zip(arguments, signature.args, strict=True)
         ]
         return getattr(builder, name)(*values)
 

@@ -106,8 +106,8 @@ def order_at(s):
 def powers(s, order, weight):
     """Fill weight[n] = s^n / n! for n = 0..order + 1."""
     factors = numbers(INVERSE_FACTORIAL.ctypes.data)
-    power = lanes.ladder(s)
     square = s * s
+    power = lanes.pack(1.0, s, square, s * square)
     for n in range(0, order + 2, WIDTH):
         lanes.store(weight, n, power * lanes.load(factors, n))
         power = power * (square * square)
