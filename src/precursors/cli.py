@@ -11,10 +11,10 @@ import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from difflib import get_close_matches
 from fractions import Fraction
+from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -59,10 +59,14 @@ LARGER = {
     "push_height": "height of the push above the interface [m]",
 }
 RUN = ("duration", "until", "max_transitions")
-# Columns of the slip table that are the same in every row.
-SAME = ["theta", "n_blocks", "normal_load_N", "length_m"]
 DURATION = 10.0  # s
-FIGURE_ENDINGS = (".png", ".svg", ".pdf", ".eps")
+FIRST_SLIP = """\
+mu_sapp = {mu_sapp:.3f} = {largest_load_N:.1f} N / {F_Z:g} N; first global slip at {global_slip_s:.3f} s.
+"""
+
+
+class Refused(Exception):
+    """What the user asked for does not hold, or was not reached: each argument is a line."""
 
 
 def simulate(arguments: argparse.Namespace) -> None:
@@ -87,14 +91,9 @@ def simulate(arguments: argparse.Namespace) -> None:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
     if not arguments.json:
-        outcome = f"no global slip in {run.duration:g} s"
-        if first:
-            outcome = (
-                f"mu_sapp = {first.mu_sapp:.3f} = {first.load:.1f} N / {run.chain.normal_load:g} N; "
-                f"first global slip at {first.time:.3f} s"
-            )
-        counted, in_all = values["events_counted"], values["events"]
-        print(f"{counted} events counted in Fig. 13, {in_all} in all; {outcome}.\n")
+        found = "{events_counted} events counted in Fig. 13, {events} in all; "
+        found += FIRST_SLIP if first else "no global slip in {duration_s:g} s.\n"
+        print(found.format(**values, F_Z=run.chain.normal_load))
     show_values(values, arguments.json)
 
 
@@ -115,7 +114,7 @@ def slips(arguments: argparse.Namespace) -> None:
     elif table.empty:
         print("no slip event")
     else:
-        shown = table.drop(columns=SAME).rename(columns={"n_simultaneous": "at_once"})
+        shown = table.drop(columns=["theta", "n_blocks", "normal_load_N", "length_m"])
         shown.columns = shown.columns.str.replace("load_|is_", "", regex=True)
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
 
@@ -145,24 +144,28 @@ def plot(arguments: argparse.Namespace) -> None:
 def audit(arguments: argparse.Namespace) -> None:
     """Check that each run file is whole and its run a motion of the model."""
     from precursors.accuracy.audit import audit
-    from precursors.solver.run import Run, RunFileError
 
-    failed = 0
+    wrong: list[str] = []
     for path in arguments.files:
         try:
-            run = Run.load(path)
-            wrong = [f"{path}: not a motion of the model: {problem}" for problem in audit(run).problems]
-        except RunFileError as error:
-            wrong = [str(error)]
-        if not wrong:
+            run = load(path)
+            if problems := audit(run).problems:
+                raise Refused(f"{path}: not a motion of the model: {problems[0]}")
             print(f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s")
-        elif len(arguments.files) == 1:
-            raise RuntimeError(wrong[0])
-        else:
-            failed += 1
-            print(wrong[0], file=sys.stderr)
-    if failed:
-        raise RuntimeError(f"{failed} of {len(arguments.files)} files do not hold a motion of the model")
+        except Refused as refused:
+            wrong += refused.args
+    if wrong:
+        raise Refused(*wrong)
+
+
+def load(path: Path) -> Run:
+    """Read a run file."""
+    from precursors.solver.run import Run, RunFileError
+
+    try:
+        return Run.load(path)
+    except RunFileError as error:
+        raise Refused(str(error)) from error
 
 
 def run_of(arguments: argparse.Namespace) -> Run:
@@ -171,12 +174,7 @@ def run_of(arguments: argparse.Namespace) -> Run:
         return run_of_options(arguments)
     if given(arguments, ("theta", "n_blocks", "weights", *CHAIN, *LARGER, *RUN)):
         raise ValueError(f"{arguments.file}: a run file cannot be combined with options of a chain")
-    from precursors.solver.run import Run, RunFileError
-
-    try:
-        return Run.load(arguments.file)
-    except RunFileError as error:
-        raise RuntimeError(error) from error
+    return load(arguments.file)
 
 
 def run_of_options(arguments: argparse.Namespace) -> Run:
@@ -187,9 +185,8 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
 
     slider = given(arguments, ("theta", "n_blocks", *CHAIN))
     if arguments.weights is None:
-        slider = SLIDER | slider
+        slider = {name: slider.get(name, default) for name, default in SLIDER.items() if name != "weights"}
         slider["theta"] = parse_theta(slider["theta"])
-        del slider["weights"]
     elif slider.keys() & {"theta", "n_blocks", "normal_load"}:
         raise ValueError("--weights cannot be combined with --theta, --blocks or --normal-load")
     else:
@@ -205,9 +202,9 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
             run = simulate(chain, **how)
     except TransitionLimitError as error:
         if arguments.command != "simulate" or not arguments.output:
-            raise
+            raise Refused(str(error)) from error
         replace(error.run, slider=slider).save(arguments.output)
-        raise RuntimeError(f"{error}; the run so far is in {arguments.output}") from error
+        raise Refused(f"{error}; the run so far is in {arguments.output}") from error
     return replace(run, slider=slider)
 
 
@@ -216,15 +213,13 @@ def given(arguments: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]
     return {name: value for name in names if (value := getattr(arguments, name)) is not None}
 
 
-def announcing(command: str) -> AbstractContextManager[Any]:
-    """Tell whoever uses the solver for the first time why it takes so long; an audit needs no compiler."""
-    if command == "audit":
-        return nullcontext()
+def announce_compiling() -> None:
+    """Tell whoever uses the solver for the first time why it takes so long."""
     from numba.core import event
 
     from precursors.solver.kernel.compiled import Announcement
 
-    return event.install_listener("numba:compile", Announcement())
+    event.register("numba:compile", Announcement())
 
 
 def show_values(values: Mapping[str, Any], as_json: bool) -> None:
@@ -243,16 +238,8 @@ def number(text: str) -> float:
     """Read a number, or a fraction such as 5/6."""
     try:
         return float(Fraction(text)) if "/" in text else float(text)
-    except (ValueError, ZeroDivisionError, OverflowError):
+    except (ValueError, ArithmeticError):
         raise argparse.ArgumentTypeError(f"{text!r} is not a number or a fraction such as 5/6") from None
-
-
-def whole(text: str) -> int:
-    """Read a whole number."""
-    try:
-        return int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number such as 1000") from None
 
 
 def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
@@ -260,18 +247,14 @@ def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
 
     def group(title: str, about: str) -> Callable[..., object]:
         options: Any = command.add_argument_group(title, about) if is_shown else command
-
-        def add(name: str, help: str, **how: Any) -> None:
-            option = f"--{name.replace('_', '-')}"
-            options.add_argument(option, help=help if is_shown else argparse.SUPPRESS, **how)
-
-        return add
+        return lambda name, **how: options.add_argument(
+            f"--{name.replace('_', '-')}", **how if is_shown else how | {"help": argparse.SUPPRESS}
+        )
 
     add = group("the chain", "the defaults are the paper's")
     add("theta", metavar="X", help='non-uniformity of the normal loading, for example "5/6" (0)')
-    add("blocks", dest="n_blocks", type=whole, metavar="N", help="number of blocks (10)")
-    text = "table with the normal load of each block [N]; replaces --theta, --blocks and --normal-load"
-    add("weights", metavar="FILE", help=text)
+    add("blocks", dest="n_blocks", type=int, metavar="N", help="number of blocks (10)")
+    add("weights", metavar="FILE", help="normal loads [N]; replaces --theta, --blocks and --normal-load")
     for name, (default, meaning) in CHAIN.items():
         add(name, type=number, metavar="X", help=f"{meaning} ({default})")
     add = group("a larger chain", "each adds to the paper's chain; 0 by default")
@@ -281,15 +264,15 @@ def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
     add("duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
     text = "stop at the end of the first global slip"
     add("until_global_slip", dest="until", action="store_const", const="global slip", help=text)
-    add("max_transitions", type=whole, metavar="N", help="limit of transitions")
+    add("max_transitions", type=int, metavar="N", help="limit of transitions")
 
 
-def add_options(command: argparse.ArgumentParser, name: str, shows_all: bool = False) -> None:
+def add_options(command: Parser, name: str, shows_all: bool = False) -> Parser:
     """Add the options of a command; those of a chain stand in the help of `simulate` only, or of all."""
     add = command.add_argument
     if name == "audit":
         add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
-        return
+        return command
     output: dict[str, Any] = {"type": Path, "metavar": "FILE"}
     add_chain(command, is_shown=shows_all or name == "simulate")
     if name == "simulate":
@@ -301,18 +284,18 @@ def add_options(command: argparse.ArgumentParser, name: str, shows_all: bool = F
         add("--counted", action="store_true", help="only the events counted in Fig. 13")
         add("--output", help="write the table with every digit (CSV)", **output)
     elif name == "plot":
-        kinds, meaning = ["load", "lengths"], "as Figs. 10 to 12 (load), or as Fig. 13 (lengths)"
-        add("--figure", choices=kinds, default="load", help=meaning)
-        text = "draw a measurement over it: a table with t [s] and F_X [N], or with F_X [N] and L_p/L"
-        add("--data", metavar="FILE", help=text)
+        add("--figure", choices=["load", "lengths"], default="load", help="as Fig. 10, or as Fig. 13")
+        add("--data", metavar="FILE", help="measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it")
         add("--width", type=number, metavar="MM", help="width of the figure [mm] (178, or 85 for lengths)")
         add("--font-size", type=number, default=8.0, metavar="PT", help="size of the text [pt] (8)")
         add("--font", default="DejaVu Sans", metavar="NAME", help="an installed font (DejaVu Sans)")
         add("--title", metavar="TEXT", help="title of the figure")
         add("--no-inset", dest="inset", action="store_false", help="without the magnified view")
-        text = f"a {', '.join(FIGURE_ENDINGS)} file (precursors.png)"
-        add("--output", default=Path("precursors.png"), help=text, **output)
+        add(
+            "--output", default=Path("precursors.png"), help="PNG, SVG, PDF or EPS (precursors.png)", **output
+        )
     add("--json", action="store_true", help="print one JSON value")
+    return command
 
 
 COMMANDS: dict[str, tuple[Callable[[argparse.Namespace], None], str]] = {
@@ -330,24 +313,16 @@ class Parser(argparse.ArgumentParser):
         """Exit with one line on standard error."""
         message = message.replace("ignored explicit argument", "takes no value, but has")
         choices = re.findall(r"\w+", message.partition("choose from")[2])
-        known = choices or re.findall(r"--[a-z][a-z-]+", " ".join(map(help_of, COMMANDS)))
+        helps = [add_options(Parser(), name).format_help() for name in COMMANDS]
+        known = choices or re.findall(r"--[a-z][a-z-]+", " ".join(helps))
         wrong = re.search(r"(?:arguments: |choice: ')([\w-]+)", message)
-        near = get_close_matches(wrong[1], known, 1) if wrong else []
-        hint = f"; did you mean {near[0]}?" if near else ""
+        near = get_close_matches(wrong[1] if wrong else "", known, 1)
+        hint = "".join(f"; did you mean {option}?" for option in near)
         self.exit(WRONG_USE, f"{self.prog}: {message}{hint} (see {self.prog} --help)\n")
-
-
-def help_of(name: str) -> str:
-    """The options of a command, in words."""
-    command = Parser()
-    add_options(command, name)
-    return command.format_help()
 
 
 def print_version() -> None:
     """Print the version, and in a checkout the commit and its software hash identifiers."""
-    from importlib.metadata import version
-
     from precursors.support.provenance import git_state
 
     print(f"precursors {version('precursors')}")
@@ -396,12 +371,14 @@ def main(argv: Sequence[str] | None = None) -> int:
         top.error(f"needed is one of {', '.join(COMMANDS)}")
     try:
         if getattr(arguments, "output", None):
-            check_writable(arguments.output, FIGURE_ENDINGS if arguments.command == "plot" else ())
+            is_figure = arguments.command == "plot"
+            check_writable(arguments.output, (".png", ".svg", ".pdf", ".eps") if is_figure else ())
         if arguments.version:
             print_version()
         else:
-            with announcing(arguments.command):
-                arguments.run(arguments)
+            if arguments.command != "audit":  # which needs no compiler
+                announce_compiling()
+            arguments.run(arguments)
         if sys.stdout:  # None where it was closed
             sys.stdout.flush()
         return DONE
@@ -409,14 +386,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     except KeyboardInterrupt:
-        code, message = INTERRUPTED, "interrupted"
-    except (RuntimeError, ArithmeticError) as error:
-        code, message = REFUSED, str(error)
+        code, lines = INTERRUPTED, ["interrupted"]
+    except Refused as error:
+        code, lines = REFUSED, list(error.args)
     except ModuleNotFoundError as error:
-        code, message = NOT_INSTALLED, f"{error}: install it to use this"
+        code, lines = NOT_INSTALLED, [f"{error}: install it to use this"]
     except (ValueError, MemoryError) as error:
-        code, message = WRONG_USE, str(error) or "not enough memory for so many blocks or runs"
+        code, lines = WRONG_USE, [str(error) or "not enough memory for so many blocks or runs"]
     except OSError as error:
-        code, message = FILE, f"{error.filename}: {error.strerror}" if error.filename else str(error)
-    print(f"precursors {arguments.command}: {' '.join(message.split())}", file=sys.stderr)
+        code, lines = FILE, [f"{error.filename}: {error.strerror}" if error.filename else str(error)]
+    for line in lines:
+        print(f"precursors {arguments.command}: {' '.join(line.split())}", file=sys.stderr)
     return code
