@@ -61,7 +61,7 @@ codecheck: $(READY)
 	@$(BIN)/python workflow/scripts/codecheck.py
 
 golden: results $(DEV)
-	PYTHONPATH=tests $(BIN)/python -m golden.regenerate
+	PYTHONPATH=tests:workflow/scripts $(BIN)/python -m golden.regenerate
 
 # Pages of the interface, from the docstrings, and of docs/, in results/docs.
 docs: $(DEV)

@@ -83,7 +83,7 @@ SETTINGS = {"CHARTED", "values", "quick", "whole", "quick_whole", "ROUNDS"}  # w
 NEUTRAL = {"strict", "frozen", "slots", "exist_ok", "parents", "stacklevel", "maxsize", "nogil", "cache"}
 NEUTRAL |= {"positive", "real", "indent", "eq", "forceinline", "flush"}
 # Of arrays that grow as needed, of batches and of a line of the cache: runs do not depend on them.
-ROOM = {"FIRST_ROOM", "SHARED_ROOM", "LARGEST_BATCH", "BATCHES_PER_THREAD"}
+ROOM = {"FIRST_ROOM", "SHARED_ROOM", "LARGEST_BATCH", "BATCHES_PER_THREAD", "BLOCKS_PER_BATCH"}
 ROOM |= {"WINDOWS_PER_CALL", "KEPT", "LINE"}
 LAYOUT = {"align_ylabels", "grid", "minorticks_off", "set_major_locator", "set_minor_locator", "tick_params"}
 LAYOUT |= {"subplots_adjust", "tick_top"}

@@ -27,7 +27,6 @@ from precursors.ensembles.event_law import event_law_tables
 from precursors.ensembles.printed_digits import digits_tables
 from precursors.ensembles.studies import MAP
 from precursors.ensembles.study import gather, run_members
-from precursors.ensembles.theta_window import theta_window_tables
 from precursors.hierarchy.compare_models import compare_models
 from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 from precursors.hierarchy.larger_study import larger_tables
@@ -93,8 +92,7 @@ def definitions() -> pd.DataFrame:
     """Readings for one other size of theta, with one drop of the load."""
     slider, paper = CONFIG["chain"], [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)]
     runs = [simulate(Chain.from_slider(**slider, theta=theta), 3.0) for theta in ("-5/6", 0, "5/6")]
-    table = definitions_table(runs, slider, 3.0, [0.833], [5.0], paper)
-    return table.drop(columns=[column for column in table if column.endswith("_paper")])
+    return definitions_table(runs, slider, 3.0, [0.833], [5.0], paper)
 
 
 # Chain, start [m, m/s], and number of transitions.
@@ -157,15 +155,35 @@ def studies() -> dict[str, pd.DataFrame]:
     tables = noise.noise_tables(chunks("noise_members", seed=1, runs=8))
     few = chunks("resolution_members", seed=1, n_blocks=[2, 4], runs=[6, 6])
     law = chunks("event_law_members", seed=1, runs=6, n_blocks=[3, 4], middle=4)
-    window = chunks("theta_window_members", window=0.0034, points=3)
     return {
         **tables,
         **digits_tables(chunks("digits_members", seed=1, draws=8), PAPER),
         **resolution.resolution_tables(few, tables["noise_members"], CONFIG["chain"], "fig10", 2),
         **event_law_tables(law, CONFIG["chain"]),
-        **theta_window_tables(window),
         "map": gather(chunks(MAP, points=12)),
     }
+
+
+def members() -> pd.DataFrame:
+    """Every column of the members of each study: the sum of its squares, and its product with 0, 1, 2, ..."""
+    settings: dict[str, dict[str, object]] = {
+        "noise_members": {"seed": 1, "runs": 8},
+        "digits_members": {"seed": 1, "draws": 8},
+        "theta_window_members": {"window": 0.2, "points": 3},  # up to -1 and 1
+        "resolution_members": {"seed": 1, "n_blocks": [2, 10, 12], "runs": [6, 9, 3]},
+        "event_law_members": {"seed": 1, "runs": 6, "n_blocks": [3, 4], "middle": 4},
+        MAP: {"points": 12},
+    }
+    rows = []
+    for name, own in settings.items():
+        study = study_of(name, own)
+        for column, values in study.members.items():
+            is_text = not pd.api.types.is_numeric_dtype(values)
+            numbers = values.factorize()[0] if is_text else values.to_numpy(float)
+            sums = {"squares": numbers @ numbers, "in_order": numbers @ np.arange(len(numbers))}
+            rows.append({"study": name, "column": column, "n": len(numbers), **sums})
+        rows.append({"study": name, "column": "seed", "n": 1, "squares": study.seed, "in_order": 0.0})
+    return pd.DataFrame(rows)
 
 
 def larger_runs() -> pd.DataFrame:
@@ -214,9 +232,10 @@ TABLES: dict[str, Callable[[], pd.DataFrame]] = {
         name: partial(lambda name: studies()[name], name)
         for name in (
             *("noise", "noise_differences", "digits", "resolution", "counts_by_n", "resolution_limits"),
-            *("resolution_exponents", "event_law", "theta_window", "map"),
+            *("event_law", "map"),
         )
     },
+    "members": members,
     "measures": lambda: measures_table(
         {theta: simulate(Chain.from_slider(theta=theta), until="global slip") for theta in ("-5/6", "5/6")}
     ),

@@ -10,8 +10,8 @@ import pandas as pd
 import pytest
 
 ROOT = Path(__file__).parents[2]
-TABLES = ROOT / "results/tables"
 PAGE = " ".join((ROOT / "docs/numbers.md").read_text(encoding="utf-8").split())
+THETAS = ("fig11", "fig10", "fig12")
 # Exponents differ from one processor to another by some hundredths: to this they are what is said.
 EXPONENT = 0.1
 
@@ -23,60 +23,48 @@ def said(pattern: str) -> list[float]:
     return [float(text) for text in found.groups()]
 
 
-def test_lyapunov_exponents_and_times_of_growth():
-    table = pd.read_csv(TABLES / "lyapunov.csv")
+def table(name: str, *index: str) -> pd.DataFrame:
+    found = pd.read_csv(ROOT / f"results/tables/{name}.csv")
+    return found.set_index(list(index)) if index else found
+
+
+def test_lyapunov_exponents_and_times_of_growth_and_errors_at_ten_seconds():
+    lyapunov = table("lyapunov")
     least, most = said(r"exponents are ([\d.]+) to ([\d.]+) per second")
-    assert least - EXPONENT <= table["exponent_per_s"].min()
-    assert table["exponent_per_s"].max() <= most + EXPONENT
+    assert lyapunov["exponent_per_s"].between(least - EXPONENT, most + EXPONENT).all()
     narrow, wide = said(r"of \+-([\d.]+) to \+-([\d.]+):")
-    assert table["uncertainty_per_s"].round(1).between(narrow, wide).all()
+    assert lyapunov["uncertainty_per_s"].round(1).between(narrow, wide).all()
     fast, slow = said(r"tenfold in ([\d.]+) to ([\d.]+) s")
     assert [fast, slow] == [round(math.log(10) / most, 1), round(math.log(10) / least, 1)]
-
-
-def test_errors_of_times_at_ten_seconds():
-    table = pd.read_csv(TABLES / "solver_vs_proof.csv").set_index("chain")
-    errors = table.loc[["trailing", "uniform", "leading"], "time_error_while_agreeing_s"]
+    errors = table("solver_vs_proof", "chain")["time_error_while_agreeing_s"]
     (bound,) = said(r"first global slip and ([\de-]+) s at 10 s")
-    assert errors.max() < bound
+    assert errors[["trailing", "uniform", "leading"]].max() < bound
 
 
 def test_the_printed_digits_do_not_settle_the_coefficient():
-    table = pd.read_csv(TABLES / "digits.csv").set_index(["scene", "quantity", "question"])
-    shares = ["share", "low", "high"]
-    each = [table.loc[(scene, "mu_sapp", "as printed"), "share"] for scene in ("fig11", "fig10", "fig12")]
-    same = table.loc[("all", "mu_sapp", "same mu_sapp"), shares]
-    six = table.loc[("all", "all", "all six numbers"), shares]
-    # Draws near a jump fall on other sides on other processors.
-    assert [100 * share for share in each] == pytest.approx(
-        said(r"0.705\), (\d+), (\d+) and (\d+) % have mu_sapp"), abs=1.5
-    )
-    assert (100 * same).tolist() == pytest.approx(
-        said(r"In ([\d.]+) % \(95 % interval: ([\d.]+) to ([\d.]+) %\) the three"), abs=0.6
-    )
-    (below,) = said(r"In none \(below ([\d.]+) %\) all six")
-    assert six["share"] == 0
-    assert 100 * six["high"] == pytest.approx(below, abs=0.05)
+    """Draws near a jump fall on other sides on other processors."""
+    shares = 100 * table("digits", "scene", "quantity", "question")[["share", "low", "high"]]
+    each = [shares["share"][scene, "mu_sapp", "as printed"] for scene in THETAS]
+    assert each == pytest.approx(said(r"0.705\), (\d+), (\d+) and (\d+) % have mu_sapp"), abs=1.5)
+    same = said(r"In ([\d.]+) % \(95 % interval: ([\d.]+) to ([\d.]+) %\) the three")
+    assert shares.loc["all", "mu_sapp", "same mu_sapp"].tolist() == pytest.approx(same, abs=0.6)
+    six, _, high = shares.loc["all", "all", "all six numbers"]
+    assert [six, high] == pytest.approx([0.0, *said(r"In none \(below ([\d.]+) %\) all six")], abs=0.05)
 
 
 def test_medians_with_noise_are_the_same_at_two_loadings_and_differ_at_the_third():
-    noise = pd.read_csv(TABLES / "noise.csv").set_index(["scene", "quantity"])
-    medians = [noise.loc[(scene, "mu_sapp"), "q50"] for scene in ("fig11", "fig10", "fig12")]
-    assert medians == pytest.approx(said(r"mu_sapp is ([\d.]+), ([\d.]+) and ([\d.]+) \(1000 runs"), abs=2e-3)
-    table = pd.read_csv(TABLES / "noise_differences.csv")
-    pairs = table[table["quantity"] == "mu_sapp"].set_index(["scene", "other"])
-    assert pairs["verdict"].to_dict() == {
-        ("fig10", "fig11"): "same",
-        ("fig12", "fig11"): "different",
-        ("fig12", "fig10"): "different",
-    }
-    at_plus = pairs.drop(index=("fig10", "fig11"))
-    least, most = said(r"at \+5/6 is larger by ([\d.]+) to ([\d.]+)\.")
-    assert [at_plus["low"].min(), at_plus["high"].max()] == pytest.approx([least, most], abs=1.5e-3)
+    noise = table("noise", "scene", "quantity")["q50"]
+    expected = said(r"mu_sapp is ([\d.]+), ([\d.]+) and ([\d.]+) \(1000 runs")
+    assert [noise[scene, "mu_sapp"] for scene in THETAS] == pytest.approx(expected, abs=2e-3)
+    pairs = table("noise_differences").query("quantity == 'mu_sapp'").set_index(["scene", "other"])
+    same = pairs.pop("verdict") == "same"
+    assert same[same].index.tolist() == [("fig10", "fig11")]
+    at_plus = pairs.loc["fig12"]
+    found = [at_plus["low"].min(), at_plus["high"].max()]
+    assert found == pytest.approx(said(r"at \+5/6 is larger by ([\d.]+) to ([\d.]+)\."), abs=1.5e-3)
 
 
 def test_the_apparent_friction_falls_to_mu_k_with_the_number_of_blocks():
-    table = pd.read_csv(TABLES / "resolution_limits.csv")
-    friction = table[table["quantity"] == "mu_sapp"]
+    friction = table("resolution_limits", "quantity")["a"]["mu_sapp"]
     (unit,) = said(r"falls to mu_k, within ([\d.]+),")
-    assert ((friction["a"] - 0.45).abs() < unit).all()
+    assert ((friction - 0.45).abs() < unit).all()

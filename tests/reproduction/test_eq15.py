@@ -21,13 +21,8 @@ KEPT = 1e-9
 
 
 @pytest.fixture(scope="module")
-def speeds():
-    return eq15.drive_speeds_table(CHAINS)
-
-
-@pytest.fixture(scope="module")
-def table(speeds):
-    return eq15.eq15_table({name: simulate(chain, 10.0) for name, chain in CHAINS.items()}, 10.0, speeds)
+def table():
+    return eq15.eq15_table({name: simulate(chain, 10.0) for name, chain in CHAINS.items()}, 10.0)
 
 
 def test_every_check_holds_with_the_numbers_that_are_kept(table):
@@ -64,13 +59,6 @@ def test_eq_12_as_printed_differs_in_its_last_line_only(n):
     assert wrong == [n - 1]
 
 
-def test_eq_15_breaks_in_motion_where_the_drive_is_fast_and_only_there(speeds):
-    passes = speeds["largest_load_over_normal_load"] > speeds["mu_s"]
-    fast = speeds["drive_velocity_m_per_s"] > 1.25
-    assert (passes == fast).all()
-    assert set(speeds["scene"]) == set(SCENES)
-
-
 def test_the_load_of_a_rigid_slider_is_that_of_the_closed_form():
     """One block with mu_s = mu_k: at most F_X = mu_k F_Z + V sqrt(K M)."""
     block = replace(Chain.from_slider(n_blocks=1), mu_s=0.45)
@@ -93,8 +81,7 @@ def test_the_state_of_eq_12_is_at_the_limit():
 
 def test_four_times_the_mass_halves_the_speed_at_which_the_bound_breaks(table):
     heavy = replace(CHAIN, mass=4.0 * CHAIN.mass)
-    loads = [eq15.largest_load(heavy, speed) / heavy.normal_load for speed in eq15.SPEEDS]
-    row = eq15.fast_drive("fig10", heavy, np.array(loads))
+    row = eq15.fast_drive("fig10", heavy)
     light = table[(table["check"] == eq15.FAST) & (table["case"] == "fig10")]
     assert row.holds
     assert row.found == pytest.approx(float(light["found"].item()) / 2, rel=0.02)
@@ -136,7 +123,7 @@ def test_the_motion_sees_a_start_at_less_strain(monkeypatch):
 @pytest.mark.parametrize(
     ("name", "factor", "failing"),
     [
-        ("mu_s", 1.0 + 1e-9, [eq15.FULL_STRAIN, eq15.LESS_STRAIN, eq15.RIGID]),
+        ("mu_s", 1.0 + 1.4e-11, [eq15.FULL_STRAIN, eq15.LESS_STRAIN, eq15.RIGID]),
         ("stiffness", 1.01, [eq15.LESS_STRAIN]),
         ("mu_k", 0.5, [eq15.FAST]),
     ],
@@ -146,11 +133,10 @@ def test_the_motion_sees_another_chain_than_the_one_it_is_about(monkeypatch, nam
         return simulate(replace(chain, **{name: factor * getattr(chain, name)}), *arguments, **options)
 
     monkeypatch.setattr(eq15, "simulate", of_another)
-    loads = np.array([eq15.largest_load(CHAIN, speed) for speed in eq15.SPEEDS]) / CHAIN.normal_load
     rows = [
         *eq15.in_motion("fig10", CHAIN, 10.0),
         eq15.rigid(CHAIN, 10.0),
-        eq15.fast_drive("fig10", CHAIN, loads),
+        eq15.fast_drive("fig10", CHAIN),
     ]
     assert [row.check for row in rows if not row.holds] == failing
 

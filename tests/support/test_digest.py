@@ -43,60 +43,35 @@ def root(tmp_path):
     return tmp_path
 
 
-def changes(root, name, text, *modules):
-    """Whether the digest of script.py is another one after a file has got this text."""
+SCRIPT_FILE, SUMS_FILE = "workflow/scripts/script.py", "src/precursors/room/sums.py"
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "modules", "changes"),
+    [
+        (SCRIPT_FILE, SCRIPT.replace("Add.", "Add two numbers."), [], False),
+        (SUMS_FILE, SUMS.replace("Add.", "Add it."), [], False),
+        (SUMS_FILE, SUMS.replace("a + b", "(a\n        + b)  # all"), [], False),
+        ("workflow/scripts/other.py", "x = 2\n", [], False),
+        ("src/precursors/room/unused.py", "x = 2\n", [], False),
+        ("src/precursors/room/types.py", "x = 2\n", [], False),
+        ("src/precursors/named.py", "x = 2\n", [], False),
+        ("src/precursors/named.py", "x = 2\n", ["named"], True),
+        (SCRIPT_FILE, f"{SCRIPT}x = 1\n", [], True),
+        ("workflow/scripts/helper.py", "def help_out():\n    return 2\n", [], True),
+        (SUMS_FILE, SUMS.replace("a + b", "a - b"), [], True),
+        ("src/precursors/parts/one.py", "x = 2\n", [], True),  # by a name that only a run knows
+    ],
+)
+def test_the_digest_changes_with_what_the_script_computes_and_with_nothing_else(
+    root, name, text, modules, changes
+):
     digests = []
     for content in (FILES[name], text):
         (root / name).write_text(content, encoding="utf-8")
         digest._read.cache_clear()
         digests.append(digest.digest_code(root, "script", *modules))
-    return digests[0] != digests[1]
-
-
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("workflow/scripts/script.py", SCRIPT.replace("Add.", "Add two numbers.")),
-        ("src/precursors/room/sums.py", SUMS.replace("Add.", "Add it.")),
-        (
-            "src/precursors/room/sums.py",
-            "def add(a, b):\n    from precursors import parts  # all\n    return (a\n        + b)\n",
-        ),
-        ("workflow/scripts/other.py", "x = 2\n"),
-        ("src/precursors/room/unused.py", "x = 2\n"),
-        ("src/precursors/room/types.py", "x = 2\n"),
-        ("src/precursors/named.py", "x = 2\n"),
-    ],
-    ids=[
-        "docstring of the script",
-        "docstring",
-        "comment and format",
-        "script",
-        "module",
-        "types",
-        "by name",
-    ],
-)
-def test_what_is_not_computed_does_not_change_it(root, name, text):
-    assert not changes(root, name, text)
-
-
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("workflow/scripts/script.py", f"{SCRIPT}x = 1\n"),
-        ("workflow/scripts/helper.py", "def help_out():\n    return 2\n"),
-        ("src/precursors/room/sums.py", SUMS.replace("a + b", "a - b")),
-        ("src/precursors/parts/one.py", "x = 2\n"),
-    ],
-    ids=["the script", "beside it", "a module", "imported by a name that only a run knows"],
-)
-def test_what_the_script_computes_changes_it(root, name, text):
-    assert changes(root, name, text)
-
-
-def test_a_module_that_the_rule_names_belongs_to_it(root):
-    assert changes(root, "src/precursors/named.py", "x = 2\n", "named")
+    assert (digests[0] != digests[1]) == changes
 
 
 def test_a_script_that_is_not_there_is_named(root):

@@ -39,7 +39,6 @@ MORE_SCENES = """\
     title: what a smaller model says
     theta: "9/10"
     model: law
-
 """
 
 
@@ -51,27 +50,26 @@ class Outcome:
     text: str
 
     @property
-    def plan(self) -> list[tuple[str, set[str], set[str]]]:
-        """Jobs that were run or would be, such as "draw_scene fig10", with their inputs and outputs."""
+    def plan(self) -> list[tuple[str, set[str]]]:
+        """Jobs that were run or would be, such as "simulate_scene fig10", with their outputs."""
         found = []
-        for block in re.split(r"\n(?=(?:local)?(?:rule|checkpoint) \w+:)", self.text):
+        for block in re.split(r"\n(?=(?:local)?rule \w+:)", self.text):
             if rule := re.match(r"(?:local)?rule (\w+):", block):
                 scene = re.search(r"wildcards: scene=(\S+)", block)
-                inputs, outputs = (
-                    {
-                        file
-                        for files in re.findall(rf"\n    {kind}: (.+)", block)
-                        for file in files.split(", ")
-                    }
-                    for kind in ("input", "output")
-                )
-                found.append((f"{rule[1]} {scene[1]}" if scene else rule[1], inputs, outputs))
+                outputs = re.search(r"\n    output: (.+)", block)
+                job = f"{rule[1]} {scene[1]}" if scene else rule[1]
+                found.append((job, set(outputs[1].split(", ")) if outputs else set()))
         return found
 
     @property
     def jobs(self) -> set[str]:
         """The jobs, without the two that come after whatever is run."""
-        return {job for job, _, _ in self.plan} - {"all", "write_provenance"}
+        return {job for job, _ in self.plan} - {"all", "write_provenance"}
+
+    @property
+    def made(self) -> set[str]:
+        """The outputs of all jobs."""
+        return set().union(*(outputs for _, outputs in self.plan))
 
 
 @dataclass(frozen=True)
@@ -93,7 +91,7 @@ class Workspace:
 
     def pretend(self, *targets: str) -> Outcome:
         """Make what is missing of the targets, with the name of its rule as its content."""
-        for job, _, outputs in self.run("-n", *targets).plan:
+        for job, outputs in self.run("-n", *targets).plan:
             for name in outputs:
                 (self.path / name).parent.mkdir(parents=True, exist_ok=True)
                 (self.path / name).write_text(job, encoding="utf-8")
@@ -106,16 +104,15 @@ class Workspace:
         return outcome.jobs
 
     def edit(self, name: str, old: str, new: str) -> None:
-        """Replace a text that stands in a file exactly once."""
+        """Replace a text that stands in a file exactly once, or add one to its end if there is no old one."""
         file = self.path / name
         text = file.read_text(encoding="utf-8")
-        assert text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {name}"
-        file.write_text(text.replace(old, new), encoding="utf-8")
+        assert not old or text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {name}"
+        file.write_text(text.replace(old, new) if old else text + new, encoding="utf-8")
 
-    def append(self, name: str, text: str) -> None:
-        """Add a text to the end of a file."""
-        with (self.path / name).open("a", encoding="utf-8") as file:
-            file.write(text)
+    def add_scenes(self, scenes: str) -> None:
+        """Add scenes to the configuration, as they are written there."""
+        self.edit("config.yaml", "\nfig13: [", f"{scenes}\nfig13: [")
 
     def results(self) -> dict[str, tuple[int, bytes]]:
         """Time of change and content of every file in results."""
@@ -153,7 +150,7 @@ def workspace(tmp_path: Path) -> Workspace:
 @pytest.fixture(scope="session")
 def _finished(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
     workspace = copy_workflow(tmp_path_factory.mktemp("finished") / "copy")
-    workspace.edit("config.yaml", "\nfig13: [", f"{MORE_SCENES}fig13: [")
+    workspace.add_scenes(MORE_SCENES)
     outcome = workspace.pretend("all")
     assert outcome.code == 0, outcome.text
     return workspace

@@ -1,20 +1,8 @@
 """Snakemake refuses a wrong configuration or directory in one line, and touches nothing."""
 
-import shutil
-
 import pytest
-from conftest import Workspace
 
 from precursors import Run
-
-
-@pytest.fixture(scope="module")
-def finished(_finished, tmp_path_factory):
-    """Shared by tests that bring a configuration each: where it is refused, all else stays as it is."""
-    workspace = Workspace(tmp_path_factory.mktemp("bad") / "copy")
-    shutil.copytree(_finished.path, workspace.path)
-    shutil.copy(workspace.path / "config.yaml", workspace.path / "good.yaml")
-    return workspace
 
 
 @pytest.mark.parametrize(
@@ -33,9 +21,7 @@ def finished(_finished, tmp_path_factory):
     ],
 )
 def test_a_wrong_configuration_is_refused_in_one_line(finished, old, new, words):
-    text = (finished.path / "good.yaml").read_text(encoding="utf-8")
-    assert old in text
-    (finished.path / "config.yaml").write_text(text.replace(old, new, 1), encoding="utf-8")
+    finished.edit("config.yaml", old, new)
     before = finished.results()
     outcome = finished.run("-c1", "all")
     assert outcome.code != 0

@@ -2,6 +2,7 @@
 
 import re
 import shutil
+from collections import Counter
 
 import pandas as pd
 import pytest
@@ -9,44 +10,17 @@ from conftest import ROOT, copy_workflow
 
 from precursors.hierarchy.models import scene_answers
 
-PAPERS = ("fig10", "fig11", "fig12")
+PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all lists of jobs.
-ON_DEMAND = {
-    "certify_scene",
-    "prove_again",
-    "write_provenance",
-}
+ON_DEMAND = {"certify_scene", "prove_again", "write_provenance"}
 # The paper shows nearly all tables and figures, and is set again when one of them may change.
 PAPER = {"write_paper"}
-LISTS_OF_SCENES = {
-    "tabulate_reproduction",
-    "tabulate_claims",
-    "draw_reproduction",
-    "write_explorer",
-} | PAPER
+LISTS_OF_SCENES = {"tabulate_reproduction", "tabulate_claims", "draw_reproduction", "write_explorer"} | PAPER
 CODE = "\nADDED = 1\n"  # to a module
-# A name that looks like that of a table.
-SCENE = """\
-  fig10_slips:
-    title: nearly all of the load at the leading edge
-    theta: "9/10"
-    duration: 1.0
-"""
-ASKED = """\
-  asked:
-    title: what the chain says
-    theta: "9/10"
-    model: chain
-"""
 
 
-def of(*scenes):
-    """The jobs of some scenes."""
-    return {f"simulate_scene {scene}" for scene in scenes}
-
-
-def add(workspace, scene):
-    workspace.edit("config.yaml", "\nfig13: [", f"{scene}\nfig13: [")
+def scene(name: str, line: str) -> str:
+    return f'  {name}:\n    title: nearly all at the leading edge\n    theta: "9/10"\n    {line}\n'
 
 
 def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
@@ -60,36 +34,21 @@ def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
         if "\n    output:" in text
     }
     assert rules - {"simulate_scene"} - ON_DEMAND <= outcome.jobs
-    assert of(*PAPERS) <= outcome.jobs
+    assert outcome.jobs >= PAPERS
     assert not ON_DEMAND & outcome.jobs
     assert not (workspace.path / "results").exists()
 
 
-def test_a_second_run_has_nothing_to_do(finished):
+def test_words_format_and_touch_run_nothing_again(finished):
     before = finished.results()
+    for file in [*finished.path.glob("src/**/*.py"), *finished.path.glob("workflow/scripts/*.py")]:
+        text = file.read_text(encoding="utf-8").replace('"""', '"""Other words. ', 1)
+        file.write_text(f"{text}\n\n# more words\n", encoding="utf-8")
+    finished.edit("config.yaml", "", "# more words\n")
     outcome = finished.run("-c2", "all")
     assert outcome.code == 0
     assert "Nothing to be done" in outcome.text
     assert finished.results() == before
-
-
-def test_the_provenance_comes_after_all_figures(untouched):
-    (needed,) = [inputs for job, inputs, _ in untouched[1].plan if job == "write_provenance"]
-    made = set().union(*(outputs for _, _, outputs in untouched[1].plan))
-    figures = {file for file in made if file.startswith("results/figures/") and file.endswith(".svg")}
-    assert len(figures) > 10
-    assert figures <= needed
-
-
-# What an edit runs again
-
-
-def test_words_format_and_touch_run_nothing_again(finished):
-    for file in [*finished.path.glob("src/**/*.py"), *finished.path.glob("workflow/scripts/*.py")]:
-        text = file.read_text(encoding="utf-8").replace('"""', '"""Other words. ', 1)
-        file.write_text(f"{text}\n\n# more words\n", encoding="utf-8")
-    finished.append("config.yaml", "# more words\n")
-    assert finished.would_run() == set()
 
 
 def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(finished, tmp_path):
@@ -98,7 +57,7 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(fi
     for name in ("results", ".snakemake/metadata"):
         shutil.copytree(finished.path / name, clone.path / name, copy_function=shutil.copyfile)
     assert clone.would_run() == set()
-    clone.append("src/precursors/figures/theta_window.py", CODE)
+    clone.edit("src/precursors/figures/theta_window.py", "", CODE)
     assert clone.would_run() == {"draw_ensembles"} | PAPER
 
 
@@ -113,46 +72,45 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(fi
             {"take", "run_chunk", "simulate"},
         ),
         ("analysis/slips", {"simulate_scene fig10", "tabulate_reproduction"}, {"take_certificates"}),
-        ("solver/kernel/events", of(*PAPERS) | {"run_chunk"}, set()),
+        ("solver/kernel/events", PAPERS | {"run_chunk"}, set()),
     ],
 )
 def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(finished, module, run, left):
-    finished.append(f"src/precursors/{module}.py", CODE)
+    finished.edit(f"src/precursors/{module}.py", "", CODE)
     jobs = finished.would_run()
     assert run <= jobs
     assert not [job for job in jobs if job.startswith(tuple(left))]
 
 
-def test_an_edit_of_the_paper_sets_it_again(finished):
-    finished.append("paper/paper.typ", "\n// edited\n")
-    assert finished.would_run() == PAPER
-
-
-# What an edit of the configuration runs again
-
-
-def test_four_lines_make_a_new_scene_of_any_name(finished):
-    add(finished, SCENE)
-    assert finished.would_run() == of("fig10_slips") | LISTS_OF_SCENES
-
-
-def test_an_edit_of_a_scene_runs_that_scene_only_and_another_model_answers_its_own(finished):
-    finished.edit("config.yaml", 'leading edge\n    theta: "9/10"', 'leading edge\n    theta: "8/10"')
-    finished.edit("config.yaml", "model: law", "model: rigid")
-    assert finished.would_run() == of("steep") | LISTS_OF_SCENES | {"tabulate_quick_answers"}
-    assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
-
-
 @pytest.mark.parametrize(
-    ("old", "new", "jobs"),
+    ("file", "old", "new", "jobs"),
     [
-        ("title: uniform normal loading", "title: the same load", {"draw_reproduction", "write_explorer"}),
-        ("figure: {}", "figure: {width_mm: 85, font_size: 9}", {"draw_reproduction"}),
+        ("paper/paper.typ", "", "\n// edited\n", PAPER),
+        (
+            "config.yaml",
+            "title: uniform normal loading",
+            "title: the same",
+            {"draw_reproduction", "write_explorer"},
+        ),
+        ("config.yaml", "figure: {}", "figure: {width_mm: 85, font_size: 9}", {"draw_reproduction"}),
+        (
+            "config.yaml",
+            'edge\n    theta: "9/10"\n',
+            'edge\n    theta: "8/10"\n',
+            {"simulate_scene steep"} | LISTS_OF_SCENES,
+        ),
+        ("config.yaml", "model: law", "model: rigid", {"tabulate_quick_answers"}),
     ],
 )
-def test_another_title_or_look_simulates_nothing(finished, old, new, jobs):
-    finished.edit("config.yaml", old, new)
-    assert finished.would_run() - PAPER == jobs
+def test_an_edit_of_the_paper_or_of_the_configuration_runs_what_reads_it(finished, file, old, new, jobs):
+    finished.edit(file, old, new)
+    assert finished.would_run() - PAPER == jobs - PAPER
+
+
+def test_four_lines_make_a_new_scene_of_any_name_and_another_model_answers_its_own(finished):
+    finished.add_scenes(scene("fig10_slips", "duration: 1.0"))  # looks like the name of a table
+    assert finished.would_run() == {"simulate_scene fig10_slips"} | LISTS_OF_SCENES
+    assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
 
 
 def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):
@@ -178,9 +136,27 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(wo
 
 
 def test_the_answer_of_a_model_is_computed(workspace):
-    add(workspace, ASKED)
+    workspace.add_scenes(scene("asked", "model: chain"))
     outcome = workspace.run("-c1", "results/tables/asked_answers.csv")
     assert outcome.code == 0, outcome.text
     answers = pd.read_csv(workspace.path / "results/tables/asked_answers.csv")
     expected = scene_answers({"theta": "9/10"}, "chain").reset_index(drop=True)
     pd.testing.assert_frame_equal(answers, expected, check_dtype=False)
+
+
+def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(workspace):
+    grid, noise = "map_theta_friction_ratio", "noise_members"
+    tables = [f"results/tables/{study}.csv" for study in (grid, noise)]
+    workspace.edit("config.yaml", "chunks: 1", "chunks: 2")
+    assert workspace.pretend(*tables).code == 0
+    next((workspace.path / "results/ensembles" / grid).iterdir()).unlink()
+    (workspace.path / tables[0]).unlink()
+    for old, new, expected in (
+        ("chunks: 2", "chunks: 2", {grid: 1}),
+        ("seed: 2010", "seed: 2011", {grid: 1, noise: 2}),
+        ("points: 2000", "points: 2001", {grid: 2, noise: 2}),
+        ("chunks: 2", "chunks: 7", {grid: 7, noise: 7}),
+    ):
+        workspace.edit("config.yaml", old, new)
+        made = workspace.run("-n", *tables).made
+        assert Counter(name.split("/")[2] for name in made if "/ensembles/" in name) == expected

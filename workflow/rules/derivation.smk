@@ -2,10 +2,9 @@
 
 TABLES |= {
     "eq15": {
-        "function": "reproduction.eq15:eq15_tables",
+        "function": "reproduction.eq15:eq15_table",
         "inputs": {"runs": RUNS},
         "options": {"duration": config["duration"]},
-        "tables": ["eq15", "eq15_speeds"],
         "seconds": 2,
     },
     "definitions": {
@@ -25,5 +24,4 @@ TABLES |= {
 rule eq15:
     input:
         "results/tables/eq15.csv",
-        "results/tables/eq15_speeds.csv",
     localrule: True

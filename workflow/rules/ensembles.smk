@@ -19,11 +19,6 @@ TABLES |= {
         "options": {"paper": {scene: PAPER_PRINTS[scene] for scene in config["fig13"]}},
         "beside": ["digits_members"],
     },
-    "theta_window": {
-        "function": "ensembles.theta_window:theta_window_tables",
-        "inputs": {"chunks": chunks_of(study="theta_window_members")},
-        "beside": ["theta_window_members"],
-    },
     "resolution": {
         "function": "ensembles.resolution:resolution_tables",
         "inputs": {
@@ -35,7 +30,7 @@ TABLES |= {
             "uniform": min(SLIDERS, key=lambda scene: abs(SLIDERS[scene]["theta"])),
             "extrapolate_from": config["ensembles"]["resolution"]["extrapolate_from"],
         },
-        "tables": ["resolution", "counts_by_n", "resolution_limits", "resolution_exponents"],
+        "tables": ["resolution", "counts_by_n", "resolution_limits"],
         "beside": ["resolution_members"],
     },
     "predictability": {
@@ -58,11 +53,14 @@ TABLES |= {
         "options": {"slider": config["chain"]},
         "beside": ["event_law_members"],
     },
-    MAP: {
-        "function": "ensembles.study:gather",
-        "inputs": {"chunks": chunks_of(study=MAP)},
-        "tables": [],
-        "beside": [MAP],
+    **{
+        study: {
+            "function": "ensembles.study:gather",
+            "inputs": {"chunks": chunks_of(study=study)},
+            "tables": [],
+            "beside": [study],
+        }
+        for study in ("theta_window_members", MAP)
     },
 }
 
@@ -79,7 +77,6 @@ rule ensembles:
             figure=["noise", "theta_window", "resolution", "event_law", "map_theta_friction_ratio"],
         ),
         "results/tables/digits.csv",
-        "results/tables/theta_window.csv",
     localrule: True
 
 

@@ -13,7 +13,7 @@ import pandas as pd
 
 from precursors.reproduction.claim import ENSEMBLES, KINDS, VERDICTS
 from precursors.reproduction.claims import differences, evaluate
-from precursors.reproduction.tables import Tables
+from precursors.reproduction.inputs import CLAIM_TABLES
 from precursors.support.files import read_table
 
 WIDTH = 110
@@ -21,7 +21,7 @@ WIDTH = 110
 
 def main(tables: str | Path = "results/tables", expected: str | Path = "tests/golden/claims.csv") -> None:
     """Print the claims by the tables of a directory, and exit with 1 if a verdict is unexpected."""
-    found = evaluate(Tables(tables))
+    found = evaluate({name: read_table(Path(tables, f"{name}.csv")) for name in CLAIM_TABLES})
     print("\n".join([*entries(found), *totals(found)]))
     unexpected = differences(found, read_table(expected))
     if unexpected:

@@ -6,9 +6,8 @@ from precursors.ensembles.studies import make_study
 from precursors.ensembles.study import run_members
 from precursors.support.files import write_table
 
-if __name__ == "__main__":
-    with job() as snakemake:
-        study = make_study(snakemake.wildcards.study, snakemake.params.arguments)
-        number, chunks = map(int, snakemake.wildcards.chunk.split("of"))
-        found = run_members(study.chunk(number - 1, chunks))
-        write_table(found.rename_axis("member").reset_index(), snakemake.output.chunk)
+with job() as snakemake:
+    study = make_study(snakemake.wildcards.study, snakemake.params.arguments)
+    number, chunks = map(int, snakemake.wildcards.chunk.split("of"))
+    found = run_members(study.chunk(number - 1, chunks))
+    write_table(found.rename_axis("member").reset_index(), snakemake.output.chunk)

@@ -1,7 +1,11 @@
-"""Simulate a scene: its run, its slips and its load curve."""
+"""Simulate a scene: its run, its slips and its load curve.
+
+The slip table has every event; `counted` tells those of Fig. 13. The trace is the exact tangential load at
+points between which it is straight to 1e-4 N, every transition among them. A run that meets its cap on
+transitions is kept too.
+"""
 
 from pathlib import Path
-from typing import Any
 
 from job import job
 
@@ -12,38 +16,20 @@ from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate
 from precursors.support.files import write_table
 
-
-def main(
-    slider: dict[str, Any],
-    duration: float,
-    additions: dict[str, float],
-    output: str | Path,
-    slips: str | Path,
-    trace: str | Path,
-) -> None:
-    """Run the chain of a scene for `duration` [s]; a run that meets its cap on transitions is kept too.
-
-    The slip table has every event; `counted` tells those of Fig. 13. The trace is the exact tangential load
-    at points between which it is straight to 1e-4 N, every transition among them.
-    """
-    chain = Chain.from_slider(**slider)
+with job() as snakemake:
+    params, output = snakemake.params, snakemake.output
+    chain = Chain.from_slider(**params.slider)
     try:
-        if any(additions.values()):
+        if any(params.additions.values()):
             from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 
-            run = simulate_with_accuracy(LargerChain(chain, **additions), duration)
+            run = simulate_with_accuracy(LargerChain(chain, **params.additions), params.duration)
         else:
-            run = simulate(chain, duration=duration)
+            run = simulate(chain, duration=params.duration)
     except TransitionLimitError as error:
-        error.run.save(Path(output).with_suffix(".unfinished.h5"), slider)
+        error.run.save(Path(output.run).with_suffix(".unfinished.h5"), params.slider)
         raise
-    run.save(output, slider)
-    run = Run.load(output)  # which has theta and F_Z as they are given
-    write_table(slip_table(run), slips)
-    write_table(load_trace(run), trace)
-
-
-if __name__ == "__main__":
-    with job() as snakemake:
-        params = snakemake.params
-        main(params.slider, params.duration, params.additions, *snakemake.output)
+    run.save(output.run, params.slider)
+    run = Run.load(output.run)  # which has theta and F_Z as they are given
+    write_table(slip_table(run), output.slips)
+    write_table(load_trace(run), output.trace)

@@ -12,16 +12,9 @@ from precursors.figures.explorer.page import (
     write_explorer,
 )
 
-if __name__ == "__main__":
-    with job() as snakemake:
-        scenes = [
-            Scene(title, slider, counted_events(pd.read_csv(slips)))
-            for title, slider, slips in zip(
-                snakemake.params.titles, snakemake.params.sliders, snakemake.input.slips, strict=True
-            )
-        ]
-        proved = [
-            Proved(proved_slider(values), chain_duration(values))
-            for values in snakemake.params.proved.values()
-        ]
-        write_explorer(scenes, proved, snakemake.params.duration, snakemake.output.page)
+with job() as snakemake:
+    params = snakemake.params
+    slips = map(pd.read_csv, snakemake.input.slips)
+    scenes = map(Scene, params.titles, params.sliders, map(counted_events, slips))
+    proved = [Proved(proved_slider(values), chain_duration(values)) for values in params.proved.values()]
+    write_explorer([*scenes], proved, params.duration, snakemake.output.page)

@@ -39,8 +39,7 @@ def main(main_file: str | Path, results: Iterable[str | Path], output: str | Pat
             raise ValueError(_line(error)) from None
     if warnings:
         raise ValueError("; ".join(map(_line, warnings)))
-    with write_whole(output) as temporary:
-        temporary.write_bytes(pages)
+    write_whole(output, pages)
 
 
 def _line(problem: object) -> str:

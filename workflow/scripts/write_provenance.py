@@ -8,8 +8,7 @@ from job import job
 from precursors.support.files import write_text
 from precursors.support.provenance import provenance
 
-if __name__ == "__main__":
-    with job() as snakemake:
-        output = Path(snakemake.output.json)
-        found = provenance(snakemake.config, Path(snakemake.params.root), output.parent)
-        write_text(output, json.dumps(found, indent=1, ensure_ascii=False) + "\n")
+with job() as snakemake:
+    output = Path(snakemake.output.json)
+    found = provenance(snakemake.config, Path(snakemake.params.root), output.parent)
+    write_text(output, json.dumps(found, indent=1, ensure_ascii=False) + "\n")

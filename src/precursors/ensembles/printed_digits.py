@@ -81,7 +81,7 @@ def digits_table(members: pd.DataFrame, paper: Mapping[str, Mapping[str, float]]
                     agree = agrees(drawn, value, TOLERANCES[quantity])
                     found.append((scene, quantity, question, value, agree))
     six = [agree for _, _, question, _, agree in found if question == "as printed"]
-    friction = draws.pivot_table(index="draw", columns="scene", values="mu_sapp", sort=False, dropna=False)
+    friction = draws.pivot_table(index="draw", columns="scene", values="mu_sapp", dropna=False)
     span = friction.max(axis=1, skipna=False) - friction.min(axis=1, skipna=False)
     same = agrees(span, 0.0, TOLERANCES["mu_sapp"])
     found.append((ALL, "mu_sapp", "same mu_sapp", span.median(), same))

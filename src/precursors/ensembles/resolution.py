@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from precursors.analysis.horizon import horizon
-from precursors.analysis.run_statistics import median_interval
 from precursors.ensembles.noise import noise_table, with_noise
 from precursors.ensembles.study import NOISE, Study, gather, stack
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
 
 # All slip events up to the first global slip, and those of Fig. 13, which are never shorter than one before.
@@ -63,7 +62,6 @@ def resolution_tables(
         "resolution": noise_table(members, POINT, QUANTITIES),
         "counts_by_n": counts_table(members, uniform),
         "resolution_limits": limits.assign(wave_speed_m_per_s=wave_speed(slider)),
-        "resolution_exponents": exponents_table(members),
     }
 
 
@@ -86,8 +84,8 @@ def wave_speed(slider: Mapping[str, float]) -> float:
 def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
     """Both counts of events against N, one row per n_blocks and scene.
 
-    Each row has the median of each count with its interval, and over that of the scene `uniform`; then the
-    medians of the share of events that are counted, and of the events counted per block.
+    Each row has the median of each count, also over that of the scene `uniform`, and the median of the share
+    of events that are counted.
     """
     runs = with_noise(members)
     rows = []
@@ -95,12 +93,9 @@ def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
         even = runs[(runs["n_blocks"] == n_blocks) & (runs["scene"] == uniform)]
         row = {"n_blocks": n_blocks, "scene": scene, "theta": theta, "runs": len(own)}
         for count in COUNTS:
-            low, high = median_interval(own[count])
-            row |= {count: own[count].median(), f"{count}_low": low, f"{count}_high": high}
+            row[count] = own[count].median()
             row[f"{count}_over_uniform"] = own[count].median() / even[count].median()
-        row["share_counted"] = (own["events_counted"] / own["events_to_global_slip"]).median()
-        row["counted_per_block"] = (own["events_counted"] / own["n_blocks"]).median()
-        rows.append(row)
+        rows.append(row | {"share_counted": (own["events_counted"] / own["events_to_global_slip"]).median()})
     return pd.DataFrame(rows).sort_values(["n_blocks", "theta"], ignore_index=True)
 
 
@@ -128,55 +123,18 @@ def extrapolation_table(members: pd.DataFrame, from_n_blocks: int) -> pd.DataFra
     ends of their bootstrap intervals, and how many N took part.
     """
     rows = []
-    large = members[members["n_blocks"] >= from_n_blocks]
-    for labels, n_blocks, medians, samples in bootstraps(large, EXTRAPOLATED):
-        (b, a), (b_all, a_all) = (np.polyfit(1.0 / n_blocks, y, 1) for y in (medians, samples))
-        (a_low, a_high), (b_low, b_high) = np.quantile(a_all, ENDS), np.quantile(b_all, ENDS)
-        found = {"a": a, "a_low": a_low, "a_high": a_high, "b": b, "b_low": b_low, "b_high": b_high}
-        rows.append(labels | found | {"n_points": len(n_blocks)})
-    return pd.DataFrame(rows)
-
-
-def exponents_table(members: pd.DataFrame) -> pd.DataFrame:
-    """Local exponents of the counts: log2 of the ratio of the medians at 2 N and at N.
-
-    Each scene, count and octave, from n_blocks on, has a row with the ends of the bootstrap interval.
-    """
-    rows = []
-    for labels, n_blocks, medians, samples in bootstraps(members, COUNTS):
-        for i, n in enumerate(n_blocks):
-            for j in np.flatnonzero(n_blocks == 2 * n):
-                low, high = np.quantile(np.log2(samples[j] / samples[i]), ENDS)
-                exponent = np.log2(medians[j] / medians[i])
-                rows.append(labels | {"n_blocks": int(n), "exponent": exponent, "low": low, "high": high})
-    return pd.DataFrame(rows)
-
-
-def bootstraps(
-    members: pd.DataFrame, quantities: Iterable[str]
-) -> Iterator[tuple[dict[str, Any], FloatArray, FloatArray, FloatArray]]:
-    """Medians over the noise of each scene and quantity, against N.
-
-    Yields
-    ------
-    labels : dict
-        scene and quantity.
-    n_blocks, medians : ndarray
-        Numbers of blocks, and the median at each.
-    samples : ndarray, shape (len(n_blocks), SAMPLES)
-        Medians of as many resamplings.
-    """
-    for scene, of_scene in with_noise(members).groupby("scene", sort=False):
-        for quantity in quantities:
-            random = np.random.default_rng(0)
-            groups = {
-                n: values.dropna().to_numpy(float) for n, values in of_scene.groupby("n_blocks")[quantity]
-            }
-            groups = {n: values for n, values in groups.items() if len(values)}
-            medians = [np.median(values) for values in groups.values()]
+    large = with_noise(members[members["n_blocks"] >= from_n_blocks])
+    for scene, of_scene in large.groupby("scene", sort=False):
+        for quantity in EXTRAPOLATED:
+            numbers = of_scene.dropna(subset=quantity).groupby("n_blocks")[quantity]
+            medians, random = numbers.median(), np.random.default_rng(0)
+            # Medians of as many resamplings, a row for each N.
             samples = [
-                np.median(values[random.integers(len(values), size=(SAMPLES, len(values)))], axis=1)
-                for values in groups.values()
+                np.median(random.choice(values.to_numpy(float), (SAMPLES, len(values))), axis=1)
+                for _, values in numbers
             ]
-            labels = {"scene": scene, "quantity": quantity}
-            yield labels, np.array([*groups], float), np.array(medians), np.array(samples)
+            (b, a), (b_all, a_all) = (np.polyfit(1.0 / medians.index, y, 1) for y in (medians, samples))
+            (a_low, a_high), (b_low, b_high) = np.quantile(a_all, ENDS), np.quantile(b_all, ENDS)
+            found = {"a": a, "a_low": a_low, "a_high": a_high, "b": b, "b_low": b_low, "b_high": b_high}
+            rows.append({"scene": scene, "quantity": quantity} | found | {"n_points": len(medians)})
+    return pd.DataFrame(rows)

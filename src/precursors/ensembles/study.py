@@ -117,8 +117,7 @@ def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
     together = pd.concat([table for table in chunks if len(table)]).sort_values("member", ignore_index=True)
     if (together["member"] != together.index).any():
         raise ValueError("the chunks are not all members of their study, each once")
-    first = together.iloc[0]
-    constant = [name for name in LEFT_OUT & set(together) if (together[name] == first[name]).all()]
+    constant = [name for name in LEFT_OUT & set(together) if len(set(together[name])) == 1]
     return together.drop(columns=["member", *constant])
 
 

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
-from precursors.analysis.run_statistics import statistics
-from precursors.ensembles.noise import TOLERANCES
-from precursors.ensembles.study import Study, gather, stack
+from precursors.ensembles.study import Study, stack
 
 
 def theta_window_study(
@@ -26,25 +23,3 @@ def theta_window_study(
             {**slider, "theta": theta, "scene": scene, "point": np.arange(len(theta)), "duration": duration}
         )
     return Study(stack(blocks))
-
-
-def theta_window_tables(chunks: Iterable[pd.DataFrame]) -> dict[str, pd.DataFrame]:
-    """The tables of the study, by file name."""
-    members = gather(chunks)
-    return {"theta_window_members": members, "theta_window": theta_window_table(members)}
-
-
-def theta_window_table(members: pd.DataFrame) -> pd.DataFrame:
-    """One row per scene and quantity: its value at the scene's theta, and statistics over the window.
-
-    share_same is the share of the window where the number is that of the scene to `TOLERANCES`.
-    """
-    rows = []
-    for scene, of_scene in members.groupby("scene", sort=False):
-        alone, window = of_scene[of_scene["point"] == 0].iloc[0], of_scene[of_scene["point"] > 0]
-        for quantity, tolerance in TOLERANCES.items():
-            same = (window[quantity] - alone[quantity]).abs() <= tolerance
-            number = {"scene": scene, "theta": alone["theta"], "quantity": quantity}
-            number |= {"at_theta": alone[quantity], "share_same": same.mean()}
-            rows.append(number | statistics(window[quantity]))
-    return pd.DataFrame(rows)

@@ -145,10 +145,10 @@ def save(figure: Figure, path: str | Path, look: Look | None = None) -> None:
     """
     ending = Path(path).suffix.lower()
     settings, buffer = (look or Look()).settings, BytesIO()
-    with matplotlib.style.context(settings, after_reset=True), write_whole(path) as temporary:
+    with matplotlib.style.context(settings, after_reset=True):
         figure = opaque(figure) if ending == ".eps" else figure
         figure.savefig(buffer, format=ending[1:], dpi=PNG_DPI, metadata=_METADATA[ending])
-        temporary.write_bytes(re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
+    write_whole(path, re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
 
 
 def opaque(figure: Figure) -> Figure:

@@ -13,5 +13,5 @@ SCENES = {
 EVENTS_OF_EXPERIMENT = {-1: 11, 0: 19, 1: 27}
 # Uniform loading (Sect. 3.2.1): F_X at the first global slip, and how long a global slip lasts.
 FIRST_GLOBAL_SLIP_N, SLIP_DURATION_S = 200.0, 0.002
-# Fig. 7: F_ZA and F_ZB at theta = 5/6. How far the load cells are apart is in the configuration.
-CELL_LOADS_N = (100.0, 300.0)
+# Fig. 7: F_ZA and F_ZB at theta = 5/6, and how far the two load cells are apart.
+CELL_LOADS_N, CELL_SPACING_M = (100.0, 300.0), 0.06

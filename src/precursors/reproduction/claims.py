@@ -14,12 +14,13 @@ import numpy as np
 import pandas as pd
 import scipy
 
+from precursors.analysis.slip_rows import up_to_first_global
 from precursors.model import printed
 from precursors.model.chain import FloatArray
 from precursors.reproduction.claim import Claim, Find, Finding, in_draws
 from precursors.reproduction.inputs import LEADING, SCENES, TRAILING, UNIFORM
 from precursors.reproduction.open_points import open_points_table
-from precursors.reproduction.tables import Tables, before_global, one, rows, up_to_global
+from precursors.reproduction.tables import Tables, before_global, one, rows
 from precursors.support.files import read_table
 
 # A unit of the last digit of mu_sapp, which the paper says "appears to have" its value.
@@ -111,7 +112,7 @@ def every_slip_drops_the_load(t: Tables) -> Finding:
 @of_claim
 def lengths_tend_to_increase(t: Tables) -> Finding:
     """Probability that lengths in random order rise as much: one-sided test of Kendall's tau."""
-    lengths = up_to_global(t, UNIFORM)["front"].to_numpy(float)
+    lengths = up_to_first_global(t[f"{UNIFORM}_slips"])["front"].to_numpy(float)
     by_chance = float(scipy.stats.kendalltau(range(len(lengths)), lengths, alternative="greater").pvalue)
     return Finding(by_chance, by_chance < CHANCE)
 
@@ -154,7 +155,7 @@ def friction_independent_of_loading(t: Tables) -> Finding:
     """Differences of the medians of mu_sapp in the noise ensemble; each with a verdict of its interval."""
     pairs = rows(t["noise_differences"], quantity="mu_sapp")
     verdicts = set(pairs["verdict"])
-    holds = False if "different" in verdicts else None if "undecided" in verdicts else len(pairs) > 0
+    holds = False if "different" in verdicts else None if "undecided" in verdicts else not pairs.empty
     return Finding(pairs["difference"], holds, LAST_DIGIT)
 
 
@@ -193,7 +194,7 @@ def eq15_in_motion(t: Tables) -> Finding:
 @of_claim
 def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
     """Largest F_X of all, against that at the first global slip."""
-    first = [up_to_global(t, scene)["load_before_N"].iloc[-1] for scene in SCENES]
+    first = [up_to_first_global(t[f"{scene}_slips"])["load_before_N"].iloc[-1] for scene in SCENES]
     largest = largest_loads(t)
     return Finding(largest, bool(np.less_equal(largest, first).all()), first)
 

@@ -46,12 +46,7 @@ def short_events(t: Tables) -> Pair:
 
 def slider(t: Tables, column: str, scene: str = UNIFORM) -> float:
     """A column of the slider, the same for all events of a scene."""
-    return float(t[f"{scene}_slips"][column].iloc[0])
-
-
-def theta_of_cells(t: Tables) -> float:
-    """theta of the straight line through the load cells of Fig. 7."""
-    return slider(t, "theta", LEADING)
+    return float(t[f"{scene}_slips"][column].unique().item())
 
 
 def difference_of_cells() -> float:
@@ -68,12 +63,11 @@ def ratio_at_cells(t: Tables) -> Pair:
 
 def theta_by_moments(t: Tables) -> Pair:
     """theta by moments with ten blocks, and with a line contact, against that of the straight line."""
-    n, theta = int(slider(t, "n_blocks")), theta_of_cells(t)
-    # About the middle of the contact, over F_Z L. The line through the cells says how far they are apart.
-    cells = difference_of_cells() ** 2 / theta / 2
-    centres = (np.arange(n) + 0.5) / n - 0.5
-    blocks = float(linear_weights(n, 1.0, 1.0) @ centres)
-    return [cells / blocks, cells / (1 / 6)], theta
+    # Moments about the middle of the contact, over F_Z L: of the cells, and of the loads with theta = 1.
+    cells = difference_of_cells() * printed.CELL_SPACING_M / slider(t, "length_m") / 2
+    n = int(slider(t, "n_blocks"))
+    blocks = float(linear_weights(n, 1.0, 1.0) @ ((np.arange(n) + 0.5) / n - 0.5))
+    return [cells / blocks, cells / (1 / 6)], slider(t, "theta", LEADING)
 
 
 def end_to_end(t: Tables) -> Pair:
@@ -85,7 +79,7 @@ def end_to_end(t: Tables) -> Pair:
 # By the point of open_points.csv, which says in words what the paper prints and what is taken instead.
 NUMBERS: dict[str, Callable[[Tables], Pair]] = {
     "eq12": eq12,
-    "fig8": lambda t: (0, theta_of_cells(t)),
+    "fig8": lambda t: (0, slider(t, "theta", LEADING)),
     "short events": short_events,
     "residual strain": residual_strain,
     "counts": lambda t: (list(printed.EVENTS_OF_EXPERIMENT.values()), counts(t)),

@@ -77,8 +77,7 @@ def write_run(run: Run, path: str | PathLike[str]) -> None:
         for name, values in datasets.items():
             data = file.create_dataset(name, data=values, compression="gzip", shuffle=True, fletcher32=True)
             data.attrs["unit"] = np.bytes_(UNITS[name.split("/")[-1]])
-    with write_whole(path) as temporary:
-        temporary.write_bytes(memory.getvalue())
+    write_whole(path, memory.getvalue())
 
 
 def read_run(path: str | PathLike[str]) -> dict[str, Any]:

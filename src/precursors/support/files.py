@@ -5,8 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,16 +13,12 @@ if TYPE_CHECKING:
     import pandas as pd
 
 LEAST_ROOM = 10_000_000  # bytes; a run of 10 s and its figure take less
-NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
-@contextmanager
-def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Yield a temporary name beside `path`, and rename it to `path` when the block ends without an error.
+def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
+    """Write a file under a temporary name beside `path`, and rename it: it is complete or as it was before.
 
-    An error in the block removes the temporary file and leaves an existing `path` as it was. What a killed
-    process leaves behind is overwritten by the next one. The temporary name ends like `path`, for writers
-    that choose a format by the suffix. Missing parent directories are made.
+    What a killed process leaves behind is overwritten by the next one. Missing parent directories are made.
 
     Raises
     ------
@@ -36,20 +31,13 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
         if target.exists() and not target.is_file():
             raise OSError(errno.EINVAL, "it exists and is not a file")
         target.parent.mkdir(parents=True, exist_ok=True)
-        temporary.touch()
+        try:
+            temporary.write_bytes(content)
+            os.replace(temporary, target)
+        finally:
+            temporary.unlink(missing_ok=True)
     except OSError as error:
-        raise _cannot_write(path, error) from error
-    try:
-        yield temporary
-        os.replace(temporary, target)
-    except OSError as error:
-        raise _cannot_write(path, error) if error.errno in NO_ROOM else error from error
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
-def _cannot_write(path: str | os.PathLike[str], error: OSError) -> OSError:
-    return OSError(f"cannot write {path}: {error.strerror}")
+        raise OSError(f"cannot write {path}: {error.strerror}") from error
 
 
 def check_writable(path: str | os.PathLike[str], endings: Sequence[str] = ()) -> None:
@@ -76,14 +64,12 @@ def check_writable(path: str | os.PathLike[str], endings: Sequence[str] = ()) ->
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
     """Write a text file, whole or not at all."""
-    with write_whole(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_whole(path, text.encode())
 
 
 def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
     """Write a table as CSV with every digit of its numbers."""
-    with write_whole(path) as temporary:
-        table.to_csv(temporary, index=False, lineterminator="\n")
+    write_text(path, table.to_csv(index=False, lineterminator="\n"))
 
 
 def read_table(path: str | os.PathLike[str], **how: Any) -> pd.DataFrame:

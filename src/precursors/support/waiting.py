@@ -20,7 +20,7 @@ def tell(work: str, steps: Iterable[Step], done: Callable[[], float]) -> Iterato
     `done` is the part of the work that is done, between 0 and 1.
     """
     start = last = time.monotonic()
-    is_told = current_thread() is main_thread() and sys.stderr is not None and sys.stderr.isatty()
+    is_told = current_thread() is main_thread() and sys.stderr.isatty()
     try:
         for step in steps:
             yield step

@@ -106,8 +106,7 @@ class Certificate:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the certificate as JSON compressed with gzip, the same bytes for the same certificate."""
-        with write_whole(path) as temporary:
-            temporary.write_bytes(gzip.compress(json.dumps(_content(self), indent=0).encode(), mtime=0))
+        write_whole(path, gzip.compress(json.dumps(_content(self), indent=0).encode(), mtime=0))
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Certificate:
