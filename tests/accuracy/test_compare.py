@@ -11,41 +11,66 @@ from accuracy.made_up import CHAIN, DURATION, TRUE, has_all_transitions, made_up
 from reference import read_golden
 
 from precursors import Chain, simulate
-from precursors.accuracy.compare import Comparison, TrueTransition, Truth, compare
+from precursors.accuracy.compare import TrueTransition, Truth, compare
 
 ONSETS = [0, 2, 6]
 # What doubles reach up to the first global slip [s], ten times what the exact solver's error is.
 ROUNDING = 1e-14
+NONE = math.nan
 
 
-def has_all_slips(found: Comparison) -> bool:
-    """Whether a run has the slip events of the truth in their order, and no other."""
-    return found.slips_right == found.slips_found == found.slips_true
+def altered(*changes, shift: float = 0.0, after: int = len(TRUE)) -> list[tuple]:
+    """The true rows with others in some places, and times shifted in and after one of them."""
+    rows = [(t + shift * (k >= after), *rest) for k, (t, *rest) in enumerate(TRUE)]
+    for k, row in changes:
+        rows[k] = row
+    return rows
 
 
-@pytest.fixture
-def truth() -> Truth:
-    return Truth.of_run(made_up(TRUE))
+# A run, its right transitions and slips, all that it has of each, its largest errors [s, N], and when it
+# first differs [s].
+FOUND = {
+    "the truth": (TRUE, 12, 3, 12, 3, 0.0, 0.0, math.inf),
+    "late, and once early": (
+        altered((4, (2.21875, *TRUE[4][1:])), shift=0.015625, after=0),
+        *(12, 3, 12, 3, 0.03125, 0.0, math.inf),
+    ),
+    "another load at an onset": (altered((6, (3.0, 1, 1, 119.5))), 12, 3, 12, 3, 0.0, 0.5, math.inf),
+    "another load elsewhere": (altered((7, (3.125, 2, 1, 119.5))), 12, 3, 12, 3, 0.0, 0.0, math.inf),
+    "another block": (altered((5, (2.375, 3, 0, 85.5)), shift=0.25, after=6), 5, 1, 12, 2, 0.0, 0.0, 2.375),
+    "another mode": (altered((5, (2.375, 2, -1, 85.5)), shift=0.25, after=6), 5, 1, 12, 2, 0.0, 0.0, 2.375),
+    "another first block": (altered((0, (1.0, 2, 1, 50.0))), 0, 0, 12, 2, NONE, NONE, 1.0),
+    "another order": (
+        altered((4, (2.25, 2, 0, 85.0)), (5, (2.375, 1, 0, 85.5))),
+        4,
+        3,
+        12,
+        3,
+        0.0,
+        0.0,
+        2.25,
+    ),
+    "another front": (
+        [*TRUE[:2], (2.0, 1, 1, 80.0), (2.125, 1, 0, 70.0), *TRUE[6:]],
+        *(3, 1, 10, 3, 0.0, 0.0, 2.125),
+    ),
+    "one is missing": ([*TRUE[:9], *TRUE[10:]], 9, 3, 11, 3, 0.0, 0.0, 3.375),
+    "it breaks off": (TRUE[:6], 6, 2, 6, 2, 0.0, 0.0, 3.0),
+    "two more": ([*TRUE, (3.75, 1, 1, 101.0), (3.875, 1, 0, 100.0)], 12, 3, 14, 4, 0.0, 0.0, 3.75),
+    "nothing": ([], 0, 0, 0, 0, NONE, NONE, 1.0),
+}
 
 
-def test_the_true_run_is_right_in_everything(truth):
-    found = compare(made_up(TRUE), truth)
-    assert has_all_transitions(found)
-    assert has_all_slips(found)
-    assert (found.transitions_right, found.slips_right) == (len(TRUE), len(ONSETS))
-    assert (found.time_error, found.load_error) == (0.0, 0.0)
-    assert found.first_difference == math.inf
-
-
-def test_the_largest_error_of_a_time_counts_whatever_its_sign(truth):
-    rows = [(t + (-0.03125 if i == 4 else 0.015625), *rest) for i, (t, *rest) in enumerate(TRUE)]
-    assert compare(made_up(rows), truth).time_error == 0.03125
-
-
-@pytest.mark.parametrize("wrong", range(len(TRUE)))
-def test_the_error_of_the_load_is_that_at_the_onsets_of_slips(truth, wrong):
-    rows = [(*of, load - 0.5 if i == wrong else load) for i, (*of, load) in enumerate(TRUE)]
-    assert compare(made_up(rows), truth).load_error == (0.5 if wrong in ONSETS else 0.0)
+@pytest.mark.parametrize(
+    ("rows", "n", "n_slips", "found", "slips", "time", "load", "differs"), FOUND.values(), ids=FOUND
+)
+def test_what_is_right_ends_with_the_first_difference(rows, n, n_slips, found, slips, time, load, differs):
+    of = compare(made_up(rows), Truth.of_run(made_up(TRUE)))
+    assert (of.transitions_right, of.slips_right) == (n, n_slips)
+    assert (of.transitions_found, of.slips_found, of.transitions_true, of.slips_true) == (found, slips, 12, 3)
+    assert (of.time_error, of.load_error, of.first_difference) == pytest.approx(
+        (time, load, differs), abs=0.0, rel=0.0, nan_ok=True
+    )
 
 
 def test_digits_that_doubles_do_not_hold_count_too():
@@ -56,83 +81,19 @@ def test_digits_that_doubles_do_not_hold_count_too():
     assert (found.load_errors == 2.0**-60).all()
 
 
-@pytest.mark.parametrize("first_wrong", range(len(TRUE) - 1))
-def test_nothing_after_a_wrong_transition_counts(truth, first_wrong):
-    rows = [(t + 0.25 * (i >= first_wrong), *rest) for i, (t, *rest) in enumerate(TRUE)]
-    rows[first_wrong] = (rows[first_wrong][0], 3, -1, 0.0)
-    found = compare(made_up(rows), truth)
-    assert found.transitions_right == first_wrong
-    assert not has_all_transitions(found)
-    assert found.time_error == 0.0 or (first_wrong == 0 and math.isnan(found.time_error))
-    assert found.first_difference == TRUE[first_wrong][0]
-
-
-@pytest.mark.parametrize("column", [1, 2])
-def test_block_and_mode_must_both_be_right(truth, column):
-    rows = [list(row) for row in TRUE]
-    rows[5][column] = -1 if column == 2 else 3
-    assert compare(made_up(rows), truth).transitions_right == 5
-
-
-def test_two_transitions_in_the_wrong_order_leave_the_slip_right(truth):
-    rows = list(TRUE)
-    rows[4], rows[5] = (2.25, 2, 0, 85.0), (2.375, 1, 0, 85.5)
-    found = compare(made_up(rows), truth)
-    assert found.transitions_right == 4
-    assert has_all_slips(found)
-
-
-@pytest.mark.parametrize("missing", range(len(TRUE)))
-def test_a_missing_transition_ends_what_is_right(truth, missing):
-    rows = TRUE[:missing] + TRUE[missing + 1 :]
-    found = compare(made_up(rows), truth)
-    assert found.transitions_right == missing
-    assert (found.transitions_found, found.transitions_true) == (len(TRUE) - 1, len(TRUE))
-    assert found.first_difference == TRUE[missing][0]
-    assert not has_all_transitions(found)
-
-
-def test_a_run_that_breaks_off_is_right_as_far_as_it_goes(truth):
-    found = compare(made_up(TRUE[:6]), truth)
-    assert (found.transitions_right, found.slips_right) == (6, 2)
-    assert not has_all_transitions(found)
-    assert not has_all_slips(found)
-
-
-def test_transitions_that_are_none_make_the_sequence_wrong(truth):
-    found = compare(made_up([*TRUE, (3.75, 1, 1, 101.0), (3.875, 1, 0, 100.0)]), truth)
-    assert found.transitions_right == len(TRUE)
-    assert not has_all_transitions(found)
-    assert not has_all_slips(found)
-
-
-def test_a_slip_with_another_front_ends_what_is_right(truth):
-    rows = [TRUE[0], TRUE[1], (2.0, 1, 1, 80.0), (2.125, 1, 0, 70.0), *TRUE[6:]]
-    found = compare(made_up(rows), truth)
-    assert found.slips_right == 1
-    assert found.load_error == 0.0
-
-
-def test_a_run_without_transitions_has_no_error(truth):
-    found = compare(made_up([]), truth)
-    assert (found.transitions_right, found.slips_right) == (0, 0)
-    assert math.isnan(found.time_error)
-    assert math.isnan(found.load_error)
-
-
-def test_runs_of_other_lengths_are_refused(truth):
+def test_runs_of_other_chains_are_refused():
     with pytest.raises(ValueError, match="as many blocks as the truth, 3, but has 4"):
-        compare(simulate(Chain.from_slider(n_blocks=4), 0.1), truth)
+        compare(simulate(Chain.from_slider(n_blocks=4), 0.1), Truth.of_run(made_up(TRUE)))
 
 
-def test_the_truth_until_the_global_slip_is_what_a_run_until_it_has(truth):
+def test_the_truth_until_the_global_slip_is_what_a_run_until_it_has():
     cut = Truth.of_run(simulate(Chain.from_slider(), 10.0)).until_global_slip()
     run = simulate(Chain.from_slider(), 10.0, "global slip")
     np.testing.assert_array_equal(cut.run.transitions, run.transitions)
-    before = Truth.of_run(made_up(TRUE[:6]))
-    assert before.until_global_slip() is before
-    unfinished = Truth.of_run(made_up(TRUE[:10]))
-    assert unfinished.until_global_slip() is unfinished
+    assert cut.run.duration == run.duration
+    for rows in (TRUE[:6], TRUE[:10]):
+        unfinished = Truth.of_run(made_up(rows))
+        assert unfinished.until_global_slip() is unfinished
 
 
 def test_the_exact_solver_has_every_transition_of_the_reference():

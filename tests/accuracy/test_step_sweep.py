@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from precursors import Chain, simulate
-from precursors.accuracy.step_sweep import charted_steps, steps_between, sweep
+from precursors.accuracy.step_sweep import charted_steps, sweep
 
 
 def rows_of(theta, *steps) -> list:
@@ -13,18 +13,12 @@ def rows_of(theta, *steps) -> list:
     return [pd.Series(row) for row in sweep(exact, {"rk4_skip": steps})]
 
 
-def test_steps_run_from_the_coarsest_to_the_finest():
-    steps = steps_between(1e-5, 1e-7, 4)
-    assert len(steps) == 9
-    assert steps[[0, -1]] == pytest.approx([1e-5, 1e-7], rel=1e-14)
-    assert np.ptp(np.diff(np.log(steps))) < 1e-12
-    assert len(steps_between(1e-5, 1e-5, 4)) == 1
-
-
-def test_the_full_chart_has_more_and_finer_steps():
-    default, full = charted_steps(), charted_steps(full=True)
-    assert {name: len(steps) for name, steps in default.items()} == {"rk4_skip": 25, "rk4": 7}
-    assert {name: len(steps) for name, steps in full.items()} == {"rk4_skip": 97, "rk4": 49}
+def test_steps_run_evenly_from_the_coarsest_to_the_finest_and_the_full_chart_has_more():
+    ends = {"rk4_skip": (25, 1e-9), "rk4": (7, 1e-6)}, {"rk4_skip": (97, 1e-9), "rk4": (49, 1e-7)}
+    for full, of in enumerate(ends):
+        for name, steps in charted_steps(bool(full)).items():
+            n, finest = of[name]
+            np.testing.assert_allclose(steps, 1e-5 * (finest / 1e-5) ** (np.arange(n) / (n - 1)), rtol=1e-13)
 
 
 @pytest.mark.parametrize(("theta", "right"), [(0.0, 216), ("5/6", 176)])

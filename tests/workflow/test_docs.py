@@ -79,7 +79,7 @@ from precursors.methods import METHODS
 
 chain = Chain.from_slider(drive_velocity=0.01)
 truth = Truth.of_run(simulate(chain, 0.01))
-case = Case("fast", 0.0, chain, 0.01, "global slip", truth, False)
+case = Case("fast", 0.0, chain, 0.01, "global slip", truth)
 table = measure_methods(case, {"scipy_rk23": charted_values(case)["scipy_rk23"]}, 1)
 lines = [line for axes in work_precision.draw(table).axes for line in axes.lines if len(line.get_xdata())]
 print(len(table), *{to_hex(line.get_color()).upper() for line in lines})

@@ -8,10 +8,11 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 import pandas as pd
 
+from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import Truth, transitions_right
 from precursors.analysis.slips import apparent_friction, slip_table
-from precursors.methods import METHODS, DivergedError
-from precursors.model.chain import Chain, FloatArray
+from precursors.methods import METHODS
+from precursors.model.chain import FloatArray
 from precursors.solver.run import Run
 
 # Steps [s] from the coarsest to the finest. RK4 that also makes every step while nothing slides ends earlier.
@@ -50,7 +51,8 @@ def sweep(exact: Run, steps: Mapping[str, Iterable[float]]) -> Iterator[dict[str
     yield row("exact", math.nan, truth, truth)
     for method, values in steps.items():
         for step in map(float, values):
-            yield row(method, step, _run(exact.chain, exact.duration, method, step), truth)
+            result = attempt(METHODS[method].solve, exact.chain, exact.duration, step, "global slip")
+            yield row(method, step, result.run, truth)
 
 
 def row(method: str, step: float, run: Run, truth: Run) -> dict[str, object]:
@@ -74,10 +76,3 @@ def row(method: str, step: float, run: Run, truth: Run) -> dict[str, object]:
         "transitions_right": transitions_right(run, truth),
         "transitions_true": len(truth.transitions),
     }
-
-
-def _run(chain: Chain, duration: float, method: str, step: float) -> Run:
-    try:
-        return METHODS[method].solve(chain, duration, step, "global slip").run
-    except DivergedError as diverged:
-        return diverged.run

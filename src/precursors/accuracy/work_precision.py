@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Literal
 
 import pandas as pd
 
+from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import Truth, compare
-from precursors.methods import METHODS, DivergedError, Method, Result
+from precursors.methods import METHODS, Method, Result
 from precursors.model.chain import Chain
-from precursors.solver.simulate import TransitionLimitError, simulate
 from precursors.support import timing
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ COUNTS = (
 class Case:
     """What all methods are asked to do: a scene's chain, for a duration [s] or until its first global slip.
 
-    The true run goes over the same time; it is proved, or else the run of the exact solver.
+    The true run goes over the same time.
     """
 
     scene: str
@@ -52,28 +52,16 @@ class Case:
     duration: float
     until: Literal["global slip"] | None
     truth: Truth
-    is_proved: bool
 
     def run(self, method: Method, value: float, duration: float | None = None) -> Result:
         """Run a method with a value of its setting; of a run that breaks off, what there is."""
-        try:
-            return method.solve(self.chain, duration or self.duration, value, self.until)
-        except (DivergedError, TransitionLimitError) as error:
-            return Result(error.run, 0)
+        return attempt(method.solve, self.chain, duration or self.duration, value, self.until)
 
 
 def proved_cases(scene: str, theta: float, certificate: Certificate) -> tuple[Case, Case]:
-    """Make two cases of what a certificate proves: to the end of the first global slip, and to its own end.
-
-    If a tie ends the proof, the truth is the run of the exact solver.
-    """
-    chain, duration = certificate.chain.to_chain(), float(certificate.duration)
-    start = [float(x) for x in certificate.start_positions]
-    if any(start):
-        raise ValueError(f"{scene} must start with springs at natural length, but starts from {start} m")
-    is_proved = certificate.tie is None
-    truth = Truth.proved(certificate) if is_proved else Truth.of_run(simulate(chain, duration))
-    whole = Case(scene, theta, chain, duration, certificate.until, truth, is_proved)
+    """Make cases of what a certificate proves: to the end of the first global slip, and to its own end."""
+    chain, truth = certificate.chain.to_chain(), Truth.proved(certificate)
+    whole = Case(scene, theta, chain, float(certificate.proved_until), certificate.until, truth)
     return replace(whole, until="global slip", truth=truth.until_global_slip()), whole
 
 
@@ -111,62 +99,47 @@ def measure_methods(
     Returns
     -------
     DataFrame
-        A row per method and value; `evaluations` is NaN for a method that counts none, and
-        errors are those of `Comparison`, NaN for the exact solver where it is itself the truth.
+        A row per method and value; `evaluations` is NaN for a method that counts none, and errors are those
+        of `Comparison`.
     """
-    attempts = [
-        attempt for name, some in values.items() for attempt in _attempts(case, METHODS[name], some, longest)
-    ]
-    short = {key: of for key, of in enumerate(attempts) if of.seconds.wall <= long}
+    tasks: list[tuple[Callable[[], Result], timing.Seconds]] = []
+    rows = []
+    for name, some in values.items():
+        for value in some:
+            task = partial(case.run, METHODS[name], value)
+            result, seconds = timing.second_call(task, partial(task, min(WARM_UP, case.duration)))
+            if seconds.wall > longest:
+                break
+            tasks.append((task, seconds))
+            rows.append(_row(case, METHODS[name], value, result, seconds.wall))
+    short = {key: of for key, of in enumerate(tasks) if of[1].wall <= long}
     timings = timing.measure(
-        {key: partial(case.run, of.method, of.value) for key, of in short.items()},
+        {key: task for key, (task, _) in short.items()},
         rounds,
         SHORTEST,
-        seconds={key: of.seconds for key, of in short.items()},
+        seconds={key: seconds for key, (_, seconds) in short.items()},
     )
-    seconds = [timings[k].seconds if k in short else of.seconds.wall for k, of in enumerate(attempts)]
-    return pd.DataFrame(list(map(partial(_row, case), attempts, seconds)))
+    for key, found in timings.items():
+        rows[key]["seconds"] = found.seconds
+    return pd.DataFrame(rows)
 
 
-@dataclass(frozen=True)
-class _Attempt:
-    """A method with a value of its setting, its result, and how long a call took."""
-
-    method: Method
-    value: float
-    result: Result
-    seconds: timing.Seconds
-
-
-def _attempts(case: Case, method: Method, values: Sequence[float], longest: float) -> Iterator[_Attempt]:
-    for value in values:
-        warm_up = partial(case.run, method, value, min(WARM_UP, case.duration))
-        result, seconds = timing.second_call(partial(case.run, method, value), warm_up)
-        if seconds.wall > longest:
-            return
-        yield _Attempt(method, value, result, seconds)
-
-
-def _row(case: Case, attempt: _Attempt, seconds: float) -> dict[str, object]:
-    method, result = attempt.method, attempt.result
+def _row(case: Case, method: Method, value: float, result: Result, seconds: float) -> dict[str, object]:
     found = compare(result.run, case.truth)
-    # The exact solver's distance from itself is no error.
-    is_the_truth = method.name == "exact" and not case.is_proved
     return {
         "scene": case.scene,
         "theta": case.theta,
         "until": case.until or "end",
-        "truth": "proved" if case.is_proved else "exact solver",
         "method": method.name,
         "label": method.label,
         "kind": method.kind,
         "color": method.look[0],
         "marker": method.look[1],
         "setting": method.setting,
-        "value": attempt.value,
+        "value": value,
         "evaluations": result.evaluations or math.nan,
         "seconds": seconds,
-        "error_load_N": math.nan if is_the_truth else found.load_error,
-        "error_time_s": math.nan if is_the_truth else found.time_error,
+        "error_load_N": found.load_error,
+        "error_time_s": found.time_error,
         **{name: getattr(found, name) for name in COUNTS},
     }

@@ -127,7 +127,7 @@ def dead_zone_too_large() -> Failure:
     wide = partial(Number, "Karnopp", f"zone = {TOO_LARGE:g} m/s")
     right = right_with(exact, step, TOO_LARGE)
     # Creep raises the load at which block 1 is released, as a greater mu_s does.
-    delay = margin(exact) * chain.strength[0] / chain.loading_rate
+    delay = margin(exact) * chain.strength.max() / chain.loading_rate
     limit = Threshold(
         METHODS["karnopp"].label,
         chain.n_blocks,

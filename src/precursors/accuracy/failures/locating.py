@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import Failure, Number, Threshold, curves
 from precursors.analysis.slips import find_slips
@@ -19,7 +20,7 @@ from precursors.methods.scipy_events import solve_scipy
 from precursors.methods.stability import bisect
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
-from precursors.solver.simulate import TransitionLimitError, simulate
+from precursors.solver.simulate import simulate
 
 METHOD, MERGING = "DOP853 with events", "DOP853, transitions merged"
 MISSED, MERGED = "two roots of a velocity are missed", "two of three transitions lose their order"
@@ -104,10 +105,7 @@ def restart_on_root() -> Failure:
 
     def times(start: float) -> FloatArray:
         """Times of the transitions [s], where a block starts with a velocity [N/tau]."""
-        try:
-            run = solve_scipy(chain, RESTART_END, 1e-9, nudge=start, direction=0.0).run
-        except TransitionLimitError as stuck:
-            run = stuck.run
+        run = attempt(solve_scipy, chain, RESTART_END, 1e-9, nudge=start, direction=0.0).run
         return run.transitions["time"]
 
     found = times(0.0)

@@ -12,7 +12,7 @@ from precursors.accuracy.failures.common import Failure, Number, Threshold, curv
 from precursors.methods.columns import time_unit
 from precursors.methods.regularised import creep_velocity, equations
 from precursors.methods.stability import bisect, highest_frequency
-from precursors.model.chain import Chain
+from precursors.model.chain import Chain, FloatArray
 
 WIDTHS = (1e-5, 1e-6, 1e-7)  # m/s
 LOADS = np.array([0.3, 0.6, 0.9])  # parts of mu_s w
@@ -21,8 +21,7 @@ CHARTED_WIDTH, CHARTED_LOAD = 1e-6, 0.9
 # A stiff decay is stable with RK4 up to this lambda dt.
 RK4_REAL_LIMIT = 2.785293563
 METHOD, UNSTABLE = "RK4, friction regularised to 1e-06 m/s", "creep becomes a growing oscillation"
-# Steps of a run, and the velocity at its start, as a part of the width.
-STEPS, START, BISECTIONS = 200, 1e-3, 8
+STEPS, BISECTIONS = 200, 8
 
 
 def measured_creep(ratio: float, width: float) -> float:
@@ -62,22 +61,24 @@ def creep() -> Failure:
     )
 
 
-def fastest_rate(chain: Chain, width: float) -> float:
-    """Largest eigenvalue of the equations with regularised friction at rest [1/s]."""
+def matrix_at_rest(chain: Chain, width: float) -> FloatArray:
+    """Matrix of the equations with regularised friction, linear about rest [1/tau]."""
     _, jacobian = equations(chain, width)
-    rates = np.linalg.eigvals(jacobian(0.0, np.zeros(2 * chain.n_blocks)))
-    return float(np.abs(rates).max()) / time_unit(chain)
+    return jacobian(0.0, np.zeros(2 * chain.n_blocks))
+
+
+def fastest_rate(chain: Chain, width: float) -> float:
+    """Largest eigenvalue of that matrix [1/s]."""
+    return float(np.abs(np.linalg.eigvals(matrix_at_rest(chain, width))).max()) / time_unit(chain)
 
 
 def creep_grows(chain: Chain, width: float, step: float) -> bool:
-    """Whether RK4 with a step [s] raises a velocity far below the width, which friction should brake."""
-    rate = partial(equations(chain, width)[0], 0.0)
-    h, n = step / time_unit(chain), chain.n_blocks
-    state = np.append(np.zeros(n), START * width * chain.mass / time_unit(chain) * (-1.0) ** np.arange(n))
-    start = abs(state).max()
+    """Whether RK4 with a step [s] raises velocities far below the width, which friction should brake."""
+    matrix, n = matrix_at_rest(chain, width), chain.n_blocks
+    start = state = np.ones(2 * n)
     for _ in range(STEPS):
-        state = runge_kutta_step(rate, state, h)
-    return bool(abs(state[n:]).max() > start)
+        state = runge_kutta_step(matrix.__matmul__, state, step / time_unit(chain))
+    return bool((abs(state) > start)[n:].any())
 
 
 def longest_step(chain: Chain, width: float) -> float:

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
+from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import FIVE_SLIPS, Threshold
 from precursors.methods import METHODS, DivergedError
@@ -154,10 +155,7 @@ def five_slips(exact: Run) -> Iterator[Threshold]:
 
 def is_right(exact: Run, name: str, value: float) -> bool:
     """Whether a method with a value of its setting has all transitions right."""
-    try:
-        run = METHODS[name].solve(exact.chain, exact.duration, value, None).run
-    except (DivergedError, TransitionLimitError):
-        return False
+    run = attempt(METHODS[name].solve, exact.chain, exact.duration, value, None).run
     return transitions_right(run, exact) == len(exact.transitions)
 
 
@@ -170,7 +168,7 @@ def margin(exact: Run) -> float:
             for name in ("mu_s", "mu_k")
             for factor in (1.0 + part, 1.0 - part)
         )
-        runs = (simulate(chain, 2.0 * exact.duration) for chain in chains)
+        runs = (simulate(chain, until="global slip") for chain in chains)
         return any(transitions_right(run, exact) < len(exact.transitions) for run in runs)
 
     return bisect(changes, 1e-6, 0.1, BISECTIONS)
