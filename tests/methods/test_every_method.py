@@ -1,4 +1,4 @@
-"""What every method must do: slide backward as the exact solver, keep its clock, know its own Jacobian."""
+"""What every method must do: make the transitions of the exact solver, keep its clock, know its Jacobian."""
 
 from __future__ import annotations
 
@@ -7,17 +7,27 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
+from golden.small_tables import SMALL
+from methods.kept_runs import kept_runs
 
 from precursors import Chain, simulate
 from precursors.methods import METHODS, columns
-from precursors.methods.columns import MOBILITY, time_unit
-from precursors.methods.events import EventMotion, jacobian
+from precursors.methods.columns import time_unit
+from precursors.methods.compiled import COMPILED
+from precursors.methods.events import EventMotion
 from precursors.methods.regularised import equations
 
-# theta, mu_k, and a time [s] after a block has slid backward: block 3 of 3 and block 1, which turn round, and
-# block 2, which is released backward from rest.
-BACKWARD = [("-5/6", 0.45, 2.2), ("5/6", 0.45, 1.5), ("-5/6", 0.1, 2.13945)]
+# Blocks, theta, mu_k, and a time [s]: past the first global slip; after a block has slid backward: block 3 of
+# 3 and block 1, which turn round, and block 2, which is released backward from rest.
+CHAINS = [
+    (1, 0.0, 0.45, 3.6),
+    (3, 0.0, 0.45, 3.6),
+    (3, "-5/6", 0.45, 2.2),
+    (3, "5/6", 0.45, 1.5),
+    (3, "-5/6", 0.1, 2.13945),
+]
 # Settings at which a method makes the transitions of a short chain: by its name, or by what the setting is.
 FINE = {
     "exact": 0.0,
@@ -27,16 +37,18 @@ FINE = {
     "step [s]": 1e-8,
     "width [m/s]": 1e-7,
 }
-# Error of F_X at a transition [N]: steps are worth 0.02 N, a dead zone 0.14 N, a width of friction 0.7 N.
-LOAD_ERROR = {"karnopp": 0.3, "regularised_radau": 2.0, "regularised_bdf": 2.0}
-STEPS_ERROR = 0.05
+# Error of F_X at a transition [N]: steps are worth 0.3 N, a width of friction 3 N.
+LOAD_ERROR = {"regularised_radau": 4.0, "regularised_bdf": 4.0}
+STEPS_ERROR = 0.4
 # Methods that stop a block before it turns do so for less than this [s].
 TURN = 1e-7
 CLOCK = 1e-13  # s; roundings of a sum of some ten intervals
+ROUNDING = 1e-8  # relative, after some tens of transitions: with and without fused products it was 1e-9
 # Eq. 4 taken literally never sticks, so that it makes other transitions.
 NAMES = [name for name in METHODS if name != "literal"]
-# In methods with a larger error blocks creep at rest, and slide only after the last of these ends.
-CASES = [(name, *case) for name in NAMES for case in BACKWARD[: 2 if name in LOAD_ERROR else 3]]
+# Where friction is a law of the velocity, blocks creep at rest, and slide only after the last of these ends.
+N_CHAINS = {"friction law": 4}
+CASES = [(name, *case) for name in NAMES for case in CHAINS[: N_CHAINS.get(METHODS[name].kind)]]
 
 
 def without_short_stops(transitions) -> list[tuple[int, int, float]]:
@@ -50,22 +62,31 @@ def without_short_stops(transitions) -> list[tuple[int, int, float]]:
     return [(block, mode, load) for k, (_, block, mode, load) in enumerate(rows) if k not in turns]
 
 
-@pytest.mark.parametrize(("name", "theta", "mu_k", "end"), CASES)
-def test_a_method_slides_backward_where_the_exact_solver_does_and_its_intervals_are_its_times(
-    name, theta, mu_k, end
+@pytest.mark.parametrize(("name", "n_blocks", "theta", "mu_k", "end"), CASES)
+def test_a_method_makes_the_transitions_of_the_exact_solver_and_its_intervals_are_its_times(
+    name, n_blocks, theta, mu_k, end
 ):
-    chain = Chain.from_slider(n_blocks=3, theta=theta, mu_k=mu_k)
+    chain = Chain.from_slider(n_blocks=n_blocks, theta=theta, mu_k=mu_k)
     method = METHODS[name]
     run = method.solve(chain, end, FINE.get(name, FINE.get(method.setting)), None).run
     exact = without_short_stops(simulate(chain, end).transitions)
     found = without_short_stops(run.transitions)
     assert [row[:2] for row in found] == [row[:2] for row in exact]
-    assert exact[-2][1] == -1
     errors = [abs(a[2] - b[2]) for a, b in zip(found, exact, strict=True)]
     assert max(errors) < LOAD_ERROR.get(name, STEPS_ERROR)
-    assert len(run.intervals) == len(run.transitions) + 1
     ends = np.append(run.transitions["time"], run.duration)
     np.testing.assert_allclose(np.cumsum(run.intervals), ends, rtol=0, atol=CLOCK)
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_costs_transitions_times_and_loads_of_short_runs_are_those_that_are_kept(name):
+    """They depend on all that methods share (columns, common, compiled, equations, events, fixed_step) and on
+
+    each of them: cvode_events, dop853, exact, heyoka_events, karnopp, leapfrog, moreau_jean, newmark,
+    regularised, rk4, rk4_located and scipy_events.
+    """
+    kept = pd.read_csv(SMALL / "methods.csv", keep_default_na=False).query("method == @name")
+    pd.testing.assert_frame_equal(kept_runs(name), kept.reset_index(drop=True), rtol=ROUNDING)
 
 
 def differences(function, state: np.ndarray, step: float) -> np.ndarray:
@@ -74,18 +95,13 @@ def differences(function, state: np.ndarray, step: float) -> np.ndarray:
     return np.column_stack([(function(state + h) - function(state - h)) / (2 * step) for h in changes])
 
 
-@pytest.mark.parametrize("modes", [[1, 1, 1, 1], [-1, 0, 1, 0], [0, 0, 0, 1], [1, -1, 0, 0]])
-def test_the_jacobian_of_located_events_is_that_of_differences(modes):
-    chain = Chain.from_slider(n_blocks=4, theta="5/6", drive_stiffness=3e6)
-    motion = EventMotion(chain, 1.0, None)
-    state = np.random.default_rng(5).standard_normal(8)
-    state[4:] *= np.array(modes) != 0
-    motion.put(modes, state[:4], state[4:])
-    found = jacobian(motion.system, motion.state, np.zeros((8, 8)))
-    of_differences = differences(lambda y: motion.rates(0.0, y), state, 1e-3)
+def test_the_jacobian_of_located_events_is_that_of_differences():
+    motion = EventMotion(Chain.from_slider(n_blocks=4, theta="5/6", drive_stiffness=3e6), 1.0, None)
+    motion.put([-1, 0, 1, 0], np.ones(4), [-1.0, 0.0, 2.0, 0.0])
+    of_differences = differences(lambda y: motion.rates(0.0, y), motion.y, 1e-3)
     # Velocities of blocks that stick are 0, so that a change of them is nothing that happens.
-    slides = np.append(np.ones(4, bool), motion.state[MOBILITY, 1:-1] != 0)
-    np.testing.assert_allclose(found[:, slides], of_differences[:, slides], rtol=0, atol=1e-10)
+    sticking = [5, 7]
+    np.testing.assert_allclose(np.delete(motion.jacobian() - of_differences, sticking, 1), 0.0, atol=1e-10)
 
 
 def test_the_jacobian_of_regularised_friction_is_that_of_differences():
@@ -98,7 +114,7 @@ def test_the_jacobian_of_regularised_friction_is_that_of_differences():
     np.testing.assert_allclose(matrix(0.0, state), of_differences, rtol=1e-6, atol=1e-6)
 
 
-def test_code_is_compiled_again_after_an_edit_of_any_module_that_has_some():
+def test_code_is_compiled_again_after_an_edit_of_any_module_that_it_uses():
     modules = Path(columns.__file__).parent.glob("*.py")
-    compiled = re.compile(r"^@(inner|apart|outer|template)\b", re.MULTILINE)
-    assert {file.name for file in modules if compiled.search(file.read_text())} == set(columns.COMPILED)
+    names = {file.name for file in modules if re.search(r"import .*\b(inner|outer)\b", file.read_text())}
+    assert names | {"columns.py", "compiled.py"} == set(COMPILED)

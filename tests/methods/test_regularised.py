@@ -49,8 +49,3 @@ def test_creep_delays_the_first_slip_as_the_closed_form_says():
     # The Stribeck drop near the peak, left out above, is some percent of the delay.
     assert delay == pytest.approx(onset - without_creep, rel=0.1)
     assert delay > 0.02 * without_creep
-
-
-def test_regularised_friction_wider_than_the_drive_is_fast_never_slips():
-    run = solve_regularised(Chain.from_slider(n_blocks=1), 5.0, 1e-4).run
-    assert len(run.transitions) == 0

@@ -7,17 +7,17 @@ which CVODE's documentation recommends Adams; BDF is there for comparison.
 from __future__ import annotations
 
 from functools import partial
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from precursors.methods.common import Method, Result
-from precursors.methods.events import EventMotion, event_functions, jacobian, march_restarting, rates_of
+from precursors.methods.events import EventMotion, event_functions, march_restarting, rates_of
 from precursors.model.chain import Chain, FloatArray
 
 Formula = Literal["Adams", "BDF"]
 MAX_STEPS = 1_000_000
-EVENT_FOUND = 2
+EVENT_FOUND, FALLING = 2, -1
 
 
 def solve_cvode(
@@ -30,10 +30,34 @@ def solve_cvode(
     RuntimeError
         If CVODE reports a failure.
     """
+    from sksundae.cvode import CVODE
+
     motion = EventMotion(chain, duration, until)
-    solver = _solver(motion, tolerance, formula)
+    system, state, matrix, n_events = motion.system, motion.state, motion.jacobian(), 2 * chain.n_blocks
+
+    def right_hand_side(_time: float, y: FloatArray, result: FloatArray) -> None:
+        rates_of(y, system, state, result)
+
+    def events(_time: float, y: FloatArray, result: FloatArray) -> None:
+        event_functions(y, system, state, result)
+
+    def jacobian(_time: float, _y: FloatArray, _rates: FloatArray, result: FloatArray) -> None:
+        result[:] = matrix
+
+    events.direction = [FALLING] * n_events  # type: ignore[attr-defined]
+    solver = CVODE(
+        right_hand_side,
+        method=formula,
+        rtol=tolerance,
+        atol=tolerance,
+        eventsfn=events,
+        num_events=n_events,
+        jacfn=jacobian,
+        max_num_steps=MAX_STEPS,
+    )
 
     def next_transition(time: float) -> tuple[float, int]:
+        matrix[:] = motion.jacobian()
         solver.init_step(time, motion.y)
         solution = solver.step(motion.remaining, tstop=motion.remaining)
         motion.evaluations += int(solution.nfev)
@@ -44,34 +68,6 @@ def solve_cvode(
         return float(solution.t), int(fired[0])
 
     return march_restarting(motion, next_transition)
-
-
-def _solver(motion: EventMotion, tolerance: float, formula: Formula) -> Any:
-    from sksundae.cvode import CVODE
-
-    system, modes = motion.system, motion.state
-
-    def right_hand_side(_time: float, state: FloatArray, result: FloatArray) -> None:
-        rates_of(state, system, modes, result)
-
-    def events(_time: float, state: FloatArray, result: FloatArray) -> None:
-        event_functions(state, system, modes, result)
-
-    def matrix(_time: float, _state: FloatArray, _rates: FloatArray, result: FloatArray) -> None:
-        jacobian(system, modes, result)
-
-    n_events = 2 * motion.chain.n_blocks
-    events.direction = [-1] * n_events  # type: ignore[attr-defined]
-    return CVODE(
-        right_hand_side,
-        method=formula,
-        rtol=tolerance,
-        atol=tolerance,
-        eventsfn=events,
-        num_events=n_events,
-        jacfn=matrix,
-        max_num_steps=MAX_STEPS,
-    )
 
 
 METHODS = (

@@ -13,18 +13,10 @@ import math
 import numpy as np
 from scipy.integrate import DOP853
 
-from precursors.methods.columns import (
-    apart,
-    by_mode,
-    copy,
-    event_function,
-    inner,
-    outer,
-    rates,
-    template,
-    time_unit,
-)
+from precursors.methods.columns import time_unit
 from precursors.methods.common import Method, Result
+from precursors.methods.compiled import apart, inner, outer, template
+from precursors.methods.equations import by_mode, copy, event_function, rates
 from precursors.methods.events import NUDGE, nudge_starting
 from precursors.methods.fixed_step import begin_leg, feels, march, switch
 from precursors.model.chain import Chain
@@ -35,8 +27,9 @@ STAGES = 12
 A = np.zeros((16, 16))
 A[:STAGES, :STAGES], A[STAGES, :STAGES], A[STAGES + 1 :] = DOP853.A, DOP853.B, DOP853.A_EXTRA
 DENSE, FIFTH, THIRD = map(np.ascontiguousarray, (DOP853.D, DOP853.E5, DOP853.E3))
-# Of the step: caution, exponent of the error and limits of the change, as in SciPy; the first over its order.
-SAFETY, EXPONENT, SHORTER, LONGER, FIRST_STEP = 0.9, -1.0 / 8.0, 0.2, 10.0, 3.0
+# Of the step: caution, exponent of the error and largest growth, as in SciPy; the first over its order.
+SAFETY, EXPONENT, LONGER, FIRST_STEP = 0.9, -1.0 / 8.0, 10.0, 3.0
+TINY = float(np.finfo(float).tiny)  # so that an error is not 0/0
 PROBES, CORRECTIONS, ROOT_ERROR = 8, 60, 1e-15
 
 
@@ -59,7 +52,7 @@ def stages(system, state, last, h, k, end, trial):
 @inner
 def error_of(state, last, end, h, k, tolerance):
     """Error of a step, where 1 is allowed: the norm of II.10."""
-    fifth = third = 0.0
+    fifth = third = TINY
     for row in range(2):
         for i in range(1, last + 2):
             scale = tolerance * (1.0 + max(abs(state[row, i]), abs(end[row, i])))
@@ -70,7 +63,7 @@ def error_of(state, last, end, h, k, tolerance):
             fifth += (a / scale) * (a / scale)
             third += (b / scale) * (b / scale)
     n = 2 * (state.shape[1] - 2)
-    return h * fifth / math.sqrt((fifth + 0.01 * third) * n) if fifth > 0.0 else 0.0
+    return h * fifth / math.sqrt((fifth + 0.01 * third) * n)
 
 
 @inner
@@ -146,9 +139,9 @@ def advance(motion, tolerance, until, watches):
         stages(system, state, last, h, k, end, trial)
         progress.evaluations += 15
         error = error_of(state, last, end, h, k, tolerance)
-        change = SAFETY * max(error, 1e-99) ** EXPONENT
+        change = SAFETY * error**EXPONENT
         if not error < 1.0:
-            longest = h * max(change, SHORTER)
+            longest = h * change
             continue
         if h == longest:
             longest = h * min(change, LONGER)

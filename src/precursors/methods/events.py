@@ -1,4 +1,4 @@
-"""A chain in motion for the solvers of others: their state, its event functions, and the switching.
+"""A chain in motion for the solvers of others: its state, its equations and event functions, the switching.
 
 Such a solver gets y = (T_1..T_N, v_1..v_N) in N and N/tau, without the columns of the drive and of the free
 end, which would count in its error norm. Its relative tolerance means the same at 0 s and at 10 s, as each
@@ -24,19 +24,16 @@ from precursors.methods.columns import (
     SPRING,
     STRENGTH,
     VELOCITY,
-    along_mode,
-    by_mode,
-    inner,
-    net_force,
-    outer,
-    rates,
     set_modes,
     time_unit,
 )
 from precursors.methods.common import Result
+from precursors.methods.compiled import inner, outer
+from precursors.methods.equations import by_mode, net_force, rates
 from precursors.methods.fixed_step import (
     FINISHED,
     GLOBAL_SLIP,
+    LOST,
     MOVING,
     PAUSED,
     Motion,
@@ -54,8 +51,7 @@ from precursors.solver.simulate import TransitionLimitError
 # solver that brackets the stop within its first step takes the start for the root: SciPy's brentq returns it
 # and the block never gets away; heyoka's finds it, drops it for its direction and misses the stop.
 NUDGE = 1e-100
-# More transitions than this, or more of them per block at one instant, are a solver that has lost its way.
-MAX_TRANSITIONS = 1_000_000
+# More transitions per block at one instant are a solver that has lost its way.
 MAX_AT_ONCE = 8
 # Rows of the settings: 1 for blocks that slide, mode_i mu_k w_i, mode_i, 1 for blocks that stick.
 SLIDES, FRICTIONS, MODES, STICKS = range(4)
@@ -68,26 +64,16 @@ class EventMotion:
     FRICTIONS, MODES and STICKS. `nudge` is the velocity of a block that starts, see `NUDGE`.
     """
 
-    def __init__(
-        self,
-        chain: Chain,
-        duration: float,
-        until: str | None,
-        y: FloatArray | None = None,
-        settings: FloatArray | None = None,
-        nudge: float = NUDGE,
-    ) -> None:
-        n = chain.n_blocks
+    def __init__(self, chain: Chain, duration: float, until: str | None, nudge: float = NUDGE) -> None:
         self.chain, self.nudge, self.tau = chain, nudge, time_unit(chain)
         self.motion = motion_from_rest(chain, duration, until, scaled=True)
         self.system, self.state = self.motion.system, self.motion.state
-        self.y = np.zeros(2 * n) if y is None else y
-        self.settings = np.zeros((4, n)) if settings is None else settings
+        self.y, self.settings = np.zeros(2 * chain.n_blocks), np.zeros((4, chain.n_blocks))
         self.slides, self.evaluations = False, 0
 
     def put(self, modes: ArrayLike, forces: ArrayLike, velocities: ArrayLike) -> None:
         """Put the blocks into modes, the springs under forces [N], and give velocities [N/tau], each (N,)."""
-        set_modes(self.system, self.state, np.asarray(modes, float))
+        set_modes(self.system, self.state, modes)
         self.y[:] = np.concatenate([forces, velocities])
         sliding = np.flatnonzero(self.state[MODE])
         self.slides = len(sliding) > 0
@@ -97,11 +83,6 @@ class EventMotion:
     def begin(self) -> bool:
         """Wait in closed form until block 1 slides; False if the run ends before or while a block slides."""
         return not self.slides and self.switch(-1, 0.0)
-
-    @property
-    def has_slid_globally(self) -> bool:
-        """Whether all blocks have slid at the same instant."""
-        return bool(self.motion.progress["was_global"][0])
 
     @property
     def onset(self) -> float:
@@ -119,6 +100,10 @@ class EventMotion:
         rates_of(y, self.system, self.state, result)
         return result
 
+    def jacobian(self) -> FloatArray:
+        """Matrix of the equations of motion, shape (2 N, 2 N)."""
+        return jacobian_of(self.system, self.state)
+
     def switch(self, event: int, elapsed: float) -> bool:
         """Make the transition of an event function that has reached zero, and any that is overdue with it.
 
@@ -126,24 +111,22 @@ class EventMotion:
         """
         status = go_on(*self.motion, self.y, self.settings, self.nudge, event, elapsed)
         self.slides = status == MOVING
+        if status == LOST:
+            run = run_of(self.motion, self.chain, status)
+            raise TransitionLimitError(
+                f"the solver makes transition after transition at t = {run.duration:.9g} s", run
+            )
         if status == PAUSED:
-            progress = self.motion.progress[0]
-            most = MAX_AT_ONCE * self.chain.n_blocks
-            if progress["at_once"] > most or progress["transitions"] >= MAX_TRANSITIONS:
-                run = run_of(self.motion, self.chain, GLOBAL_SLIP)
-                raise TransitionLimitError(
-                    f"the solver makes transition after transition at t = {run.duration:.9g} s", run
-                )
             self.motion = with_room(self.motion)
-            self.slides = bool(progress["sliding"])
+            self.slides = bool(self.motion.progress["sliding"][0])
         return self.slides
 
     def run(self) -> Result:
         """Transitions and cost so far: of a run that is over, or goes on to its end in its present modes."""
-        status = FINISHED
+        progress, status = self.motion.progress[0], FINISHED
         if self.slides:
-            self.motion.progress["elapsed"] = self.remaining
-        elif self.has_slid_globally and self.motion.progress["until_global"]:
+            progress["elapsed"] = progress["remaining"]
+        elif progress["was_global"] and progress["until_global"]:
             status = GLOBAL_SLIP
         return Result(run_of(self.motion, self.chain, status), self.evaluations)
 
@@ -172,31 +155,11 @@ def take(state, y):
         state[FORCE, i + 1], state[VELOCITY, i + 1] = y[i], y[n + i]
 
 
-@inner
-def nudge_starting(state, nudge):
-    """Give blocks that slide, but are at rest, a velocity."""
-    for i in range(1, state.shape[1] - 1):
-        if state[MODE, i] != 0.0 and state[VELOCITY, i] == 0.0:
-            state[VELOCITY, i] = state[MODE, i] * nudge
-
-
-@inner
-def give(state, y, settings, nudge):
-    """Give a solver its state and settings."""
-    nudge_starting(state, nudge)
-    n = state.shape[1] - 2
-    for i in range(n):
-        y[i], y[n + i] = state[FORCE, i + 1], state[VELOCITY, i + 1]
-        settings[SLIDES, i], settings[STICKS, i] = state[MOBILITY, i + 1], 1.0 - state[MOBILITY, i + 1]
-        settings[MODES, i], settings[FRICTIONS, i] = state[MODE, i + 1], state[FRICTION, i + 1]
-
-
 @outer
 def rates_of(y, system, state, result):
     """Right-hand side of the equations of motion."""
     take(state, y)
-    n = state.shape[1] - 2
-    rate = np.zeros((2, n + 2))
+    n, rate = state.shape[1] - 2, np.zeros_like(state)
     rates(by_mode, 0.0, system, state, n, state, rate)
     for i in range(n):
         result[i], result[n + i] = rate[FORCE, i + 1], rate[VELOCITY, i + 1]
@@ -206,17 +169,35 @@ def rates_of(y, system, state, result):
 def event_functions(y, system, state, result):
     """All event functions, shape (2 N,); what cannot happen is 1."""
     take(state, y)
-    for i in range(state.shape[1] - 2):
-        slides, net = state[MODE, i + 1] != 0.0, net_force(state, i + 1)
-        result[2 * i] = along_mode(state, state, i + 1) if slides else system[STRENGTH, i + 1] - net
-        result[2 * i + 1] = 1.0 if slides else system[BACKWARD, i + 1] + net
+    for i in range(1, state.shape[1] - 1):
+        slides, net = state[MODE, i] != 0.0, net_force(state, i)
+        result[2 * i - 2] = state[MODE, i] * state[VELOCITY, i] if slides else system[STRENGTH, i] - net
+        result[2 * i - 1] = 1.0 if slides else system[BACKWARD, i] + net
+
+
+def jacobian_of(system: FloatArray, state: FloatArray) -> FloatArray:
+    """Matrix of the equations of motion, shape (2 N, 2 N)."""
+    n = state.shape[1] - 2
+    net, result = np.eye(n) - np.eye(n, k=1), np.zeros((2 * n, 2 * n))
+    result[:n, n:] = -system[SPRING, 1:-1, None] * net.T
+    result[n:, :n] = state[MOBILITY, 1:-1, None] * net
+    return result
+
+
+@inner
+def nudge_starting(state, nudge):
+    """Give blocks that slide, but are at rest, a velocity."""
+    for i in range(1, state.shape[1] - 1):
+        if state[MODE, i] != 0.0 and state[VELOCITY, i] == 0.0:
+            state[VELOCITY, i] = state[MODE, i] * nudge
 
 
 @outer
 def go_on(system, state, progress, record, y, settings, nudge, event, elapsed):
     """Make the transition of an event and those overdue with it, or wait (-1) until block 1 slides.
 
-    Returns MOVING where a block slides, and PAUSED where room or patience is at its end.
+    Returns MOVING where a block slides, PAUSED where the record is full, and LOST where transitions repeat
+    without time going on.
     """
     motion, n = Motion(system, state, progress, record), state.shape[1] - 2
     if event < 0:
@@ -228,19 +209,13 @@ def go_on(system, state, progress, record, y, settings, nudge, event, elapsed):
         progress[0].elapsed = elapsed
         switch(motion, event // 2 + 1)
         status = MOVING if progress[0].sliding > 0 else FINISHED
-        if obstacle(motion) == PAUSED or progress[0].at_once > MAX_AT_ONCE * n:
+        if progress[0].at_once > MAX_AT_ONCE * n:
+            status = LOST
+        elif obstacle(motion) == PAUSED:
             status = PAUSED
-    give(state, y, settings, nudge)
+    nudge_starting(state, nudge)
+    for i in range(n):
+        y[i], y[n + i] = state[FORCE, i + 1], state[VELOCITY, i + 1]
+        settings[SLIDES, i], settings[STICKS, i] = state[MOBILITY, i + 1], 1.0 - state[MOBILITY, i + 1]
+        settings[MODES, i], settings[FRICTIONS, i] = state[MODE, i + 1], state[FRICTION, i + 1]
     return status
-
-
-def jacobian(system: FloatArray, state: FloatArray, result: FloatArray) -> FloatArray:
-    """Matrix of the equations of motion, shape (2 N, 2 N), filled into zeros."""
-    spring, slides = system[SPRING, 1:-1], state[MOBILITY, 1:-1]
-    n = len(spring)
-    i = np.arange(n)
-    result[i, n + i] = -spring
-    result[i[1:], n + i[:-1]] = spring[1:]
-    result[n + i, i] = slides
-    result[n + i[:-1], i[1:]] = -slides[:-1]
-    return result

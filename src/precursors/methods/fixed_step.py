@@ -13,31 +13,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.methods.columns import (
-    BACKWARD,
-    FORCE,
-    MODE,
-    STRENGTH,
-    VELOCITY,
-    along_mode,
-    apart,
-    at_rest,
-    event_function,
-    inner,
-    move_by,
-    net_force,
-    resting_mode,
-    template,
-    time_unit,
-)
+from precursors.methods.columns import BACKWARD, FORCE, MODE, STRENGTH, VELOCITY, at_rest, time_unit
 from precursors.methods.common import DivergedError, Kind, Method, Result, Smooth
+from precursors.methods.compiled import apart, inner, template
+from precursors.methods.equations import event_function, move_by, net_force, resting_mode
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span, positive
 from precursors.model.switching import COULOMB
-from precursors.solver.run import Run
+from precursors.solver.run import TRANSITION, Run
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 
-FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, MOVING = range(5)
+FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, LOST, MOVING = range(6)
 # A leg has at most so many steps, and a call so many legs, so that Ctrl-C is heard within a second or so.
 STEPS_IN_LEG, LEGS_PER_CALL = 1000, 5000
 FIRST_ROOM = 4096  # transitions
@@ -151,11 +137,8 @@ def feels(state, last):
 @inner
 def all_keep_their_modes(system, state, last):
     """Whether no sliding block's velocity has changed its sign and no stuck block's force exceeds mu_s w."""
-    for i in range(1, feels(state, last) + 1):
-        if state[MODE, i] != 0.0:
-            if not along_mode(state, state, i) >= 0.0:
-                return False
-        elif not -system[BACKWARD, i] <= net_force(state, i) <= system[STRENGTH, i]:
+    for i in range(1, feels(state, last) + 1):  # noqa: SIM110
+        if not event_function(system, state, state, i) >= 0.0:
             return False
     return True
 
@@ -202,7 +185,7 @@ def rest(motion):
         if wait >= remaining:
             progress.elapsed = remaining / progress.unit
             return FINISHED
-        state[FORCE, 1] = max(state[FORCE, 1], limit)
+        state[FORCE, 1] = limit
     progress.onset += wait
     progress.waited += wait
     progress.remaining = (progress.duration - progress.onset) / progress.unit
@@ -342,13 +325,12 @@ def run_of(motion: Motion, chain: Chain, status: int) -> Run:
     """The run so far; of a diverged one what is finite."""
     progress = motion.progress[0]
     rows, unit = motion.record[: progress["transitions"]], progress["unit"]
-    n = len(rows)
-    if status == DIVERGED:
-        n = int(np.isfinite(rows["tangential_load"]).sum())
-    since = progress["waited"] + (progress["elapsed"] - progress["noted"]) * unit + rows["interval"][n:].sum()
-    good, intervals = rows[:n], np.append(rows["interval"][:n], since)
+    n = int(np.isfinite(rows["tangential_load"]).sum())
+    since = progress["waited"] + (progress["elapsed"] - progress["noted"]) * unit
+    # The last interval includes those of the transitions that are left out.
+    intervals = np.add.reduceat(np.append(rows["interval"], since), np.arange(n + 1))
     reached = progress["duration"] if status == FINISHED else progress["onset"] + progress["elapsed"] * unit
-    time, block, mode, load = (good[name] for name in ("time", "block", "mode", "tangential_load"))
+    time, block, mode, load = (rows[name][:n] for name in TRANSITION.names or ())
     return Run.from_transitions(chain, float(reached), time, block, mode, load, intervals)
 
 

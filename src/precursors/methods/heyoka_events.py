@@ -83,7 +83,8 @@ def solve_heyoka(
     is explained in `events.NUDGE`.
     """
     solver, present = _integrator(chain, float(tolerance))
-    motion = EventMotion(chain, duration, until, solver.state, solver.pars.reshape(4, -1), nudge)
+    motion = EventMotion(chain, duration, until, nudge)
+    motion.y, motion.settings = solver.state, solver.pars.reshape(4, -1)
     present[:] = [motion]
     while motion.begin():
         solver.time = 0.0

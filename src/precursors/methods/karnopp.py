@@ -15,27 +15,24 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from precursors.methods.columns import (
-    INVERSE_MASS,
-    KINETIC,
-    MODE,
-    STRENGTH,
-    VELOCITY,
-    apart,
-    inner,
-    net_force,
-    outer,
-    template,
-)
+from precursors.methods.columns import INVERSE_MASS, KINETIC, MODE, STRENGTH, VELOCITY
 from precursors.methods.common import Method, Result
-from precursors.methods.fixed_step import STEPS_IN_LEG, begin_leg, march, record_transition, step_length
+from precursors.methods.compiled import apart, inner, outer
+from precursors.methods.fixed_step import (
+    STEPS_IN_LEG,
+    all_keep_their_modes,
+    begin_leg,
+    march,
+    record_transition,
+    step_length,
+)
 from precursors.methods.rk4 import room, step_of_law
 from precursors.model.chain import Chain
 from precursors.model.checks import not_negative, positive
-from precursors.solver.simulate import MAX_TRANSITIONS
 
 # Part of the width that is certainly safe, found by trial: below 0.1 blocks jump over the zone, above 0.2 the
 # error grows for nothing.
@@ -66,18 +63,13 @@ def solve(
     step: float,
     until: str | None = None,
     dead_zone: float | None = None,
-    max_transitions: int = MAX_TRANSITIONS,
+    **limits: Any,
 ) -> Result:
-    """Integrate with a dead zone of some velocity [m/s], by default `PART_OF_SAFE_WIDTH` of `safe_width`.
-
-    While all blocks rest the wait is in closed form.
-
-    It raises what `march` raises.
-    """
+    """Integrate with a dead zone of some velocity [m/s], by default `PART_OF_SAFE_WIDTH` of `safe_width`."""
     if dead_zone is None:
         dead_zone = PART_OF_SAFE_WIDTH * safe_width(chain, positive("step", step, "s"))
     width = not_negative("dead_zone", dead_zone, "m/s")
-    return march(run_karnopp, (width,), chain, duration, step, until, max_transitions)
+    return march(run_karnopp, (width,), chain, duration, step, until, **limits)
 
 
 @inner
@@ -90,18 +82,12 @@ def by_velocity(system, _state, i, net, velocity, dead_zone):
     return velocity, system[INVERSE_MASS, i] * (net - friction)
 
 
-@template
-def law_step(system, state, h, dead_zone, work):
-    """One step h [s] of Runge and Kutta's method with the law in each evaluation."""
-    step_of_law(by_velocity, dead_zone, system, state, state.shape[1] - 2, h, work)
-
-
 @outer
 def slide(system, state, h, n_steps, dead_zone):
     """Make n steps of the whole chain, with nothing recorded."""
-    work = room(state)
+    n, work = state.shape[1] - 2, room(state)
     for _ in range(n_steps):
-        law_step(system, state, h, dead_zone, work)
+        step_of_law(by_velocity, dead_zone, system, state, n, h, work)
 
 
 @inner
@@ -111,7 +97,7 @@ def mode_of(v, dead_zone):
 
 
 @inner
-def all_keep_their_modes(state, dead_zone):
+def all_are_recorded(state, dead_zone):
     """Whether no block has entered, left or crossed the dead zone."""
     changes = 0
     for i in range(1, state.shape[1] - 1):
@@ -131,28 +117,18 @@ def record_modes(motion, dead_zone):
             record_transition(motion, i, new)
 
 
-@inner
-def all_can_rest(system, state):
-    """Whether no force exceeds mu_s w."""
-    released = 0
-    for i in range(1, state.shape[1] - 1):
-        released += abs(net_force(state, i)) > system[STRENGTH, i]
-    return released == 0
-
-
 @outer
 def run_karnopp(motion, step, dead_zone):
     """Run in steps with the law in each evaluation."""
     system, state, progress = motion.system, motion.state, motion.progress[0]
-    work = room(state)
+    n, work = state.shape[1] - 2, room(state)
     # No block is released: its velocity decides.
-    while begin_leg(motion, progress.sliding == 0 and all_can_rest(system, state), False):
+    while begin_leg(motion, all_keep_their_modes(system, state, n), False):
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
-            law_step(system, state, h, dead_zone, work)
-            progress.evaluations += 4
+            progress.evaluations += step_of_law(by_velocity, dead_zone, system, state, n, h, work)
             progress.elapsed += h
-            if h < step or progress.sliding == 0 or not all_keep_their_modes(state, dead_zone):
+            if h < step or progress.sliding == 0 or not all_are_recorded(state, dead_zone):
                 break
         record_modes(motion, dead_zone)
 

@@ -11,7 +11,8 @@ import math
 
 import numpy as np
 
-from precursors.methods.columns import accelerate, by_mode, inner, outer, rates, stretch
+from precursors.methods.compiled import inner, outer
+from precursors.methods.equations import accelerate, by_mode, rates, stretch
 from precursors.methods.fixed_step import fixed_step, run_in_steps
 
 LIMIT = 2.0  # largest stable omega dt, of both symplectic methods

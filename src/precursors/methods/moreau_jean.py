@@ -29,17 +29,15 @@ from precursors.methods.columns import (
     SPRING,
     STRENGTH,
     VELOCITY,
-    inner,
-    move_by,
-    net_force,
-    outer,
-    solve_springs,
 )
 from precursors.methods.common import Method
+from precursors.methods.compiled import inner, outer
+from precursors.methods.equations import move_by, net_force, solve_springs
 from precursors.methods.fixed_step import STEPS_IN_LEG, begin_leg, change_mode, fixed_step, step_length
 
 # theta: of order 2 while nothing switches, without damping; of order 1, damping what is faster than a step.
 TRAPEZOIDAL, IMPLICIT = 0.5, 1.0
+CHARTED = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
 # The active set settles in two or three solutions; where it goes in a circle, this many are enough.
 SOLUTIONS_PER_BLOCK = 4
 
@@ -159,10 +157,9 @@ def run_moreau_jean(motion, step, theta):
 
 
 def _method(name: str, label: str, theta: float, order: int, **others: Any) -> Method:
-    smooth = order, math.inf, partial(energy_factor, theta=theta)
-    values = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
-    others |= {"smooth": smooth, "values": values, "whole": values[3:8:2]}
-    return fixed_step(f"moreau_jean_{name}", f"Moreau-Jean, {label}", run_moreau_jean, theta, **others)
+    others |= {"smooth": (order, math.inf, partial(energy_factor, theta=theta))}
+    name, label = f"moreau_jean_{name}", f"Moreau-Jean, {label}"
+    return fixed_step(name, label, run_moreau_jean, theta, values=CHARTED, whole=CHARTED[3:8:2], **others)
 
 
 METHODS = (

@@ -14,22 +14,18 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from precursors.methods.columns import (
-    FORCE,
-    FRICTION,
-    MOBILITY,
-    SPRING,
-    VELOCITY,
-    inner,
-    outer,
-    solve_springs,
-)
+from precursors.methods.columns import FORCE, FRICTION, MOBILITY, SPRING, VELOCITY
+from precursors.methods.common import Method
+from precursors.methods.compiled import inner, outer
+from precursors.methods.equations import solve_springs
 from precursors.methods.fixed_step import fixed_step, run_in_steps
 
 NEWMARK, HHT = 0.0, -0.1
+CHARTED = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9)
 
 
 def energy_factor(z: float, alpha: float) -> float:
@@ -71,20 +67,12 @@ def run_newmark(motion, step, alpha):
     run_in_steps(motion, step, newmark_step, True, (alpha, np.zeros(motion.state.shape)))
 
 
-METHODS = tuple(
-    fixed_step(
-        name,
-        label,
-        run_newmark,
-        alpha,
-        values=(1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9),
-        whole=(1e-6, 1e-7, 1e-8),
-        quick=quick,
-        look=look,
-        smooth=(2, math.inf, partial(energy_factor, alpha=alpha)),
-    )
-    for name, label, alpha, quick, look in (
-        ("newmark", "Newmark", NEWMARK, (1e-6, 1e-7, 1e-8), ("#6B8E23", "4,1,45")),
-        ("hht", "HHT", HHT, (1e-7,), ("#A9C25D", "10,1,0")),
-    )
+def _method(name: str, label: str, alpha: float, **others: Any) -> Method:
+    others |= {"smooth": (2, math.inf, partial(energy_factor, alpha=alpha))}
+    return fixed_step(name, label, run_newmark, alpha, values=CHARTED, whole=CHARTED[2:7:2], **others)
+
+
+METHODS = (
+    _method("newmark", "Newmark", NEWMARK, quick=(1e-6, 1e-7, 1e-8), look=("#6B8E23", "4,1,45")),
+    _method("hht", "HHT", HHT, quick=(1e-7,), look=("#A9C25D", "10,1,0")),
 )

@@ -23,7 +23,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from precursors.methods.columns import SPRING, VELOCITY, at_rest, set_modes, time_unit
 from precursors.methods.common import Method, Result
-from precursors.methods.events import jacobian
+from precursors.methods.events import jacobian_of
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span, positive
 from precursors.solver.run import Run
@@ -76,8 +76,8 @@ def equations(
     n = chain.n_blocks
     law = (width * chain.mass / time_unit(chain), chain.mu_s, chain.mu_k)
     system, state = at_rest(chain, scaled=True)
-    set_modes(system, state, np.ones(n))
-    linear = jacobian(system, state, np.zeros((2 * n, 2 * n)))
+    set_modes(system, state, 1.0)
+    linear = jacobian_of(system, state)
     drive = np.zeros(2 * n)
     drive[0] = system[SPRING, 1] * state[VELOCITY, 0]
     i = np.arange(n, 2 * n)

@@ -6,7 +6,9 @@ import math
 
 import numpy as np
 
-from precursors.methods.columns import FORCE, SPRING, VELOCITY, by_mode, inner, outer, rates, template
+from precursors.methods.columns import FORCE, SPRING, VELOCITY
+from precursors.methods.compiled import inner, outer, template
+from precursors.methods.equations import by_mode, rates
 from precursors.methods.fixed_step import fixed_step, run_in_steps
 
 CHARTED = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)

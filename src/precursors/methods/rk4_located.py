@@ -12,22 +12,9 @@ import math
 
 import numpy as np
 
-from precursors.methods.columns import (
-    BACKWARD,
-    INVERSE_MASS,
-    MODE,
-    SPRING,
-    STRENGTH,
-    VELOCITY,
-    apart,
-    by_mode,
-    copy,
-    event_function,
-    inner,
-    net_force,
-    outer,
-    rates,
-)
+from precursors.methods.columns import BACKWARD, INVERSE_MASS, MODE, SPRING, STRENGTH, VELOCITY
+from precursors.methods.compiled import apart, inner, outer
+from precursors.methods.equations import by_mode, copy, event_function, net_force, rates
 from precursors.methods.fixed_step import (
     STEPS_IN_LEG,
     begin_leg,
@@ -122,12 +109,8 @@ def first_zero(g0, b0, g1, b1, rounding):
 @inner
 def roundings(system):
     """Roundings of the event functions: of a force while a block sticks [N], of a velocity [m/s]."""
-    total = stiffest = 0.0
-    for i in range(1, system.shape[1] - 1):
-        total += system[STRENGTH, i]
-        stiffest = max(stiffest, system[SPRING, i])
-    force = ROUNDINGS * total
-    return force, force * math.sqrt(system[INVERSE_MASS, 1] / stiffest)
+    force = ROUNDINGS * system[STRENGTH].sum()
+    return force, force * math.sqrt(system[INVERSE_MASS, 1] / system[SPRING].max())
 
 
 @inner

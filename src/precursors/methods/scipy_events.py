@@ -12,16 +12,14 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any, Literal
 
-import numpy as np
 from scipy.integrate import solve_ivp
 
 from precursors.methods.columns import MODE, STRENGTH
 from precursors.methods.common import Method, Result
-from precursors.methods.events import NUDGE, EventMotion, jacobian, march_restarting
+from precursors.methods.events import NUDGE, EventMotion, march_restarting
 from precursors.model.chain import Chain, FloatArray
 
 Solver = Literal["RK45", "DOP853", "LSODA", "Radau"]
-IMPLICIT = ("LSODA", "Radau")
 FALLING = -1.0
 
 EventFunction = Callable[[float, FloatArray], float]
@@ -47,31 +45,31 @@ def solve_scipy(
     TransitionLimitError, RuntimeError
         If transition follows transition without time going on, or SciPy reports a failure.
     """
-    motion = EventMotion(chain, duration, until, nudge=nudge)
-    n = chain.n_blocks
+    motion = EventMotion(chain, duration, until, nudge)
 
     def next_transition(time: float) -> tuple[float, int]:
-        events = dict(watched(motion, direction))
-        options: dict[str, Any] = {}
-        if solver in IMPLICIT:
-            matrix = jacobian(motion.system, motion.state, np.zeros((2 * n, 2 * n)))
-            options["jac"] = matrix if solver == "Radau" else lambda _t, _y: matrix
+        numbers, events = zip(*watched(motion, direction), strict=True)
+        jacobian: dict[str, Any] = {}
+        if solver == "Radau":
+            jacobian["jac"] = motion.jacobian()
+        elif solver == "LSODA":
+            jacobian["jac"] = lambda _time, _y: motion.jacobian()
         solution = solve_ivp(
             motion.rates,
             (time, motion.remaining),
             motion.y,
             method=solver,
-            events=list(events.values()),
+            events=events,
             rtol=tolerance,
             atol=tolerance,
             max_step=max_step / motion.tau,
-            **options,
+            **jacobian,
         )
         motion.evaluations += solution.nfev
         if not solution.success:
             raise RuntimeError(f"{solver} at t = {motion.onset:.9g} s: {solution.message}")
         motion.y[:] = solution.y[:, -1]
-        fired = [number for number, times in zip(events, solution.t_events or (), strict=True) if len(times)]
+        fired = [number for number, times in zip(numbers, solution.t_events or (), strict=True) if len(times)]
         return float(solution.t[-1]), fired[0] if fired else -1
 
     return march_restarting(motion, next_transition)
@@ -79,27 +77,26 @@ def solve_scipy(
 
 def watched(motion: EventMotion, direction: float = FALLING) -> Iterator[tuple[int, EventFunction]]:
     """Numbers and functions of the events that can come next."""
-    n = motion.chain.n_blocks
-    mode = motion.state[MODE, 1:-1]
-    for i in range(n):
+    n, mode, strength = motion.chain.n_blocks, motion.state[MODE].tolist(), motion.system[STRENGTH].tolist()
+    for block in range(1, n + 1):
         found: list[EventFunction] = []
-        if mode[i] != 0.0:
-            found = [_velocity(n + i, float(mode[i]))]
-        elif mode[max(i - 1, 0) : i + 2].any():
-            found = [_margin(i, n, float(motion.system[STRENGTH, i + 1]), way) for way in (1.0, -1.0)]
+        if mode[block]:
+            found = [_velocity(n + block - 1, mode[block])]
+        elif mode[block - 1] or mode[block + 1]:
+            found = [_margin(n, block, strength[block], way) for way in (1.0, -1.0)]
         for side, function in enumerate(found):
             vars(function).update(terminal=True, direction=direction)
-            yield 2 * i + side, function
+            yield 2 * (block - 1) + side, function
 
 
 def _velocity(column: int, way: float) -> EventFunction:
-    return lambda _time, state: way * state[column]
+    return lambda _time, y: way * y[column]
 
 
-def _margin(block: int, n_blocks: int, strength: float, way: float) -> EventFunction:
-    if block + 1 == n_blocks:
-        return lambda _time, state: strength - way * state[block]
-    return lambda _time, state: strength - way * (state[block] - state[block + 1])
+def _margin(n_blocks: int, block: int, strength: float, way: float) -> EventFunction:
+    if block == n_blocks:
+        return lambda _time, y: strength - way * y[block - 1]
+    return lambda _time, y: strength - way * (y[block - 1] - y[block])
 
 
 def _method(solver: Solver, values: tuple[float, ...], **others: Any) -> Method:
