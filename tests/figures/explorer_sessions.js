@@ -46,8 +46,9 @@ function watch(count, isCalm = false) {
     const due = frames;
     frames = [];
     due.forEach((frame) => frame(clock));
-    if (i % 5 === 0) seen.push(`${(1e3 * state.time).toFixed(3)} ${state.event} ${element("moment").textContent.split(" N")[1]}`);
+    if (i % 5 === 0) seen.push(`${(1e3 * state.time).toFixed(3)} ${state.event} ${element("moment").textContent.split(" N")[1]} ${(1e6 * frameAt(state.time).shifts[0]).toFixed(2)}`);
   }
+  seen.push(clock);
   stop();
   frames.forEach((frame) => frame(clock));
   performance.now = now;

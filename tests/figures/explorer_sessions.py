@@ -56,6 +56,7 @@ SESSIONS = {
     "sliders": [
         "set('#theta', -0.25)",
         "set('#n_blocks', 1)",
+        "set('#n_blocks', 2)",
         "set('#n_blocks', 4)",
         "set('#mu_k', 0.8), set('#mu_s', 0.3), set('#mu_s', 0.9), set('#mu_k', 0.5)",
         "set('#drive_stiffness', 7.1)",

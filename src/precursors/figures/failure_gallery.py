@@ -20,8 +20,7 @@ ROWS, COLUMNS = 4, 3
 TEXT_SIZE = 7.0
 # A layout made for the longest title would leave no room for the panels.
 LAYOUT = {"left": 0.07, "right": 0.99, "bottom": 0.045, "top": 0.97, "wspace": 0.38, "hspace": 0.48}
-TITLE_PT = (-24.0, 3.0)
-ABOVE: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "bottom"}
+TITLE: dict[str, Any] = {"loc": "left", "x": -0.18, "pad": 3.0, "fontsize": TEXT_SIZE, "fontweight": "bold"}
 # A logarithmic axis that spans less than this factor, above this number, has decimal labels.
 FEW_DECADES, SHORT = 110.0, 1e-4
 MICRO, MILLI = 1e6, 1e3
@@ -140,9 +139,7 @@ def _draw_panel(axes: Axes, letter: str, panel: Panel, limits: pd.DataFrame, cur
     axes.set_xlabel(panel.x, fontsize=TEXT_SIZE)
     axes.set_ylabel(panel.y, fontsize=TEXT_SIZE)
     axes.legend(loc=panel.key, fontsize=TEXT_SIZE, handlelength=1.4, labelspacing=0.2, borderaxespad=0.3)
-    axes.annotate(
-        f"{letter}  {panel.title}", (0, 1), TITLE_PT, **ABOVE, fontsize=TEXT_SIZE, fontweight="bold"
-    )
+    axes.set_title(f"{letter}  {panel.title}", **TITLE)
 
 
 def _draw_curves(axes: Axes, panel: Panel, curves: pd.DataFrame) -> None:

@@ -37,10 +37,7 @@ def draw(nucleation: pd.DataFrame, table: pd.DataFrame) -> Figure:
             axes.set_xticks(blocks, [str(n) for n in blocks])
         counts.yaxis.minorticks_off()
         counts.set_yticks([5, 10, 20, 50], ["5", "10", "20", "50"])
-        handles, labels = counts.get_legend_handles_labels()
-        style.draw_key(
-            figure, [style.mark(label, **_look(h)) for h, label in zip(handles, labels, strict=True)]
-        )
+        style.draw_key(figure, counts.get_legend_handles_labels()[0])
     return figure
 
 
@@ -49,20 +46,13 @@ def _draw_lengths(axes: Axes, nucleation: pd.DataFrame) -> None:
     for time, marker in TIMES.items():
         for n, rows in nucleation[nucleation["relaxation_time"] == time].groupby("n_blocks"):
             filled = n == finest
-            look: dict[str, Any] = {
-                "linestyle": "none",
-                "marker": marker,
-                "color": style.BLACK,
-                "markersize": 4,
-            }
-            look["markerfacecolor"] = style.BLACK if filled else "none"
+            look: dict[str, Any] = {"linestyle": "none", "marker": marker, "markersize": 4}
+            look |= {"color": style.BLACK, "markerfacecolor": style.BLACK if filled else "none"}
             label = rf"$t_v = {time * 1e6:g}$ µs" if filled else None
             axes.plot(rows["theory"], rows["measured"], **look, label=label)
     ends = [0.0, 1.1 * nucleation["theory"].max()]
     axes.plot(ends, ends, color=style.GREY, linewidth=0.8)
-    axes.fill_between(
-        ends, [0.9 * x for x in ends], [1.1 * x for x in ends], color=style.GREY, alpha=0.2, lw=0
-    )
+    axes.fill_between(ends, [0.0, 0.9 * ends[1]], [0.0, 1.1 * ends[1]], color=style.GREY, alpha=0.2, lw=0)
     axes.set(xlim=ends, ylim=ends, xlabel=r"$l_c/L$, theory", ylabel="length that crept, over $L$")
     axes.legend(loc="upper left", handlelength=1.0, borderaxespad=0.2)
 
@@ -71,13 +61,7 @@ def _draw_medians(axes: Axes, runs: pd.DataFrame, quantity: str) -> None:
     looks = cycle(zip(COLORS, MARKERS, strict=True))
     for (v_c, _), rows in runs.groupby(["weakening_velocity", "relaxation_time"], sort=False):
         color, marker = (style.GREY, "D") if v_c == 0 else next(looks)
-        label = rf"$l_c = {rows['critical_length'].iloc[0]:.2f} L$"
         low, high = (abs(rows[quantity] - rows[f"{quantity}_{end}"]) for end in ("low", "high"))
         look: dict[str, Any] = {"color": color, "marker": marker, "markersize": 3.5, "linewidth": 1.0}
-        label = "paper's chain" if v_c == 0 else label
+        label = "paper's chain" if v_c == 0 else rf"$l_c = {rows['critical_length'].iloc[0]:.2f} L$"
         axes.errorbar(rows["n_blocks"], rows[quantity], [low, high], **look, elinewidth=0.8, label=label)
-
-
-def _look(handle: Any) -> dict[str, Any]:
-    line = handle.lines[0]
-    return {"color": line.get_color(), "marker": line.get_marker(), "markersize": 3.5}

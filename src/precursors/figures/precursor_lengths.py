@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from functools import partial
+from itertools import repeat
 from textwrap import fill
 from typing import Any
 
@@ -70,7 +70,9 @@ def draw(
     with style.page(style.COLUMN_MM, HEIGHT_MM + KEY_MM * is_crowded, look=look) as figure:
         axes = figure.subplots()
         axes.set_title(fill(style.plain(title or ""), 48), loc="left")
-        entries: list[Any] = [_draw_events(axes, table, outline) for table, outline in _outlined(slips)]
+        signs = [int(np.sign(table["theta"].fillna(0).iloc[0])) for table in slips]
+        outlines = [OUTLINES[signs[:i].count(sign) % len(OUTLINES)] for i, sign in enumerate(signs)]
+        entries: list[Any] = list(map(_draw_events, repeat(axes), slips, signs, outlines))
         labels = [_label(table, slips, count) for table, count in zip(slips, counts, strict=True)]
         if any(len(_short_events(table)) for table in slips):
             entries.append((Line2D([], [], **SHORT, color=style.GREY),))
@@ -90,21 +92,9 @@ def draw(
     return figure
 
 
-def _outlined(slips: Sequence[pd.DataFrame]) -> list[tuple[pd.DataFrame, str]]:
-    """The tables, each with an outline that no other table of the same sign has."""
-    used: Counter[float] = Counter()
-    pairs = []
-    for table in slips:
-        sign = np.sign(table["theta"].iloc[0])
-        pairs.append((table, OUTLINES[used[sign] % len(OUTLINES)]))
-        used[sign] += 1
-    return pairs
-
-
-def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> tuple[Line2D, ...]:
-    """Draw the events of a scene; return the marks for the key."""
-    theta = slips["theta"].iloc[0]
-    sign, color = int(theta > 0) - int(theta < 0), style.theta_color(theta)
+def _draw_events(axes: Axes, slips: pd.DataFrame, sign: int, outline: str) -> tuple[Line2D, ...]:
+    """Draw the events of a scene, whose theta has a sign; return the marks for the key."""
+    color = style.theta_color(sign)
     short = _short_events(slips)
     axes.plot(short["load_before_N"], short["front"] / short["n_blocks"], **SHORT, color=color, zorder=1.5)
     counted = slips[slips["counted"]]

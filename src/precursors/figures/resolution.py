@@ -84,7 +84,8 @@ def _draw_scene(
     theta, scale = table["theta"].iloc[0], SCALES.get(quantity, 1.0)
     color = style.theta_color(theta)
     label = style.theta_text(theta) if quantity == "events_counted" else None
-    style.draw_band(axes, table, color, scale)
+    low, high = table["q05"] * scale, table["q95"] * scale
+    axes.fill_between(table["n_blocks"], low, high, color=color, alpha=0.15, linewidth=0)
     axes.plot(table["n_blocks"], table["q50"] * scale, color=color, label=label)
     right = table[table["n_blocks"].isin(foreseen.loc[foreseen["predictable"], "n_blocks"])]
     axes.plot(right["n_blocks"], right["without_noise"] * scale, **WITHOUT_NOISE, color=color)

@@ -14,7 +14,6 @@ from typing import Any
 
 import matplotlib.style
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.collections import Collection
 from matplotlib.colors import to_rgba_array
@@ -175,12 +174,6 @@ def set_ticks(axis: Axis, values: Sequence[float]) -> None:
     """Put ticks at some values of an axis and nowhere else, labelled as decimal numbers."""
     axis.set_ticks(values, labels=[f"{value:g}" for value in values])
     axis.set_minor_locator(NullLocator())
-
-
-def draw_band(axes: Axes, table: Any, color: str, scale: float = 1.0, **how: Any) -> None:
-    """Draw the range from column q05 to q95 over n_blocks: 5 to 95 % of the runs."""
-    low, high = table["q05"] * scale, table["q95"] * scale
-    axes.fill_between(table["n_blocks"], low, high, color=color, alpha=0.15, linewidth=0, **how)
 
 
 def fraction_text(value: float) -> str:

@@ -29,6 +29,13 @@ function clear(canvas) {
   return [context, width, height];
 }
 
+// Draw lines, each through its points [x, y].
+function stroke(context, ...lines) {
+  context.beginPath();
+  for (const points of lines) points.forEach((point, i) => (i ? context.lineTo(...point) : context.moveTo(...point)));
+  context.stroke();
+}
+
 // About `count` round numbers from low to high, and their decimals.
 function ticks(low, high, count) {
   const rough = (high - low) / count || 1, power = 10 ** Math.floor(Math.log10(rough));
@@ -47,10 +54,8 @@ function axes(context, width, height, x, y, labels, xTicks, yTicks) {
   yTicks ??= ticks(...y, 4);
   context.strokeStyle = palette.grid;
   context.fillStyle = palette.soft;
-  context.beginPath();
-  for (const value of xTicks.values) context.moveTo(toX(value), box.top), context.lineTo(toX(value), box.bottom);
-  for (const value of yTicks.values) context.moveTo(box.left, toY(value)), context.lineTo(box.right, toY(value));
-  context.stroke();
+  stroke(context, ...xTicks.values.map((value) => [[toX(value), box.top], [toX(value), box.bottom]]));
+  stroke(context, ...yTicks.values.map((value) => [[box.left, toY(value)], [box.right, toY(value)]]));
   context.textBaseline = "middle";
   context.textAlign = "right";
   for (const value of yTicks.values) context.fillText(value.toFixed(yTicks.decimals), box.left - 6, toY(value));
@@ -95,18 +100,18 @@ function curve(context, figure, time, value, start, end) {
   context.beginPath();
   context.rect(box.left, box.top - 6, box.right - box.left, box.bottom - box.top + 7);
   context.clip();
-  context.beginPath();
+  const points = [];
   for (let i = from; i < to; ) {
     const column = Math.round(figure.x(time[i]));
     let low = i, high = i, last = i;
     for (; i < to && Math.round(figure.x(time[i])) === column; last = i++) {
       if (value[i] < value[low]) low = i;
       if (value[i] > value[high]) high = i;
-      if (i === last) context.lineTo(figure.x(time[i]), figure.y(value[i]));
+      if (i === last) points.push(i);
     }
-    for (const j of low < high ? [low, high, last] : [high, low, last]) context.lineTo(figure.x(time[j]), figure.y(value[j]));
+    points.push(...(low < high ? [low, high, last] : [high, low, last]));
   }
-  context.stroke();
+  stroke(context, points.map((i) => [figure.x(time[i]), figure.y(value[i])]));
   context.restore();
 }
 
@@ -130,41 +135,32 @@ function slideBars(context, figure, bars, n, start, end) {
   context.drawImage(buffer, box.left, box.top, box.right - box.left, box.bottom - box.top);
   context.strokeStyle = palette.paper;
   context.lineWidth = n > 25 ? 0.5 : 1.5;
-  context.beginPath();
-  for (let i = 0; i <= n; i++) {
-    const y = box.top + (i * (box.bottom - box.top)) / n;
-    context.moveTo(box.left, y), context.lineTo(box.right, y);
-  }
-  context.stroke();
+  const borders = Array.from({ length: n + 1 }, (_, i) => box.top + (i * (box.bottom - box.top)) / n);
+  stroke(context, ...borders.map((y) => [[box.left, y], [box.right, y]]));
 }
 
 // A mark at a point in pixels: dot, ring, cross or diamond.
 function mark(context, shape, x, y, size, colour) {
   context.strokeStyle = context.fillStyle = colour;
   context.lineWidth = 2;
+  const [left, right, top, bottom] = [x - size, x + size, y - size, y + size];
+  if (shape === "cross") return stroke(context, [[left, top], [right, bottom]], [[left, bottom], [right, top]]);
+  if (shape === "diamond") return stroke(context, [[x, top], [right, y], [x, bottom], [left, y], [x, top]]);
   context.beginPath();
-  if (shape === "cross") context.moveTo(x - size, y - size), context.lineTo(x + size, y + size), context.moveTo(x - size, y + size), context.lineTo(x + size, y - size);
-  else if (shape === "diamond") context.moveTo(x, y - size), context.lineTo(x + size, y), context.lineTo(x, y + size), context.lineTo(x - size, y), context.closePath();
-  else context.arc(x, y, size, 0, 2 * Math.PI);
+  context.arc(x, y, size, 0, 2 * Math.PI);
   if (shape === "dot") context.fill();
   else context.stroke();
 }
 
 function spring(context, from, to, y, turns) {
-  context.beginPath();
-  context.moveTo(from, y);
   const lead = Math.min(4, (to - from) / 4), step = (to - from - 2 * lead) / (2 * turns);
-  for (let i = 0; i < 2 * turns; i++) context.lineTo(from + lead + (i + 0.5) * step, y + (i % 2 ? 5 : -5));
-  context.lineTo(to - lead, y), context.lineTo(to, y);
-  context.stroke();
+  const turn = (_, i) => [from + lead + (i + 0.5) * step, y + (i % 2 ? 5 : -5)];
+  stroke(context, [[from, y], ...Array.from({ length: 2 * turns }, turn), [to - lead, y], [to, y]]);
 }
 
 function arrow(context, x, from, to, y = null) {
   const way = Math.sign(to - from) * Math.min(5, Math.abs(to - from)), point = (along, across) => (y === null ? [x + across, along] : [along, y + across]);
-  context.beginPath();
-  context.moveTo(...point(from, 0)), context.lineTo(...point(to, 0));
-  context.moveTo(...point(to - way, -3.5)), context.lineTo(...point(to, 0)), context.lineTo(...point(to - way, 3.5));
-  context.stroke();
+  stroke(context, [point(from, 0), point(to, 0)], [point(to - way, -3.5), point(to, 0), point(to - way, 3.5)]);
 }
 
 // The row as in Fig. 9, and below each block the net force of its springs against the limits of static friction.
@@ -179,16 +175,14 @@ function drawRow(canvas, { weights, strength, net, modes, shifts, magnified, len
   const centre = (i) => left + (i + 0.5) * pitch + shifts[i] * magnified * perMetre;
   const y = floor - size / 2;
   context.strokeStyle = palette.line;
-  context.beginPath();
-  context.moveTo(0, floor + 1.5), context.lineTo(width, floor + 1.5);
-  const dash = 0.02e-3 * magnified * perMetre;
-  for (let x = -((((ground * magnified * perMetre) % dash) + dash) % dash); x < width; x += Math.max(dash, 4)) context.moveTo(x + 6, floor + 2), context.lineTo(x, floor + 8);
-  context.stroke();
+  stroke(context, [[0, floor + 1.5], [width, floor + 1.5]]);
+  const dash = 0.02e-3 * magnified * perMetre, first = -((((ground * magnified * perMetre) % dash) + dash) % dash);
+  for (let x = first; x < width; x += Math.max(dash, 4)) stroke(context, [[x + 6, floor + 2], [x, floor + 8]]);
 
   context.strokeStyle = palette.soft;
   context.lineWidth = 1.5;
-  const first = centre(0) - size / 2, plate = first - 0.8 * left * (1 - 0.65 * pushed);
-  spring(context, plate, first, y, 5);
+  const pushedSide = centre(0) - size / 2, plate = pushedSide - 0.8 * left * (1 - 0.65 * pushed);
+  spring(context, plate, pushedSide, y, 5);
   for (let i = 1; i < n; i++) spring(context, centre(i - 1) + size / 2, centre(i) - size / 2, y, pitch > 30 ? 3 : 1);
   context.fillStyle = palette.ink;
   context.fillRect(plate - 5, floor - 1.5 * size - 2, 5, 1.5 * size + 2);
@@ -201,7 +195,8 @@ function drawRow(canvas, { weights, strength, net, modes, shifts, magnified, len
     const x = centre(i), lean = 0.22 * size * modes[i], way = modes[i];
     context.strokeStyle = palette.soft;
     if (weights[i] > 0) arrow(context, x, floor - size - 6 - (tallest * weights[i]) / heaviest, floor - size - 3);
-    context.fillStyle = way === 0 ? palette.stuck : palette[way < 0 ? "backward" : isGlobal ? "global" : "partial"];
+    const colour = palette[way === 0 ? "stuck" : way < 0 ? "backward" : isGlobal ? "global" : "partial"];
+    context.fillStyle = colour;
     context.beginPath();
     context.moveTo(x - size / 2, floor), context.lineTo(x + size / 2, floor);
     context.lineTo(x + size / 2 + lean, floor - size), context.lineTo(x - size / 2 + lean, floor - size);
@@ -213,12 +208,10 @@ function drawRow(canvas, { weights, strength, net, modes, shifts, magnified, len
     context.strokeStyle = palette.line;
     context.lineWidth = 1;
     context.strokeRect(foot - bar / 2, middle - limit, bar, 2 * limit);
-    context.fillStyle = palette[way === 0 ? "stuck" : way < 0 ? "backward" : isGlobal ? "global" : "partial"];
+    context.fillStyle = colour;
     context.fillRect(foot - bar / 2, Math.min(middle, middle - share), bar, Math.abs(share));
     context.strokeStyle = palette.ink;
-    context.beginPath();
-    context.moveTo(foot - bar / 2 - 2, middle), context.lineTo(foot + bar / 2 + 2, middle);
-    context.stroke();
+    stroke(context, [[foot - bar / 2 - 2, middle], [foot + bar / 2 + 2, middle]]);
     context.lineWidth = 1.5;
   }
   context.fillStyle = palette.soft;

@@ -93,7 +93,6 @@ const ratio = () => (runs[0] ? (Math.max(0, ...runs[0].counted.map((event) => ev
 function solve(isHeld = false) {
   const slider = { ...state.slider, nudge: 0 };
   asked += 1;
-  document.body.dataset.asked = asked;
   worker.postMessage({ id: asked, chains: state.twin ? [slider, { ...slider, nudge: NUDGE }] : [slider], duration: DURATION, all: !isHeld });
   showParameters();
   if (!isHeld) keepState();
@@ -114,6 +113,7 @@ function hear({ data }) {
   if (!state.twin) runs.length = 1;
   if (data.slot === 0) {
     if (isNew) motions.clear(), (wanted = null);
+    magnify(data);
     film = filmOf(data);
     placeTime();
   }
@@ -223,7 +223,6 @@ function magnify(run) {
 }
 
 function showRow() {
-  if (!runs[0].magnified) magnify(runs[0]);
   const frame = frameAt(state.time), { now, at } = frame, start = now ?? -1;
   drawRow(element("row"), frame);
   if (now !== null && state.event !== now) (state.event = now), redraw("lengths");
@@ -319,7 +318,6 @@ function redraw(...names) {
 }
 function drawDirty() {
   if (!runs[0]) return dirty.clear();
-  if (!runs[0].magnified) magnify(runs[0]);
   const names = Object.keys(DRAW).filter((name) => dirty.has(name));
   dirty = new Set();
   names.forEach((name) => DRAW[name]());
@@ -351,8 +349,7 @@ function showParameters() {
     input.setAttribute("aria-valuetext", text);
     element(`${name}-value`).textContent = text;
   }
-  const name = `θ = ${fraction(state.ghost.slider.theta)}`;
-  element("ghost-name").textContent = name;
+  element("ghost-name").textContent = `θ = ${fraction(state.ghost.slider.theta)}`;
   element("second-key").hidden = !state.twin;
   element("own-key").hidden = !own;
   for (const button of document.querySelectorAll("[data-view]")) button.setAttribute("aria-pressed", button.dataset.view === state.view);

@@ -57,21 +57,8 @@ def write_explorer(
 ) -> None:
     """Write the explorer as one HTML file that needs no other file and no network.
 
-    Parameters
-    ----------
-    scenes : sequence of Scene
-        Sliders to start from; the steps use those with the smallest and largest theta, and the nearest to 0.
-    proved : sequence of Proved
-        Chains at which the page says that the run is proved.
-    duration : float
-        Time that is simulated [s].
-    path : path-like
-        The file.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written.
+    The page simulates `duration` [s]. Its steps use the `scenes` with the smallest and largest theta, and the
+    nearest to 0. It says of the `proved` chains that they are.
     """
 
     def part(*names: str) -> str:

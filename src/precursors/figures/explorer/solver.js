@@ -167,7 +167,7 @@ function* solve(run) {
       return;
     }
     force[1] = force[2] + strength[1];
-    const event = { onset, force: force.slice(), first: run.time.length, before: force[1], front: 1, mostSliding: 0 };
+    const event = { onset, force: force.slice(), first: run.time.length, before: force[1], front: 1, mostSliding: 1 };
     const states = new Int8Array(n + 1);
     let sliding = 0, elapsed = 0;
     const slip = slipEvent(chain, force, (duration - onset) / tau, (t, i, m, forces) => {
