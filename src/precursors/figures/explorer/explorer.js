@@ -226,7 +226,7 @@ function showRow() {
   const frame = frameAt(state.time), { now, at } = frame, start = now ?? -1;
   drawRow(element("row"), frame);
   if (now !== null && state.event !== now) (state.event = now), redraw("lengths");
-  else if (now === null && playing && at >= 0 && state.event !== at) state.event = at;
+  else if (now === null && playing && at >= 0) state.event = at;
   const { box } = shares ?? {}, { start: from, end: to } = view();
   const share = (state.time - from) / (to - from);
   element("cursor").style.transform = box ? `translateX(${box.left + share * (box.right - box.left)}px)` : "";
@@ -254,8 +254,9 @@ function showReadout() {
   element("lengths").setAttribute("aria-label", `Front length against load: ${counted.map((e) => `${e.front} blocks at ${e.before.toFixed(1)} N`).join(", ").slice(0, 900)}`);
 }
 
+const isWide = (start, end) => end - start > 0.02; // s: the time of the run, not that of an event
 function timeTicks(start, end, width) {
-  if (end - start > 0.02) return [ticks(start, end, Math.min(8, width / 80)), "Time t [s]"];
+  if (isWide(start, end)) return [ticks(start, end, Math.min(8, width / 80)), "Time t [s]"];
   const zero = event()?.onset ?? start, [unit, name] = end - start < 2e-3 ? [1e-6, "µs"] : [1e-3, "ms"];
   const { values, decimals } = ticks((start - zero) / unit, (end - zero) / unit, Math.min(8, width / 80));
   return [{ values: values.map((value) => zero + value * unit), names: values.map((value) => value.toFixed(decimals)) }, `Time since the onset of the event [${name}]`];
@@ -263,7 +264,7 @@ function timeTicks(start, end, width) {
 
 function showLoad() {
   const { start, end } = view(), [context, width, height] = clear(element("load")), [run, second] = runs;
-  const [low, high] = extent(run.arrays.time, run.arrays.load, start, end), isWhole = end - start > 0.02;
+  const [low, high] = extent(run.arrays.time, run.arrays.load, start, end), isWhole = isWide(start, end);
   const [bottom, top] = Number.isFinite(low) ? (isWhole ? [0, 1.06 * Math.max(high, 1e-9)] : [low - 0.08 * (high - low || 1), high + 0.08 * (high - low || 1)]) : [0, 1];
   shares = axes(context, width, height, [start, end], [bottom, top], [null, "Load F\u2093 [N]"], timeTicks(start, end, width)[0]);
   const inside = (time, load) => time >= start && time <= end && load >= bottom && load <= top;
@@ -338,8 +339,7 @@ function setHtml(id, html) {
   if (shown[id] !== html) element(id).innerHTML = shown[id] = html;
 }
 function showProgress(share) {
-  element("progress").setAttribute("aria-valuenow", Math.round(100 * share));
-  element("progress").firstElementChild.style.transform = `scaleX(${share})`;
+  element("progress").value = share;
 }
 
 function showParameters() {
@@ -565,7 +565,7 @@ function listen() {
     element(id).addEventListener("wheel", (happened) => {
       if (!happened.ctrlKey && !happened.metaKey) return; // the wheel alone scrolls the page
       happened.preventDefault();
-      zoom(happened.deltaY > 0 ? 1.25 : 0.8, timeOf(happened));
+      zoom(1.25 ** Math.sign(happened.deltaY), timeOf(happened));
     }, { passive: false });
   }
   on("lengths", "click", ({ offsetX, offsetY }) => {

@@ -25,7 +25,7 @@ function chainOf(slider) {
 
 // Taylor rows of the velocities from their row 0: row r, which starts at r (n + 2), is the r-th derivative.
 function expand({ n, c, friction }, rows, force, mode, last) {
-  const size = n + 2;
+  const size = c.length;
   rows.fill(0, size);
   for (let i = 1; i <= last; i++) {
     if (mode[i]) rows[size + i] = force[i] - force[i + 1] - mode[i] * friction[i];
@@ -47,7 +47,7 @@ function setTerms(terms, t) {
 // The first transition before `end`: [time, block, way]. Way 0 is the velocity of a block that slides, which reaches zero;
 // +1 and -1 are the margins mu_s w -+ G of a block that sticks. Most of these functions provably have no root.
 function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms, series) {
-  const size = n + 2;
+  const size = c.length;
   let first = [end, 0, 0];
   const look = (block, way) => {
     const root = earliestRoot(series, first[0]);
@@ -59,7 +59,7 @@ function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms
       let least = 0;
       for (let r = ORDER; r >= 0; r--) {
         series[r] = mode[i] * rows[r * size + i];
-        if (r === 0 || series[r] < 0) least += series[r] * terms[r];
+        least += (r ? Math.min(series[r], 0) : series[r]) * terms[r];
       }
       if (least <= 0) look(i, 0);
       continue;
@@ -104,7 +104,7 @@ function earliestRoot(derivatives, end) {
 
 // Carry the state along the Taylor rows for a time t [tau].
 function advance({ n, c, drive }, rows, force, last, t, terms, slip) {
-  const size = n + 2;
+  const size = c.length;
   setTerms(terms, t);
   slip.fill(0);
   slip[0] = drive * t;
@@ -123,9 +123,9 @@ function advance({ n, c, drive }, rows, force, last, t, terms, slip) {
 // Follow one slip event from its onset, at which block 1 lets go, and pause after every window;
 // `note(t, block, mode, force, velocity)` hears every transition and window (block 0). The result is the duration [tau].
 function* slipEvent(chain, force, longest, note, window = WINDOW) {
-  const { n, strength, drive } = chain;
-  const rows = new Float64Array((ORDER + 1) * (n + 2)), slip = new Float64Array(n + 1);
-  const mode = new Int8Array(n + 1), terms = [], series = [];
+  const { n, c, strength, drive } = chain;
+  const rows = new Float64Array(c.length + ORDER * c.length), slip = new Float64Array(c.length);
+  const mode = new Int8Array(c.length), terms = [], series = [];
   rows[0] = drive;
   let sliding = 1, farthest = 1, elapsed = 0;
   mode[1] = 1;
@@ -153,7 +153,7 @@ function* slipEvent(chain, force, longest, note, window = WINDOW) {
 }
 
 // A run from rest that has not begun: transitions, and the slip events with the spring forces at their onset.
-const newRun = (chain, duration) => ({ chain, duration, time: [], block: [], mode: [], load: [], events: [], end: 0, force: new Float64Array(chain.n + 2), stopped: false });
+const newRun = (chain, duration) => ({ chain, duration, time: [], block: [], mode: [], load: [], events: [], end: 0, force: new Float64Array(chain.c.length), stopped: false });
 
 // Solve a run, and pause with the time [s] in it after every window. A run that meets a limit is `stopped` at its `end`.
 function* solve(run) {
@@ -168,7 +168,7 @@ function* solve(run) {
     }
     force[1] = force[2] + strength[1];
     const event = { onset, force: force.slice(), first: run.time.length, before: force[1], front: 1, mostSliding: 1 };
-    const states = new Int8Array(n + 1);
+    const states = new Int8Array(c.length);
     let sliding = 0, elapsed = 0;
     const slip = slipEvent(chain, force, (duration - onset) / tau, (t, i, m, forces) => {
       elapsed = t;

@@ -95,7 +95,7 @@ function send(slot, isFinal) {
       open[block[j]] = mode[j] ? slides.start.length : -1;
       if (!mode[j]) continue;
       slides.start.push(time[j]), slides.end.push(event.end), slides.block.push(block[j]);
-      slides.kind.push(mode[j] < 0 ? 2 : event.isGlobal ? 1 : 0);
+      slides.kind.push(mode[j] === -1 ? 2 : event.isGlobal ? 1 : 0);
     }
     curve.time.push(event.end), curve.load.push(event.after);
   });
