@@ -77,13 +77,9 @@ def failure_curves(measured: Callable[[str], Failure]) -> pd.DataFrame:
             row = {"failure_mode": name, "curve": curve, "n": len(points)}
             for axis, column in zip("xy", points.columns[1:], strict=True):
                 values = points[column].to_numpy(float)
-                ends = {
-                    "first": values[0],
-                    "last": values[-1],
-                    "mean": values.mean(),
-                    "largest": values.max(),
-                }
-                row |= {axis: column} | {f"{axis}_{which}": value for which, value in ends.items()}
+                ends = values[0], values[-1], values.mean(), values.max()
+                names = (f"{axis}_{which}" for which in ("first", "last", "mean", "largest"))
+                row |= {axis: column} | dict(zip(names, ends, strict=True))
             rows.append(row)
     return pd.DataFrame(rows)
 

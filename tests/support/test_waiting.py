@@ -16,9 +16,23 @@ class Stream(io.StringIO):
         self.isatty = lambda: is_terminal
 
 
-@pytest.fixture
-def told(monkeypatch, clock):
-    def told(is_terminal, second_per_step, steps=5, first=1):
+CLEARED = "\r\x1b[K"
+EACH_SECOND = ("0% ", "20% 16 s left", "40% 9 s left", "60% 5 s left", "80% 2 s left")
+
+
+@pytest.mark.parametrize(
+    ("second_per_step", "first", "text"),
+    [
+        # 1.5 s of 2.5 s; the next second is not over.
+        (0.5, 1, f"\rauditing: 60% 1 s left\x1b[K{CLEARED}"),
+        (2.0, 0, "".join(f"\rauditing: {told}\x1b[K" for told in EACH_SECOND) + CLEARED),
+        (0.1, 1, ""),
+    ],
+)
+def test_a_terminal_has_one_line_each_second_that_ends_empty(
+    monkeypatch, clock, second_per_step, first, text
+):
+    def told(is_terminal, steps=5):
         """What work of some steps is told, of which `first` is done after the first one."""
         monkeypatch.setattr("sys.stderr", Stream(is_terminal))
         monkeypatch.setattr(waiting.time, "monotonic", clock.perf_counter)
@@ -29,28 +43,8 @@ def told(monkeypatch, clock):
         assert passed == list(range(steps))
         return waiting.sys.stderr.getvalue()
 
-    return told
-
-
-@pytest.mark.parametrize(
-    ("second_per_step", "first", "text"),
-    [
-        (0.5, 1, "\rauditing: 60% 1 s left\x1b[K\r\x1b[K"),  # 1.5 s of 2.5 s; the next second is not over
-        (
-            2.0,
-            0,
-            "".join(
-                f"\rauditing: {told}\x1b[K"
-                for told in ("0% ", "20% 16 s left", "40% 9 s left", "60% 5 s left", "80% 2 s left")
-            )
-            + "\r\x1b[K",
-        ),
-        (0.1, 1, ""),
-    ],
-)
-def test_a_terminal_has_one_line_each_second_that_ends_empty(told, second_per_step, first, text):
-    assert told(True, second_per_step, first=first) == text
-    assert told(True, second_per_step, steps=0) == told(False, second_per_step) == ""
+    assert told(True) == text
+    assert told(True, steps=0) == told(False) == ""
 
 
 def test_work_in_a_thread_is_told_as_well_and_its_result_or_error_handed_back(monkeypatch):

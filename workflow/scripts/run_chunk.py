@@ -8,6 +8,5 @@ from precursors.support.files import write_table
 
 with job() as snakemake:
     study = make_study(snakemake.wildcards.study, snakemake.params.arguments)
-    number, chunks = map(int, snakemake.wildcards.chunk.split("of"))
-    found = run_members(study.chunk(number - 1, chunks))
+    found = run_members(study.chunk(*map(int, snakemake.wildcards.chunk.split("of"))))
     write_table(found.rename_axis("member").reset_index(), snakemake.output.chunk)

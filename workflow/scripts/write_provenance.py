@@ -11,4 +11,4 @@ from precursors.support.provenance import provenance
 with job() as snakemake:
     output = Path(snakemake.output.json)
     found = provenance(snakemake.config, Path(snakemake.params.root), output.parent)
-    write_text(output, json.dumps(found, indent=1, ensure_ascii=False) + "\n")
+    write_text(output, json.dumps(found, indent=1))

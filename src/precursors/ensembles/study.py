@@ -54,8 +54,8 @@ class Study:
     seed: int = 0
 
     def chunk(self, i: int, n: int) -> Study:
-        """Every n-th member, from member i on: about a n-th of the work."""
-        return replace(self, members=self.members.iloc[i::n])
+        """Chunk i = 1..n: every n-th member, from the i-th on, about an n-th of the work."""
+        return replace(self, members=self.members.iloc[i - 1 :: n])
 
 
 def stack(blocks: Iterable[Mapping[str, Any]]) -> pd.DataFrame:

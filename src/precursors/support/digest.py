@@ -12,15 +12,8 @@ def digest_code(root: str | Path, script: str, *modules: str) -> str:
     """Digest of a script of the workflow, of some modules, and of all modules that these import.
 
     Comments, docstrings and the format of the code are left out, and so is what only a type checker imports.
-
-    Parameters
-    ----------
-    root : path
-        Directory of the Snakefile.
-    script : str
-        Name of the script: "simulate_scene".
-    *modules : str
-        Modules of the library that the script imports by a name that it is given: "figures.scene".
+    `root` is the directory of the Snakefile, `script` a name such as "simulate_scene"; `modules` are those
+    of the library that the script imports by a name that it is given, such as "figures.scene".
 
     Raises
     ------

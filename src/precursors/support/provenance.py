@@ -20,22 +20,10 @@ NOT_RESULTS = ("README.md", "benchmarks", "logs", "provenance.json", "records", 
 
 
 def provenance(config: Mapping[str, Any], root: Path, results: Path) -> dict[str, Any]:
-    """Collect where the results come from.
+    """Collect where the results come from, ready for JSON.
 
-    Parameters
-    ----------
-    config : mapping
-        The configuration of the workflow.
-    root : path
-        Directory of the Snakefile.
-    results : path
-        Directory of the results.
-
-    Returns
-    -------
-    dict
-        Ready for JSON: written, software, machine, packages, config, and the size [bytes] and SHA-256 of
-        every input (seen from `root`) and output (seen from `results`).
+    Inputs are named as seen from `root`, the directory of the Snakefile, and outputs as seen from that of the
+    results.
     """
     return {
         "written": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -69,12 +57,10 @@ def checksums(paths: Iterable[Path], root: Path, leave_out: tuple[str, ...] = ()
 
 
 def processor_name() -> str:
-    """Name of the processor, or its kind where the system does not tell the name."""
-    try:
-        named = re.search(r"^model name\s*:\s*(.+)$", Path("/proc/cpuinfo").read_text(), flags=re.MULTILINE)
-    except OSError:
-        named = None
-    return named[1] if named else platform.processor() or platform.machine()
+    """Name of the processor as Linux tells it; elsewhere, and where it does not, its kind."""
+    told = Path("/proc/cpuinfo")
+    names = re.findall(r"model name\s*:\s*(.+)", told.read_text() if told.is_file() else "")
+    return next(iter(names), platform.processor() or platform.machine())
 
 
 def git_state(root: Path) -> dict[str, str | bool] | None:

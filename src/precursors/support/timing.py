@@ -58,22 +58,13 @@ def measure(
 ) -> dict[Key, Timing]:
     """Time tasks in turn, round after round, after warming each up.
 
-    Parameters
-    ----------
-    tasks : mapping
-        What to time, by name.
-    rounds : int
-        How often each is timed.
-    shortest : float
-        Time [s] that a task is repeated for within a round; the round counts the mean.
-    seconds : mapping, optional
-        How long each task took when it was warm: see `second_call`. One that took longer than `shortest` has
-        had its first round.
+    Within a round a task is repeated for at least `shortest` [s], and the round counts the mean. `seconds` is
+    how long each task took when it was warm, if that is known (see `second_call`): one that took longer than
+    `shortest` has had its first round.
     """
     warm = seconds or {name: second_call(task)[1] for name, task in tasks.items()}
     found = {name: [warm[name]] if seconds and warm[name].wall > shortest else [] for name in tasks}
     repeats = {name: max(1, round(shortest / max(warm[name].wall, 1e-9))) for name in tasks}
-    collecting = gc.isenabled()
     gc.freeze()  # what the libraries hold for good need not be looked through before every task
     gc.disable()
     try:
@@ -84,8 +75,7 @@ def measure(
                     found[name].append(_timed(task, repeats[name])[1])
     finally:
         gc.unfreeze()
-        if collecting:
-            gc.enable()
+        gc.enable()
     return {name: Timing(*zip(*found[name], strict=True)) for name in tasks}
 
 
