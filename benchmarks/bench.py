@@ -36,7 +36,7 @@ from unittest.mock import patch
 import pandas as pd
 
 from precursors import Chain, Run, simulate, simulate_many
-from precursors.accuracy.compare import TrueTransition, Truth, compare
+from precursors.accuracy.compare import Truth, compare
 from precursors.accuracy.work_precision import ROUNDS, Case, measure_methods
 from precursors.methods import METHODS, cvode_events, events
 from precursors.methods.heyoka_events import solve_heyoka
@@ -248,12 +248,7 @@ def reference(theta: str) -> Truth:
     path = ROOT / "tests" / "golden" / f"reference_{SCENES[theta]}.csv"
     with path.open(encoding="utf-8", newline="") as file:
         rows = [
-            TrueTransition(
-                Fraction(row["time_s"]),
-                int(row["block"]),
-                int(row["mode"]),
-                Fraction(row["tangential_load_N"]),
-            )
+            (Fraction(row["time_s"]), int(row["block"]), int(row["mode"]), Fraction(row["tangential_load_N"]))
             for row in csv.DictReader(file)
         ]
     return Truth.exact(Chain.from_slider(theta=theta), DURATION, rows)

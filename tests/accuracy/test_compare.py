@@ -11,7 +11,7 @@ from accuracy.made_up import CHAIN, DURATION, TRUE, has_all_transitions, made_up
 from reference import read_golden
 
 from precursors import Chain, simulate
-from precursors.accuracy.compare import TrueTransition, Truth, compare
+from precursors.accuracy.compare import Truth, compare
 
 ONSETS = [0, 2, 6]
 # What doubles reach up to the first global slip [s], ten times what the exact solver's error is.
@@ -75,7 +75,7 @@ def test_what_is_right_ends_with_the_first_difference(rows, n, n_slips, found, s
 
 def test_digits_that_doubles_do_not_hold_count_too():
     beyond = Fraction(1, 2**60)
-    exact = [TrueTransition(Fraction(t) + beyond, b, m, Fraction(f) - beyond) for t, b, m, f in TRUE]
+    exact = [(Fraction(t) + beyond, b, m, Fraction(f) - beyond) for t, b, m, f in TRUE]
     found = compare(made_up(TRUE), Truth.exact(CHAIN, DURATION, exact))
     assert (found.time_error, found.load_error) == (2.0**-60, 2.0**-60)
     assert (found.load_errors == 2.0**-60).all()
@@ -97,8 +97,7 @@ def test_the_truth_until_the_global_slip_is_what_a_run_until_it_has():
 
 
 def test_the_exact_solver_has_every_transition_of_the_reference():
-    rows = (TrueTransition(t.time, t.block, t.mode, t.tangential_load) for t in read_golden("fig10"))
-    truth = Truth.exact(Chain.from_slider(), 10.0, rows)
+    truth = Truth.exact(Chain.from_slider(), 10.0, read_golden("fig10"))
     assert has_all_transitions(compare(simulate(Chain.from_slider()), truth))
     found = compare(simulate(Chain.from_slider(), 10.0, "global slip"), truth.until_global_slip())
     assert has_all_transitions(found)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
@@ -23,13 +23,8 @@ if TYPE_CHECKING:
 OUTCOME = ["front", "is_global"]
 
 
-class TrueTransition(NamedTuple):
-    """A transition in exact numbers: time [s], block 1..N, mode, tangential load [N]."""
-
-    time: Fraction
-    block: int
-    mode: int
-    tangential_load: Fraction
+# Time [s], block 1..N, mode and tangential load [N] of a transition.
+Transition = tuple[Fraction, int, int, Fraction]
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,23 +44,20 @@ class Truth:
         return cls(run, np.zeros(len(run.transitions)), np.zeros(len(run.transitions)))
 
     @classmethod
-    def exact(cls, chain: Chain, duration: float, transitions: Iterable[TrueTransition]) -> Truth:
+    def exact(cls, chain: Chain, duration: float, transitions: Sequence[Transition]) -> Truth:
         """Take transitions in exact numbers, all there are up to `duration` [s]."""
-        rows = list(transitions)
-        time, time_rest = _rounded([row.time for row in rows])
-        load, load_rest = _rounded([row.tangential_load for row in rows])
-        block, mode = [row.block for row in rows], [row.mode for row in rows]
-        return cls(Run.from_transitions(chain, duration, time, block, mode, load), time_rest, load_rest)
+        times, blocks, modes, loads = zip(*transitions, strict=True) if transitions else ((),) * 4
+        (time, time_rest), (load, load_rest) = _rounded(times), _rounded(loads)
+        return cls(Run.from_transitions(chain, duration, time, blocks, modes, load), time_rest, load_rest)
 
     @classmethod
     def proved(cls, certificate: Certificate) -> Truth:
         """Take what a certificate proves, the midpoints of its enclosures, as far as it goes."""
         transitions = [
-            TrueTransition(t.time.midpoint, t.block, t.mode, t.tangential_load.midpoint)
-            for t in certificate.transitions
+            (t.time.midpoint, t.block, t.mode, t.tangential_load.midpoint) for t in certificate.transitions
         ]
         ends_with_slip = certificate.until and transitions and not certificate.tie
-        duration = float(transitions[-1].time if ends_with_slip else certificate.proved_until)
+        duration = float(transitions[-1][0] if ends_with_slip else certificate.proved_until)
         return cls.exact(certificate.chain.to_chain(), duration, transitions)
 
     @cached_property
@@ -159,7 +151,7 @@ def transitions_right(run: Run, true: Run) -> int:
     return _agreeing(run.transitions[["block", "mode"]], true.transitions[["block", "mode"]])
 
 
-def _rounded(numbers: list[Fraction]) -> tuple[FloatArray, FloatArray]:
+def _rounded(numbers: Sequence[Fraction]) -> tuple[FloatArray, FloatArray]:
     """Doubles, and what is left of the numbers, as doubles too."""
     nearest = [float(x) for x in numbers]
     rest = [float(x - Fraction(y)) for x, y in zip(numbers, nearest, strict=True)]

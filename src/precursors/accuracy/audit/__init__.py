@@ -51,11 +51,10 @@ class Audit:
 def audit(run: Run, roundings: float = ROUNDINGS) -> Audit:
     """Check that a run is a motion of the chain, without the solver's code.
 
-    From the start state, the transitions are applied in order and every interval is propagated by the modes
-    of the sliding blocks. Inside each interval sliding blocks must keep the direction of their mode and
-    stuck blocks must stay within +-mu_s w: excesses beyond the tolerance are reported where they are found,
-    and a bound proves that there is none of more than twice the tolerance. At each transition the switching
-    rule, the recorded load and the recorded time are checked; at the end the energy.
+    Inside each interval sliding blocks must keep the direction of their mode and stuck blocks must stay
+    within +-mu_s w: excesses beyond the tolerance are reported where they are found, and a bound proves that
+    there is none of more than twice the tolerance. At each transition the switching rule, the recorded load
+    and the recorded time are checked; at the end the energy.
 
     Parameters
     ----------
@@ -77,8 +76,7 @@ def audit(run: Run, roundings: float = ROUNDINGS) -> Audit:
         return Audit(problems=(malformed,))
     auditor = Auditor(run, roundings)
     auditor.walk()
-    problems = tuple(auditor.problems)
-    return Audit(auditor.most, auditor.energy_residual, auditor.n_audited, problems)
+    return Audit(auditor.most, auditor.energy_residual, auditor.n_audited, tuple(auditor.problems))
 
 
 def _malformed(run: Run) -> str:
@@ -86,10 +84,6 @@ def _malformed(run: Run) -> str:
     if run.larger is not None:
         return "it is a larger chain's, and the audit checks Coulomb's law"
     n, n_transitions = run.chain.n_blocks, len(run.transitions)
-    for name in ("start_positions", "start_velocities"):
-        start = np.asarray(getattr(run, name))
-        if start.shape != (n,) or not np.all(np.isfinite(start)):
-            return f"{name} must have one finite value for each of the {n} blocks"
     intervals = np.asarray(run.intervals)
     if intervals.shape != (n_transitions + 1,):
         return (

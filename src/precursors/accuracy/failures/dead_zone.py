@@ -7,14 +7,8 @@ from functools import partial
 import numpy as np
 
 from precursors.accuracy.compare import transitions_right
-from precursors.accuracy.failures.common import (
-    FIVE_SLIPS,
-    Failure,
-    Number,
-    Threshold,
-    curves,
-    runge_kutta_step,
-)
+from precursors.accuracy.failures import common
+from precursors.accuracy.failures.common import FIVE_SLIPS, Failure, Number, Threshold, curves
 from precursors.accuracy.failures.stability import margin
 from precursors.methods import METHODS, karnopp
 from precursors.methods.stability import bisect
@@ -22,6 +16,7 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
+LABEL = METHODS["karnopp"].label
 STEPS = (4e-8, 2e-8)  # s
 # What fails, widths too small, as parts of the safe width, and widths too large [m/s].
 TOO_NARROW, TOO_WIDE = "a narrower zone is jumped over", "creep in a wider zone changes transitions"
@@ -67,7 +62,7 @@ def jumped_over(turn: float) -> float:
     for _ in range(TREMBLING):
         outside = abs(v) > zone
         zone, v = zone[outside], v[outside]
-        v = runge_kutta_step(rate, v, 1.0)
+        v = common.runge_kutta_step(rate, v, 1.0)
     return float(zone.max(initial=0.0))
 
 
@@ -97,7 +92,7 @@ def first_excess(chain: Chain, dead_zone: float) -> float:
 def dead_zone_too_small() -> Failure:
     """Karnopp's dead zone, so narrow that blocks jump over it within a step."""
     exact = simulate(Chain.from_slider(), FIVE_SLIPS)
-    n = len(exact.transitions)
+    n, n_blocks = len(exact.transitions), exact.chain.n_blocks
     lines, numbers = {}, []
     for step in STEPS:
         safe, setting = karnopp.safe_width(exact.chain, step), f"dt = {step:.0e} s"
@@ -105,15 +100,8 @@ def dead_zone_too_small() -> Failure:
         few = right_with(exact, step, TOO_SMALL * safe)
         narrow = f"{setting}, zone = {TOO_SMALL:g} safe"
         numbers.append(Number("Karnopp", narrow, "transitions right", "1", few, n))
-    limit = Threshold(
-        METHODS["karnopp"].label,
-        exact.chain.n_blocks,
-        TOO_NARROW,
-        "safe width",
-        "widest zone that a stop jumps over",
-        predicted_dead_zone(exact),
-        smallest_dead_zone(exact, STEPS[0]),
-    )
+    found = predicted_dead_zone(exact), smallest_dead_zone(exact, STEPS[0])
+    limit = Threshold(LABEL, n_blocks, TOO_NARROW, "safe width", "widest zone that a stop jumps over", *found)
     return Failure(tuple(numbers), curves("zone_over_safe_width", "transitions_right", **lines), (limit,))
 
 
@@ -128,15 +116,8 @@ def dead_zone_too_large() -> Failure:
     right = right_with(exact, step, TOO_LARGE)
     # Creep raises the load at which block 1 is released, as a greater mu_s does.
     delay = margin(exact) * chain.strength.max() / chain.loading_rate
-    limit = Threshold(
-        METHODS["karnopp"].label,
-        chain.n_blocks,
-        TOO_WIDE,
-        "m/s",
-        "creep raises a load by the margin",
-        float(chain.loading_rate * delay**2 / (2.0 * chain.mass)),
-        largest_dead_zone(exact, step),
-    )
+    found = float(chain.loading_rate * delay**2 / (2.0 * chain.mass)), largest_dead_zone(exact, step)
+    limit = Threshold(LABEL, chain.n_blocks, TOO_WIDE, "m/s", "creep raises a load by the margin", *found)
     return Failure(
         (
             wide("F_X above mu_s w_1 at release", "N", first_excess(chain, TOO_LARGE), 0.0, creep),

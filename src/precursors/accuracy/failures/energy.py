@@ -64,25 +64,20 @@ def silent_instability() -> Failure:
             run = METHODS["rk4_skip"].solve(chain, END, z / omega, "global slip").run
         except DivergedError:
             break
-        if (found := apparent_friction(slip_table(run))) is None:
+        if (friction := apparent_friction(slip_table(run))) is None:
             break
         finished.append(z)
-        mu_sapp.append(found.mu_sapp)
+        mu_sapp.append(friction.mu_sapp)
         right = max(right, transitions_right(run, exact))
     number = partial(Number, "RK4", "theta = 0")
-    return Failure(
-        (
-            number("least mu_sapp of these", "1", min(mu_sapp), true.mu_sapp),
-            number("largest mu_sapp of these", "1", max(mu_sapp), true.mu_sapp),
-            number("most transitions right of these", "1", right, len(exact.transitions)),
-        ),
-        curves(
-            "step_s",
-            "mu_sapp",
-            exact=(BEYOND[[0, -1]] / omega, (true.mu_sapp, true.mu_sapp)),
-            RK4=(np.array(finished) / omega, mu_sapp),
-        ),
+    numbers = (
+        number("least mu_sapp of these", "1", min(mu_sapp), true.mu_sapp),
+        number("largest mu_sapp of these", "1", max(mu_sapp), true.mu_sapp),
+        number("most transitions right of these", "1", right, len(exact.transitions)),
     )
+    line = BEYOND[[0, -1]] / omega, (true.mu_sapp, true.mu_sapp)
+    found = np.array(finished) / omega, mu_sapp
+    return Failure(numbers, curves("step_s", "mu_sapp", exact=line, RK4=found))
 
 
 def numerical_damping() -> Failure:

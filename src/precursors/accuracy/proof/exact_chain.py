@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -14,6 +15,8 @@ from precursors.model.chain import Chain, written_fraction
 
 Number = Fraction | int | float | str
 
+_PARAMETERS = inspect.signature(Chain.from_slider).parameters
+_PAPERS_SLIDER = {name: of.default for name, of in _PARAMETERS.items() if isinstance(of.default, float)}
 _NUMBERS = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k", "length")
 
 
@@ -43,25 +46,12 @@ class ExactChain:
         self.to_chain()
 
     @classmethod
-    def from_slider(
-        cls,
-        n_blocks: int = 10,
-        theta: Number = 0,
-        normal_load: Number = 400,
-        mu_s: Number = "0.70",
-        mu_k: Number = "0.45",
-        drive_stiffness: Number = "0.8e6",
-        drive_velocity: Number = "1e-4",
-        slider_mass: Number = "0.012",
-        youngs_modulus: Number = "2.5e9",
-        cross_section: Number = "1e-4",
-        length: Number = "0.1",
-    ) -> ExactChain:
+    def from_slider(cls, n_blocks: int = 10, **changes: Number) -> ExactChain:
         """Cut a slider into N equal blocks (Eqs. 7, 9, 10) as `Chain.from_slider` does, without rounding.
 
         Numbers are taken as they are written: 0.7 and Fraction(7, 10) are the same, theta may be "5/6".
         """
-        slider = {name: exact(name, x) for name, x in locals().items() if name not in ("cls", "n_blocks")}
+        slider = {name: exact(name, x) for name, x in (_PAPERS_SLIDER | changes).items()}
         Chain.from_slider(n_blocks, **{name: float(x) for name, x in slider.items()})
         n, load, extent = n_blocks, slider["normal_load"], slider["length"]
         # At N = 1 Eq. 7 is 0/0; the one block carries the whole load.

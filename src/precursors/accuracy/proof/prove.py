@@ -49,7 +49,7 @@ def certify(
 ) -> Certificate:
     """Prove the transitions of a chain (Eqs. 2-6), in ball arithmetic on exact parameters.
 
-    The proof is begun again with more bits until it is complete.
+    The proof is begun again with twice the bits until it is complete.
 
     Parameters
     ----------
@@ -59,14 +59,12 @@ def certify(
         Time to prove [s]; numbers are taken as they are written, "1/3" is a third.
     until : "global slip", optional
         Stop at the end of the first event in which all blocks slide at the same instant.
-    start_positions : sequence of N numbers, optional
-        Positions at time 0 [m]; zero, springs at natural length, by default.
+    start_positions, start_velocities : sequences of N numbers, optional
+        At time 0 [m, m/s]; zero by default.
     width : number
         Largest radius of a time [s].
     max_bits : int
         Largest working precision; a proof that is undecided there within `width` is a tie.
-    start_velocities : sequence of N numbers, optional
-        Velocities at time 0 [m/s]; zero by default.
 
     Raises
     ------
@@ -111,9 +109,9 @@ def certify(
 
 
 def verify(certificate: Certificate | str | os.PathLike[str]) -> Certificate:
-    """Make the proof of a certificate, or of the file of one, again; return the certificate.
+    """Make the proof of a certificate, or of the file of one, again, with its bits; return the certificate.
 
-    The proof is made at the certificate's precision. Each recorded enclosure must contain the proved one.
+    Each recorded enclosure must contain the proved one.
 
     Raises
     ------
