@@ -61,7 +61,6 @@ class Panel:
 
 STEP = r"Step $\Delta t$ [$\mu$s]"
 F_X, TIME, RIGHT_ONES = "$F_X$ [N]", "Time [s]", "Transitions right [-]"
-MU_SAPP = r"$\mu_\mathrm{sapp}$ [-]"
 LIMIT, LOST = "energy grows without bound, no friction", "no global slip, or numbers overflow"
 ZONE = "Karnopp's dead zone"
 TOO_NARROW, TOO_WIDE = "a narrower zone is jumped over", "creep in a wider zone changes transitions"
@@ -73,7 +72,7 @@ PANELS = {
         limits=((LIMIT, "RK4"), (LIMIT, "leapfrog")), scale=(MICRO, 1.0), joined=False,
     ),
     "silent_instability": Panel(
-        "The same with friction: no warning", STEP, MU_SAPP,
+        "The same with friction: no warning", STEP, style.MU_SAPP_LABEL,
         limits=((LOST, "RK4"),), scale=(MICRO, 1.0), joined=False,
     ),
     "numerical_damping": Panel(

@@ -73,7 +73,10 @@ def draw(table: pd.DataFrame, work: str = "seconds") -> Figure:
                 axes.tick_params(labelbottom=True)
             panels[row, len(thetas) // 2].set_xlabel(words.format(EXTENTS[until]))
         figure.align_ylabels(panels[:, 0])
-        _draw_key(figure, {row["label"]: looks[row["method"]] for row in table.to_dict("records")})
+        names = table.drop_duplicates("method").set_index("method")["label"]
+        entries = [style.mark(style.plain(label), **looks[method]) for method, label in names.items()]
+        entries.append(style.mark("open: wrong sequence", marker="o", markersize=4.2, **OPEN))
+        style.draw_key(figure, entries, ncols=4, handletextpad=0.5, columnspacing=1.2)
     return figure
 
 
@@ -85,9 +88,9 @@ def _draw_errors(
     for method in reversed(rows["method"].unique()):
         of_method = rows["method"] == method
         right = rows[of_method & is_right & (rows[error] > 0)]
-        axes.plot(right["work"], right[error], **looks[method], gid=f"{method} right")
+        axes.plot(right["work"], right[error], **looks[method])
         wrong = of_method & ~is_right
-        band.plot(rows["work"][wrong], 1 - part[wrong], **looks[method] | OPEN, gid=f"{method} wrong")
+        band.plot(rows["work"][wrong], 1 - part[wrong], **looks[method] | OPEN)
     axes.set_yscale("log")
     axes.yaxis.set_major_locator(LogLocator(numticks=12))
     band.set_ylim(-0.12, 1.12)
@@ -98,11 +101,9 @@ def _draw_right(axes: Axes, rows: pd.DataFrame, looks: Mapping[str, Look]) -> No
     """Draw the part of the transitions that comes before the first wrong one."""
     is_right, part = _right(rows, "transitions")
     for method in reversed(rows["method"].unique()):
-        for chosen, look, name in ((is_right, {}, "right"), (~is_right, OPEN, "wrong")):
+        for chosen, look in ((is_right, {}), (~is_right, OPEN)):
             of_method = chosen & (rows["method"] == method)
-            axes.plot(
-                rows["work"][of_method], part[of_method], **looks[method] | look, gid=f"{method} {name}"
-            )
+            axes.plot(rows["work"][of_method], part[of_method], **looks[method] | look)
     axes.set_ylim(-0.03, 1.06)
     axes.yaxis.set_major_formatter(PercentFormatter(1.0))
 
@@ -119,11 +120,3 @@ def _look(row: Mapping[Hashable, Any]) -> Look:
     size, zorder = (8.0, 4.0) if row["method"] == "exact" else (4.2, 2.5)
     look = {"color": row["color"], "marker": marker, "markersize": size, "zorder": zorder}
     return look | {"markeredgewidth": 0.0, "linewidth": 0.9}
-
-
-def _draw_key(figure: Figure, looks: Mapping[str, Look]) -> None:
-    entries = [style.mark(style.plain(label), **look) for label, look in looks.items()]
-    wrong = {"color": style.BLACK, "marker": "o", "markersize": 4.2} | OPEN
-    entries.append(style.mark("open: wrong sequence", **wrong))
-    spaces = {"handlelength": 2.0, "handletextpad": 0.5, "columnspacing": 1.2}
-    style.draw_key(figure, entries, ncols=4, **spaces)
