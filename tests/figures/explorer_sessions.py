@@ -58,7 +58,7 @@ SESSIONS = {
         "set('#drive_velocity', -6)",
         "set('#drive_velocity', -4), press('[data-step=\"1\"]')",
         "save()",
-        "Object.assign(runs[0], { stopped: true, end: 0.5, transitions: 2e5 }), showAnswers()",
+        "set('#mu_k', 0.7)",
     ],
     "sliders": [
         "set('#theta', -0.25)",
@@ -92,6 +92,7 @@ SESSIONS = {
         "loads=30,60,90&step=5&view=event",
         "mu_s=0.5&mu_k=0.2&twin=1&view=all&event=1",
         "drive_velocity=0.0003&view=0.1,12&step=2&loads=0,10&theta=1.5",
+        "n_blocks=1&mu_s=1.5&mu_k=0.4&view=0,10&event=1",
         "theta=<img src=x onerror=alert(1)>&step=<b>&view=<script>,2&event=<i>&loads=<u>,1",
         "theta=7&n_blocks=4000&mu_s=-1&drive_velocity=NaN&event=1e99&step=9&view=5,1",
         "%%%",

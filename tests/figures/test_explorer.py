@@ -162,7 +162,8 @@ def test_what_is_kept_is_what_the_library_says_of_the_pages_command(command, tmp
     told = json.loads(capsys.readouterr().out)
     expected = "No global slip in 10 s"
     if told["global_slip_s"]:
-        expected = f"{told['events_counted']} events counted in Fig. 13"
+        counted = told["events_counted"]
+        expected = f"{counted} event{'s' * (counted > 1)} counted in Fig. 13"
         said = re.sub(r"(Fig. 13|μsapp)[^·=]*(?=[·=]|$)", r"\1 ", kept_answers()[command])
         assert f"μsapp = {told['mu_sapp']:.4f} · first global slip at {told['global_slip_s']:.3f} s" in said
     assert kept_answers()[command].startswith(expected)

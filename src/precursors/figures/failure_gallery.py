@@ -20,7 +20,7 @@ ROWS, COLUMNS = 4, 3
 TEXT_SIZE = 7.0
 # A layout made for the longest title would leave no room for the panels.
 LAYOUT = {"left": 0.07, "right": 0.99, "bottom": 0.045, "top": 0.97, "wspace": 0.38, "hspace": 0.48}
-TITLE: dict[str, Any] = {"loc": "left", "x": -0.18, "pad": 3.0, "fontsize": TEXT_SIZE, "fontweight": "bold"}
+TITLE: dict[str, Any] = {"loc": "left", "x": -0.18, "pad": 5.0, "fontsize": TEXT_SIZE, "fontweight": "bold"}
 # A logarithmic axis that spans less than this factor, above this number, has decimal labels.
 FEW_DECADES, SHORT = 110.0, 1e-4
 MICRO, MILLI = 1e6, 1e3

@@ -23,7 +23,7 @@ const WORDS = {
 };
 const SLIDERS = {
   theta: { symbol: "θ", low: -1, high: 1, step: 0.01, write: fraction, about: "How unevenly the normal load is spread. Negative: more on the pushed end. 0: the same on each block. Positive: more on the far end." },
-  n_blocks: { symbol: "N", low: 1, high: 40, step: 1, write: (x) => `${x} block${x === 1 ? "" : "s"}`, about: "Number of blocks that the slider is cut into. Its length and mass stay the same." },
+  n_blocks: { symbol: "N", low: 1, high: 40, step: 1, write: (x) => counts(x, "block"), about: "Number of blocks that the slider is cut into. Its length and mass stay the same." },
   mu_s: { symbol: "μ<sub>s</sub>", low: 0.05, high: 1.5, step: 0.01, write: (x) => x.toFixed(2), about: "Static friction: a stuck block starts to slide when the springs push with μ<sub>s</sub> times its normal load." },
   mu_k: { symbol: "μ<sub>k</sub>", low: 0, high: 1.5, step: 0.01, write: (x) => x.toFixed(2), about: "Kinetic friction: what holds back a sliding block. It is never above μ<sub>s</sub>." },
   drive_stiffness: { symbol: "K", low: 1e4, high: 1e8, write: (x) => `${scaled(x, 1e6)} MN/m`, about: "Stiffness of the spring between the drive and block 1." },
@@ -71,6 +71,9 @@ function fraction(value) {
 }
 function scaled(value, unit) {
   return value / unit >= 100 ? Math.round(value / unit).toString() : Number((value / unit).toPrecision(2)) === 0 ? "0" : (value / unit).toPrecision(2).replace(/e.*/, (power) => `·10^${Number(power.slice(1))}`);
+}
+function counts(n, what) {
+  return `${n} ${what}${n === 1 ? "" : "s"}`;
 }
 function plain(text) {
   return String(text).replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
@@ -156,12 +159,12 @@ function along(from, to, x) {
 
 // Where a new run is looked at: the event that the step shows, or the same event and time as before.
 function placeTime() {
-  const { events, counted, end } = runs[0];
+  const { events, counted, end, isFinal } = runs[0];
   const partial = counted.filter((event) => !event.isGlobal), middle = Math.max(Math.ceil(partial.length / 2) - 1, 0);
   const shown = { partial: partial[middle], longer: partial[Math.min(middle + 1, partial.length - 1)], global: firstGlobal() ?? counted.at(-1) }[state.pick];
   if (shown && !playing) [state.event, state.time] = [events.indexOf(shown), shown.onset];
   else if (state.event !== null && !playing) {
-    state.event = events.length ? Math.min(state.event, events.length - 1) : null;
+    if (isFinal) state.event = events.length ? Math.min(state.event, events.length - 1) : null;
     state.time = event()?.onset ?? 0;
   }
   state.time = Math.min(state.time, end);
@@ -250,8 +253,8 @@ function showReadout() {
     ? `Event ${state.event + 1} of ${events.length}, ${one.isGlobal ? "global slip" : firstGlobal() && one.onset > firstGlobal().onset ? "partial slip" : kind}: ${one.front === 1 ? "block 1 slides" : `blocks 1 to ${one.front} slide${one.front === n && !one.isGlobal ? ", never all at once," : ""}`} for ${((one.end - one.onset) * 1e6).toFixed(0)} µs from ${one.onset.toFixed(3)} s on. Fₓ goes from ${one.before.toFixed(2)} to ${one.after.toFixed(2)} N.`
     : "Press Play, click an event in a figure, or press →.";
   element("readout").textContent = text;
-  element("row").setAttribute("aria-label", `A row of ${n} blocks, pushed from the left by a spring. ${text}`);
-  element("lengths").setAttribute("aria-label", `Front length against load: ${counted.map((e) => `${e.front} blocks at ${e.before.toFixed(1)} N`).join(", ").slice(0, 900)}`);
+  element("row").setAttribute("aria-label", `A row of ${counts(n, "block")}, pushed from the left by a spring. ${text}`);
+  element("lengths").setAttribute("aria-label", `Front length against load: ${counted.map((e) => `${counts(e.front, "block")} at ${e.before.toFixed(1)} N`).join(", ").slice(0, 900)}`);
 }
 
 const isWide = (start, end) => end - start > 0.02; // s: the time of the run, not that of an event
@@ -329,7 +332,7 @@ function showAnswers() {
   const [run] = runs, slip = firstGlobal();
   const stop = run.stopped ? `Stopped after ${run.transitions >= 200000 ? `${run.transitions.toLocaleString("en")} transitions` : "2,000,000 steps"} at ${run.end.toPrecision(3)} s` : "";
   const found = slip
-    ? `${run.counted.length} events counted in ${word("fig13")} · ${word("apparent")} = ${ratio()} · first global slip at ${slip.onset.toFixed(3)} s`
+    ? `${counts(run.counted.length, "event")} counted in ${word("fig13")} · ${word("apparent")} = ${ratio()} · first global slip at ${slip.onset.toFixed(3)} s`
     : `No global slip ${run.stopped ? "until then" : run.end < DURATION ? "so far" : `in ${DURATION} s`} · largest load ${ratio()} F<sub>Z</sub>`;
   const isProved = slip && PROVED.some((one) => same(one.slider) && slip.end <= one.duration);
   setHtml("answers", `${stop ? `${stop}. ` : ""}${found}${isProved ? " · " + word("proved") : ""}`);

@@ -7,7 +7,6 @@
 
 const WINDOW = 0.6875; // length of a Taylor window [tau]
 const ORDER = 24; // (2 WINDOW)^ORDER / ORDER! is below 1e-19
-const ROUNDING = 8 * Number.EPSILON;
 const MOST_TRANSITIONS = 200000;
 const MOST_WINDOWS = 2000000;
 
@@ -139,8 +138,8 @@ function* slipEvent(chain, force, longest, note, window = WINDOW) {
     if (block) {
       const net = force[block] - force[block + 1];
       rows[block] = 0;
-      // The switching rule: it lets go in the direction of the force, or sticks where friction can hold it.
-      const next = way || (Math.abs(net) <= strength[block] * (1 + ROUNDING) ? 0 : Math.sign(net));
+      // The switching rule: it lets go in the direction of the force, or sticks where the force is below the limit.
+      const next = way || Math.sign(Math.trunc(net / strength[block]));
       sliding += Math.abs(next) - Math.abs(mode[block]);
       mode[block] = next;
       farthest = Math.max(farthest, block);
