@@ -29,54 +29,59 @@ def evaluate(
     record = np.zeros(len(intervals), ROW)
     for name in TRANSITION.names or ():
         record[name][:-1] = transitions[name]
+    record["time"][-1] = np.inf  # after the last transition none comes any more
     record["interval"] = intervals
-    # Transitions before each time, the time since the last of them, and the last state that comes before.
-    begin_at = np.append(0.0, transitions["time"])
-    done = np.searchsorted(begin_at[1:], sorted_times, side="right")
-    since = sorted_times - begin_at[done]
-    nearest = np.searchsorted(begin_at[states.after] + states.offset, sorted_times, side="right") - 1
-    force, velocity = found = np.empty((2, len(sorted_times), chain.n_blocks))
+    found = np.empty((2, len(sorted_times), chain.n_blocks))
     numbers, weights = np.array(parameters(chain)), np.array(chain.weights)
-    wanted, memory = (done, since, nearest), memory_for(chain.n_blocks)
-    go_through(numbers, weights, wanted, found, words(record), states, memory)
-    return force, velocity
+    go_through(numbers, weights, sorted_times, found, words(record), states, memory_for(chain.n_blocks))
+    return found[0], found[1]
 
 
 @outer
-def go_through(parameters, weights, wanted, found, record, states, memory):
+def go_through(parameters, weights, times, found, record, states, memory):
     """Fill `found` with spring forces and velocities, from stored states and transitions."""
     chain, motion = lay_out(parameters, weights, memory)
     rows = row_address(record, 0)
     # Velocities and spring forces in two doubles stand side by side: what a motion changes for good.
     state = memory[3 * motion.wide : 6 * motion.wide]
     before = np.empty_like(state)
-    target, since, nearest = wanted
-    done, last = 0, -1
-    offset = 0.0
-    for q in range(target.shape[0]):
-        if nearest[q] > last and (last < 0 or states.after[nearest[q]] > done):
-            done, offset = states.after[nearest[q]], states.offset[nearest[q]]
-            take_state(nearest[q], states, chain, motion)
-        last = nearest[q]
-        while done < target[q]:
+    nearest, done, offset = 0, 0, states.offset[0]
+    take_state(0, states, chain, motion)
+    for q in range(times.shape[0]):
+        stored = nearest
+        while nearest + 1 < states.after.shape[0] and (
+            time_of(states.after[nearest + 1], rows) + states.offset[nearest + 1] <= times[q]
+        ):
+            nearest += 1
+        if nearest > stored and states.after[nearest] > done:
+            done, offset = states.after[nearest], states.offset[nearest]
+            take_state(nearest, states, chain, motion)
+        while recorded(done, rows).time <= times[q]:
             transition = recorded(done, rows)
             propagate((transition.interval - offset) / chain.tau, chain, motion)
             set_mode(transition.block, transition.mode, chain, motion)
             done += 1
             offset = 0.0
+        since = times[q] - time_of(done, rows)
         # Whole windows are gone through once, so that many times in one slip cost no more than the slip.
         is_moving = motion.mode[farthest_sliding(chain.n_blocks, motion.mode)] != 0
-        while since[q] - offset > WINDOW * chain.tau and is_moving:
+        while since - offset > WINDOW * chain.tau and is_moving:
             propagate(WINDOW, chain, motion)
             offset += WINDOW * chain.tau
         for i in range(state.shape[0]):
             before[i] = state[i]
-        propagate(max(since[q] - offset, 0.0) / chain.tau, chain, motion)
-        for i in range(1, chain.n_blocks + 1):
-            found[0, q, i - 1] = motion.spring_force[i]
-            found[1, q, i - 1] = motion.velocity[i] * chain.speed
+        propagate(max(since - offset, 0.0) / chain.tau, chain, motion)
+        for i in range(chain.n_blocks):
+            found[0, q, i] = motion.spring_force[i + 1]
+            found[1, q, i] = motion.velocity[i + 1] * chain.speed
         for i in range(state.shape[0]):
             state[i] = before[i]
+
+
+@inner
+def time_of(n, rows):
+    """Time of the n-th transition; 0 at the start."""
+    return recorded(n - 1, rows).time if n > 0 else 0.0
 
 
 @inner
@@ -97,10 +102,9 @@ def propagate(span, chain, motion):
     if motion.mode[farthest] == 0:
         force[1] += chain.coupling[1] * chain.drive_velocity * span
         return
-    end = last_column(chain, farthest)
+    end, first_row = last_column(chain, farthest), 2
     for i in range(1, end + 1):
         take_net_force(i, motion)
-    first_row = 2
     while span > 0.0:
         s = min(span, WINDOW)
         begin(end, motion)
