@@ -89,15 +89,6 @@ def test_another_clone_of_the_user_compiles_nothing_until_an_edit_of_what_is_cal
     assert small.use() == (7, 1, "")
 
 
-@pytest.mark.parametrize(("suffix", "size"), [("nbi", 0), ("nbc", 100)])
-def test_a_file_that_was_cut_short_is_compiled_again(small, suffix, size):
-    small.use()
-    (file,) = small.cache.rglob(f"*.{suffix}")
-    os.truncate(file, size)
-    assert small.use() == (7, 0, SAID)
-    assert small.use() == (7, 1, "")
-
-
 def test_code_of_long_ago_is_removed_and_what_is_in_use_stays(small):
     small.use()
     (place,) = small.cache.glob("precursors/*")

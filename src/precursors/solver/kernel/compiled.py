@@ -57,8 +57,8 @@ class UserCache(UserWideCacheLocator):  # type: ignore[misc]
 def entry(directory: Path, modules: Iterable[str] = (), **options: Any) -> Any:
     """Decorator for functions that Python calls; their code is kept until a module in `directory` is edited.
 
-    Numba looks at the file in which a function stands, and not at those of the functions that it calls. So
-    the code is kept in a directory that is named after the checksum of all modules, or of those named.
+    Numba looks at the file of a function only, and not at those of the functions that it calls. So the code
+    is kept in a directory that is named after the checksum of all modules, or of those named.
     """
     place = _cache_place(directory, checksum(directory, modules))
 
@@ -101,7 +101,10 @@ def checksum(directory: Path, modules: Iterable[str] = ()) -> str:
 
 
 def _cache_place(directory: Path, digest: str) -> Path | None:
-    """A directory that can be written, named after the checksum of the modules; None, with a warning."""
+    """A directory that can be written, named after the checksum of the modules; None, with a warning.
+
+    What was compiled from sources of long ago is removed.
+    """
     bases = [Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "precursors"), directory / "__pycache__"]
     if untyped.config.CACHE_DIR:
         bases = [Path(untyped.config.CACHE_DIR)]
@@ -110,8 +113,10 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
             place = base.expanduser() / f"{directory.name}-{digest}"
             place.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryFile(dir=place):  # which also marks when it was used last
-                _tidy(place, f"{directory.name}-*")
-                return place
+                places = sorted(place.parent.glob(f"{directory.name}-*"), key=lambda one: one.stat().st_mtime)
+            for old in places[:-KEPT]:
+                shutil.rmtree(old, ignore_errors=True)
+            return place
         except (OSError, RuntimeError):  # it cannot be written, or there is no home
             continue
     warnings.warn(
@@ -120,15 +125,6 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
         stacklevel=3,
     )
     return None
-
-
-def _tidy(place: Path, pattern: str) -> None:
-    """Remove files that were cut short, and what was compiled from sources of long ago."""
-    for file in place.glob("*.nb[ci]"):
-        if not file.read_bytes().endswith(b"."):  # the last byte of a pickle
-            file.unlink(missing_ok=True)
-    for old in sorted(place.parent.glob(pattern), key=lambda path: path.stat().st_mtime)[:-KEPT]:
-        shutil.rmtree(old, ignore_errors=True)
 
 
 outer = entry(Path(__file__).parent, **_options, nogil=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import count
 
 import numpy as np
 
@@ -18,11 +19,8 @@ PROOF_ORDER = 8
 
 def order_for(length: float) -> int:
     """Even order at which the series of a window of a length may be cut."""
-    n, beyond = 0, length
-    while n < PROOF_ORDER or n % 2 == 1 or beyond > NEGLIGIBLE:
-        n += 1
-        beyond *= length / (n + 1)
-    return n
+    enough = (n for n in count(PROOF_ORDER, 2) if length ** (n + 1) / math.factorial(n + 1) <= NEGLIGIBLE)
+    return next(enough)
 
 
 ORDER = order_for(WINDOW)

@@ -21,18 +21,17 @@ def prove(end, candidate, motion):
     vanishes there. A block that sticks must not reach its other limit either, where g = 2 mu_s w.
     """
     weight, found = motion.weight, 0
-    tail = TAIL * weight[9] * largest_rows(end, motion)
+    # No later row of a velocity is larger than rows 7 and 8, nor the tenth of a net force.
+    largest = lanes.spread(0.0)
     for i in range(1, end + 1, WIDTH):
-        slides, sign, hold = (
-            lanes.load(motion.slides, i),
-            lanes.load(motion.sign, i),
-            lanes.load(motion.hold, i),
-        )
-        felt = lanes.load(motion.felt, i)
-        at_end = (
-            sign * lanes.choose(slides, lanes.load(motion.velocity, i), lanes.load(motion.net_force, i))
-            + hold
-        )
+        largest = lanes.larger(largest, lanes.magnitude(lanes.load(row(7, motion), i)))
+        largest = lanes.larger(largest, lanes.magnitude(lanes.load(row(8, motion), i)))
+    tail = TAIL * weight[9] * lanes.largest(largest)
+    for i in range(1, end + 1, WIDTH):
+        slides, sign = lanes.load(motion.slides, i), lanes.load(motion.sign, i)
+        hold, felt = lanes.load(motion.hold, i), lanes.load(motion.felt, i)
+        now = lanes.choose(slides, lanes.load(motion.velocity, i), lanes.load(motion.net_force, i))
+        at_end = sign * now + hold
         rest = lanes.magnitude(watched(7, i, slides, motion)) * weight[7]
         rest = rest + lanes.magnitude(watched(8, i, slides, motion)) * (2.0 * weight[8])
         low, high = enclose(
@@ -53,16 +52,6 @@ def prove(end, candidate, motion):
         motion.open[i] = open
         found |= open
     return found
-
-
-@inner
-def largest_rows(end, motion):
-    """Largest of rows 7 and 8: no later row of a velocity is larger, nor the tenth of a net force."""
-    largest = lanes.spread(0.0)
-    for i in range(1, end + 1, WIDTH):
-        largest = lanes.larger(largest, lanes.magnitude(lanes.load(row(7, motion), i)))
-        largest = lanes.larger(largest, lanes.magnitude(lanes.load(row(8, motion), i)))
-    return lanes.largest(largest)
 
 
 @seldom

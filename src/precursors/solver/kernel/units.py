@@ -3,22 +3,13 @@
 from __future__ import annotations
 
 import math
+from operator import attrgetter
 
-from precursors.model.chain import Chain
 from precursors.solver.kernel.arrays import System, divide
 from precursors.solver.kernel.compiled import inner, unfused
 
-
-def parameters(chain: Chain) -> tuple[float, ...]:
-    """Numbers that `set_up` takes of a chain beside its weights."""
-    return (
-        chain.mass,
-        chain.stiffness,
-        chain.drive_stiffness,
-        chain.drive_velocity,
-        chain.mu_s,
-        chain.mu_k,
-    )
+# Numbers that `set_up` takes of a chain beside its weights.
+parameters = attrgetter("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k")
 
 
 @inner
