@@ -10,7 +10,7 @@ import numpy as np
 from chains import first_transitions, positions_under
 from numpy.random import Generator
 
-from precursors import Chain
+from precursors import Chain, Run
 from precursors.accuracy.audit import audit
 
 SEED = 1961
@@ -24,6 +24,10 @@ class Trial:
     duration: float
     start: dict[str, np.ndarray]
     most: int
+
+    def run(self) -> Run:
+        """The run, or its first transitions."""
+        return first_transitions(self.chain, self.most, duration=self.duration, **self.start)
 
 
 def decades(rng: Generator, low: float, high: float) -> float:
@@ -145,7 +149,7 @@ def verdict(number: int) -> str:
     """Run and audit the chain of a trial: "survived", "refused", or what is wrong."""
     try:
         _, case = trial(number)
-        run = first_transitions(case.chain, case.most, duration=case.duration, **case.start)
+        run = case.run()
     except ValueError as error:
         return (
             "refused" if str(error) and "\n" not in str(error) else f"refused without a sentence: {error!r}"

@@ -46,6 +46,18 @@ WRONG = [
     ("fig13", ["fig10", "fig11", "fig99"], ["fig13 holds 'fig99'", "fig10, fig11, fig12"]),
     ("fig13", ["fig10", "fig11"], ["fig13: ", "too short: at least 3 are needed"]),
     ("figure_formats", ["doc"], ["figure_formats[0]: 'doc' is not one of"]),
+    (
+        "scenes.steep",
+        STEEP | {"viscosity": 1.0, "relaxation_time": 1e-6},
+        ["viscosity must not be given beside"],
+    ),
+    (
+        "scenes.steep",
+        STEEP | {"viscosity": 1.0, "model": "statics"},
+        ["viscosity must not be given beside model"],
+    ),
+    ("reproduction.theta", ["0", "7/6"], ["theta in reproduction: ", "7/6"]),
+    ("accuracy.proved.leading.mu_k", 0.9, ["accuracy.proved.leading: ", "mu_k"]),
     ("accuracy.compared", ["none"], ["holds 'none'", "trailing"]),
     ("ensembles.resolution.runs", [40], ["resolution.runs", "one number for each of n_blocks"]),
 ]

@@ -25,19 +25,7 @@ HELD_OUT_DIGITS = 25
 
 @dataclass(frozen=True)
 class HeldOut:
-    """A chain that no figure shows, and how long it runs.
-
-    Parameters
-    ----------
-    slider : mapping
-        Arguments of `ReferenceChain.from_slider` that differ from the paper's.
-    duration : str
-        Seconds.
-    start_positions : sequence of str, optional
-        Positions at t = 0 [m].
-    until : str, optional
-        None or "global slip".
-    """
+    """A chain that no figure shows, as `ReferenceChain.from_slider` makes it, and its run [s], [m]."""
 
     slider: Mapping[str, Number | Sequence[Number]]
     duration: str
@@ -82,32 +70,32 @@ VISCOUS: dict[str, HeldOut] = {
 }
 
 
-def write_goldens(directory: Path = GOLDEN) -> None:
-    """Write all golden files of the reference into `directory`."""
+def write_goldens() -> None:
+    """Write all golden files of the reference."""
     for scene, theta in SCENES.items():
         transitions = reference(ReferenceChain.from_slider(theta=theta), DURATION)
-        _write_csv(directory / f"reference_{scene}.csv", [], csv_rows(transitions, SCENE_DIGITS))
+        _write_csv(GOLDEN / f"reference_{scene}.csv", [], csv_rows(transitions, SCENE_DIGITS))
     for name, cases in (("heldout", HELD_OUT), ("viscous", VISCOUS)):
         rows = [
             [chain, *row] for chain, case in cases.items() for row in csv_rows(case.run(), HELD_OUT_DIGITS)
         ]
-        _write_csv(directory / f"reference_{name}.csv", ["chain"], rows)
+        _write_csv(GOLDEN / f"reference_{name}.csv", ["chain"], rows)
 
 
-def read_golden(scene: str, directory: Path = GOLDEN) -> list[Transition]:
+def read_golden(scene: str) -> list[Transition]:
     """Return the golden transitions of "fig10", "fig11" or "fig12"."""
-    with (directory / f"reference_{scene}.csv").open(newline="") as file:
+    with (GOLDEN / f"reference_{scene}.csv").open(newline="") as file:
         return [_transition(row) for row in csv.DictReader(file)]
 
 
-def read_held_out(directory: Path = GOLDEN) -> dict[str, tuple[HeldOut, list[Transition]]]:
+def read_held_out() -> dict[str, tuple[HeldOut, list[Transition]]]:
     """Return the held-out chains by name, each with its golden transitions."""
-    return _with_transitions(HELD_OUT, directory / "reference_heldout.csv")
+    return _with_transitions(HELD_OUT, GOLDEN / "reference_heldout.csv")
 
 
-def read_viscous(directory: Path = GOLDEN) -> dict[str, tuple[HeldOut, list[Transition]]]:
+def read_viscous() -> dict[str, tuple[HeldOut, list[Transition]]]:
     """Return the chains with viscosity by name, each with its golden transitions."""
-    return _with_transitions(VISCOUS, directory / "reference_viscous.csv")
+    return _with_transitions(VISCOUS, GOLDEN / "reference_viscous.csv")
 
 
 def _with_transitions(

@@ -17,7 +17,6 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-from chains import first_transitions
 from numpy.random import Generator
 from random_chains import Trial, mild_chain
 
@@ -34,10 +33,6 @@ CLEAR = 0.01
 SHORTEST, SHORTEST_OF_PAIRS = 12, 30
 # More bits do not tell instants apart that are equal.
 MAX_BITS = 1024
-
-
-def any_loads(rng: Generator) -> Trial:
-    return mild_chain(rng)
 
 
 def at_the_limit(rng: Generator) -> Trial:
@@ -80,16 +75,12 @@ def equal_loads(rng: Generator) -> Trial:
 
 # How each kind is drawn, how many are drawn and how many are kept.
 KINDS: dict[str, tuple[Callable[[Generator], Trial], int, int]] = {
-    "any loads": (any_loads, 100_000, 100),
+    "any loads": (mild_chain, 100_000, 100),
     "at the limit": (at_the_limit, 5_000, 20),
     "mu_k = mu_s": (equal_frictions, 5_000, 20),
     "zero loads": (zero_loads, 5_000, 20),
     "equal loads": (equal_loads, 5_000, 20),
 }
-
-
-def run_of(case: Trial) -> Run:
-    return first_transitions(case.chain, case.most, duration=case.duration, **case.start)
 
 
 def gaps_of(run: Run) -> np.ndarray:
@@ -98,14 +89,11 @@ def gaps_of(run: Run) -> np.ndarray:
     return np.where((gaps > 0) & (np.diff(run.transitions["block"]) != 0), gaps, np.inf)
 
 
-def smallest_gap(run: Run) -> float:
-    return float(gaps_of(run).min(initial=np.inf))
-
-
 def closest(kind: str) -> list[Trial]:
     """The chains of a kind with the smallest gaps."""
     draw, n_drawn, n_kept = KINDS[kind]
-    gaps = [smallest_gap(run_of(draw(np.random.default_rng(number)))) for number in range(n_drawn)]
+    runs = (draw(np.random.default_rng(number)).run() for number in range(n_drawn))
+    gaps = [gaps_of(run).min(initial=np.inf) for run in runs]
     return [draw(np.random.default_rng(int(number))) for number in np.argsort(gaps)[:n_kept]]
 
 
@@ -135,7 +123,7 @@ def driven(case: Trial, times: float) -> Trial:
 
 
 def order(case: Trial, times: float) -> list[tuple[int, int]]:
-    return run_of(driven(case, times)).transitions[["block", "mode"]].tolist()
+    return driven(case, times).run().transitions[["block", "mode"]].tolist()
 
 
 def grazes(one: list[tuple[int, int]], other: list[tuple[int, int]]) -> bool:
@@ -146,7 +134,7 @@ def grazes(one: list[tuple[int, int]], other: list[tuple[int, int]]) -> bool:
 
 def cut(case: Trial, at_least: int) -> Trial:
     """End the run after so many transitions and the closest two, where no transition is near."""
-    run = run_of(replace(case, most=2 * case.most))
+    run = replace(case, most=2 * case.most).run()
     gaps = gaps_of(run)[: case.most - 1]
     last = max(at_least, int(np.argmin(gaps)) + 3 if gaps.size else 0)
     long = np.flatnonzero(run.intervals[:-1] * run.chain.fastest_frequency_bound > CLEAR)
@@ -181,12 +169,9 @@ def write() -> None:
             source, transitions = truth(case)
             row = {
                 "kind": kind,
-                "gap": float(f"{smallest_gap(run_of(case)):.3g}"),
+                "gap": float(f"{gaps_of(case.run()).min(initial=np.inf):.3g}"),
                 "source": source,
-                "chain": {
-                    name: value.tolist() if name == "weights" else value
-                    for name, value in asdict(case.chain).items()
-                },
+                "chain": asdict(case.chain) | {"weights": case.chain.weights.tolist()},
                 "duration": case.duration,
                 "start": {name: values.tolist() for name, values in case.start.items()},
                 "transitions": transitions,

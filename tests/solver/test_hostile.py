@@ -61,7 +61,7 @@ def exact_transitions(case: random_chains.Trial, most: int) -> list[tuple[float,
 def run_and_exact(number: int):
     """The chain of a trial, its transitions, and as many of the reference, as (time, block, mode)."""
     case = random_chains.trial(number)[1]
-    run = first_transitions(case.chain, case.most, duration=case.duration, **case.start)
+    run = case.run()
     exact = exact_transitions(case, len(run.transitions) + 1)
     return run, run.transitions[["time", "block", "mode"]].tolist(), exact
 

@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from chains import SLIDER, first_transitions, positions_under
+from chains import SLIDER, positions_under
 from random_chains import mild_chain
 
 from precursors import simulate
@@ -78,7 +78,7 @@ def test_random_chains_have_the_same_transitions(first):
     for number in range(first, first + 20):
         case = mild_chain(np.random.default_rng(number))
         rows, _ = by_plain(case.chain, case.duration, most=case.most, **case.start)
-        compiled = first_transitions(case.chain, case.most, duration=case.duration, **case.start).transitions
+        compiled = case.run().transitions
         assert rows[:, 2].tolist() == compiled["block"].tolist(), number
         assert rows[:, 3].tolist() == compiled["mode"].tolist(), number
         np.testing.assert_allclose(rows[:, 0], compiled["time"], rtol=0, atol=RANDOM * case.duration)

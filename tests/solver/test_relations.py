@@ -65,7 +65,7 @@ def test_a_run_that_goes_on_from_its_state_at_any_time_has_the_transitions_of_th
     """The drive is at 0 when a run begins, so that the chain is moved back by what the drive went."""
     rng = np.random.default_rng(seed)
     case = mild_chain(rng)
-    whole = first_transitions(case.chain, case.most, duration=case.duration, **case.start)
+    whole = case.run()
     cut = rng.uniform(0.2, 0.8) * whole.duration
     # Times before it let the state be found from an earlier one, and from one within the same slip.
     positions, velocities = whole.at([cut / 2, 0.999 * cut, cut])

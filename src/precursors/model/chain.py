@@ -191,7 +191,7 @@ class Chain:
         return all(np.array_equal(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
 
     def __hash__(self) -> int:
-        return hash((self.weights.tobytes(), *(getattr(self, f.name) for f in fields(self)[1:])))
+        return hash(self.weights.tobytes())
 
 
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:
