@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import yaml
 from analysis.random_runs import random_chain
-from chains import SLIDER, first_transitions, held_out
+from chains import SLIDER, held_out
 from reference import read_held_out
 
 from precursors import simulate
@@ -82,36 +82,12 @@ def test_a_standstill_missed_by_less_than_the_error_ends_the_horizon(miss, is_lo
     assert until == (pytest.approx(half_period, rel=NEAR) if is_lost else np.inf)
 
 
-def test_a_block_that_stops_at_the_limit_of_static_friction_ends_the_horizon():
-    chain = SLIDER(n_blocks=1, normal_load=40.0)
-    slow, fast = 0.1, 10.0  # m/s: at rest after the slip, thrown back by the spring
-    for _ in range(60):
-        middle = (slow + fast) / 2
-        sticks = thrown(chain, middle).transitions["mode"][1] == 0
-        slow, fast = (middle, fast) if sticks else (slow, middle)
-    for speed, is_lost in ((slow, True), (fast, True), (0.99 * slow, False), (1.01 * fast, False)):
-        run = thrown(chain, speed)
-        until = predicted_errors(run).order_known_until
-        assert until == (pytest.approx(run.transitions["time"][1], rel=1e-12) if is_lost else np.inf)
-
-
-def thrown(chain, speed):
-    """The first two transitions of a chain that moves from the start [m/s]."""
-    return first_transitions(chain, 2, start_velocities=[speed])
-
-
 def test_a_mirror_symmetric_start_ends_the_horizon_at_its_tie():
     start = [0, 0, 0, 1e-5, 0, 0, 0]
     run = simulate(SLIDER(n_blocks=7), 0.3, start_positions=start)
     # Blocks 2 and 6 are released at the same instant, after the three that move from the start.
     assert set(run.transitions["block"][3:5]) == {2, 6}
     assert predicted_errors(run).horizon(1.0) <= run.transitions["time"][4]
-
-
-def test_a_start_at_the_limit_of_static_friction_is_not_trusted():
-    chain = SLIDER(n_blocks=2, normal_load=100.0)
-    run = simulate(chain, 0.5, start_positions=[chain.strength[1] / chain.stiffness, 0.0])
-    assert predicted_errors(run).order_known_until == 0.0
 
 
 def test_what_comes_later_does_not_change_the_horizon():

@@ -50,36 +50,6 @@ def events_one_by_one(run):
     ]
 
 
-ONE_BY_ONE = [
-    (1, 1, 1, 9.0),
-    (2, 2, 1, 8.0),
-    (3, 1, 0, 7.0),
-    (4, 3, 1, 0.0),
-    (4.5, 2, 0, 6.0),
-    (5, 3, 0, 0.0),
-]
-AT_ONCE = [(5, 1, 1, 9.0), (6, 2, 1, 8.0), (7, 2, 0, 7.0), (8, 1, 0, 6.0)]
-TURNS = [(1, 1, 1, 9.0), (2, 1, -1, 8.0), (3, 1, 0, 7.0)]
-LETS_GO_AT_ONCE = [(1, 1, 1, 9.0), (2, 1, 0, 8.0), (2, 1, 1, 8.0), (3, 1, 0, 7.0)]
-
-
-@pytest.mark.parametrize(
-    ("n_blocks", "transitions", "end", "n_slid", "n_simultaneous", "is_global"),
-    [
-        (3, ONE_BY_ONE, 5, 3, 2, False),  # all blocks, but one after the other
-        (2, AT_ONCE, 8, 2, 2, True),
-        (2, TURNS, 3, 1, 1, False),
-        (2, LETS_GO_AT_ONCE, 3, 1, 1, False),  # at the instant at which the last block sticks
-    ],
-)
-def test_an_event_goes_on_while_a_block_slides_and_is_global_if_all_do_at_once(
-    n_blocks, transitions, end, n_slid, n_simultaneous, is_global
-):
-    (event,) = find_slips(run_of(n_blocks, transitions, 9.0)).itertuples()
-    assert (event.end, event.n_slid, event.n_simultaneous) == (end, n_slid, n_simultaneous)
-    assert event.is_global == is_global
-
-
 def test_any_list_of_transitions_has_the_events_of_a_plain_loop():
     rng = np.random.default_rng(5)
     runs = [random_transitions(rng) for _ in range(300)]

@@ -193,10 +193,7 @@ class TestOfTheFunctionOfABlock:
     @pytest.mark.parametrize(
         ("terms", "others"),
         [
-            ((1.0, 0.0), ()),
-            ((-1.0, 0.0), ()),
-            ((0.0, 1.0), ()),
-            ((0.0, -1.0), ()),
+            *((terms, ()) for terms in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))),
             *(((0.0, 0.0), ((n, block, 1.0),)) for n in (7, 8) for block in (1, BLOCKS)),
         ],
     )

@@ -9,7 +9,7 @@ from chains import SLIDER, audited, first_transitions, held_out, lone_slip, posi
 from reference import read_golden, read_held_out
 from reference.goldens import SCENES
 
-from precursors import Chain, TransitionLimitError, find_slips, simulate
+from precursors import TransitionLimitError, find_slips, simulate
 from precursors.analysis.slips import first_global
 from precursors.model.statics import maximal_strain_positions
 from precursors.solver import simulate as exact
@@ -174,16 +174,6 @@ def test_a_bad_argument_is_named_in_one_line(options, words):
     with pytest.raises(ValueError, match=r"^[^\n]+$") as error:
         simulate(SLIDER(), **options)
     assert words in str(error.value)
-
-
-def test_five_hundred_blocks_slip_like_the_first_of_a_longer_chain():
-    """A front knows nothing of the blocks ahead: 400 and 500 equal blocks do not differ by a bit."""
-    others = {"mass": 2.4e-5, "stiffness": 1.25e9, "drive_stiffness": 0.8e6}
-    others |= {"drive_velocity": 1e-4, "mu_s": 0.7, "mu_k": 0.45}
-    long, longer = (first_transitions(Chain([1.0] * n, **others), 800) for n in (400, 500))
-    assert long.transitions["block"].max() > 12
-    np.testing.assert_array_equal(long.transitions, longer.transitions)
-    audited(longer)
 
 
 @pytest.mark.parametrize("changes", [{}, {"theta": 1.0}, {"mu_k": 0.7}], ids=str)
