@@ -10,11 +10,11 @@ import pytest
 from numba import njit
 
 from precursors import Chain
-from precursors.solver.kernel import bounds, roots
+from precursors.solver.kernel import roots
 from precursors.solver.kernel.arrays import PROGRESS, memory_for, row
 from precursors.solver.kernel.events import last_column
 from precursors.solver.kernel.layout import ORDER, WIDTH, WINDOW
-from precursors.solver.kernel.proof import prove, search
+from precursors.solver.kernel.proof import TAIL, prove, search
 from precursors.solver.kernel.series import powers
 from precursors.solver.kernel.units import lay_out, parameters, set_up
 
@@ -52,9 +52,7 @@ def windows() -> list[tuple[np.ndarray, float]]:
 
 def test_one_step_passes_no_root_and_is_not_far_too_short(windows):
     n = np.arange(12)
-    steps = [
-        (bounds.safe_step.py_func(c[0], c[1], (n * (n - 1) * abs(c)).sum()), root) for c, root in windows
-    ]
+    steps = [(roots.safe_step.py_func(c[0], c[1], (n * (n - 1) * abs(c)).sum()), root) for c, root in windows]
     assert all(step <= root + ROUNDING for step, root in steps)
     assert np.median([step / root for step, root in steps if root <= 1.0]) > ONE_STEP
 
@@ -76,7 +74,7 @@ def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
     """sum_n (n - 6) s^n/n! over n >= 9, as a closed form: (s - 6) e^s less its first terms."""
     terms = [WINDOW**n / math.factorial(n) for n in range(9)]
     rest = WINDOW * (math.exp(WINDOW) - sum(terms[:8])) - 6 * (math.exp(WINDOW) - sum(terms))
-    assert bounds.TAIL * WINDOW**9 / math.factorial(9) == pytest.approx(rest, rel=1e-9)
+    assert TAIL * WINDOW**9 / math.factorial(9) == pytest.approx(rest, rel=1e-9)
 
 
 @pytest.mark.parametrize("length", [0.25, 1.0, WINDOW])
@@ -98,7 +96,7 @@ def test_the_rest_of_a_series_is_within_its_bound(length):
         largest = abs(np.array(velocities[7:9])).max()
         watched = np.where(modes, velocities[: ORDER + 1], forces[: ORDER + 1])
         rest = (np.array(factor)[9:, None] * abs(watched[9:])).sum(axis=0).max()
-        bound = bounds.TAIL * length**9 / math.factorial(9) * largest
+        bound = TAIL * length**9 / math.factorial(9) * largest
         assert rest <= bound * (1 + ROUNDING)
         shares.append(rest / bound if bound else 1.0)
     assert np.median(shares) > 0.2
@@ -206,7 +204,7 @@ class TestOfTheFunctionOfABlock:
         # Row 7 of a velocity is its seventh derivative, and that of a net force is its sixth.
         own = [math.factorial(n) / LENGTH**n * abs(a[n]) for n in ((7, 8) if sense[0] else (6, 7))]
         largest = max(*own, *(size for _, _, size in others))
-        later = bounds.TAIL * LENGTH**9 / math.factorial(9) * largest
+        later = TAIL * LENGTH**9 / math.factorial(9) * largest
         factor = share * 7.0 / (abs(a[7]) + 2 * abs(a[8]) + later)
         all_terms = [1.0, *[0.0] * 5, *(factor * term for term in a.values())]
         scaled = [(n, block, factor * size) for n, block, size in others]

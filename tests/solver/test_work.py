@@ -2,7 +2,7 @@
 
 The counts do not depend on roundings: chains with all forces times 3 or 1.1 have the same. They depend on
 all that decides what is computed: the windows (`layout`, `events`), the derivatives (`series`), the guessed
-roots and the steps to them (`guess`), and what the bounds (`bounds`, `proof`) leave to a search (`roots`).
+roots and the steps to them (`guess`), and what the bounds (`proof`) leave to a search (`roots`).
 """
 
 import numpy as np

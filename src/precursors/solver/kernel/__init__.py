@@ -7,7 +7,7 @@ velocity of a block that slides (it stops), and the margins mu_s w_i -+ F_i of a
 go; F_i is the net force of its springs).
 
 In each window the kernel guesses the first root from a few terms, goes there, and proves for all blocks at
-once, four in a register, that none of their functions vanishes before (`bounds`). A bad guess fails the
+once, four in a register, that none of their functions vanishes before (`proof`). A bad guess fails the
 proof and does no harm: what is not proved is searched by safe steps, as `plain` does it for every function.
 
 Units: forces are in N and times in tau, one over a bound of the chain's largest frequency. Displacements are
@@ -26,8 +26,8 @@ Column 0 of every array is the drive, columns 1..N are the blocks. Beyond them i
 | `at_start` | `events.take_start` |
 | `expand` | `series.expand`: velocities and net forces; spring forces follow from slips |
 | `powers` | `series.powers`, divided by n! |
-| `move` | `springs.move`, which sums the series group by group (`series.sum_series`) |
-| `safe_step` | `bounds.safe_step` |
+| `move` | `series.move`, which sums them group by group (`sum_series`) |
+| `safe_step` | `roots.safe_step` |
 | `first_root` | `roots.first_root`, for functions that `proof.prove` leaves open |
 | `next_transition` | `events.next_transition`: `guess`, `find_root`, `prove` and, where it fails, `search` |
 | its last lines | `friction.mode_at_rest` |

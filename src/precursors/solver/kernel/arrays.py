@@ -148,28 +148,17 @@ def n_columns(n_blocks):
 def divide(memory, n_blocks):
     """Divide memory into the vectors of a system (coupling, strength, friction) and a motion."""
     wide, start = n_columns(n_blocks), numbers(memory.ctypes.data)
-    motion = Motion(
-        shifted(start, 3 * wide),
-        shifted(start, 4 * wide),
-        shifted(start, 5 * wide),
-        shifted(start, 6 * wide),
-        whole_numbers(memory.ctypes.data + 7 * EIGHT * wide),
-        shifted(start, 8 * wide),
-        shifted(start, 9 * wide),
-        shifted(start, 10 * wide),
-        shifted(start, 11 * wide),
-        shifted(start, 12 * wide),
-        shifted(start, 13 * wide),
-        shifted(start, 14 * wide),
-        shifted(start, 15 * wide),
-        whole_numbers(memory.ctypes.data + 16 * EIGHT * wide),
-        shifted(start, (3 + BY_COLUMN + ROWS) * wide),
-        shifted(start, (3 + BY_COLUMN + ROWS) * wide + TERMS),
-        shifted(start, (3 + BY_COLUMN + ROWS) * wide + 2 * TERMS),
-        shifted(start, (3 + BY_COLUMN) * wide),
-        wide,
-    )
-    return (start, shifted(start, wide), shifted(start, 2 * wide)), motion
+    terms = (3 + BY_COLUMN + ROWS) * wide
+
+    def at(k):
+        return shifted(start, k * wide)
+
+    mode = whole_numbers(memory.ctypes.data + 7 * EIGHT * wide)
+    open = whole_numbers(memory.ctypes.data + 16 * EIGHT * wide)
+    state = at(3), at(4), at(5), at(6), mode, at(8), at(9), at(10), at(11)
+    window = at(12), at(13), at(14), at(15), open
+    of_terms = shifted(start, terms), shifted(start, terms + TERMS), shifted(start, terms + 2 * TERMS)
+    return (start, at(1), at(2)), Motion(*(state + window + of_terms + (at(3 + BY_COLUMN), wide)))
 
 
 @inner

@@ -16,8 +16,7 @@ from precursors.solver.kernel.layout import FINISHED, PAUSED, PROOF_ORDER, ROUND
 from precursors.solver.kernel.pointers import EIGHT, numbers, row_address
 from precursors.solver.kernel.proof import prove, search
 from precursors.solver.kernel.roots import zero_below
-from precursors.solver.kernel.series import begin, expand, order_at, powers
-from precursors.solver.kernel.springs import move, take_net_force, two_sum
+from precursors.solver.kernel.series import begin, expand, move, order_at, powers, take_net_force, two_sum
 from precursors.solver.kernel.units import lay_out
 
 

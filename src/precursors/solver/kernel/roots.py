@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from precursors.solver.kernel.arrays import row
-from precursors.solver.kernel.bounds import safe_step
 from precursors.solver.kernel.compiled import inner, seldom
 from precursors.solver.kernel.layout import PROOF_ORDER
 
@@ -78,6 +79,15 @@ def first_root(count, zero, series, progress):
         start, span = start + x * span, span * (1.0 - x)
         if series[0] <= zero:
             return start
+
+
+@inner
+def safe_step(g, slope, curvature):
+    """Positive root of g + slope s - curvature s^2/2 (g >= 0): if -g'' <= curvature, no root is before."""
+    root = math.sqrt(slope * slope + 2.0 * curvature * g)
+    if slope < 0.0:
+        return 2.0 * g / (root - slope)
+    return (slope + root) / curvature if curvature > 0.0 else np.inf
 
 
 @seldom

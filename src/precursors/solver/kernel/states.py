@@ -12,8 +12,7 @@ from precursors.solver.kernel.events import last_column
 from precursors.solver.kernel.friction import farthest_sliding, set_mode, take_mode
 from precursors.solver.kernel.layout import WINDOW
 from precursors.solver.kernel.pointers import row_address
-from precursors.solver.kernel.series import begin, expand, order_at
-from precursors.solver.kernel.springs import move, take_net_force
+from precursors.solver.kernel.series import begin, expand, move, order_at, take_net_force
 from precursors.solver.kernel.units import lay_out, parameters
 from precursors.solver.record import TRANSITION, States
 
