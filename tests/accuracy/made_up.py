@@ -54,7 +54,7 @@ def proof_of(
 ) -> Proof:
     """A proof that has not begun; the chain starts from rest if nothing is given."""
     starts = [tuple(map(Fraction, of or [0] * chain.n_blocks)) for of in (positions, velocities)]
-    return Proof(Certificate(chain, Fraction(100), None, *starts, Fraction(1), (), None, bits, 0))
+    return Proof(Certificate(chain, Fraction(100), None, *starts, Fraction(1), (), None, bits))
 
 
 def go_on(proof: Proof) -> None:

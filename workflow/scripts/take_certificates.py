@@ -12,7 +12,7 @@ with job() as snakemake:
     known = {path: Certificate.load(path) for path in snakemake.input.get("committed", [])}
     params = snakemake.params
     for text, duration, output in zip(params.chains, params.durations, snakemake.output, strict=True):
-        chain = ExactChain.from_text(text)
+        chain = ExactChain(**text)
         fitting = [path for path, certificate in known.items() if is_about(certificate, chain, duration)]
         if fitting:
             write_whole(output, Path(fitting[0]).read_bytes())

@@ -86,20 +86,17 @@ class Comparison:
     """How far a run agrees with the truth, and how closely as far as it does.
 
     A transition is right if its block and mode are; a slip event, if its front is, and whether all blocks
-    slid at once. What is right ends with the first that is wrong or missing. `time_errors` [s] and
-    `load_errors` [N] are those of right transitions, `load_error` the largest of F_X at the onsets of right
-    slips [N], NaN if none is; `first_difference` is the time [s] of the first transition that is true or
-    found but not both, infinite if there is none.
+    slid at once. What is right ends with the first that is wrong or missing. `time_errors` [s] are those of
+    right transitions, `load_error` is the largest of F_X at the onsets of right slips [N], NaN if none is;
+    `first_difference` is the time [s] of the first transition that is true or found but not both, infinite if
+    there is none.
     """
 
     transitions_right: int
     transitions_found: int
     transitions_true: int
     slips_right: int
-    slips_found: int
-    slips_true: int
     time_errors: FloatArray
-    load_errors: FloatArray
     load_error: float
     first_difference: float
 
@@ -131,16 +128,12 @@ def compare(run: Run, truth: Truth) -> Comparison:
     n_slips = _agreeing(slips[OUTCOME].to_records(index=False), truth.slips[OUTCOME].to_records(index=False))
     onsets = np.searchsorted(true["time"], truth.slips["onset"][:n_slips])
     at_onsets = (slips["load_before"] - truth.slips["load_before"])[:n_slips] - truth.load_rest[onsets]
-    loads = found["tangential_load"][:n] - true["tangential_load"][:n]
     return Comparison(
         transitions_right=n,
         transitions_found=len(found),
         transitions_true=len(true),
         slips_right=n_slips,
-        slips_found=len(slips),
-        slips_true=len(truth.slips),
         time_errors=abs(found["time"][:n] - true["time"][:n] - truth.time_rest[:n]),
-        load_errors=abs(loads - truth.load_rest[:n]),
         load_error=_largest(abs(at_onsets.to_numpy())),
         first_difference=float(min([*found["time"][n : n + 1], *true["time"][n : n + 1]], default=np.inf)),
     )

@@ -92,17 +92,13 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
         "duration_s": run.duration,
         "transitions": len(run.transitions),
         "agreeing_transitions": n,
-        "first_global_slip_end_s": first_end,
         "time_error_to_first_global_slip_s": _largest(compared.time_errors[until]),
-        "load_error_to_first_global_slip_N": _largest(compared.load_errors[until]),
         "time_error_while_agreeing_s": _largest(compared.time_errors),
-        "load_error_while_agreeing_N": _largest(compared.load_errors),
         "right_until_s": float(
             min(wrong[0] if wrong.size else np.inf, compared.first_difference, run.duration)
         ),
         "horizon_s": predictions.horizon(tolerance),
         "order_lost_s": compared.first_difference,
-        "order_known_until_s": predictions.order_known_until,
         "largest_ratio": _largest(ratio),
     }
 

@@ -78,7 +78,7 @@ class Certificate:
 
     It is about a `duration` [s], or ends with the first event in which all blocks slide at the same instant
     (`until`), or before at a `tie`. No time has a radius above `width` [s]. `bits` is the working precision
-    at the start of the proof, which was begun again `restarts` times with more.
+    at the start of the proof.
     """
 
     chain: ExactChain
@@ -90,7 +90,6 @@ class Certificate:
     transitions: tuple[CertifiedTransition, ...]
     tie: Tie | None
     bits: int
-    restarts: int
 
     @property
     def proved_until(self) -> Fraction:
@@ -143,7 +142,6 @@ def _content(certificate: Certificate) -> dict[str, Any]:
         "until": certificate.until,
         "bits": certificate.bits,
         "width_s": str(certificate.width),
-        "restarts": certificate.restarts,
         "tie": tie
         and {
             "time_s": _enclosure_text(tie.time),
@@ -160,7 +158,7 @@ def _content(certificate: Certificate) -> dict[str, Any]:
 
 def _certificate(content: Mapping[str, Any]) -> Certificate:
     """The certificate in the content of a file."""
-    tie, chain = content["tie"], ExactChain.from_text(content["chain"])
+    tie, chain = content["tie"], ExactChain(**content["chain"])
     return Certificate(
         chain=chain,
         duration=written_fraction(content["duration_s"]),
@@ -182,7 +180,6 @@ def _certificate(content: Mapping[str, Any]) -> Certificate:
             written_fraction(tie["closeness_s"]),
         ),
         bits=int(content["bits"]),
-        restarts=int(content["restarts"]),
     )
 
 

@@ -67,5 +67,4 @@ def certificate_row(certificate: Certificate) -> dict[str, float]:
         "largest_time_width_s": float(2 * widest_time),
         "largest_load_width_N": float(2 * widest_load),
         "bits": certificate.bits,
-        "restarts": certificate.restarts,
     }

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from numbers import Rational, Real
-from typing import Any
 
 import numpy as np
 
@@ -91,14 +90,9 @@ class ExactChain:
         return (self.drive_stiffness, *[self.stiffness] * (self.n_blocks - 1))
 
     def as_text(self) -> dict[str, str | list[str]]:
-        """Every number as a fraction in a string."""
+        """Every number as a fraction in a string: `ExactChain(**chain.as_text())` is the chain."""
         text: dict[str, str | list[str]] = {name: str(getattr(self, name)) for name in _NUMBERS}
         return {"weights": [str(w) for w in self.weights], **text}
-
-    @classmethod
-    def from_text(cls, text: Mapping[str, Any]) -> ExactChain:
-        """Read what `as_text` wrote."""
-        return cls(tuple(text["weights"]), **{name: text[name] for name in _NUMBERS})
 
 
 def exact(name: str, value: object) -> Fraction:

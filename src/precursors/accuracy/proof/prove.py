@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from decimal import ROUND_CEILING, Context, Decimal
 from fractions import Fraction
-from itertools import count
 from typing import TYPE_CHECKING
 
 from precursors.accuracy.proof.certificate import (
@@ -87,12 +86,13 @@ def certify(
         exact_start("start_velocities", exact_chain, start_velocities, "m/s"),
     )
     until = checked_until(until)
-    for restarts in count():
-        bits = min(FIRST_BITS * 2**restarts, max_bits)
-        certificate = Certificate(exact_chain, limit, until, *start, widest, (), None, bits, restarts)
+    bits = min(FIRST_BITS, max_bits)
+    while True:
+        certificate = Certificate(exact_chain, limit, until, *start, widest, (), None, bits)
         proof, failure = _prove(certificate)
         if failure is None or bits == max_bits:
             break
+        bits = min(2 * bits, max_bits)
     tie = _tie(failure) if failure else None
     if tie and tie.closeness > widest:
         raise CertificateError(
