@@ -9,19 +9,18 @@ from golden.small_tables import assert_kept, larger_runs, small_larger_tables
 from reference import read_viscous
 from scipy.integrate import solve_ivp
 
-from precursors import Run, TransitionLimitError, audit, find_precursors, find_slips, simulate
+from precursors import Run, TransitionLimitError, audit, find_slips, simulate
 from precursors.analysis.load_curve import load_curve
 from precursors.hierarchy.larger import (
     SLOW,
     LargerChain,
     critical_length,
     simulate_larger,
-    simulate_with_accuracy,
     tilt,
 )
 
 # Tolerances beside the cases are two to three times what is measured at the default step.
-ENERGY = 5e-8  # of the work of the drive; 1.6e-8 is measured
+ENERGY = 1e-6  # of the work of the drive; 3.6e-7 is measured
 # Leaps neglect inertia: 3e-4 of the loads is measured.
 LEAP = 1e-3
 PAIR = {"weakening_velocity": 0.01, "relaxation_time": 5e-6}  # l_c = 0.089 L
@@ -128,15 +127,6 @@ def test_viscosity_alone_has_the_transitions_of_the_reference(name, tolerance):
     np.testing.assert_allclose(run.transitions["tangential_load"], loads, rtol=tolerance)
 
 
-@pytest.mark.parametrize(
-    "added", [{"weakening_velocity": 0.03}, PAIR | {"push_height": 0.003}, {"viscosity": 50.0}]
-)
-def test_the_drives_work_becomes_heat_and_stored_energy(added):
-    run = simulate_larger(LargerChain(SLIDER(10), **added), 3.0, SLIP)
-    assert len(find_slips(run)) > 2
-    assert abs(run.larger["energy_error"]) < ENERGY
-
-
 @pytest.mark.parametrize("n", [2, 7, 50])
 def test_a_tilt_keeps_the_sum_of_loads_and_balances_the_torque(n):
     chain, height = SLIDER(n), 3e-3
@@ -166,13 +156,6 @@ def test_creep_longer_than_l_c_has_a_real_growing_mode(v_c, t_v):
     assert fastest_is_real(int(1.05 * blocks) + 1)
 
 
-def test_precursors_begin_where_creep_has_reached_l_c():
-    larger = LargerChain(SLIDER(100), **PAIR)
-    onset = find_slips(simulate_larger(larger, 0.5))["load_before"].iloc[0]
-    crept = onset / (0.7 * 400.0)
-    assert crept == pytest.approx(critical_length(larger) / 0.1, rel=0.1)
-
-
 def test_leaps_over_stable_creep_change_no_event():
     larger = LargerChain(SLIDER(20), weakening_velocity=0.03, relaxation_time=5e-6)  # l_c = 0.21 L
     leapt, stepped = (find_slips(simulate_larger(larger, 3.0, SLIP, leap=leap)) for leap in (0.5, -np.inf))
@@ -181,30 +164,19 @@ def test_leaps_over_stable_creep_change_no_event():
     assert (leapt["load_before"] != stepped["load_before"]).any()
 
 
-def test_runs_of_every_kind_and_the_tables_of_the_study_are_those_that_are_kept():
-    for name, table in {"larger_runs": larger_runs(), **small_larger_tables()}.items():
+def test_runs_balance_energy_and_they_and_the_tables_of_the_study_are_those_that_are_kept():
+    runs = larger_runs()
+    assert (abs(runs["energy_error"]) < ENERGY).all()
+    for name, table in {"larger_runs": runs, **small_larger_tables()}.items():
         assert_kept(name, table)
 
 
-def test_a_run_says_what_half_the_step_changes_and_survives_its_file(tmp_path):
-    larger = LargerChain(SLIDER(20), **PAIR)
-    run = simulate_with_accuracy(larger, 3.0, SLIP)
-    finer = simulate_larger(larger, 3.0, SLIP, step=run.larger["step"] / 2.0)
-    assert run.larger["halved_events"] == 0
-    loads = [find_precursors(find_slips(r))["load_before"] for r in (run, finer)]
-    assert run.larger["halved_load_N"] == pytest.approx(np.abs(loads[0] - loads[1]).max(), rel=1e-9)
-    assert 0.0 < run.larger["halved_load_N"] < 0.5
+def test_a_run_survives_its_file_and_knows_its_transitions_only(tmp_path):
+    run = simulate_larger(LargerChain(SLIDER(3), **PAIR), 0.5)
     run.save(tmp_path / "run.h5")
     again = Run.load(tmp_path / "run.h5")
     assert again.larger == run.larger
-    times, loads = load_curve(again)
-    assert (np.diff(times) >= 0.0).all()
-    peak = run.transitions["tangential_load"].max()
-    assert loads.max() == pytest.approx(peak, rel=1e-3)
-
-
-def test_what_a_larger_run_cannot_have_is_said():
-    run = simulate_larger(LargerChain(SLIDER(3), **PAIR), 0.5)
+    np.testing.assert_array_equal(np.transpose(load_curve(again)), run.load_points)
     with pytest.raises(ValueError, match="run of a larger chain knows its transitions"):
         run.at([0.1])
     assert audit(run).problems == ("it is a larger chain's, and the audit checks Coulomb's law",)
@@ -223,14 +195,11 @@ def test_what_a_larger_run_cannot_have_is_said():
 def test_bad_input_gets_one_line(added, message):
     with pytest.raises(ValueError, match=message):
         simulate_larger(LargerChain(SLIDER(theta="5/6"), **added), 10.0)
+    with pytest.raises(TypeError, match=r"^chain must be a Chain, but is 'x'$"):
+        LargerChain("x")
 
 
 def test_a_limit_that_is_met_keeps_the_run_so_far():
     with pytest.raises(TransitionLimitError, match="met its limit of work") as met:
         simulate_larger(LargerChain(SLIDER(), **PAIR), 10.0, max_transitions=50)
     assert len(met.value.run.transitions) > 50
-
-
-def test_what_is_no_chain_is_said_where_the_larger_chain_is_made():
-    with pytest.raises(TypeError, match=r"^chain must be a Chain, but is 'x'$"):
-        LargerChain("x")

@@ -24,15 +24,6 @@ ROUNDING = 1e-12  # relative, of sums of a few terms
 CASCADE_ROUNDING = 1e-8  # relative, grows from event to event; a wrong set of blocks is off by 1e-2
 FORCE_ROUNDING = 1e-9  # of F_Z, in the dense cascade
 RUN_ROUNDING = 1e-11  # relative, of the exact solver's times and loads over ten slips
-# Measured for theta = -5/6, 0, +5/6 at N = 10 against the exact chain; the next worse rule is beyond each.
-MU_SAPP_ERROR = 0.07  # of the quasi-static chain, relative: 0.066, 0.053, 0.052
-EVENTS_ERROR = 1  # 0, 1, 0 events
-FRONT_ERROR = 7.0  # N, root mean square over the blocks: 5.6, 6.5, 6.3
-LAW_ERROR = 15.0  # N: 12.0, 9.5, 14.2
-
-
-def rms(x) -> float:
-    return float(np.sqrt(np.mean(np.square(x))))
 
 
 def dense_cascade(chain: Chain, overshoot: float) -> list[tuple[float, float, int, int]]:
@@ -132,29 +123,13 @@ def assert_dense(chain: Chain, overshoot: float) -> None:
 
 
 @pytest.mark.parametrize("theta", THETAS)
-def test_the_quasistatic_chain_answers_within_its_stated_errors(theta) -> None:
-    chain = SLIDER(theta=theta)
-    exact, small, damped, law = (
-        MODELS[name].ask(chain) for name in ("chain", "quasistatic", "overdamped", "law")
-    )
-    assert (
-        abs(small["events_counted"] - exact["events_counted"])
-        <= EVENTS_ERROR
-        < abs(damped["events_counted"] - exact["events_counted"])
-    )
-    assert small["mu_sapp"] == pytest.approx(exact["mu_sapp"], rel=MU_SAPP_ERROR)
-    assert rms(small["front_loads"] - exact["front_loads"]) < FRONT_ERROR
-    assert FRONT_ERROR < rms(law["front_loads"] - exact["front_loads"]) < LAW_ERROR
-
-
-@pytest.mark.parametrize("theta", THETAS)
 def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta) -> None:
     errors = []
     for n_blocks in (10, 40):
         chain = SLIDER(n_blocks=n_blocks, theta=theta)
         exact = MODELS["chain"].ask(chain)["front_loads"]
-        errors.append(rms(front_load_law(chain) - exact))
-    assert errors[1] < 0.6 * errors[0]
+        errors.append(np.square(front_load_law(chain) - exact).mean())
+    assert errors[1] < 0.36 * errors[0]
 
 
 @pytest.mark.parametrize(
@@ -170,14 +145,11 @@ def test_a_chain_that_no_cascade_fits_gets_one_clear_line(call, message: str) ->
         call()
 
 
-def test_a_cap_on_events_that_is_met_is_said() -> None:
+def test_a_limit_that_is_met_is_said_and_no_other_advice_given(monkeypatch) -> None:
     needed = len(quasistatic_slips(SLIDER()))
     assert len(quasistatic_slips(SLIDER(), max_events=needed)) == needed
     with pytest.raises(RuntimeError, match=f"no global slip within {needed - 1} events: raise max_events"):
         quasistatic_slips(SLIDER(), max_events=needed - 1)
-
-
-def test_an_event_that_does_not_come_to_rest_is_said_and_no_other_advice_given(monkeypatch) -> None:
     monkeypatch.setattr(quasistatic, "MAX_STAGES", 0)
     with pytest.raises(RuntimeError, match=r"\Aevent 1 does not come to rest (?!.*max_events)"):
         quasistatic_slips(SLIDER())

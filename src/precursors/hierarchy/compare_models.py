@@ -38,19 +38,10 @@ ROUNDS, SHORTEST = 3, 0.003  # how often a model is timed, and for how long at l
 class Question:
     """One question to all models.
 
-    Attributes
-    ----------
-    shown : callable
-        One number that stands for the answer in the table.
-    error : callable
-        (answer, answer of the paper's chain, chain) -> distance between them.
-    error_unit : str
-        Unit of the error: "1" where it is relative, to the answer or to F_Z.
-    statistic : callable or None
-        What is asked of runs with noise in the normal loads, (values, axis) -> numbers: one run of the chain
-        at theta = 5/6 is a draw of many, and no measure of a model.
-    quantity : str
-        The quantity of the models that is asked for, where it is not the name of the question.
+    `shown` is one number that stands for the answer in the table, and `error` (answer, answer of the paper's
+    chain, chain) their distance, in units of `error_unit`. A `statistic` (values, axis) is asked of runs with
+    noise in the normal loads: one run of the chain at theta = 5/6 is a draw of many, and no measure of a
+    model. `quantity` is that of the models, where it is not the name of the question.
     """
 
     shown: Callable[[Any], float]
@@ -128,16 +119,8 @@ def compare_models(
 ) -> pd.DataFrame:
     """Ask every model every question it answers, for the chains of some scenes.
 
-    Parameters
-    ----------
-    chains : mapping
-        Scene to chain.
-    tolerances : mapping
-        Largest error that counts as an answer to each of `QUESTIONS`.
-    models : mapping
-        The models, from the smallest to the largest; the paper's chain is among them.
-    rounds : int
-        How often each model is timed: see `timing.measure`.
+    `models` go from the smallest to the largest, the paper's chain among them; `rounds` is how often each is
+    timed.
 
     Returns
     -------

@@ -325,14 +325,9 @@ def simulate_larger(
     less than `SMALLEST_DROP` F_Z. The run has `load_points`, and in `larger` the numbers of the chain, the
     step, and `energy_error`: the energy that the balance lacks, over the work of the drive.
 
-    Parameters
-    ----------
-    step : float
-        Step, in the shorter of sqrt(m/k) and the time in which falling friction multiplies a velocity by
-        e; by default `STEP`, or `STEP_OF_COULOMB`.
-    leap : float
-        Creep is leapt over where falling friction exceeds viscosity by less than so much of the excess at
-        which creep runs away; -inf: nowhere.
+    `step` is in the shorter of sqrt(m/k) and the time in which falling friction multiplies a velocity by e,
+    by default `STEP` or `STEP_OF_COULOMB`. Creep is leapt over where falling friction exceeds viscosity by
+    less than the part `leap` of the excess at which creep runs away; -inf: nowhere.
 
     Raises
     ------

@@ -65,17 +65,8 @@ def run_study(
     """Run every point of a study with noise in the normal loads: a row for each point and draw.
 
     The noise depends on the number of blocks and on the draw only. A run without a global slip has NaN.
-
-    Parameters
-    ----------
-    slider : mapping
-        Arguments of `Chain.from_slider`.
-    name : str
-        Name of the study, in the first column.
-    study : mapping
-        pairs (of v_c [m/s] and t_v [s]), n_blocks, theta, push_height [m] (optional) and runs.
-    common : mapping
-        seed, noise (relative) and smallest_drops [N] of all studies.
+    `slider` has the arguments of `Chain.from_slider`; `study` pairs (of v_c [m/s] and t_v [s]), n_blocks,
+    theta, push_height [m] (optional) and runs; `common` seed, noise (relative) and smallest_drops [N].
     """
     heights, rows = study.get("push_height", [0.0]), []
     for pair, height, theta, n in product(study["pairs"], heights, study["theta"], study["n_blocks"]):

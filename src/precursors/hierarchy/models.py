@@ -41,17 +41,7 @@ UNITS = {
 
 @dataclass(frozen=True)
 class Model:
-    """A model of the table.
-
-    Attributes
-    ----------
-    label : str
-        Name in tables and figures.
-    answers : mapping
-        From a quantity, a key of `UNITS`, to the function that computes it from what `prepare` returns.
-    prepare : callable
-        From a chain to what the answers need.
-    """
+    """A model of the table: its name in figures, and its answers by quantity from what `prepare` returns."""
 
     label: str
     answers: Mapping[str, Callable[[Any], Any]]
@@ -67,14 +57,8 @@ class Model:
 class Motion:
     """A chain up to the end of its first global slip, or to where it is given up.
 
-    Attributes
-    ----------
-    chain : Chain
-        The chain.
-    slips : structured array
-        Its slip events, with the columns of `find_slips`; the last one is the global slip.
-    waveform : array, shape (n_transitions + 1, 2)
-        Time [s] and load [N] at the start and at each transition, or at the `load_points` of a larger chain.
+    `slips` have the columns of `find_slips`. `waveform` is time [s] and load [N] at the start and at each
+    transition, or at the `load_points` of a larger chain.
     """
 
     chain: Chain

@@ -59,17 +59,8 @@ def quasistatic_slips(
 ) -> NDArray[np.void]:
     """Slip events of the quasi-static chain, from rest to its first global slip, as `find_slips` has them.
 
-    An event ends when it begins; `n_simultaneous` is the largest set that moves.
-
-    Parameters
-    ----------
-    chain : Chain
-        The chain; every block has weight, and mu_k < mu_s.
-    overshoot : float
-        How far the blocks move beyond the balance with kinetic friction, from 0 (all kinetic energy is lost)
-        to 1 (none is).
-    max_events : int
-        Largest number of events.
+    An event ends when it begins; `n_simultaneous` is the largest set that moves. `overshoot` is how far the
+    blocks move beyond the balance with kinetic friction, from 0 (all kinetic energy is lost) to 1 (none is).
 
     Raises
     ------
