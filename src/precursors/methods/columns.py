@@ -24,6 +24,7 @@ SPRING, INVERSE_MASS, STRENGTH, KINETIC, BACKWARD, TURNING = range(6)
 # Rows of a state, which change: spring force [N], velocity [m/s], mode, 1/m where a block slides, mode_i mu_k
 # w_i [N]. The first two are also those of its rates, and of states that a method tries.
 FORCE, VELOCITY, MODE, MOBILITY, FRICTION = range(5)
+RATES = MODE  # number of these
 
 # Rule of switching: from mu_s w and mu_k w to the rows BACKWARD and TURNING. The first is ours.
 SWITCHING_RULES: dict[str, Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]] = {

@@ -13,7 +13,7 @@ import math
 import numpy as np
 from scipy.integrate import DOP853
 
-from precursors.methods.columns import time_unit
+from precursors.methods.columns import RATES, time_unit
 from precursors.methods.common import Method, Result
 from precursors.methods.compiled import apart, inner, outer, template
 from precursors.methods.equations import by_mode, copy, event_function, rates
@@ -125,8 +125,8 @@ def advance(motion, tolerance, until, watches):
     """Go on to the next event where it `watches` for one, or to a time [tau]: the block, or 0."""
     system, state, progress = motion.system, motion.state, motion.progress[0]
     n, last = state.shape[1], progress.last
-    k, f = np.zeros((16, 2, n)), np.zeros((7, 2, n))
-    end, trial = np.zeros((2, n)), state[:2].copy()
+    k, f = np.zeros((len(A), RATES, n)), np.zeros((7, RATES, n))
+    end, trial = np.zeros((RATES, n)), state[:RATES].copy()
     before, after = np.zeros(n), np.zeros(n)
     rates(by_mode, 0.0, system, state, last, state, k[0])
     for i in range(1, feels(state, last) + 1):

@@ -60,15 +60,15 @@ SLIDES, FRICTIONS, MODES, STICKS = range(4)
 class EventMotion:
     """A chain in motion, with the numbers that a solver carries, or keeps itself.
 
-    `y`, shape (2 N,), is the state; `settings`, shape (4, N), is what each block does, in the rows SLIDES,
-    FRICTIONS, MODES and STICKS. `nudge` is the velocity of a block that starts, see `NUDGE`.
+    `y`, shape (2 N,), is the state; `settings` is what each block does, in the rows SLIDES, FRICTIONS, MODES
+    and STICKS. `nudge` is the velocity of a block that starts, see `NUDGE`.
     """
 
     def __init__(self, chain: Chain, duration: float, until: str | None, nudge: float = NUDGE) -> None:
         self.chain, self.nudge, self.tau = chain, nudge, time_unit(chain)
         self.motion = motion_from_rest(chain, duration, until, scaled=True)
         self.system, self.state = self.motion.system, self.motion.state
-        self.y, self.settings = np.zeros(2 * chain.n_blocks), np.zeros((4, chain.n_blocks))
+        self.y, self.settings = np.zeros(2 * chain.n_blocks), np.zeros_like(self.state)
         self.slides, self.evaluations = False, 0
 
     def put(self, modes: ArrayLike, forces: ArrayLike, velocities: ArrayLike) -> None:

@@ -25,9 +25,9 @@ from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 
 FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, LOST, MOVING = range(6)
 # A leg has at most so many steps, and a call so many legs, so that Ctrl-C is heard within a second or so.
-STEPS_IN_LEG, LEGS_PER_CALL = 1000, 5000
+STEPS_IN_LEG = 1000
+LEGS_PER_CALL = 5000
 FIRST_ROOM = 4096  # transitions
-HAIR = 1e-12  # of a step: more than the rounding of a clock that adds thousands of them
 
 # Short times since the onset of a slip event, in the unit of the system, are not rounded as long ones.
 PROGRESS = np.dtype(
@@ -207,7 +207,7 @@ def begin_leg(motion, can_rest=True, releases=True):
     Where all blocks stick and `can_rest`, it waits and, if it `releases`, lets block 1 slide.
     """
     progress = motion.progress[0]
-    status = obstacle(motion) if progress.legs < LEGS_PER_CALL else PAUSED
+    status = obstacle(motion) if progress.legs != LEGS_PER_CALL else PAUSED
     if status == MOVING and progress.sliding == 0 and can_rest:
         status = rest(motion)
         if status == MOVING and progress.waits and releases:
@@ -303,8 +303,7 @@ def slide(
     free[[STRENGTH, BACKWARD]] = np.inf
     progress = np.zeros(1, PROGRESS)
     progress["sliding"] = progress["last"] = state.shape[1] - 2
-    # The clock adds step after step; the last is shorter by a hair, so that none of no length follows.
-    progress["remaining"] = np.cumsum(np.append(0.0, np.full(n_steps, step)))[-1] - HAIR * step
+    progress["remaining"] = n_steps * step
     modes = state[MODE].copy()
     state[MODE] = 0.0
     motion = Motion(free, state, progress, np.empty(FIRST_ROOM, RECORD))

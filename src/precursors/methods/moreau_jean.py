@@ -37,6 +37,7 @@ from precursors.methods.fixed_step import STEPS_IN_LEG, begin_leg, change_mode, 
 
 # theta: of order 2 while nothing switches, without damping; of order 1, damping what is faster than a step.
 TRAPEZOIDAL, IMPLICIT = 0.5, 1.0
+KNOWN, FACTOR, NEW = range(3)  # rows to work in
 CHARTED = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
 # The active set settles in two or three solutions; where it goes in a circle, this many are enough.
 SOLUTIONS_PER_BLOCK = 4
@@ -61,7 +62,7 @@ def explicit_forces(system, state, last, h, theta, known):
 @inner
 def solve_velocities(system, state, last, h, theta, work):
     """New velocities of the blocks 1..last that slide."""
-    known, factor, new = work[0], work[1], work[3]
+    known, factor, new = work[KNOWN], work[FACTOR], work[NEW]
     for i in range(1, last + 1):
         slides = h * state[MOBILITY, i]
         net = known[i] - known[i + 1] - state[FRICTION, i]
@@ -90,7 +91,7 @@ def set_trial(system, state, trial, i, mode):
 @inner
 def static_friction(system, state, i, h, theta, work):
     """Friction R_i that keeps block i at v' = 0, or brings it there [N]."""
-    known, new, spring, reach = work[0], work[3], system[SPRING], theta * theta * h
+    known, new, spring, reach = work[KNOWN], work[NEW], system[SPRING], theta * theta * h
     behind = known[i] + reach * spring[i] * (new[i - 1] - new[i])
     ahead = known[i + 1] + reach * spring[i + 1] * (new[i] - new[i + 1])
     return behind - ahead + state[VELOCITY, i] / (system[INVERSE_MASS, i] * h)
@@ -100,8 +101,8 @@ def static_friction(system, state, i, h, theta, work):
 def step_modes(system, state, last, h, theta, work, trial):
     """Find modes and new velocities of a step; return the farthest sliding block and the solutions made."""
     n_blocks = state.shape[1] - 2
-    new = work[3]
-    explicit_forces(system, state, last, h, theta, work[0])
+    new = work[NEW]
+    explicit_forces(system, state, last, h, theta, work[KNOWN])
     most = SOLUTIONS_PER_BLOCK * (n_blocks + 1)
     for solutions in range(1, most + 1):
         solve_velocities(system, state, last, h, theta, work)
@@ -131,15 +132,15 @@ def run_moreau_jean(motion, step, theta):
     evaluation.
     """
     system, state, progress = motion.system, motion.state, motion.progress[0]
-    work, trial = np.zeros((4, state.shape[1])), state[MODE].copy()
-    work[3, 0] = state[VELOCITY, 0]
+    work, trial = np.zeros_like(state), state[MODE].copy()
+    work[NEW, 0] = state[VELOCITY, 0]
     while begin_leg(motion):
         trial[1] = state[MODE, 1]
         last = progress.last
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
             last, solutions = step_modes(system, state, last, h, theta, work, trial)
-            finish(system, state, last, h, theta, work[3])
+            finish(system, state, last, h, theta, work[NEW])
             progress.evaluations += solutions
             progress.elapsed += h
             if h < step or solutions > 1:

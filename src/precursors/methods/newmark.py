@@ -25,6 +25,7 @@ from precursors.methods.equations import solve_springs
 from precursors.methods.fixed_step import fixed_step, run_in_steps
 
 NEWMARK, HHT = 0.0, -0.1
+ACCELERATION, NEW, FACTOR, MOVED = range(4)  # rows to work in
 CHARTED = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9)
 
 
@@ -41,7 +42,7 @@ def energy_factor(z: float, alpha: float) -> float:
 def newmark_step(system, state, last, h, settings):
     """One step h [s] of blocks 1..last; a step of no length finds the accelerations to begin with."""
     alpha, work = settings
-    acceleration, new, factor, moved = work[0], work[1], work[2], work[3]
+    acceleration, new, factor, moved = work[ACCELERATION], work[NEW], work[FACTOR], work[MOVED]
     force, velocity, spring = state[FORCE], state[VELOCITY], system[SPRING]
     beta, gamma = 0.25 * (1.0 - alpha) ** 2, 0.5 - alpha
     moved[0], moved[last + 1] = h * velocity[0], 0.0

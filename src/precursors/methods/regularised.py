@@ -19,7 +19,7 @@ from typing import Any, Literal
 
 import numpy as np
 from scipy.integrate import BDF, Radau
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq
 
 from precursors.methods.columns import SPRING, VELOCITY, at_rest, set_modes, time_unit
 from precursors.methods.common import Method, Result
@@ -42,7 +42,7 @@ def friction_coefficient(velocity: FloatArray, width: float, mu_s: float, mu_k: 
     return np.tanh(z) * (mu_k + (mu_s - mu_k) * np.exp(-((z / STRIBECK) ** 2)))
 
 
-def friction_slope(velocity: FloatArray, width: float, mu_s: float, mu_k: float) -> FloatArray:
+def friction_slope(velocity: Any, width: float, mu_s: float, mu_k: float) -> Any:
     """d mu / dv [s/m]."""
     z = velocity / width
     tanh, drop = np.tanh(z), (mu_s - mu_k) * np.exp(-((z / STRIBECK) ** 2))
@@ -60,13 +60,7 @@ def creep_velocity(load: float, weight: float, width: float, mu_s: float) -> flo
 
 def peak_velocity(width: float, mu_s: float, mu_k: float) -> float:
     """Velocity [m/s] of largest friction: slower blocks creep, faster ones slide."""
-    peak = minimize_scalar(
-        lambda z: -float(friction_coefficient(np.array(z), 1.0, mu_s, mu_k)),
-        bounds=(0.0, STRIBECK),
-        method="bounded",
-        options={"xatol": 1e-9},
-    )
-    return width * float(peak.x)
+    return width * brentq(friction_slope, 1.0, STRIBECK, (1.0, mu_s, mu_k))
 
 
 def equations(

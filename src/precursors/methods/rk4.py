@@ -75,10 +75,7 @@ def stage(law, parameter, system, state, last, share, ahead, work):
 @inner
 def room(state):
     """Rates, a trial state and a sum, to work in."""
-    n = state.shape[1]
-    rate, trial, total = np.zeros((2, n)), np.zeros((2, n)), np.zeros((2, n))
-    trial[VELOCITY, 0] = state[VELOCITY, 0]
-    return rate, trial, total
+    return np.zeros_like(state), state.copy(), np.zeros_like(state)
 
 
 @outer

@@ -129,7 +129,7 @@ def first_transition(state, last, h, before, after, rounding):
 def run_located(motion, step):
     """Run in steps that end where a block changes its state."""
     system, state, progress = motion.system, motion.state, motion.progress[0]
-    most_idle, rounding = 4 * (state.shape[1] - 2), roundings(system)
+    rounding = roundings(system)
     rate, trial, total = room(state)
     # The state at a step's start, and event functions with their rates; rates and functions at its end.
     start, event = np.zeros(state.shape), np.zeros(state.shape)
@@ -151,7 +151,7 @@ def run_located(motion, step):
                     s, i = first_transition(state, last, h, event, event_after, rounding)
                     # Where blocks change without time going on, rounding can decide in a circle: make a whole
                     # step.
-                    if s > 1.0 or idle > most_idle:
+                    if s > 1.0 or idle > state.size:
                         i = 0
                         break
                 else:

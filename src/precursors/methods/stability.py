@@ -22,7 +22,7 @@ UNBOUNDED = 1e6
 STEPS = 4000
 BISECTIONS = 20
 # A drive so slow does no work in a test; `Chain` has none that rests.
-AT_REST = 1e-15  # m/s
+AT_REST = float(np.finfo(float).eps)  # m/s
 
 Slide = Callable[..., None]
 
