@@ -159,12 +159,13 @@ function along(from, to, x) {
 
 // Where a new run is looked at: the event that the step shows, or the same event and time as before.
 function placeTime() {
-  const { events, counted, end, isFinal } = runs[0];
+  const { id, events, counted, end, isFinal } = runs[0];
   const partial = counted.filter((event) => !event.isGlobal), middle = Math.max(Math.ceil(partial.length / 2) - 1, 0);
   const shown = { partial: partial[middle], longer: partial[Math.min(middle + 1, partial.length - 1)], global: firstGlobal() ?? counted.at(-1) }[state.pick];
   if (shown && !playing) [state.event, state.time] = [events.indexOf(shown), shown.onset];
   else if (state.event !== null && !playing) {
-    if (isFinal) state.event = events.length ? Math.min(state.event, events.length - 1) : null;
+    // The event of an address, which belongs to the first run, may come with the end of that run.
+    if (isFinal || id > 1) state.event = events.length ? Math.min(state.event, events.length - 1) : null;
     state.time = event()?.onset ?? 0;
   }
   state.time = Math.min(state.time, end);
