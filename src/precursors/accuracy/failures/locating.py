@@ -45,9 +45,8 @@ def motion_after(run: Run, number: int) -> EventMotion:
     """The motion of an exact run from its transition of this number (from 1) on."""
     chain = run.chain
     motion = EventMotion(chain, run.duration, None)
-    modes = np.zeros(chain.n_blocks)
-    for _, block, mode, _ in run.transitions[:number].tolist():
-        modes[block - 1] = mode
+    modes, done = np.zeros(chain.n_blocks), run.transitions[:number]
+    modes[done["block"] - 1] = done["mode"]  # the last one of each block
     time, block, mode, _ = run.transitions[number - 1].tolist()
     velocities = run.at([time])[1][0] * chain.mass / motion.tau
     velocities[block - 1] = mode * NUDGE
@@ -62,14 +61,12 @@ def missed_roots() -> Failure:
     n = len(exact.transitions)
 
     wrong = transitions_right(solve_scipy(chain, 10.0, LOOSE, "global slip").run, exact)
-    end_of_slip = float(
-        find_slips(exact)["end"][lambda ends: ends > exact.transitions["time"][wrong]].iloc[0]
-    )
+    ends = find_slips(exact)["end"].to_numpy()
+    end_of_slip = float(ends[ends > exact.transitions["time"][wrong]][0])
 
     def misses(max_step: float) -> bool:
-        return (
-            transitions_right(solve_scipy(chain, end_of_slip, LOOSE, max_step=max_step).run, exact) <= wrong
-        )
+        run = solve_scipy(chain, end_of_slip, LOOSE, max_step=max_step).run
+        return transitions_right(run, exact) <= wrong
 
     longest = bisect(misses, SHORT_STEP, LONG_STEP, BISECTIONS)
     # The motion up to three times as long as the true one, from the last right transition on.

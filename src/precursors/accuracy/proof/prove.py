@@ -93,12 +93,12 @@ def certify(
         if failure is None or bits == max_bits:
             break
         bits = min(2 * bits, max_bits)
-    tie = _tie(failure) if failure else None
-    if tie and tie.closeness > widest:
+    if failure and 2 * _fraction(failure.time.rad()) > widest:
         raise CertificateError(
-            f"max_bits = {max_bits} do not suffice beyond t = {float(tie.time.midpoint):.9g} s of "
-            f"{float(limit):g} s ({tie.question}): allow more, or prove a shorter duration"
+            f"max_bits = {max_bits} do not suffice beyond t = {float(failure.time):.9g} s of "
+            f"{float(limit):g} s ({failure.question}): allow more, or prove a shorter duration"
         )
+    tie = _tie(failure) if failure else None
     transitions = tuple(
         CertifiedTransition(
             _rounded(_enclosure_of(t.time)), t.block, t.mode, _rounded(_enclosure_of(t.tangential_load))
