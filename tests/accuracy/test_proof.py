@@ -246,22 +246,18 @@ def test_a_block_that_only_touches_standstill_is_a_tie() -> None:
     assert certificate.tie.question == "whether block 1 stops"
 
 
-def test_a_stop_at_the_very_end_of_a_window_is_proved() -> None:
-    """v = V + (v_0 - V) cos(omega t) - mu_k w / (m omega) sin(omega t) of one block is zero after one T."""
-    chain = ExactChain.from_slider(n_blocks=1)
+def test_a_turn_at_the_very_end_of_a_window_is_proved() -> None:
+    """v = V + (v_0 - V) cos(omega t) of one block without friction is zero after one T."""
+    chain = ExactChain.from_slider(n_blocks=1, mu_s=0, mu_k=0)
     end = time_unit(chain)
+    square = chain.drive_stiffness / chain.mass * end**2
     with mpmath.workdps(70):
-        drive, mass, stiffness, friction = (
-            mpmath.mpf(x.numerator) / x.denominator
-            for x in (chain.drive_velocity, chain.mass, chain.drive_stiffness, chain.mu_k * chain.weights[0])
-        )
-        omega = mpmath.sqrt(stiffness / mass)
-        phase = omega * end.numerator / end.denominator
-        start = drive + (friction / (mass * omega) * mpmath.sin(phase) - drive) / mpmath.cos(phase)
-        certificate = certify(chain, 1, start_velocities=[mpmath.nstr(start, 60)])
-    moves, stops, *_ = certificate.transitions
-    assert (moves.time.upper, stops.mode) == (0, 0)
-    assert stops.time.contains(exactly(end))
+        phase = mpmath.sqrt(square.numerator / mpmath.mpf(square.denominator))
+        start = mpmath.mpf("1e-4") * (1 - 1 / mpmath.cos(phase))
+        certificate = certify(chain, 4 * end, start_velocities=[mpmath.nstr(start, 60)])
+    moves, turns = certificate.transitions
+    assert (moves.time.upper, turns.mode) == (0, 1)
+    assert turns.time.contains(exactly(end))
 
 
 def test_too_few_bits_are_an_error_and_no_tie() -> None:
