@@ -116,9 +116,9 @@ class Workspace:
 
     def results(self) -> dict[str, tuple[int, bytes]]:
         """Time of change and content of every file in results."""
-        files = sorted(path for path in (self.path / "results").rglob("*") if path.is_file())
+        files = [path for path in (self.path / "results").rglob("*") if path.is_file()]
         return {
-            str(path.relative_to(self.path)): (path.stat().st_mtime_ns, path.read_bytes()) for path in files
+            str(file.relative_to(self.path)): (file.stat().st_mtime_ns, file.read_bytes()) for file in files
         }
 
 
