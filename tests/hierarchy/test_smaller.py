@@ -8,10 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from golden.small_tables import SCENES, assert_kept, model_comparison
 
 from precursors import Chain, simulate
 from precursors.hierarchy import quasistatic
-from precursors.hierarchy.models import MODELS, UNITS, move, scene_answers
+from precursors.hierarchy.compare_models import DRAWS, SHORTEST, TOLERANCES, compare_models
+from precursors.hierarchy.models import MODELS, UNITS, Motion, move, scene_answers
 from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
 from precursors.hierarchy.rigid import load_drop, onset_load, rigid_slip_duration, slip_load
 from precursors.hierarchy.statics import front_load_law
@@ -180,3 +182,23 @@ def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(monkeypat
     assert all(np.isnan(answers[name](motion)) for name in ("events_counted", "mu_sapp", "slip_duration"))
     assert np.isnan(answers["front_loads"](motion)[-1])
     assert answers["first_load"](motion) == pytest.approx(28.0)
+
+
+def test_every_answer_is_the_one_that_is_kept() -> None:
+    assert_kept("model_comparison", model_comparison())
+
+
+def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(clock) -> None:
+    calls, warm, rounds = [], 0.0005, 3
+    motion = move(SCENES["even"])
+
+    def prepare(chain: Chain) -> Motion:
+        clock.now += warm if len(calls) > 1 + DRAWS else 10.0
+        calls.append(chain)
+        return motion
+
+    models = {"chain": replace(MODELS["chain"], prepare=prepare)}
+    table = compare_models({"even": SCENES["even"]}, TOLERANCES, models, rounds)
+    assert table["cost_s"].tolist() == pytest.approx([warm] * len(TOLERANCES))
+    # One run answers all questions, and each draw is run once.
+    assert len(calls) == 1 + DRAWS + 2 + rounds * round(SHORTEST / warm)

@@ -13,7 +13,7 @@ from golden.small_tables import SMALL
 from methods.kept_runs import kept_runs
 
 from precursors import Chain, simulate
-from precursors.methods import METHODS, columns
+from precursors.methods import METHODS, columns, cvode_events, events
 from precursors.methods.columns import time_unit
 from precursors.methods.compiled import COMPILED
 from precursors.methods.events import EventMotion
@@ -49,6 +49,26 @@ NAMES = [name for name in METHODS if name != "literal"]
 # Where friction is a law of the velocity, blocks creep at rest, and slide only after the last of these ends.
 N_CHAINS = {"friction law": 4}
 CASES = [(name, *case) for name in NAMES for case in CHAINS[: N_CHAINS.get(METHODS[name].kind)]]
+
+
+STEP = 1e-6  # s
+# One block slides once, from the instant at which it reaches its limit: that is all that the run has.
+CHAIN = Chain.from_slider(n_blocks=1)
+LIMIT = float(CHAIN.strength[0]) / CHAIN.loading_rate
+DURATION = LIMIT + 0.01
+# Evaluations in each step and besides: the force at the end of a step is that at the start of the next, the
+# first has to be evaluated; a step in which a block stops is solved again with the block stuck.
+STEPS = {
+    "rk4_skip": (4, 0),
+    "leapfrog": (1, 1),
+    "semi_implicit_euler": (1, 0),
+    "forward_euler": (1, 0),
+    "newmark": (1, 1),
+    "hht": (1, 1),
+    "moreau_jean_half": (1, 1),
+    "moreau_jean_one": (1, 1),
+    "karnopp": (4, 0),
+}
 
 
 def without_short_stops(transitions) -> list[tuple[int, int, float]]:
@@ -87,6 +107,39 @@ def test_costs_transitions_times_and_loads_of_short_runs_are_those_that_are_kept
     """
     kept = pd.read_csv(SMALL / "methods.csv", keep_default_na=False).query("method == @name")
     pd.testing.assert_frame_equal(kept_runs(name), kept.reset_index(drop=True), rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_evaluations_of_equal_steps_are_those_of_the_method(name):
+    each, besides = STEPS[name]
+    result = METHODS[name].solve(CHAIN, DURATION, STEP, None)
+    slip = float(result.run.transitions["time"][-1]) - LIMIT
+    assert result.evaluations == each * round(slip / STEP) + besides
+
+
+@pytest.mark.parametrize(
+    ("name", "setting", "where", "function"),
+    [
+        ("scipy_rk45", 1e-6, events.EventMotion, "rates"),
+        ("scipy_dop853", 1e-6, events.EventMotion, "rates"),
+        ("scipy_radau", 1e-4, events.EventMotion, "rates"),
+        ("scipy_lsoda", 1e-6, events.EventMotion, "rates"),
+        ("cvode_adams", 1e-6, cvode_events, "rates_of"),
+        ("cvode_bdf", 1e-6, cvode_events, "rates_of"),
+    ],
+)
+def test_evaluations_of_other_solvers_are_their_calls(name, setting, where, function, monkeypatch):
+    if name not in METHODS:
+        pytest.skip("scikit-sundae is an extra")
+    evaluate, calls = getattr(where, function), 0
+
+    def counts(*arguments):
+        nonlocal calls
+        calls += 1
+        return evaluate(*arguments)
+
+    monkeypatch.setattr(where, function, counts)
+    assert METHODS[name].solve(CHAIN, DURATION, setting, None).evaluations == calls > 0
 
 
 def differences(function, state: np.ndarray, step: float) -> np.ndarray:

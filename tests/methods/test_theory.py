@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -10,9 +9,11 @@ import pytest
 from scipy.linalg import expm
 
 from precursors import Chain, simulate
+from precursors.accuracy.failures.regularised_friction import measured_creep
 from precursors.methods import METHODS, karnopp, moreau_jean, newmark
 from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
 from precursors.methods.fixed_step import slide
+from precursors.methods.regularised import STRIBECK, creep_velocity
 from precursors.methods.stability import (
     bisect,
     energy_left,
@@ -82,13 +83,6 @@ def test_energy_has_no_limit_beyond_the_step_that_theory_allows(free, name):
     assert found * highest_frequency(free) == pytest.approx(SMOOTH[name].limit, rel=LIMIT_TOLERANCE)
 
 
-def test_the_drive_spring_lowers_the_limit_where_it_is_the_stiffest(free):
-    stiff = replace(free, drive_stiffness=100 * free.stiffness)
-    assert highest_frequency(stiff) > 4 * highest_frequency(free)
-    found = largest_stable_step(stiff, SMOOTH["rk4"].slide)
-    assert found * highest_frequency(stiff) == pytest.approx(SMOOTH["rk4"].limit, rel=LIMIT_TOLERANCE)
-
-
 @pytest.mark.parametrize(
     ("name", "z", "n_steps"),
     [
@@ -137,3 +131,12 @@ def test_karnopps_block_leaves_its_dead_zone_late_by_the_delay_of_theory(dead_zo
     exact = simulate(chain, 0.04).transitions["time"][0]
     # The block is seen to slide at the end of a step; the springs resist its way a little.
     assert late - exact == pytest.approx(karnopp.release_delay(chain, dead_zone), abs=step, rel=1e-3)
+
+
+@pytest.mark.parametrize(("ratio", "width"), [(0.1, 1e-6), (0.5, 1e-8), (0.9, 1e-6)])
+def test_a_block_held_by_regularised_friction_creeps_at_the_closed_form(ratio, width):
+    chain = Chain.from_slider(n_blocks=1)
+    creep = creep_velocity(ratio * chain.strength[0], chain.weights[0], width, chain.mu_s)
+    z = np.atanh(ratio)
+    drop = (1 - chain.mu_k / chain.mu_s) * (z / STRIBECK) ** 2 * ratio / ((1 - ratio**2) * z)
+    assert measured_creep(ratio, width) == pytest.approx(creep * (1 + drop), rel=1e-5)

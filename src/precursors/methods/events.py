@@ -159,7 +159,7 @@ def take(state, y):
 def rates_of(y, system, state, result):
     """Right-hand side of the equations of motion."""
     take(state, y)
-    n, rate = state.shape[1] - 2, np.zeros_like(state)
+    n, rate = state.shape[1] - 2, np.empty_like(state)
     rates(by_mode, 0.0, system, state, n, state, rate)
     for i in range(n):
         result[i], result[n + i] = rate[FORCE, i + 1], rate[VELOCITY, i + 1]
