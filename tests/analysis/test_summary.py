@@ -29,7 +29,6 @@ def table_path(run: Run) -> dict[str, float]:
         "reached": reached,
         "n_global": int(slips.is_global.sum()),
         "n_all_events": len(slips),
-        "n_alone": int((up_to.n_slid == 1).sum()),
     }
 
 

@@ -25,7 +25,6 @@ SUMMARY = np.dtype(
         ("reached", "?"),
         ("n_global", "i8"),
         ("n_all_events", "i8"),
-        ("n_alone", "i8"),
     ]
 )
 SUMMARY_UNITS = {"load": "N", "time": "s", "end": "s", "crossing_time": "s"}
@@ -44,8 +43,7 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
         first global slip: time (its onset), end and crossing_time (from its onset until block N first
         slides) [s]. Where reached is False there was no global slip: these are NaN, and the counts are those
         of the whole run. A global slip that the end of the run cuts off has end NaN. n_global and
-        n_all_events count the global slips and the events of the whole run, n_alone the events up to the
-        first global slip in which one block slid alone.
+        n_all_events count the global slips and the events of the whole run.
     """
     runs = list(runs)
     events = slip_events(runs)
@@ -65,8 +63,6 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     last_counted[reached] = global_slips[first]
     until_global = np.arange(len(events)) <= last_counted[events["run"]]
     summaries["events_to_global_slip"] = np.bincount(events["run"], until_global, minlength=len(runs))
-    alone = until_global & (events["n_slid"] == 1)
-    summaries["n_alone"] = np.bincount(events["run"], alone, minlength=len(runs))
     # Fronts of later runs are raised above all earlier ones, so that the running maximum begins anew.
     front = events["front"] + events["run"] * MOST_BLOCKS
     counted = until_global & (front == np.maximum.accumulate(front))
