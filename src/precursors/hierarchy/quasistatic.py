@@ -80,7 +80,7 @@ def quasistatic_slips(
     limit = chain.strength + ROUNDING * chain.normal_load
     numbers = Cascade(chain.springs, limit, chain.kinetic_friction, 1.0 + overshoot)
     strength, stiffness, n = float(chain.strength[0]), chain.drive_stiffness, chain.n_blocks
-    net, load, largest, moved = np.zeros(n), 0.0, 0.0, 0.0
+    net, load, moved = np.zeros(n), 0.0, 0.0
     rows = []
     for event in range(1, max_events + 1):
         load += strength - net[0]
@@ -94,10 +94,11 @@ def quasistatic_slips(
         load -= stiffness * slip[0]
         moved += slip[0]
         slid = np.flatnonzero(slip)
-        largest = max(largest, before)
-        rows.append((time, time, before, load, largest, slid[-1] + 1, len(slid), at_once, len(slid) == n))
+        rows.append((time, time, before, load, before, slid[-1] + 1, len(slid), at_once, len(slid) == n))
         if len(slid) == n:
-            return np.array(rows, SLIP)
+            slips = np.array(rows, SLIP)
+            slips["largest_load"] = np.maximum.accumulate(slips["load_before"])
+            return slips
     raise RuntimeError(f"no global slip within {max_events} events: raise max_events")
 
 

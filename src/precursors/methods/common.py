@@ -43,29 +43,14 @@ Kind = Literal["located", "once a step", "friction law"]
 
 @dataclass(frozen=True)
 class Method:
-    """A row of the table of methods.
+    """A row of the table of methods: its key and its name in charts.
 
-    Attributes
-    ----------
-    name, label : str
-        Key in the table; name in charts.
-    setting : str
-        What sets the accuracy, with its unit: "step [s]", "relative tolerance", "width [m/s]".
-    solve : callable
-        (chain, duration [s], value of the setting, until) -> Result; `until` is None or "global slip".
-    values : tuple of float
-        Values of the setting in the full chart, from loose to tight, up to the first global slip.
-    whole : tuple of float
-        The same for the whole run.
-    quick, quick_whole : tuple of float
-        The same in the default chart, which takes seconds.
-    smooth : Smooth or None
-        The method without switching, where theory says something about it.
-    kind : Kind
-        How it finds its transitions.
-    look : tuple of str
-        Its colour and Matplotlib's name of its marker in charts ("3,1,180" is a tuple); by default what no
-        other has.
+    `setting` is what sets the accuracy, with its unit: "step [s]", "relative tolerance", "width [m/s]".
+    `solve` is (chain, duration [s], value of the setting, until) -> Result; `until` is None or "global slip".
+    `values` of the setting, from loose to tight, are those of the full chart up to the first global slip and
+    `whole` those for the whole run; `quick` and `quick_whole` are those of the default chart, which takes
+    seconds. `smooth` is the method without switching, where theory says something about it. `look` is its
+    colour and Matplotlib's name of its marker ("3,1,180" is a tuple); by default what no other has.
     """
 
     name: str

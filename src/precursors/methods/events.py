@@ -85,6 +85,11 @@ class EventMotion:
         return not self.slides and self.switch(-1, 0.0)
 
     @property
+    def has_slid_globally(self) -> bool:
+        """Whether all blocks have slid at the same instant."""
+        return bool(self.motion.progress["was_global"][0])
+
+    @property
     def onset(self) -> float:
         """Onset of the present or last slip event [s]."""
         return float(self.motion.progress["onset"][0])
@@ -123,10 +128,10 @@ class EventMotion:
 
     def run(self) -> Result:
         """Transitions and cost so far: of a run that is over, or goes on to its end in its present modes."""
-        progress, status = self.motion.progress[0], FINISHED
+        status = FINISHED
         if self.slides:
-            progress["elapsed"] = progress["remaining"]
-        elif progress["was_global"] and progress["until_global"]:
+            self.motion.progress["elapsed"] = self.remaining
+        elif self.has_slid_globally and self.motion.progress["until_global"]:
             status = GLOBAL_SLIP
         return Result(run_of(self.motion, self.chain, status), self.evaluations)
 
