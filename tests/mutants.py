@@ -84,7 +84,7 @@ NEUTRAL = {"strict", "frozen", "slots", "exist_ok", "parents", "stacklevel", "ma
 NEUTRAL |= {"positive", "real", "indent", "eq", "forceinline", "flush"}
 # Of arrays that grow as needed, of batches and of a line of the cache: runs do not depend on them.
 ROOM = {"FIRST_ROOM", "SHARED_ROOM", "LARGEST_BATCH", "BATCHES_PER_THREAD", "BLOCKS_PER_BATCH"}
-ROOM |= {"WINDOWS_PER_CALL", "LEGS_PER_CALL", "KEPT", "LINE"}
+ROOM |= {"WINDOWS_PER_CALL", "LEGS_PER_CALL", "KEPT", "LINE", "_NUMBERS_AT_ONCE"}
 LAYOUT = {"align_ylabels", "grid", "minorticks_off", "set_major_locator", "set_minor_locator", "tick_params"}
 LAYOUT |= {"subplots_adjust", "tick_top"}
 Function = tuple[str, int]  # a file and the line where the function begins, 0 for the module

@@ -150,6 +150,14 @@ def test_nearly_every_mistake_by_chance_is_found_in_runs_of_random_chains(kind):
         assert sum(answers) >= 0.75 * len(answers), way
 
 
+def test_sixteen_roundings_are_allowed(uniform):
+    load = uniform.transitions["tangential_load"][100]
+    one = 1e-3 / audit(changed(uniform, 100, tangential_load=load + 1e-3), roundings=1e20).roundings
+    for roundings in (15.0, 17.0):
+        found = audit(changed(uniform, 100, tangential_load=load + roundings * one))
+        assert found.ok == (roundings < 16)
+
+
 def test_a_caller_sets_the_tolerance_for_an_approximate_run(uniform):
     run = shifted(uniform, 0, SHIFT)
     with pytest.raises(ArithmeticError, match="no motion"):

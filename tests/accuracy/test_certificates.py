@@ -124,6 +124,7 @@ def test_what_is_not_proved_is_refused(small: Certificate, spoil, words: str) ->
 
 def test_an_end_that_is_not_found_is_refused(small: Certificate) -> None:
     tied = tied_certificate()
+    assert tied.bits == 4096
     assert tied.tie
     early = tied.tie._replace(time=Enclosure(Fraction(1, 10), Fraction(0)))
     for wrong, words in (

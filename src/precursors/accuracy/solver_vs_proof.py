@@ -86,13 +86,13 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
     ratio = np.maximum.accumulate(compared.time_errors[known]) / np.maximum.accumulate(predicted[known])
     slips = find_slips(run)
     first = first_global(slips)
-    first_end = np.nan if first is None else float(slips["end"].iloc[first])
-    until = time <= first_end
+    first_end = -np.inf if first is None else float(slips["end"].iloc[first])
+    until = np.searchsorted(time, first_end, side="right")
     return {
         "duration_s": run.duration,
         "transitions": len(run.transitions),
         "agreeing_transitions": n,
-        "time_error_to_first_global_slip_s": _largest(compared.time_errors[until]),
+        "time_error_to_first_global_slip_s": _largest(compared.time_errors[:until]),
         "time_error_while_agreeing_s": _largest(compared.time_errors),
         "right_until_s": float(
             min(wrong[0] if wrong.size else np.inf, compared.first_difference, run.duration)

@@ -25,7 +25,6 @@ MAX_PROBLEMS = 20
 
 _UNIT = 2.0**-53  # a rounding, relative
 _START_ROUNDINGS = 8
-_BYTES_OF_MODES = 2e8
 
 
 class Auditor:
@@ -55,14 +54,16 @@ class Auditor:
         # Forces at the start are differences of positions, which are known to their rounding.
         ends = positions**2 + np.append(0.0, positions[:-1]) ** 2
         self.drive_momentum = math.sqrt(chain.mass) * chain.drive_velocity
-        self.one = _UNIT * (_START_ROUNDINGS * math.sqrt(float(self.springs @ ends)) + self.drive_momentum)
+        at_start = _START_ROUNDINGS * math.sqrt(float(self.springs @ ends))
+        self.one = _UNIT * math.hypot(at_start, self.drive_momentum)
         self.fastest = 2 * math.sqrt(self.springs.max() / chain.mass)
         self.per_force = np.sqrt(self.springs)
         self.per_load = float(self.per_force[0])
         self.per_force[:-1] += np.sqrt(self.springs[1:])
         self.per_speed = 1 / math.sqrt(chain.mass)
-        kept = max(32, int(_BYTES_OF_MODES // (16 * chain.n_blocks**2)))
-        self.modes_of_row = lru_cache(maxsize=kept)(lambda first, last: normal_modes(chain, first, last))
+        # Within 200 MB.
+        keep = lru_cache(maxsize=max(32, int(2e8 // (16 * chain.n_blocks**2))))
+        self.modes_of_row = keep(lambda first, last: normal_modes(chain, first, last))
 
     def walk(self) -> None:
         """Walk through the run, interval by interval, up to `MAX_PROBLEMS` problems."""
@@ -137,7 +138,7 @@ class Auditor:
         blocks = np.concatenate([conditions.sliding, stuck, stuck])
         one = self.one * np.append(np.full(n, self.per_speed), self.per_force[blocks[n:]])
         lowest, when = conditions.lowest(duration, self.roundings * one)
-        for j in np.flatnonzero(lowest < 0):
+        for j in np.flatnonzero(np.signbit(lowest)):
             block = blocks[j] + 1
             if j < n:
                 what, unit = f"slides against its mode {self.mode[block - 1]:+d} at", "m/s"

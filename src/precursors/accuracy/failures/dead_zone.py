@@ -83,10 +83,10 @@ def largest_dead_zone(exact: Run, step: float) -> float:
 
 
 def first_excess(chain: Chain, dead_zone: float) -> float:
-    """What F_X exceeds mu_s w_1 by when block 1 first leaves the dead zone [N]."""
-    end = 1.2 * chain.strength[0] / chain.loading_rate
-    run = karnopp.solve(chain, end, STEPS[0], None, dead_zone).run
-    return float(run.transitions["tangential_load"][0] - chain.strength[0])
+    """What F_X exceeds mu_s w by when block 1 of a uniform chain first leaves the dead zone [N]."""
+    limit = float(chain.strength.max())
+    run = karnopp.solve(chain, 1.2 * limit / chain.loading_rate, STEPS[0], None, dead_zone).run
+    return float(run.transitions["tangential_load"][0]) - limit
 
 
 def dead_zone_too_small() -> Failure:

@@ -32,7 +32,7 @@ def literal_friction() -> Failure:
     run = simulate(chain, END)
     exact_times = np.concatenate([[0.0], run.transitions["time"], [END]])
     exact = run.tangential_load(exact_times)
-    limit = float(chain.strength[0])
+    limit = float(chain.strength.max())  # of every block
     onset = limit / chain.loading_rate
     times = np.linspace(0.0, END - onset, POINTS)
     lines = {"exact": (exact_times, exact)}

@@ -96,13 +96,6 @@ class Certificate:
         """Time [s] up to which the transitions listed are proved to be all."""
         return self.tie.time.lower if self.tie else self.duration
 
-    @property
-    def widest(self) -> tuple[Fraction, Fraction]:
-        """Largest radius of a time [s] and of a tangential load [N]."""
-        times = [t.time.radius for t in self.transitions]
-        loads = [t.tangential_load.radius for t in self.transitions]
-        return max(times, default=Fraction(0)), max(loads, default=Fraction(0))
-
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the certificate as JSON compressed with gzip, the same bytes for the same certificate."""
         write_whole(path, gzip.compress(json.dumps(_content(self), indent=0).encode(), mtime=0))

@@ -157,7 +157,7 @@ def _falling_root(function: EventFunction, a: arb, b: arb, valid: float) -> arb 
         if not closer.overlaps(root):
             return None
         closer = closer.intersection(root)
-        if not closer.rad() * 2 < root.rad():
+        if not closer.rad() < root.rad():
             return closer
         root = closer
 

@@ -53,7 +53,6 @@ GUARD_BITS = 40
 PRECISION_STEP = 32
 # A window without a transition, and how far beyond its end the polynomials hold [T].
 WINDOW, VALID = 1.0, 1.125
-ISOLATION_BITS = 64
 
 
 class Proved(NamedTuple):
@@ -170,7 +169,7 @@ class Proof:
 
     def first_transition(self) -> tuple[EventFunction, arb] | None:
         """Find the first root of all event functions, at a low precision that is raised until it suffices."""
-        bits = ISOLATION_BITS
+        bits = BOUND_BITS
         while True:
             with ctx.workprec(bits):
                 try:
@@ -275,5 +274,5 @@ class Proof:
         largest = max(
             log2(x) for x in (*self.bounds.strength, *self.state.force, *self.state.rate, arb(1)) if x != 0
         )
-        bits = max(ISOLATION_BITS, min(largest - log2(self.state.distance), self.bits) + GUARD_BITS)
+        bits = max(BOUND_BITS, min(largest - log2(self.state.distance), self.bits) + GUARD_BITS)
         return bits + -bits % PRECISION_STEP
