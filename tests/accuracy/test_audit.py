@@ -150,12 +150,16 @@ def test_nearly_every_mistake_by_chance_is_found_in_runs_of_random_chains(kind):
         assert sum(answers) >= 0.75 * len(answers), way
 
 
-def test_sixteen_roundings_are_allowed(uniform):
+def test_sixteen_roundings_of_a_load_are_allowed_and_1e_12_of_a_time(uniform):
     load = uniform.transitions["tangential_load"][100]
     one = 1e-3 / audit(changed(uniform, 100, tangential_load=load + 1e-3), roundings=1e20).roundings
     for roundings in (15.0, 17.0):
         found = audit(changed(uniform, 100, tangential_load=load + roundings * one))
         assert found.ok == (roundings < 16)
+    time = uniform.transitions["time"][100]
+    for part in (0.9, 1.1):
+        found = audit(changed(uniform, 100, time=time + part * 1e-12 * uniform.duration))
+        assert found.ok == (part < 1)
 
 
 def test_a_caller_sets_the_tolerance_for_an_approximate_run(uniform):
