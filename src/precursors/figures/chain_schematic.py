@@ -32,12 +32,7 @@ TO_THE_POINT = {"shrinkA": 0, "shrinkB": 0}
 
 
 def draw() -> Figure:
-    """Draw the chain of Eqs. 2-8: drive point, springs, blocks, loads, friction and positions.
-
-    Notes
-    -----
-    Arrows of forces and positions point to their positive sense in Eqs. 2-4.
-    """
+    """Draw the chain of Eqs. 2-8; arrows of forces and positions point to their positive sense."""
     with style.page(style.COLUMN_MM, HEIGHT, lay_out=False) as figure:
         axes = figure.add_axes((0, 0, 1, 1))
         axes.set(xlim=(0, style.COLUMN_MM), ylim=(0, HEIGHT))

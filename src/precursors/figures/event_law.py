@@ -20,8 +20,11 @@ THETA_COLORS = {
     0.95: (style.SKY, "^"),
 }
 # What else is varied.
-OTHERS = {"friction": (style.GREEN, "x"), "drive": (style.PURPLE, "+"), "loading": (style.GREY, "*")}
-LABELS = {"friction": r"other $\mu_s$, $\mu_k$", "drive": "other $K$", "loading": "not linear"}
+OTHERS = {
+    "friction": (style.GREEN, "x", r"other $\mu_s$, $\mu_k$"),
+    "drive": (style.PURPLE, "+", "other $K$"),
+    "loading": (style.GREY, "*", "not linear"),
+}
 
 
 def draw(table: pd.DataFrame) -> Figure:
@@ -37,10 +40,9 @@ def draw(table: pd.DataFrame) -> Figure:
             label = style.theta_text(float(str(theta)))
             ratios.errorbar(rows["n_blocks"], rows["ratio"], errors, **look, elinewidth=0.8, label=label)
             rises.plot(rows["n_blocks"], rows["rise"], **look)
-        for varied, (color, marker) in OTHERS.items():
+        for varied, (color, marker, label) in OTHERS.items():
             rows = table[table["varied"] == varied]
-            other: dict[str, Any] = {"color": color, "marker": marker, "markersize": 4, "linestyle": "none"}
-            counts.plot(rows["law"], rows["events"], **other, label=LABELS[varied])
+            counts.plot(rows["law"], rows["events"], marker, color=color, markersize=4, label=label)
         ends = [table["law"].min(), table["law"].max()]
         counts.plot(ends, ends, **style.DOTTED)
         counts.set(

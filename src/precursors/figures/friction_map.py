@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,7 +13,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from precursors.figures import style
-from precursors.model.chain import FloatArray
 
 HEIGHT_MM = 47.0
 EVENTS = "events_counted"
@@ -47,21 +47,14 @@ def draw(table: pd.DataFrame, scenes: Sequence[tuple[float, float]] = ()) -> Fig
 
 def _draw_cells(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
     values = table.pivot_table(quantity, "friction_ratio", "theta", dropna=False)
-    columns, rows = _edges(values.columns), _edges(values.index)
     known = values.to_numpy()[np.isfinite(values)]
     norm: Normalize = Normalize(*np.quantile(known, [0.01, 0.99]))
     if quantity == EVENTS:
         norm = LogNorm(max(1.0, known.min()), known.max())
-    image = axes.pcolormesh(columns, rows, values, norm=norm, cmap="viridis", rasterized=True)
-    axes.set(xlim=columns[[0, -1]], ylim=rows[[0, -1]], xlabel=r"$\theta$ [-]")
+    look: dict[str, Any] = {"norm": norm, "cmap": "viridis", "shading": "nearest", "rasterized": True}
+    image = axes.pcolormesh(values.columns, values.index, values, **look)
+    axes.set_xlabel(r"$\theta$ [-]")
     bar = axes.figure.colorbar(image, ax=axes, location="top", aspect=25, use_gridspec=False)
     bar.set_label(PANELS[quantity], fontsize=8)
     if quantity == EVENTS:
         style.set_ticks(bar.ax.xaxis, [n for n in TICKS_OF_EVENTS if known.min() <= n <= known.max()])
-
-
-def _edges(centres: pd.Index) -> FloatArray:
-    """Borders of the cells around evenly spaced values."""
-    places = centres.to_numpy(float)
-    half = np.diff(places) / 2
-    return np.concatenate([[places[0] - half[0]], places[:-1] + half, [places[-1] + half[-1]]])

@@ -68,12 +68,11 @@ def draw(
 
 
 def _title(values: Mapping[str, Any]) -> str:
-    parts = []
-    for name, (factor, words) in WORDS.items():
-        if name in values:
-            value = values[name]
-            parts.append(words.format(value if isinstance(value, str) else f"{value * factor:.4g}"))
-    return ", ".join(parts)
+    """What a chain has of its own, in the order of `WORDS`."""
+    own = [(values[name], *WORDS[name]) for name in WORDS if name in values]
+    return ", ".join(
+        words.format(x if isinstance(x, str) else f"{x * factor:.4g}") for x, factor, words in own
+    )
 
 
 def _draw_errors(axes: Axes, errors: pd.DataFrame, facts: Mapping[Any, float], tolerance: float) -> None:

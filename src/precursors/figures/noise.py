@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
@@ -29,7 +28,8 @@ def draw(noise: pd.DataFrame, digits: pd.DataFrame) -> Figure:
                 color, label = style.theta_color(alone["theta"]), style.theta_text(alone["theta"])
                 left.ecdf(runs["mu_sapp"].dropna(), color=color, label=label)
                 left.plot(alone["mu_sapp"], 0.0, "^", color=color, markersize=5, clip_on=False)
-                _draw_counts(right, runs["events_counted"], color)
+                shares = runs["events_counted"].value_counts(normalize=True).sort_index()
+                right.plot(shares.index, shares, color=color, marker="o", markersize=2.5)
                 right.plot(alone["events_counted"], 0.0, "^", color=color, markersize=5, clip_on=False)
             left.axvspan(printed.MU_SAPP - DIGIT, printed.MU_SAPP + DIGIT, color=style.PALE, zorder=0)
             left.set(ylabel="Share of the runs [-]", title=title)
@@ -44,9 +44,3 @@ def draw(noise: pd.DataFrame, digits: pd.DataFrame) -> Figure:
         ]
         style.draw_key(figure, entries)
     return figure
-
-
-def _draw_counts(axes: Axes, counts: pd.Series, color: str) -> None:
-    """Draw the share of the runs with each count as a step at it."""
-    shares = counts.value_counts(normalize=True).sort_index()
-    axes.plot(shares.index, shares, color=color, marker="o", markersize=2.5)

@@ -42,18 +42,11 @@ def draw(
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
 
     Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta > 0. Small crosses are
-    the short events, which Fig. 13 does not count.
+    the short events, which Fig. 13 does not count. A scene without a slip event is left out.
 
-    Parameters
-    ----------
-    slips : sequence of DataFrame
-        Slip tables of the scenes. A scene without a slip event is left out.
-    mu_sapp, scenes : DataFrame and sequence of str, optional
-        A line marks the mean of these scenes of mu_sapp.csv, if all scenes have the same normal load.
-    data : array_like, shape (n, 2), optional
-        An experiment: load F_X [N] at the onset and length L_p/L.
-    printed : sequence of int or None
-        The numbers of events that the paper prints, one for each table of `slips`.
+    A line marks the mean of these `scenes` of mu_sapp.csv, if all have the same normal load. `data`, shape
+    (n, 2), are measured loads at the onset [N] and lengths L_p/L. `printed` has the paper's number of events
+    for each table of `slips`.
 
     Raises
     ------

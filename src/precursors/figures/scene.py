@@ -52,14 +52,8 @@ def draw(
     An event extends from the trailing edge (0) to L_p = front L / N. An event that goes on when the run ends
     is a band from its onset to the end of the run.
 
-    Parameters
-    ----------
-    slips, trace : DataFrame
-        Slip table of the scene, which may be empty, and its load: straight lines between the rows.
-    others : sequence of DataFrame
-        Traces of scenes to compare with: the load axis holds them, too.
-    data : array_like, shape (n, 2), optional
-        An experiment: time [s] and tangential load [N].
+    The slip table may be empty; the trace is straight between its rows. The load axis holds the traces of
+    `others` as well. `data`, shape (n, 2), are measured times [s] and loads [N].
     """
     look = look or style.Look()
     width_mm = look.width_mm or style.PAGE_MM

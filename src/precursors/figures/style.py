@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from io import BytesIO
+from math import isclose
 from pathlib import Path
 from typing import Any
 
@@ -179,7 +180,7 @@ def set_ticks(axis: Axis, values: Sequence[float]) -> None:
 def fraction_text(value: float) -> str:
     """Write a number as a fraction if it has a small denominator (-5/6), else as a decimal number."""
     fraction = Fraction(value).limit_denominator(12)
-    return str(fraction) if abs(float(fraction) - value) < 1e-12 else f"{value:.4g}"
+    return str(fraction) if isclose(fraction, value) else f"{value:.4g}"
 
 
 def theta_text(theta: float) -> str:
