@@ -5,11 +5,13 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from reference import HeldOut
 
 from precursors import Chain, Run, TransitionLimitError, simulate
 from precursors.accuracy.audit import Audit, audit
 from precursors.model.statics import balance_matrix, positions_from_compressions
+from precursors.solver import plain
 
 SLIDER = Chain.from_slider
 
@@ -20,6 +22,17 @@ def first_transitions(chain: Chain, most: int, **options) -> Run:
         return simulate(chain, max_transitions=most, **options)
     except TransitionLimitError as limit:
         return limit.run
+
+
+def by_plain(
+    chain: Chain, duration: float, until_global: bool = False, most: int = 10_000, **start: ArrayLike
+) -> tuple[np.ndarray, float]:
+    """Rows (time, interval, block, mode, load) of transitions in plain Python, and the time of the end."""
+    names = ("start_positions", "start_velocities")
+    at = [np.array(start.get(name, np.zeros(chain.n_blocks))) for name in names]
+    state = plain.at_start(chain, *at)
+    rows, end, _ = plain.find_transitions(chain, state, duration, until_global, np.inf, most)
+    return np.array(rows, float).reshape(-1, 5), end
 
 
 def held_out(case: HeldOut) -> dict[str, Any]:

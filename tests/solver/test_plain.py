@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from chains import SLIDER, positions_under
+from chains import SLIDER, by_plain, positions_under
 from random_chains import mild_chain
 
 from precursors import simulate
@@ -19,14 +19,6 @@ RANDOM, RANDOM_LOAD = 1e-9, 1e-8
 # on how many digits the machine has.
 WORK = {"-5/6": [261, 346, 1108], "0": [432, 477, 1481], "5/6": [813, 639, 1969]}
 WORK_CHANGE = 0.01
-
-
-def by_plain(chain, duration, until_global=False, most=10_000, **start):
-    """Rows of transitions in plain Python, and the time of the end [s]."""
-    at = [start.get(name, np.zeros(chain.n_blocks)) for name in ("start_positions", "start_velocities")]
-    state = plain.at_start(chain, *at)
-    rows, end, _ = plain.find_transitions(chain, state, duration, until_global, np.inf, most)
-    return np.array(rows, float).reshape(-1, 5), end
 
 
 def count_calls(monkeypatch, name) -> list:
