@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from precursors.analysis.events import slip_events
 from precursors.analysis.slip_rows import first_global, up_to_first_global
-from precursors.model.chain import FloatArray
 from precursors.solver.run import Run
 
-Loads = TypeVar("Loads", float, FloatArray)
 COLUMNS = [
     *("onset", "end", "load_before", "load_after", "largest_load"),
     *("front", "n_slid", "n_simultaneous", "is_global"),
@@ -187,7 +185,7 @@ def apparent_friction(
     )
 
 
-def mu_sapp(largest_load: Loads, normal_load: Loads) -> Loads:
+def mu_sapp(largest_load: Any, normal_load: Any) -> Any:
     """Eq. 1: the largest F_X [N] up to the first global slip over F_Z [N].
 
     F_X is largest where block 1 begins to slide, or sticks after it slid backward: dF_X/dt = K (V - v_1).

@@ -116,10 +116,7 @@ class Chain:
             Normal load of each block [N], from the trailing edge on. The loading is then as measured:
             n_blocks, theta and normal_load do not count.
 
-        Raises
-        ------
-        ValueError
-            In one line that names the parameter, what it must be, and what it is.
+        A ValueError says in one line which parameter is wrong, what it must be, and what it is.
         """
         loads = linear_weights(n_blocks, normal_load, theta) if weights is None else _weights(weights)
         n = len(loads)

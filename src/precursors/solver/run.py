@@ -73,19 +73,10 @@ class Run:
         tangential_load: ArrayLike,
         intervals: ArrayLike | None = None,
     ) -> Run:
-        """Make a run from its transitions; it knows no states between them, so that `at` refuses.
+        """Make a run, from rest with springs at natural length, from columns of its transitions.
 
-        Parameters
-        ----------
-        chain : Chain
-            The chain that moved, from rest with springs at natural length.
-        duration : float
-            Time reached [s].
-        time, block, mode, tangential_load : array_like, shape (n,)
-            When [s], which block (1..N), its new mode (+1, 0, -1) and F_X [N].
-        intervals : array_like, shape (n + 1,), optional
-            Seconds to the first transition, between them and to the end; by default differences of `time`,
-            whose rounding grows with the time.
+        It knows no states between them, so that `at` refuses. `intervals` are by default differences of
+        `time`, whose rounding grows with the time.
         """
         transitions = np.empty(len(np.atleast_1d(np.asarray(time))), dtype=TRANSITION)
         transitions["time"], transitions["block"], transitions["mode"] = time, block, mode
@@ -104,13 +95,7 @@ class Run:
         )
 
     def at(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Positions [m] and velocities [m/s], each (len(times), N), exact to rounding.
-
-        Raises
-        ------
-        ValueError
-            If a time lies outside the run, or the run has no stored states to start from.
-        """
+        """Positions [m] and velocities [m/s], each (len(times), N), exact to rounding."""
         when = self._times(times)
         force, velocity = self.forces_and_velocities(when)
         # x_1 = V t - T_1/K (Eq. 3), x_2 = x_1 - T_2/k, ...
@@ -154,31 +139,13 @@ class Run:
         return when
 
     def save(self, path: str | PathLike[str], slider: dict[str, Any] | None = None) -> None:
-        """Write the run to an HDF5 file, whole or not at all.
+        """Write the run to an HDF5 file, whole or not at all; its directory is made if it is missing.
 
-        Parameters
-        ----------
-        path : path-like
-            The file; its directory is made if it is missing.
-        slider : dict, optional
-            Arguments of `Chain.from_slider` to keep in the file; by default those of the run.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be written.
+        `slider` are arguments of `Chain.from_slider` to keep in the file, by default those of the run.
         """
         write_run(self if slider is None else replace(self, slider=slider), path)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Run:
-        """Read a run from a file that `save` wrote.
-
-        Raises
-        ------
-        FileNotFoundError
-            If there is no such file.
-        RunFileError
-            If the file is not a whole run of this format.
-        """
+        """Read a run from a file that `save` wrote; any other file is a `RunFileError`."""
         return cls(**read_run(path))

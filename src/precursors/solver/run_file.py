@@ -81,15 +81,7 @@ def write_run(run: Run, path: str | PathLike[str]) -> None:
 
 
 def read_run(path: str | PathLike[str]) -> dict[str, Any]:
-    """Read the fields of a `Run` from a file.
-
-    Raises
-    ------
-    FileNotFoundError
-        If there is no such file.
-    RunFileError
-        In one line that names the file, if it is not a whole run of this format.
-    """
+    """Read the fields of a `Run` from a file; `RunFileError` says in one line why it is none."""
     import h5py
 
     if not Path(path).is_file():

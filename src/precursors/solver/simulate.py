@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -102,7 +102,6 @@ def simulate_many(
     threads: int | None = None,
     start_positions: Sequence[ArrayLike] | None = None,
     start_velocities: Sequence[ArrayLike] | None = None,
-    progress: Callable[[int], object] | None = None,
     longest_slip: float | None = None,
 ) -> list[Run]:
     """Run an ensemble on all cores; every run equals that of `simulate`, bit for bit.
@@ -117,8 +116,6 @@ def simulate_many(
         Threads to use; by default as many as Numba takes, one for each core of this process.
     start_positions, start_velocities : sequence of array_like, optional
         One start for each chain, as in `simulate`.
-    progress : callable, optional
-        Called from the calling thread with the number of runs that are done, now and then and at the end.
 
     Returns
     -------
@@ -138,16 +135,10 @@ def simulate_many(
         return _run_batch([chains[j] for j in batch], *start, end)
 
     runs: dict[int, Run] = {}
+    batches = list(_batches(chains, threads))
     with ThreadPoolExecutor(threads, "simulate") as pool:
-        futures = {pool.submit(run, batch): batch for batch in _batches(chains, threads)}
-        try:
-            for future in as_completed(futures):
-                runs.update(zip(futures[future], future.result(), strict=True))
-                if progress is not None:
-                    progress(len(runs))
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+        for batch, of_batch in zip(batches, pool.map(run, batches), strict=True):
+            runs.update(zip(batch, of_batch, strict=True))
     return [runs[j] for j in range(len(chains))]
 
 

@@ -32,9 +32,6 @@ Column 0 of every array is the drive, columns 1..N are the blocks. Beyond them i
 | `next_transition` | `events.next_transition`: `guess`, `find_root`, `prove` and, where it fails, `search` |
 | its last lines | `friction.mode_at_rest` |
 | `find_transitions` | `events.find_transitions`: `rest` where all blocks stick, `slide` where some move |
-
-Beside them, `units` scales a chain, `layout` and `arrays` say what is where, `lanes` works on four blocks at
-once, `pointers` and `compiled` say how all this becomes machine code, `states` gives the state at any time.
 """
 
 from precursors.solver.kernel.arrays import PROGRESS, ROW, Batch, Limits, memory_for, words
