@@ -21,7 +21,10 @@ WIDTH = 110
 
 def main(tables: str | Path = "results/tables", expected: str | Path = "tests/golden/claims.csv") -> None:
     """Print the claims by the tables of a directory, and exit with 1 if a verdict is unexpected."""
-    found = evaluate({name: read_table(Path(tables, f"{name}.csv")) for name in CLAIM_TABLES})
+    try:
+        found = evaluate({name: read_table(Path(tables, f"{name}.csv")) for name in CLAIM_TABLES})
+    except (OSError, ValueError) as error:
+        sys.exit(f"check: {error}")
     print("\n".join([*entries(found), *totals(found)]))
     unexpected = differences(found, read_table(expected))
     if unexpected:
@@ -53,7 +56,4 @@ def totals(claims: pd.DataFrame) -> Iterator[str]:
 
 
 if __name__ == "__main__":
-    try:
-        main(*sys.argv[1:])
-    except (OSError, ValueError) as error:
-        sys.exit(f"check: {error}")
+    main(*sys.argv[1:])

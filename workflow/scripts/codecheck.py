@@ -23,7 +23,7 @@ def manifest() -> list[str]:
 def difference(made: Path, kept: Path) -> str:
     """Say where a table or figure differs from the one that is kept; empty if it does not."""
     if made.suffix == ".png":
-        drawn, expected = (image.imread(path)[..., :3] for path in (made, kept))
+        drawn, expected = (image.imread(path) for path in (made, kept))
         same = drawn.shape == expected.shape and np.sqrt(np.mean((drawn - expected) ** 2)) <= PIXELS
         return "" if same else "another picture"
     new, old = (pd.read_csv(path, usecols=COLUMNS.get(made.name)) for path in (made, kept))
