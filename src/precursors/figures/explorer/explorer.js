@@ -292,7 +292,7 @@ function showLoad() {
 
 function showSlips() {
   const { start, end } = view(), [context, width, height] = clear(element("slips")), { bars, n } = runs[0];
-  const every = Math.ceil(n / 6), values = Array.from({ length: n }, (_, i) => i + 1).filter((i) => (i - 1) % every === 0);
+  const every = Math.ceil(n / 6), values = Array.from({ length: Math.ceil(n / every) }, (_, i) => 1 + i * every);
   const [along, label] = timeTicks(start, end, width);
   const figure = axes(context, width, height, [start, end], [0.5, n + 0.5], [label, "Block"], along, { values, decimals: 0 });
   slideBars(context, figure, bars, n, start, end);

@@ -85,7 +85,7 @@ function earliestRoot(derivatives, end) {
   let bound = 0, power = 1;
   for (let n = 2; n <= ORDER; n++, power *= end / (n - 2)) bound += Math.abs(derivatives[n]) * power;
   let t = 0;
-  for (let tries = 0; tries < 200; tries++) {
+  for (;;) {
     let g = 0, slope = 0;
     for (let n = ORDER; n >= 0; n--) {
       g = derivatives[n] + (g * t) / (n + 1);
@@ -98,7 +98,6 @@ function earliestRoot(derivatives, end) {
     if (!(t < end)) return end;
     if (step <= 4e-16) return t;
   }
-  return t;
 }
 
 // Carry the state along the Taylor rows for a time t [tau].
@@ -143,7 +142,7 @@ function* slipEvent(chain, force, longest, note, window = WINDOW) {
       sliding += Math.abs(next) - Math.abs(mode[block]);
       mode[block] = next;
       farthest = Math.max(farthest, block);
-      while (farthest > 1 && !mode[farthest]) farthest--;
+      while (sliding && !mode[farthest]) farthest--;
     }
     note(elapsed, block, mode[block], force, rows);
     yield elapsed;

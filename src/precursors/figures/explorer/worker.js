@@ -88,12 +88,13 @@ function send(slot, isFinal) {
   events.forEach((event, e) => {
     forces.set(event.force, e * (chain.n + 2));
     curve.time.push(event.onset), curve.load.push(event.before);
-    const open = new Int32Array(chain.n + 1).fill(-1);
+    const open = {}; // the slide that each sliding block is in
     for (let j = event.first; j < event.last; j++) {
       curve.time.push(time[j]), curve.load.push(load[j]);
-      if (open[block[j]] >= 0) slides.end[open[block[j]]] = time[j];
-      open[block[j]] = mode[j] ? slides.start.length : -1;
+      if (block[j] in open) slides.end[open[block[j]]] = time[j];
+      delete open[block[j]];
       if (!mode[j]) continue;
+      open[block[j]] = slides.start.length;
       slides.start.push(time[j]), slides.end.push(event.end), slides.block.push(block[j]);
       slides.kind.push(mode[j] === -1 ? 2 : event.isGlobal ? 1 : 0);
     }
