@@ -154,7 +154,7 @@ function filmOf(run) {
 }
 function along(from, to, x) {
   const i = Math.min(Math.max(lowerBound(from, x), 1), from.length - 1), span = from[i] - from[i - 1];
-  return span > 0 ? to[i - 1] + (to[i] - to[i - 1]) * Math.min(Math.max((x - from[i - 1]) / span, 0), 1) : to[i];
+  return to[i - 1] + (to[i] - to[i - 1]) * Math.min(Math.max((x - from[i - 1]) / (span || 1), 0), 1);
 }
 
 // Where a new run is looked at: the event that the step shows, or the same event and time as before.

@@ -49,7 +49,7 @@ function* stages({ runs }) {
         count = run.events.length;
         yield step.value;
       }
-      send(slot, isLast || run.end === run.duration || run.stopped);
+      send(slot, isLast);
     }
     job.first = job.shown = true;
   }
