@@ -80,12 +80,3 @@ def lone_slip(chain: Chain) -> tuple[float, float]:
 def positions_under(chain: Chain, forces) -> np.ndarray:
     """Positions [m] in which the springs push each block with a given net force [N]."""
     return positions_from_compressions(np.linalg.solve(balance_matrix(chain), np.asarray(forces, float)))
-
-
-def releases(run: Run) -> np.ndarray:
-    """Time of the first release of each block [s], NaN for a block that never slid."""
-    first = np.full(run.chain.n_blocks, np.nan)
-    for time, block, mode, _ in run.transitions[::-1].tolist():
-        if mode:
-            first[block - 1] = time
-    return first
