@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import yaml
 from analysis.random_runs import random_chain
-from chains import SLIDER, held_out
+from chains import SLIDER, first_transitions, held_out
 from reference import read_held_out
 
 from precursors import simulate
@@ -67,6 +67,7 @@ def test_held_out_chains_have_no_error_predicted_too_small(name):
     if name == "grazing":
         # At 28 N/(K V) the block is released; whether it stops one period later no rounded number can tell.
         assert predictions.order_known_until == run.transitions["time"][0] == predictions.horizon(1.0)
+        assert np.isinf(predictions.time_error).all()
 
 
 @pytest.mark.parametrize(("miss", "is_lost"), [(1e-8, True), (1e-3, False)])
@@ -128,6 +129,10 @@ def test_a_tolerance_must_be_a_positive_number(tolerance):
     run = simulate(SLIDER(), 0.4)
     with pytest.raises(ValueError, match="tolerance must be"):
         horizon(run, tolerance)
+
+
+def test_the_last_transition_of_a_run_that_ends_with_it_is_known():
+    assert np.isfinite(predicted_errors(first_transitions(SLIDER(), 5)).time_error).all()
 
 
 def test_what_moves_at_the_start_has_no_error():

@@ -40,6 +40,7 @@ def test_load_cells_of_1_to_3_give_five_sixths_exactly():
     assert theta_from_load_cells(*printed.CELL_LOADS_N, spacing=0.06, length=0.1) == Fraction(5, 6)
     assert theta_from_load_cells(300.0, 100.0, spacing=0.06, length=0.1) == -Fraction(5, 6)
     assert theta_from_load_cells(200.0, 200.0, spacing=0.06, length=0.1) == 0
+    assert theta_from_load_cells(0.0, 400.0, spacing=0.1, length=0.1) == 1
 
 
 def test_a_fraction_is_read_as_theta():

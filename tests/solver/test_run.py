@@ -183,6 +183,7 @@ def test_a_file_whose_texts_are_not_those_of_a_run_is_refused(path, change, word
         ("transitions/mode", lambda mode: mode * 0 + 3, "a mode is unknown"),
         ("intervals", lambda intervals: intervals[1:], "intervals do not fit"),
         ("intervals", lambda intervals: intervals * np.nan, "an interval is not between 0 and"),
+        ("intervals", lambda intervals: intervals * 1e300, "an interval is not between 0 and"),
         ("intervals", lambda intervals: intervals[::-1], "intervals do not add up to its times"),
         ("transitions/time", lambda time: time[::-1], "times are not in order"),
         ("transitions/time", lambda time: time * 2, "times are not in order"),
