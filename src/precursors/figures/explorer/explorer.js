@@ -108,9 +108,8 @@ function hear({ data }) {
     if (data.id === runs[0]?.id) motions.set(data.event, data);
     return redraw("row", "load");
   }
-  if (data.slot === 0 && data.id < (runs[0]?.id ?? 0)) return;
   if (data.isFinal) showProgress(0);
-  const isNew = data.slot === 0 && data.id !== runs[0]?.id;
+  const isNew = data.id !== runs[0]?.id;
   Object.assign(data, { counted: countedOf(data.events) });
   runs[data.slot] = data;
   if (!state.twin) runs.length = 1;
