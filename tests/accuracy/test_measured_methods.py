@@ -90,7 +90,7 @@ def test_a_row_holds_time_work_and_errors(fake):
     fake.run = made_up([(t, b, m, f - 1.0) for t, b, m, f in FIVE[:4]])
     (row,) = measured(CALL)
     assert [row.pop(name) for name in ("error_load_N", "error_time_s")] == [1.0, 0.0]
-    assert [row.pop(name) for name in COUNTS] == [4, 4, 5]
+    assert [row.pop(name) for name in COUNTS] == [4, 4, 5, 2, 2, 2]
     about = ["made up", 0.0, "end", "rk4", "fake", "once a step", "#123456", "p", "time [s]"]
     assert list(row.values()) == [*about, CALL, 7, CALL]
 

@@ -29,7 +29,14 @@ LONGEST, LONGEST_FULL = 2.0, 5.0
 # What a method compiles, loads or builds for a chain and a value, it does in a run that is so short [s].
 WARM_UP = 0.4
 SHORTEST = 0.0025  # s, of a round: see `timing.measure`
-COUNTS = "transitions_right", "transitions_found", "transitions_true"
+COUNTS = (
+    "transitions_right",
+    "transitions_found",
+    "transitions_true",
+    "slips_right",
+    "slips_found",
+    "slips_true",
+)
 
 
 @dataclass(frozen=True, eq=False)
