@@ -10,6 +10,7 @@ it sticks; function 2 i + 1 is its margin against being released backward."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -50,7 +51,7 @@ from precursors.solver.simulate import TransitionLimitError
 # A block that starts gets this velocity [N/tau] in the direction of its acceleration. From exactly zero, a
 # solver that brackets the stop within its first step takes the start for the root: SciPy's brentq returns it
 # and the block never gets away; heyoka's finds it, drops it for its direction and misses the stop.
-NUDGE = 1e-100
+NUDGE = math.sqrt(np.finfo(float).tiny)
 # More transitions per block at one instant are a solver that has lost its way.
 MAX_AT_ONCE = 8
 # Rows of the settings: 1 for blocks that slide, mode_i mu_k w_i, mode_i, 1 for blocks that stick.
