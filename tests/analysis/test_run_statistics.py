@@ -8,6 +8,7 @@ import pytest
 from scipy.stats import binom
 
 from precursors.analysis.run_statistics import (
+    compared,
     median_difference,
     median_interval,
     share_interval,
@@ -39,6 +40,7 @@ def test_the_interval_of_a_share_holds_every_probability_in_at_least_95_of_100_c
     low, high = np.transpose([share_interval(k, n) for k in hits])[:, :, None]
     held = (low <= probability) & (probability <= high)
     covered = (binom.pmf(hits[:, None], n, probability) * held).sum(axis=0)
+    assert (low[0], high[-1]) == (0.0, 1.0)
     assert covered.min() >= 0.95
     assert covered.mean() < largest_mean
 
@@ -56,3 +58,17 @@ def test_the_interval_of_a_difference_of_medians_ends_at_values_of_both():
     """Of 0, 1, ..., 39 the 13th from either end holds the median in 97.5 % of cases."""
     values = pd.Series(np.arange(40.0))
     assert median_difference(values + 100.0, values) == (100.0 - 15.0, 100.0 + 15.0)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "verdict"),
+    [
+        (-0.01, 0.01, "same"),
+        (-0.02, 0.005, "undecided"),
+        (-0.005, 0.02, "undecided"),
+        (0.011, 0.03, "different"),
+        (-0.03, -0.011, "different"),
+    ],
+)
+def test_an_interval_lies_within_the_tolerance_across_its_edge_or_outside(low, high, verdict):
+    assert compared(low, high, tolerance=0.01) == verdict
