@@ -39,11 +39,12 @@ from precursors import Chain, Run, simulate, simulate_many
 from precursors.accuracy.compare import Truth, compare
 from precursors.accuracy.work_precision import ROUNDS, Case, measure_methods
 from precursors.methods import METHODS, cvode_events, events
+from precursors.methods.common import Result
 from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy
 from precursors.model.checks import Until
 from precursors.model.statics import maximal_strain_positions
-from precursors.solver.simulate import TransitionLimitError, available_cores
+from precursors.solver.simulate import TransitionLimitError
 from precursors.support import timing
 from precursors.support.files import write_table
 
@@ -103,9 +104,10 @@ def one_method(name: str, rounds: int) -> pd.DataFrame:
     """Measure a method, the exact solver and heyoka.py at theta = 0 to the end of the first global slip."""
     truth = reference("0").until_global_slip()
     case = Case("uniform", 0.0, truth.run.chain, DURATION, "global slip", truth)
-    beside = {other: METHODS[other].quick[-1:] for other in ("exact", "heyoka") if other in METHODS}
-    method = METHODS[name]
-    values = {**beside, name: method.values_of(case.until, full=not method.quick)}
+    values: dict[str, tuple[float, ...]] = {
+        other: METHODS[other].quick[-1:] for other in ("exact", "heyoka") if other in METHODS
+    }
+    values[name] = METHODS[name].values_of(case.until, full=not METHODS[name].quick)
     return measure_methods(case, values, rounds)
 
 
@@ -117,23 +119,23 @@ def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:
     for theta in SCENES:
         for name, until in ENDS.items():
             solve = partial(solve_heyoka, Chain.from_slider(theta=theta), DURATION, HEYOKA_TOLERANCE, until)
-            yield from compared("heyoka", theta, name, lambda solve=solve: solve().run, measure)
+            yield from compared("heyoka", theta, name, solve, measure)
 
 
 def against_dop853(measure: Callable[..., Any]) -> Iterable[Row]:
     """The exact solver and SciPy's DOP853 at its tightest, theta = 0 to the end of the first global slip."""
     solve = partial(solve_scipy, Chain.from_slider(), DURATION, DOP853_TOLERANCE, "global slip")
-    yield from compared("DOP853", "0", "to the first global slip", lambda: solve().run, measure)
+    yield from compared("DOP853", "0", "to the first global slip", solve, measure)
 
 
 def compared(
-    other: str, theta: str, end: str, solve: Callable[[], Run], measure: Callable[..., Any]
+    other: str, theta: str, end: str, solve: Callable[[], Result], measure: Callable[..., Any]
 ) -> Iterable[Row]:
     """How many times faster the exact solver is than another, and the errors of both."""
     chain, until = Chain.from_slider(theta=theta), ENDS[end]
     tasks: dict[str, Callable[[], Run]] = {
         "exact": partial(simulate, chain, DURATION, until),
-        other: solve,
+        other: lambda: solve().run,
     }
     truth = reference(theta) if until is None else reference(theta).until_global_slip()
     timings = measure(tasks)
@@ -152,7 +154,7 @@ def compared(
 def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
     """First-slip runs of theta = 0 per second, by `simulate_many` on one thread and more."""
     chains = [Chain.from_slider()] * (20 if quick else ENSEMBLE)
-    threads = sorted({1, 2, available_cores()})
+    threads = sorted({1, 2, len(os.sched_getaffinity(0))})
     tasks = {str(n): partial(simulate_many, chains, DURATION, "global slip", threads=n) for n in threads}
     timings = measure(tasks)
     for n in threads:

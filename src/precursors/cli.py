@@ -115,7 +115,7 @@ def slips(arguments: argparse.Namespace) -> None:
         print("no slip event")
     else:
         shown = table.drop(columns=["theta", "n_blocks", "normal_load_N", "length_m"])
-        shown.columns = shown.columns.str.replace("load_|is_", "", regex=True)
+        shown.columns = shown.columns.str.replace("load_|is_|n_", "", regex=True)
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
 
 

@@ -201,10 +201,10 @@ def test_a_command_whose_output_is_closed_ends_without_a_traceback():
 # slips
 
 SLIPS = """\
-   onset_s      end_s  before_N   after_N  largest_N  front  n_slid  n_simultaneous  global  counted
- 1.2148901  1.2149664 92.721348 89.848119  92.721348      5       5               5   False     True
- 1.3340681  1.3341139 99.376259 98.421543  99.376259      2       2               2   False    False
- 1.5149582  1.5150547 112.88909 111.52618  112.88909      6       6               4   False     True
+   onset_s      end_s  before_N   after_N  largest_N  front  slid  simultaneous  global  counted
+ 1.2148901  1.2149664 92.721348 89.848119  92.721348      5     5             5   False     True
+ 1.3340681  1.3341139 99.376259 98.421543  99.376259      2     2             2   False    False
+ 1.5149582  1.5150547 112.88909 111.52618  112.88909      6     6             4   False     True
 """
 
 
