@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import reduce
 
 from flint import arb, arb_poly, ctx
 
@@ -103,7 +102,7 @@ def first_root(
             end = min(end, math.nextafter(float(root.upper()), math.inf))
     if not found:
         return None
-    root, first = reduce(lambda a, b: b if b[0] < a[0] else a, found)
+    root, first = min(found, key=lambda pair: pair[0])  # the earliest, unless two overlap
     for other, function in found:
         if function is not first and other.overlaps(root):
             question = f"whether first {first.what} or {function.what}"
