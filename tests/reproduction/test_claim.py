@@ -20,6 +20,7 @@ from precursors.reproduction.claims import (
     differences,
     evaluate,
     friction_independent_of_loading,
+    growth_falls_with_theta,
 )
 from precursors.reproduction.inputs import SCENES
 from precursors.reproduction.tables import one
@@ -85,6 +86,15 @@ def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zer
     tables = {"noise_differences": medians.assign(quantity="events_counted")}
     tables |= dict.fromkeys(("noise_members", "digits_members"), members)
     assert count_grows_with_theta(tables).verdict == verdict
+
+
+@pytest.mark.parametrize(("last", "holds"), [(3.1, True), (3.0, False)])
+def test_growth_falls_with_theta_if_it_is_less_for_each_next_loading(last, holds):
+    tables = {
+        f"{scene}_slips": pd.DataFrame({"load_before_N": [1.0, load], "front": [1, 2], "counted": True})
+        for scene, load in zip(SCENES, (2.0, 3.0, last), strict=True)
+    }
+    assert growth_falls_with_theta(tables).holds is holds
 
 
 def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_is_one_clear_line():
