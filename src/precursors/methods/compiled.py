@@ -17,8 +17,7 @@ inner = njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
 template = njit(inline="always")
 # Python calls these; their code is kept until one of these files is edited.
 NAMES = (
-    "columns compiled dop853 equations events fixed_step karnopp leapfrog moreau_jean newmark rk4"
-    " rk4_located"
+    "columns compiled dop853 equations events fixed_step karnopp leapfrog moreau_jean newmark rk4 rk4_located"
 )
 COMPILED = [f"{name}.py" for name in NAMES.split()]
 outer = entry(Path(__file__).parent, COMPILED, error_model="numpy", fastmath={"contract"}, nogil=True)
