@@ -66,7 +66,7 @@ TABLES = {}  # of all rooms: see tables.smk
 READERS = {
     ".csv": "support.files:read_table",
     ".h5": "solver.run:Run.load",
-    ".gz": "accuracy.proof.certificate:Certificate.load",
+    ".gz": "proof.certificate:Certificate.load",
 }
 
 

@@ -1,12 +1,14 @@
-"""The exact solver compared with heyoka.py and DOP853 in time, each with its error against 40 digits.
+"""The exact solver compared with heyoka.py and DOP853 in time, each with its error
+against 40 digits.
 
     make bench                                            everything, in a minute or two
-    make speed                                            nine times, for paper/tables/beside_heyoka.csv
-    make bench METHOD=name                                one method, in seconds
-    .venv/bin/python benchmarks/bench.py --quick          a reduced size, to see that it runs
+    make speed                                            nine times, for
+    paper/tables/beside_heyoka.csv make bench METHOD=name
+    one method, in seconds .venv/bin/python benchmarks/bench.py --quick          a
+    reduced size, to see that it runs
 
-Ratios are what counts: all that is compared runs in turn in one process on one thread (see
-`precursors.support.timing`).
+Ratios are what counts: all that is compared runs in turn in one process on one thread
+(see `precursors.support.timing`).
 """
 
 from __future__ import annotations
@@ -15,7 +17,8 @@ import os
 
 # Before NumPy and Numba are imported.
 os.environ |= dict.fromkeys(
-    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1"
+    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"),
+    "1",
 )
 
 # isort: split
@@ -57,10 +60,23 @@ SCENES = {"0": "fig10", "-5/6": "fig11", "5/6": "fig12"}
 ENDS: dict[str, Until] = {"to the first global slip": "global slip", "10 s": None}
 ENSEMBLE, HEYOKA_ENSEMBLE = 2000, 100
 # A strained chain is driven so fast that it goes on slipping over its whole length.
-LONG_CHAIN, SHORT_CHAIN, STRAIN, FAST_DRIVE = 200, 10, 0.9, 0.02  # blocks, blocks, of the maximal one, m/s
+LONG_CHAIN, SHORT_CHAIN, STRAIN, FAST_DRIVE = (
+    200,
+    10,
+    0.9,
+    0.02,
+)  # blocks, blocks, of the maximal one, m/s
 GROWTH_TRANSITIONS = 6000
 
-SHOWN = ["method", "value", "seconds", "evaluations", "error_time_s", "transitions_right", "transitions_true"]
+SHOWN = [
+    "method",
+    "value",
+    "seconds",
+    "evaluations",
+    "error_time_s",
+    "transitions_right",
+    "transitions_true",
+]
 
 Row = dict[str, Any]
 
@@ -68,16 +84,31 @@ Row = dict[str, Any]
 def main() -> None:
     """Run the benchmarks, print the table and write it."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--quick", action="store_true", help="a reduced size, to see that it runs")
-    parser.add_argument("--output", type=Path, default=TABLE, help="the CSV file (%(default)s)")
-    parser.add_argument("--method", choices=METHODS, metavar="NAME", help="measure only this method")
-    parser.add_argument("--sessions", type=int, default=1, help="how often; medians and ranges are written")
+    parser.add_argument(
+        "--quick", action="store_true", help="a reduced size, to see that it runs"
+    )
+    parser.add_argument(
+        "--output", type=Path, default=TABLE, help="the CSV file (%(default)s)"
+    )
+    parser.add_argument(
+        "--method", choices=METHODS, metavar="NAME", help="measure only this method"
+    )
+    parser.add_argument(
+        "--sessions",
+        type=int,
+        default=1,
+        help="how often; medians and ranges are written",
+    )
     arguments = parser.parse_args()
     if arguments.method:
         table = one_method(arguments.method, rounds=1 if arguments.quick else ROUNDS)
         print(table[SHOWN].to_string(index=False))
         return
-    measure = partial(timing.measure, rounds=2, shortest=0.0) if arguments.quick else timing.measure
+    measure = (
+        partial(timing.measure, rounds=2, shortest=0.0)
+        if arguments.quick
+        else timing.measure
+    )
     rows: list[Row] = []
     for _ in range(arguments.sessions):
         for benchmark in (
@@ -95,43 +126,65 @@ def main() -> None:
                     flush=True,
                 )
                 rows.append(row)
-    sessions = pd.DataFrame(rows).groupby(["benchmark", "case", "quantity", "unit"], sort=False)["value"]
-    medians = sessions.agg(value="median", least="min", largest="max", sessions="count").reset_index()
+    sessions = pd.DataFrame(rows).groupby(
+        ["benchmark", "case", "quantity", "unit"], sort=False
+    )["value"]
+    medians = sessions.agg(
+        value="median", least="min", largest="max", sessions="count"
+    ).reset_index()
     write_table(medians, arguments.output)
 
 
 def one_method(name: str, rounds: int) -> pd.DataFrame:
-    """Measure a method, the exact solver and heyoka.py at theta = 0 to the end of the first global slip."""
+    """Measure a method, the exact solver and heyoka.py at theta = 0 to the end of the
+    first global slip."""
     truth = reference("0").until_global_slip()
     case = Case("uniform", 0.0, truth.run.chain, DURATION, "global slip", truth)
     values: dict[str, tuple[float, ...]] = {
-        other: METHODS[other].quick[-1:] for other in ("exact", "heyoka") if other in METHODS
+        other: METHODS[other].quick[-1:]
+        for other in ("exact", "heyoka")
+        if other in METHODS
     }
     values[name] = METHODS[name].values_of(case.until, full=not METHODS[name].quick)
     return measure_methods(case, values, rounds)
 
 
 def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:
-    """The exact solver and heyoka.py at its default tolerance, on the paper's three scenes."""
+    """The exact solver and heyoka.py at its default tolerance, on the paper's three
+    scenes."""
     if not find_spec("heyoka"):
         print("heyoka.py is not installed: left out", file=sys.stderr)
         return
     for theta in SCENES:
         for name, until in ENDS.items():
-            solve = partial(solve_heyoka, Chain.from_slider(theta=theta), DURATION, HEYOKA_TOLERANCE, until)
+            solve = partial(
+                solve_heyoka,
+                Chain.from_slider(theta=theta),
+                DURATION,
+                HEYOKA_TOLERANCE,
+                until,
+            )
             yield from compared("heyoka", theta, name, solve, measure)
 
 
 def against_dop853(measure: Callable[..., Any]) -> Iterable[Row]:
-    """The exact solver and SciPy's DOP853 at its tightest, theta = 0 to the end of the first global slip."""
-    solve = partial(solve_scipy, Chain.from_slider(), DURATION, DOP853_TOLERANCE, "global slip")
+    """The exact solver and SciPy's DOP853 at its tightest, theta = 0 to the end of the
+    first global slip."""
+    solve = partial(
+        solve_scipy, Chain.from_slider(), DURATION, DOP853_TOLERANCE, "global slip"
+    )
     yield from compared("DOP853", "0", "to the first global slip", solve, measure)
 
 
 def compared(
-    other: str, theta: str, end: str, solve: Callable[[], Result], measure: Callable[..., Any]
+    other: str,
+    theta: str,
+    end: str,
+    solve: Callable[[], Result],
+    measure: Callable[..., Any],
 ) -> Iterable[Row]:
-    """How many times faster the exact solver is than another, and the errors of both."""
+    """How many times faster the exact solver is than another, and the errors of
+    both."""
     chain, until = Chain.from_slider(theta=theta), ENDS[end]
     tasks: dict[str, Callable[[], Run]] = {
         "exact": partial(simulate, chain, DURATION, until),
@@ -146,26 +199,39 @@ def compared(
     for name, task in tasks.items():
         found = compare(task(), truth)
         yield row(f"time of {name}", "ms", 1e3 * timings[name].seconds)
-        yield row(f"transitions of {name} right, of {found.transitions_true}", "1", found.transitions_right)
+        yield row(
+            f"transitions of {name} right, of {found.transitions_true}",
+            "1",
+            found.transitions_right,
+        )
         yield row(f"largest error of their times, {name}", "s", found.time_error)
         yield row(f"largest error of F_X at slip onsets, {name}", "N", found.load_error)
 
 
 def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
-    """First-slip runs of theta = 0 per second, by `simulate_many` on one thread and more."""
+    """First-slip runs of theta = 0 per second, by `simulate_many` on one thread and
+    more."""
     chains = [Chain.from_slider()] * (20 if quick else ENSEMBLE)
     threads = sorted({1, 2, len(os.sched_getaffinity(0))})
-    tasks = {str(n): partial(simulate_many, chains, DURATION, "global slip", threads=n) for n in threads}
+    tasks = {
+        str(n): partial(simulate_many, chains, DURATION, "global slip", threads=n)
+        for n in threads
+    }
     timings = measure(tasks)
     for n in threads:
         row = partial(_row, "ensemble", f"{n} threads, {len(chains)} runs")
         faster, _ = timings[str(n)].times_faster_than(timings["1"])
-        yield row("first-slip runs a second and thread", "1/s", len(chains) / timings[str(n)].seconds / n)
+        yield row(
+            "first-slip runs a second and thread",
+            "1/s",
+            len(chains) / timings[str(n)].seconds / n,
+        )
         yield row("of linear scaling", "1", faster / n)
 
 
 def heyoka_ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
-    """Many runs on one thread by heyoka.py, in its own ensemble mode and in turn, over `simulate_many`."""
+    """Many runs on one thread by heyoka.py, in its own ensemble mode and in turn, over
+    `simulate_many`."""
     if not find_spec("heyoka"):
         return
     from heyoka_ensemble import Ensemble
@@ -173,10 +239,13 @@ def heyoka_ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
     chain, n = Chain.from_slider(), 5 if quick else HEYOKA_ENSEMBLE
     many = Ensemble(chain, DURATION)
     tasks: dict[str, Callable[[], object]] = {
-        "simulate_many": partial(simulate_many, [chain] * n, DURATION, "global slip", threads=1),
+        "simulate_many": partial(
+            simulate_many, [chain] * n, DURATION, "global slip", threads=1
+        ),
         "heyoka's ensemble": partial(many.ends, n, 1),
         "heyoka, run by run": lambda: [
-            solve_heyoka(chain, DURATION, HEYOKA_TOLERANCE, "global slip") for _ in range(n)
+            solve_heyoka(chain, DURATION, HEYOKA_TOLERANCE, "global slip")
+            for _ in range(n)
         ],
     }
     timings = measure(tasks)
@@ -190,20 +259,31 @@ def heyoka_ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
 
 
 def in_callbacks() -> Iterable[Row]:
-    """Part of the processor time of heyoka.py and CVODE in the functions that they call back, a median."""
+    """Part of the processor time of heyoka.py and CVODE in the functions that they call
+    back, a median."""
     callbacks: dict[str, list[tuple[object, str]]] = {
         "heyoka": [(events.EventMotion, "switch")],
         "cvode_adams": [(cvode_events, "rates_of"), (cvode_events, "event_functions")],
     }
     for name in filter(METHODS.__contains__, callbacks):
         method = METHODS[name]
-        run = partial(method.solve, Chain.from_slider(), DURATION, method.quick[-1], "global slip")
+        run = partial(
+            method.solve, Chain.from_slider(), DURATION, method.quick[-1], "global slip"
+        )
         run()
         part = median(part_within(run, callbacks[name]) for _ in range(timing.ROUNDS))
-        yield _row("callbacks", "theta = 0, to the first global slip", f"part of {name}'s time", "1", part)
+        yield _row(
+            "callbacks",
+            "theta = 0, to the first global slip",
+            f"part of {name}'s time",
+            "1",
+            part,
+        )
 
 
-def part_within(run: Callable[[], object], functions: Iterable[tuple[object, str]]) -> float:
+def part_within(
+    run: Callable[[], object], functions: Iterable[tuple[object, str]]
+) -> float:
     """Part of the time of a call that is spent in some functions."""
     within = 0.0
 
@@ -226,13 +306,19 @@ def part_within(run: Callable[[], object], functions: Iterable[tuple[object, str
 
 
 def long_chains(measure: Callable[..., Any]) -> Iterable[Row]:
-    """How many times as long a transition of a long chain takes as one of ten blocks."""
+    """How many times as long a transition of a long chain takes as one of ten
+    blocks."""
 
     def run(n_blocks: int) -> None:
         chain = Chain.from_slider(n_blocks=n_blocks, drive_velocity=FAST_DRIVE)
         start = STRAIN * maximal_strain_positions(chain)
         with suppress(TransitionLimitError):
-            simulate(chain, DURATION, start_positions=start, max_transitions=GROWTH_TRANSITIONS)
+            simulate(
+                chain,
+                DURATION,
+                start_positions=start,
+                max_transitions=GROWTH_TRANSITIONS,
+            )
 
     timings = measure({str(n): partial(run, n) for n in (LONG_CHAIN, SHORT_CHAIN)})
     _, cpu = timings[str(SHORT_CHAIN)].times_faster_than(timings[str(LONG_CHAIN)])
@@ -241,7 +327,13 @@ def long_chains(measure: Callable[..., Any]) -> Iterable[Row]:
 
 
 def _row(benchmark: str, case: str, quantity: str, unit: str, value: float) -> Row:
-    return {"benchmark": benchmark, "case": case, "quantity": quantity, "unit": unit, "value": value}
+    return {
+        "benchmark": benchmark,
+        "case": case,
+        "quantity": quantity,
+        "unit": unit,
+        "value": value,
+    }
 
 
 @cache
@@ -250,7 +342,12 @@ def reference(theta: str) -> Truth:
     path = ROOT / "tests" / "golden" / f"reference_{SCENES[theta]}.csv"
     with path.open(encoding="utf-8", newline="") as file:
         rows = [
-            (Fraction(row["time_s"]), int(row["block"]), int(row["mode"]), Fraction(row["tangential_load_N"]))
+            (
+                Fraction(row["time_s"]),
+                int(row["block"]),
+                int(row["mode"]),
+                Fraction(row["tangential_load_N"]),
+            )
             for row in csv.DictReader(file)
         ]
     return Truth.exact(Chain.from_slider(theta=theta), DURATION, rows)

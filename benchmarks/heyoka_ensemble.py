@@ -1,6 +1,8 @@
-"""Runs of one chain by heyoka.py's own ensemble mode: each is one call, waits included, without transitions.
+"""Runs of one chain by heyoka.py's own ensemble mode: each is one call, waits included,
+without transitions.
 
-Python switches the blocks, in callbacks. `ensemble_propagate_until` copies the integrator for each run.
+Python switches the blocks, in callbacks. `ensemble_propagate_until` copies the
+integrator for each run.
 """
 
 from __future__ import annotations
@@ -16,7 +18,8 @@ from precursors.model.chain import Chain
 
 
 class Ensemble:
-    """An integrator of a chain whose callbacks know the motion of the run of their thread."""
+    """An integrator of a chain whose callbacks know the motion of the run of their
+    thread."""
 
     def __init__(self, chain: Chain, duration: float) -> None:
         self.chain = chain
@@ -26,7 +29,8 @@ class Ensemble:
         self.solver = integrator_of(chain, 0.0, self.callback)
 
     def callback(self, event: int) -> Callable[[Any, int], bool]:
-        """Make the transitions of an event; say whether the run goes on, up to its first global slip."""
+        """Make the transitions of an event; say whether the run goes on, up to its
+        first global slip."""
 
         def make_transitions(solver: Any, _direction: int) -> bool:
             solver.reset_cooldowns()
@@ -49,5 +53,7 @@ class Ensemble:
         """When each of n runs has ended its first global slip [s]."""
         import heyoka as hy
 
-        done = hy.ensemble_propagate_until(self.solver, self.end, n_runs, self.start, max_workers=threads)
+        done = hy.ensemble_propagate_until(
+            self.solver, self.end, n_runs, self.start, max_workers=threads
+        )
         return [self.tau * solver.time for solver, *_ in done]

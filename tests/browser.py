@@ -1,4 +1,5 @@
-"""A headless Chromium, driven over its DevTools pipe: pages, and what goes wrong in them."""
+"""A headless Chromium, driven over its DevTools pipe: pages, and what goes wrong in
+them."""
 
 from __future__ import annotations
 
@@ -13,7 +14,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+NAMES = (
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+    "chrome",
+)
 TIMEOUT = 20.0  # s
 FLAGS = (
     "--headless=new",
@@ -35,7 +42,8 @@ def find_browser() -> str | None:
 
 
 class Page:
-    """A page in the browser; `requests` and `complaints` tell what it asked for and what went wrong in it."""
+    """A page in the browser; `requests` and `complaints` tell what it asked for and
+    what went wrong in it."""
 
     def __init__(self, send: int, receive: int) -> None:
         self._send, self._receive = send, receive
@@ -51,10 +59,17 @@ class Page:
         self.requests.clear()
         self.complaints.clear()
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
-        self._session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        self._session = self.call(
+            "Target.attachToTarget", targetId=target, flatten=True
+        )["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
-        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        size = {
+            "width": width,
+            "height": height,
+            "deviceScaleFactor": 1,
+            "mobile": False,
+        }
         self.call("Emulation.setDeviceMetricsOverride", **size)
         self.call("Page.navigate", url=url)
         self.wait_for("document.readyState === 'complete'")
@@ -62,7 +77,11 @@ class Page:
     def call(self, method: str, **parameters: Any) -> dict[str, Any]:
         """Call a method of the DevTools protocol and return its result."""
         self._last += 1
-        message: dict[str, Any] = {"id": self._last, "method": method, "params": parameters}
+        message: dict[str, Any] = {
+            "id": self._last,
+            "method": method,
+            "params": parameters,
+        }
         if self._session:
             message["sessionId"] = self._session
         os.write(self._send, json.dumps(message).encode() + b"\0")
@@ -76,28 +95,42 @@ class Page:
 
     def evaluate(self, expression: str) -> Any:
         """Value of a JavaScript expression, awaited if it is a promise."""
-        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        result = self.call(
+            "Runtime.evaluate",
+            expression=expression,
+            returnByValue=True,
+            awaitPromise=True,
+        )
         if "exceptionDetails" in result:
             raise RuntimeError(f"{expression}: {result['exceptionDetails']}")
         return result["result"].get("value")
 
     def wait_for(self, expression: str) -> None:
-        """Wait until an expression is true: the page looks at it before each of its frames."""
+        """Wait until an expression is true: the page looks at it before each of its
+        frames."""
         look = (
-            f"done => {{ const look = () => ({expression}) ? done() : requestAnimationFrame(look); look() }}"
+            f"done => {{ const look = () => ({expression}) ? done() : "
+            "requestAnimationFrame(look); look() }"
         )
         try:
             self.evaluate(f"new Promise({look})")
         except TimeoutError as error:
-            raise TimeoutError(f"{expression} did not become true; complaints: {self.complaints}") from error
+            raise TimeoutError(
+                f"{expression} did not become true; complaints: {self.complaints}"
+            ) from error
 
     def settle(self) -> None:
         """Wait until what was asked for is drawn."""
-        self.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        self.evaluate(
+            "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+        )
 
     def prefer(self, **features: str) -> None:
         """Set preferences of the user: prefers_color_scheme="dark"."""
-        asked = [{"name": name.replace("_", "-"), "value": value} for name, value in features.items()]
+        asked = [
+            {"name": name.replace("_", "-"), "value": value}
+            for name, value in features.items()
+        ]
         self.call("Emulation.setEmulatedMedia", features=asked)
 
     def _next(self) -> dict[str, Any]:
@@ -114,14 +147,25 @@ class Page:
         return message
 
     def _note(self, method: str, event: dict[str, Any]) -> None:
-        if method == "Network.requestWillBeSent" and not event["request"]["url"].startswith("data:"):
+        if method == "Network.requestWillBeSent" and not event["request"][
+            "url"
+        ].startswith("data:"):
             self.requests.append(event["request"]["url"])
         elif method == "Runtime.exceptionThrown":
             details = event["exceptionDetails"]
-            self.complaints.append(details.get("exception", {}).get("description", details["text"]))
-        elif method == "Runtime.consoleAPICalled" and event["type"] in ("error", "warning", "assert"):
+            self.complaints.append(
+                details.get("exception", {}).get("description", details["text"])
+            )
+        elif method == "Runtime.consoleAPICalled" and event["type"] in (
+            "error",
+            "warning",
+            "assert",
+        ):
             self.complaints.append(str(event["args"]))
-        elif method == "Log.entryAdded" and event["entry"]["level"] in ("error", "warning"):
+        elif method == "Log.entryAdded" and event["entry"]["level"] in (
+            "error",
+            "warning",
+        ):
             self.complaints.append(event["entry"]["text"])
 
 
@@ -133,7 +177,10 @@ def browser(path: str) -> Iterator[Callable[[], Page]]:
         actions = [
             (os.POSIX_SPAWN_DUP2, to_browser, 3),  # the browser reads 3 and writes 4
             (os.POSIX_SPAWN_DUP2, from_browser, 4),
-            *((os.POSIX_SPAWN_OPEN, output, os.devnull, os.O_WRONLY, 0) for output in (1, 2)),
+            *(
+                (os.POSIX_SPAWN_OPEN, output, os.devnull, os.O_WRONLY, 0)
+                for output in (1, 2)
+            ),
         ]
         command = [path, *FLAGS, f"--user-data-dir={profile}"]
         process = os.posix_spawn(path, command, os.environ, file_actions=actions)
@@ -143,7 +190,9 @@ def browser(path: str) -> Iterator[Callable[[], Page]]:
             yield lambda: Page(send, receive)
         finally:
             os.close(send)  # the browser ends when nobody can write to it
-            while select.select([receive], [], [], TIMEOUT)[0] and os.read(receive, 1 << 20):
+            while select.select([receive], [], [], TIMEOUT)[0] and os.read(
+                receive, 1 << 20
+            ):
                 pass
             os.kill(process, signal.SIGKILL)  # unless it has ended
             os.waitpid(process, 0)

@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 from reference import HeldOut
 
 from precursors import Chain, Run, TransitionLimitError, simulate
-from precursors.accuracy.audit import Audit, audit
+from precursors.audit import audit
+from precursors.audit.report import Audit
 from precursors.model.statics import balance_matrix, positions_from_compressions
 from precursors.solver import plain
 
@@ -25,23 +26,35 @@ def first_transitions(chain: Chain, most: int, **options) -> Run:
 
 
 def by_plain(
-    chain: Chain, duration: float, until_global: bool = False, most: int = 10_000, **start: ArrayLike
+    chain: Chain,
+    duration: float,
+    until_global: bool = False,
+    most: int = 10_000,
+    **start: ArrayLike,
 ) -> tuple[np.ndarray, float]:
-    """Rows (time, interval, block, mode, load) of transitions in plain Python, and the time of the end."""
+    """Rows (time, interval, block, mode, load) of transitions in plain Python, and the
+    time of the end."""
     names = ("start_positions", "start_velocities")
     at = [np.array(start.get(name, np.zeros(chain.n_blocks))) for name in names]
     state = plain.at_start(chain, *at)
-    rows, end, _ = plain.find_transitions(chain, state, duration, until_global, np.inf, most)
+    rows, end, _ = plain.find_transitions(
+        chain, state, duration, until_global, np.inf, most
+    )
     return np.array(rows, float).reshape(-1, 5), end
 
 
 def held_out(case: HeldOut) -> dict[str, Any]:
-    """Arguments of `simulate` for a chain of the reference, rounded to double precision."""
+    """Arguments of `simulate` for a chain of the reference, rounded to double
+    precision."""
     names = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k")
     numbers = {name: float(getattr(case.chain, name)) for name in names}
     chain = Chain(weights=[float(w) for w in case.chain.weights], **numbers)
     start = case.start_positions and [float(x) for x in case.start_positions]
-    return {"chain": chain, "duration": float(Fraction(case.duration)), "start_positions": start}
+    return {
+        "chain": chain,
+        "duration": float(Fraction(case.duration)),
+        "start_positions": start,
+    }
 
 
 def audited(run: Run) -> Audit:
@@ -52,7 +65,8 @@ def audited(run: Run) -> Audit:
 
 
 def in_groups(transitions, apart: float) -> list[tuple[int, int]]:
-    """(block, mode), in an order of their own where transitions come within `apart` of each other [s]."""
+    """(block, mode), in an order of their own where transitions come within `apart` of
+    each other [s]."""
     ordered: list[tuple[int, int]] = []
     group: list[tuple[int, int]] = []
     before = -math.inf
@@ -68,15 +82,20 @@ def in_groups(transitions, apart: float) -> list[tuple[int, int]]:
 def lone_slip(chain: Chain) -> tuple[float, float]:
     """How long block 1 slides while the others rest [s], and how far [m].
 
-    m x'' = drop + K V t - stiffness x from rest at x = 0, drop = (mu_s - mu_k) w_1. At the stop the net force
-    is the mirror image of that at the release about mu_k w_1.
+    m x'' = drop + K V t - stiffness x from rest at x = 0, drop = (mu_s - mu_k) w_1. At
+    the stop the net force is the mirror image of that at the release about mu_k w_1.
     """
     stiffness = chain.drive_stiffness + (chain.stiffness if chain.n_blocks > 1 else 0.0)
-    drop, omega = (chain.mu_s - chain.mu_k) * chain.weights[0], math.sqrt(stiffness / chain.mass)
+    drop, omega = (
+        (chain.mu_s - chain.mu_k) * chain.weights[0],
+        math.sqrt(stiffness / chain.mass),
+    )
     seconds = (math.pi + 2 * math.atan(chain.loading_rate / (drop * omega))) / omega
     return seconds, (2 * drop + chain.loading_rate * seconds) / stiffness
 
 
 def positions_under(chain: Chain, forces) -> np.ndarray:
     """Positions [m] in which the springs push each block with a given net force [N]."""
-    return positions_from_compressions(np.linalg.solve(balance_matrix(chain), np.asarray(forces, float)))
+    return positions_from_compressions(
+        np.linalg.solve(balance_matrix(chain), np.asarray(forces, float))
+    )

@@ -1,4 +1,5 @@
-"""What all tests share: threads as in the workflow's jobs, and a clock that only a test moves."""
+"""What all tests share: threads as in the workflow's jobs, and a clock that only a test
+moves."""
 
 import os
 

@@ -8,7 +8,8 @@ from io import BytesIO
 from pypdf import PdfReader
 from pypdf.generic import DecodedStreamObject, NameObject
 
-# Between BT and ET a page sets text; all else, such as the many lines of a figure, takes seconds to read.
+# Between BT and ET a page sets text; all else, such as the many lines of a figure,
+# takes seconds to read.
 TEXT = re.compile(rb"\bBT\b.*?\bET\b", re.DOTALL)
 
 

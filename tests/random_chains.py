@@ -1,4 +1,5 @@
-"""Random chains far from the paper's, by number: `trial(7)` is always the same chain and start."""
+"""Random chains far from the paper's, by number: `trial(7)` is always the same chain
+and start."""
 
 from __future__ import annotations
 
@@ -11,7 +12,7 @@ from chains import first_transitions, positions_under
 from numpy.random import Generator
 
 from precursors import Chain, Run
-from precursors.accuracy.audit import audit
+from precursors.audit import audit
 
 SEED = 1961
 
@@ -27,7 +28,9 @@ class Trial:
 
     def run(self) -> Run:
         """The run, or its first transitions."""
-        return first_transitions(self.chain, self.most, duration=self.duration, **self.start)
+        return first_transitions(
+            self.chain, self.most, duration=self.duration, **self.start
+        )
 
 
 def decades(rng: Generator, low: float, high: float) -> float:
@@ -35,39 +38,61 @@ def decades(rng: Generator, low: float, high: float) -> float:
 
 
 def any_chain(rng: Generator) -> Trial:
-    """All parameters over many decades, in any units; weights with zeros; prestressed and moving starts."""
+    """All parameters over many decades, in any units; weights with zeros; prestressed
+    and moving starts."""
     n = int(rng.integers(1, 61))
-    force, stiffness, mass = decades(rng, -9, 9), decades(rng, -6, 12), decades(rng, -12, 6)
+    force, stiffness, mass = (
+        decades(rng, -9, 9),
+        decades(rng, -6, 12),
+        decades(rng, -12, 6),
+    )
     spread = rng.choice([0.0, 1.0, 3.0])
     weights = force * 10.0 ** rng.uniform(-spread, spread, n)
     if rng.random() < 0.4:
         weights[rng.random(n) < rng.choice([0.1, 0.5, 0.9])] = 0.0
     weights[rng.integers(n)] = force
-    mu_s = float(rng.choice([0.7, 0.0, rng.uniform(0.05, 1.5), decades(rng, -6, 2)], p=[0.5, 0.1, 0.3, 0.1]))
+    mu_s = float(
+        rng.choice(
+            [0.7, 0.0, rng.uniform(0.05, 1.5), decades(rng, -6, 2)],
+            p=[0.5, 0.1, 0.3, 0.1],
+        )
+    )
     mu_k = mu_s * float(rng.choice([1.0, 0.0, rng.uniform()], p=[0.15, 0.15, 0.7]))
     ratio = decades(rng, -6, 6) if rng.random() < 0.7 else 1.0
     stiffest = stiffness * max(1.0, ratio)
     duration = decades(rng, 0.5, 3.0) / (2 * math.sqrt(stiffest / mass))
     loading = decades(rng, -3, 1) * max(mu_s, 0.1) * float(weights.sum()) / duration
-    chain = Chain(weights, mass, stiffness, stiffness * ratio, loading / (stiffness * ratio), mu_s, mu_k)
+    chain = Chain(
+        weights,
+        mass,
+        stiffness,
+        stiffness * ratio,
+        loading / (stiffness * ratio),
+        mu_s,
+        mu_k,
+    )
     return Trial(chain, duration, any_start(rng, chain, stiffest), 60)
 
 
 def any_start(rng: Generator, chain: Chain, stiffest: float) -> dict[str, np.ndarray]:
-    """Now and then springs that push with up to 1.5 times the friction, or blocks that move."""
+    """Now and then springs that push with up to 1.5 times the friction, or blocks that
+    move."""
     start: dict[str, np.ndarray] = {}
     friction = max(chain.mu_s, 0.1)
     if rng.random() < 0.4:
         pushes = rng.integers(-24, 25, chain.n_blocks) / 16 * chain.weights * friction
         start["start_positions"] = positions_under(chain, pushes)
     if rng.random() < 0.4:
-        impacts = rng.integers(-24, 25, chain.n_blocks) / 16 * chain.weights.max() * friction
+        impacts = (
+            rng.integers(-24, 25, chain.n_blocks) / 16 * chain.weights.max() * friction
+        )
         start["start_velocities"] = impacts / math.sqrt(stiffest * chain.mass)
     return start
 
 
 def any_slider(rng: Generator) -> Trial:
-    """The paper's slider with other loading, length and drive, until some hundred transitions are made."""
+    """The paper's slider with other loading, length and drive, until some hundred
+    transitions are made."""
     chain = Chain.from_slider(
         n_blocks=int(rng.integers(1, 61)),
         theta=float(rng.choice([-1.0, -5 / 6, 0.0, 5 / 6, 1.0, rng.uniform(-1, 1)])),
@@ -79,46 +104,82 @@ def any_slider(rng: Generator) -> Trial:
 
 
 def mild_chain(rng: Generator) -> Trial:
-    """1..12 blocks whose numbers are of one size; half of them start strained and moving."""
+    """1..12 blocks whose numbers are of one size; half of them start strained and
+    moving."""
     n = int(rng.integers(1, 13))
     mu_s = rng.uniform(0.3, 1.0)
-    weights, drive_stiffness = rng.uniform(1.0, 100.0, n), 25e6 * 10 ** rng.uniform(-3.0, 1.0)
+    weights, drive_stiffness = (
+        rng.uniform(1.0, 100.0, n),
+        25e6 * 10 ** rng.uniform(-3.0, 1.0),
+    )
     mass = 1e-3
     duration = 10 ** rng.uniform(2.0, 3.5) * np.sqrt(mass / max(25e6, drive_stiffness))
     velocity = rng.uniform(0.1, 3.0) * weights.sum() / (duration * drive_stiffness)
-    chain = Chain(weights, mass, 25e6, drive_stiffness, velocity, mu_s, mu_s * rng.uniform(0.1, 0.9))
+    chain = Chain(
+        weights,
+        mass,
+        25e6,
+        drive_stiffness,
+        velocity,
+        mu_s,
+        mu_s * rng.uniform(0.1, 0.9),
+    )
     start = {}
     if rng.random() < 0.5:
-        start["start_positions"] = positions_under(chain, rng.uniform(-1.0, 1.0, n) * chain.strength)
+        start["start_positions"] = positions_under(
+            chain, rng.uniform(-1.0, 1.0, n) * chain.strength
+        )
         start["start_velocities"] = rng.normal(size=n) * 0.01
     return Trial(chain, duration, start, 40)
 
 
 def even_chain(rng: Generator) -> Trial:
-    """Small whole numbers everywhere: blocks meet their limits at the same instant, or touch them."""
+    """Small whole numbers everywhere: blocks meet their limits at the same instant, or
+    touch them."""
     n = int(rng.integers(1, 13))
     weights = rng.integers(0, 4, n).astype(float)
     weights[rng.integers(n)] = 2.0
     mu_s = float(rng.choice([1.0, 0.5, 0.0]))
-    stiffness, drive_stiffness, mass = (float(x) for x in rng.choice([1.0, 2.0, 4.0], 3))
+    stiffness, drive_stiffness, mass = (
+        float(x) for x in rng.choice([1.0, 2.0, 4.0], 3)
+    )
     velocity = float(rng.choice([1.0, 0.125, 1e-3, 1e-9]))
     chain = Chain(
-        weights, mass, stiffness, drive_stiffness, velocity, mu_s, mu_s * float(rng.choice([0.0, 0.5, 1.0]))
+        weights,
+        mass,
+        stiffness,
+        drive_stiffness,
+        velocity,
+        mu_s,
+        mu_s * float(rng.choice([0.0, 0.5, 1.0])),
     )
     start: dict[str, np.ndarray] = {}
     if rng.random() < 0.6:
-        start["start_positions"] = positions_under(chain, rng.integers(-2, 3, n) * mu_s * weights / 2)
+        start["start_positions"] = positions_under(
+            chain, rng.integers(-2, 3, n) * mu_s * weights / 2
+        )
     if rng.random() < 0.6:
         start["start_velocities"] = rng.integers(-1, 2, n).astype(float)
     return Trial(chain, float(rng.choice([1.0, 30.0, 300.0])), start, 80)
 
 
 def absurd_chain(rng: Generator) -> Trial:
-    """Any doubles at all: nothing that exists, but nothing that may hang or lie either."""
+    """Any doubles at all: nothing that exists, but nothing that may hang or lie
+    either."""
     n = int(rng.integers(1, 9))
     size = float(rng.choice([15.0, 50.0, 300.0]))
-    mass, stiffness, drive_stiffness, velocity = (decades(rng, -size, size) for _ in range(4))
-    chain = Chain(10.0 ** rng.uniform(-size, size, n), mass, stiffness, drive_stiffness, velocity, 0.7, 0.45)
+    mass, stiffness, drive_stiffness, velocity = (
+        decades(rng, -size, size) for _ in range(4)
+    )
+    chain = Chain(
+        10.0 ** rng.uniform(-size, size, n),
+        mass,
+        stiffness,
+        drive_stiffness,
+        velocity,
+        0.7,
+        0.45,
+    )
     longest = 300 * math.sqrt(mass / max(stiffness, drive_stiffness))
     return Trial(chain, min(decades(rng, -size, size), longest), {}, 80)
 
@@ -134,7 +195,9 @@ KINDS: dict[str, tuple[float, Callable[[Generator], Trial]]] = {
 def trial_kind(number: int) -> str:
     """The kind of the trial with a number."""
     return str(
-        np.random.default_rng([SEED, number]).choice(list(KINDS), p=[share for share, _ in KINDS.values()])
+        np.random.default_rng([SEED, number]).choice(
+            list(KINDS), p=[share for share, _ in KINDS.values()]
+        )
     )
 
 
@@ -152,12 +215,17 @@ def verdict(number: int) -> str:
         run = case.run()
     except ValueError as error:
         return (
-            "refused" if str(error) and "\n" not in str(error) else f"refused without a sentence: {error!r}"
+            "refused"
+            if str(error) and "\n" not in str(error)
+            else f"refused without a sentence: {error!r}"
         )
     except Exception as error:
         return f"{type(error).__name__}: {error}"
     transitions = run.transitions
-    if not (np.isfinite(transitions["time"]).all() and np.isfinite(transitions["tangential_load"]).all()):
+    if not (
+        np.isfinite(transitions["time"]).all()
+        and np.isfinite(transitions["tangential_load"]).all()
+    ):
         return "a transition is not finite"
     if not (run.duration == case.duration or len(transitions) >= case.most):
         return f"ended at {run.duration} s of {case.duration} s after {len(transitions)} transitions"

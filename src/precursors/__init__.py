@@ -1,15 +1,17 @@
-"""Stick-slip chains solved exactly: precursors of global slip after Maegawa, Suzuki and Nakano (2010)."""
+"""Stick-slip chains solved exactly: precursors of global slip after Maegawa, Suzuki and
+Nakano (2010)."""
 
 from __future__ import annotations
 
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from precursors.audit import audit  # at once, or the room would take its name
+
 if TYPE_CHECKING:
-    from precursors.accuracy.audit import audit
-    from precursors.accuracy.proof import certify
     from precursors.analysis.slips import find_precursors, find_slips
     from precursors.model.chain import Chain
+    from precursors.proof import certify
     from precursors.solver.run import Run, RunFileError
     from precursors.solver.simulate import TransitionLimitError, simulate, simulate_many
 
@@ -26,21 +28,23 @@ __all__ = [
     "simulate_many",
 ]
 
-# Imported when first asked for (PEP 562): who checks a configuration or draws a table waits for no compiler.
+# Imported when first asked for (PEP 562): who checks a configuration or draws a table
+# waits for no compiler.
 _MODULES = {
     "Chain": "model.chain",
     "Run": "solver.run",
     "RunFileError": "solver.run",
     "TransitionLimitError": "solver.simulate",
-    "audit": "accuracy.audit",
-    "certify": "accuracy.proof",
+    "certify": "proof",
     "find_precursors": "analysis.slips",
     "find_slips": "analysis.slips",
     "simulate": "solver.simulate",
     "simulate_many": "solver.simulate",
 }
 
-if not TYPE_CHECKING:  # a type checker that saw it would take every name for one of this package
+if (
+    not TYPE_CHECKING
+):  # a type checker that saw it would take every name for one of this package
 
     def __getattr__(name: str) -> object:
         if name not in _MODULES:

@@ -1,6 +1,7 @@
 """The command `precursors`: simulate, slips, plot, audit.
 
-What a command needs is imported when it runs, so that `precursors --help` answers at once.
+What a command needs is imported when it runs, so that `precursors --help` answers at
+once.
 """
 
 from __future__ import annotations
@@ -23,7 +24,12 @@ from precursors.support.files import check_writable, write_table
 if TYPE_CHECKING:
     from precursors.solver.run import Run
 
-DONE, REFUSED, WRONG_USE, FILE, NOT_INSTALLED, INTERRUPTED = 0, 1, 2, 3, 4, 130
+DONE = 0
+REFUSED = 1
+WRONG_USE = 2
+FILE = 3
+NOT_INSTALLED = 4
+INTERRUPTED = 130
 EPILOG = """\
 examples:
   precursors simulate --theta 5/6 --output run.h5     10 s of the paper's chain, summarised and saved
@@ -39,7 +45,8 @@ exit codes:
   4    a package that this needs is not installed
   130  interrupted (Ctrl-C)"""
 
-# Arguments of `Chain.from_slider` that are options, their defaults there, and what they are.
+# Arguments of `Chain.from_slider` that are options, their defaults there, and what they
+# are.
 CHAIN = {
     "normal_load": ("400", "total normal load F_Z [N]"),
     "mu_s": ("0.70", "coefficient of static friction"),
@@ -66,7 +73,8 @@ mu_sapp = {mu_sapp:.3f} = {largest_load_N:.1f} N / {F_Z:g} N; first global slip 
 
 
 class Refused(Exception):
-    """What the user asked for does not hold, or was not reached: each argument is a line."""
+    """What the user asked for does not hold, or was not reached: each argument is a
+    line."""
 
 
 def simulate(arguments: argparse.Namespace) -> None:
@@ -120,30 +128,43 @@ def slips(arguments: argparse.Namespace) -> None:
 
 
 def plot(arguments: argparse.Namespace) -> None:
-    """Draw a run: its load and slips over time, or its propagation lengths against the load."""
+    """Draw a run: its load and slips over time, or its propagation lengths against the
+    load."""
     from precursors.analysis.load_curve import load_trace
     from precursors.analysis.slips import slip_table
     from precursors.figures import precursor_lengths, scene, style
-    from precursors.support.spreadsheet import read_columns
+    from precursors.model.spreadsheet import read_columns
 
     look = style.Look(arguments.width, arguments.font_size, arguments.font)
-    columns = ["F_X [N]", "L_p/L [-]"] if arguments.figure == "lengths" else ["t [s]", "F_X [N]"]
-    data = read_columns(arguments.data, columns, exactly=True) if arguments.data else None
+    columns = (
+        ["F_X [N]", "L_p/L [-]"]
+        if arguments.figure == "lengths"
+        else ["t [s]", "F_X [N]"]
+    )
+    data = (
+        read_columns(arguments.data, columns, exactly=True) if arguments.data else None
+    )
     run = run_of(arguments)
     slips = slip_table(run)
     if arguments.figure == "lengths":
-        figure = precursor_lengths.draw([slips], data=data, title=arguments.title, look=look)
+        figure = precursor_lengths.draw(
+            [slips], data=data, title=arguments.title, look=look
+        )
     else:
         trace = load_trace(run)
-        title = f"N = {run.chain.n_blocks}" if arguments.title is None else arguments.title
-        figure = scene.draw(slips, trace, title, data=data, inset=arguments.inset, look=look)
+        title = (
+            f"N = {run.chain.n_blocks}" if arguments.title is None else arguments.title
+        )
+        figure = scene.draw(
+            slips, trace, title, data=data, inset=arguments.inset, look=look
+        )
     style.save(figure, arguments.output, look)
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
 
 
 def audit(arguments: argparse.Namespace) -> None:
     """Check that each run file is whole and its run a motion of the model."""
-    from precursors.accuracy.audit import audit
+    from precursors.audit import audit
 
     wrong: list[str] = []
     for path in arguments.files:
@@ -151,7 +172,9 @@ def audit(arguments: argparse.Namespace) -> None:
             run = load(path)
             if problems := audit(run).problems:
                 raise Refused(f"{path}: not a motion of the model: {problems[0]}")
-            print(f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s")
+            print(
+                f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s"
+            )
         except Refused as refused:
             wrong += refused.args
     if wrong:
@@ -173,7 +196,9 @@ def run_of(arguments: argparse.Namespace) -> Run:
     if arguments.file is None:
         return run_of_options(arguments)
     if given(arguments, ("theta", "n_blocks", "weights", *CHAIN, *LARGER, *RUN)):
-        raise ValueError(f"{arguments.file}: a run file cannot be combined with options of a chain")
+        raise ValueError(
+            f"{arguments.file}: a run file cannot be combined with options of a chain"
+        )
     return load(arguments.file)
 
 
@@ -185,13 +210,20 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
 
     slider = given(arguments, ("theta", "n_blocks", *CHAIN))
     if arguments.weights is None:
-        slider = {name: slider.get(name, default) for name, default in SLIDER.items() if name != "weights"}
+        slider = {
+            name: slider.get(name, default)
+            for name, default in SLIDER.items()
+            if name != "weights"
+        }
         slider["theta"] = parse_theta(slider["theta"])
     elif slider.keys() & {"theta", "n_blocks", "normal_load"}:
-        raise ValueError("--weights cannot be combined with --theta, --blocks or --normal-load")
+        raise ValueError(
+            "--weights cannot be combined with --theta, --blocks or --normal-load"
+        )
     else:
         slider = measured(SLIDER | slider, arguments.weights)
-    chain, added = Chain.from_slider(**slider), given(arguments, LARGER)
+    chain = Chain.from_slider(**slider)
+    added = given(arguments, LARGER)
     how = {"duration": DURATION, **given(arguments, RUN)}
     try:
         if any(added.values()):
@@ -210,7 +242,9 @@ def run_of_options(arguments: argparse.Namespace) -> Run:
 
 def given(arguments: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:
     """Options that were given, of those named."""
-    return {name: value for name in names if (value := getattr(arguments, name)) is not None}
+    return {
+        name: value for name in names if (value := getattr(arguments, name)) is not None
+    }
 
 
 def announce_compiling() -> None:
@@ -224,7 +258,9 @@ def announce_compiling() -> None:
 
 def show_values(values: Mapping[str, Any], as_json: bool) -> None:
     """Print named values, one a line, ten digits a number; JSON has null for NaN."""
-    values = {name: None if value != value else value for name, value in values.items()}  # NaN
+    values = {
+        name: None if value != value else value for name, value in values.items()
+    }  # NaN
     if as_json:
         print(json.dumps(values, indent=1))
         return
@@ -239,7 +275,9 @@ def number(text: str) -> float:
     try:
         return float(Fraction(text)) if "/" in text else float(text)
     except (ValueError, ArithmeticError):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number or a fraction such as 5/6") from None
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a number or a fraction such as 5/6"
+        ) from None
 
 
 def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
@@ -248,13 +286,22 @@ def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
     def group(title: str, about: str) -> Callable[..., object]:
         options: Any = command.add_argument_group(title, about) if is_shown else command
         return lambda name, **how: options.add_argument(
-            f"--{name.replace('_', '-')}", **how if is_shown else how | {"help": argparse.SUPPRESS}
+            f"--{name.replace('_', '-')}",
+            **how if is_shown else how | {"help": argparse.SUPPRESS},
         )
 
     add = group("the chain", "the defaults are the paper's")
-    add("theta", metavar="X", help='non-uniformity of the normal loading, for example "5/6" (0)')
+    add(
+        "theta",
+        metavar="X",
+        help='non-uniformity of the normal loading, for example "5/6" (0)',
+    )
     add("blocks", dest="n_blocks", type=int, metavar="N", help="number of blocks (10)")
-    add("weights", metavar="FILE", help="normal loads [N]; replaces --theta, --blocks and --normal-load")
+    add(
+        "weights",
+        metavar="FILE",
+        help="normal loads [N]; replaces --theta, --blocks and --normal-load",
+    )
     for name, (default, meaning) in CHAIN.items():
         add(name, type=number, metavar="X", help=f"{meaning} ({default})")
     add = group("a larger chain", "each adds to the paper's chain; 0 by default")
@@ -263,12 +310,19 @@ def add_chain(command: argparse.ArgumentParser, is_shown: bool) -> None:
     add = group("the run", "from rest, with every spring at its natural length")
     add("duration", type=number, metavar="S", help=f"time to run [s] ({DURATION:g})")
     text = "stop at the end of the first global slip"
-    add("until_global_slip", dest="until", action="store_const", const="global slip", help=text)
+    add(
+        "until_global_slip",
+        dest="until",
+        action="store_const",
+        const="global slip",
+        help=text,
+    )
     add("max_transitions", type=int, metavar="N", help="limit of transitions")
 
 
 def add_options(command: Parser, name: str, shows_all: bool = False) -> Parser:
-    """Add the options of a command; those of a chain stand in the help of `simulate` only, or of all."""
+    """Add the options of a command; those of a chain stand in the help of `simulate`
+    only, or of all."""
     add = command.add_argument
     if name == "audit":
         add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
@@ -278,21 +332,60 @@ def add_options(command: Parser, name: str, shows_all: bool = False) -> Parser:
     if name == "simulate":
         add("--output", help="save the run (HDF5)", **output)
     else:
-        add("file", nargs="?", type=Path, metavar="RUN.h5", help="a run file; else the options of a chain")
+        add(
+            "file",
+            nargs="?",
+            type=Path,
+            metavar="RUN.h5",
+            help="a run file; else the options of a chain",
+        )
         command.epilog = "The options of the chain and of its run are those of `precursors simulate --help`."
     if name == "slips":
         add("--counted", action="store_true", help="only the events counted in Fig. 13")
         add("--output", help="write the table with every digit (CSV)", **output)
     elif name == "plot":
-        add("--figure", choices=["load", "lengths"], default="load", help="as Fig. 10, or as Fig. 13")
-        add("--data", metavar="FILE", help="measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it")
-        add("--width", type=number, metavar="MM", help="width of the figure [mm] (178, or 85 for lengths)")
-        add("--font-size", type=number, default=8.0, metavar="PT", help="size of the text [pt] (8)")
-        add("--font", default="DejaVu Sans", metavar="NAME", help="an installed font (DejaVu Sans)")
-        add("--title", metavar="TEXT", help="title of the figure")
-        add("--no-inset", dest="inset", action="store_false", help="without the magnified view")
         add(
-            "--output", default=Path("precursors.png"), help="PNG, SVG, PDF or EPS (precursors.png)", **output
+            "--figure",
+            choices=["load", "lengths"],
+            default="load",
+            help="as Fig. 10, or as Fig. 13",
+        )
+        add(
+            "--data",
+            metavar="FILE",
+            help="measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it",
+        )
+        add(
+            "--width",
+            type=number,
+            metavar="MM",
+            help="width of the figure [mm] (178, or 85 for lengths)",
+        )
+        add(
+            "--font-size",
+            type=number,
+            default=8.0,
+            metavar="PT",
+            help="size of the text [pt] (8)",
+        )
+        add(
+            "--font",
+            default="DejaVu Sans",
+            metavar="NAME",
+            help="an installed font (DejaVu Sans)",
+        )
+        add("--title", metavar="TEXT", help="title of the figure")
+        add(
+            "--no-inset",
+            dest="inset",
+            action="store_false",
+            help="without the magnified view",
+        )
+        add(
+            "--output",
+            default=Path("precursors.png"),
+            help="PNG, SVG, PDF or EPS (precursors.png)",
+            **output,
         )
     add("--json", action="store_true", help="print one JSON value")
     return command
@@ -302,16 +395,22 @@ COMMANDS: dict[str, tuple[Callable[[argparse.Namespace], None], str]] = {
     "simulate": (simulate, "run a chain and summarise it"),
     "slips": (slips, "list the slip events of a run"),
     "plot": (plot, "draw a run"),
-    "audit": (audit, "check that runs are motions of the model, without the solver's code"),
+    "audit": (
+        audit,
+        "check that runs are motions of the model, without the solver's code",
+    ),
 }
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser that says in one line what is wrong, and what was probably meant."""
+    """An argument parser that says in one line what is wrong, and what was probably
+    meant."""
 
     def error(self, message: str) -> NoReturn:
         """Exit with one line on standard error."""
-        message = message.replace("ignored explicit argument", "takes no value, but has")
+        message = message.replace(
+            "ignored explicit argument", "takes no value, but has"
+        )
         choices = re.findall(r"\w+", message.partition("choose from")[2])
         helps = [add_options(Parser(), name).format_help() for name in COMMANDS]
         known = choices or re.findall(r"--[a-z][a-z-]+", " ".join(helps))
@@ -322,12 +421,15 @@ class Parser(argparse.ArgumentParser):
 
 
 def print_version() -> None:
-    """Print the version, and in a checkout the commit and its software hash identifiers."""
+    """Print the version, and in a checkout the commit and its software hash
+    identifiers."""
     from precursors.support.provenance import git_state
 
     print(f"precursors {version('precursors')}")
     if state := git_state(Path(__file__).parents[2]):
-        print(f"commit {state['commit']}{', and files have changed since' if state['changed'] else ''}")
+        print(
+            f"commit {state['commit']}{', and files have changed since' if state['changed'] else ''}"
+        )
         print(state["swh_revision"], state["swh_directory"], sep="\n")
 
 
@@ -335,22 +437,34 @@ def parser(shows_all: bool = False) -> Parser:
     """Build the parser of all commands."""
     raw = argparse.RawDescriptionHelpFormatter
     top = Parser(
-        "precursors", description="Simulate stick-slip chains exactly.", epilog=EPILOG, formatter_class=raw
+        "precursors",
+        description="Simulate stick-slip chains exactly.",
+        epilog=EPILOG,
+        formatter_class=raw,
     )
-    top.add_argument("--version", action="store_true", help="show version, commit and identifiers")
+    top.add_argument(
+        "--version", action="store_true", help="show version, commit and identifiers"
+    )
     subparsers = top.add_subparsers(dest="command", metavar="COMMAND")
     for name, (run, meaning) in COMMANDS.items():
-        command = subparsers.add_parser(name, help=meaning, description=f"{meaning[0].upper()}{meaning[1:]}.")
+        command = subparsers.add_parser(
+            name, help=meaning, description=f"{meaning[0].upper()}{meaning[1:]}."
+        )
         add_options(command, name, shows_all)
         command.set_defaults(run=run)
     return top
 
 
 def join_negative_values(argv: Iterable[str]) -> list[str]:
-    """Write `--theta -5/6` as `--theta=-5/6`, because argparse takes -5/6 for an option."""
+    """Write `--theta -5/6` as `--theta=-5/6`, because argparse takes -5/6 for an
+    option."""
     joined: list[str] = []
     for argument in argv:
-        if joined and re.fullmatch(r"-[\d.][\d./eE+-]*", argument) and re.fullmatch(r"--[^=]+", joined[-1]):
+        if (
+            joined
+            and re.fullmatch(r"-[\d.][\d./eE+-]*", argument)
+            and re.fullmatch(r"--[^=]+", joined[-1])
+        ):
             joined[-1] += f"={argument}"
         else:
             joined.append(argument)
@@ -358,21 +472,30 @@ def join_negative_values(argv: Iterable[str]) -> list[str]:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command and return its exit code; an error is one line on standard error."""
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # starting threads costs more than any matrix here
-    completes = "_ARGCOMPLETE" in os.environ  # set by the shell when somebody presses Tab
+    """Run a command and return its exit code; an error is one line on standard
+    error."""
+    os.environ.setdefault(
+        "OPENBLAS_NUM_THREADS", "1"
+    )  # starting threads costs more than any matrix here
+    completes = (
+        "_ARGCOMPLETE" in os.environ
+    )  # set by the shell when somebody presses Tab
     top = parser(shows_all=completes)
     if completes:
         import argcomplete
 
         argcomplete.autocomplete(top)
-    arguments = top.parse_args(join_negative_values(sys.argv[1:] if argv is None else argv))
+    arguments = top.parse_args(
+        join_negative_values(sys.argv[1:] if argv is None else argv)
+    )
     if arguments.command is None and not arguments.version:
         top.error(f"needed is one of {', '.join(COMMANDS)}")
     try:
         if getattr(arguments, "output", None):
             is_figure = arguments.command == "plot"
-            check_writable(arguments.output, (".png", ".svg", ".pdf", ".eps") if is_figure else ())
+            check_writable(
+                arguments.output, (".png", ".svg", ".pdf", ".eps") if is_figure else ()
+            )
         if arguments.version:
             print_version()
         else:
@@ -386,15 +509,24 @@ def main(argv: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     except KeyboardInterrupt:
-        code, lines = INTERRUPTED, ["interrupted"]
+        code = INTERRUPTED
+        lines = ["interrupted"]
     except Refused as error:
-        code, lines = REFUSED, list(error.args)
+        code = REFUSED
+        lines = list(error.args)
     except ModuleNotFoundError as error:
-        code, lines = NOT_INSTALLED, [f"{error}: install it to use this"]
+        code = NOT_INSTALLED
+        lines = [f"{error}: install it to use this"]
     except (ValueError, MemoryError) as error:
-        code, lines = WRONG_USE, [str(error) or "not enough memory for so many blocks or runs"]
+        code = WRONG_USE
+        lines = [str(error) or "not enough memory for so many blocks or runs"]
     except OSError as error:
-        code, lines = FILE, [f"{error.filename}: {error.strerror}" if error.filename else str(error)]
+        code = FILE
+        lines = [
+            f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        ]
     for line in lines:
-        print(f"precursors {arguments.command}: {' '.join(line.split())}", file=sys.stderr)
+        print(
+            f"precursors {arguments.command}: {' '.join(line.split())}", file=sys.stderr
+        )
     return code

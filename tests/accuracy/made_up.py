@@ -7,12 +7,13 @@ from fractions import Fraction
 
 from precursors import Chain, Run
 from precursors.accuracy.compare import Comparison
-from precursors.accuracy.proof import Certificate, ExactChain, certify
-from precursors.accuracy.proof.tube import Proof
+from precursors.proof import Certificate, ExactChain, certify
+from precursors.proof.tube import Proof
 
 CHAIN = Chain.from_slider(n_blocks=3)
 DURATION = 4.0
-# Times are multiples of 1/8 s and loads of 1/2 N, so that sums and differences are exact.
+# Times are multiples of 1/8 s and loads of 1/2 N, so that sums and differences are
+# exact.
 TRUE = [
     (1.0, 1, 1, 50.0),
     (1.125, 1, 0, 49.0),
@@ -27,7 +28,8 @@ TRUE = [
     (3.5, 2, 0, 101.0),
     (3.625, 3, 0, 101.5),
 ]
-# Seven blocks, the middle one pushed aside: blocks 2 and 6 are released at the same instant, by symmetry.
+# Seven blocks, the middle one pushed aside: blocks 2 and 6 are released at the same
+# instant, by symmetry.
 SYMMETRIC_START = ["0", "0", "0", "1e-5", "0", "0", "0"]
 
 
@@ -43,7 +45,9 @@ def has_all_transitions(found: Comparison) -> bool:
 
 def tied_certificate() -> Certificate:
     """A proof that ends with a tie."""
-    return certify(ExactChain.from_slider(n_blocks=7), 1, start_positions=SYMMETRIC_START)
+    return certify(
+        ExactChain.from_slider(n_blocks=7), 1, start_positions=SYMMETRIC_START
+    )
 
 
 def proof_of(
@@ -53,8 +57,13 @@ def proof_of(
     velocities: Sequence[Fraction | str] = (),
 ) -> Proof:
     """A proof that has not begun; the chain starts from rest if nothing is given."""
-    starts = [tuple(map(Fraction, of or [0] * chain.n_blocks)) for of in (positions, velocities)]
-    return Proof(Certificate(chain, Fraction(100), None, *starts, Fraction(1), (), None, bits))
+    starts = [
+        tuple(map(Fraction, of or [0] * chain.n_blocks))
+        for of in (positions, velocities)
+    ]
+    return Proof(
+        Certificate(chain, Fraction(100), None, *starts, Fraction(1), (), None, bits)
+    )
 
 
 def go_on(proof: Proof) -> None:

@@ -7,39 +7,93 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from accuracy.made_up import CHAIN, DURATION, TRUE, has_all_transitions, made_up, tied_certificate
+from accuracy.made_up import (
+    CHAIN,
+    DURATION,
+    TRUE,
+    has_all_transitions,
+    made_up,
+    tied_certificate,
+)
 from reference import read_golden
 
 from precursors import Chain, simulate
 from precursors.accuracy.compare import Truth, compare
 
 ONSETS = [0, 2, 6]
-# What doubles reach up to the first global slip [s], ten times what the exact solver's error is.
+# What doubles reach up to the first global slip [s], ten times what the exact solver's
+# error is.
 ROUNDING = 1e-14
 NONE = math.nan
 
 
 def altered(*changes, shift: float = 0.0, after: int = len(TRUE)) -> list[tuple]:
-    """The true rows with others in some places, and times shifted in and after one of them."""
+    """The true rows with others in some places, and times shifted in and after one of
+    them."""
     rows = [(t + shift * (k >= after), *rest) for k, (t, *rest) in enumerate(TRUE)]
     for k, row in changes:
         rows[k] = row
     return rows
 
 
-# A run, its right transitions and slips, all that it has of each, its largest errors [s, N], and when it
-# first differs [s].
+# A run, its right transitions and slips, all that it has of each, its largest errors
+# [s, N], and when it first differs [s].
 FOUND = {
     "the truth": (TRUE, 12, 3, 12, 3, 0.0, 0.0, math.inf),
     "late, and once early": (
         altered((4, (2.21875, *TRUE[4][1:])), shift=0.015625, after=0),
         *(12, 3, 12, 3, 0.03125, 0.0, math.inf),
     ),
-    "another load at an onset": (altered((6, (3.0, 1, 1, 119.5))), 12, 3, 12, 3, 0.0, 0.5, math.inf),
-    "another load elsewhere": (altered((7, (3.125, 2, 1, 119.5))), 12, 3, 12, 3, 0.0, 0.0, math.inf),
-    "another block": (altered((5, (2.375, 3, 0, 85.5)), shift=0.25, after=6), 5, 1, 12, 2, 0.0, 0.0, 2.375),
-    "another mode": (altered((5, (2.375, 2, -1, 85.5)), shift=0.25, after=6), 5, 1, 12, 2, 0.0, 0.0, 2.375),
-    "another first block": (altered((0, (1.0, 2, 1, 50.0))), 0, 0, 12, 2, NONE, NONE, 1.0),
+    "another load at an onset": (
+        altered((6, (3.0, 1, 1, 119.5))),
+        12,
+        3,
+        12,
+        3,
+        0.0,
+        0.5,
+        math.inf,
+    ),
+    "another load elsewhere": (
+        altered((7, (3.125, 2, 1, 119.5))),
+        12,
+        3,
+        12,
+        3,
+        0.0,
+        0.0,
+        math.inf,
+    ),
+    "another block": (
+        altered((5, (2.375, 3, 0, 85.5)), shift=0.25, after=6),
+        5,
+        1,
+        12,
+        2,
+        0.0,
+        0.0,
+        2.375,
+    ),
+    "another mode": (
+        altered((5, (2.375, 2, -1, 85.5)), shift=0.25, after=6),
+        5,
+        1,
+        12,
+        2,
+        0.0,
+        0.0,
+        2.375,
+    ),
+    "another first block": (
+        altered((0, (1.0, 2, 1, 50.0))),
+        0,
+        0,
+        12,
+        2,
+        NONE,
+        NONE,
+        1.0,
+    ),
     "another order": (
         altered((4, (2.25, 2, 0, 85.0)), (5, (2.375, 1, 0, 85.5))),
         4,
@@ -56,18 +110,36 @@ FOUND = {
     ),
     "one is missing": ([*TRUE[:9], *TRUE[10:]], 9, 3, 11, 3, 0.0, 0.0, 3.375),
     "it breaks off": (TRUE[:6], 6, 2, 6, 2, 0.0, 0.0, 3.0),
-    "two more": ([*TRUE, (3.75, 1, 1, 101.0), (3.875, 1, 0, 100.0)], 12, 3, 14, 4, 0.0, 0.0, 3.75),
+    "two more": (
+        [*TRUE, (3.75, 1, 1, 101.0), (3.875, 1, 0, 100.0)],
+        12,
+        3,
+        14,
+        4,
+        0.0,
+        0.0,
+        3.75,
+    ),
     "nothing": ([], 0, 0, 0, 0, NONE, NONE, 1.0),
 }
 
 
 @pytest.mark.parametrize(
-    ("rows", "n", "n_slips", "found", "slips", "time", "load", "differs"), FOUND.values(), ids=FOUND
+    ("rows", "n", "n_slips", "found", "slips", "time", "load", "differs"),
+    FOUND.values(),
+    ids=FOUND,
 )
-def test_what_is_right_ends_with_the_first_difference(rows, n, n_slips, found, slips, time, load, differs):
+def test_what_is_right_ends_with_the_first_difference(
+    rows, n, n_slips, found, slips, time, load, differs
+):
     of = compare(made_up(rows), Truth.of_run(made_up(TRUE)))
     assert (of.transitions_right, of.slips_right) == (n, n_slips)
-    assert (of.transitions_found, of.slips_found, of.transitions_true, of.slips_true) == (found, slips, 12, 3)
+    assert (
+        of.transitions_found,
+        of.slips_found,
+        of.transitions_true,
+        of.slips_true,
+    ) == (found, slips, 12, 3)
     assert (of.time_error, of.load_error, of.first_difference) == pytest.approx(
         (time, load, differs), abs=0.0, rel=0.0, nan_ok=True
     )
@@ -82,7 +154,9 @@ def test_digits_that_doubles_do_not_hold_count_too():
 
 def test_runs_of_other_chains_are_refused():
     with pytest.raises(ValueError, match="as many blocks as the truth, 3, but has 4"):
-        compare(simulate(Chain.from_slider(n_blocks=4), 0.1), Truth.of_run(made_up(TRUE)))
+        compare(
+            simulate(Chain.from_slider(n_blocks=4), 0.1), Truth.of_run(made_up(TRUE))
+        )
 
 
 def test_the_truth_until_the_global_slip_is_what_a_run_until_it_has():
@@ -98,7 +172,9 @@ def test_the_truth_until_the_global_slip_is_what_a_run_until_it_has():
 def test_the_exact_solver_has_every_transition_of_the_reference():
     truth = Truth.exact(Chain.from_slider(), 10.0, read_golden("fig10"))
     assert has_all_transitions(compare(simulate(Chain.from_slider()), truth))
-    found = compare(simulate(Chain.from_slider(), 10.0, "global slip"), truth.until_global_slip())
+    found = compare(
+        simulate(Chain.from_slider(), 10.0, "global slip"), truth.until_global_slip()
+    )
     assert has_all_transitions(found)
     assert 0.0 < found.time_error < ROUNDING
 

@@ -1,4 +1,5 @@
-"""Every failure mode is measured: the number differs from the right one, and for the reason that is given."""
+"""Every failure mode is measured: the number differs from the right one, and for the
+reason that is given."""
 
 from functools import cache
 
@@ -26,11 +27,12 @@ TIME_ERROR = 1e-6  # s
 # Between a measured curve or number and the closed form, of its first order.
 THEORY_TOLERANCE = 0.02
 EXACT_NUMBERS = ("restart_on_root", "forward_only")
-# Factors between a measured threshold and its theory, from the side of safety and beyond, by the beginning of
-# what fails. Without friction a bisection leaves 1e-3, and the energy of HHT swings. With it, fast modes are
-# tried by what a run happens to do, at steps 2 % apart. Where a stop falls within a step is chance: a zone is
-# jumped over or met, a step ends in a dip. Creep adds up from slip to slip. Late transitions change the
-# loads of those after them.
+# Factors between a measured threshold and its theory, from the side of safety and
+# beyond, by the beginning of what fails. Without friction a bisection leaves 1e-3, and
+# the energy of HHT swings. With it, fast modes are tried by what a run happens to do,
+# at steps 2 % apart. Where a stop falls within a step is chance: a zone is jumped over
+# or met, a step ends in a dip. Creep adds up from slip to slip. Late transitions change
+# the loads of those after them.
 FACTORS = {
     "energy grows": (0.999, 1.001),
     "energy doubles": (0.99, 1.01),
@@ -42,8 +44,8 @@ FACTORS = {
     "two roots": (0.7, 1.5),
     "two of three": (0.8, 1.2),
 }
-# The mean of the factors with friction over the numbers of blocks: chance is less of it, and the limits that
-# might be taken for each other are 1.15 to 1.41 apart.
+# The mean of the factors with friction over the numbers of blocks: chance is less of
+# it, and the limits that might be taken for each other are 1.15 to 1.41 apart.
 MEAN_FACTOR = (0.9, 1.1)
 
 
@@ -54,16 +56,26 @@ def measured(name: str) -> Failure:
 
 @cache
 def limits() -> list[Threshold]:
-    return [*thresholds(), *(t for mode in FAILURE_MODES for t in measured(mode).thresholds)]
+    return [
+        *thresholds(),
+        *(t for mode in FAILURE_MODES for t in measured(mode).thresholds),
+    ]
 
 
 @pytest.mark.parametrize("mode", FAILURE_MODES)
-def test_every_failure_mode_has_a_number_that_is_not_the_right_one_and_is_what_theory_predicts(mode):
-    failure, tolerance = measured(mode), 0.0 if mode in EXACT_NUMBERS else THEORY_TOLERANCE
+def test_every_failure_mode_has_a_number_that_is_not_the_right_one_and_is_what_theory_predicts(
+    mode,
+):
+    failure, tolerance = (
+        measured(mode),
+        0.0 if mode in EXACT_NUMBERS else THEORY_TOLERANCE,
+    )
     predicted = [n for n in failure.numbers if np.isfinite(n.predicted)]
     assert predicted or failure.thresholds or mode == "silent_instability"
     assert any(
-        n.measured != pytest.approx(n.exact, rel=1e-3) for n in failure.numbers if np.isfinite(n.exact)
+        n.measured != pytest.approx(n.exact, rel=1e-3)
+        for n in failure.numbers
+        if np.isfinite(n.exact)
     )
     for n in predicted:
         assert n.measured == pytest.approx(n.predicted, rel=tolerance, abs=0.0), n
@@ -90,18 +102,27 @@ def test_a_threshold_is_where_theory_says(fails):
 @pytest.mark.parametrize("name", STOPPING)
 def test_the_limit_with_friction_is_that_of_its_formula_and_of_no_other(name):
     factors = [
-        t.measured / t.predicted for t in limits() if (t.method, t.fails) == (METHODS[name].label, LOST)
+        t.measured / t.predicted
+        for t in limits()
+        if (t.method, t.fails) == (METHODS[name].label, LOST)
     ]
     assert MEAN_FACTOR[0] < np.mean(factors) < MEAN_FACTOR[1]
 
 
 def test_one_block_with_friction_fails_where_its_first_stop_says():
-    """By hand: after a step from rest, x becomes (1 - z^2 / 2 + z^4 / 24) x with RK4, (1 - z^2 / 2) x with
-    leapfrog; after two, (1 - 3 z^2 + z^4) x with semi-implicit Euler. At 1 the block goes on forward; at
-    -(mu_s + mu_k) / (mu_s - mu_k) the force at the stop is -mu_s w."""
-    z = {t.method: t.predicted for t in limits() if t.n_blocks == 1 and t.fails.startswith("no global slip")}
+    """By hand: after a step from rest, x becomes (1 - z^2 / 2 + z^4 / 24) x with RK4,
+    (1 - z^2 / 2) x with leapfrog; after two, (1 - 3 z^2 + z^4) x with semi-implicit
+    Euler. At 1 the block goes on forward; at -(mu_s + mu_k) / (mu_s - mu_k) the force
+    at the stop is -mu_s w."""
+    z = {
+        t.method: t.predicted
+        for t in limits()
+        if t.n_blocks == 1 and t.fails.startswith("no global slip")
+    }
     omega = np.sqrt(0.8e6 / 0.012)
-    rk4, leapfrog, euler = (omega * z[name] for name in ("RK4", "leapfrog", "semi-implicit Euler"))
+    rk4, leapfrog, euler = (
+        omega * z[name] for name in ("RK4", "leapfrog", "semi-implicit Euler")
+    )
     assert 1 - rk4**2 / 2 + rk4**4 / 24 == pytest.approx(1.0)
     assert 1 - leapfrog**2 / 2 == pytest.approx(-(0.70 + 0.45) / (0.70 - 0.45))
     assert 1 - 3 * euler**2 + euler**4 == pytest.approx(1.0)
@@ -125,17 +146,30 @@ def test_a_zone_is_jumped_over_at_a_greater_width_where_friction_turns_more():
 
 @pytest.mark.parametrize("theta", SCENES.values(), ids=SCENES)
 def test_without_merging_and_with_backward_sliding_the_gallerys_solver_is_right(theta):
-    """Else what the gallery calls the effect of a window or of a rule could be the solver's own error."""
+    """Else what the gallery calls the effect of a window or of a rule could be the
+    solver's own error."""
     chain = Chain.from_slider(theta=theta)
-    found = compare(solve_merging(chain, 2.5, 1e-12), Truth.of_run(simulate(chain, 2.5)))
-    assert found.transitions_right == found.transitions_found == found.transitions_true > 50
+    found = compare(
+        solve_merging(chain, 2.5, 1e-12), Truth.of_run(simulate(chain, 2.5))
+    )
+    assert (
+        found.transitions_right
+        == found.transitions_found
+        == found.transitions_true
+        > 50
+    )
     assert found.time_error < TIME_ERROR
 
 
-@pytest.mark.parametrize(("theta", "is_broken"), [("-5/6", True), (0.0, False), ("5/6", True)])
+@pytest.mark.parametrize(
+    ("theta", "is_broken"), [("-5/6", True), (0.0, False), ("5/6", True)]
+)
 def test_the_rule_is_first_broken_where_a_block_slides_backward(theta, is_broken):
     chain = Chain.from_slider(theta=theta)
-    exact, run = simulate(chain, 10.0, "global slip"), solve_forward_only(chain, 10.0, "global slip")
+    exact, run = (
+        simulate(chain, 10.0, "global slip"),
+        solve_forward_only(chain, 10.0, "global slip"),
+    )
     assert (run.transitions["mode"] >= 0).all()
     n = [*exact.transitions["mode"], -1].index(-1)
     assert (n < len(exact.transitions)) == is_broken
@@ -153,14 +187,21 @@ def test_a_motion_taken_from_a_run_goes_on_as_the_run_does():
         motion = motion_after(run, k)
         numbers, events = zip(*watched(motion), strict=True)
         span, tight = (0.0, motion.remaining), {"rtol": 1e-9, "atol": 1e-9}
-        found = solve_ivp(motion.rates, span, motion.y, "DOP853", events=events, **tight)
+        found = solve_ivp(
+            motion.rates, span, motion.y, "DOP853", events=events, **tight
+        )
         assert found.t[-1] * motion.tau == pytest.approx(run.intervals[k], rel=1e-6)
-        fired = [number for number, times in zip(numbers, found.t_events, strict=True) if len(times)]
+        fired = [
+            number
+            for number, times in zip(numbers, found.t_events, strict=True)
+            if len(times)
+        ]
         assert fired[0] // 2 + 1 == run.transitions["block"][k]
 
 
 def test_rk4_on_regularised_friction_breaks_at_the_step_that_is_given():
-    """A decay at the rate lambda becomes a rise: |1 + z + z^2/2 + z^3/6 + z^4/24| > 1, z = -lambda dt."""
+    """A decay at the rate lambda becomes a rise: |1 + z + z^2/2 + z^3/6 + z^4/24| > 1,
+    z = -lambda dt."""
     factor = np.polynomial.Polynomial([1, 1, 1 / 2, 1 / 6, 1 / 24])
     assert factor(-RK4_REAL_LIMIT) == pytest.approx(1.0, abs=1e-8)
     assert factor(-1.001 * RK4_REAL_LIMIT) > 1.0

@@ -7,11 +7,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from accuracy.made_up import CHAIN, DURATION, TRUE, has_all_transitions, made_up, tied_certificate
+from accuracy.made_up import (
+    CHAIN,
+    DURATION,
+    TRUE,
+    has_all_transitions,
+    made_up,
+    tied_certificate,
+)
 
 from precursors import Run, TransitionLimitError, simulate
 from precursors.accuracy.compare import Truth, compare
-from precursors.accuracy.proof import ExactChain, certify
 from precursors.accuracy.work_precision import (
     COUNTS,
     SHORTEST,
@@ -21,9 +27,11 @@ from precursors.accuracy.work_precision import (
     proved_cases,
 )
 from precursors.methods import METHODS, Method, Result
+from precursors.proof import ExactChain, certify
 
 FIVE = TRUE[:5]  # two slips, the second not over
-# A call of a fake method takes so long, on a clock that the test moves [s]; one is repeated in a round.
+# A call of a fake method takes so long, on a clock that the test moves [s]; one is
+# repeated in a round.
 CALL, SHORT_CALL = 2.0**-8, 2.0**-11
 
 
@@ -40,7 +48,9 @@ def test_a_proof_is_the_truth_to_its_end_and_to_the_first_global_slip():
     assert 0 < n < len(whole.truth.run.transitions) == len(certificate.transitions)
     np.testing.assert_array_equal(first.truth.time_rest, whole.truth.time_rest[:n])
     for of in (first, whole):
-        assert has_all_transitions(compare(simulate(of.chain, of.duration, of.until), of.truth))
+        assert has_all_transitions(
+            compare(simulate(of.chain, of.duration, of.until), of.truth)
+        )
 
 
 def test_methods_run_up_to_a_tie():
@@ -50,8 +60,12 @@ def test_methods_run_up_to_a_tie():
 
 
 @pytest.mark.parametrize("until", [None, "global slip"])
-def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solver_comes_first(until):
-    full, default = (charted_values(replace(case(FIVE), until=until), full) for full in (True, False))
+def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solver_comes_first(
+    until,
+):
+    full, default = (
+        charted_values(replace(case(FIVE), until=until), full) for full in (True, False)
+    )
     assert next(iter(full.items())) == next(iter(default.items())) == ("exact", (0.0,))
     for name, method in METHODS.items():
         assert full[name] == (method.values if until else method.whole)
@@ -61,12 +75,15 @@ def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solve
 
 
 class Fake:
-    """A method that takes as long as its setting says, at first longer, and gives a run."""
+    """A method that takes as long as its setting says, at first longer, and gives a
+    run."""
 
     def __init__(self, clock) -> None:
         self.run, self.clock, self.calls, self.compiling = made_up(FIVE), clock, [], 0.0
 
-    def solve(self, _chain, _duration: float, value: float, _until: str | None) -> Result:
+    def solve(
+        self, _chain, _duration: float, value: float, _until: str | None
+    ) -> Result:
         self.clock.now += value if self.calls else value + self.compiling
         self.calls.append(value)
         if isinstance(self.run, Run):
@@ -77,7 +94,15 @@ class Fake:
 @pytest.fixture
 def fake(monkeypatch: pytest.MonkeyPatch, clock) -> Fake:
     fake = Fake(clock)
-    method = Method("rk4", "fake", "time [s]", fake.solve, (CALL,), kind="once a step", look=("#123456", "p"))
+    method = Method(
+        "rk4",
+        "fake",
+        "time [s]",
+        fake.solve,
+        (CALL,),
+        kind="once a step",
+        look=("#123456", "p"),
+    )
     monkeypatch.setitem(METHODS, "rk4", method)
     return fake
 
@@ -91,7 +116,17 @@ def test_a_row_holds_time_work_and_errors(fake):
     (row,) = measured(CALL)
     assert [row.pop(name) for name in ("error_load_N", "error_time_s")] == [1.0, 0.0]
     assert [row.pop(name) for name in COUNTS] == [4, 4, 5, 2, 2, 2]
-    about = ["made up", 0.0, "end", "rk4", "fake", "once a step", "#123456", "p", "time [s]"]
+    about = [
+        "made up",
+        0.0,
+        "end",
+        "rk4",
+        "fake",
+        "once a step",
+        "#123456",
+        "p",
+        "time [s]",
+    ]
     assert list(row.values()) == [*about, CALL, 7, CALL]
 
 
@@ -99,7 +134,11 @@ def test_a_method_is_given_up_before_the_first_value_that_takes_too_long(fake):
     rows = measured(CALL, 10 * CALL, 11 * CALL, SHORT_CALL, longest=10 * CALL)
     assert [row["value"] for row in rows] == [CALL, 10 * CALL]
     # one to warm up, and one that counts as the first of five
-    assert (fake.calls.count(CALL), fake.calls.count(10 * CALL), fake.calls.count(11 * CALL)) == (6, 6, 2)
+    assert (
+        fake.calls.count(CALL),
+        fake.calls.count(10 * CALL),
+        fake.calls.count(11 * CALL),
+    ) == (6, 6, 2)
     assert SHORT_CALL not in fake.calls
 
 

@@ -14,16 +14,22 @@ def rows_of(theta, *steps) -> list:
 
 
 def test_steps_run_evenly_from_the_coarsest_to_the_finest_and_the_full_chart_has_more():
-    ends = {"rk4_skip": (25, 1e-9), "rk4": (7, 1e-6)}, {"rk4_skip": (97, 1e-9), "rk4": (49, 1e-7)}
+    ends = (
+        {"rk4_skip": (25, 1e-9), "rk4": (7, 1e-6)},
+        {"rk4_skip": (97, 1e-9), "rk4": (49, 1e-7)},
+    )
     for full, of in enumerate(ends):
         for name, steps in charted_steps(bool(full)).items():
             n, finest = of[name]
-            np.testing.assert_allclose(steps, 1e-5 * (finest / 1e-5) ** (np.arange(n) / (n - 1)), rtol=1e-13)
+            np.testing.assert_allclose(
+                steps, 1e-5 * (finest / 1e-5) ** (np.arange(n) / (n - 1)), rtol=1e-13
+            )
 
 
 @pytest.mark.parametrize(("theta", "right"), [(0.0, 216), ("5/6", 176)])
 def test_a_sweep_gives_the_papers_numbers_where_the_transitions_are_right(theta, right):
-    """Known: at theta = 5/6 and 1e-9 s it is right in 176 of 338 transitions, at 0 in all 216."""
+    """Known: at theta = 5/6 and 1e-9 s it is right in 176 of 338 transitions, at 0 in
+    all 216."""
     exact, coarse, fine = rows_of(theta, 1e-5, 1e-9)
     assert np.isnan(exact.step_s)
     assert exact.transitions_right == exact.transitions_true

@@ -12,11 +12,17 @@ def random_chain(rng: np.random.Generator) -> Chain:
         mu_k=rng.uniform(0.2, 0.65),
         drive_stiffness=10 ** rng.uniform(4.5, 7.5),
     )
-    return Chain(**{**vars(chain), "weights": chain.weights * rng.uniform(0.5, 1.5, chain.n_blocks)})
+    return Chain(
+        **{
+            **vars(chain),
+            "weights": chain.weights * rng.uniform(0.5, 1.5, chain.n_blocks),
+        }
+    )
 
 
 def random_transitions(rng: np.random.Generator) -> Run:
-    """A list of transitions that obeys no mechanics: rests without duration, turns, an unfinished event."""
+    """A list of transitions that obeys no mechanics: rests without duration, turns, an
+    unfinished event."""
     n_blocks, n = int(rng.integers(1, 5)), int(rng.integers(1, 40))
     intervals = rng.uniform(0.1, 1.0, n + 1) * (rng.random(n + 1) < 0.7)
     mode = np.zeros(n_blocks + 1, int)
@@ -26,4 +32,6 @@ def random_transitions(rng: np.random.Generator) -> Run:
         mode[block] = rng.choice([m for m in (-1, 0, 1) if m != mode[block]])
         rows.append((time, block, mode[block], rng.uniform(0, 300)))
     chain = Chain.from_slider(n_blocks)
-    return Run.from_transitions(chain, intervals.sum(), *zip(*rows, strict=True), intervals)
+    return Run.from_transitions(
+        chain, intervals.sum(), *zip(*rows, strict=True), intervals
+    )

@@ -14,12 +14,16 @@ MOST_BYTES = 3e6
 def worst_in_slips(run, times, loads):
     """Largest deviation of the straight lines from F_X in any slip [N]."""
     slips = find_slips(run)
-    inside = np.linspace(slips["onset"], slips["end"].fillna(run.duration), POINTS_PER_SLIP).T.ravel()
+    inside = np.linspace(
+        slips["onset"], slips["end"].fillna(run.duration), POINTS_PER_SLIP
+    ).T.ravel()
     return np.abs(np.interp(inside, times, loads) - run.tangential_load(inside)).max()
 
 
 @pytest.mark.parametrize("theta", [-5 / 6, 0.0, 5 / 6])
-def test_straight_lines_between_the_rows_of_a_trace_draw_every_slip_of_ten_seconds(theta):
+def test_straight_lines_between_the_rows_of_a_trace_draw_every_slip_of_ten_seconds(
+    theta,
+):
     run = simulate(Chain.from_slider(theta=theta), 10.0)
     trace = load_trace(run)
     assert worst_in_slips(run, *trace.to_numpy().T) <= TOLERANCE_N
@@ -27,7 +31,8 @@ def test_straight_lines_between_the_rows_of_a_trace_draw_every_slip_of_ten_secon
 
 
 @pytest.mark.parametrize(
-    ("n_blocks", "tolerance", "n_points"), [(1, TOLERANCE_N, 1343), (10, TOLERANCE_N, 3013), (10, 1e-2, 613)]
+    ("n_blocks", "tolerance", "n_points"),
+    [(1, TOLERANCE_N, 1343), (10, TOLERANCE_N, 3013), (10, 1e-2, 613)],
 )
 def test_they_do_so_for_other_chains_and_tolerances_with_no_more_points_than_before(
     n_blocks, tolerance, n_points

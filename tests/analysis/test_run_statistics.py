@@ -1,4 +1,5 @@
-"""Intervals of a median and of a share hold what they are about in 95 % of cases, and in not many more."""
+"""Intervals of a median and of a share hold what they are about in 95 % of cases, and
+in not many more."""
 
 from __future__ import annotations
 
@@ -18,10 +19,22 @@ from precursors.analysis.run_statistics import (
 
 @pytest.mark.parametrize(
     ("n", "ends"),
-    [(0, None), (5, None), (6, (1, 6)), (7, (1, 7)), (9, (2, 8)), (20, (6, 15)), (40, (14, 27))],
+    [
+        (0, None),
+        (5, None),
+        (6, (1, 6)),
+        (7, (1, 7)),
+        (9, (2, 8)),
+        (20, (6, 15)),
+        (40, (14, 27)),
+    ],
 )
-def test_the_interval_of_a_median_ends_at_the_values_that_tables_of_order_statistics_have(n, ends):
-    interval = median_interval(np.random.default_rng(n).permutation(np.arange(1.0, n + 1)))
+def test_the_interval_of_a_median_ends_at_the_values_that_tables_of_order_statistics_have(
+    n, ends
+):
+    interval = median_interval(
+        np.random.default_rng(n).permutation(np.arange(1.0, n + 1))
+    )
     assert interval == ends if ends else np.isnan(interval).all()
 
 
@@ -30,12 +43,17 @@ def test_the_interval_of_a_median_holds_it_as_often_as_it_says_whatever_the_dist
     draws = np.random.default_rng(2013).exponential(size=(n_draws, 12))
     held = [low <= np.log(2) <= high for low, high in map(median_interval, draws)]
     # By the binomial distribution, to three standard errors of so many draws.
-    assert np.mean(held) == pytest.approx(0.9614, abs=3 * np.sqrt(0.04 * 0.96 / n_draws))
+    assert np.mean(held) == pytest.approx(
+        0.9614, abs=3 * np.sqrt(0.04 * 0.96 / n_draws)
+    )
 
 
 @pytest.mark.parametrize(("n", "largest_mean"), [(6, 0.99), (41, 0.975), (200, 0.965)])
-def test_the_interval_of_a_share_holds_every_probability_in_at_least_95_of_100_cases(n, largest_mean):
-    """Summed over all numbers of hits. It is longer than it must be, the less so the larger n."""
+def test_the_interval_of_a_share_holds_every_probability_in_at_least_95_of_100_cases(
+    n, largest_mean
+):
+    """Summed over all numbers of hits. It is longer than it must be, the less so the
+    larger n."""
     hits, probability = np.arange(n + 1), np.linspace(0.005, 0.995, 199)
     low, high = np.transpose([share_interval(k, n) for k in hits])[:, :, None]
     held = (low <= probability) & (probability <= high)
@@ -46,7 +64,8 @@ def test_the_interval_of_a_share_holds_every_probability_in_at_least_95_of_100_c
 
 
 def test_the_statistics_of_21_numbers_are_those_of_the_textbooks():
-    """0, 1, ..., 20, and one that is not known; the sixth from either end holds the median."""
+    """0, 1, ..., 20, and one that is not known; the sixth from either end holds the
+    median."""
     values = pd.Series([*np.random.default_rng(1).permutation(21), np.nan])
     ends = {"q50_low": 5.0, "q50_high": 15.0}
     quantiles = {"q05": 1.0, "q25": 5.0, "q50": 10.0, "q75": 15.0, "q95": 19.0}
@@ -70,5 +89,7 @@ def test_the_interval_of_a_difference_of_medians_ends_at_values_of_both():
         (-0.03, -0.011, "different"),
     ],
 )
-def test_an_interval_lies_within_the_tolerance_across_its_edge_or_outside(low, high, verdict):
+def test_an_interval_lies_within_the_tolerance_across_its_edge_or_outside(
+    low, high, verdict
+):
     assert compared(low, high, tolerance=0.01) == verdict

@@ -1,4 +1,5 @@
-"""Events, precursors, global slip and mu_sapp follow from the transitions by the stated definitions."""
+"""Events, precursors, global slip and mu_sapp follow from the transitions by the stated
+definitions."""
 
 import math
 
@@ -18,7 +19,8 @@ from precursors.analysis.slips import (
 
 
 def run_of(n_blocks, transitions, duration):
-    """A run with the given (time, block, mode, load), at rest at the start, without stored states."""
+    """A run with the given (time, block, mode, load), at rest at the start, without
+    stored states."""
     columns = zip(*transitions, strict=True) if transitions else [[]] * 4
     return Run.from_transitions(Chain.from_slider(n_blocks), duration, *columns)
 
@@ -26,21 +28,40 @@ def run_of(n_blocks, transitions, duration):
 def events_one_by_one(run):
     """Slip events as a plain loop over the transitions finds them."""
     events, slides, goes_on, largest = [], set(), False, 0.0
-    for (time, block, mode, load), pause in zip(run.transitions, run.intervals[1:], strict=True):
+    for (time, block, mode, load), pause in zip(
+        run.transitions, run.intervals[1:], strict=True
+    ):
         largest = max(largest, load)
         if not goes_on:
             events.append(
-                {"onset": time, "load_before": load, "largest_load": largest, "slid": set(), "most": 0}
+                {
+                    "onset": time,
+                    "load_before": load,
+                    "largest_load": largest,
+                    "slid": set(),
+                    "most": 0,
+                }
             )
         event = events[-1]
         slides = slides | {block} if mode else slides - {block}
         event["slid"] |= slides
         event["most"] = max(event["most"], len(slides))
-        event["end"], event["load_after"] = (math.nan, math.nan) if slides else (time, load)
+        event["end"], event["load_after"] = (
+            (math.nan, math.nan) if slides else (time, load)
+        )
         goes_on = slides or pause == 0.0
     return [
         {
-            **{name: event[name] for name in ("onset", "end", "load_before", "load_after", "largest_load")},
+            **{
+                name: event[name]
+                for name in (
+                    "onset",
+                    "end",
+                    "load_before",
+                    "load_after",
+                    "largest_load",
+                )
+            },
             "front": max(event["slid"], default=0),
             "n_slid": len(event["slid"]),
             "n_simultaneous": event["most"],
@@ -53,16 +74,23 @@ def events_one_by_one(run):
 def test_any_list_of_transitions_has_the_events_of_a_plain_loop():
     rng = np.random.default_rng(5)
     runs = [random_transitions(rng) for _ in range(300)]
-    runs += [simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(100)]
+    runs += [
+        simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(100)
+    ]
     for run in runs:
         expected = pd.DataFrame(events_one_by_one(run), columns=find_slips(run).columns)
-        pd.testing.assert_frame_equal(find_slips(run), expected, check_dtype=False, check_exact=True)
+        pd.testing.assert_frame_equal(
+            find_slips(run), expected, check_dtype=False, check_exact=True
+        )
 
 
 def test_something_else_than_a_run_or_its_slips_is_named():
     with pytest.raises(TypeError, match="slips are found in a Run, but this is Chain"):
         find_slips(Chain.from_slider())
-    with pytest.raises(TypeError, match="precursors are found in the table of find_slips, but this is int"):
+    with pytest.raises(
+        TypeError,
+        match="precursors are found in the table of find_slips, but this is int",
+    ):
         find_precursors(5)
 
 
@@ -77,8 +105,15 @@ def test_short_events_are_dropped_equal_ones_kept_and_nothing_after_the_global_s
 
 def test_mu_sapp_under_every_definition_is_that_of_the_stated_event():
     run = simulate(Chain.from_slider(theta="-5/6"), duration=3.0)
-    found = [apparent_friction(slip_table(run), definition) for definition in DEFINITIONS]
-    assert [(f.event, f.events_counted) for f in found] == [(7, 6), (7, 6), (6, 5), (6, 5)]
+    found = [
+        apparent_friction(slip_table(run), definition) for definition in DEFINITIONS
+    ]
+    assert [(f.event, f.events_counted) for f in found] == [
+        (7, 6),
+        (7, 6),
+        (6, 5),
+        (6, 5),
+    ]
     assert [round(f.mu_sapp, 4) for f in found] == [0.4845, 0.4845, 0.4336, 0.4336]
     assert found[0].load == pytest.approx(found[0].mu_sapp * 400.0, rel=1e-15)
     assert apparent_friction(slip_table(simulate(run.chain, duration=1.0))) is None
@@ -91,10 +126,13 @@ def test_mu_sapp_is_the_largest_load_before_the_global_slip_though_an_earlier_ev
     table = slip_table(run_of(2, back + both, 9.0))
     assert table["largest_load_N"].tolist() == [90.0, 120.0]
     assert apparent_friction(table).mu_sapp == pytest.approx(120.0 / 400.0, rel=1e-15)
-    assert apparent_friction(table, Definition(largest=False)).mu_sapp == pytest.approx(0.25, rel=1e-15)
+    assert apparent_friction(table, Definition(largest=False)).mu_sapp == pytest.approx(
+        0.25, rel=1e-15
+    )
 
 
-# Front, blocks that slid, most at once, load before and after, of five events of a chain of three blocks.
+# Front, blocks that slid, most at once, load before and after, of five events of a
+# chain of three blocks.
 EVENTS = pd.DataFrame(
     [
         (2, 2, 1, 9.0, 8.0),
@@ -119,7 +157,9 @@ EVENTS = pd.DataFrame(
         (Definition("each", "n_simultaneous", "not longer"), 3, [0, 2]),
     ],
 )
-def test_a_reading_decides_which_event_is_global_and_which_are_short(definition, global_slip, counted):
+def test_a_reading_decides_which_event_is_global_and_which_are_short(
+    definition, global_slip, counted
+):
     slips = definition.read(EVENTS)
     assert first_global(slips) == global_slip
     assert find_precursors(slips, definition.short).index.tolist() == counted

@@ -15,7 +15,9 @@ def table_path(run: Run) -> dict[str, float]:
     friction = apparent_friction(table)
     reached = friction is not None
     up_to = slips.iloc[: first_global(slips) + 1] if reached else slips
-    start, end = (up_to.onset.iloc[-1], up_to.end.iloc[-1]) if reached else (np.nan, np.nan)
+    start, end = (
+        (up_to.onset.iloc[-1], up_to.end.iloc[-1]) if reached else (np.nan, np.nan)
+    )
     later = slips.onset.iloc[len(up_to)] if len(up_to) < len(slips) else np.inf
     return {
         "events_to_global_slip": len(up_to),
@@ -44,16 +46,23 @@ def crossing_time(run: Run, start: float) -> float:
 
 
 def test_runs_at_random_have_the_summary_of_their_slip_table():
-    """Of chains, of any transitions, of blocks that move at the start, and without any transition."""
+    """Of chains, of any transitions, of blocks that move at the start, and without any
+    transition."""
     rng = np.random.default_rng(4)
-    runs = [simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(150)]
+    runs = [
+        simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(150)
+    ]
     runs += [random_transitions(rng) for _ in range(300)]
-    runs.append(simulate(Chain.from_slider(), duration=0.5, start_velocities=np.full(10, 0.01)))
+    runs.append(
+        simulate(Chain.from_slider(), duration=0.5, start_velocities=np.full(10, 0.01))
+    )
     runs.append(simulate(Chain.from_slider(), duration=0.1))
     runs.append(simulate(Chain.from_slider(), duration=3.0))
     summaries = summarise(runs)
     assert 50 < summaries["reached"].sum() < 400  # both kinds are tried
-    assert np.isnan(summaries["end"][summaries["reached"]]).any()  # cut off by the end of the run
+    assert np.isnan(
+        summaries["end"][summaries["reached"]]
+    ).any()  # cut off by the end of the run
     for found, run in zip(summaries, runs, strict=True):
         expected = table_path(run)
         assert set(found.dtype.names) == set(expected)

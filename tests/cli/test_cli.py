@@ -1,4 +1,5 @@
-"""The command line: what each command prints and returns, one line for every error, a start at once."""
+"""The command line: what each command prints and returns, one line for every error, a
+start at once."""
 
 import inspect
 import json
@@ -20,7 +21,16 @@ import pytest
 from precursors import Chain, Run, find_slips, simulate
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
-from precursors.cli import CHAIN, COMMANDS, EPILOG, LARGER, Refused, join_negative_values, main, parser
+from precursors.cli import (
+    CHAIN,
+    COMMANDS,
+    EPILOG,
+    LARGER,
+    Refused,
+    join_negative_values,
+    main,
+    parser,
+)
 from precursors.figures import precursor_lengths, scene, style
 from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 from precursors.support import provenance
@@ -38,7 +48,8 @@ def _compiled():
 
 @pytest.fixture
 def cli(capsys, _compiled):
-    """Run a command; return its exit code, and what it wrote to standard output and standard error."""
+    """Run a command; return its exit code, and what it wrote to standard output and
+    standard error."""
 
     def run(*arguments):
         try:
@@ -62,19 +73,29 @@ def run_file(tmp_path_factory):
 
 def test_help_loads_nothing_heavy_and_lists_the_exit_codes():
     program = (
-        "import sys\nfrom precursors.cli import main\ntry: main(['--help'])\nfinally: print(*sys.modules)"
+        "import sys\nfrom precursors.cli import main\n"
+        "try: main(['--help'])\nfinally: print(*sys.modules)"
     )
-    told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    told = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
     assert not HEAVY & set(told.stdout.split())
     codes = told.stdout.partition("exit codes:")[2].splitlines()
     assert [int(line.split()[0]) for line in codes[1:7]] == CODES
 
 
 def test_the_options_of_a_chain_stand_once_in_the_help(cli):
-    assert ["--theta" in cli(command, "--help")[1] for command in COMMANDS] == [True, False, False, False]
+    assert ["--theta" in cli(command, "--help")[1] for command in COMMANDS] == [
+        True,
+        False,
+        False,
+        False,
+    ]
 
 
-@pytest.mark.parametrize("example", re.findall(r"^  precursors (.*?)(?:   .*)?$", EPILOG, re.MULTILINE))
+@pytest.mark.parametrize(
+    "example", re.findall(r"^  precursors (.*?)(?:   .*)?$", EPILOG, re.MULTILINE)
+)
 def test_the_examples_of_the_help_are_read(example):
     parser().parse_args(join_negative_values(example.split()))
 
@@ -91,7 +112,10 @@ OF_A_CHAIN = """
         ("", "simulate slips plot audit"),
         ("simulate --", OF_A_CHAIN),
         ("slips --", f"{OF_A_CHAIN} --counted"),
-        ("plot --", f"{OF_A_CHAIN} --figure --data --width --font-size --font --title --no-inset"),
+        (
+            "plot --",
+            f"{OF_A_CHAIN} --figure --data --width --font-size --font --title --no-inset",
+        ),
         ("plot --figure ", "load lengths"),
     ],
 )
@@ -99,8 +123,15 @@ def test_a_shell_completes_commands_choices_and_for_every_command_the_options_of
     tmp_path, line, offered
 ):
     line = f"precursors {line}"
-    wanted = {"_ARGCOMPLETE": "1", "COMP_LINE": line, "COMP_POINT": str(len(line)), "_ARGCOMPLETE_IFS": " "}
-    environment = os.environ | wanted | {"_ARGCOMPLETE_STDOUT_FILENAME": str(tmp_path / "told")}
+    wanted = {
+        "_ARGCOMPLETE": "1",
+        "COMP_LINE": line,
+        "COMP_POINT": str(len(line)),
+        "_ARGCOMPLETE_IFS": " ",
+    }
+    environment = (
+        os.environ | wanted | {"_ARGCOMPLETE_STDOUT_FILENAME": str(tmp_path / "told")}
+    )
     subprocess.run(COMMAND, env=environment, check=True)
     words = set((tmp_path / "told").read_text().split())
     assert words - {"-h", "--help", "--version"} == set(offered.split())
@@ -114,11 +145,22 @@ def test_the_help_states_the_defaults_of_the_library():
     assert LARGER.keys() == inspect.signature(LargerChain).parameters.keys() - {"chain"}
 
 
-@pytest.mark.parametrize(("changed", "words"), [(False, ""), (True, ", and files have changed since")])
-def test_the_version_is_told_with_the_commit_of_a_checkout(cli, monkeypatch, changed, words):
-    state = {"commit": "abc", "swh_revision": "rev", "swh_directory": "dir", "changed": changed}
+@pytest.mark.parametrize(
+    ("changed", "words"), [(False, ""), (True, ", and files have changed since")]
+)
+def test_the_version_is_told_with_the_commit_of_a_checkout(
+    cli, monkeypatch, changed, words
+):
+    state = {
+        "commit": "abc",
+        "swh_revision": "rev",
+        "swh_directory": "dir",
+        "changed": changed,
+    }
     root = Path(__file__).parents[2]
-    monkeypatch.setattr(provenance, "git_state", lambda place: state if place == root else None)
+    monkeypatch.setattr(
+        provenance, "git_state", lambda place: state if place == root else None
+    )
     told = f"precursors {version('precursors')}\ncommit abc{words}\nrev\ndir\n"
     assert cli("--version") == (0, told, "")
 
@@ -154,7 +196,9 @@ global_slip_end_s  -
 
 
 @pytest.mark.parametrize(
-    ("options", "text"), [(["--theta", "-5/6"], SUMMARY), (["--duration", 0.1], CALM)], ids=["-5/6", "calm"]
+    ("options", "text"),
+    [(["--theta", "-5/6"], SUMMARY), (["--duration", 0.1], CALM)],
+    ids=["-5/6", "calm"],
 )
 def test_simulate_tells_what_a_run_says_and_where_it_is(cli, options, text, tmp_path):
     assert cli("simulate", *options) == (0, text, "")
@@ -162,39 +206,66 @@ def test_simulate_tells_what_a_run_says_and_where_it_is(cli, options, text, tmp_
     code, out, err = cli("simulate", *options, "--output", file)
     assert (code, out, err) == (0, f"{text}output             {file}\n", "")
     told = json.loads(cli("simulate", *options, "--json")[1])
-    assert [f"{name} {'-' if value is None else f'{value:.10g}'}" for name, value in told.items()] == [
-        " ".join(line.split()) for line in text.splitlines()[2:]
-    ]
+    assert [
+        f"{name} {'-' if value is None else f'{value:.10g}'}"
+        for name, value in told.items()
+    ] == [" ".join(line.split()) for line in text.splitlines()[2:]]
     assert len(Run.load(file).transitions) == told["transitions"]
 
 
 def test_a_run_may_end_with_the_first_global_slip_of_any_chain(cli, tmp_path):
-    cli("simulate", "--blocks", 5, "--mu-k", "1/3", "--until-global-slip", "--output", tmp_path / "run.h5")
+    cli(
+        "simulate",
+        "--blocks",
+        5,
+        "--mu-k",
+        "1/3",
+        "--until-global-slip",
+        "--output",
+        tmp_path / "run.h5",
+    )
     run = simulate(Chain.from_slider(n_blocks=5, mu_k=1 / 3), until="global slip")
-    assert Run.load(tmp_path / "run.h5").transitions.tolist() == run.transitions.tolist()
+    assert (
+        Run.load(tmp_path / "run.h5").transitions.tolist() == run.transitions.tolist()
+    )
 
 
 def test_the_slips_of_a_larger_chain_are_told(cli):
     larger = LargerChain(Chain.from_slider(), weakening_velocity=0.02)
     slips = find_slips(simulate_with_accuracy(larger, 1.0))
     code, out, _ = cli("slips", "--weakening-velocity", 0.02, "--duration", 1, "--json")
-    assert (code, [row["onset_s"] for row in json.loads(out)]) == (0, slips["onset"].tolist())
+    assert (code, [row["onset_s"] for row in json.loads(out)]) == (
+        0,
+        slips["onset"].tolist(),
+    )
 
 
-def test_a_run_that_meets_its_limit_is_kept_in_the_file_that_was_asked_for(cli, tmp_path):
+def test_a_run_that_meets_its_limit_is_kept_in_the_file_that_was_asked_for(
+    cli, tmp_path
+):
     told = "precursors simulate: max_transitions = 100 reached at t = 2.29058305 s of 10 s, last at block 4: "
     told += "raise max_transitions or shorten duration"
     assert cli("simulate", "--max-transitions", 100) == (1, "", f"{told}\n")
-    code, _, err = cli("simulate", "--max-transitions", 100, "--output", tmp_path / "run.h5")
+    code, _, err = cli(
+        "simulate", "--max-transitions", 100, "--output", tmp_path / "run.h5"
+    )
     assert (code, err) == (1, f"{told}; the run so far is in {tmp_path / 'run.h5'}\n")
     run = Run.load(tmp_path / "run.h5")
     assert (len(run.transitions), run.slider["n_blocks"]) == (100, 10)
-    assert cli("slips", "--max-transitions", 100, "--output", tmp_path / "slips.csv")[0] == 1
+    assert (
+        cli("slips", "--max-transitions", 100, "--output", tmp_path / "slips.csv")[0]
+        == 1
+    )
     assert not (tmp_path / "slips.csv").exists()
 
 
 def test_a_command_whose_output_is_closed_ends_without_a_traceback():
-    told = subprocess.run(f"{shlex.join(COMMAND)} simulate >&-", shell=True, capture_output=True, text=True)
+    told = subprocess.run(
+        f"{shlex.join(COMMAND)} simulate >&-",
+        shell=True,
+        capture_output=True,
+        text=True,
+    )
     assert (told.returncode, told.stderr) == (0, "")
 
 
@@ -224,24 +295,38 @@ def test_slips_lists_the_events_of_a_run_file(cli, run_file):
 
 def test_slips_of_a_chain_may_be_those_of_fig_13_only_and_go_to_a_file(cli, tmp_path):
     path = tmp_path / "slips.csv"
-    options = ("slips", "--theta=5/6", "--until-global-slip", "--counted", "--output", path)
+    options = (
+        "slips",
+        "--theta=5/6",
+        "--until-global-slip",
+        "--counted",
+        "--output",
+        path,
+    )
     assert cli(*options) == (0, f"14 events: {path}\n", "")
     assert pd.read_csv(path)["counted"].tolist() == [True] * 14
 
 
 @pytest.mark.parametrize("arguments", [["slips", "--theta", "5/6"], ["--version"]])
 def test_a_reader_that_has_enough_is_no_error(arguments):
-    command = subprocess.Popen([*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    command = subprocess.Popen(
+        [*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
     command.stdout.close()
     assert command.stderr.read() == b""
     assert command.wait() == 0
 
 
-def test_slips_of_measured_normal_loads_are_those_of_the_same_linear_ones_without_theta(cli, tmp_path):
+def test_slips_of_measured_normal_loads_are_those_of_the_same_linear_ones_without_theta(
+    cli, tmp_path
+):
     (tmp_path / "loads.csv").write_text("block;load\n1;30,0\n2;40,0\n3;50,0\n")
     measured = ("--weights", tmp_path / "loads.csv")
     linear = ("--theta", 0.25, "--blocks", 3, "--normal-load", 120)
-    told = [pd.DataFrame(json.loads(cli("slips", *of, "--json")[1])) for of in (measured, linear)]
+    told = [
+        pd.DataFrame(json.loads(cli("slips", *of, "--json")[1]))
+        for of in (measured, linear)
+    ]
     assert told[0].pop("theta").isna().all()
     assert told[1].pop("theta").eq(0.25).all()
     pd.testing.assert_frame_equal(*told)
@@ -250,19 +335,35 @@ def test_slips_of_measured_normal_loads_are_those_of_the_same_linear_ones_withou
 # plot
 
 
-def test_plot_draws_what_the_library_draws_as_it_is_told_to(cli, run_file, tmp_path, monkeypatch):
+def test_plot_draws_what_the_library_draws_as_it_is_told_to(
+    cli, run_file, tmp_path, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     Path("loads.csv").write_text("t;F\n0;0\n1,5;120,5\n")
     Path("lengths.csv").write_text("F;L\n100;0,5\n")
     run = Run.load(run_file)
-    slips, trace, look = slip_table(run), load_trace(run), style.Look(85.0, 9.0, "DejaVu Serif")
+    slips, trace, look = (
+        slip_table(run),
+        load_trace(run),
+        style.Look(85.0, 9.0, "DejaVu Serif"),
+    )
     asked = ["--width=85", "--font-size=9", "--font=DejaVu Serif", "--title=Mine"]
-    measured = {"data": np.array([[0.0, 0.0], [1.5, 120.5]]), "inset": False, "look": look}
+    measured = {
+        "data": np.array([[0.0, 0.0], [1.5, 120.5]]),
+        "inset": False,
+        "look": look,
+    }
     lengths = {"data": np.array([[100.0, 0.5]]), "title": "Mine", "look": look}
     for options, figure in (
         ([], scene.draw(slips, trace, "N = 10")),
-        ([*asked, "--data=loads.csv", "--no-inset"], scene.draw(slips, trace, "Mine", **measured)),
-        ([*asked, "--figure=lengths", "--data=lengths.csv"], precursor_lengths.draw([slips], **lengths)),
+        (
+            [*asked, "--data=loads.csv", "--no-inset"],
+            scene.draw(slips, trace, "Mine", **measured),
+        ),
+        (
+            [*asked, "--figure=lengths", "--data=lengths.csv"],
+            precursor_lengths.draw([slips], **lengths),
+        ),
     ):
         told = f"output  {tmp_path / 'a.svg'}\n"
         assert cli("plot", run_file, *options, "--output=a.svg") == (0, told, "")
@@ -270,9 +371,13 @@ def test_plot_draws_what_the_library_draws_as_it_is_told_to(cli, run_file, tmp_p
         assert Path("a.svg").read_bytes() == Path("b.svg").read_bytes()
 
 
-def test_plot_runs_a_chain_and_draws_into_a_file_of_its_own_name(cli, tmp_path, monkeypatch):
+def test_plot_runs_a_chain_and_draws_into_a_file_of_its_own_name(
+    cli, tmp_path, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
-    code, out, _ = cli("plot", "--theta", "5/6", "--blocks", 3, "--duration", 0.5, "--json")
+    code, out, _ = cli(
+        "plot", "--theta", "5/6", "--blocks", 3, "--duration", 0.5, "--json"
+    )
     assert (code, json.loads(out)) == (0, {"output": str(tmp_path / "precursors.png")})
     assert Path("precursors.png").read_bytes().startswith(b"\x89PNG")
 
@@ -280,12 +385,23 @@ def test_plot_runs_a_chain_and_draws_into_a_file_of_its_own_name(cli, tmp_path, 
 # audit
 
 
-def test_audit_refuses_a_damaged_file_and_a_transition_moved_by_a_nanosecond(cli, run_file, tmp_path):
+def test_audit_refuses_a_damaged_file_and_a_transition_moved_by_a_nanosecond(
+    cli, run_file, tmp_path
+):
     (tmp_path / "damaged.h5").write_bytes(run_file.read_bytes()[:-1000])
     code, out, err = cli("audit", tmp_path / "damaged.h5", run_file)
-    assert (code, out) == (1, f"{run_file}: a motion of the model, 236 transitions in 3 s\n")
-    assert err.startswith(f"precursors audit: {tmp_path / 'damaged.h5'} is not a run file, or is damaged: ")
-    assert cli("audit", tmp_path / "damaged.h5", tmp_path / "damaged.h5") == (1, "", err * 2)
+    assert (code, out) == (
+        1,
+        f"{run_file}: a motion of the model, 236 transitions in 3 s\n",
+    )
+    assert err.startswith(
+        f"precursors audit: {tmp_path / 'damaged.h5'} is not a run file, or is damaged: "
+    )
+    assert cli("audit", tmp_path / "damaged.h5", tmp_path / "damaged.h5") == (
+        1,
+        "",
+        err * 2,
+    )
     assert cli("audit", run_file, run_file) == (0, out * 2, "")
     run = Run.load(run_file)
     transitions = run.transitions.copy()
@@ -293,7 +409,9 @@ def test_audit_refuses_a_damaged_file_and_a_transition_moved_by_a_nanosecond(cli
     replace(run, transitions=transitions).save(tmp_path / "moved.h5")
     code, _, err = cli("audit", tmp_path / "moved.h5")
     assert (code, err.count("\n")) == (1, 1)
-    assert err.startswith(f"precursors audit: {tmp_path / 'moved.h5'}: not a motion of the model: ")
+    assert err.startswith(
+        f"precursors audit: {tmp_path / 'moved.h5'}: not a motion of the model: "
+    )
 
 
 # Errors
@@ -305,15 +423,31 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
 @pytest.mark.parametrize(
     ("arguments", "code", "about"),
     [
-        ("", 2, "needed is one of simulate, slips, plot, audit (see precursors --help)"),
+        (
+            "",
+            2,
+            "needed is one of simulate, slips, plot, audit (see precursors --help)",
+        ),
         ("fly", 2, "'fly'"),
         ("simulat", 2, "did you mean simulate? (see precursors --help)"),
         ("slips --thta 0", 2, "did you mean --theta? (see precursors --help)"),
-        ("plot --figure length", 2, "did you mean lengths? (see precursors plot --help)"),
+        (
+            "plot --figure length",
+            2,
+            "did you mean lengths? (see precursors plot --help)",
+        ),
         ("plot --figure 1e9", 2, "'lengths') (see precursors plot --help)"),
-        ("simulate --output /dev/null/run.h5 --duration 1e9", 3, "/dev/null is not a directory"),
+        (
+            "simulate --output /dev/null/run.h5 --duration 1e9",
+            3,
+            "/dev/null is not a directory",
+        ),
         ("slips --output / --duration 1e9", 3, "cannot write /: it is a directory"),
-        ("plot --duration 1e9 --output figure.doc", 2, "must end in .png, .svg, .pdf or .eps"),
+        (
+            "plot --duration 1e9 --output figure.doc",
+            2,
+            "must end in .png, .svg, .pdf or .eps",
+        ),
         ("plot --duration 1e9 --width 8.5", 2, "between 40 and 400 mm, but is 8.5"),
         ("plot --duration 1e9 --font-size 90", 2, "between 4 and 24 pt, but is 90"),
         ("plot --duration 1e9 --font Helvetia", 2, "'Helvetia' is not installed"),
@@ -321,7 +455,11 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
         ("simulate --theta 2", 2, "theta must be a number between -1 and 1"),
         ("simulate --theta x", 2, "theta must be a number between -1 and 1"),
         ("simulate --blocks 2.5", 2, "invalid int value: '2.5'"),
-        ("slips --counted=yes", 2, "argument --counted: takes no value, but has 'yes' (see"),
+        (
+            "slips --counted=yes",
+            2,
+            "argument --counted: takes no value, but has 'yes' (see",
+        ),
         ("simulate --blocks 0", 2, "n_blocks must be a whole number from 1 to 100000"),
         ("simulate --mu-s 1/0", 2, "'1/0' is not a number"),
         ("simulate --duration -1", 2, "duration must be above 0 s"),
@@ -359,7 +497,9 @@ def test_an_error_is_one_line_that_names_what_is_wrong(cli, arguments, code, abo
         (OSError("cannot write run.h5"), 3, "cannot write run.h5"),
     ],
 )
-def test_what_goes_wrong_in_a_command_is_one_line_and_an_exit_code(cli, monkeypatch, error, code, told):
+def test_what_goes_wrong_in_a_command_is_one_line_and_an_exit_code(
+    cli, monkeypatch, error, code, told
+):
     def fail(_):
         raise error
 
@@ -371,7 +511,8 @@ def test_what_goes_wrong_in_a_command_is_one_line_and_an_exit_code(cli, monkeypa
 
 
 def test_an_interrupt_stops_compiled_code():
-    # A shell without job control has SIGINT ignored in what it starts in the background; tests inherit that.
+    # A shell without job control has SIGINT ignored in what it starts in the
+    # background; tests inherit that.
     program = (
         "import signal, sys; from precursors.cli import main; from precursors.solver import kernel\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
@@ -380,11 +521,16 @@ def test_an_interrupt_stops_compiled_code():
         "sys.exit(main(['simulate', '--duration', '1e6']))"
     )
     command = subprocess.Popen(
-        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [sys.executable, "-c", program],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
     )
     assert command.stdout.readline() == "running\n"
     command.send_signal(signal.SIGINT)
-    out, err = command.communicate(timeout=300)  # far more than it takes, unless it hangs
+    out, err = command.communicate(
+        timeout=300
+    )  # far more than it takes, unless it hangs
     assert command.returncode == 130
     assert set(out.splitlines()) <= {"running"}  # some calls of the kernel more
     assert err == "precursors simulate: interrupted\n"
@@ -392,7 +538,15 @@ def test_an_interrupt_stops_compiled_code():
 
 @pytest.mark.parametrize("fraction", ["-5/6", "5/6", "-.5", "-0.25", "1e-1"])
 def test_theta_may_be_negative_and_a_fraction(cli, fraction, tmp_path):
-    code, *_ = cli("simulate", "--theta", fraction, "--duration", 0.01, "--output", tmp_path / "run.h5")
+    code, *_ = cli(
+        "simulate",
+        "--theta",
+        fraction,
+        "--duration",
+        0.01,
+        "--output",
+        tmp_path / "run.h5",
+    )
     assert code == 0
     expected = Chain.from_slider(theta=float(Fraction(fraction)))
     assert Run.load(tmp_path / "run.h5").chain == expected

@@ -1,4 +1,5 @@
-"""A SLURM of one node in a directory of its own, started and stopped again without a trace elsewhere."""
+"""A SLURM of one node in a directory of its own, started and stopped again without a
+trace elsewhere."""
 
 from __future__ import annotations
 
@@ -29,13 +30,19 @@ class SlurmNode:
     def query(self, *command: str) -> str:
         """What a command of SLURM prints."""
         return subprocess.run(
-            command, env=self.environment, check=True, capture_output=True, text=True, timeout=30
+            command,
+            env=self.environment,
+            check=True,
+            capture_output=True,
+            text=True,
+            timeout=30,
         ).stdout
 
 
 @contextmanager
 def slurm_node(directory: Path, cpus: int) -> Iterator[SlurmNode]:
-    """Start a SLURM with so many CPUs, whose files all lie in a new directory; stop it again with its jobs.
+    """Start a SLURM with so many CPUs, whose files all lie in a new directory; stop it
+    again with its jobs.
 
     Raises
     ------
@@ -49,22 +56,32 @@ def slurm_node(directory: Path, cpus: int) -> Iterator[SlurmNode]:
     key = directory / "munge.key"
     key.write_bytes(secrets.token_bytes(128))
     key.chmod(0o600)
-    inherited = {name: of for name, of in os.environ.items() if not name.startswith(("SLURM_", "SBATCH_"))}
+    inherited = {
+        name: of
+        for name, of in os.environ.items()
+        if not name.startswith(("SLURM_", "SBATCH_"))
+    }
     path = os.pathsep.join((str(directory / "bin"), os.environ["PATH"], SUPERUSER_PATH))
     node = SlurmNode(inherited | {"PATH": path, "SLURM_CONF": str(configuration)})
     # Jobs lose SLURM_CONF before they call srun.
     wrapper = directory / "bin/srun"
     srun = shutil.which("srun", path=path)
-    wrapper.write_text(f'#!/bin/sh\nSLURM_CONF={configuration} exec {srun} "$@"\n', encoding="utf-8")
+    wrapper.write_text(
+        f'#!/bin/sh\nSLURM_CONF={configuration} exec {srun} "$@"\n', encoding="utf-8"
+    )
     wrapper.chmod(0o755)
     # By force: other users cannot reach its socket, nor need they.
     munge = ["--force", f"--key-file={key}", f"--socket={directory}/munge.socket"]
-    munge += [f"--{kind}-file={directory}/munged.{kind}" for kind in ("pid", "log", "seed")]
+    munge += [
+        f"--{kind}-file={directory}/munged.{kind}" for kind in ("pid", "log", "seed")
+    ]
     with ExitStack() as stack:
         for daemon in DAEMONS:
             command = [*daemon.split(), *(munge if daemon.startswith("munged") else [])]
             output = stack.enter_context((directory / f"{command[0]}.out").open("w"))
-            process = subprocess.Popen(command, env=node.environment, stdout=output, stderr=output)
+            process = subprocess.Popen(
+                command, env=node.environment, stdout=output, stderr=output
+            )
             stack.callback(stop, process)
         wait_until_idle(node, directory)
         stack.callback(node.query, "scancel", f"--user={getpass.getuser()}")
@@ -102,7 +119,9 @@ def wait_until_idle(node: SlurmNode, directory: Path) -> None:
         except subprocess.SubprocessError:
             pass
         sleep(0.2)
-    said = [path.read_text(encoding="utf-8")[-1500:] for path in directory.glob("*.out")]
+    said = [
+        path.read_text(encoding="utf-8")[-1500:] for path in directory.glob("*.out")
+    ]
     raise RuntimeError("SLURM does not come up:\n" + "\n".join(said))
 
 

@@ -8,7 +8,9 @@ from precursors.ensembles.studies import make_study, study_arguments
 from precursors.ensembles.study import Study
 from precursors.model import printed
 
-CONFIG = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8"))
+CONFIG = yaml.safe_load(
+    (Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8")
+)
 PAPER = {scene: printed.SCENES[scene] for scene in CONFIG["fig13"]}
 
 

@@ -1,4 +1,5 @@
-"""The rows of a study are those of its runs one by one, however it is cut into chunks."""
+"""The rows of a study are those of its runs one by one, however it is cut into
+chunks."""
 
 import numpy as np
 import pandas as pd
@@ -7,7 +8,14 @@ from ensembles.studies import noise_of
 
 from precursors import simulate
 from precursors.analysis.summary import SUMMARY, summarise
-from precursors.ensembles.study import LEFT_OUT, WITH_UNITS, Study, chain_of, gather, run_members
+from precursors.ensembles.study import (
+    LEFT_OUT,
+    WITH_UNITS,
+    Study,
+    chain_of,
+    gather,
+    run_members,
+)
 from precursors.support.files import read_table, write_table
 
 
@@ -24,7 +32,9 @@ def rows(noise) -> pd.DataFrame:
 def chunks_of(study: Study, n: int, directory) -> list:
     paths = [directory / f"{i}of{n}.csv" for i in range(1, n + 1)]
     for i, path in enumerate(paths, 1):
-        write_table(run_members(study.chunk(i, n)).rename_axis("member").reset_index(), path)
+        write_table(
+            run_members(study.chunk(i, n)).rename_axis("member").reset_index(), path
+        )
     return [read_table(path) for path in paths]
 
 
@@ -32,13 +42,17 @@ def one_by_one(study: Study) -> np.ndarray:
     """Summaries of the members of a study, each run alone."""
     runs = []
     for member in study.members.to_dict("records"):
-        runs.append(simulate(chain_of(member, study.seed), member["duration"], study.until))
+        runs.append(
+            simulate(chain_of(member, study.seed), member["duration"], study.until)
+        )
     return summarise(runs)
 
 
 def assert_rows(found: pd.DataFrame, expected: np.ndarray) -> None:
     for name in SUMMARY.names:
-        np.testing.assert_array_equal(found[WITH_UNITS.get(name, name)], expected[name], err_msg=name)
+        np.testing.assert_array_equal(
+            found[WITH_UNITS.get(name, name)], expected[name], err_msg=name
+        )
 
 
 def test_every_row_is_that_of_its_run_alone_to_the_last_bit(noise, rows):
@@ -47,7 +61,9 @@ def test_every_row_is_that_of_its_run_alone_to_the_last_bit(noise, rows):
 
 
 @pytest.mark.parametrize("n", [2, 5])
-def test_the_gathered_table_is_the_same_to_the_last_bit_however_a_study_is_cut(noise, rows, n, tmp_path):
+def test_the_gathered_table_is_the_same_to_the_last_bit_however_a_study_is_cut(
+    noise, rows, n, tmp_path
+):
     chunks = chunks_of(noise, n, tmp_path)
     table = gather(chunks[::-1])
     pd.testing.assert_frame_equal(table, rows[list(table)], check_exact=True)
@@ -80,21 +96,33 @@ def test_members_are_run_with_their_own_number_of_blocks_noise_and_duration():
     assert_rows(run_members(study), one_by_one(study))
 
 
-def test_a_member_that_meets_the_limit_of_transitions_is_kept_as_far_as_it_came(noise, rows, monkeypatch):
+def test_a_member_that_meets_the_limit_of_transitions_is_kept_as_far_as_it_came(
+    noise, rows, monkeypatch
+):
     def capped(chains, duration, until, threads):
-        return [simulate(chain, duration, until, max_transitions=100) for chain in chains]
+        return [
+            simulate(chain, duration, until, max_transitions=100) for chain in chains
+        ]
 
     monkeypatch.setattr("precursors.ensembles.study.simulate_many", capped)
-    found = run_members(Study(noise.members.query("scene == 'fig12'"), noise.until, noise.seed))
+    found = run_members(
+        Study(noise.members.query("scene == 'fig12'"), noise.until, noise.seed)
+    )
     longer = rows.loc[found.index, "transitions"] > 100
-    assert (found["transitions"] == rows.loc[found.index, "transitions"].clip(upper=100)).all()
+    assert (
+        found["transitions"] == rows.loc[found.index, "transitions"].clip(upper=100)
+    ).all()
     assert (found["end_s"].isna() == longer).all()
     assert longer.sum() > 0
 
 
 def test_a_larger_ensemble_contains_the_smaller(noise):
     for few, many in zip(
-        noise.members.groupby("scene"), noise_of(runs=20).members.groupby("scene"), strict=True
+        noise.members.groupby("scene"),
+        noise_of(runs=20).members.groupby("scene"),
+        strict=True,
     ):
         small, large = (table.head(13).to_dict("records") for _, table in (few, many))
-        assert [chain_of(member, 1) for member in small] == [chain_of(member, 1) for member in large]
+        assert [chain_of(member, 1) for member in small] == [
+            chain_of(member, 1) for member in large
+        ]

@@ -1,4 +1,5 @@
-"""What a reader does on the explorer's page, and all that the page then says and draws."""
+"""What a reader does on the explorer's page, and all that the page then says and
+draws."""
 
 from __future__ import annotations
 
@@ -11,7 +12,12 @@ import numpy as np
 import pandas as pd
 from browser import Page, browser, find_browser
 
-from precursors.figures.explorer.page import Proved, Scene, counted_events, write_explorer
+from precursors.figures.explorer.page import (
+    Proved,
+    Scene,
+    counted_events,
+    write_explorer,
+)
 from precursors.model.scenes import SLIDER
 
 GOLDEN = Path(__file__).parents[1] / "golden"
@@ -105,7 +111,9 @@ def write_example(path: Path) -> None:
     scenes = []
     for name, theta in THETAS.items():
         events = counted_events(pd.read_csv(GOLDEN / f"{name}_slips.csv"))
-        scenes.append(Scene(f"{name} a <!--<script>\"'", SLIDER | {"theta": theta}, events))
+        scenes.append(
+            Scene(f"{name} a <!--<script>\"'", SLIDER | {"theta": theta}, events)
+        )
     proved = [Proved(scene.slider, 10.0) for scene in scenes] + [Proved(FAST, 0.2)]
     write_explorer(scenes, proved, 10.0, path)
 
@@ -114,7 +122,11 @@ def states(table: pd.DataFrame) -> list[dict[str, str]]:
     """All that a page shows after each action, from what the actions change."""
     state, found = dict[str, str](), []
     for action, rows in table.groupby(["session", "action"], sort=False):
-        state = state | dict(zip(rows["what"], rows["shown"], strict=True)) | {"action": ": ".join(action)}
+        state = (
+            state
+            | dict(zip(rows["what"], rows["shown"], strict=True))
+            | {"action": ": ".join(action)}
+        )
         found.append({what: text for what, text in state.items() if text})
     return found
 
@@ -124,13 +136,19 @@ def assert_same_page(found: pd.DataFrame, kept: pd.DataFrame) -> None:
     for page, kept_page in zip(states(found), states(kept), strict=True):
         assert page.keys() == kept_page.keys(), page["action"]
         for what, text in page.items():
-            assert PLACE.sub("@", text) == PLACE.sub("@", kept_page[what]), (page["action"], what)
-            places, kept_places = (np.array(PLACE.findall(t), float) for t in (text, kept_page[what]))
+            assert PLACE.sub("@", text) == PLACE.sub("@", kept_page[what]), (
+                page["action"],
+                what,
+            )
+            places, kept_places = (
+                np.array(PLACE.findall(t), float) for t in (text, kept_page[what])
+            )
             assert (abs(places - kept_places) < TOLERANCE).all(), (page["action"], what)
 
 
 def record(page: Page, address: str, session: str) -> pd.DataFrame:
-    """What the page shows after each action of a session, where it shows something else than before."""
+    """What the page shows after each action of a session, where it shows something else
+    than before."""
     rows, before = [], dict[str, str]()
     for action in SESSIONS[session]:
         if session == ADDRESSES or not rows:
@@ -141,9 +159,13 @@ def record(page: Page, address: str, session: str) -> pd.DataFrame:
         page.wait_for(STILL)
         page.settle()
         page.wait_for(STILL)
-        shown = page.evaluate("shownNow()") | {"film": film if isinstance(film, str) else ""}
+        shown = page.evaluate("shownNow()") | {
+            "film": film if isinstance(film, str) else ""
+        }
         rows += [
-            (session, action, what, text) for what, text in shown.items() if text != before.get(what, "")
+            (session, action, what, text)
+            for what, text in shown.items()
+            if text != before.get(what, "")
         ]
         before = shown
     return pd.DataFrame(rows, columns=["session", "action", "what", "shown"])

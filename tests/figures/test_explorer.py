@@ -1,4 +1,5 @@
-"""The explorer solves chains as the library does, says and draws what is kept, and serves every reader."""
+"""The explorer solves chains as the library does, says and draws what is kept, and
+serves every reader."""
 
 import json
 import re
@@ -31,7 +32,8 @@ ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src/precursors/figures/explorer"
 
 MOST_BYTES = 120e3
-# Errors of times [s] up to the end of the first global slip; later they grow with the chaos of the motion.
+# Errors of times [s] up to the end of the first global slip; later they grow with the
+# chaos of the motion.
 UP_TO_GLOBAL_SLIP = 1e-10
 # Largest relative error of a time of the random chains, in their first 200 transitions.
 OF_RANDOM_CHAINS = 1e-9
@@ -51,7 +53,9 @@ def file(tmp_path_factory):
 def page():
     path = find_browser()
     if path is None:
-        pytest.skip("no Chromium or Chrome here: the explorer is not tried in a browser")
+        pytest.skip(
+            "no Chromium or Chrome here: the explorer is not tried in a browser"
+        )
     with browser(path) as new_page:
         page = new_page()
         page.open("about:blank")
@@ -77,21 +81,30 @@ SOLVE = """(() => {
 
 def run_in(page, cases):
     """Transitions of (slider, duration, most transitions) as solver.js finds them."""
-    asked = json.dumps([[SLIDER | slider, duration, most] for slider, duration, most in cases])
-    solver = (SOURCE / "solver.js").read_text(encoding="utf-8").replace('"use strict";', "")
+    asked = json.dumps(
+        [[SLIDER | slider, duration, most] for slider, duration, most in cases]
+    )
+    solver = (
+        (SOURCE / "solver.js").read_text(encoding="utf-8").replace('"use strict";', "")
+    )
     return page.evaluate(SOLVE % (solver, asked))
 
 
 @pytest.mark.parametrize("scene", THETAS)
 def test_every_transition_is_the_proved_one(page, scene):
     reference = pd.read_csv(GOLDEN / f"reference_{scene}.csv")
-    ((time, block, mode, load),) = run_in(page, [({"theta": THETAS[scene]}, 10.0, 10**6)])
+    ((time, block, mode, load),) = run_in(
+        page, [({"theta": THETAS[scene]}, 10.0, 10**6)]
+    )
     assert block == reference["block"].tolist()
     assert mode == reference["mode"].tolist()
     run = simulate(Chain.from_slider(theta=THETAS[scene]), until="global slip")
     first = slice(len(run.transitions))
     assert np.abs(np.array(time) - reference["time_s"])[first].max() < UP_TO_GLOBAL_SLIP
-    assert np.abs(np.array(load) - reference["tangential_load_N"])[first].max() < 80 * UP_TO_GLOBAL_SLIP
+    assert (
+        np.abs(np.array(load) - reference["tangential_load_N"])[first].max()
+        < 80 * UP_TO_GLOBAL_SLIP
+    )
 
 
 def random_slider(rng):
@@ -112,23 +125,40 @@ def test_fifty_random_sliders_move_as_in_the_kernel(page):
     sliders = [random_slider(rng) for _ in range(50)]
     chains = [Chain.from_slider(**slider) for slider in sliders]
     durations = [5 * chain.normal_load / chain.loading_rate for chain in chains]
-    found = run_in(page, [(s, duration, 200) for s, duration in zip(sliders, durations, strict=True)])
-    for chain, duration, (time, block, mode, _) in zip(chains, durations, found, strict=True):
+    found = run_in(
+        page,
+        [(s, duration, 200) for s, duration in zip(sliders, durations, strict=True)],
+    )
+    for chain, duration, (time, block, mode, _) in zip(
+        chains, durations, found, strict=True
+    ):
         try:
             run = simulate(chain, duration, max_transitions=200)
         except TransitionLimitError as error:
             run = error.run
         assert block[:200] == run.transitions["block"].tolist()
         assert mode[:200] == run.transitions["mode"].tolist()
-        assert time[:200] == pytest.approx(run.transitions["time"], rel=OF_RANDOM_CHAINS)
+        assert time[:200] == pytest.approx(
+            run.transitions["time"], rel=OF_RANDOM_CHAINS
+        )
 
 
-def test_the_chains_that_are_called_proved_move_as_in_the_kernel_up_to_the_first_global_slip(page):
+def test_the_chains_that_are_called_proved_move_as_in_the_kernel_up_to_the_first_global_slip(
+    page,
+):
     config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
-    sliders = [proved_slider(values) for values in config["accuracy"]["proved"].values()]
+    sliders = [
+        proved_slider(values) for values in config["accuracy"]["proved"].values()
+    ]
     assert all(scene_slider(config, scene) in sliders for scene in THETAS)
-    runs = [simulate(Chain.from_slider(**slider), until="global slip").transitions for slider in sliders]
-    found = run_in(page, [(slider, 10.0, len(run)) for slider, run in zip(sliders, runs, strict=True)])
+    runs = [
+        simulate(Chain.from_slider(**slider), until="global slip").transitions
+        for slider in sliders
+    ]
+    found = run_in(
+        page,
+        [(slider, 10.0, len(run)) for slider, run in zip(sliders, runs, strict=True)],
+    )
     for run, (time, block, mode, _) in zip(runs, found, strict=True):
         assert (block, mode) == (run["block"].tolist(), run["mode"].tolist())
         assert np.abs(np.array(time) - run["time"]).max() < UP_TO_GLOBAL_SLIP
@@ -138,34 +168,55 @@ def test_the_chains_that_are_called_proved_move_as_in_the_kernel_up_to_the_first
 
 
 @pytest.mark.parametrize("session", SESSIONS)
-def test_the_page_says_and_draws_what_is_kept_and_asks_the_network_for_nothing(page, file, session):
+def test_the_page_says_and_draws_what_is_kept_and_asks_the_network_for_nothing(
+    page, file, session
+):
     kept = pd.read_csv(KEPT, keep_default_na=False)
-    assert_same_page(record(page, file.as_uri(), session), kept[kept["session"] == session])
+    assert_same_page(
+        record(page, file.as_uri(), session), kept[kept["session"] == session]
+    )
     assert page.complaints == []
-    asked = {request.split("#")[0] for request in page.requests if not request.startswith("blob:")}
+    asked = {
+        request.split("#")[0]
+        for request in page.requests
+        if not request.startswith("blob:")
+    }
     assert asked == {file.as_uri()}
 
 
 def kept_answers():
-    """What the page says of every run to its end, by the command that it gives for the run."""
+    """What the page says of every run to its end, by the command that it gives for the
+    run."""
     kept = pd.read_csv(KEPT, keep_default_na=False)
     of = {one["command"]: one["answers"] for one in states(kept) if "film" not in one}
     return {command: said for command, said in of.items() if "Stopped" not in said}
 
 
 @pytest.mark.parametrize("command", kept_answers())
-def test_what_is_kept_is_what_the_library_says_of_the_pages_command(command, tmp_path, capsys, monkeypatch):
+def test_what_is_kept_is_what_the_library_says_of_the_pages_command(
+    command, tmp_path, capsys, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     loads, _, options = command.rpartition(" > loads.txt && ")
     (tmp_path / "loads.txt").write_text(loads.removeprefix('echo "').removesuffix('"'))
-    assert cli.main(["simulate", *shlex.split(options)[2:], "--until-global-slip", "--json"]) == 0
+    assert (
+        cli.main(
+            ["simulate", *shlex.split(options)[2:], "--until-global-slip", "--json"]
+        )
+        == 0
+    )
     told = json.loads(capsys.readouterr().out)
     expected = "No global slip in 10 s"
     if told["global_slip_s"]:
         counted = told["events_counted"]
         expected = f"{counted} event{'s' * (counted > 1)} counted in Fig. 13"
-        said = re.sub(r"(Fig. 13|μsapp)[^·=]*(?=[·=]|$)", r"\1 ", kept_answers()[command])
-        assert f"μsapp = {told['mu_sapp']:.4f} · first global slip at {told['global_slip_s']:.3f} s" in said
+        said = re.sub(
+            r"(Fig. 13|μsapp)[^·=]*(?=[·=]|$)", r"\1 ", kept_answers()[command]
+        )
+        assert (
+            f"μsapp = {told['mu_sapp']:.4f} · first global slip at {told['global_slip_s']:.3f} s"
+            in said
+        )
     assert kept_answers()[command].startswith(expected)
 
 
@@ -184,7 +235,9 @@ def test_the_row_of_blocks_moves_as_the_library_says(page, file):
         assert shifts - shifts[-1] == pytest.approx(positions - positions[-1], abs=2e-7)
 
 
-READ = "(new Function('postMessage', 'onmessage', %s + '; return readMeasurement;')()(%s))"
+READ = (
+    "(new Function('postMessage', 'onmessage', %s + '; return readMeasurement;')()(%s))"
+)
 
 
 @pytest.mark.parametrize(
@@ -203,10 +256,14 @@ READ = "(new Function('postMessage', 'onmessage', %s + '; return readMeasurement
     ],
 )
 def test_a_measurement_is_read_or_the_wrong_line_is_named(page, lines, points):
-    source = "".join((SOURCE / f"{name}.js").read_text("utf-8") for name in ("solver", "worker"))
+    source = "".join(
+        (SOURCE / f"{name}.js").read_text("utf-8") for name in ("solver", "worker")
+    )
     found = page.evaluate(READ % (json.dumps(source), json.dumps(lines)))
     assert found == (
-        {"problem": points} if isinstance(points, str) else dict(zip(("time", "load"), points, strict=True))
+        {"problem": points}
+        if isinstance(points, str)
+        else dict(zip(("time", "load"), points, strict=True))
     )
 
 
@@ -220,7 +277,9 @@ def test_the_page_is_one_small_file_that_names_no_other(file):
     assert "a <!--<script>" not in page
 
 
-def test_a_phone_shows_the_row_and_the_sliders_together_and_a_finger_meets_everything(page, file):
+def test_a_phone_shows_the_row_and_the_sliders_together_and_a_finger_meets_everything(
+    page, file
+):
     open_explorer(page, file, *PHONE)
     boxes = page.evaluate(
         "['row', 'play', 'sliders'].map(name => element(name).getBoundingClientRect())"
@@ -232,7 +291,8 @@ def test_a_phone_shows_the_row_and_the_sliders_together_and_a_finger_meets_every
     small = page.evaluate(
         "document.querySelectorAll('details').forEach(d => d.open = true),"
         "[...document.querySelectorAll('button, input:not([type=file]), summary, .file')]"
-        ".filter(e => e.offsetParent && !e.closest('p .word'))"  # words in a sentence may be smaller
+        # words in a sentence may be smaller
+        ".filter(e => e.offsetParent && !e.closest('p .word'))"
         f".filter(e => e.offsetWidth < {TARGET} || e.offsetHeight < {TARGET}).map(e => e.outerHTML)"
     )
     assert small == []
@@ -263,7 +323,9 @@ CONTRASTS = """(() => {
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_the_contrast_is_that_of_wcag_aa_and_every_control_has_a_name(page, file, scheme):
+def test_the_contrast_is_that_of_wcag_aa_and_every_control_has_a_name(
+    page, file, scheme
+):
     open_explorer(page, file)
     page.prefer(prefers_color_scheme=scheme)
     page.settle()

@@ -1,4 +1,5 @@
-"""Every figure, drawn from small tables, is the picture that is kept; `make golden` replaces the pictures."""
+"""Every figure, drawn from small tables, is the picture that is kept; `make golden`
+replaces the pictures."""
 
 from __future__ import annotations
 
@@ -34,7 +35,8 @@ from precursors.figures import (
 GOLDEN = Path(__file__).parents[1] / "golden"
 SMALL = GOLDEN / "small"
 PUBLISHED = GOLDEN.parents[1] / "paper/tables"
-# Of 255: the same release of Matplotlib draws the same picture, but for a few grey levels where it smooths.
+# Of 255: the same release of Matplotlib draws the same picture, but for a few grey
+# levels where it smooths.
 GREY_LEVELS = 8
 SCENES = ("fig11", "fig10", "fig12")
 # As a journal wants it: one column, large letters, a font whose symbols differ.
@@ -63,47 +65,81 @@ def draw_scene(events: pd.DataFrame, duration: float = 10.0, **how: object):
 
 
 def crowded_scene():
-    """Many events, one of which the end of the run cuts off, and a measurement below zero."""
+    """Many events, one of which the end of the run cuts off, and a measurement below
+    zero."""
     first, times = slips("fig12"), ["onset_s", "end_s"]
     again = first.assign(**(first[times] + 10.0))
-    small = first[first["onset_s"] < 2.8].assign(**(first[times] + 0.012), is_global=False)
+    small = first[first["onset_s"] < 2.8].assign(
+        **(first[times] + 0.012), is_global=False
+    )
     small["load_after_N"] = small["load_before_N"] - np.geomspace(1e-3, 1.0, len(small))
-    cut = first.iloc[[0]].assign(onset_s=16.0, front=7, end_s=np.nan, load_after_N=np.nan)
-    events = pd.concat([first, small, again[again["onset_s"] < 15.0], cut]).sort_values("onset_s")
+    cut = first.iloc[[0]].assign(
+        onset_s=16.0, front=7, end_s=np.nan, load_after_N=np.nan
+    )
+    events = pd.concat([first, small, again[again["onset_s"] < 15.0], cut]).sort_values(
+        "onset_s"
+    )
     data = np.array([[0.0, -40.0], [2.0, 120.0], [2.7, 170.0], [9.0, 250.0]])
-    return draw_scene(events, 20.0, title="as a journal wants it, for a dollar: $5", data=data, look=NARROW)
+    return draw_scene(
+        events,
+        20.0,
+        title="as a journal wants it, for a dollar: $5",
+        data=data,
+        look=NARROW,
+    )
 
 
 def endless_scene():
     """A chain of one block that slides from the start and never stops."""
-    event = {"onset_s": 0.0, "end_s": np.nan, "front": 1, "n_blocks": 1, "is_global": True, "length_m": 0.25}
+    event = {
+        "onset_s": 0.0,
+        "end_s": np.nan,
+        "front": 1,
+        "n_blocks": 1,
+        "is_global": True,
+        "length_m": 0.25,
+    }
     flat = pd.DataFrame({"time_s": [0.0, 1.0], "tangential_load_N": 0.0})
     return scene.draw(slips().iloc[[0]].assign(**event), flat)
 
 
 def partial_scene():
-    """No slip is global, though one reaches the leading edge; another scene has the larger loads."""
+    """No slip is global, though one reaches the leading edge; another scene has the
+    larger loads."""
     events = slips(is_global=False).iloc[:16]
     return draw_scene(events, 3.0, title="partial", others=[trace(slips("fig12")) * 2])
 
 
 def paper_lengths():
     mu_sapp = read(GOLDEN / "mu_sapp.csv")
-    return precursor_lengths.draw(list(map(slips, SCENES)), mu_sapp, SCENES, printed=[6, None, 14])
+    return precursor_lengths.draw(
+        list(map(slips, SCENES)), mu_sapp, SCENES, printed=[6, None, 14]
+    )
 
 
 def other_lengths():
-    """Scenes of one sign, of another slider, without a global slip, without theta and without a slip."""
+    """Scenes of one sign, of another slider, without a global slip, without theta and
+    without a slip."""
     same_sign = slips("fig12", theta=0.2, normal_load_N=800.0)
     few = slips(n_blocks=12)[lambda table: ~table["is_global"]]
-    tables = [slips("fig12"), same_sign, few, slips(theta=np.nan).iloc[:1], slips().iloc[:0]]
+    tables = [
+        slips("fig12"),
+        same_sign,
+        few,
+        slips(theta=np.nan).iloc[:1],
+        slips().iloc[:0],
+    ]
     data = np.array([[50.0, 0.3], [90.0, 0.5]])
-    return precursor_lengths.draw(tables, data=data, title="costs $5 at most", look=NARROW)
+    return precursor_lengths.draw(
+        tables, data=data, title="costs $5 at most", look=NARROW
+    )
 
 
 def one_length():
     mu_sapp = read(GOLDEN / "mu_sapp.csv")
-    return precursor_lengths.draw([slips()], mu_sapp, ["fig10"], data=np.array([[50.0, 0.3]]))
+    return precursor_lengths.draw(
+        [slips()], mu_sapp, ["fig10"], data=np.array([[50.0, 0.3]])
+    )
 
 
 def charted_methods(work: str, theta: float, extents: list[str]):
@@ -120,37 +156,73 @@ def swept_steps():
         ("rk4_skip", 1e-6, 6, 4),
         ("rk4", 1e-5, 8, 2),
     ]
-    rows = pd.DataFrame(points, columns=["method", "step_s", "events_counted", "transitions_right"])
+    rows = pd.DataFrame(
+        points, columns=["method", "step_s", "events_counted", "transitions_right"]
+    )
     rows = rows.assign(mu_sapp=0.1 * rows["events_counted"], transitions_true=10)
     scenes = [rows.assign(scene=f"{theta}", theta=theta) for theta in (0.5, 0.0)]
     return step_sweep.draw(pd.concat(scenes, ignore_index=True))
 
 
 def gallery_of_failures():
-    """The same curves in all panels; thresholds from 1.25, predicted ones from 3.75, for 10 blocks."""
+    """The same curves in all panels; thresholds from 1.25, predicted ones from 3.75,
+    for 10 blocks."""
     panels = failure_gallery.PANELS.values()
     limits = [(*limit, panel.scale[0]) for panel in panels for limit in panel.limits]
-    thresholds = pd.DataFrame(limits, columns=["fails", "method", "scale"]).assign(n_blocks=10)
+    thresholds = pd.DataFrame(limits, columns=["fails", "method", "scale"]).assign(
+        n_blocks=10
+    )
     place = np.arange(len(thresholds))
     thresholds["measured"] = (place + 1.25) / thresholds["scale"]
     thresholds["predicted"] = (place + 3.75) / thresholds["scale"]
-    names = ["exact", "dt = 1e-07 s", "theory, dt = 1e-07 s", "theta = -1", "1.2e-10 s", "theory"]
+    names = [
+        "exact",
+        "dt = 1e-07 s",
+        "theory, dt = 1e-07 s",
+        "theta = -1",
+        "1.2e-10 s",
+        "theory",
+    ]
     curves = []
     for panel in panels:
         x, y = np.array([0.1, 0.2, 0.4]) / np.reshape(panel.scale, (2, 1))
         curves.append(
-            pd.concat([pd.DataFrame({"c": name, "x": x, "y": n * y}) for n, name in enumerate(names, 1)])
+            pd.concat(
+                [
+                    pd.DataFrame({"c": name, "x": x, "y": n * y})
+                    for n, name in enumerate(names, 1)
+                ]
+            )
         )
-    return failure_gallery.draw(pd.concat([thresholds, thresholds.assign(n_blocks=2, measured=0.0)]), curves)
+    return failure_gallery.draw(
+        pd.concat([thresholds, thresholds.assign(n_blocks=2, measured=0.0)]), curves
+    )
 
 
 def predicted_errors():
-    chains = {"trailing": {"theta": "-5/6"}, "fast": {"theta": "5/6", "drive_velocity": 0.01}}
+    chains = {
+        "trailing": {"theta": "-5/6"},
+        "fast": {"theta": "5/6", "drive_velocity": 0.01},
+    }
     errors = {"time_s": [0.05, 0.1, 0.15], "predicted_error_s": [1e-16, 1e-12, np.nan]}
     errors |= {"actual_error_s": [1e-17, 1e-13, 1e-10]}
-    lost = {"duration_s": 0.2, "order_lost_s": 0.16, "horizon_s": 0.12, "right_until_s": 0.14}
-    kept = {"duration_s": 0.2, "order_lost_s": 0.2, "horizon_s": 0.2, "right_until_s": 0.2}
-    exponents = {"theta": [-5 / 6, 0.0], "exponent_per_s": [1.5, 0.7], "uncertainty_per_s": [0.3, 0.9]}
+    lost = {
+        "duration_s": 0.2,
+        "order_lost_s": 0.16,
+        "horizon_s": 0.12,
+        "right_until_s": 0.14,
+    }
+    kept = {
+        "duration_s": 0.2,
+        "order_lost_s": 0.2,
+        "horizon_s": 0.2,
+        "right_until_s": 0.2,
+    }
+    exponents = {
+        "theta": [-5 / 6, 0.0],
+        "exponent_per_s": [1.5, 0.7],
+        "uncertainty_per_s": [0.3, 0.9],
+    }
     return horizon.draw(
         pd.concat([pd.DataFrame(errors).assign(chain=name) for name in chains]),
         pd.DataFrame([{"chain": "fast", **lost}, {"chain": "trailing", **kept}]),
@@ -162,7 +234,12 @@ def predicted_errors():
 
 def noisy_runs():
     runs = pd.DataFrame(
-        {"scene": "s", "theta": 0.5, "draw": range(5), "events_counted": [14, 14, 15, 15, 15]}
+        {
+            "scene": "s",
+            "theta": 0.5,
+            "draw": range(5),
+            "events_counted": [14, 14, 15, 15, 15],
+        }
     )
     runs = runs.assign(mu_sapp=[0.5, 0.48, 0.5, 0.52, np.nan])
     return noise.draw(runs, runs.assign(theta=-0.5, events_counted=9))
@@ -175,11 +252,18 @@ def window_of_theta():
         "point": range(6),
         "events_counted": 4,
     }
-    return theta_window.draw(pd.DataFrame(members).assign(mu_sapp=[0.5, 0.5, 0.51, 0.51, 0.53, np.nan]))
+    return theta_window.draw(
+        pd.DataFrame(members).assign(mu_sapp=[0.5, 0.5, 0.51, 0.51, 0.53, np.nan])
+    )
 
 
 def numbers_by_n():
-    foreseen = {"scene": "fig10", "n_blocks": [2, 4], "horizon_s": 2.5, "predictable": [True, False]}
+    foreseen = {
+        "scene": "fig10",
+        "n_blocks": [2, 4],
+        "horizon_s": 2.5,
+        "predictable": [True, False],
+    }
     tables = read(SMALL / "resolution.csv"), read(SMALL / "resolution_limits.csv")
     return resolution.draw(*tables, pd.DataFrame(foreseen), 12)
 
@@ -191,7 +275,9 @@ def map_of_friction():
 
 def compared_models():
     table = read(SMALL / "model_comparison.csv")
-    return model_comparison.draw(table.assign(cost_s=np.geomspace(1e-7, 10.0, len(table))))
+    return model_comparison.draw(
+        table.assign(cost_s=np.geomspace(1e-7, 10.0, len(table)))
+    )
 
 
 # By the names of the modules.
@@ -202,15 +288,22 @@ PICTURES = {
     "scene_endless": endless_scene,
     "scene_partial": partial_scene,
     "scene_calm": lambda: draw_scene(slips().iloc[:0], look=style.Look(85.0)),
-    "scene_without_inset": lambda: draw_scene(slips("fig11").iloc[:7], 2.6324, inset=False),
+    "scene_without_inset": lambda: draw_scene(
+        slips("fig11").iloc[:7], 2.6324, inset=False
+    ),
     "precursor_lengths": paper_lengths,
     "precursor_lengths_others": other_lengths,
     "precursor_lengths_one": one_length,
     "definitions": lambda: definitions.draw(read(SMALL / "definitions.csv")),
-    "work_precision": partial(charted_methods, "seconds", 5 / 6, ["global slip", "end"]),
-    "work_precision_evaluations": partial(charted_methods, "evaluations", 0.0, ["global slip"]),
+    "work_precision": partial(
+        charted_methods, "seconds", 5 / 6, ["global slip", "end"]
+    ),
+    "work_precision_evaluations": partial(
+        charted_methods, "evaluations", 0.0, ["global slip"]
+    ),
     "speed": lambda: speed.draw(
-        read(PUBLISHED / "work_precision_full.csv"), read(PUBLISHED / "beside_heyoka.csv")
+        read(PUBLISHED / "work_precision_full.csv"),
+        read(PUBLISHED / "beside_heyoka.csv"),
     ),
     "step_sweep": swept_steps,
     "failure_gallery": gallery_of_failures,
@@ -222,7 +315,8 @@ PICTURES = {
     "friction_map": map_of_friction,
     "model_comparison": compared_models,
     "larger": lambda: larger.draw(
-        read(PUBLISHED / "larger_nucleation_full.csv"), read(PUBLISHED / "larger_full.csv")
+        read(PUBLISHED / "larger_nucleation_full.csv"),
+        read(PUBLISHED / "larger_full.csv"),
     ),
 }
 
@@ -236,6 +330,8 @@ def save_small(name: str, path: Path) -> None:
 @pytest.mark.parametrize("name", PICTURES)
 def test_a_figure_is_the_picture_that_is_kept(name, tmp_path):
     save_small(name, tmp_path / "found.png")
-    found, kept = (image.imread(path) for path in (tmp_path / "found.png", SMALL / f"{name}.png"))
+    found, kept = (
+        image.imread(path) for path in (tmp_path / "found.png", SMALL / f"{name}.png")
+    )
     assert found.shape == kept.shape
     assert 255 * np.abs(found - kept).max() < GREY_LEVELS

@@ -1,4 +1,5 @@
-"""Files of figures are the same bytes each time; looks and orders that must agree do."""
+"""Files of figures are the same bytes each time; looks and orders that must agree
+do."""
 
 from __future__ import annotations
 
@@ -34,7 +35,10 @@ def test_every_format_has_the_same_bytes_whichever_file_is_first_and_settings_of
             for ending in order:
                 style.save(figure, tmp_path / f"{which}.{ending}")
     for ending in endings:
-        first, second = ((tmp_path / f"{which}.{ending}").read_bytes() for which in ("first", "second"))
+        first, second = (
+            (tmp_path / f"{which}.{ending}").read_bytes()
+            for which in ("first", "second")
+        )
         assert first == second, ending
         for word in (b"dc:date", b"Software", b"Creation", b"Matplotlib v"):
             assert word not in first
@@ -54,13 +58,21 @@ def test_transparent_colours_look_the_same_when_they_are_opaque(tmp_path):
         axes.plot([0.7], [0.7], "k+")
     style.save(figure, tmp_path / "transparent.png")
     style.save(style.opaque(figure), tmp_path / "opaque.png")
-    one, other = (image.imread(tmp_path / f"{name}.png") for name in ("transparent", "opaque"))
+    one, other = (
+        image.imread(tmp_path / f"{name}.png") for name in ("transparent", "opaque")
+    )
     assert 255 * np.abs(one - other).max() < GREY_LEVELS
 
 
 @pytest.mark.parametrize(
     ("theta", "text"),
-    [(-5 / 6, "-5/6"), (0.0, "0"), (11 / 12, "11/12"), (1 / 13, "0.07692"), (0.833, "0.833")],
+    [
+        (-5 / 6, "-5/6"),
+        (0.0, "0"),
+        (11 / 12, "11/12"),
+        (1 / 13, "0.07692"),
+        (0.833, "0.833"),
+    ],
 )
 def test_theta_is_a_fraction_only_if_it_is_one_of_small_numbers(theta, text):
     assert style.theta_text(theta) == rf"$\theta = {text}$"
@@ -72,8 +84,13 @@ def test_measured_lengths_are_shares_of_the_whole():
 
 
 def test_every_method_has_a_colour_and_a_marker_of_its_own():
-    new = (Method(name, name, "step [s]", METHODS["rk4"].solve, (1e-6,)) for name in ("first", "second"))
-    chosen = replace(METHODS["rk4"], name="with a spare colour", look=(SPARE[0][0], "$P$"))
+    new = (
+        Method(name, name, "step [s]", METHODS["rk4"].solve, (1e-6,))
+        for name in ("first", "second")
+    )
+    chosen = replace(
+        METHODS["rk4"], name="with a spare colour", look=(SPARE[0][0], "$P$")
+    )
     every = list(with_looks([*METHODS.values(), chosen, *new]))
     for looks in zip(*(method.look for method in every), strict=True):
         assert len(set(looks)) == len(every)
@@ -81,6 +98,8 @@ def test_every_method_has_a_colour_and_a_marker_of_its_own():
 
 def test_panels_failure_modes_and_rule_have_the_same_order_and_every_theta_of_the_law_a_colour():
     rule = (RULES / "accuracy.smk").read_text(encoding="utf-8")
-    listed = re.findall(r'"(\w+)"', rule.partition("FAILURE_MODES = [")[2].partition("]")[0])
+    listed = re.findall(
+        r'"(\w+)"', rule.partition("FAILURE_MODES = [")[2].partition("]")[0]
+    )
     assert list(PANELS) == list(FAILURE_MODES) == listed
     assert tuple(THETA_COLORS) == THETAS

@@ -1,4 +1,5 @@
-"""Replace the golden files by what the workflow and the library give; `git diff` shows what changed."""
+"""Replace the golden files by what the workflow and the library give; `git diff` shows
+what changed."""
 
 import shutil
 import sys
@@ -30,7 +31,8 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
             shutil.copyfile(results / kind / name, golden / name)
     claims = read_table(golden / "claims.csv")
     write_text(
-        golden / "check.txt", "\n".join([*check_claims.entries(claims), *check_claims.totals(claims), ""])
+        golden / "check.txt",
+        "\n".join([*check_claims.entries(claims), *check_claims.totals(claims), ""]),
     )
     for name, make in {**small_tables.TABLES, **small_tables.ELSEWHERE}.items():
         small_tables.write(make(), golden / f"small/{name}.csv")

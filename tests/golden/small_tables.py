@@ -1,7 +1,9 @@
-"""The tables of the studies at a small size, made by the library's own functions, without costs and times.
+"""The tables of the studies at a small size, made by the library's own functions,
+without costs and times.
 
-`regenerate.py` writes them to `small/`; tests compare what the functions give with what is kept there. Runs
-end with the first global slip, after which errors have grown by 1e7.
+`regenerate.py` writes them to `small/`; tests compare what the functions give with what
+is kept there. Runs end with the first global slip, after which errors have grown by
+1e7.
 """
 
 from __future__ import annotations
@@ -13,15 +15,14 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import yaml
-from accuracy.falsified import audits
 from accuracy.made_up import go_on, proof_of
+from audit.falsified import audits
 from ensembles.studies import PAPER, study_of
 from methods.kept_runs import kept_runs
 
 from precursors import Chain, simulate
 from precursors.accuracy.failures import FAILURE_MODES, Failure
 from precursors.accuracy.failures.stability import LOST, thresholds
-from precursors.accuracy.proof import ExactChain
 from precursors.ensembles import noise, resolution
 from precursors.ensembles.event_law import event_law_tables
 from precursors.ensembles.printed_digits import digits_tables
@@ -31,21 +32,31 @@ from precursors.hierarchy.compare_models import compare_models
 from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 from precursors.hierarchy.larger_study import larger_tables
 from precursors.methods import METHODS
+from precursors.proof import ExactChain
 from precursors.reproduction.definitions import definitions_table
 from precursors.reproduction.scene_numbers import measures_table
 
 SMALL = Path(__file__).parent / "small"
-CONFIG = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8"))
-SCENES = {name: Chain.from_slider(theta=theta) for name, theta in (("lead", "5/6"), ("even", 0.0))}
-# Times and loads of a run are right to 1e-9 s and 1e-6 N whatever the processor, and so are their statistics.
-# A method with steps is off by the roundings of some 1e6 steps, a bisection by none or by a step of its own.
+CONFIG = yaml.safe_load(
+    (Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8")
+)
+SCENES = {
+    name: Chain.from_slider(theta=theta)
+    for name, theta in (("lead", "5/6"), ("even", 0.0))
+}
+# Times and loads of a run are right to 1e-9 s and 1e-6 N whatever the processor, and so
+# are their statistics. A method with steps is off by the roundings of some 1e6 steps, a
+# bisection by none or by a step of its own.
 ROUNDING, STEPS = 1e-8, 1e-6
-RELATIVE = dict.fromkeys(("failures", "failure_curves", "limits", "definitions", "enclosures"), STEPS)
+RELATIVE = dict.fromkeys(
+    ("failures", "failure_curves", "limits", "definitions", "enclosures"), STEPS
+)
 RELATIVE["audits"] = 1e-2  # deviations as printed, with three digits
 # Errors relative to the paper's chain are differences of numbers near one.
 # What the energy of a larger chain lacks is of the size of roundings in some runs.
 ABSOLUTE = {"model_comparison": 1e-12, "larger_runs": 1e-12}
-# Beyond its limit RK4 multiplies roundings without bound: where its runs end differs with the processor.
+# Beyond its limit RK4 multiplies roundings without bound: where its runs end differs
+# with the processor.
 CHAOTIC = "silent_instability"
 
 
@@ -61,14 +72,19 @@ def failures(measured: Callable[[str], Failure]) -> pd.DataFrame:
 
 
 def limits(measured: Callable[[str], Failure]) -> pd.DataFrame:
-    """All thresholds; how a run beyond a limit ends with friction differs with the processor, too."""
-    found = [*thresholds(), *(limit for mode in FAILURE_MODES for limit in measured(mode).thresholds)]
+    """All thresholds; how a run beyond a limit ends with friction differs with the
+    processor, too."""
+    found = [
+        *thresholds(),
+        *(limit for mode in FAILURE_MODES for limit in measured(mode).thresholds),
+    ]
     table = pd.DataFrame(map(vars, found))
     return table.assign(measured=table["measured"].where(table["fails"] != LOST, 0.0))
 
 
 def failure_curves(measured: Callable[[str], Failure]) -> pd.DataFrame:
-    """Of each of their curves the number of points; of both columns the ends, the mean and the largest."""
+    """Of each of their curves the number of points; of both columns the ends, the mean
+    and the largest."""
     rows = []
     for name in FAILURE_MODES:
         if name == CHAOTIC:
@@ -78,7 +94,9 @@ def failure_curves(measured: Callable[[str], Failure]) -> pd.DataFrame:
             for axis, column in zip("xy", points.columns[1:], strict=True):
                 values = points[column].to_numpy(float)
                 ends = values[0], values[-1], values.mean(), values.max()
-                names = (f"{axis}_{which}" for which in ("first", "last", "mean", "largest"))
+                names = (
+                    f"{axis}_{which}" for which in ("first", "last", "mean", "largest")
+                )
                 row |= {axis: column} | dict(zip(names, ends, strict=True))
             rows.append(row)
     return pd.DataFrame(rows)
@@ -86,8 +104,14 @@ def failure_curves(measured: Callable[[str], Failure]) -> pd.DataFrame:
 
 def definitions() -> pd.DataFrame:
     """Readings for one other size of theta, with one drop of the load."""
-    slider, paper = CONFIG["chain"], [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)]
-    runs = [simulate(Chain.from_slider(**slider, theta=theta), 3.0) for theta in ("-5/6", 0, "5/6")]
+    slider, paper = (
+        CONFIG["chain"],
+        [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)],
+    )
+    runs = [
+        simulate(Chain.from_slider(**slider, theta=theta), 3.0)
+        for theta in ("-5/6", 0, "5/6")
+    ]
     return definitions_table(runs, slider, 3.0, [0.833], [5.0], paper)
 
 
@@ -111,7 +135,8 @@ PROVED = {
 
 
 def enclosures() -> pd.DataFrame:
-    """How a proof of 128 bits goes on: steps, modes, radii of times and loads, the distance and the gap."""
+    """How a proof of 128 bits goes on: steps, modes, radii of times and loads, the
+    distance and the gap."""
     rows = []
     for name, (chain, positions, velocities, n) in PROVED.items():
         proof = proof_of(chain, 128, positions, velocities)
@@ -143,10 +168,13 @@ def enclosures() -> pd.DataFrame:
 
 @cache
 def studies() -> dict[str, pd.DataFrame]:
-    """The tables of small studies: few runs of few blocks, with an octave and all cases of the law."""
+    """The tables of small studies: few runs of few blocks, with an octave and all cases
+    of the law."""
 
     def chunks(name: str, **settings: object) -> list[pd.DataFrame]:
-        return [run_members(study_of(name, settings)).rename_axis("member").reset_index()]
+        return [
+            run_members(study_of(name, settings)).rename_axis("member").reset_index()
+        ]
 
     tables = noise.noise_tables(chunks("noise_members", seed=1, runs=8))
     few = chunks("resolution_members", seed=1, n_blocks=[2, 4], runs=[6, 6])
@@ -154,14 +182,17 @@ def studies() -> dict[str, pd.DataFrame]:
     return {
         **tables,
         **digits_tables(chunks("digits_members", seed=1, draws=8), PAPER),
-        **resolution.resolution_tables(few, tables["noise_members"], CONFIG["chain"], "fig10", 2),
+        **resolution.resolution_tables(
+            few, tables["noise_members"], CONFIG["chain"], "fig10", 2
+        ),
         **event_law_tables(law, CONFIG["chain"]),
         "map": gather(chunks(MAP, points=12)),
     }
 
 
 def members() -> pd.DataFrame:
-    """Every column of the members of each study: the sum of its squares, and its product with 0, 1, 2, ..."""
+    """Every column of the members of each study: the sum of its squares, and its
+    product with 0, 1, 2, ..."""
     settings: dict[str, dict[str, object]] = {
         "noise_members": {"seed": 1, "runs": 8},
         "digits_members": {"seed": 1, "draws": 8},
@@ -176,17 +207,34 @@ def members() -> pd.DataFrame:
         for column, values in study.members.items():
             is_text = not pd.api.types.is_numeric_dtype(values)
             numbers = values.factorize()[0] if is_text else values.to_numpy(float)
-            sums = {"squares": numbers @ numbers, "in_order": numbers @ np.arange(len(numbers))}
+            sums = {
+                "squares": numbers @ numbers,
+                "in_order": numbers @ np.arange(len(numbers)),
+            }
             rows.append({"study": name, "column": column, "n": len(numbers), **sums})
-        rows.append({"study": name, "column": "seed", "n": 1, "squares": study.seed, "in_order": 0.0})
+        rows.append(
+            {
+                "study": name,
+                "column": "seed",
+                "n": 1,
+                "squares": study.seed,
+                "in_order": 0.0,
+            }
+        )
     return pd.DataFrame(rows)
 
 
 def larger_runs() -> pd.DataFrame:
-    """Short runs of larger chains: blocks, theta, what is added, duration; where they end, and their sums."""
+    """Short runs of larger chains: blocks, theta, what is added, duration; where they
+    end, and their sums."""
     cases = [
         (20, 0, {"weakening_velocity": 0.035}, 0.6),
-        (8, "-5/6", {"weakening_velocity": 0.01, "relaxation_time": 5e-6, "push_height": 0.003}, 3.0),
+        (
+            8,
+            "-5/6",
+            {"weakening_velocity": 0.01, "relaxation_time": 5e-6, "push_height": 0.003},
+            3.0,
+        ),
         (10, 0, {"weakening_velocity": 0.006, "relaxation_time": 1e-4}, 3.5),
         (12, "-1/2", {"weakening_velocity": 0.07, "viscosity": 100.0}, 0.8),
         (6, "5/6", {"viscosity": 50.0}, 2.2),
@@ -199,9 +247,19 @@ def larger_runs() -> pd.DataFrame:
         run = simulate_with_accuracy(
             LargerChain(Chain.from_slider(n_blocks=n, theta=theta), **added), duration
         )
-        sums = {name: run.transitions[name].astype(float).sum() for name in run.transitions.dtype.names or ()}
+        sums = {
+            name: run.transitions[name].astype(float).sum()
+            for name in run.transitions.dtype.names or ()
+        }
         points = {"points": len(run.load_points), "of_points": run.load_points.sum()}
-        rows.append({"transitions": len(run.transitions), **sums, **points, **(run.larger or {})})
+        rows.append(
+            {
+                "transitions": len(run.transitions),
+                **sums,
+                **points,
+                **(run.larger or {}),
+            }
+        )
     return pd.DataFrame(rows)
 
 
@@ -210,8 +268,19 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
     settings = CONFIG["hierarchy"]["larger"] | {
         "nucleation": {"n_blocks": [20], "pairs": [[0.02, 0], [0.003, 2e-4]]},
         "studies": {
-            "loadings": {"pairs": [[0, 0], [0.003, 2e-4]], "n_blocks": [10], "theta": [0, "5/6"], "runs": 7},
-            "height": {"pairs": [[0, 0]], "push_height": [0.005], "n_blocks": [4], "theta": [0], "runs": 7},
+            "loadings": {
+                "pairs": [[0, 0], [0.003, 2e-4]],
+                "n_blocks": [10],
+                "theta": [0, "5/6"],
+                "runs": 7,
+            },
+            "height": {
+                "pairs": [[0, 0]],
+                "push_height": [0.005],
+                "n_blocks": [4],
+                "theta": [0],
+                "runs": 7,
+            },
         },
     }
     return larger_tables(CONFIG["chain"], settings)
@@ -227,13 +296,23 @@ TABLES: dict[str, Callable[[], pd.DataFrame]] = {
     **{
         name: partial(lambda name: studies()[name], name)
         for name in (
-            *("noise", "noise_differences", "digits", "resolution", "counts_by_n", "resolution_limits"),
+            *(
+                "noise",
+                "noise_differences",
+                "digits",
+                "resolution",
+                "counts_by_n",
+                "resolution_limits",
+            ),
             *("event_law", "map"),
         )
     },
     "members": members,
     "measures": lambda: measures_table(
-        {theta: simulate(Chain.from_slider(theta=theta), until="global slip") for theta in ("-5/6", "5/6")}
+        {
+            theta: simulate(Chain.from_slider(theta=theta), until="global slip")
+            for theta in ("-5/6", "5/6")
+        }
     ),
 }
 # These take seconds and are compared where other tests need them, too.
@@ -265,17 +344,30 @@ def write(table: pd.DataFrame, path: Path) -> None:
 
 
 def assert_kept(name: str, table: pd.DataFrame) -> None:
-    """The table is the one that is kept: words and counts exactly, numbers within a tolerance."""
+    """The table is the one that is kept: words and counts exactly, numbers within a
+    tolerance."""
     kept = pd.read_csv(SMALL / f"{name}.csv")
-    found = table.drop(columns=[column for column in table if column.startswith("cost")])
+    found = table.drop(
+        columns=[column for column in table if column.startswith("cost")]
+    )
     assert list(found.columns) == list(kept.columns)
     assert len(found) == len(kept)
     for column in kept:
-        if any(pd.api.types.is_float_dtype(numbers) for numbers in (found[column], kept[column])):
+        if any(
+            pd.api.types.is_float_dtype(numbers)
+            for numbers in (found[column], kept[column])
+        ):
             numbers = found[column].astype(float)
             np.testing.assert_allclose(
-                numbers, kept[column], RELATIVE.get(name, ROUNDING), ABSOLUTE.get(name, 0.0), err_msg=column
+                numbers,
+                kept[column],
+                RELATIVE.get(name, ROUNDING),
+                ABSOLUTE.get(name, 0.0),
+                err_msg=column,
             )
         else:
-            texts = [column_of[column].fillna("").astype(str).tolist() for column_of in (found, kept)]
+            texts = [
+                column_of[column].fillna("").astype(str).tolist()
+                for column_of in (found, kept)
+            ]
             assert texts[0] == texts[1], column

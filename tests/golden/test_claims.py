@@ -1,4 +1,5 @@
-"""The verdicts on the existing results are the golden ones, and a falsified result changes them."""
+"""The verdicts on the existing results are the golden ones, and a falsified result
+changes them."""
 
 from __future__ import annotations
 
@@ -24,7 +25,10 @@ CHECKED = GOLDEN / "check.txt"
 
 @pytest.fixture(scope="module")
 def true() -> dict[str, pd.DataFrame]:
-    return {name: read_table(RESULTS / f"{name}.csv") for name in {*CLAIM_TABLES, *POINT_TABLES}}
+    return {
+        name: read_table(RESULTS / f"{name}.csv")
+        for name in {*CLAIM_TABLES, *POINT_TABLES}
+    }
 
 
 def falsified(column: pd.Series) -> pd.Series:
@@ -34,7 +38,11 @@ def falsified(column: pd.Series) -> pd.Series:
     numbers = pd.to_numeric(column, errors="coerce")
     # Not the same change in each column, as some claims compare two.
     other = 1 - len(str(column.name)) * numbers
-    return other if pd.api.types.is_numeric_dtype(column) else column.where(numbers.isna(), other.astype(str))
+    return (
+        other
+        if pd.api.types.is_numeric_dtype(column)
+        else column.where(numbers.isna(), other.astype(str))
+    )
 
 
 def without_exponents(claims: pd.DataFrame) -> pd.DataFrame:
@@ -47,7 +55,9 @@ def without_exponents(claims: pd.DataFrame) -> pd.DataFrame:
 def test_claims_and_open_points_are_the_golden_ones(true, tmp_path):
     for name, table in claims_tables(true).items():
         table.to_csv(tmp_path / f"{name}.csv", index=False)
-        found, made, kept = (read_table(where / f"{name}.csv") for where in (tmp_path, RESULTS, GOLDEN))
+        found, made, kept = (
+            read_table(where / f"{name}.csv") for where in (tmp_path, RESULTS, GOLDEN)
+        )
         pd.testing.assert_frame_equal(found, made)
         if name == "claims":
             found, kept = map(without_exponents, (found, kept))
@@ -62,7 +72,9 @@ def test_no_claim_stays_the_same_on_other_numbers(true):
     assert [claim.name for claim in CLAIMS if claim.row(true) == claim.row(false)] == []
 
 
-def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_another(tmp_path, capsys):
+def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_another(
+    tmp_path, capsys
+):
     golden = read_table(GOLDEN / "claims.csv")
     printed = "\n".join([*check_claims.entries(golden), *check_claims.totals(golden)])
     assert printed == CHECKED.read_text(encoding="utf-8").rstrip("\n")
@@ -73,8 +85,12 @@ def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_a
     for name in CLAIM_TABLES:
         shutil.copy(RESULTS / f"{name}.csv", tmp_path)
     lyapunov = pd.read_csv(tmp_path / "lyapunov.csv")
-    lyapunov.assign(exponent_per_s=-lyapunov["exponent_per_s"]).to_csv(tmp_path / "lyapunov.csv", index=False)
-    with pytest.raises(SystemExit, match="check: chaos: is 'does not hold', expected 'holds'"):
+    lyapunov.assign(exponent_per_s=-lyapunov["exponent_per_s"]).to_csv(
+        tmp_path / "lyapunov.csv", index=False
+    )
+    with pytest.raises(
+        SystemExit, match="check: chaos: is 'does not hold', expected 'holds'"
+    ):
         check_claims.main(tmp_path)
 
 
@@ -83,7 +99,10 @@ def test_claims_that_hold_in_every_draw_hold(true):
     alike = dict(true)
     for name in ("noise_members", "digits_members"):
         run = true[name][true[name]["draw"] == 0].set_index("scene")
-        same = {column: true[name]["scene"].map(run[column]) for column in ("events_counted", "mu_sapp")}
+        same = {
+            column: true[name]["scene"].map(run[column])
+            for column in ("events_counted", "mu_sapp")
+        }
         alike[name] = true[name].assign(**same)
     claims = evaluate(alike).set_index("claim")
     assert set(claims["verdict"][claims["kind"] == "chose the readings"]) == {HOLDS}

@@ -1,4 +1,5 @@
-"""The committed tables of long studies: the law, the shares and the short rows in them are computed again."""
+"""The committed tables of long studies: the law, the shares and the short rows in them
+are computed again."""
 
 from pathlib import Path
 
@@ -32,8 +33,12 @@ def test_the_law_of_each_chain_is_that_of_the_library():
 def test_the_runs_of_few_blocks_are_those_of_the_library():
     full = yaml.safe_load((ROOT / "workflow/full.yaml").read_text(encoding="utf-8"))
     study = study_of("event_law_members", full["ensembles"]["event_law"])
-    few = study.members[(study.members["n_blocks"] <= 10) & (study.members["theta"] == 0.0)]
-    again = event_law_table(run_members(type(study)(few, seed=study.seed)), CONFIG["chain"])
+    few = study.members[
+        (study.members["n_blocks"] <= 10) & (study.members["theta"] == 0.0)
+    ]
+    again = event_law_table(
+        run_members(type(study)(few, seed=study.seed)), CONFIG["chain"]
+    )
     assert len(again) > 1
     keys = ["varied", "loading", "theta", "n_blocks"]
     there = committed("event_law_full").merge(again[keys], on=keys)
@@ -41,11 +46,21 @@ def test_the_runs_of_few_blocks_are_those_of_the_library():
 
 
 def test_the_larger_chains_of_few_blocks_are_those_of_the_library():
-    full = yaml.safe_load((ROOT / "workflow/full.yaml").read_text(encoding="utf-8"))["hierarchy"]["larger"]
-    study = {**full["studies"]["resolution"], "pairs": [[0.003, 2e-4]], "n_blocks": [10, 20]}
-    again = medians_table(run_study(CONFIG["chain"], "resolution", study, CONFIG["hierarchy"]["larger"]))
+    full = yaml.safe_load((ROOT / "workflow/full.yaml").read_text(encoding="utf-8"))[
+        "hierarchy"
+    ]["larger"]
+    study = {
+        **full["studies"]["resolution"],
+        "pairs": [[0.003, 2e-4]],
+        "n_blocks": [10, 20],
+    }
+    again = medians_table(
+        run_study(CONFIG["chain"], "resolution", study, CONFIG["hierarchy"]["larger"])
+    )
     keys = ["study", "weakening_velocity", "relaxation_time", "n_blocks"]
     there = again[keys].merge(committed("larger_full"), on=keys)
     assert len(there) == len(again) == 2
     assert there["events_counted"].tolist() == again["events_counted"].tolist()
-    assert there["mu_sapp"].tolist() == pytest.approx(again["mu_sapp"].tolist(), rel=1e-4)
+    assert there["mu_sapp"].tolist() == pytest.approx(
+        again["mu_sapp"].tolist(), rel=1e-4
+    )

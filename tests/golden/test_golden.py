@@ -1,4 +1,5 @@
-"""Tables and figures that the workflow wrote to results are those kept here (`make golden` replaces them)."""
+"""Tables and figures that the workflow wrote to results are those kept here (`make
+golden` replaces them)."""
 
 from __future__ import annotations
 
@@ -13,26 +14,34 @@ from matplotlib.testing.compare import compare_images
 
 RESULTS = Path(__file__).parents[2] / "results"
 
-# What the project promises for times [s], whatever the processor; a load [N] is off by some 200 N/s of the
-# error in its time. After the first global slip errors have grown by 1e7: the motion is chaotic.
+# What the project promises for times [s], whatever the processor; a load [N] is off by
+# some 200 N/s of the error in its time. After the first global slip errors have grown
+# by 1e7: the motion is chaotic.
 UP_TO_GLOBAL_SLIP = {"s": 1e-9, "N": 1e-6}
 AFTER_GLOBAL_SLIP = {"s": 1e-6, "N": 1e-3}
-# mu_sapp is a load over 400 N; everything else in these tables happens up to the first global slip.
+# mu_sapp is a load over 400 N; everything else in these tables happens up to the first
+# global slip.
 SUMMARY = UP_TO_GLOBAL_SLIP | {"1": 1e-8}
 # Checks of Eq. 15 hold to rounding; the linear program is solved to 1e-9 relative.
 EQ15_RELATIVE = 1e-8
-# Root mean square over all pixels and colours, of 255. The same release of Matplotlib draws the same picture;
-# antialiasing may differ by a few grey levels here and there. Of the edits tried (colours, markers, sizes,
-# dashes, words, a moved point) the least, fewer arrows in an inset, is worth 1.4.
+# Root mean square over all pixels and colours, of 255. The same release of Matplotlib
+# draws the same picture; antialiasing may differ by a few grey levels here and there.
+# Of the edits tried (colours, markers, sizes, dashes, words, a moved point) the least,
+# fewer arrows in an inset, is worth 1.4.
 FIGURE_RMS = 0.5
 
 
-def assert_golden(found: pd.DataFrame, golden: pd.DataFrame, allowed: dict[str, float]) -> None:
-    """Words, counts and flags are the golden ones, and so are numbers of these columns to this difference."""
+def assert_golden(
+    found: pd.DataFrame, golden: pd.DataFrame, allowed: dict[str, float]
+) -> None:
+    """Words, counts and flags are the golden ones, and so are numbers of these columns
+    to this difference."""
     assert list(found.columns) == list(golden.columns)
     for column in golden:
         if column in allowed:
-            np.testing.assert_allclose(found[column], golden[column], 0, allowed[column], err_msg=column)
+            np.testing.assert_allclose(
+                found[column], golden[column], 0, allowed[column], err_msg=column
+            )
         else:
             np.testing.assert_array_equal(found[column], golden[column], err_msg=column)
 
@@ -45,31 +54,52 @@ def tables(name: str) -> tuple[pd.DataFrame, pd.DataFrame]:
 @pytest.mark.parametrize("scene", PAPERS_SCENES)
 def test_slips_are_the_golden_ones(scene):
     found, golden = tables(f"{scene}_slips.csv")
-    units = {"onset_s": "s", "end_s": "s", "load_before_N": "N", "load_after_N": "N", "largest_load_N": "N"}
+    units = {
+        "onset_s": "s",
+        "end_s": "s",
+        "load_before_N": "N",
+        "load_after_N": "N",
+        "largest_load_N": "N",
+    }
     n = int(np.argmax(golden["is_global"])) + 1
-    for rows, allowed in ((slice(n), UP_TO_GLOBAL_SLIP), (slice(n, None), AFTER_GLOBAL_SLIP)):
-        assert_golden(found[rows], golden[rows], {column: allowed[unit] for column, unit in units.items()})
+    for rows, allowed in (
+        (slice(n), UP_TO_GLOBAL_SLIP),
+        (slice(n, None), AFTER_GLOBAL_SLIP),
+    ):
+        assert_golden(
+            found[rows],
+            golden[rows],
+            {column: allowed[unit] for column, unit in units.items()},
+        )
     assert len(found) == len(golden)
 
 
 def test_mu_sapp_is_the_golden_one_under_every_definition():
     assert_golden(
-        *tables("mu_sapp.csv"), {"mu_sapp": SUMMARY["1"], "load_N": SUMMARY["N"], "time_s": SUMMARY["s"]}
+        *tables("mu_sapp.csv"),
+        {"mu_sapp": SUMMARY["1"], "load_N": SUMMARY["N"], "time_s": SUMMARY["s"]},
     )
 
 
 def test_the_reproduction_is_the_golden_one_and_has_the_numbers_of_the_paper():
-    """6, 9 and 14 events; mu_sapp 0.49 for all, as the paper rounds 0.4845, 0.4858 and 0.4883 up or down."""
+    """6, 9 and 14 events; mu_sapp 0.49 for all, as the paper rounds 0.4845, 0.4858 and
+    0.4883 up or down."""
     found, golden = tables("reproduction.csv")
     for unit, of_unit in golden.groupby("unit"):
         assert_golden(found.loc[of_unit.index], of_unit, {"reproduced": SUMMARY[unit]})
     compared = found.dropna(subset="paper").set_index("scene")
     events = compared[compared["quantity"].str.startswith("events counted")]
     assert (
-        events["reproduced"].to_dict() == events["paper"].to_dict() == {"fig10": 9, "fig11": 6, "fig12": 14}
+        events["reproduced"].to_dict()
+        == events["paper"].to_dict()
+        == {"fig10": 9, "fig11": 6, "fig12": 14}
     )
     friction = compared[compared["quantity"].str.endswith("mu_sapp")]
-    assert friction["reproduced"].round(4).to_dict() == {"fig10": 0.4858, "fig11": 0.4845, "fig12": 0.4883}
+    assert friction["reproduced"].round(4).to_dict() == {
+        "fig10": 0.4858,
+        "fig11": 0.4845,
+        "fig12": 0.4883,
+    }
     # 0.4845 is 0.48 to two digits: the paper's 0.49 is off by 0.0055 there.
     assert (friction["reproduced"] - friction["paper"]).abs().max() < 0.006
 
@@ -79,9 +109,13 @@ def assert_eq15(found: pd.DataFrame) -> None:
     golden = pd.read_csv(GOLDEN / "eq15.csv")
     assert found["holds"].eq(True).all()
     for column in ("expected", "found"):
-        numbers, kept = (pd.to_numeric(table[column], errors="coerce") for table in (found, golden))
+        numbers, kept = (
+            pd.to_numeric(table[column], errors="coerce") for table in (found, golden)
+        )
         np.testing.assert_allclose(numbers, kept, rtol=EQ15_RELATIVE)
-        found[column], golden[column] = (table[column].where(numbers.isna()) for table in (found, golden))
+        found[column], golden[column] = (
+            table[column].where(numbers.isna()) for table in (found, golden)
+        )
     pd.testing.assert_frame_equal(found, golden)
 
 

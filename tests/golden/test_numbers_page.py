@@ -1,4 +1,5 @@
-"""What docs/numbers.md says of chaos, robustness and resolution is what the tables say."""
+"""What docs/numbers.md says of chaos, robustness and resolution is what the tables
+say."""
 
 from __future__ import annotations
 
@@ -12,7 +13,8 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGE = " ".join((ROOT / "docs/numbers.md").read_text(encoding="utf-8").split())
 THETAS = ("fig11", "fig10", "fig12")
-# Exponents differ from one processor to another by some hundredths: to this they are what is said.
+# Exponents differ from one processor to another by some hundredths: to this they are
+# what is said.
 EXPONENT = 0.1
 
 
@@ -35,7 +37,10 @@ def test_lyapunov_exponents_and_times_of_growth_and_errors_at_ten_seconds():
     narrow, wide = said(r"of \+-([\d.]+) to \+-([\d.]+):")
     assert lyapunov["uncertainty_per_s"].round(1).between(narrow, wide).all()
     fast, slow = said(r"tenfold in ([\d.]+) to ([\d.]+) s")
-    assert [fast, slow] == [round(math.log(10) / most, 1), round(math.log(10) / least, 1)]
+    assert [fast, slow] == [
+        round(math.log(10) / most, 1),
+        round(math.log(10) / least, 1),
+    ]
     errors = table("solver_vs_proof", "chain")["time_error_while_agreeing_s"]
     (bound,) = said(r"first global slip and ([\de-]+) s at 10 s")
     assert errors[["trailing", "uniform", "leading"]].max() < bound
@@ -43,25 +48,41 @@ def test_lyapunov_exponents_and_times_of_growth_and_errors_at_ten_seconds():
 
 def test_the_printed_digits_do_not_settle_the_coefficient():
     """Draws near a jump fall on other sides on other processors."""
-    shares = 100 * table("digits", "scene", "quantity", "question")[["share", "low", "high"]]
+    shares = (
+        100 * table("digits", "scene", "quantity", "question")[["share", "low", "high"]]
+    )
     each = [shares["share"][scene, "mu_sapp", "as printed"] for scene in THETAS]
-    assert each == pytest.approx(said(r"0.705\), (\d+), (\d+) and (\d+) % have mu_sapp"), abs=1.5)
+    assert each == pytest.approx(
+        said(r"0.705\), (\d+), (\d+) and (\d+) % have mu_sapp"), abs=1.5
+    )
     same = said(r"In ([\d.]+) % \(95 % interval: ([\d.]+) to ([\d.]+) %\) the three")
-    assert shares.loc["all", "mu_sapp", "same mu_sapp"].tolist() == pytest.approx(same, abs=0.6)
+    assert shares.loc["all", "mu_sapp", "same mu_sapp"].tolist() == pytest.approx(
+        same, abs=0.6
+    )
     six, _, high = shares.loc["all", "all", "all six numbers"]
-    assert [six, high] == pytest.approx([0.0, *said(r"In none \(below ([\d.]+) %\) all six")], abs=0.05)
+    assert [six, high] == pytest.approx(
+        [0.0, *said(r"In none \(below ([\d.]+) %\) all six")], abs=0.05
+    )
 
 
 def test_medians_with_noise_are_the_same_at_two_loadings_and_differ_at_the_third():
     noise = table("noise", "scene", "quantity")["q50"]
     expected = said(r"mu_sapp is ([\d.]+), ([\d.]+) and ([\d.]+) \(1000 runs")
-    assert [noise[scene, "mu_sapp"] for scene in THETAS] == pytest.approx(expected, abs=2e-3)
-    pairs = table("noise_differences").query("quantity == 'mu_sapp'").set_index(["scene", "other"])
+    assert [noise[scene, "mu_sapp"] for scene in THETAS] == pytest.approx(
+        expected, abs=2e-3
+    )
+    pairs = (
+        table("noise_differences")
+        .query("quantity == 'mu_sapp'")
+        .set_index(["scene", "other"])
+    )
     same = pairs.pop("verdict") == "same"
     assert same[same].index.tolist() == [("fig10", "fig11")]
     at_plus = pairs.loc["fig12"]
     found = [at_plus["low"].min(), at_plus["high"].max()]
-    assert found == pytest.approx(said(r"at \+5/6 is larger by ([\d.]+) to ([\d.]+)\."), abs=1.5e-3)
+    assert found == pytest.approx(
+        said(r"at \+5/6 is larger by ([\d.]+) to ([\d.]+)\."), abs=1.5e-3
+    )
 
 
 def test_the_apparent_friction_falls_to_mu_k_with_the_number_of_blocks():

@@ -1,4 +1,5 @@
-"""The library gives the small tables kept here; failures and models are compared beside their tests."""
+"""The library gives the small tables kept here; failures and models are compared beside
+their tests."""
 
 import pytest
 from golden.small_tables import TABLES, assert_kept

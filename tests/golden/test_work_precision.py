@@ -1,8 +1,9 @@
-"""The comparison of methods, published and made anew: tables say what is said of them, a chart shows one.
+"""The comparison of methods, published and made anew: tables say what is said of them,
+a chart shows one.
 
-`snakemake -c2 --configfile config.yaml workflow/full.yaml -- accuracy` measures anew, some ten minutes with
-nothing else running; its table and speed.png drawn from it then replace paper/tables/work_precision_full.csv
-and the golden chart.
+`snakemake -c2 --configfile config.yaml workflow/full.yaml -- accuracy` measures anew,
+some ten minutes with nothing else running; its table and speed.png drawn from it then
+replace paper/tables/work_precision_full.csv and the golden chart.
 """
 
 from __future__ import annotations
@@ -24,7 +25,15 @@ SESSIONS = TABLE.with_name("beside_heyoka.csv")
 CHART = GOLDEN / "speed.png"
 MADE = Path(__file__).parents[2] / "results/tables/work_precision.csv"
 DOCS = Path(__file__).parents[2] / "docs/performance.md"
-PEERS = {"heyoka", "cvode_adams", "cvode_bdf", "scipy_dop853", "scipy_rk45", "scipy_lsoda", "scipy_radau"}
+PEERS = {
+    "heyoka",
+    "cvode_adams",
+    "cvode_bdf",
+    "scipy_dop853",
+    "scipy_rk45",
+    "scipy_lsoda",
+    "scipy_radau",
+}
 
 
 @pytest.fixture(scope="module", params=[TABLE, MADE], ids=["published", "made"])
@@ -36,7 +45,9 @@ def test_the_published_chart_is_the_published_table_of_all_peers_drawn(tmp_path)
     published = read_table(TABLE)
     assert set(published["method"]) > PEERS
     style.save(speed.draw(published, read_table(SESSIONS)), tmp_path / CHART.name)
-    assert compare_images(str(CHART), str(tmp_path / CHART.name), tol=FIGURE_RMS) is None
+    assert (
+        compare_images(str(CHART), str(tmp_path / CHART.name), tol=FIGURE_RMS) is None
+    )
 
 
 @pytest.mark.parametrize(
@@ -49,9 +60,15 @@ def test_the_published_chart_is_the_published_table_of_all_peers_drawn(tmp_path)
     ],
 )
 def test_the_table_in_the_docs_is_of_the_published_one(row, method, value):
-    table = read_table(TABLE).query("scene == 'uniform' and until == 'global slip' and method == @method")
-    [found] = table[np.isclose(table["value"], value, rtol=0.01, atol=0)].to_dict("records")
-    said = re.search(rf"\| {row} \| (\d+) \| (\S+) ms \| (\S+) us \| (\S+) s \|", DOCS.read_text())
+    table = read_table(TABLE).query(
+        "scene == 'uniform' and until == 'global slip' and method == @method"
+    )
+    [found] = table[np.isclose(table["value"], value, rtol=0.01, atol=0)].to_dict(
+        "records"
+    )
+    said = re.search(
+        rf"\| {row} \| (\d+) \| (\S+) ms \| (\S+) us \| (\S+) s \|", DOCS.read_text()
+    )
     evaluations, time, each, error = [float(number) for number in said.groups()]
     assert evaluations == found["evaluations"]
     assert time == float(f"{1e3 * found['seconds']:.{3 if time > 100 else 2}g}")
@@ -71,22 +88,35 @@ def test_the_exact_solver_has_every_transition_of_the_papers_scenes_right(table)
 def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(table):
     for _, rows in table[table["until"] == "global slip"].groupby("scene"):
         (exact,) = rows[rows["method"] == "exact"].to_dict("records")
-        whole = rows[(rows["transitions_right"] == rows["transitions_true"]) & (rows["method"] != "exact")]
+        whole = rows[
+            (rows["transitions_right"] == rows["transitions_true"])
+            & (rows["method"] != "exact")
+        ]
         as_close = whole[whole["error_time_s"] <= exact["error_time_s"]]
         assert (as_close["seconds"] > exact["seconds"]).all()
         assert set(as_close["method"]) <= {"heyoka"}
 
 
 def test_the_ratios_to_heyoka_in_the_docs_are_those_of_the_sessions():
-    found = read_table(SESSIONS).query("benchmark == 'heyoka'").set_index(["case", "quantity"])
+    found = (
+        read_table(SESSIONS)
+        .query("benchmark == 'heyoka'")
+        .set_index(["case", "quantity"])
+    )
     row = r"\| ([-+\d/]+) \| (first global slip|10 s) \| (\S+) \((\S+) to (\S+)\) \| (\S+) s \| (\S+) s \|"
     said = re.findall(row, DOCS.read_text())
     assert len(said) == 6
     for theta, run, *numbers in said:
         case = f"theta = {theta.lstrip('+')}, {'10 s' if run == '10 s' else 'to the first global slip'}"
-        ratio = found.loc[(case, "processor time of heyoka / exact"), ["value", "least", "largest"]]
-        errors = [
-            found.loc[(case, f"largest error of their times, {of}"), "value"] for of in ("exact", "heyoka")
+        ratio = found.loc[
+            (case, "processor time of heyoka / exact"), ["value", "least", "largest"]
         ]
-        expected = [*(float(f"{value:.2g}") for value in ratio), *(float(f"{value:.0e}") for value in errors)]
+        errors = [
+            found.loc[(case, f"largest error of their times, {of}"), "value"]
+            for of in ("exact", "heyoka")
+        ]
+        expected = [
+            *(float(f"{value:.2g}") for value in ratio),
+            *(float(f"{value:.0e}") for value in errors),
+        ]
         assert [float(number) for number in numbers] == expected

@@ -1,4 +1,5 @@
-"""The article: the same bytes from the same results, and no number that no table has."""
+"""The article: the same bytes from the same results, and no number that no table
+has."""
 
 from __future__ import annotations
 
@@ -31,7 +32,9 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def write() -> bytes:
-    write_paper.main(SOURCE / "paper.typ", results_shown(SOURCE / "paper.typ"), "paper.pdf")
+    write_paper.main(
+        SOURCE / "paper.typ", results_shown(SOURCE / "paper.typ"), "paper.pdf"
+    )
     return Path("paper.pdf").read_bytes()
 
 
@@ -46,29 +49,39 @@ def test_the_article_has_eight_full_pages_at_most_in_the_fonts_that_typst_brings
         for font in page["/Resources"].get("/Font", {}).values()
     }
     assert fonts
-    assert all(font.startswith(("LibertinusSerif", "NewCM", "DejaVuSansMono")) for font in fonts), fonts
+    assert all(
+        font.startswith(("LibertinusSerif", "NewCM", "DejaVuSansMono"))
+        for font in fonts
+    ), fonts
 
 
 def test_the_same_results_give_the_same_bytes_and_others_another_number(here):
     first = write()
     assert write() == first
     table = pd.read_csv("results/tables/reproduction.csv")
-    table.replace({"reproduced": {56: 57}}).to_csv("results/tables/reproduction.csv", index=False)
+    table.replace({"reproduced": {56: 57}}).to_csv(
+        "results/tables/reproduction.csv", index=False
+    )
     assert "of the 57 events are short" in " ".join(" ".join(pages_of(write())).split())
 
 
 def test_a_row_or_file_that_is_missing_stops_the_build_in_one_line(here):
     table = pd.read_csv("results/tables/certificates.csv")
-    table[table["chain"] != "uniform"].to_csv("results/tables/certificates.csv", index=False)
+    table[table["chain"] != "uniform"].to_csv(
+        "results/tables/certificates.csv", index=False
+    )
     line = r"certificates.csv, chain = uniform: 0 rows, but the text needs one"
     with pytest.raises(ValueError, match=rf"^{line}[^\n]*$"):
         write()
     assert not Path("paper.pdf").exists()
     with pytest.raises(FileNotFoundError, match=r"results/figures/lost\.svg"):
-        write_paper.main(SOURCE / "paper.typ", ["results/figures/lost.svg"], "paper.pdf")
+        write_paper.main(
+            SOURCE / "paper.typ", ["results/figures/lost.svg"], "paper.pdf"
+        )
 
 
-# What is no number of ours: comments, names, symbols, code, places in the original, lengths.
+# What is no number of ours: comments, names, symbols, code, places in the original,
+# lengths.
 NO_NUMBERS = [
     r"(?m)//.*$",
     r'"[^"\n]*"',
@@ -85,7 +98,8 @@ CALL = r"#?[\w.-]+\([^()]*\)"
 
 
 def typed(text: str) -> list[str]:
-    """Lines with a digit, without the code, names, symbols and places in the original of a document."""
+    """Lines with a digit, without the code, names, symbols and places in the original
+    of a document."""
     for pattern in NO_NUMBERS:
         text = re.sub(pattern, " ", text)
     while re.search(CALL, text):

@@ -19,7 +19,8 @@ from precursors.hierarchy.larger import (
     tilt,
 )
 
-# Tolerances beside the cases are two to three times what is measured at the default step.
+# Tolerances beside the cases are two to three times what is measured at the default
+# step.
 ENERGY = 1e-6  # of the work of the drive; 3.6e-7 is measured
 # Leaps neglect inertia: 3e-4 of the loads is measured.
 LEAP = 1e-3
@@ -28,11 +29,18 @@ SLIP = "global slip"
 
 
 def order(run: Run) -> list[tuple[int, int]]:
-    return list(zip(run.transitions["block"].tolist(), run.transitions["mode"].tolist(), strict=True))
+    return list(
+        zip(
+            run.transitions["block"].tolist(),
+            run.transitions["mode"].tolist(),
+            strict=True,
+        )
+    )
 
 
 def by_dop853(larger: LargerChain, duration: float) -> np.ndarray:
-    """Rows of time, block, mode, F_X where a block becomes faster or slower than SLOW v_c."""
+    """Rows of time, block, mode, F_X where a block becomes faster or slower than SLOW
+    v_c."""
     c, v_c, n = larger.chain, larger.weakening_velocity, larger.chain.n_blocks
     eta, limit = larger.relaxation_time * c.stiffness, SLOW * v_c
     tilts = tilt(c, larger.push_height)
@@ -42,12 +50,18 @@ def by_dop853(larger: LargerChain, duration: float) -> np.ndarray:
         x, v = y[:n], y[n:]
         link = -c.stiffness * np.diff(x) - eta * np.diff(v)
         load = c.drive_stiffness * (c.drive_velocity * t - x[0])
-        return load, np.append(load, link) - np.append(link, 0.0), c.weights + tilts * load
+        return (
+            load,
+            np.append(load, link) - np.append(link, 0.0),
+            c.weights + tilts * load,
+        )
 
     def motion(t, y):
         net, w = forces(t, y)[1:]
         mu = c.mu_s - (c.mu_s - c.mu_k) * np.minimum(abs(y[n:]) / v_c, 1.0)
-        return np.append(y[n:], np.where(mode != 0, (net - mode * mu * w) / c.mass, 0.0))
+        return np.append(
+            y[n:], np.where(mode != 0, (net - mode * mu * w) / c.mass, 0.0)
+        )
 
     def event(function, direction, terminal):
         function.direction, function.terminal = direction, terminal
@@ -63,15 +77,31 @@ def by_dop853(larger: LargerChain, duration: float) -> np.ndarray:
         events = []
         for i in range(n):
             if mode[i]:
-                events.append(event(lambda t, y, i=i, s=mode[i]: s * y[n + i], -1, True))
+                events.append(
+                    event(lambda t, y, i=i, s=mode[i]: s * y[n + i], -1, True)
+                )
             else:
-                margin = lambda t, y, i=i: c.mu_s * forces(t, y)[2][i] - abs(forces(t, y)[1][i])  # noqa: E731
+
+                def margin(t, y, i=i):
+                    _, force, weight = forces(t, y)
+                    return c.mu_s * weight[i] - abs(force[i])
+
                 events.append(event(margin, -1, True))
         for i in range(n):
             events.append(event(lambda t, y, i=i: abs(y[n + i]) - limit, 0, False))
-        found = solve_ivp(motion, (t, duration), state, "DOP853", events=events, rtol=1e-10, atol=1e-13)
+        found = solve_ivp(
+            motion,
+            (t, duration),
+            state,
+            "DOP853",
+            events=events,
+            rtol=1e-10,
+            atol=1e-13,
+        )
         for i in range(n):
-            for when, y in zip(found.t_events[n + i], found.y_events[n + i], strict=True):
+            for when, y in zip(
+                found.t_events[n + i], found.y_events[n + i], strict=True
+            ):
                 faster = abs(y[n + i] + 1e-9 * motion(when, y)[n + i]) > abs(y[n + i])
                 rows.append((when, i + 1, mode[i] if faster else 0, forces(when, y)[0]))
         t, state = found.t[-1], found.y[:, -1].copy()
@@ -79,7 +109,9 @@ def by_dop853(larger: LargerChain, duration: float) -> np.ndarray:
             if len(found.t_events[i]):
                 state[n + i] = 0.0
                 _, net, w = forces(t, state)
-                mode[i] = 0 if mode[i] and abs(net[i]) <= c.mu_s * w[i] else np.sign(net[i])
+                mode[i] = (
+                    0 if mode[i] and abs(net[i]) <= c.mu_s * w[i] else np.sign(net[i])
+                )
     return np.array(sorted(rows))
 
 
@@ -88,32 +120,49 @@ def by_dop853(larger: LargerChain, duration: float) -> np.ndarray:
     [
         (1, {"weakening_velocity": 0.05}, 0.6, 5e-6),
         (2, {"weakening_velocity": 0.02, "relaxation_time": 1e-5}, 0.25, 2e-5),
-        (3, {"weakening_velocity": 0.05, "relaxation_time": 2e-6, "push_height": 0.002}, 0.2, 2e-4),
+        (
+            3,
+            {"weakening_velocity": 0.05, "relaxation_time": 2e-6, "push_height": 0.002},
+            0.2,
+            2e-4,
+        ),
         (4, {"weakening_velocity": 0.02, "push_height": 0.003}, 0.2, 1e-4),
     ],
 )
-def test_loads_are_those_of_dop853_with_located_transitions(n, added, duration, tolerance):
+def test_loads_are_those_of_dop853_with_located_transitions(
+    n, added, duration, tolerance
+):
     larger = LargerChain(SLIDER(n, theta="1/4", drive_velocity=1e-3), **added)
     run, expected = simulate_larger(larger, duration), by_dop853(larger, duration)
     assert len(expected) > 1
     assert order(run) == [(int(b), int(m)) for _, b, m, _ in expected]
-    np.testing.assert_allclose(run.transitions["tangential_load"], expected[:, 3], rtol=tolerance)
+    np.testing.assert_allclose(
+        run.transitions["tangential_load"], expected[:, 3], rtol=tolerance
+    )
 
 
 @pytest.mark.parametrize(
-    ("theta", "seconds", "newtons"), [("-5/6", 1e-7, 1e-5), (0, 4e-7, 4e-5), ("5/6", 2e-4, 2e-2)]
+    ("theta", "seconds", "newtons"),
+    [("-5/6", 1e-7, 1e-5), (0, 4e-7, 4e-5), ("5/6", 2e-4, 2e-2)],
 )
-def test_with_nothing_added_it_has_the_transitions_of_the_exact_chain_in_order(theta, seconds, newtons):
+def test_with_nothing_added_it_has_the_transitions_of_the_exact_chain_in_order(
+    theta, seconds, newtons
+):
     exact = simulate(SLIDER(theta=theta), until=SLIP)
     run = simulate_larger(LargerChain(exact.chain), 10.0, SLIP)
     assert order(run) == order(exact)
-    np.testing.assert_allclose(run.transitions["time"], exact.transitions["time"], rtol=0, atol=seconds)
+    np.testing.assert_allclose(
+        run.transitions["time"], exact.transitions["time"], rtol=0, atol=seconds
+    )
     loads = exact.transitions["tangential_load"]
-    np.testing.assert_allclose(run.transitions["tangential_load"], loads, rtol=0, atol=newtons)
+    np.testing.assert_allclose(
+        run.transitions["tangential_load"], loads, rtol=0, atol=newtons
+    )
 
 
 @pytest.mark.parametrize(
-    ("name", "tolerance"), [("backward", 2e-4), ("stiff_viscosity", 1e-8), ("papers_chain", 6e-8)]
+    ("name", "tolerance"),
+    [("backward", 2e-4), ("stiff_viscosity", 1e-8), ("papers_chain", 6e-8)],
 )
 def test_viscosity_alone_has_the_transitions_of_the_reference(name, tolerance):
     scene, golden = read_viscous()[name]
@@ -121,10 +170,14 @@ def test_viscosity_alone_has_the_transitions_of_the_reference(name, tolerance):
     viscosity = float(text.pop("viscosity"))
     options = {key: text.pop(key) for key in ("theta", "n_blocks") if key in text}
     chain = SLIDER(**{key: float(value) for key, value in text.items()}, **options)
-    run = simulate_larger(LargerChain(chain, viscosity=viscosity), float(scene.duration), scene.until)
+    run = simulate_larger(
+        LargerChain(chain, viscosity=viscosity), float(scene.duration), scene.until
+    )
     assert order(run) == [(t.block, t.mode) for t in golden]
     loads = [float(t.tangential_load) for t in golden]
-    np.testing.assert_allclose(run.transitions["tangential_load"], loads, rtol=tolerance)
+    np.testing.assert_allclose(
+        run.transitions["tangential_load"], loads, rtol=tolerance
+    )
 
 
 @pytest.mark.parametrize("n", [2, 7, 50])
@@ -136,29 +189,50 @@ def test_a_tilt_keeps_the_sum_of_loads_and_balances_the_torque(n):
     assert change @ arms == pytest.approx(height, rel=1e-13)
 
 
-@pytest.mark.parametrize(("v_c", "t_v"), [(0.02, 0.0), (0.03, 1e-6), (0.01, 5e-6), (0.02, 2e-5)])
+@pytest.mark.parametrize(
+    ("v_c", "t_v"), [(0.02, 0.0), (0.03, 1e-6), (0.01, 5e-6), (0.02, 2e-5)]
+)
 def test_creep_longer_than_l_c_has_a_real_growing_mode(v_c, t_v):
     n = 400
     chain = SLIDER(n, drive_stiffness=1.0)  # a soft drive is the free end of the theory
     blocks = n * critical_length(LargerChain(chain, v_c, t_v)) / chain.length
 
     def fastest_is_real(p):
-        links = np.diag(np.full(p, 2.0)) - np.diag(np.ones(p - 1), 1) - np.diag(np.ones(p - 1), -1)
+        links = (
+            np.diag(np.full(p, 2.0))
+            - np.diag(np.ones(p - 1), 1)
+            - np.diag(np.ones(p - 1), -1)
+        )
         links[0, 0] = 1.0
         fall = (chain.mu_s - chain.mu_k) * chain.weights[0] / v_c
         damping = (fall * np.eye(p) - t_v * chain.stiffness * links) / chain.mass
         rates = np.linalg.eigvals(
-            np.block([[np.zeros((p, p)), np.eye(p)], [-chain.stiffness / chain.mass * links, damping]])
+            np.block(
+                [
+                    [np.zeros((p, p)), np.eye(p)],
+                    [-chain.stiffness / chain.mass * links, damping],
+                ]
+            )
         )
-        return bool((abs(rates[rates.real > 1e-6 * abs(rates).max()].imag) < 1e-6 * abs(rates).max()).any())
+        return bool(
+            (
+                abs(rates[rates.real > 1e-6 * abs(rates).max()].imag)
+                < 1e-6 * abs(rates).max()
+            ).any()
+        )
 
     assert not fastest_is_real(int(0.95 * blocks))
     assert fastest_is_real(int(1.05 * blocks) + 1)
 
 
 def test_leaps_over_stable_creep_change_no_event():
-    larger = LargerChain(SLIDER(20), weakening_velocity=0.03, relaxation_time=5e-6)  # l_c = 0.21 L
-    leapt, stepped = (find_slips(simulate_larger(larger, 3.0, SLIP, leap=leap)) for leap in (0.5, -np.inf))
+    larger = LargerChain(
+        SLIDER(20), weakening_velocity=0.03, relaxation_time=5e-6
+    )  # l_c = 0.21 L
+    leapt, stepped = (
+        find_slips(simulate_larger(larger, 3.0, SLIP, leap=leap))
+        for leap in (0.5, -np.inf)
+    )
     assert leapt["front"].tolist() == stepped["front"].tolist()
     np.testing.assert_allclose(leapt["load_before"], stepped["load_before"], rtol=LEAP)
     assert (leapt["load_before"] != stepped["load_before"]).any()
@@ -179,7 +253,9 @@ def test_a_run_survives_its_file_and_knows_its_transitions_only(tmp_path):
     np.testing.assert_array_equal(np.transpose(load_curve(again)), run.load_points)
     with pytest.raises(ValueError, match="run of a larger chain knows its transitions"):
         run.at([0.1])
-    assert audit(run).problems == ("it is a larger chain's, and the audit checks Coulomb's law",)
+    assert audit(run).problems == (
+        "it is a larger chain's, and the audit checks Coulomb's law",
+    )
 
 
 @pytest.mark.parametrize(
@@ -188,8 +264,14 @@ def test_a_run_survives_its_file_and_knows_its_transitions_only(tmp_path):
         ({"weakening_velocity": -1.0}, "^weakening_velocity must be between 0 and"),
         ({"relaxation_time": float("nan")}, "^relaxation_time must be a finite number"),
         ({"push_height": "much"}, "^push_height must be a finite number"),
-        ({"relaxation_time": 1e-6, "viscosity": 1.0}, "viscosity must not be given beside relaxation_time"),
-        ({"push_height": 0.02}, r"push_height = 0.02 m lifts block 1 at F_X = 61\.1\d N"),
+        (
+            {"relaxation_time": 1e-6, "viscosity": 1.0},
+            "viscosity must not be given beside relaxation_time",
+        ),
+        (
+            {"push_height": 0.02},
+            r"push_height = 0.02 m lifts block 1 at F_X = 61\.1\d N",
+        ),
     ],
 )
 def test_bad_input_gets_one_line(added, message):

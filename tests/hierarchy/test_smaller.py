@@ -12,10 +12,24 @@ from golden.small_tables import SCENES, assert_kept, model_comparison
 
 from precursors import Chain, simulate
 from precursors.hierarchy import quasistatic
-from precursors.hierarchy.compare_models import DRAWS, SHORTEST, TOLERANCES, compare_models
+from precursors.hierarchy.compare_models import (
+    DRAWS,
+    SHORTEST,
+    TOLERANCES,
+    compare_models,
+)
 from precursors.hierarchy.models import MODELS, UNITS, Motion, move, scene_answers
-from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
-from precursors.hierarchy.rigid import load_drop, onset_load, rigid_slip_duration, slip_load
+from precursors.hierarchy.quasistatic import (
+    ENERGY_CONSERVED,
+    OVERDAMPED,
+    quasistatic_slips,
+)
+from precursors.hierarchy.rigid import (
+    load_drop,
+    onset_load,
+    rigid_slip_duration,
+    slip_load,
+)
 from precursors.hierarchy.statics import front_load_law
 from precursors.model.statics import balance_matrix
 
@@ -23,13 +37,18 @@ ROOT = Path(__file__).parents[2]
 SLIDER = Chain.from_slider
 THETAS = ["-5/6", 0.0, "5/6"]
 ROUNDING = 1e-12  # relative, of sums of a few terms
-CASCADE_ROUNDING = 1e-8  # relative, grows from event to event; a wrong set of blocks is off by 1e-2
+CASCADE_ROUNDING = (
+    1e-8  # relative, grows from event to event; a wrong set of blocks is off by 1e-2
+)
 FORCE_ROUNDING = 1e-9  # of F_Z, in the dense cascade
 RUN_ROUNDING = 1e-11  # relative, of the exact solver's times and loads over ten slips
 
 
-def dense_cascade(chain: Chain, overshoot: float) -> list[tuple[float, float, int, int]]:
-    """Events (loads before and after, front, blocks that slid) by dense matrices, energies checked."""
+def dense_cascade(
+    chain: Chain, overshoot: float
+) -> list[tuple[float, float, int, int]]:
+    """Events (loads before and after, front, blocks that slid) by dense matrices,
+    energies checked."""
     n, matrix = chain.n_blocks, balance_matrix(chain)
     stiffness = matrix @ (np.eye(n) - np.eye(n, k=-1))
     rounding = FORCE_ROUNDING * chain.normal_load
@@ -44,12 +63,23 @@ def dense_cascade(chain: Chain, overshoot: float) -> list[tuple[float, float, in
             released = net @ step - 0.5 * step @ stiffness @ step
             heat = chain.kinetic_friction @ np.abs(step)
             lost = (released - heat) / (net @ step)
-            assert abs(lost) < FORCE_ROUNDING if overshoot == ENERGY_CONSERVED else lost > 0.0
+            assert (
+                abs(lost) < FORCE_ROUNDING
+                if overshoot == ENERGY_CONSERVED
+                else lost > 0.0
+            )
             force = force - chain.springs * np.diff(step, prepend=0.0)
             slid |= sign != 0
             net = force - np.append(force[1:], 0.0)
             sign = np.where(np.abs(net) > chain.strength + rounding, np.sign(net), 0.0)
-        events.append((before, force[0], int(np.flatnonzero(slid)[-1]) + 1, np.count_nonzero(slid)))
+        events.append(
+            (
+                before,
+                force[0],
+                int(np.flatnonzero(slid)[-1]) + 1,
+                np.count_nonzero(slid),
+            )
+        )
     return events
 
 
@@ -59,7 +89,9 @@ def dense_stage(chain, stiffness, net, sign, overshoot, rounding):
         moving = np.flatnonzero(sign)
         step = np.zeros(chain.n_blocks)
         push = (net - sign * chain.kinetic_friction)[moving]
-        step[moving] = (1 + overshoot) * np.linalg.solve(stiffness[np.ix_(moving, moving)], push)
+        step[moving] = (1 + overshoot) * np.linalg.solve(
+            stiffness[np.ix_(moving, moving)], push
+        )
         turned = step * sign < 0
         if turned.any():
             if (turned & ~seeds).any():
@@ -83,25 +115,36 @@ def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> No
     assert run.transitions["mode"].tolist() == [1, 0] * (n // 2) + [1] * (n % 2)
     load = {1: onset_load(chain), 0: onset_load(chain) - load_drop(chain)}
     expected = [load[mode] for mode in run.transitions["mode"].tolist()]
-    np.testing.assert_allclose(run.transitions["tangential_load"], expected, rtol=RUN_ROUNDING)
+    np.testing.assert_allclose(
+        run.transitions["tangential_load"], expected, rtol=RUN_ROUNDING
+    )
     slip, stick = rigid_slip_duration(chain), load_drop(chain) / chain.loading_rate
-    assert intervals[0] == pytest.approx(onset_load(chain) / chain.loading_rate, rel=RUN_ROUNDING)
+    assert intervals[0] == pytest.approx(
+        onset_load(chain) / chain.loading_rate, rel=RUN_ROUNDING
+    )
     np.testing.assert_allclose(intervals[1::2], slip, rtol=RUN_ROUNDING, atol=1e-14)
     np.testing.assert_allclose(intervals[2::2], stick, rtol=RUN_ROUNDING)
-    np.testing.assert_allclose(np.cumsum(intervals), run.transitions["time"], rtol=RUN_ROUNDING)
+    np.testing.assert_allclose(
+        np.cumsum(intervals), run.transitions["time"], rtol=RUN_ROUNDING
+    )
     since = np.linspace(0.0, slip, 7)
     onset = run.transitions["time"][0]
-    np.testing.assert_allclose(slip_load(chain, since), run.tangential_load(onset + since), rtol=1e-6)
+    np.testing.assert_allclose(
+        slip_load(chain, since), run.tangential_load(onset + since), rtol=1e-6
+    )
 
 
 @pytest.mark.parametrize("theta", THETAS)
 @pytest.mark.parametrize("overshoot", [ENERGY_CONSERVED, OVERDAMPED, 0.4])
 @pytest.mark.parametrize("n_blocks", [1, 2, 10, 23])
-def test_cascades_agree_with_dense_matrices_that_balance_energy(theta, overshoot, n_blocks) -> None:
+def test_cascades_agree_with_dense_matrices_that_balance_energy(
+    theta, overshoot, n_blocks
+) -> None:
     assert_dense(SLIDER(n_blocks=n_blocks, theta=theta), overshoot)
 
 
-# Two uneven chains in which blocks join, turn round and are put out, those that began the slip among them.
+# Two uneven chains in which blocks join, turn round and are put out, those that began
+# the slip among them.
 @pytest.mark.parametrize(("draw", "mu_k"), [(72, 0.45), (88, 0.6)])
 def test_so_do_cascades_in_which_blocks_turn_round(draw, mu_k) -> None:
     chain = SLIDER(n_blocks=6, mu_k=mu_k, drive_stiffness=8e6)
@@ -112,16 +155,22 @@ def test_so_do_cascades_in_which_blocks_turn_round(draw, mu_k) -> None:
 def assert_dense(chain: Chain, overshoot: float) -> None:
     slips = quasistatic_slips(chain, overshoot)
     dense = np.array(dense_cascade(chain, overshoot))
-    found = np.array([slips[name] for name in ("load_before", "load_after", "front", "n_slid")]).T
+    found = np.array(
+        [slips[name] for name in ("load_before", "load_after", "front", "n_slid")]
+    ).T
     np.testing.assert_array_equal(found[:, 2:], dense[:, 2:])
     np.testing.assert_allclose(found[:, :2], dense[:, :2], rtol=CASCADE_ROUNDING)
     assert slips["is_global"].tolist() == [False] * (len(slips) - 1) + [True]
     # The drive advances while the load grows, and no event takes time.
     before, after = dense[:, :2].T
     driven = before + np.append(0.0, np.cumsum(before - after)[:-1])
-    np.testing.assert_allclose(slips["onset"], driven / chain.loading_rate, rtol=CASCADE_ROUNDING)
+    np.testing.assert_allclose(
+        slips["onset"], driven / chain.loading_rate, rtol=CASCADE_ROUNDING
+    )
     np.testing.assert_array_equal(slips["end"], slips["onset"])
-    np.testing.assert_array_equal(slips["largest_load"], np.maximum.accumulate(slips["load_before"]))
+    np.testing.assert_array_equal(
+        slips["largest_load"], np.maximum.accumulate(slips["load_before"])
+    )
 
 
 @pytest.mark.parametrize("theta", THETAS)
@@ -137,9 +186,15 @@ def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta) -
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: quasistatic_slips(SLIDER(), 1.5), "overshoot must be between 0 and 1, but is 1.5"),
+        (
+            lambda: quasistatic_slips(SLIDER(), 1.5),
+            "overshoot must be between 0 and 1, but is 1.5",
+        ),
         (lambda: quasistatic_slips(SLIDER(theta=1.0)), "block 1 has 0 N"),
-        (lambda: quasistatic_slips(SLIDER(mu_k=0.7)), "must be below mu_s = 0.7, but is equal"),
+        (
+            lambda: quasistatic_slips(SLIDER(mu_k=0.7)),
+            "must be below mu_s = 0.7, but is equal",
+        ),
     ],
 )
 def test_a_chain_that_no_cascade_fits_gets_one_clear_line(call, message: str) -> None:
@@ -150,15 +205,22 @@ def test_a_chain_that_no_cascade_fits_gets_one_clear_line(call, message: str) ->
 def test_a_limit_that_is_met_is_said_and_no_other_advice_given(monkeypatch) -> None:
     needed = len(quasistatic_slips(SLIDER()))
     assert len(quasistatic_slips(SLIDER(), max_events=needed)) == needed
-    with pytest.raises(RuntimeError, match=f"no global slip within {needed - 1} events: raise max_events"):
+    with pytest.raises(
+        RuntimeError,
+        match=f"no global slip within {needed - 1} events: raise max_events",
+    ):
         quasistatic_slips(SLIDER(), max_events=needed - 1)
     monkeypatch.setattr(quasistatic, "MAX_STAGES", 0)
-    with pytest.raises(RuntimeError, match=r"\Aevent 1 does not come to rest (?!.*max_events)"):
+    with pytest.raises(
+        RuntimeError, match=r"\Aevent 1 does not come to rest (?!.*max_events)"
+    ):
         quasistatic_slips(SLIDER())
 
 
 def test_the_schema_of_the_configuration_knows_the_names_of_the_models() -> None:
-    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8"))
+    schema = yaml.safe_load(
+        (ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8")
+    )
     scene = schema["properties"]["scenes"]["additionalProperties"]
     assert scene["properties"]["model"]["enum"] == list(MODELS)
     assert all(set(model.answers) <= set(UNITS) for model in MODELS.values())
@@ -175,11 +237,16 @@ def test_answers_are_a_table_with_a_row_for_each_number() -> None:
     assert wave["value"].max() == pytest.approx(280.0)
 
 
-def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(monkeypatch) -> None:
+def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(
+    monkeypatch,
+) -> None:
     monkeypatch.setattr("precursors.hierarchy.models.LIMIT", 0.1)
     motion = move(SLIDER())
     answers = MODELS["chain"].answers
-    assert all(np.isnan(answers[name](motion)) for name in ("events_counted", "mu_sapp", "slip_duration"))
+    assert all(
+        np.isnan(answers[name](motion))
+        for name in ("events_counted", "mu_sapp", "slip_duration")
+    )
     assert np.isnan(answers["front_loads"](motion)[-1])
     assert answers["first_load"](motion) == pytest.approx(28.0)
 
@@ -188,7 +255,9 @@ def test_every_answer_is_the_one_that_is_kept() -> None:
     assert_kept("model_comparison", model_comparison())
 
 
-def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(clock) -> None:
+def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(
+    clock,
+) -> None:
     calls, warm, rounds = [], 0.0005, 3
     motion = move(SCENES["even"])
 

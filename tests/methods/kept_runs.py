@@ -1,4 +1,5 @@
-"""Short runs of every method, kept in `golden/small/methods.csv`: what they cost and where they switch."""
+"""Short runs of every method, kept in `golden/small/methods.csv`: what they cost and
+where they switch."""
 
 from __future__ import annotations
 
@@ -10,19 +11,29 @@ from precursors.methods import METHODS
 
 # A drive so fast makes slips follow one another within milliseconds.
 SPEED = 0.01  # m/s
-# A chain, a duration [s] and where the run ends. Blocks are released backward and turn round; one block
-# slides for more steps than a leg has; the first slip is not global; fronts are of all lengths.
+# A chain, a duration [s] and where the run ends. Blocks are released backward and turn
+# round; one block slides for more steps than a leg has; the first slip is not global;
+# fronts are of all lengths.
 RUNS: dict[str, tuple[Chain, float, str | None]] = {
     "backward": (
         Chain.from_slider(n_blocks=3, theta="-5/6", mu_k=0.1, drive_velocity=SPEED),
         0.0235,
         None,
     ),
-    "one block": (Chain.from_slider(n_blocks=1, drive_velocity=SPEED), 0.1, "global slip"),
-    "two blocks": (Chain.from_slider(n_blocks=2, drive_velocity=SPEED), 0.1, "global slip"),
+    "one block": (
+        Chain.from_slider(n_blocks=1, drive_velocity=SPEED),
+        0.1,
+        "global slip",
+    ),
+    "two blocks": (
+        Chain.from_slider(n_blocks=2, drive_velocity=SPEED),
+        0.1,
+        "global slip",
+    ),
     "ten blocks": (Chain.from_slider(theta="5/6", drive_velocity=SPEED), 0.007, None),
 }
-# Values by what the setting is, or by the method where these are too coarse, too slow or hang on rounding.
+# Values by what the setting is, or by the method where these are too coarse, too slow
+# or hang on rounding.
 SETTINGS = {
     "none": (0.0,),
     "step [s]": (5e-6, 1e-6, 1e-7),
@@ -36,13 +47,16 @@ SETTINGS = {
 
 
 def kept_runs(method: str) -> pd.DataFrame:
-    """A row per run and value: its cost, its transitions, and means that depend on all of them."""
+    """A row per run and value: its cost, its transitions, and means that depend on all
+    of them."""
     rows = []
     for name, (chain, duration, until) in RUNS.items():
         for value in SETTINGS.get(method) or SETTINGS[METHODS[method].setting]:
             if chain.n_blocks > 1 and METHODS[method].setting == "width [m/s]":
                 continue  # rounding decides how many steps are made
-            run, evaluations = vars(METHODS[method].solve(chain, duration, value, until)).values()
+            run, evaluations = vars(
+                METHODS[method].solve(chain, duration, value, until)
+            ).values()
             rows.append(
                 {
                     "method": method,

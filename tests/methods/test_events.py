@@ -1,4 +1,5 @@
-"""Methods that locate transitions as events: what they get right, and where and why they fail."""
+"""Methods that locate transitions as events: what they get right, and where and why
+they fail."""
 
 from functools import partial
 from importlib.util import find_spec
@@ -14,10 +15,12 @@ from precursors.methods.heyoka_events import solve_heyoka
 from precursors.methods.scipy_events import solve_scipy
 
 FIRST_SLIP = 216  # transitions of theta = 0 to the end of the first global slip
-# Errors of a step add up and grow in 2.7 s: measured were 7e-10 (DOP853) to 7e-8 s (Radau).
+# Errors of a step add up and grow in 2.7 s: measured were 7e-10 (DOP853) to 7e-8 s
+# (Radau).
 TIGHT = {"DOP853": 1e-10, "RK45": 1e-10, "LSODA": 1e-10, "Radau": 1e-7}
 TIGHT_ERROR = 2e-7  # s, a hundredth of the shortest slip
-# heyoka at its default tolerance is right to rounding; 5e-11 s and 1e-8 s were measured at 10 s.
+# heyoka at its default tolerance is right to rounding; 5e-11 s and 1e-8 s were measured
+# at 10 s.
 ROUNDING_GROWN = 1e-7  # s
 
 
@@ -27,32 +30,53 @@ def uniform() -> Chain:
 
 
 def right_and_error(run: Run, golden: list) -> tuple[int, float]:
-    """Transitions before the first wrong one, and the largest error of their times [s]."""
+    """Transitions before the first wrong one, and the largest error of their times
+    [s]."""
     right, error = 0, 0.0
     for found, true in zip(run.transitions, golden, strict=False):
         if (found["block"], found["mode"]) != (true.block, true.mode):
             break
-        right, error = right + 1, max(error, abs(float(found["time"] - float(true.time))))
+        right, error = (
+            right + 1,
+            max(error, abs(float(found["time"] - float(true.time)))),
+        )
     return right, error
 
 
 def needs(package: str) -> pytest.MarkDecorator:
-    return pytest.mark.skipif(find_spec(package) is None, reason=f"{package} is an extra")
+    return pytest.mark.skipif(
+        find_spec(package) is None, reason=f"{package} is an extra"
+    )
 
 
 @pytest.mark.parametrize(
     ("solve", "tolerance", "allowed"),
     [
-        *(pytest.param(partial(solve_scipy, solver=s), x, TIGHT_ERROR, id=s) for s, x in TIGHT.items()),
-        *(pytest.param(solve_dop853, x, 100 * x, id=f"compiled {x:g}") for x in (1e-7, 1e-10, 1e-13)),
         *(
-            pytest.param(partial(solve_cvode, formula=f), 1e-10, TIGHT_ERROR, id=f, marks=needs("sksundae"))
+            pytest.param(partial(solve_scipy, solver=s), x, TIGHT_ERROR, id=s)
+            for s, x in TIGHT.items()
+        ),
+        *(
+            pytest.param(solve_dop853, x, 100 * x, id=f"compiled {x:g}")
+            for x in (1e-7, 1e-10, 1e-13)
+        ),
+        *(
+            pytest.param(
+                partial(solve_cvode, formula=f),
+                1e-10,
+                TIGHT_ERROR,
+                id=f,
+                marks=needs("sksundae"),
+            )
             for f in ("Adams", "BDF")
         ),
     ],
 )
-def test_a_method_makes_every_transition_of_the_first_global_slip(uniform, solve, tolerance, allowed):
-    """At a tight tolerance; compiled DOP853 also at that where SciPy's misses two roots."""
+def test_a_method_makes_every_transition_of_the_first_global_slip(
+    uniform, solve, tolerance, allowed
+):
+    """At a tight tolerance; compiled DOP853 also at that where SciPy's misses two
+    roots."""
     result = solve(uniform, 10.0, tolerance, "global slip")
     right, error = right_and_error(result.run, read_golden("fig10"))
     assert right == len(result.run.transitions) == FIRST_SLIP

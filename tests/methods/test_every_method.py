@@ -1,4 +1,5 @@
-"""What every method must do: make the transitions of the exact solver, keep its clock, know its Jacobian."""
+"""What every method must do: make the transitions of the exact solver, keep its clock,
+know its Jacobian."""
 
 from __future__ import annotations
 
@@ -19,8 +20,9 @@ from precursors.methods.compiled import COMPILED
 from precursors.methods.events import EventMotion
 from precursors.methods.regularised import equations
 
-# Blocks, theta, mu_k, and a time [s]: past the first global slip; after a block has slid backward: block 3 of
-# 3 and block 1, which turn round, and block 2, which is released backward from rest.
+# Blocks, theta, mu_k, and a time [s]: past the first global slip; after a block has
+# slid backward: block 3 of 3 and block 1, which turn round, and block 2, which is
+# released backward from rest.
 CHAINS = [
     (1, 0.0, 0.45, 3.6),
     (3, 0.0, 0.45, 3.6),
@@ -28,7 +30,8 @@ CHAINS = [
     (3, "5/6", 0.45, 1.5),
     (3, "-5/6", 0.1, 2.13945),
 ]
-# Settings at which a method makes the transitions of a short chain: by its name, or by what the setting is.
+# Settings at which a method makes the transitions of a short chain: by its name, or by
+# what the setting is.
 FINE = {
     "exact": 0.0,
     "heyoka": 0.0,
@@ -43,21 +46,29 @@ STEPS_ERROR = 0.4
 # Methods that stop a block before it turns do so for less than this [s].
 TURN = 1e-7
 CLOCK = 1e-13  # s; roundings of a sum of some ten intervals
-ROUNDING = 1e-8  # relative, after some tens of transitions: with and without fused products it was 1e-9
+# relative, after some tens of transitions: with and without fused products it was 1e-9
+ROUNDING = 1e-8
 # Eq. 4 taken literally never sticks, so that it makes other transitions.
 NAMES = [name for name in METHODS if name != "literal"]
-# Where friction is a law of the velocity, blocks creep at rest, and slide only after the last of these ends.
+# Where friction is a law of the velocity, blocks creep at rest, and slide only after
+# the last of these ends.
 N_CHAINS = {"friction law": 4}
-CASES = [(name, *case) for name in NAMES for case in CHAINS[: N_CHAINS.get(METHODS[name].kind)]]
+CASES = [
+    (name, *case)
+    for name in NAMES
+    for case in CHAINS[: N_CHAINS.get(METHODS[name].kind)]
+]
 
 
 STEP = 1e-6  # s
-# One block slides once, from the instant at which it reaches its limit: that is all that the run has.
+# One block slides once, from the instant at which it reaches its limit: that is all
+# that the run has.
 CHAIN = Chain.from_slider(n_blocks=1)
 LIMIT = float(CHAIN.strength[0]) / CHAIN.loading_rate
 DURATION = LIMIT + 0.01
-# Evaluations in each step and besides: the force at the end of a step is that at the start of the next, the
-# first has to be evaluated; a step in which a block stops is solved again with the block stuck.
+# Evaluations in each step and besides: the force at the end of a step is that at the
+# start of the next, the first has to be evaluated; a step in which a block stops is
+# solved again with the block stuck.
 STEPS = {
     "rk4_skip": (4, 0),
     "leapfrog": (1, 1),
@@ -79,7 +90,11 @@ def without_short_stops(transitions) -> list[tuple[int, int, float]]:
         for k, (row, following) in enumerate(pairwise(rows))
         if row[2] == 0 and following[1] == row[1] and following[0] - row[0] < TURN
     }
-    return [(block, mode, load) for k, (_, block, mode, load) in enumerate(rows) if k not in turns]
+    return [
+        (block, mode, load)
+        for k, (_, block, mode, load) in enumerate(rows)
+        if k not in turns
+    ]
 
 
 @pytest.mark.parametrize(("name", "n_blocks", "theta", "mu_k", "end"), CASES)
@@ -100,13 +115,18 @@ def test_a_method_makes_the_transitions_of_the_exact_solver_and_its_intervals_ar
 
 @pytest.mark.parametrize("name", METHODS)
 def test_costs_transitions_times_and_loads_of_short_runs_are_those_that_are_kept(name):
-    """They depend on all that methods share (columns, common, compiled, equations, events, fixed_step) and on
+    """They depend on all that methods share (columns, common, compiled, equations,
+    events, fixed_step) and on
 
-    each of them: cvode_events, dop853, exact, heyoka_events, karnopp, leapfrog, moreau_jean, newmark,
-    regularised, rk4, rk4_located and scipy_events.
+    each of them: cvode_events, dop853, exact, heyoka_events, karnopp, leapfrog,
+    moreau_jean, newmark, regularised, rk4, rk4_located and scipy_events.
     """
-    kept = pd.read_csv(SMALL / "methods.csv", keep_default_na=False).query("method == @name")
-    pd.testing.assert_frame_equal(kept_runs(name), kept.reset_index(drop=True), rtol=ROUNDING)
+    kept = pd.read_csv(SMALL / "methods.csv", keep_default_na=False).query(
+        "method == @name"
+    )
+    pd.testing.assert_frame_equal(
+        kept_runs(name), kept.reset_index(drop=True), rtol=ROUNDING
+    )
 
 
 @pytest.mark.parametrize("name", STEPS)
@@ -128,7 +148,9 @@ def test_evaluations_of_equal_steps_are_those_of_the_method(name):
         ("cvode_bdf", 1e-6, cvode_events, "rates_of"),
     ],
 )
-def test_evaluations_of_other_solvers_are_their_calls(name, setting, where, function, monkeypatch):
+def test_evaluations_of_other_solvers_are_their_calls(
+    name, setting, where, function, monkeypatch
+):
     if name not in METHODS:
         pytest.skip("scikit-sundae is an extra")
     evaluate, calls = getattr(where, function), 0
@@ -145,23 +167,32 @@ def test_evaluations_of_other_solvers_are_their_calls(name, setting, where, func
 def differences(function, state: np.ndarray, step: float) -> np.ndarray:
     """Matrix of central differences of a vector function."""
     changes = step * np.eye(len(state))
-    return np.column_stack([(function(state + h) - function(state - h)) / (2 * step) for h in changes])
+    return np.column_stack(
+        [(function(state + h) - function(state - h)) / (2 * step) for h in changes]
+    )
 
 
 def test_the_jacobian_of_located_events_is_that_of_differences():
-    motion = EventMotion(Chain.from_slider(n_blocks=4, theta="5/6", drive_stiffness=3e6), 1.0, None)
+    motion = EventMotion(
+        Chain.from_slider(n_blocks=4, theta="5/6", drive_stiffness=3e6), 1.0, None
+    )
     motion.put([-1, 0, 1, 0], np.ones(4), [-1.0, 0.0, 2.0, 0.0])
     of_differences = differences(lambda y: motion.rates(0.0, y), motion.y, 1e-3)
-    # Velocities of blocks that stick are 0, so that a change of them is nothing that happens.
+    # Velocities of blocks that stick are 0, so that a change of them is nothing that
+    # happens.
     sticking = [5, 7]
-    np.testing.assert_allclose(np.delete(motion.jacobian() - of_differences, sticking, 1), 0.0, atol=1e-10)
+    np.testing.assert_allclose(
+        np.delete(motion.jacobian() - of_differences, sticking, 1), 0.0, atol=1e-10
+    )
 
 
 def test_the_jacobian_of_regularised_friction_is_that_of_differences():
     chain = Chain.from_slider(n_blocks=4, theta="-5/6")
     width = 1e-2
     rates, matrix = equations(chain, width)
-    unit = width * chain.mass / time_unit(chain)  # of velocities, in which friction turns over
+    unit = (
+        width * chain.mass / time_unit(chain)
+    )  # of velocities, in which friction turns over
     state = unit * np.random.default_rng(6).uniform(-3, 3, 8)
     of_differences = differences(lambda y: rates(0.0, y), state, 1e-5 * unit)
     np.testing.assert_allclose(matrix(0.0, state), of_differences, rtol=1e-6, atol=1e-6)
@@ -169,5 +200,9 @@ def test_the_jacobian_of_regularised_friction_is_that_of_differences():
 
 def test_code_is_compiled_again_after_an_edit_of_any_module_that_it_uses():
     modules = Path(columns.__file__).parent.glob("*.py")
-    names = {file.name for file in modules if re.search(r"import .*\b(inner|outer)\b", file.read_text())}
+    names = {
+        file.name
+        for file in modules
+        if re.search(r"import .*\b(inner|outer)\b", file.read_text())
+    }
     assert names | {"columns.py", "compiled.py"} == set(COMPILED)

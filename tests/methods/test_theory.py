@@ -1,4 +1,5 @@
-"""While nothing switches, orders, stability limits and energy of fixed-step methods are those of theory."""
+"""While nothing switches, orders, stability limits and energy of fixed-step methods are
+those of theory."""
 
 from __future__ import annotations
 
@@ -26,8 +27,8 @@ from precursors.methods.stability import (
 
 SMOOTH = {name: method.smooth for name, method in METHODS.items() if method.smooth}
 UNSTABLE = [name for name, smooth in SMOOTH.items() if 0.0 < smooth.limit < np.inf]
-# So much beyond RK4's limit energy becomes a millionfold within 4000 steps; a wrong drive spring would
-# move the limit by 1e-3.
+# So much beyond RK4's limit energy becomes a millionfold within 4000 steps; a wrong
+# drive spring would move the limit by 1e-3.
 LIMIT_TOLERANCE = 5e-4
 # Of a factor per step: rounding of some tens of steps, and of the frequency.
 FACTOR_TOLERANCE = 1e-9
@@ -44,7 +45,8 @@ def free() -> Chain:
 
 
 def exact_motion(chain: Chain, time: float) -> np.ndarray:
-    """Spring forces and velocities of sliding blocks, by the exponential of the whole system's matrix."""
+    """Spring forces and velocities of sliding blocks, by the exponential of the whole
+    system's matrix."""
     n = chain.n_blocks
     bonds = np.eye(n) - np.eye(n, k=-1)
     matrix = np.zeros((2 * n + 1, 2 * n + 1))
@@ -55,9 +57,13 @@ def exact_motion(chain: Chain, time: float) -> np.ndarray:
     return (expm(matrix * time) @ np.concatenate([np.zeros(n), VELOCITIES, [1.0]]))[:-1]
 
 
-def in_velocities(chain: Chain, spring_force: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+def in_velocities(
+    chain: Chain, spring_force: np.ndarray, velocity: np.ndarray
+) -> np.ndarray:
     """Forces and velocities, both in the unit of velocities [m/s]."""
-    return np.concatenate([spring_force / np.sqrt(chain.stiffness * chain.mass), velocity])
+    return np.concatenate(
+        [spring_force / np.sqrt(chain.stiffness * chain.mass), velocity]
+    )
 
 
 def smooth_error(name: str, n_steps: int) -> float:
@@ -67,7 +73,11 @@ def smooth_error(name: str, n_steps: int) -> float:
     force, velocity = np.split(exact_motion(chain, STRETCH), 2)
     assert (velocity > 0).all()
     return float(
-        np.linalg.norm(in_velocities(chain, state[FORCE, 1:-1] - force, state[VELOCITY, 1:-1] - velocity))
+        np.linalg.norm(
+            in_velocities(
+                chain, state[FORCE, 1:-1] - force, state[VELOCITY, 1:-1] - velocity
+            )
+        )
     )
 
 
@@ -80,7 +90,9 @@ def test_the_order_on_a_smooth_stretch_is_that_of_the_method(name):
 @pytest.mark.parametrize("name", UNSTABLE)
 def test_energy_has_no_limit_beyond_the_step_that_theory_allows(free, name):
     found = largest_stable_step(free, SMOOTH[name].slide)
-    assert found * highest_frequency(free) == pytest.approx(SMOOTH[name].limit, rel=LIMIT_TOLERANCE)
+    assert found * highest_frequency(free) == pytest.approx(
+        SMOOTH[name].limit, rel=LIMIT_TOLERANCE
+    )
 
 
 @pytest.mark.parametrize(
@@ -96,11 +108,17 @@ def test_energy_has_no_limit_beyond_the_step_that_theory_allows(free, name):
         ("moreau_jean_one", 0.1, 200),
     ],
 )
-def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(free, name, z, n_steps):
+def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(
+    free, name, z, n_steps
+):
     step, mode, smooth = z / highest_frequency(free), highest_mode(free), SMOOTH[name]
     # Once the energy swings no more: leapfrog's second root fades meanwhile.
-    once, twice = (energy_left(free, smooth.slide, step, n, mode) for n in (n_steps, 2 * n_steps))
-    assert (twice / once) ** (1 / n_steps) == pytest.approx(smooth.energy_factor(z), rel=FACTOR_TOLERANCE)
+    once, twice = (
+        energy_left(free, smooth.slide, step, n, mode) for n in (n_steps, 2 * n_steps)
+    )
+    assert (twice / once) ** (1 / n_steps) == pytest.approx(
+        smooth.energy_factor(z), rel=FACTOR_TOLERANCE
+    )
 
 
 def test_hht_damps_a_mode_by_the_largest_eigenvalue_of_a_step(free):
@@ -109,17 +127,23 @@ def test_hht_damps_a_mode_by_the_largest_eigenvalue_of_a_step(free):
     left = energy_left(free, hht.slide, 1.0 / omega, 200, mode)
     assert left ** (1 / 200) == pytest.approx(hht.energy_factor(1.0), rel=5e-4)
     assert hht.energy_factor(3.0) < 0.9
-    # At infinite frequency: J. Chung and G. M. Hulbert, J. Appl. Mech. 60 (1993) 371, Eq. 23.
+    # At infinite frequency: J. Chung and G. M. Hulbert, J. Appl. Mech. 60 (1993) 371,
+    # Eq. 23.
     alpha = newmark.HHT
-    assert hht.energy_factor(1e7) == pytest.approx(((1 + alpha) / (1 - alpha)) ** 2, rel=1e-6)
+    assert hht.energy_factor(1e7) == pytest.approx(
+        ((1 + alpha) / (1 - alpha)) ** 2, rel=1e-6
+    )
 
 
 def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free):
     step = 100 / highest_frequency(free)
 
     def is_unstable_at(theta: float) -> bool:
-        # Below one half, energy rises by 4 (1/2 - theta) a step: 1e6 within 4000 steps from 0.499 on.
-        return is_unstable(free, partial(slide, moreau_jean.run_moreau_jean, (theta,)), step)
+        # Below one half, energy rises by 4 (1/2 - theta) a step: 1e6 within 4000 steps
+        # from 0.499 on.
+        return is_unstable(
+            free, partial(slide, moreau_jean.run_moreau_jean, (theta,)), step
+        )
 
     assert bisect(is_unstable_at, 0.6, 0.4) == pytest.approx(0.5, rel=2e-3)
 
@@ -127,16 +151,28 @@ def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free):
 @pytest.mark.parametrize("dead_zone", [1e-5, 1e-4, 1e-3])
 def test_karnopps_block_leaves_its_dead_zone_late_by_the_delay_of_theory(dead_zone):
     chain, step = Chain.from_slider(n_blocks=1, drive_velocity=1e-2), 1e-7
-    late = karnopp.solve(chain, 0.04, step, dead_zone=dead_zone).run.transitions["time"][0]
+    late = karnopp.solve(chain, 0.04, step, dead_zone=dead_zone).run.transitions[
+        "time"
+    ][0]
     exact = simulate(chain, 0.04).transitions["time"][0]
-    # The block is seen to slide at the end of a step; the springs resist its way a little.
-    assert late - exact == pytest.approx(karnopp.release_delay(chain, dead_zone), abs=step, rel=1e-3)
+    # The block is seen to slide at the end of a step; the springs resist its way a
+    # little.
+    assert late - exact == pytest.approx(
+        karnopp.release_delay(chain, dead_zone), abs=step, rel=1e-3
+    )
 
 
 @pytest.mark.parametrize(("ratio", "width"), [(0.1, 1e-6), (0.5, 1e-8), (0.9, 1e-6)])
 def test_a_block_held_by_regularised_friction_creeps_at_the_closed_form(ratio, width):
     chain = Chain.from_slider(n_blocks=1)
-    creep = creep_velocity(ratio * chain.strength[0], chain.weights[0], width, chain.mu_s)
+    creep = creep_velocity(
+        ratio * chain.strength[0], chain.weights[0], width, chain.mu_s
+    )
     z = np.atanh(ratio)
-    drop = (1 - chain.mu_k / chain.mu_s) * (z / STRIBECK) ** 2 * ratio / ((1 - ratio**2) * z)
+    drop = (
+        (1 - chain.mu_k / chain.mu_s)
+        * (z / STRIBECK) ** 2
+        * ratio
+        / ((1 - ratio**2) * z)
+    )
     assert measured_creep(ratio, width) == pytest.approx(creep * (1 + drop), rel=1e-5)

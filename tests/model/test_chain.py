@@ -33,12 +33,18 @@ def test_weights_add_up_to_the_total_load_and_are_linear(n_blocks, theta):
     if n_blocks > 2:
         assert np.ptp(np.diff(weights)) < 1e-12
     if n_blocks > 1:
-        assert weights[-1] - weights[0] == pytest.approx(2 * theta * 400.0 / n_blocks, abs=1e-12)
+        assert weights[-1] - weights[0] == pytest.approx(
+            2 * theta * 400.0 / n_blocks, abs=1e-12
+        )
 
 
 def test_load_cells_of_1_to_3_give_five_sixths_exactly():
-    assert theta_from_load_cells(*printed.CELL_LOADS_N, spacing=0.06, length=0.1) == Fraction(5, 6)
-    assert theta_from_load_cells(300.0, 100.0, spacing=0.06, length=0.1) == -Fraction(5, 6)
+    assert theta_from_load_cells(
+        *printed.CELL_LOADS_N, spacing=0.06, length=0.1
+    ) == Fraction(5, 6)
+    assert theta_from_load_cells(300.0, 100.0, spacing=0.06, length=0.1) == -Fraction(
+        5, 6
+    )
     assert theta_from_load_cells(200.0, 200.0, spacing=0.06, length=0.1) == 0
     assert theta_from_load_cells(0.0, 400.0, spacing=0.1, length=0.1) == 1
 
@@ -69,20 +75,44 @@ def test_a_chain_cannot_be_changed():
     ("argument", "value", "words"),
     [
         ("n_blocks", 0, "n_blocks must be a whole number from 1 to 100000, but is 0"),
-        ("n_blocks", 10**9, "n_blocks must be a whole number from 1 to 100000, but is 1000000000"),
-        ("youngs_modulus", 1e50, "stiffness and drive_stiffness must be within a factor of 1e+12"),
-        ("slider_mass", 1e-50, "sqrt(stiffness/mass) must be between 1e-20 and 1e+20 rad/s"),
+        (
+            "n_blocks",
+            10**9,
+            "n_blocks must be a whole number from 1 to 100000, but is 1000000000",
+        ),
+        (
+            "youngs_modulus",
+            1e50,
+            "stiffness and drive_stiffness must be within a factor of 1e+12",
+        ),
+        (
+            "slider_mass",
+            1e-50,
+            "sqrt(stiffness/mass) must be between 1e-20 and 1e+20 rad/s",
+        ),
         ("n_blocks", True, "but is True"),
-        ("theta", 1.01, 'theta must be a number between -1 and 1, or a fraction as "5/6", but is 1.01'),
+        (
+            "theta",
+            1.01,
+            'theta must be a number between -1 and 1, or a fraction as "5/6", but is 1.01',
+        ),
         ("theta", "5/0", "but is '5/0'"),
         ("theta", "1e999999999", "but is '1e999999999'"),
         ("theta", math.nan, "but is nan"),
         ("normal_load", 0.0, "normal_load must be above 0 N, but is 0.0"),
         ("mu_s", -0.1, "mu_s must be between 0 and 1e+60 [1], but is -0.1"),
         ("mu_k", 0.71, "mu_k must be between 0 and mu_s = 0.7, but is 0.71"),
-        ("drive_stiffness", math.inf, "drive_stiffness must be a finite number [N/m], but is inf"),
+        (
+            "drive_stiffness",
+            math.inf,
+            "drive_stiffness must be a finite number [N/m], but is inf",
+        ),
         ("drive_stiffness", "0.8e6", "write 2.5e+9"),
-        ("youngs_modulus", None, "youngs_modulus must be a finite number [Pa], but is None"),
+        (
+            "youngs_modulus",
+            None,
+            "youngs_modulus must be a finite number [Pa], but is None",
+        ),
         ("cross_section", 10**400, "cross_section"),
         ("length", 0, "length must be above 0 m, but is 0"),
     ],
@@ -112,7 +142,8 @@ def test_bad_weights_are_refused(weights, words):
 
 
 @pytest.mark.parametrize(
-    ("a", "b", "words"), [(-1.0, 2.0, "load_a"), (0.0, 0.0, "both are 0 N"), (400.0, 1.0, "theta")]
+    ("a", "b", "words"),
+    [(-1.0, 2.0, "load_a"), (0.0, 0.0, "both are 0 N"), (400.0, 1.0, "theta")],
 )
 def test_load_cells_that_the_line_cannot_pass_through_are_refused(a, b, words):
     with pytest.raises(ValueError, match=words):
@@ -154,7 +185,12 @@ def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, r
     ],
 )
 def test_every_number_may_be_at_its_limit_and_not_beyond(name, at_the_limit, beyond):
-    numbers = {"weights": [1.0, 2.0], "mass": 1.0, "stiffness": 1.0, "drive_stiffness": 1.0}
+    numbers = {
+        "weights": [1.0, 2.0],
+        "mass": 1.0,
+        "stiffness": 1.0,
+        "drive_stiffness": 1.0,
+    }
     numbers |= {"drive_velocity": 1.0, "mu_s": 0.5, "mu_k": 0.25}
     chain = Chain(**numbers | {name: at_the_limit})
     np.testing.assert_array_equal(getattr(chain, name), at_the_limit)
@@ -165,4 +201,6 @@ def test_every_number_may_be_at_its_limit_and_not_beyond(name, at_the_limit, bey
 def test_whole_numbers_are_taken_as_floats():
     chain = Chain([1, 2], 1, 1, 1, 1, 1, 0, 1)
     assert chain.weights.dtype == float
-    assert {type(value) for name, value in vars(chain).items() if name != "weights"} == {float}
+    assert {
+        type(value) for name, value in vars(chain).items() if name != "weights"
+    } == {float}

@@ -1,4 +1,5 @@
-"""A wrong configuration is refused in one line: which value, where, and what it must be."""
+"""A wrong configuration is refused in one line: which value, where, and what it must
+be."""
 
 import copy
 import math
@@ -20,7 +21,11 @@ STEEP = {"title": "steep", "theta": 0.9}
 # Key, value, and words that the line must hold.
 MEASURED = {"title": "as measured", "weights": [30.0, 40.0, 50.0]}
 WRONG = [
-    ("chain.youngs_modulus", "2.5e9", ["chain.youngs_modulus: '2.5e9'", "2.5e+9 and not as 2.5e9"]),
+    (
+        "chain.youngs_modulus",
+        "2.5e9",
+        ["chain.youngs_modulus: '2.5e9'", "2.5e+9 and not as 2.5e9"],
+    ),
     ("chain.mu_k", "0.46", ["chain.mu_k: '0.46'", "this is text"]),
     ("chain.mu_k", 0.8, ["chain: ", "mu_k", "0.8", "mu_s = 0.7"]),
     ("scenes.fig10.mu_k", 0.9, ["scenes.fig10: ", "mu_k", "0.9", "mu_s = 0.7"]),
@@ -30,20 +35,44 @@ WRONG = [
     ("chain.mass", 0.0012, ["chain: ", "'mass' was unexpected"]),
     ("speed", 1.0, ["top level: ", "'speed' was unexpected"]),
     ("scenes.fig10.load_cel_a", 1.0, ["scenes.fig10: ", "'load_cel_a' was unexpected"]),
-    ("scenes.fig10.load_cell_b", MISSING, ["both load_cell_a and load_cell_b", "is load_cell_a"]),
+    (
+        "scenes.fig10.load_cell_b",
+        MISSING,
+        ["both load_cell_a and load_cell_b", "is load_cell_a"],
+    ),
     ("scenes.fig10.theta", 0.1, ["either theta or both", "is theta and load_cell_a"]),
     ("scenes.fig10.load_cell_b", 5000.0, ["scenes.fig10: ", "-1"]),
-    ("scenes.fig10.normal_load", 500.0, ["scenes.fig10: normal_load must not be given", "sum"]),
+    (
+        "scenes.fig10.normal_load",
+        500.0,
+        ["scenes.fig10: normal_load must not be given", "sum"],
+    ),
     ("scenes.steep", {"title": "steep"}, ["scenes.steep: ", "is neither"]),
-    ("scenes.steep", STEEP | {"theta": 1.1}, ["scenes.steep.theta: 1.1", "maximum of 1"]),
+    (
+        "scenes.steep",
+        STEEP | {"theta": 1.1},
+        ["scenes.steep.theta: 1.1", "maximum of 1"],
+    ),
     ("scenes.steep", STEEP | {"theta": "7/6"}, ["scenes.steep: ", "'7/6'", "-1"]),
     ("scenes.st eep", STEEP, ["scenes: 'st eep' must be a name of at most 64 letters"]),
-    ("scenes.steep", STEEP | {"duration": float("nan")}, ["scenes.steep: duration must be a finite number"]),
+    (
+        "scenes.steep",
+        STEEP | {"duration": float("nan")},
+        ["scenes.steep: duration must be a finite number"],
+    ),
     ("scenes.steep\n", STEEP, ["scenes: 'steep"]),
-    ("scenes.steep", MEASURED | {"theta": 0}, ["scenes.steep: theta must not be given beside weights"]),
+    (
+        "scenes.steep",
+        MEASURED | {"theta": 0},
+        ["scenes.steep: theta must not be given beside weights"],
+    ),
     ("scenes.steep", MEASURED | {"weights": "none.csv"}, ["none.csv: no such file"]),
     ("scenes.steep", MEASURED | {"weights": [0.0, 0.0]}, ["scenes.steep: ", "weights"]),
-    ("fig13", ["fig10", "fig11", "fig99"], ["fig13 holds 'fig99'", "fig10, fig11, fig12"]),
+    (
+        "fig13",
+        ["fig10", "fig11", "fig99"],
+        ["fig13 holds 'fig99'", "fig10, fig11, fig12"],
+    ),
     ("fig13", ["fig10", "fig11"], ["fig13: ", "too short: at least 3 are needed"]),
     ("figure_formats", ["doc"], ["figure_formats[0]: 'doc' is not one of"]),
     (
@@ -59,7 +88,11 @@ WRONG = [
     ("reproduction.theta", ["0", "7/6"], ["theta in reproduction: ", "7/6"]),
     ("accuracy.proved.leading.mu_k", 0.9, ["accuracy.proved.leading: ", "mu_k"]),
     ("accuracy.compared", ["none"], ["holds 'none'", "trailing"]),
-    ("ensembles.resolution.runs", [40], ["resolution.runs", "one number for each of n_blocks"]),
+    (
+        "ensembles.resolution.runs",
+        [40],
+        ["resolution.runs", "one number for each of n_blocks"],
+    ),
 ]
 
 
@@ -80,7 +113,11 @@ def changed(key, value):
 def leaves(value, where=()):
     """Places of all numbers, texts and lists of a configuration."""
     if isinstance(value, dict):
-        return [leaf for key, inner in value.items() for leaf in leaves(inner, (*where, key))]
+        return [
+            leaf
+            for key, inner in value.items()
+            for leaf in leaves(inner, (*where, key))
+        ]
     return [".".join(where)]
 
 
@@ -94,9 +131,14 @@ def test_the_papers_configuration_is_accepted():
     check_config(PAPERS, SCHEMA)
     assert scenes_with(PAPERS, "run") == ["fig10", "fig11", "fig12"]
     assert [
-        Chain.from_slider(**scene_slider(PAPERS, name)).normal_load for name in PAPERS["scenes"]
+        Chain.from_slider(**scene_slider(PAPERS, name)).normal_load
+        for name in PAPERS["scenes"]
     ] == pytest.approx([400.0] * 3)
-    assert [scene_slider(PAPERS, name)["theta"] for name in PAPERS["scenes"]] == [0.0, -5 / 6, 5 / 6]
+    assert [scene_slider(PAPERS, name)["theta"] for name in PAPERS["scenes"]] == [
+        0.0,
+        -5 / 6,
+        5 / 6,
+    ]
     for theta in (-1, 0.5, "5/6"):
         check_config(changed("scenes.steep", STEEP | {"theta": theta}), SCHEMA)
 
@@ -114,8 +156,12 @@ def test_a_wrong_value_is_named_with_its_place_and_what_it_must_be(key, value, w
     assert [word for word in words if word not in line] == [], line
 
 
-@pytest.mark.parametrize("key", [leaf for leaf in leaves(PAPERS) if "title" not in leaf])
-@pytest.mark.parametrize("value", [None, {"a": 1}, "much"], ids=["empty", "table", "text"])
+@pytest.mark.parametrize(
+    "key", [leaf for leaf in leaves(PAPERS) if "title" not in leaf]
+)
+@pytest.mark.parametrize(
+    "value", [None, {"a": 1}, "much"], ids=["empty", "table", "text"]
+)
 def test_every_value_of_the_file_is_checked(key, value):
     assert key.split(".")[-1] in refused(changed(key, value))
 
@@ -123,9 +169,18 @@ def test_every_value_of_the_file_is_checked(key, value):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("a: 1\nb: {c: 2, c: 3}\n", "the key 'c' stands there twice in line 2, column 11"),
-        ("a:\n\tb: 1\n", "found character '\\t' that cannot start any token in line 2, column 1"),
-        ("a: 010\n", "010 is not plain: write a decimal number, or a text in quotes in line 1, column 4"),
+        (
+            "a: 1\nb: {c: 2, c: 3}\n",
+            "the key 'c' stands there twice in line 2, column 11",
+        ),
+        (
+            "a:\n\tb: 1\n",
+            "found character '\\t' that cannot start any token in line 2, column 1",
+        ),
+        (
+            "a: 010\n",
+            "010 is not plain: write a decimal number, or a text in quotes in line 1, column 4",
+        ),
         ("a: [1, 1:30]\n", "1:30 is not plain"),
         ("a: [1\n", "line 2, column 1"),
         ("a: !!python/tuple [1]\n", "could not determine a constructor"),
@@ -162,7 +217,9 @@ def test_measured_normal_loads_are_those_of_the_blocks_from_a_list_or_a_file(tmp
 
 
 def test_numbers_of_the_chain_may_be_text_as_in_config_of_the_command_line():
-    read = read_numbers({"n_blocks": "12", "youngs_modulus": "3e9", "mu_s": 0.7, "mu_k": "low"})
+    read = read_numbers(
+        {"n_blocks": "12", "youngs_modulus": "3e9", "mu_s": 0.7, "mu_k": "low"}
+    )
     assert read == {"n_blocks": 12, "youngs_modulus": 3e9, "mu_s": 0.7, "mu_k": "low"}
     assert isinstance(read["n_blocks"], int)
     assert read_numbers(5) == 5

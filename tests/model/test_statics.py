@@ -21,7 +21,8 @@ LP = 1e-9
 
 
 def random_chain(n: int, rng: np.random.Generator) -> Chain:
-    """A chain of random weights and mu_s, and springs random over twelve decades of K/k."""
+    """A chain of random weights and mu_s, and springs random over twelve decades of
+    K/k."""
     stiffness, drive_stiffness = 1e6 * 10 ** rng.uniform(-3, 3, size=2)
     return Chain(
         weights=rng.exponential(40.0, n),
@@ -37,13 +38,17 @@ def random_chain(n: int, rng: np.random.Generator) -> Chain:
 RNG = np.random.default_rng(2010)
 RANDOM = [random_chain(n, RNG) for n in (1, 2, 3, 4, 7, 30, 300)]
 PAPERS = [Chain.from_slider(theta=theta) for theta in SCENES.values()]
-every_chain = pytest.mark.parametrize("chain", [*PAPERS, *RANDOM], ids=lambda chain: f"N={chain.n_blocks}")
+every_chain = pytest.mark.parametrize(
+    "chain", [*PAPERS, *RANDOM], ids=lambda chain: f"N={chain.n_blocks}"
+)
 
 
 @every_chain
 def test_in_the_state_of_maximal_strain_every_block_is_at_its_limit(chain):
     forces = balance_matrix(chain) @ maximal_compressions(chain)
-    np.testing.assert_allclose(forces, chain.strength, rtol=0, atol=ROUNDING * load_bound(chain))
+    np.testing.assert_allclose(
+        forces, chain.strength, rtol=0, atol=ROUNDING * load_bound(chain)
+    )
     load = chain.drive_stiffness * (0 - maximal_strain_positions(chain)[0])
     assert load == pytest.approx(load_bound(chain), rel=ROUNDING)
 
@@ -55,7 +60,9 @@ def test_the_largest_load_at_rest_is_mu_s_F_Z_and_has_the_state_of_eq_12(chain):
     np.testing.assert_allclose(compressions, maximal_compressions(chain), rtol=LP)
 
 
-@pytest.mark.parametrize(("scene", "load"), [("fig11", 2527 / 6), ("fig10", 1127.0), ("fig12", 10997 / 6)])
+@pytest.mark.parametrize(
+    ("scene", "load"), [("fig11", 2527 / 6), ("fig10", 1127.0), ("fig12", 10997 / 6)]
+)
 def test_eq_12_as_printed_gives_1127_n_instead_of_280_n(scene, load):
     chain = Chain.from_slider(theta=SCENES[scene])
     compressions = compressions_as_printed(chain)
@@ -67,4 +74,6 @@ def test_eq_12_as_printed_gives_1127_n_instead_of_280_n(scene, load):
 
 def test_one_block_has_no_misprint():
     chain = RANDOM[0]
-    assert compressions_as_printed(chain) == pytest.approx(maximal_compressions(chain), rel=ROUNDING)
+    assert compressions_as_printed(chain) == pytest.approx(
+        maximal_compressions(chain), rel=ROUNDING
+    )

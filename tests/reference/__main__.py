@@ -1,4 +1,5 @@
-"""`python -m reference`, run in tests/, writes the golden data of the reference again (about a minute)."""
+"""`python -m reference`, run in tests/, writes the golden data of the reference again
+(about a minute)."""
 
 from .goldens import write_goldens
 

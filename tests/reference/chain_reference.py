@@ -1,21 +1,26 @@
-"""The chain to more than 40 digits, by a method and in numbers of its own: the judge of the solver.
+"""The chain to more than 40 digits, by a method and in numbers of its own: the judge of
+the solver.
 
-It may have viscosity between neighbours. Time is counted in T = 2^-s sqrt(m/k) and displacement in newtons
-(u = k x), both as integers with `bits` binary places (see `polynomials`). In these units
+It may have viscosity between neighbours. Time is counted in T = 2^-s sqrt(m/k) and
+displacement in newtons (u = k x), both as integers with `bits` binary places (see
+`polynomials`). In these units
 
-    u_i'' = 4^-s (g_i + h_i - f_i),   h_i = c (u'_{i-1} - u'_i) - c (u'_i - u'_{i+1}),   c = eta / (k T),
+    u_i'' = 4^-s (g_i + h_i - f_i),   h_i = c (u'_{i-1} - u'_i) - c (u'_i - u'_{i+1}),
+    c = eta / (k T),
 
-with the net force g_i of the springs, no viscosity between the drive point and block 1, and the friction
-f_i = mode_i mu_k w_i of a block that slides. A block that sticks does not move.
+with the net force g_i of the springs, no viscosity between the drive point and block 1,
+and the friction f_i = mode_i mu_k w_i of a block that slides. A block that sticks does
+not move.
 
-Motion is a Taylor series of the displacements over windows of length T, with s chosen so that the largest
-angular frequency of the chain is at most 2/T. A transition is the first zero, isolated by Bernstein
-coefficients, of a sliding block's velocity, or of what the net force on a stuck block lacks to mu_s w_i.
-While nothing moves, the next release is one division.
+Motion is a Taylor series of the displacements over windows of length T, with s chosen
+so that the largest angular frequency of the chain is at most 2/T. A transition is the
+first zero, isolated by Bernstein coefficients, of a sliding block's velocity, or of
+what the net force on a stuck block lacks to mu_s w_i. While nothing moves, the next
+release is one division.
 
-Two zeros so close that only rounding tells them from one (1e-30 T) count as one, at which the function
-touches zero: a block whose velocity touches zero sticks and, where nothing holds it (mu_s = mu_k, or no
-weight), is released at that instant.
+Two zeros so close that only rounding tells them from one (1e-30 T) count as one, at
+which the function touches zero: a block whose velocity touches zero sticks and, where
+nothing holds it (mu_s = mu_k, or no weight), is released at that instant.
 """
 
 from __future__ import annotations
@@ -29,13 +34,16 @@ from typing import NamedTuple
 
 from .polynomials import GUARD_BITS, derivative, first_zero, value
 
-BITS = 256  # 77 decimal places: 14 guard places, and growth takes 9 more in 10 s of the paper's scenes
+# 77 decimal places: 14 guard places, and growth takes 9 more in 10 s of the paper's
+# scenes
+BITS = 256
 NOISE = 1 << GUARD_BITS  # no sum of rounding errors comes near it
 Number = Fraction | int | str | float
 
 
 class Transition(NamedTuple):
-    """A change of one block's state: time [s], block 1..N, mode +1 | 0 | -1, tangential load F_X [N]."""
+    """A change of one block's state: time [s], block 1..N, mode +1 | 0 | -1, tangential
+    load F_X [N]."""
 
     time: Fraction
     block: int
@@ -45,7 +53,8 @@ class Transition(NamedTuple):
 
 @dataclass(frozen=True)
 class ReferenceChain:
-    """The numbers of the equations of motion (Eqs. 2-6), exact: w_i [N], m [kg], k and K [N/m], V [m/s].
+    """The numbers of the equations of motion (Eqs. 2-6), exact: w_i [N], m [kg], k and
+    K [N/m], V [m/s].
 
     Beside them eta of the dashpot between neighbours [N s/m].
     """
@@ -69,13 +78,22 @@ class ReferenceChain:
         weights: Sequence[Number] | None = None,
         **numbers: Number,
     ) -> ReferenceChain:
-        """Cut the paper's slider into N blocks (Eqs. 7, 9, 10); `weights` [N] replace those of Eq. 7."""
+        """Cut the paper's slider into N blocks (Eqs. 7, 9, 10); `weights` [N] replace
+        those of Eq. 7."""
         n, load, slope = n_blocks, Fraction(normal_load), Fraction(theta)
         if weights is None:
             # At N = 1 Eq. 7 is 0/0; the one block carries the whole load.
-            offsets = [Fraction(2 * i - n - 1, n - 1) if n > 1 else Fraction(0) for i in range(1, n + 1)]
+            offsets = [
+                Fraction(2 * i - n - 1, n - 1) if n > 1 else Fraction(0)
+                for i in range(1, n + 1)
+            ]
             weights = [load / n * (1 + offset * slope) for offset in offsets]
-        papers = {"drive_stiffness": "0.8e6", "drive_velocity": "1e-4", "mu_s": "0.70", "mu_k": "0.45"}
+        papers = {
+            "drive_stiffness": "0.8e6",
+            "drive_velocity": "1e-4",
+            "mu_s": "0.70",
+            "mu_k": "0.45",
+        }
         return cls(
             weights=tuple(Fraction(w) for w in weights),
             mass=Fraction("0.012") / n,
@@ -93,10 +111,12 @@ def reference(
     bits: int = BITS,
     start_velocities: Sequence[Number] | None = None,
 ) -> list[Transition]:
-    """Return all transitions up to `duration` [s], or at least the first `max_transitions`, in time order.
+    """Return all transitions up to `duration` [s], or at least the first
+    `max_transitions`, in time order.
 
-    `until` is None or "global slip": the end of the first event in which all blocks slide at one instant.
-    Starts are in m and m/s, 0 by default. Fixed-point numbers have so many binary places as `bits`.
+    `until` is None or "global slip": the end of the first event in which all blocks
+    slide at one instant. Starts are in m and m/s, 0 by default. Fixed-point numbers
+    have so many binary places as `bits`.
     """
     motion = _Motion(_scale(chain, bits), chain, start_positions, start_velocities)
     end = _fixed(Fraction(duration) / motion.scaled.time_unit, bits)
@@ -115,7 +135,8 @@ def reference(
 
 
 def interval_lengths(transitions: Iterable[Transition]) -> list[Fraction]:
-    """Return the seconds from the start to the first transition and from each one to the next, exact."""
+    """Return the seconds from the start to the first transition and from each one to
+    the next, exact."""
     times = [Fraction(0), *(transition.time for transition in transitions)]
     return [later - earlier for earlier, later in pairwise(times)]
 
@@ -125,7 +146,8 @@ Change = tuple[int, int]  # block, and the direction of its release if it is stu
 
 @dataclass(frozen=True)
 class _Scaled:
-    """The chain in fixed-point numbers: forces in newtons, time in T. Index 0 is the drive point."""
+    """The chain in fixed-point numbers: forces in newtons, time in T. Index 0 is the
+    drive point."""
 
     bits: int
     order: int  # of the Taylor series
@@ -144,7 +166,8 @@ def _fixed(x: Fraction, bits: int) -> int:
 
 def _scale(chain: ReferenceChain, bits: int) -> _Scaled:
     ratio = chain.drive_stiffness / chain.stiffness
-    # Gershgorin for |lambda|^2 <= a + b |lambda|, in units of k/m; a power of two above the exact bound.
+    # Gershgorin for |lambda|^2 <= a + b |lambda|, in units of k/m; a power of two above
+    # the exact bound.
     a = max(4.0, 2.0 + float(ratio))
     b = 4.0 * float(chain.viscosity) / sqrt(float(chain.mass * chain.stiffness))
     halvings = 0
@@ -152,7 +175,8 @@ def _scale(chain: ReferenceChain, bits: int) -> _Scaled:
         halvings += 1
     root = isqrt(int(chain.mass / chain.stiffness * (1 << 4 * bits)))
     time_unit = Fraction(root, 1 << (2 * bits + halvings))
-    # With displacements up to 2^GUARD_BITS, the series has reached rounding when 2^n/n! is that far below it.
+    # With displacements up to 2^GUARD_BITS, the series has reached rounding when 2^n/n!
+    # is that far below it.
     order = 1
     while factorial(order) < 1 << (order + bits + GUARD_BITS):
         order += 1
@@ -170,7 +194,8 @@ def _scale(chain: ReferenceChain, bits: int) -> _Scaled:
 
 
 class _Motion:
-    """Positions, velocities and modes of the drive point (index 0) and of the blocks."""
+    """Positions, velocities and modes of the drive point (index 0) and of the
+    blocks."""
 
     def __init__(
         self,
@@ -183,23 +208,34 @@ class _Motion:
         metres, speeds = start_positions or [0] * n, start_velocities or [0] * n
         self.scaled = scaled
         self.time = 0
-        self.positions = [0, *(_fixed(chain.stiffness * Fraction(x), bits) for x in metres)]
+        self.positions = [
+            0,
+            *(_fixed(chain.stiffness * Fraction(x), bits) for x in metres),
+        ]
         unit = chain.stiffness * scaled.time_unit
-        self.velocities = [scaled.drive_velocity, *(_fixed(unit * Fraction(v), bits) for v in speeds)]
+        self.velocities = [
+            scaled.drive_velocity,
+            *(_fixed(unit * Fraction(v), bits) for v in speeds),
+        ]
         self.modes = [0] * (n + 1)
 
     def start(self) -> list[Transition]:
-        """Let the blocks slide that move, or whose net force exceeds static friction."""
+        """Let the blocks slide that move, or whose net force exceeds static
+        friction."""
         found = []
         for i in range(1, len(self.modes)):
-            speed, force = self.velocities[i], self._net(self.positions, self.velocities, i)
+            speed, force = (
+                self.velocities[i],
+                self._net(self.positions, self.velocities, i),
+            )
             if speed or abs(force) > self.scaled.strength[i] + NOISE:
                 self.modes[i] = 1 if (speed or force) > 0 else -1
                 found.append(self._transition(i))
         return found
 
     def load(self) -> list[Change]:
-        """Load the resting chain until block 1 is released: no other block feels the drive."""
+        """Load the resting chain until block 1 is released: no other block feels the
+        drive."""
         scaled = self.scaled
         margin = scaled.strength[1] - self._net(self.positions, self.velocities, 1)
         if margin > NOISE:
@@ -208,19 +244,23 @@ class _Motion:
         return [(1, 1)]
 
     def slide(self) -> list[Change]:
-        """Advance to the first transition, but by one window at most; return the blocks that change then."""
+        """Advance to the first transition, but by one window at most; return the blocks
+        that change then."""
         bits = self.scaled.bits
         u = self._taylor()
         du = [derivative(coefficients) for coefficients in u]
         zeros: dict[Change, int | None] = {}
         for i in range(1, len(self.modes)):
             if self.modes[i]:
-                zeros[i, 0] = first_zero(_without_zero_now([self.modes[i] * c for c in du[i]]), bits)
+                zeros[i, 0] = first_zero(
+                    _without_zero_now([self.modes[i] * c for c in du[i]]), bits
+                )
             elif self._may_let_go(i):
                 for way in (1, -1):
                     zeros[i, way] = first_zero(self._margin(u, du, i, way), bits)
         found = {change: zero for change, zero in zeros.items() if zero is not None}
-        # Zeros that coincide come out apart by rounding; no others come as close as half of the places.
+        # Zeros that coincide come out apart by rounding; no others come as close as
+        # half of the places.
         tie = 1 << bits // 2
         step = min(found.values(), default=1 << bits)
         if step >= tie:
@@ -248,7 +288,10 @@ class _Motion:
 
     def _taylor(self) -> list[list[int]]:
         scaled = self.scaled
-        u = [[x, v] + [0] * (scaled.order - 1) for x, v in zip(self.positions, self.velocities, strict=True)]
+        u = [
+            [x, v] + [0] * (scaled.order - 1)
+            for x, v in zip(self.positions, self.velocities, strict=True)
+        ]
         mobile = [i for i in range(1, len(self.modes)) if self.modes[i]]
         for n in range(scaled.order - 1):
             now = [c[n] for c in u]
@@ -260,15 +303,21 @@ class _Motion:
                 u[i][n + 2] = (force >> 2 * scaled.halvings) // ((n + 1) * (n + 2))
         return u
 
-    def _margin(self, u: list[list[int]], du: list[list[int]], i: int, way: int) -> list[int]:
+    def _margin(
+        self, u: list[list[int]], du: list[list[int]], i: int, way: int
+    ) -> list[int]:
         """What the net force on a stuck block still lacks to its strength."""
         padded = [[*c, 0] for c in du]
-        margin = [-way * self._net([c[n] for c in u], [c[n] for c in padded], i) for n in range(len(u[i]))]
+        margin = [
+            -way * self._net([c[n] for c in u], [c[n] for c in padded], i)
+            for n in range(len(u[i]))
+        ]
         margin[0] += self.scaled.strength[i]
         return _without_zero_now(margin)
 
     def _net(self, u: Sequence[int], du: Sequence[int], i: int) -> int:
-        """g_i + h_i: net force of springs and dashpots on block i, or one order of its series."""
+        """g_i + h_i: net force of springs and dashpots on block i, or one order of its
+        series."""
         scaled = self.scaled
         behind = u[i - 1] - u[i]
         if i == 1:
@@ -276,14 +325,24 @@ class _Motion:
         else:
             force = behind + (scaled.damping * (du[i - 1] - du[i]) >> scaled.bits)
         if i + 1 < len(u):
-            force -= u[i] - u[i + 1] + (scaled.damping * (du[i] - du[i + 1]) >> scaled.bits)
+            force -= (
+                u[i] - u[i + 1] + (scaled.damping * (du[i] - du[i + 1]) >> scaled.bits)
+            )
         return force
 
     def _transition(self, i: int) -> Transition:
         scaled = self.scaled
         one = 1 << scaled.bits
-        load = scaled.stiffness_ratio * (self.positions[0] - self.positions[1]) >> scaled.bits
-        return Transition(Fraction(self.time, one) * scaled.time_unit, i, self.modes[i], Fraction(load, one))
+        load = (
+            scaled.stiffness_ratio * (self.positions[0] - self.positions[1])
+            >> scaled.bits
+        )
+        return Transition(
+            Fraction(self.time, one) * scaled.time_unit,
+            i,
+            self.modes[i],
+            Fraction(load, one),
+        )
 
     def _set_time(self, time: int) -> None:
         self.time = time
@@ -291,6 +350,9 @@ class _Motion:
 
 
 def _without_zero_now(p: list[int]) -> list[int]:
-    """Divide p by the power of time with which it begins, up to rounding: only zeros to come are left."""
-    begin = next((k for k, coefficient in enumerate(p) if abs(coefficient) > NOISE), None)
+    """Divide p by the power of time with which it begins, up to rounding: only zeros to
+    come are left."""
+    begin = next(
+        (k for k, coefficient in enumerate(p) if abs(coefficient) > NOISE), None
+    )
     return [2 * NOISE] if begin is None else p[begin:]

@@ -1,8 +1,10 @@
-"""Golden transitions of the paper's three scenes and of held-out chains, as decimal text.
+"""Golden transitions of the paper's three scenes and of held-out chains, as decimal
+text.
 
-reference_{scene}.csv      time_s, block, mode, tangential_load_N with 40 significant digits, 0 to 10 s
-reference_heldout.csv      the same with 25 digits and the chain's name in the first column
-reference_viscous.csv      as reference_heldout.csv, of chains with viscosity between neighbours
+reference_{scene}.csv      time_s, block, mode, tangential_load_N with 40 significant
+digits, 0 to 10 s reference_heldout.csv      the same with 25 digits and the chain's
+name in the first column reference_viscous.csv      as reference_heldout.csv, of chains
+with viscosity between neighbours
 """
 
 from __future__ import annotations
@@ -25,7 +27,8 @@ HELD_OUT_DIGITS = 25
 
 @dataclass(frozen=True)
 class HeldOut:
-    """A chain that no figure shows, as `ReferenceChain.from_slider` makes it, and its run [s], [m]."""
+    """A chain that no figure shows, as `ReferenceChain.from_slider` makes it, and its
+    run [s], [m]."""
 
     slider: Mapping[str, Number | Sequence[Number]]
     duration: str
@@ -39,17 +42,31 @@ class HeldOut:
 
     def run(self, bits: int = BITS) -> list[Transition]:
         """Return all transitions of the chain."""
-        return reference(self.chain, self.duration, self.until, self.start_positions, bits=bits)
+        return reference(
+            self.chain, self.duration, self.until, self.start_positions, bits=bits
+        )
 
 
 HELD_OUT: dict[str, HeldOut] = {
     "one_block": HeldOut({"n_blocks": 1, "drive_velocity": "0.02"}, "1.25"),
-    "two_blocks": HeldOut({"n_blocks": 2, "theta": "1/2", "drive_velocity": "1e-3"}, "5"),
-    "three_blocks": HeldOut({"n_blocks": 3, "theta": "-1/3", "mu_s": "0.6", "mu_k": "0.3"}, "40"),
-    "stiff_drive": HeldOut({"n_blocks": 7, "theta": "1/4", "drive_stiffness": "1e9"}, "0.03"),
-    "soft_slider": HeldOut({"n_blocks": 12, "theta": "-1/5", "youngs_modulus": "1e8"}, "10"),
-    "fast_drive": HeldOut({"n_blocks": 8, "theta": "2/5", "drive_velocity": "0.01", "mu_k": "0.2"}, "0.1"),
-    "frictionless_slip": HeldOut({"n_blocks": 5, "theta": "1/3", "mu_s": "0.5", "mu_k": "0"}, "0.3375"),
+    "two_blocks": HeldOut(
+        {"n_blocks": 2, "theta": "1/2", "drive_velocity": "1e-3"}, "5"
+    ),
+    "three_blocks": HeldOut(
+        {"n_blocks": 3, "theta": "-1/3", "mu_s": "0.6", "mu_k": "0.3"}, "40"
+    ),
+    "stiff_drive": HeldOut(
+        {"n_blocks": 7, "theta": "1/4", "drive_stiffness": "1e9"}, "0.03"
+    ),
+    "soft_slider": HeldOut(
+        {"n_blocks": 12, "theta": "-1/5", "youngs_modulus": "1e8"}, "10"
+    ),
+    "fast_drive": HeldOut(
+        {"n_blocks": 8, "theta": "2/5", "drive_velocity": "0.01", "mu_k": "0.2"}, "0.1"
+    ),
+    "frictionless_slip": HeldOut(
+        {"n_blocks": 5, "theta": "1/3", "mu_s": "0.5", "mu_k": "0"}, "0.3375"
+    ),
     "many_blocks": HeldOut({"n_blocks": 25, "normal_load": "1000"}, "3"),
     "more_blocks": HeldOut({"n_blocks": 40, "theta": "-2/5"}, "1.42"),
     "weightless_front": HeldOut({"theta": "-1"}, "2.3225"),
@@ -58,15 +75,22 @@ HELD_OUT: dict[str, HeldOut] = {
         "8",
         ["2e-6", "0", "1.5e-6", "-1e-6", "-3e-6", "1e-6"],
     ),
-    "grazing": HeldOut({"n_blocks": 1, "mu_k": "0.70", "drive_velocity": "0.01"}, "0.055"),
+    "grazing": HeldOut(
+        {"n_blocks": 1, "mu_k": "0.70", "drive_velocity": "0.01"}, "0.055"
+    ),
 }
 
 SLIP = "global slip"
-# eta = sqrt(0.1 k m) is 54.77 N s/m and sqrt(k m) is 173.2 N s/m for every N (see docs/models.md).
+# eta = sqrt(0.1 k m) is 54.77 N s/m and sqrt(k m) is 173.2 N s/m for every N (see
+# docs/models.md).
 VISCOUS: dict[str, HeldOut] = {
     "papers_chain": HeldOut({"viscosity": "54.77"}, "5", until=SLIP),
-    "backward": HeldOut({"n_blocks": 3, "theta": "1/2", "mu_k": "0.05", "viscosity": "3"}, "3"),
-    "stiff_viscosity": HeldOut({"n_blocks": 3, "theta": "1/3", "viscosity": "300"}, "8"),
+    "backward": HeldOut(
+        {"n_blocks": 3, "theta": "1/2", "mu_k": "0.05", "viscosity": "3"}, "3"
+    ),
+    "stiff_viscosity": HeldOut(
+        {"n_blocks": 3, "theta": "1/3", "viscosity": "300"}, "8"
+    ),
 }
 
 
@@ -74,10 +98,14 @@ def write_goldens() -> None:
     """Write all golden files of the reference."""
     for scene, theta in SCENES.items():
         transitions = reference(ReferenceChain.from_slider(theta=theta), DURATION)
-        _write_csv(GOLDEN / f"reference_{scene}.csv", [], csv_rows(transitions, SCENE_DIGITS))
+        _write_csv(
+            GOLDEN / f"reference_{scene}.csv", [], csv_rows(transitions, SCENE_DIGITS)
+        )
     for name, cases in (("heldout", HELD_OUT), ("viscous", VISCOUS)):
         rows = [
-            [chain, *row] for chain, case in cases.items() for row in csv_rows(case.run(), HELD_OUT_DIGITS)
+            [chain, *row]
+            for chain, case in cases.items()
+            for row in csv_rows(case.run(), HELD_OUT_DIGITS)
         ]
         _write_csv(GOLDEN / f"reference_{name}.csv", ["chain"], rows)
 
@@ -111,7 +139,12 @@ def _with_transitions(
 def csv_rows(transitions: Iterable[Transition], digits: int) -> list[list[str]]:
     """Return the transitions as decimal text with so many significant digits."""
     return [
-        [_decimal(t.time, digits), str(t.block), str(t.mode), _decimal(t.tangential_load, digits)]
+        [
+            _decimal(t.time, digits),
+            str(t.block),
+            str(t.mode),
+            _decimal(t.tangential_load, digits),
+        ]
         for t in transitions
     ]
 
@@ -124,12 +157,17 @@ def _decimal(x: Fraction, digits: int) -> str:
 
 def _transition(row: Mapping[str, str]) -> Transition:
     return Transition(
-        Fraction(row["time_s"]), int(row["block"]), int(row["mode"]), Fraction(row["tangential_load_N"])
+        Fraction(row["time_s"]),
+        int(row["block"]),
+        int(row["mode"]),
+        Fraction(row["tangential_load_N"]),
     )
 
 
 def _write_csv(path: Path, first_columns: list[str], rows: list[list[str]]) -> None:
     with path.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([*first_columns, "time_s", "block", "mode", "tangential_load_N"])
+        writer.writerow(
+            [*first_columns, "time_s", "block", "mode", "tangential_load_N"]
+        )
         writer.writerows(rows)

@@ -1,10 +1,13 @@
-"""First zero of a polynomial on [0, 1] in fixed-point integers, isolated by Bernstein coefficients.
+"""First zero of a polynomial on [0, 1] in fixed-point integers, isolated by Bernstein
+coefficients.
 
-A polynomial lies in the convex hull of its Bernstein coefficients: if all are positive it has no zero, and if
-they decrease it is monotone. An interval for which neither holds is halved, the left half first, so that no
-pair of zeros is stepped over (Lane and Riesenfeld 1981, BIT 21, 112-117).
+A polynomial lies in the convex hull of its Bernstein coefficients: if all are positive
+it has no zero, and if they decrease it is monotone. An interval for which neither holds
+is halved, the left half first, so that no pair of zeros is stepped over (Lane and
+Riesenfeld 1981, BIT 21, 112-117).
 
-A number x is stored as the integer nearest to x 2^bits, a polynomial as its coefficients, lowest first.
+A number x is stored as the integer nearest to x 2^bits, a polynomial as its
+coefficients, lowest first.
 """
 
 from __future__ import annotations
@@ -13,12 +16,17 @@ from collections.abc import Sequence
 from itertools import accumulate, pairwise
 from math import comb
 
-GUARD_BITS = 48  # what is smaller than 2^GUARD_BITS units of the last place counts as zero
-COARSE_DEGREE = 20  # the coefficients fall like 2^n/n!, so the rest after degree 20 is below 1e-12
+GUARD_BITS = (
+    48  # what is smaller than 2^GUARD_BITS units of the last place counts as zero
+)
+COARSE_DEGREE = (
+    20  # the coefficients fall like 2^n/n!, so the rest after degree 20 is below 1e-12
+)
 
 
 def first_zero(p: Sequence[int], bits: int) -> int | None:
-    """Return the first point of [0, 1] at which p is not positive (crosses or touches zero), or None."""
+    """Return the first point of [0, 1] at which p is not positive (crosses or touches
+    zero), or None."""
     if p[0] <= 0:
         return 0
     tolerance = 1 << GUARD_BITS
@@ -48,7 +56,8 @@ def first_zero(p: Sequence[int], bits: int) -> int | None:
 
 
 def bernstein(p: Sequence[int]) -> list[int]:
-    """Bernstein coefficients of p on [0, 1]: their k-th forward differences at 0 are p_k / C(n, k)."""
+    """Bernstein coefficients of p on [0, 1]: their k-th forward differences at 0 are
+    p_k / C(n, k)."""
     n = len(p) - 1
     b: list[int] = []
     for k in range(n, -1, -1):
@@ -80,7 +89,8 @@ def derivative(p: Sequence[int]) -> list[int]:
 
 
 def crossing(p: Sequence[int], low: int, high: int, bits: int) -> int:
-    """Zero of a p that decreases on [low, high], by Newton's method, or halving where that is slow."""
+    """Zero of a p that decreases on [low, high], by Newton's method, or halving where
+    that is slow."""
     if value(p, low, bits) <= 0:
         return low
     slope = derivative(p)

@@ -45,12 +45,18 @@ def test_the_run_decides_whether_a_claim_holds_and_the_ensembles_for_which_input
 ):
     shares = (("noise", Share(noise, 1000)), ("digits", Share(digits, 400)))
     assert Finding(1.0, holds, shares=shares).verdict == verdict
-    assert Finding(1.0, holds).verdict == {True: HOLDS, False: DOES_NOT_HOLD, None: UNDECIDED}[holds]
+    assert (
+        Finding(1.0, holds).verdict
+        == {True: HOLDS, False: DOES_NOT_HOLD, None: UNDECIDED}[holds]
+    )
 
 
 def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_does_not_hold():
     def found(noise: list[float], digits: list[float]) -> Finding:
-        members = [pd.DataFrame({"scene": "s", "draw": range(len(x)), "x": x}) for x in (noise, digits)]
+        members = [
+            pd.DataFrame({"scene": "s", "draw": range(len(x)), "x": x})
+            for x in (noise, digits)
+        ]
         tables = dict(zip(("noise_members", "digits_members"), members, strict=True))
         return in_draws(tables, lambda runs: runs["x"], lambda x: x < 0.5)
 
@@ -69,16 +75,24 @@ def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_doe
         ([], DOES_NOT_HOLD),
     ],
 )
-def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(verdicts, verdict):
-    found = pd.DataFrame({"quantity": "mu_sapp", "difference": 0.0, "verdict": verdicts})
-    assert friction_independent_of_loading({"noise_differences": found}).verdict == verdict
+def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(
+    verdicts, verdict
+):
+    found = pd.DataFrame(
+        {"quantity": "mu_sapp", "difference": 0.0, "verdict": verdicts}
+    )
+    assert (
+        friction_independent_of_loading({"noise_differences": found}).verdict == verdict
+    )
 
 
 @pytest.mark.parametrize(
     ("low", "high", "verdict"),
     [(3, 3, HOLDS), (0, 3, UNDECIDED), (0, 0, DOES_NOT_HOLD), (-2, -1, DOES_NOT_HOLD)],
 )
-def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zero(low, high, verdict):
+def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zero(
+    low, high, verdict
+):
     counts = pd.DataFrame({"scene": SCENES, "events_counted": [6, 9, 14]})
     members = counts.merge(pd.DataFrame({"draw": range(401)}), how="cross")
     pairs = [("fig10", "fig11", 1, 1), ("fig12", "fig10", low, high)]
@@ -91,7 +105,9 @@ def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zer
 @pytest.mark.parametrize(("last", "holds"), [(3.1, True), (3.0, False)])
 def test_growth_falls_with_theta_if_it_is_less_for_each_next_loading(last, holds):
     tables = {
-        f"{scene}_slips": pd.DataFrame({"load_before_N": [1.0, load], "front": [1, 2], "counted": True})
+        f"{scene}_slips": pd.DataFrame(
+            {"load_before_N": [1.0, load], "front": [1, 2], "counted": True}
+        )
         for scene, load in zip(SCENES, (2.0, 3.0, last), strict=True)
     }
     assert growth_falls_with_theta(tables).holds is holds
@@ -103,7 +119,9 @@ def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_
 
     row = Claim("a", "Sect. 1", RESULT, "", "", "1", no_event).row({})
     assert row["verdict"] == DOES_NOT_HOLD
-    with pytest.raises(ValueError, match=r"^claim count-trailing: the tables do not have its numbers"):
+    with pytest.raises(
+        ValueError, match=r"^claim count-trailing: the tables do not have its numbers"
+    ):
         evaluate({"noise_members": pd.DataFrame({"scene": ["fig10"], "draw": [0]})})
     with pytest.raises(IndexError, match="0 rows have x = 1: needed is one"):
         one(pd.DataFrame({"x": [2]}), "x", x=1)
@@ -122,16 +140,25 @@ def test_differences_are_claims_that_are_new_gone_or_of_another_verdict():
 
 
 def slips_of(**columns) -> dict[str, pd.DataFrame]:
-    """The same slip table for each scene, ending with a global slip unless it is said which are."""
+    """The same slip table for each scene, ending with a global slip unless it is said
+    which are."""
     table = pd.DataFrame(columns)
     if "is_global" not in table:
         table["is_global"] = table.index == len(table) - 1
-    return {f"{scene}_slips": table.assign(counted=True, n_blocks=10) for scene in SCENES}
+    return {
+        f"{scene}_slips": table.assign(counted=True, n_blocks=10) for scene in SCENES
+    }
 
 
 def members_of(**columns) -> dict[str, pd.DataFrame]:
     """The run and one draw of each ensemble, the same in each scene."""
-    runs = pd.DataFrame([{"scene": scene, "draw": draw, **columns} for scene in SCENES for draw in (0, 1)])
+    runs = pd.DataFrame(
+        [
+            {"scene": scene, "draw": draw, **columns}
+            for scene in SCENES
+            for draw in (0, 1)
+        ]
+    )
     return dict.fromkeys(("noise_members", "digits_members"), runs)
 
 
@@ -148,22 +175,34 @@ def traces(load: float, first: float) -> dict[str, pd.DataFrame]:
 
 
 def grown(length: int) -> dict[str, pd.DataFrame]:
-    """From 2 to 6 blocks in 20 N, and from there to `length` blocks in a little more than 10 N."""
+    """From 2 to 6 blocks in 20 N, and from there to `length` blocks in a little more
+    than 10 N."""
     return slips_of(front=[2, 6, length], load_before_N=[0.0, 20.0, 30.1])
 
 
 def map_of(largest: float, smallest: float) -> dict[str, pd.DataFrame]:
-    counts = pd.DataFrame({"friction_ratio": [0.2, 0.5, 0.9], "events_counted": [smallest, 99.0, largest]})
+    counts = pd.DataFrame(
+        {"friction_ratio": [0.2, 0.5, 0.9], "events_counted": [smallest, 99.0, largest]}
+    )
     return {"map_theta_friction_ratio": counts}
 
 
 def lyapunov(exponent: float) -> dict[str, pd.DataFrame]:
-    columns = {"scene": SCENES, "exponent_per_s": [9.0, exponent, 9.0], "uncertainty_per_s": 1.0}
+    columns = {
+        "scene": SCENES,
+        "exponent_per_s": [9.0, exponent, 9.0],
+        "uncertainty_per_s": 1.0,
+    }
     return {"lyapunov": pd.DataFrame(columns)}
 
 
 def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
-    columns = {"scene": SCENES, "value": [0.7, mu_sapp, 0.7], "model": "overdamped", "question": "mu_sapp"}
+    columns = {
+        "scene": SCENES,
+        "value": [0.7, mu_sapp, 0.7],
+        "model": "overdamped",
+        "question": "mu_sapp",
+    }
     return {"model_comparison": pd.DataFrame(columns)}
 
 
@@ -174,23 +213,39 @@ def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
         ("friction-uniform", members_of(mu_sapp=0.4999), members_of(mu_sapp=0.5001)),
         ("chaos", lyapunov(1.001), lyapunov(1.0)),
         ("stick-slip-is-not-periodic", times(0.051, 1, 1, 1), times(0.049, 1, 1, 1)),
-        ("precursors-are-not-periodic", times(0.051, 0, 0, 0, 1), times(0.049, 0, 0, 0, 1)),
+        (
+            "precursors-are-not-periodic",
+            times(0.051, 0, 0, 0, 1),
+            times(0.049, 0, 0, 0, 1),
+        ),
         (
             "every-slip-drops-the-load",
             slips_of(load_before_N=[2.0, 2.0], load_after_N=[1.0, 1.9]),
             slips_of(load_before_N=[2.0, 2.0], load_after_N=[1.0, 2.0]),
         ),
         # Of all orders of six lengths, 2.8 and 6.8 % rise as much.
-        ("lengths-tend-to-increase", slips_of(front=[2, 1, 4, 3, 5, 6]), slips_of(front=[2, 1, 4, 3, 6, 5])),
+        (
+            "lengths-tend-to-increase",
+            slips_of(front=[2, 1, 4, 3, 5, 6]),
+            slips_of(front=[2, 1, 4, 3, 6, 5]),
+        ),
         (
             "length-is-linear-in-time",
             slips_of(onset_s=[0, 1, 2, 3], front=[1.0, 1.74, 1.0, 9.0]),
             slips_of(onset_s=[0, 1, 2, 3], front=[1.0, 1.76, 1.0, 9.0]),
         ),
-        ("friction-underestimated", members_of(mu_sapp=0.6949), members_of(mu_sapp=0.6951)),
+        (
+            "friction-underestimated",
+            members_of(mu_sapp=0.6949),
+            members_of(mu_sapp=0.6951),
+        ),
         ("waves", overdamped(0.6951), overdamped(0.6949)),
         ("eq15-in-motion", traces(277.9, 270.0), traces(278.1, 270.0)),
-        ("first-global-slip-is-at-the-largest-load", traces(200.0, 200.0), traces(200.1, 200.0)),
+        (
+            "first-global-slip-is-at-the-largest-load",
+            traces(200.0, 200.0),
+            traces(200.1, 200.0),
+        ),
         (
             "short-events",
             members_of(events_to_global_slip=10, events_counted=9),

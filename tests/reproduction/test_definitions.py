@@ -16,7 +16,10 @@ PAPER = [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)]
 
 def tabulate(duration, load_drops, paper=PAPER) -> pd.DataFrame:
     runs = [
-        replace(simulate(Chain.from_slider(theta=theta), duration), slider={**SLIDER, "theta": theta})
+        replace(
+            simulate(Chain.from_slider(theta=theta), duration),
+            slider={**SLIDER, "theta": theta},
+        )
         for theta in (-5 / 6, 0.0, 5 / 6)
     ]
     return definitions_table(runs, SLIDER, duration, [0.833], load_drops, paper)
@@ -29,19 +32,32 @@ def table() -> pd.DataFrame:
 
 def test_each_reading_differs_from_ours_in_the_one_thing_that_is_changed(table):
     columns = ["degree", "switching", "global_slip", "short", "front"]
-    changed = {"global slip": 3, "short event": 2, "length": 2, "size of theta": 1, "switching": 2}
+    changed = {
+        "global slip": 3,
+        "short event": 2,
+        "length": 2,
+        "size of theta": 1,
+        "switching": 2,
+    }
     readings = table.iloc[::3]
     assert readings["changed"].value_counts().to_dict() == {"nothing": 1, **changed}
     differ = (readings[columns] != readings[columns].iloc[0]).sum(axis=1)
     assert (differ == (readings["changed"] != "nothing")).all()
-    assert table[table["degree"] == OF_SCENES]["theta"].unique() == pytest.approx([-5 / 6, 0, 5 / 6])
+    assert table[table["degree"] == OF_SCENES]["theta"].unique() == pytest.approx(
+        [-5 / 6, 0, 5 / 6]
+    )
 
 
 def test_the_readings_that_give_six_numbers_are_ours_and_three_others(table):
     six = table[table["numbers_within_a_digit"] == 6].iloc[::3]
-    at_once, farthest = "in which all blocks slide at the same instant", "farthest block that slid"
+    at_once, farthest = (
+        "in which all blocks slide at the same instant",
+        "farthest block that slid",
+    )
     static, drops = "sticks if |F| <= mu_s w", "in which F_X drops by more than 10 N"
-    assert six[["changed", "global_slip", "front", "switching"]].to_numpy().tolist() == [
+    assert six[
+        ["changed", "global_slip", "front", "switching"]
+    ].to_numpy().tolist() == [
         ["nothing", at_once, farthest, static],
         ["global slip", drops, farthest, static],
         ["length", at_once, "number of blocks that slid", static],

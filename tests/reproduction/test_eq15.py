@@ -1,4 +1,5 @@
-"""Every check of Eq. 15 holds, and fails where the equation or the chain it is about is broken."""
+"""Every check of Eq. 15 holds, and fails where the equation or the chain it is about is
+broken."""
 
 from dataclasses import replace
 
@@ -20,7 +21,9 @@ ROUNDING = 1e-12
 
 @pytest.fixture(scope="module")
 def table():
-    return eq15.eq15_table({name: simulate(chain, 10.0) for name, chain in CHAINS.items()}, 10.0)
+    return eq15.eq15_table(
+        {name: simulate(chain, 10.0) for name, chain in CHAINS.items()}, 10.0
+    )
 
 
 def test_every_check_holds_with_the_numbers_that_are_kept(table, tmp_path):
@@ -47,7 +50,8 @@ def test_the_load_of_a_rigid_slider_is_that_of_the_closed_form():
 
 
 def test_the_state_of_eq_12_is_at_the_limit():
-    """From maximal strain on all blocks are at their limits at the onset of the first slip."""
+    """From maximal strain on all blocks are at their limits at the onset of the first
+    slip."""
     start = eq15.maximal_strain_positions(CHAIN)
     strained = simulate(CHAIN, 0.001, start_positions=start)
     row = eq15.below_limit("fig10", strained)
@@ -60,7 +64,10 @@ def test_the_state_of_eq_12_is_at_the_limit():
     [
         ("load_bound", lambda chain: chain.mu_k * chain.normal_load),
         ("maximal_compressions", eq15.compressions_as_printed),
-        ("largest_load_at_rest", lambda chain: (279.9, eq15.maximal_compressions(chain))),
+        (
+            "largest_load_at_rest",
+            lambda chain: (279.9, eq15.maximal_compressions(chain)),
+        ),
     ],
 )
 def test_the_states_of_rest_see_a_broken_part(monkeypatch, name, broken):
@@ -77,9 +84,15 @@ def test_the_states_of_rest_see_a_broken_part(monkeypatch, name, broken):
         ("mu_k", 0.5, [eq15.FAST]),
     ],
 )
-def test_the_motion_sees_another_chain_than_the_one_it_is_about(monkeypatch, name, factor, failing):
+def test_the_motion_sees_another_chain_than_the_one_it_is_about(
+    monkeypatch, name, factor, failing
+):
     def of_another(chain, *arguments, **options):
-        return simulate(replace(chain, **{name: factor * getattr(chain, name)}), *arguments, **options)
+        return simulate(
+            replace(chain, **{name: factor * getattr(chain, name)}),
+            *arguments,
+            **options,
+        )
 
     monkeypatch.setattr(eq15, "simulate", of_another)
     rows = [

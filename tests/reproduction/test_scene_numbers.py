@@ -35,7 +35,9 @@ def test_a_run_without_a_slip_has_no_numbers():
 @pytest.mark.parametrize("name", ["mu_sapp", "reproduction"])
 def test_the_papers_numbers_follow_from_the_slip_tables_that_are_kept(name):
     golden = SMALL.parent
-    slips = {scene: read_table(golden / f"{scene}_slips.csv") for scene in printed.SCENES}
+    slips = {
+        scene: read_table(golden / f"{scene}_slips.csv") for scene in printed.SCENES
+    }
     found = reproduction_tables(slips, printed.SCENES)[name]
     kept = read_table(golden / f"{name}.csv")
     pd.testing.assert_frame_equal(found.astype(kept.dtypes), kept, rtol=ROUNDING)

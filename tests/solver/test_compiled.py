@@ -1,4 +1,5 @@
-"""Compiled code is kept on disk, and compiled anew after an edit of any module it was made from."""
+"""Compiled code is kept on disk, and compiled anew after an edit of any module it was
+made from."""
 
 import json
 import os
@@ -14,7 +15,8 @@ from precursors.solver.kernel.compiled import KEPT, checksum
 
 KERNEL = Path(kernel.__file__).parent
 PATIENCE = 300.0  # s: a start takes some seconds, far more only if it hangs
-# A kernel in small: a function that Python calls, and one that it calls in another file.
+# A kernel in small: a function that Python calls, and one that it calls in another
+# file.
 ENTRY = """
 from small.compiled import outer
 from small.part import times
@@ -42,7 +44,8 @@ SAID = "compiling the solver for this machine, once: some 20 s\n"
 
 
 class Small:
-    """A package with a copy of the kernel's decorators, used in processes of its own."""
+    """A package with a copy of the kernel's decorators, used in processes of its
+    own."""
 
     def __init__(self, directory: Path) -> None:
         self.directory, self.package = directory, directory / "small"
@@ -57,8 +60,11 @@ class Small:
         (self.package / name).write_text(text, encoding="utf-8")
 
     def use(self, **environment: str) -> tuple[int, int, str]:
-        """What the entry point returns for 2, how often it came from the cache, and what stderr says."""
-        inherited = {key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"}
+        """What the entry point returns for 2, how often it came from the cache, and
+        what stderr says."""
+        inherited = {
+            key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"
+        }
         # Python would take bytecode for that of an edit in the same second.
         inherited |= {"XDG_CACHE_HOME": str(self.cache), "PYTHONDONTWRITEBYTECODE": "1"}
         process = subprocess.run(
@@ -78,7 +84,9 @@ def small(tmp_path):
     return Small(tmp_path / "with spaces, Ümläute and 摩擦")
 
 
-def test_another_clone_of_the_user_compiles_nothing_until_an_edit_of_what_is_called(small, tmp_path):
+def test_another_clone_of_the_user_compiles_nothing_until_an_edit_of_what_is_called(
+    small, tmp_path
+):
     assert small.use() == (7, 0, SAID)
     clone = Small(tmp_path / "clone")
     clone.cache = small.cache
@@ -101,7 +109,9 @@ def test_code_of_long_ago_is_removed_and_what_is_in_use_stays(small):
 
 
 def test_an_edit_of_any_module_and_a_new_name_change_the_checksum(tmp_path):
-    copy = shutil.copytree(KERNEL, tmp_path / "kernel", ignore=shutil.ignore_patterns("__pycache__"))
+    copy = shutil.copytree(
+        KERNEL, tmp_path / "kernel", ignore=shutil.ignore_patterns("__pycache__")
+    )
     sums = [checksum(KERNEL)]
     assert sums == [checksum(copy)]
     for module in sorted(copy.glob("*.py")):

@@ -10,14 +10,32 @@ from chains import first_transitions, in_groups, positions_under
 from reference import ReferenceChain, reference
 
 from precursors import Chain
-from precursors.accuracy.audit.checks import ROUNDINGS, Auditor
+from precursors.audit import ROUNDINGS
+from precursors.audit.checks import Auditor
 
-# In radians of the fastest motion: measured are 1e-9 where the drive is 1e7 times as stiff as the chain, and
-# 2e-10 elsewhere. A force at its limit is known to a rounding, its instant to less where it hardly grows.
+# In radians of the fastest motion: measured are 1e-9 where the drive is 1e7 times as
+# stiff as the chain, and 2e-10 elsewhere. A force at its limit is known to a rounding,
+# its instant to less where it hardly grows.
 RADIANS = 1e-8
-# Deviations that were beyond 1e-10 of the largest strength, the worst first; 12621 is what was never judged.
-ONCE_SUSPECTED = (12621, 14434, 12209, 12177, 19552, 12626, 15083, 17283, 19995, 18644, 17322, 327, 1462)
-# Friction is a rounding of the forces for all blocks but one, or for all: 1e24 N beside 1e-3 N.
+# Deviations that were beyond 1e-10 of the largest strength, the worst first; 12621 is
+# what was never judged.
+ONCE_SUSPECTED = (
+    12621,
+    14434,
+    12209,
+    12177,
+    19552,
+    12626,
+    15083,
+    17283,
+    19995,
+    18644,
+    17322,
+    327,
+    1462,
+)
+# Friction is a rounding of the forces for all blocks but one, or for all: 1e24 N beside
+# 1e-3 N.
 BELOW_ROUNDING = {1668: [3], 3798: []}
 
 
@@ -26,15 +44,23 @@ def fastest(chain: Chain) -> float:
     return 2 * math.sqrt(max(chain.stiffness, chain.drive_stiffness) / chain.mass)
 
 
-def exact_transitions(case: random_chains.Trial, most: int) -> list[tuple[float, int, int]]:
-    """Time [s], block and mode of the first transitions, in units in which forces and times are about one.
+def exact_transitions(
+    case: random_chains.Trial, most: int
+) -> list[tuple[float, int, int]]:
+    """Time [s], block and mode of the first transitions, in units in which forces and
+    times are about one.
 
     The units are powers of two: no number is rounded.
     """
     chain = case.chain
     second = Fraction(2) ** round(math.log2(math.sqrt(chain.mass / chain.stiffness)))
-    largest = max(chain.strength.sum(), chain.drive_velocity * math.sqrt(chain.drive_stiffness * chain.mass))
-    newton = Fraction(2) ** round(math.log2(largest * max(1.0, chain.stiffness / chain.drive_stiffness)))
+    largest = max(
+        chain.strength.sum(),
+        chain.drive_velocity * math.sqrt(chain.drive_stiffness * chain.mass),
+    )
+    newton = Fraction(2) ** round(
+        math.log2(largest * max(1.0, chain.stiffness / chain.drive_stiffness))
+    )
     exact = ReferenceChain(
         weights=tuple(Fraction(w) / newton for w in chain.weights.tolist()),
         mass=Fraction(chain.mass) / second**2,
@@ -48,9 +74,13 @@ def exact_transitions(case: random_chains.Trial, most: int) -> list[tuple[float,
     transitions = reference(
         exact,
         Fraction(case.duration) / second,
-        start_positions=[Fraction(x) / newton for x in case.start.get("start_positions", at_rest).tolist()],
+        start_positions=[
+            Fraction(x) / newton
+            for x in case.start.get("start_positions", at_rest).tolist()
+        ],
         start_velocities=[
-            Fraction(v) * second / newton for v in case.start.get("start_velocities", at_rest).tolist()
+            Fraction(v) * second / newton
+            for v in case.start.get("start_velocities", at_rest).tolist()
         ],
         max_transitions=most,
         bits=512,
@@ -59,7 +89,8 @@ def exact_transitions(case: random_chains.Trial, most: int) -> list[tuple[float,
 
 
 def run_and_exact(number: int):
-    """The chain of a trial, its transitions, and as many of the reference, as (time, block, mode)."""
+    """The chain of a trial, its transitions, and as many of the reference, as (time,
+    block, mode)."""
     case = random_chains.trial(number)[1]
     run = case.run()
     exact = exact_transitions(case, len(run.transitions) + 1)
@@ -69,7 +100,9 @@ def run_and_exact(number: int):
 @pytest.mark.parametrize("number", ONCE_SUSPECTED)
 def test_a_run_that_once_looked_wrong_is_that_of_the_reference(number):
     run, mine, exact = run_and_exact(number)
-    assert run.duration < random_chains.trial(number)[1].duration or len(exact) <= len(mine)
+    assert run.duration < random_chains.trial(number)[1].duration or len(exact) <= len(
+        mine
+    )
     exact = exact[: len(mine)]
     apart = RADIANS / fastest(run.chain)
     assert in_groups(mine, apart) == in_groups(exact, apart)
@@ -78,14 +111,21 @@ def test_a_run_that_once_looked_wrong_is_that_of_the_reference(number):
 
 
 @pytest.mark.parametrize(("number", "blocks"), BELOW_ROUNDING.items())
-def test_blocks_that_are_stronger_than_a_rounding_let_go_in_time_beside_others_that_are_not(number, blocks):
+def test_blocks_that_are_stronger_than_a_rounding_let_go_in_time_beside_others_that_are_not(
+    number, blocks
+):
     run, mine, exact = run_and_exact(number)
     auditor = Auditor(run, ROUNDINGS)
     auditor.walk()
     assert not auditor.problems
-    resolved = np.flatnonzero(auditor.strength > ROUNDINGS * auditor.one * auditor.per_force) + 1
+    resolved = (
+        np.flatnonzero(auditor.strength > ROUNDINGS * auditor.one * auditor.per_force)
+        + 1
+    )
     assert resolved.tolist() == blocks
-    of_these = [[t for t in transitions if t[1] in blocks] for transitions in (mine, exact)]
+    of_these = [
+        [t for t in transitions if t[1] in blocks] for transitions in (mine, exact)
+    ]
     assert [t[1:] for t in of_these[0]] == [t[1:] for t in of_these[1]]
     for a, b in zip(*of_these, strict=True):
         assert a[0] == pytest.approx(b[0], abs=RADIANS / fastest(run.chain))
@@ -99,12 +139,16 @@ def test_a_soft_drive_keeps_its_load_where_block_1_starts_at_its_limit():
     run = first_transitions(chain, 2, duration=0.01, start_positions=start)
     first = run.transitions[0]
     assert (first["time"], first["block"], first["mode"]) == (0.0, 1, 1)
-    assert first["tangential_load"] == pytest.approx(-chain.drive_stiffness * start[0], rel=1e-14)
+    assert first["tangential_load"] == pytest.approx(
+        -chain.drive_stiffness * start[0], rel=1e-14
+    )
 
 
 @pytest.mark.parametrize("first", range(0, 300, 20))
 def test_random_chains_move_as_the_model_says(first):
     """The auditor, which shares no code with the solver, finds nothing wrong."""
-    verdicts = {number: random_chains.verdict(number) for number in range(first, first + 20)}
+    verdicts = {
+        number: random_chains.verdict(number) for number in range(first, first + 20)
+    }
     assert {n: v for n, v in verdicts.items() if v not in ("survived", "refused")} == {}
     assert list(verdicts.values()).count("survived") >= 15

@@ -1,4 +1,5 @@
-"""The method in plain Python finds the transitions of the compiled kernel, in as many steps as it did."""
+"""The method in plain Python finds the transitions of the compiled kernel, in as many
+steps as it did."""
 
 from itertools import product
 
@@ -10,13 +11,14 @@ from random_chains import mild_chain
 from precursors import simulate
 from precursors.solver import plain
 
-# Both are right to about so much up to the first global slip [s], [N]. After it, roundings grow: what
-# changing the weights by a rounding does to the exact times is 3e-8 s at 10 s.
+# Both are right to about so much up to the first global slip [s], [N]. After it,
+# roundings grow: what changing the weights by a rounding does to the exact times is
+# 3e-8 s at 10 s.
 TO_GLOBAL_SLIP, LOAD_TO_GLOBAL_SLIP, TO_THE_END = 1e-12, 1e-10, 3e-8
 # Of the run's duration, and of the largest load: roundings of some tens of transitions.
 RANDOM, RANDOM_LOAD = 1e-9, 1e-8
-# Windows, searches of a function and safe steps up to the first global slip. The last steps to a root depend
-# on how many digits the machine has.
+# Windows, searches of a function and safe steps up to the first global slip. The last
+# steps to a root depend on how many digits the machine has.
 WORK = {"-5/6": [261, 346, 1108], "0": [432, 477, 1481], "5/6": [813, 639, 1969]}
 WORK_CHANGE = 0.01
 
@@ -24,23 +26,37 @@ WORK_CHANGE = 0.01
 def count_calls(monkeypatch, name) -> list:
     """A list that grows by one with each call of a function of the method."""
     calls, function = [], getattr(plain, name)
-    monkeypatch.setattr(plain, name, lambda *arguments: calls.append(name) or function(*arguments))
+    monkeypatch.setattr(
+        plain, name, lambda *arguments: calls.append(name) or function(*arguments)
+    )
     return calls
 
 
 @pytest.mark.parametrize("theta", WORK)
-def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(theta, monkeypatch):
-    calls = [count_calls(monkeypatch, name) for name in ("expand", "first_root", "safe_step")]
+def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(
+    theta, monkeypatch
+):
+    calls = [
+        count_calls(monkeypatch, name) for name in ("expand", "first_root", "safe_step")
+    ]
     run = simulate(SLIDER(theta=theta), until="global slip")
     rows, end = by_plain(run.chain, 10.0, until_global=True)
     compiled = run.transitions
     assert rows[:, 2].tolist() == compiled["block"].tolist()
     assert rows[:, 3].tolist() == compiled["mode"].tolist()
-    np.testing.assert_allclose(rows[:, 0], compiled["time"], rtol=0, atol=TO_GLOBAL_SLIP)
-    np.testing.assert_allclose(rows[:, 1], run.intervals[:-1], rtol=0, atol=TO_GLOBAL_SLIP)
-    np.testing.assert_allclose(rows[:, 4], compiled["tangential_load"], rtol=0, atol=LOAD_TO_GLOBAL_SLIP)
+    np.testing.assert_allclose(
+        rows[:, 0], compiled["time"], rtol=0, atol=TO_GLOBAL_SLIP
+    )
+    np.testing.assert_allclose(
+        rows[:, 1], run.intervals[:-1], rtol=0, atol=TO_GLOBAL_SLIP
+    )
+    np.testing.assert_allclose(
+        rows[:, 4], compiled["tangential_load"], rtol=0, atol=LOAD_TO_GLOBAL_SLIP
+    )
     assert end == pytest.approx(run.duration, abs=TO_GLOBAL_SLIP)
-    assert [len(of_one) for of_one in calls] == pytest.approx(WORK[theta], rel=WORK_CHANGE)
+    assert [len(of_one) for of_one in calls] == pytest.approx(
+        WORK[theta], rel=WORK_CHANGE
+    )
 
 
 @pytest.mark.parametrize("theta", WORK)
@@ -53,7 +69,9 @@ def test_every_transition_of_ten_seconds_is_the_same(theta):
 
 
 @pytest.mark.parametrize(("over", "mode"), [(1e-9, 1), (0.0, 0), (-1e-9, 0)])
-def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks(over, mode):
+def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks(
+    over, mode
+):
     """Its limit is 28 N; its positions are known to their roundings, 1e-10 N."""
     for block, side in product((1, 4, 9), (1, -1)):
         push = np.full(10, 14.0)
@@ -73,7 +91,9 @@ def test_random_chains_have_the_same_transitions(first):
         compiled = case.run().transitions
         assert rows[:, 2].tolist() == compiled["block"].tolist(), number
         assert rows[:, 3].tolist() == compiled["mode"].tolist(), number
-        np.testing.assert_allclose(rows[:, 0], compiled["time"], rtol=0, atol=RANDOM * case.duration)
+        np.testing.assert_allclose(
+            rows[:, 0], compiled["time"], rtol=0, atol=RANDOM * case.duration
+        )
         loads = compiled["tangential_load"]
         largest = RANDOM_LOAD * abs(loads).max(initial=1.0)
         np.testing.assert_allclose(rows[:, 4], loads, rtol=0, atol=largest)

@@ -1,4 +1,5 @@
-"""A run knows the motion at every time, and its file gives back every bit or is refused."""
+"""A run knows the motion at every time, and its file gives back every bit or is
+refused."""
 
 from dataclasses import replace
 
@@ -11,7 +12,8 @@ from precursors import Run, RunFileError, simulate
 from precursors.model.statics import maximal_strain_positions
 from precursors.solver.run import States
 
-# A transition's own time is known to 4e-16 s only, and F_X changes by up to 1e6 N/s [N].
+# A transition's own time is known to 4e-16 s only, and F_X changes by up to 1e6 N/s
+# [N].
 FORCE_ROUNDING = 1e-11
 
 
@@ -35,12 +37,20 @@ def test_the_load_at_a_transition_is_the_one_recorded(n_blocks):
 
 
 def test_load_and_positions_obey_eq_3_at_times_in_any_order(run):
-    times = np.random.default_rng(1).permutation(np.linspace(0.0, run.duration, 1001).repeat(2))
+    times = np.random.default_rng(1).permutation(
+        np.linspace(0.0, run.duration, 1001).repeat(2)
+    )
     positions, _ = run.at(times)
-    expected = run.chain.drive_stiffness * (run.chain.drive_velocity * times - positions[:, 0])
-    np.testing.assert_allclose(run.tangential_load(times), expected, rtol=0, atol=FORCE_ROUNDING)
+    expected = run.chain.drive_stiffness * (
+        run.chain.drive_velocity * times - positions[:, 0]
+    )
+    np.testing.assert_allclose(
+        run.tangential_load(times), expected, rtol=0, atol=FORCE_ROUNDING
+    )
     forward = run.tangential_load(np.sort(times))
-    np.testing.assert_array_equal(run.tangential_load(times), forward[np.searchsorted(np.sort(times), times)])
+    np.testing.assert_array_equal(
+        run.tangential_load(times), forward[np.searchsorted(np.sort(times), times)]
+    )
 
 
 @pytest.mark.parametrize(
@@ -71,11 +81,15 @@ def test_at_time_0_a_run_is_where_it_began():
     chain, start, velocities = SLIDER(3), [1e-6, -2e-6, 3e-6], [1e-3, 0.0, -1e-3]
     run = simulate(chain, 0.01, start_positions=start, start_velocities=velocities)
     np.testing.assert_allclose(run.at([0.0]), [[start], [velocities]], rtol=1e-12)
-    assert run.spring_forces([0.0])[0] == pytest.approx(-chain.springs * np.diff(start, prepend=0.0))
+    assert run.spring_forces([0.0])[0] == pytest.approx(
+        -chain.springs * np.diff(start, prepend=0.0)
+    )
 
 
 def test_a_run_made_from_transitions_has_them_and_knows_no_states(run, tmp_path):
-    columns = [run.transitions[name] for name in ("time", "block", "mode", "tangential_load")]
+    columns = [
+        run.transitions[name] for name in ("time", "block", "mode", "tangential_load")
+    ]
     made = Run.from_transitions(run.chain, run.duration, *columns, run.intervals)
     made.save(tmp_path / "made.h5")
     for same in (made, Run.load(tmp_path / "made.h5")):
@@ -87,7 +101,9 @@ def test_a_run_made_from_transitions_has_them_and_knows_no_states(run, tmp_path)
     np.testing.assert_allclose(by_difference, run.intervals, atol=1e-14)
 
 
-def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(run, tmp_path):
+def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(
+    run, tmp_path
+):
     path = tmp_path / "new" / "run.h5"
     slider = {"theta": -5 / 6, "n_blocks": 10, "normal_load": 400.0}
     run.save(path, slider)
@@ -99,9 +115,19 @@ def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(run, t
     np.testing.assert_array_equal(back.at(times), run.at(times))
     assert [p.name for p in path.parent.iterdir()] == ["run.h5"]
     with h5py.File(path) as file:
-        units = {name: file[f"transitions/{name}"].attrs["unit"] for name in ("time", "tangential_load")}
+        units = {
+            name: file[f"transitions/{name}"].attrs["unit"]
+            for name in ("time", "tangential_load")
+        }
         assert units == {"time": b"s", "tangential_load": b"N"}
-        assert {"precursors", "numpy", "mu_s", "drive_velocity", "duration", "slider"} <= set(file.attrs)
+        assert {
+            "precursors",
+            "numpy",
+            "mu_s",
+            "drive_velocity",
+            "duration",
+            "slider",
+        } <= set(file.attrs)
     run.save(tmp_path / "again.h5", dict(reversed(slider.items())))
     assert path.read_bytes() == (tmp_path / "again.h5").read_bytes()
 
@@ -109,12 +135,16 @@ def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(run, t
 @pytest.mark.parametrize("theta", [-1.0, 1.0])
 @pytest.mark.parametrize("duration", [1e-9, 1e-3])
 def test_a_run_whose_values_are_at_the_limits_comes_back_too(tmp_path, theta, duration):
-    """Without a transition, with all of them at time 0 and with one at its end; of blocks 1 and N."""
+    """Without a transition, with all of them at time 0 and with one at its end; of
+    blocks 1 and N."""
     chain = SLIDER(30, theta=theta)
     start = maximal_strain_positions(chain)
     runs = [simulate(chain, duration), simulate(chain, duration, start_positions=start)]
     runs.append(simulate(chain, duration, start_velocities=-np.ones(30)))
-    runs += [first_transitions(chain, most, start_positions=start, duration=duration) for most in (29, 31)]
+    runs += [
+        first_transitions(chain, most, start_positions=start, duration=duration)
+        for most in (29, 31)
+    ]
     for run in runs:
         run.save(tmp_path / "run.h5")
         back = Run.load(tmp_path / "run.h5")
@@ -165,7 +195,10 @@ def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, p
     ("change", "words"),
     [
         (lambda file: file.attrs.update(slider=np.bytes_(b"[" * 30_000)), "recursion"),
-        (lambda file: file.attrs.update(larger=np.bytes_(b"[]")), "larger is not a table"),
+        (
+            lambda file: file.attrs.update(larger=np.bytes_(b"[]")),
+            "larger is not a table",
+        ),
         (lambda file: file.attrs.update(format="precursors run 5"), "its format"),
     ],
 )
@@ -178,27 +211,57 @@ def test_a_file_whose_texts_are_not_those_of_a_run_is_refused(path, change, word
 @pytest.mark.parametrize(
     ("name", "change", "words"),
     [
-        ("transitions/block", lambda block: block * 0 - 1_000_000_000, "a block is not one of 1 to 10"),
+        (
+            "transitions/block",
+            lambda block: block * 0 - 1_000_000_000,
+            "a block is not one of 1 to 10",
+        ),
         ("transitions/block", lambda block: block[:-1], "transitions/block has shape"),
         ("transitions/mode", lambda mode: mode * 0 + 3, "a mode is unknown"),
         ("intervals", lambda intervals: intervals[1:], "intervals do not fit"),
-        ("intervals", lambda intervals: intervals * np.nan, "an interval is not between 0 and"),
-        ("intervals", lambda intervals: intervals * 1e300, "an interval is not between 0 and"),
-        ("intervals", lambda intervals: intervals[::-1], "intervals do not add up to its times"),
+        (
+            "intervals",
+            lambda intervals: intervals * np.nan,
+            "an interval is not between 0 and",
+        ),
+        (
+            "intervals",
+            lambda intervals: intervals * 1e300,
+            "an interval is not between 0 and",
+        ),
+        (
+            "intervals",
+            lambda intervals: intervals[::-1],
+            "intervals do not add up to its times",
+        ),
         ("transitions/time", lambda time: time[::-1], "times are not in order"),
         ("transitions/time", lambda time: time * 2, "times are not in order"),
         ("states/after", lambda after: after[::-1], "states are not in order"),
-        ("states/offset", lambda offset: offset + 1e300, "an offset is not between 0 and"),
-        ("start_positions", lambda positions: positions[1:], "start_positions do not fit to 10 blocks"),
+        (
+            "states/offset",
+            lambda offset: offset + 1e300,
+            "an offset is not between 0 and",
+        ),
+        (
+            "start_positions",
+            lambda positions: positions[1:],
+            "start_positions do not fit to 10 blocks",
+        ),
         ("weights", lambda weights: weights[1:], "do not fit to 9 blocks"),
-        ("states/after", lambda after: after - 1_000_000_000, "a state comes after a transition"),
+        (
+            "states/after",
+            lambda after: after - 1_000_000_000,
+            "a state comes after a transition",
+        ),
         ("states/after", lambda after: after[1:], "states/force has shape"),
         ("states/force", lambda force: force[:, 1:], "states/force has shape"),
         ("states/offset", lambda offset: offset[1:], "states/offset does not fit"),
         ("states/velocity", None, "velocity"),
     ],
 )
-def test_a_file_whose_contents_do_not_fit_together_is_refused(path, name, change, words):
+def test_a_file_whose_contents_do_not_fit_together_is_refused(
+    path, name, change, words
+):
     with h5py.File(path, "r+") as file:
         values = file[name][()]
         del file[name]
@@ -215,7 +278,9 @@ def test_states_of_other_types_are_taken_as_numbers(run, path):
             del file[f"states/{name}"]
             file[f"states/{name}"] = values
     times = np.linspace(0, 3, 7)
-    np.testing.assert_allclose(Run.load(path).tangential_load(times), run.tangential_load(times), rtol=1e-6)
+    np.testing.assert_allclose(
+        Run.load(path).tangential_load(times), run.tangential_load(times), rtol=1e-6
+    )
 
 
 def test_a_missing_file_and_an_unwritable_place_are_named(run, tmp_path):

@@ -1,4 +1,5 @@
-"""The solver: every transition of the reference at its time, where runs end, the edges of the model."""
+"""The solver: every transition of the reference at its time, where runs end, the edges
+of the model."""
 
 import math
 from itertools import pairwise
@@ -16,17 +17,22 @@ from precursors.solver import simulate as exact
 
 # What the project promises [s].
 PROMISED_TO_GLOBAL_SLIP, PROMISED_TO_THE_END = 1e-9, 1e-6
-# What holds [s]: measured are 3e-15 .. 4e-14 up to the end of the first global slip and 2e-11 .. 3e-9 at
-# 10 s. The tolerance is what changing the weights by a rounding does to the exact times: 1e-12 and 3e-8.
+# What holds [s]: measured are 3e-15 .. 4e-14 up to the end of the first global slip and
+# 2e-11 .. 3e-9 at 10 s. The tolerance is what changing the weights by a rounding does
+# to the exact times: 1e-12 and 3e-8.
 TO_GLOBAL_SLIP, TO_THE_END = 1e-12, 3e-8
-# The load changes by up to some 1e5 N/s in a slip, at transitions by less: measured are 3e-12 and 5e-7 N.
+# The load changes by up to some 1e5 N/s in a slip, at transitions by less: measured are
+# 3e-12 and 5e-7 N.
 LOAD_TO_GLOBAL_SLIP, LOAD_TO_THE_END = 1e-10, 1e-5
-# Of the duration, and of the largest load: measured are 5e-14 at most on the held-out chains.
+# Of the duration, and of the largest load: measured are 5e-14 at most on the held-out
+# chains.
 HELD_OUT_TIME, HELD_OUT_LOAD = 2e-13, 2e-12
-# A block that grazes zero velocity (mu_s = mu_k) has its time to the root of a rounding only [s], [N].
+# A block that grazes zero velocity (mu_s = mu_k) has its time to the root of a rounding
+# only [s], [N].
 GRAZING_TIME, GRAZING_LOAD = 1e-8, 1e-4
 ROUNDING = 4e-15  # relative, some ten roundings
-# An instant of an event is known to a rounding of the spring forces over their rate: 1e-12 of a slip.
+# An instant of an event is known to a rounding of the spring forces over their rate:
+# 1e-12 of a slip.
 SLIP_ROUNDING = 1e-11
 
 
@@ -44,7 +50,9 @@ def order(run):
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_a_scene_of_the_paper_has_every_transition_of_ten_seconds_beyond_what_is_promised(name):
+def test_a_scene_of_the_paper_has_every_transition_of_ten_seconds_beyond_what_is_promised(
+    name,
+):
     run, golden = simulate(SLIDER(theta=SCENES[name])), read_golden(name)
     times, loads, blocks_and_modes = arrays(golden)
     assert order(run) == blocks_and_modes
@@ -56,7 +64,8 @@ def test_a_scene_of_the_paper_has_every_transition_of_ten_seconds_beyond_what_is
     error = abs(run.transitions["tangential_load"] - loads)
     assert error[up_to_global].max() < LOAD_TO_GLOBAL_SLIP
     assert error.max() < LOAD_TO_THE_END
-    # In the first events, before roundings add up: t is rounded to 1e-16 s, a slip to 1e-19 s.
+    # In the first events, before roundings add up: t is rounded to 1e-16 s, a slip to
+    # 1e-19 s.
     first = [float(b.time - a.time) for a, b in pairwise(golden[:5])]
     np.testing.assert_allclose(run.intervals[1:5], first, rtol=SLIP_ROUNDING)
     assert math.fsum(run.intervals) == pytest.approx(run.duration, abs=1e-14)
@@ -71,7 +80,9 @@ def test_a_chain_that_no_figure_shows_is_right(name):
     load = GRAZING_LOAD if name == "grazing" else HELD_OUT_LOAD * abs(loads).max()
     assert order(run) == blocks_and_modes
     np.testing.assert_allclose(run.transitions["time"], times, rtol=0, atol=time)
-    np.testing.assert_allclose(run.transitions["tangential_load"], loads, rtol=0, atol=load)
+    np.testing.assert_allclose(
+        run.transitions["tangential_load"], loads, rtol=0, atol=load
+    )
 
 
 def test_times_of_ten_thousand_slips_do_not_gather_roundings():
@@ -81,7 +92,9 @@ def test_times_of_ten_thousand_slips_do_not_gather_roundings():
     run = first_transitions(chain, 20_000, duration=1e6)
     expected = 3.5 + np.arange(10_000) * (stick + lone_slip(chain)[0])
     np.testing.assert_allclose(run.transitions["time"][::2], expected, rtol=ROUNDING)
-    np.testing.assert_allclose(run.intervals[1::2], lone_slip(chain)[0], rtol=SLIP_ROUNDING)
+    np.testing.assert_allclose(
+        run.intervals[1::2], lone_slip(chain)[0], rtol=SLIP_ROUNDING
+    )
     assert math.fsum(run.intervals) == pytest.approx(run.duration, rel=ROUNDING)
 
 
@@ -90,9 +103,13 @@ def test_a_cap_on_transitions_says_where_the_run_was_and_keeps_it(most):
     with pytest.raises(TransitionLimitError, match=r"\A[^\n]+\Z") as error:
         simulate(SLIDER(), duration=10.0, max_transitions=most)
     run, last = error.value.run, error.value.run.transitions[-1]
-    np.testing.assert_array_equal(run.transitions, simulate(SLIDER()).transitions[:most])
+    np.testing.assert_array_equal(
+        run.transitions, simulate(SLIDER()).transitions[:most]
+    )
     assert run.duration == pytest.approx(last["time"], rel=ROUNDING)
-    assert run.tangential_load([run.duration]) == pytest.approx(last["tangential_load"], rel=1e-12)
+    assert run.tangential_load([run.duration]) == pytest.approx(
+        last["tangential_load"], rel=1e-12
+    )
     assert str(error.value) == (
         f"max_transitions = {most} reached at t = {last['time']:.9g} s of 10 s, "
         f"last at block {last['block']}: raise max_transitions or shorten duration"
@@ -100,13 +117,18 @@ def test_a_cap_on_transitions_says_where_the_run_was_and_keeps_it(most):
 
 
 def test_a_cap_that_is_just_enough_raises_nothing():
-    assert len(simulate(SLIDER(), until="global slip", max_transitions=217).transitions) == 216
+    assert (
+        len(simulate(SLIDER(), until="global slip", max_transitions=217).transitions)
+        == 216
+    )
 
 
 def test_a_chain_that_slides_without_end_meets_a_cap_on_work(monkeypatch):
     monkeypatch.setattr(exact, "MAX_WINDOWS", 1000)
     monkeypatch.setattr(exact, "WINDOWS_PER_CALL", 400)
-    with pytest.raises(TransitionLimitError, match=r"^1000 steps .* at t = \S+ s of 1 s.*shorten") as error:
+    with pytest.raises(
+        TransitionLimitError, match=r"^1000 steps .* at t = \S+ s of 1 s.*shorten"
+    ) as error:
         simulate(SLIDER(2, mu_s=0.0, mu_k=0.0), duration=1.0)
     audited(error.value.run)
 
@@ -118,10 +140,14 @@ def test_a_run_until_the_global_slip_stops_at_its_end_or_at_its_duration(name):
     slips = find_slips(run)
     assert slips["is_global"].tolist() == [False] * (len(slips) - 1) + [True]
     assert run.duration == slips["end"].iloc[-1]
-    np.testing.assert_array_equal(run.transitions, whole.transitions[: len(run.transitions)])
+    np.testing.assert_array_equal(
+        run.transitions, whole.transitions[: len(run.transitions)]
+    )
     shorter = simulate(SLIDER(theta=SCENES[name]), duration=1.0, until="global slip")
     assert shorter.duration == 1.0
-    np.testing.assert_array_equal(shorter.transitions, whole.transitions[: len(shorter.transitions)])
+    np.testing.assert_array_equal(
+        shorter.transitions, whole.transitions[: len(shorter.transitions)]
+    )
 
 
 def test_a_run_ends_when_a_slip_has_lasted_too_long():
@@ -141,10 +167,19 @@ def test_a_run_ends_when_a_slip_has_lasted_too_long():
     [
         ({"duration": 0.0}, "duration must be above 0 s, but is 0.0"),
         ({"until": "slip"}, "until must be None or \"global slip\", but is 'slip'"),
-        ({"max_transitions": 0}, "max_transitions must be a whole number of at least 1, but is 0"),
+        (
+            {"max_transitions": 0},
+            "max_transitions must be a whole number of at least 1, but is 0",
+        ),
         ({"longest_slip": 0}, "longest_slip must be above 0 s, but is 0"),
-        ({"start_positions": [0.0] * 9}, "start_positions must have shape (10,), one [m] a block"),
-        ({"start_velocities": [math.inf] * 10}, "start_velocities must be finite, and not beyond 1e+60 m/s"),
+        (
+            {"start_positions": [0.0] * 9},
+            "start_positions must have shape (10,), one [m] a block",
+        ),
+        (
+            {"start_velocities": [math.inf] * 10},
+            "start_velocities must be finite, and not beyond 1e+60 m/s",
+        ),
         ({"start_velocities": ["a"] * 10}, "start_velocities must be numbers [m/s]"),
     ],
 )
@@ -166,6 +201,7 @@ def test_all_blocks_at_their_limit_let_go_in_one_event(n_blocks, changes):
 
 
 def test_a_start_off_balance_by_less_than_a_rounding_moves_as_the_model_does():
-    """Without friction; 1e-30 m are 1e-24 N, less than a rounding of what the drive adds in 1e-8 s."""
+    """Without friction; 1e-30 m are 1e-24 N, less than a rounding of what the drive
+    adds in 1e-8 s."""
     chain = SLIDER(2, mu_s=0.0, mu_k=0.0)
     audited(simulate(chain, duration=1e-3, start_positions=[1e-30, 0.0]))

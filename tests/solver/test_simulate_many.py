@@ -9,7 +9,8 @@ from precursors import Chain, Run, simulate, simulate_many
 from precursors.solver import simulate as solver
 
 SLIDER = Chain.from_slider
-# Transitions that the record of a thread has room for, and bytes for stored states that a long run exceeds.
+# Transitions that the record of a thread has room for, and bytes for stored states that
+# a long run exceeds.
 SHARED_ROOM, ROOM = solver.SHARED_ROOM, 2**18
 ROUNDING = 1e-12  # of the largest position or velocity
 
@@ -21,12 +22,15 @@ def same(one: Run, other: Run) -> bool:
         one.chain == other.chain
         and one.duration == other.duration
         and one.evaluations == other.evaluations
-        and all(a.shape == b.shape and (a == b).all() for a, b in zip(*columns, strict=True))
+        and all(
+            a.shape == b.shape and (a == b).all() for a, b in zip(*columns, strict=True)
+        )
     )
 
 
 def mixed() -> list[Chain]:
-    """64 chains of several lengths and loads; four have more transitions than a thread's record."""
+    """64 chains of several lengths and loads; four have more transitions than a
+    thread's record."""
     fast = {(10, j): 2e-2 for j in range(2, 16, 4)}
     return [
         SLIDER(n, theta=j / 16, drive_velocity=fast.get((n, j), 1e-4))
@@ -41,29 +45,42 @@ def test_an_ensemble_is_what_its_chains_are_one_by_one(threads, until):
     chains = mixed()
     runs = simulate_many(chains, duration=1.0, until=until, threads=threads)
     assert until or max(len(run.transitions) for run in runs) > SHARED_ROOM
-    assert all(same(run, simulate(chain, 1.0, until)) for run, chain in zip(runs, chains, strict=True))
+    assert all(
+        same(run, simulate(chain, 1.0, until))
+        for run, chain in zip(runs, chains, strict=True)
+    )
 
 
-def test_states_of_long_runs_are_thinned_to_the_room_they_may_take_and_known_everywhere(monkeypatch):
+def test_states_of_long_runs_are_thinned_to_the_room_they_may_take_and_known_everywhere(
+    monkeypatch,
+):
     chains = [chain for chain in mixed() if chain.drive_velocity > 1e-4]
     runs, times = simulate_many(chains, 1.0, threads=2), np.linspace(0.0, 1.0, 200)
     assert all(len(run.transitions) > SHARED_ROOM for run in runs)
     monkeypatch.setattr(solver, "STATES_BYTES", ROOM)
     for run, thin in zip(runs, simulate_many(chains, 1.0, threads=2), strict=True):
-        assert sum(column.nbytes for column in thin.states) <= ROOM < sum(c.nbytes for c in run.states)
+        assert (
+            sum(column.nbytes for column in thin.states)
+            <= ROOM
+            < sum(c.nbytes for c in run.states)
+        )
         assert np.median(np.diff(run.states.after)) == 10
         apart = np.diff(thin.states.after)
         assert 1 < apart.max() <= 2 * apart.min()
         np.testing.assert_array_equal(thin.transitions, run.transitions)
         for found, known in zip(thin.at(times), run.at(times), strict=True):
-            np.testing.assert_allclose(found, known, rtol=0, atol=ROUNDING * abs(known).max())
+            np.testing.assert_allclose(
+                found, known, rtol=0, atol=ROUNDING * abs(known).max()
+            )
 
 
 def test_each_chain_starts_from_its_own_start():
     chains = [SLIDER(3), SLIDER(2)]
     positions = [np.array([1e-6, 0.0, -1e-6]), np.array([0.0, 2e-6])]
     velocities = [[1e-3, 0.0, 0.0], [0.0, 0.0]]
-    runs = simulate_many(chains, 0.5, start_positions=positions, start_velocities=velocities)
+    runs = simulate_many(
+        chains, 0.5, start_positions=positions, start_velocities=velocities
+    )
     for run, chain, x, v in zip(runs, chains, positions, velocities, strict=True):
         assert same(run, simulate(chain, 0.5, start_positions=x, start_velocities=v))
         np.testing.assert_array_equal(run.start_positions, x)
@@ -74,8 +91,14 @@ def test_each_chain_starts_from_its_own_start():
     [
         ({"threads": 0}, "threads must be a whole number of at least 1, but is 0"),
         ({"duration": -1.0}, "duration must be above 0 s, but is -1.0"),
-        ({"start_positions": []}, "start_positions must be one for each of the 2 chains, but are 0"),
-        ({"start_velocities": [[0.0] * 10, [0.0]]}, "start_velocities[1] must have shape (10,)"),
+        (
+            {"start_positions": []},
+            "start_positions must be one for each of the 2 chains, but are 0",
+        ),
+        (
+            {"start_velocities": [[0.0] * 10, [0.0]]},
+            "start_velocities[1] must have shape (10,)",
+        ),
     ],
 )
 def test_a_bad_argument_is_named_in_one_line(options, words):
@@ -87,9 +110,13 @@ def test_a_bad_argument_is_named_in_one_line(options, words):
 def test_chains_may_come_from_a_generator_and_what_is_no_chain_is_refused():
     chain = SLIDER()
     assert simulate_many([]) == []
-    assert [run.duration for run in simulate_many(chain for _ in range(3))] == [10.0] * 3
+    assert [run.duration for run in simulate_many(chain for _ in range(3))] == [
+        10.0
+    ] * 3
     with pytest.raises(TypeError, match="must be a list of chains, but is a Chain"):
         simulate_many(chain, 0.5)
     for call in (lambda: simulate(5), lambda: simulate_many([chain, 5])):
-        with pytest.raises(TypeError, match=r"^what is simulated must be a Chain, but is int$"):
+        with pytest.raises(
+            TypeError, match=r"^what is simulated must be a Chain, but is int$"
+        ):
             call()

@@ -1,4 +1,5 @@
-"""The digest of a job's code: it changes with what the job computes, and with nothing else."""
+"""The digest of a job's code: it changes with what the job computes, and with nothing
+else."""
 
 import pytest
 
@@ -60,7 +61,12 @@ SCRIPT_FILE, SUMS_FILE = "workflow/scripts/script.py", "src/precursors/room/sums
         (SCRIPT_FILE, f"{SCRIPT}x = 1\n", [], True),
         ("workflow/scripts/helper.py", "def help_out():\n    return 2\n", [], True),
         (SUMS_FILE, SUMS.replace("a + b", "a - b"), [], True),
-        ("src/precursors/parts/one.py", "x = 2\n", [], True),  # by a name that only a run knows
+        (
+            "src/precursors/parts/one.py",
+            "x = 2\n",
+            [],
+            True,
+        ),  # by a name that only a run knows
     ],
 )
 def test_the_digest_changes_with_what_the_script_computes_and_with_nothing_else(

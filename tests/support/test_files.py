@@ -11,7 +11,13 @@ from matplotlib.figure import Figure
 
 from precursors import Chain, simulate
 from precursors.figures import style
-from precursors.support.files import check_writable, read_table, write_table, write_text, write_whole
+from precursors.support.files import (
+    check_writable,
+    read_table,
+    write_table,
+    write_text,
+    write_whole,
+)
 
 RUN = simulate(Chain.from_slider(), 1.0)
 TABLE = pd.DataFrame({"time_s": [0.1, 1 / 3, 1e-300], "block": [1, 2, 3]})
@@ -28,12 +34,16 @@ def test_a_file_is_written_with_its_directories_and_is_an_ordinary_one(tmp_path)
     assert path.read_bytes() == b"a,b\n"
     assert os.listdir(path.parent) == ["table.csv"]
     (tmp_path / "ordinary").touch()
-    assert stat.S_IMODE(path.stat().st_mode) == stat.S_IMODE((tmp_path / "ordinary").stat().st_mode)
+    assert stat.S_IMODE(path.stat().st_mode) == stat.S_IMODE(
+        (tmp_path / "ordinary").stat().st_mode
+    )
 
 
 @pytest.mark.parametrize("name", WRITERS)
 @pytest.mark.parametrize("missing", [1, 40])
-def test_where_there_is_no_room_the_old_file_stays_and_one_line_says_so(tmp_path, name, missing):
+def test_where_there_is_no_room_the_old_file_stays_and_one_line_says_so(
+    tmp_path, name, missing
+):
     path = tmp_path / name
     WRITERS[name](path)
     old, (soft, hard) = path.read_bytes(), resource.getrlimit(resource.RLIMIT_FSIZE)
@@ -47,24 +57,32 @@ def test_where_there_is_no_room_the_old_file_stays_and_one_line_says_so(tmp_path
     assert os.listdir(tmp_path) == [name]
 
 
-def test_the_file_is_not_there_before_it_is_whole_and_a_killed_writer_leaves_nothing(tmp_path, monkeypatch):
+def test_the_file_is_not_there_before_it_is_whole_and_a_killed_writer_leaves_nothing(
+    tmp_path, monkeypatch
+):
     def killed(temporary, target):
         assert os.listdir(tmp_path) == [".partial.table.csv"]
         raise KeyboardInterrupt
 
-    (tmp_path / ".partial.table.csv").write_text("what one left that could not clean up")
+    (tmp_path / ".partial.table.csv").write_text(
+        "what one left that could not clean up"
+    )
     monkeypatch.setattr(os, "replace", killed)
     with pytest.raises(KeyboardInterrupt):
         write_text(tmp_path / "table.csv", "new")
     assert os.listdir(tmp_path) == []
 
 
-@pytest.mark.parametrize("where", ["file/table.csv", "file/deeper/table.csv", "directory"])
+@pytest.mark.parametrize(
+    "where", ["file/table.csv", "file/deeper/table.csv", "directory"]
+)
 def test_an_unwritable_place_is_refused_in_one_line_that_names_it(tmp_path, where):
     (tmp_path / "file").write_text("x")
     (tmp_path / "directory").mkdir()
     for write in (check_writable, lambda path: write_text(path, "")):
-        with pytest.raises(OSError, match=rf"^cannot write {tmp_path / where}: [^\n]{{10,}}$"):
+        with pytest.raises(
+            OSError, match=rf"^cannot write {tmp_path / where}: [^\n]{{10,}}$"
+        ):
             write(tmp_path / where)
 
 

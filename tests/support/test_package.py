@@ -21,7 +21,11 @@ RULES = "from precursors.ensembles import studies; from precursors.reproduction 
 def loaded(program: str) -> set[str]:
     """Modules that a program has loaded when it ends, in a process of its own."""
     command = [sys.executable, "-c", f"import sys\n{program}\nprint(*sys.modules)"]
-    return set(subprocess.run(command, capture_output=True, text=True, check=True).stdout.split())
+    return set(
+        subprocess.run(
+            command, capture_output=True, text=True, check=True
+        ).stdout.split()
+    )
 
 
 @pytest.mark.parametrize("name", precursors.__all__)
@@ -52,10 +56,25 @@ def test_nothing_is_loaded_before_it_is_needed(program, missing):
 
 def test_the_library_works_without_its_extras():
     """What only the workflow, the paper, the page and the proof need is not there."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    extras = {name for extra in project["optional-dependencies"].values() for name in map(package, extra)}
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))[
+        "project"
+    ]
+    extras = {
+        name
+        for extra in project["optional-dependencies"].values()
+        for name in map(package, extra)
+    }
     assert not extras & set(map(package, project["dependencies"]))
-    absent = ("sympy", "snakemake", "jsonschema", "yaml", "flint", "typst", "heyoka", "sksundae")
+    absent = (
+        "sympy",
+        "snakemake",
+        "jsonschema",
+        "yaml",
+        "flint",
+        "typst",
+        "heyoka",
+        "sksundae",
+    )
     loaded(
         f"sys.modules.update(dict.fromkeys({absent!r}))\n"
         "from precursors import Chain, audit, find_slips, simulate\n"
@@ -73,10 +92,14 @@ def package(requirement: str) -> str:
 
 def test_the_wheel_has_every_file_of_the_package_and_nothing_else(tmp_path):
     program = f"from hatchling.build import build_wheel; print(build_wheel({str(tmp_path)!r}))"
-    done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stderr
     with zipfile.ZipFile(tmp_path / done.stdout.split()[-1]) as wheel:
         found = {name for name in wheel.namelist() if ".dist-info/" not in name}
     wanted = {path for path in (ROOT / "src/precursors").rglob("*") if path.is_file()}
-    assert found == {str(path.relative_to(ROOT / "src")) for path in wanted if path.suffix != ".pyc"}
+    assert found == {
+        str(path.relative_to(ROOT / "src")) for path in wanted if path.suffix != ".pyc"
+    }
     assert "precursors/py.typed" in found

@@ -9,11 +9,21 @@ from pathlib import Path
 from precursors.support.provenance import git_state, provenance
 
 ROOT = Path(__file__).parents[2]
-SHA256_OF_ABC = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"  # FIPS 180-4
+SHA256_OF_ABC = (
+    "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"  # FIPS 180-4
+)
 
 
-def test_everything_that_computed_is_named_and_every_input_and_output_has_its_checksum(tmp_path, monkeypatch):
-    for name in ("tables/a.csv", "figures/a.svg", "logs/a.log", "README.md", "tables/.partial.a.csv"):
+def test_everything_that_computed_is_named_and_every_input_and_output_has_its_checksum(
+    tmp_path, monkeypatch
+):
+    for name in (
+        "tables/a.csv",
+        "figures/a.svg",
+        "logs/a.log",
+        "README.md",
+        "tables/.partial.a.csv",
+    ):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("abc")
     monkeypatch.setenv("PATH", "")  # without git
@@ -26,9 +36,19 @@ def test_everything_that_computed_is_named_and_every_input_and_output_has_its_ch
     assert platform.node() not in found["machine"].values()
     assert found["config"] == config
     assert json.loads(json.dumps(found)) == found
-    needed = {"Snakefile", "config.yaml", "requirements.lock", "paper/paper.typ", "src/precursors/cli.py"}
+    needed = {
+        "Snakefile",
+        "config.yaml",
+        "requirements.lock",
+        "paper/paper.typ",
+        "src/precursors/cli.py",
+    }
     assert needed <= set(found["inputs"])
-    assert not [name for name in found["inputs"] if "__pycache__" in name or name.startswith("results/")]
+    assert not [
+        name
+        for name in found["inputs"]
+        if "__pycache__" in name or name.startswith("results/")
+    ]
     abc = {"bytes": 3, "sha256": SHA256_OF_ABC}
     assert found["outputs"] == {"tables/a.csv": abc, "figures/a.svg": abc}
 

@@ -1,4 +1,5 @@
-"""Tasks that are compared are timed in turns, short ones repeatedly, without collecting garbage."""
+"""Tasks that are compared are timed in turns, short ones repeatedly, without collecting
+garbage."""
 
 import contextlib
 import gc
@@ -24,7 +25,9 @@ def task(clock):
 
 def test_tasks_take_turns_after_each_is_called_twice():
     calls = []
-    timings = timing.measure({"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}, 3, 0.0)
+    timings = timing.measure(
+        {"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}, 3, 0.0
+    )
     assert "".join(calls) == "aabb" + "ababab"
     assert [len(of.wall) for of in timings.values()] == [3, 3]
 
@@ -32,13 +35,19 @@ def test_tasks_take_turns_after_each_is_called_twice():
 @pytest.mark.parametrize(
     ("shortest", "warm", "wall"),
     [
-        (10.0, None, (5.0, 10.0, 15.0)),  # 2 s when warm: five calls a round, 3 to 7 s, ...
+        (
+            10.0,
+            None,
+            (5.0, 10.0, 15.0),
+        ),  # 2 s when warm: five calls a round, 3 to 7 s, ...
         (40.0, 10.0, (2.5, 6.5, 10.5)),
         (40.0, 41.0, (41.0, 1.0, 2.0)),  # was long enough to be the first round
         (40.0, 40.0, (1.0, 2.0, 3.0)),
     ],
 )
-def test_a_round_counts_the_mean_of_calls_that_take_long_enough_together(task, shortest, warm, wall):
+def test_a_round_counts_the_mean_of_calls_that_take_long_enough_together(
+    task, shortest, warm, wall
+):
     seconds = warm and {"task": Seconds(warm, warm / 2)}
     measured = timing.measure({"task": task}, 3, shortest, seconds)["task"]
     assert measured.wall == wall

@@ -25,7 +25,11 @@ EACH_SECOND = ("0% ", "20% 16 s left", "40% 9 s left", "60% 5 s left", "80% 2 s 
     [
         # 1.5 s of 2.5 s; the next second is not over.
         (0.5, 1, f"\rauditing: 60% 1 s left\x1b[K{CLEARED}"),
-        (2.0, 0, "".join(f"\rauditing: {told}\x1b[K" for told in EACH_SECOND) + CLEARED),
+        (
+            2.0,
+            0,
+            "".join(f"\rauditing: {told}\x1b[K" for told in EACH_SECOND) + CLEARED,
+        ),
         (0.1, 1, ""),
     ],
 )
@@ -33,11 +37,14 @@ def test_a_terminal_has_one_line_each_second_that_ends_empty(
     monkeypatch, clock, second_per_step, first, text
 ):
     def told(is_terminal, steps=5):
-        """What work of some steps is told, of which `first` is done after the first one."""
+        """What work of some steps is told, of which `first` is done after the first
+        one."""
         monkeypatch.setattr("sys.stderr", Stream(is_terminal))
         monkeypatch.setattr(waiting.time, "monotonic", clock.perf_counter)
         passed = []
-        for step in waiting.tell("auditing", range(steps), lambda: (len(passed) - 1 + first) / steps):
+        for step in waiting.tell(
+            "auditing", range(steps), lambda: (len(passed) - 1 + first) / steps
+        ):
             passed.append(step)
             clock.now += second_per_step
         assert passed == list(range(steps))
@@ -47,7 +54,9 @@ def test_a_terminal_has_one_line_each_second_that_ends_empty(
     assert told(True, steps=0) == told(False) == ""
 
 
-def test_work_in_a_thread_is_told_as_well_and_its_result_or_error_handed_back(monkeypatch):
+def test_work_in_a_thread_is_told_as_well_and_its_result_or_error_handed_back(
+    monkeypatch,
+):
     monkeypatch.setattr("sys.stderr", Stream(True))
     monkeypatch.setattr(waiting, "SECOND", 0.01)
     assert waiting.in_thread("running", lambda: time.sleep(0.1) or 7, lambda: 0.5) == 7

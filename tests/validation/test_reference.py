@@ -1,4 +1,5 @@
-"""The high-precision reference is right: closed forms, its own precision, and the golden data from it."""
+"""The high-precision reference is right: closed forms, its own precision, and the
+golden data from it."""
 
 from __future__ import annotations
 
@@ -9,11 +10,20 @@ from fractions import Fraction
 import pytest
 from mpmath import mp
 from reference import ReferenceChain, interval_lengths, read_golden, reference
-from reference.goldens import GOLDEN, HELD_OUT, HELD_OUT_DIGITS, SCENES, VISCOUS, csv_rows
+from reference.goldens import (
+    GOLDEN,
+    HELD_OUT,
+    HELD_OUT_DIGITS,
+    SCENES,
+    VISCOUS,
+    csv_rows,
+)
 from reference.polynomials import first_zero
 
 FORTY_DIGITS = Fraction(1, 10**40)  # relative, what the reference promises
-GOLDEN_ROUNDING = Fraction(1, 10**39)  # relative, half a unit of the 40th digit at most 5e-40
+GOLDEN_ROUNDING = Fraction(
+    1, 10**39
+)  # relative, half a unit of the 40th digit at most 5e-40
 # Of a zero on [0, 1]: the polynomials below have condition 2^60 at most.
 ZERO_AT_256_BITS = Fraction(1, 2**180)
 BITS = 256
@@ -41,11 +51,16 @@ def with_zeros(zeros: list[Fraction]) -> list[Fraction]:
     """The product of all 1 - x/zero."""
     p = [Fraction(1)]
     for zero in zeros:
-        p = [low - high / zero for low, high in zip([*p, Fraction(0)], [Fraction(0), *p], strict=True)]
+        p = [
+            low - high / zero
+            for low, high in zip([*p, Fraction(0)], [Fraction(0), *p], strict=True)
+        ]
     return p
 
 
-@pytest.mark.parametrize("gap", [Fraction(1, 10**6), Fraction(1, 10**15), Fraction(1, 10**30)])
+@pytest.mark.parametrize(
+    "gap", [Fraction(1, 10**6), Fraction(1, 10**15), Fraction(1, 10**30)]
+)
 def test_a_pair_of_zeros_is_not_stepped_over_however_close(gap):
     found = first_zero(fixed(with_zeros([THIRD, THIRD + gap])), BITS)
     # Rounding of the coefficients moves the zeros of a pair by 2^-256 / gap.
@@ -53,7 +68,9 @@ def test_a_pair_of_zeros_is_not_stepped_over_however_close(gap):
 
 
 @pytest.mark.parametrize("rounding", [-(2**30), -2, 0, 2, 2**30, 2**73])
-def test_a_double_zero_is_found_however_it_is_rounded_and_a_minimum_above_zero_is_none(rounding):
+def test_a_double_zero_is_found_however_it_is_rounded_and_a_minimum_above_zero_is_none(
+    rounding,
+):
     p = fixed([THIRD**2, -2 * THIRD, Fraction(1)])
     found = first_zero([p[0] + rounding, *p[1:]], BITS)
     if rounding == 2**73:  # 1e-55 of the polynomial
@@ -65,7 +82,10 @@ def test_a_double_zero_is_found_however_it_is_rounded_and_a_minimum_above_zero_i
 @pytest.mark.parametrize("seed", range(30))
 def test_of_many_zeros_the_first_is_found(seed):
     rng = random.Random(seed)
-    zeros = [Fraction(rng.randint(1, 2000), 1000) + Fraction(1, 7) for _ in range(rng.randint(1, 12))]
+    zeros = [
+        Fraction(rng.randint(1, 2000), 1000) + Fraction(1, 7)
+        for _ in range(rng.randint(1, 12))
+    ]
     found, first = first_zero(fixed(with_zeros(sorted(set(zeros)))), BITS), min(zeros)
     assert (found is None) == (first > 1)
     assert found is None or abs(Fraction(found, 2**BITS) - first) < ZERO_AT_256_BITS
@@ -75,9 +95,13 @@ def test_of_many_zeros_the_first_is_found(seed):
 def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(case):
     """m x'' = drop + K V t - eta x' - stiffness x, from rest at x = 0.
 
-    Its velocity is that of a swing about K V / stiffness, damped at the rate eta / (2 m).
+    Its velocity is that of a swing about K V / stiffness, damped at the rate eta / (2
+    m).
     """
-    options = {"one block": {"n_blocks": 1}, "viscous": VISCOUS["stiff_viscosity"].slider}
+    options = {
+        "one block": {"n_blocks": 1},
+        "viscous": VISCOUS["stiff_viscosity"].slider,
+    }
     c = ReferenceChain.from_slider(**options.get(case, {"theta": case}))
     release, stop = reference(c, 10, max_transitions=2)
     stiffness = c.drive_stiffness + (c.stiffness if len(c.weights) > 1 else 0)
@@ -85,10 +109,15 @@ def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(case):
     with mp.workdps(60):
         damping = ratio(c.viscosity / (2 * c.mass))
         omega = mp.sqrt(ratio(stiffness / c.mass) - damping**2)
-        creep, push = ratio(loading_rate / stiffness), ratio((c.mu_s - c.mu_k) * c.weights[0] / c.mass)
+        creep, push = (
+            ratio(loading_rate / stiffness),
+            ratio((c.mu_s - c.mu_k) * c.weights[0] / c.mass),
+        )
 
         def speed(t: mp.mpf) -> mp.mpf:
-            swing = creep * mp.cos(omega * t) + (creep * damping - push) / omega * mp.sin(omega * t)
+            swing = creep * mp.cos(omega * t) + (
+                creep * damping - push
+            ) / omega * mp.sin(omega * t)
             return creep - mp.exp(-damping * t) * swing
 
         duration = exact(mp.findroot(speed, (0.9 * mp.pi / omega, 1.1 * mp.pi / omega)))
@@ -97,9 +126,14 @@ def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(case):
     assert close(release.tangential_load, onset)
     assert close(stop.time - release.time, duration)
     if not c.viscosity:
-        # From a steady slide the block swings to the mirror image: the force on it is mirrored at mu_k w_1.
-        slip = (loading_rate * stop.time - (2 * c.mu_k - c.mu_s) * c.weights[0]) / stiffness
-        assert close(stop.tangential_load, loading_rate * stop.time - c.drive_stiffness * slip)
+        # From a steady slide the block swings to the mirror image: the force on it is
+        # mirrored at mu_k w_1.
+        slip = (
+            loading_rate * stop.time - (2 * c.mu_k - c.mu_s) * c.weights[0]
+        ) / stiffness
+        assert close(
+            stop.tangential_load, loading_rate * stop.time - c.drive_stiffness * slip
+        )
 
 
 def test_without_a_drop_of_friction_one_block_touches_standstill_once_a_period():
@@ -124,7 +158,10 @@ def test_with_64_places_less_the_most_sensitive_scene_agrees_to_the_golden_digit
 @pytest.mark.parametrize(
     ("file", "case", "name"),
     [
-        *(("heldout", HELD_OUT[name], name) for name in ("two_blocks", "fast_drive", "uneven_prestressed")),
+        *(
+            ("heldout", HELD_OUT[name], name)
+            for name in ("two_blocks", "fast_drive", "uneven_prestressed")
+        ),
         ("viscous", VISCOUS["stiff_viscosity"], "stiff_viscosity"),
     ],
 )

@@ -1,4 +1,5 @@
-"""The worst of many random chains: their proved transitions are found, compiled and in plain Python."""
+"""The worst of many random chains: their proved transitions are found, compiled and in
+plain Python."""
 
 from __future__ import annotations
 
@@ -20,9 +21,9 @@ KINDS = {
     "zero loads": 20,
     "equal loads": 20,
 }
-# Error of a time in units of 1/omega, the bound of the largest frequency. Measured are 6e-13 or less, and
-# 4e-10 near a velocity that grazes zero. With mu_k = mu_s such a velocity has a double root, known to the
-# root of a rounding: 8e-7.
+# Error of a time in units of 1/omega, the bound of the largest frequency. Measured are
+# 6e-13 or less, and 4e-10 near a velocity that grazes zero. With mu_k = mu_s such a
+# velocity has a double root, known to the root of a rounding: 8e-7.
 TIME, GRAZING, DOUBLE_ROOT = 1e-11, 1e-8, 1e-5
 # Transitions at one instant may come in any order; the closest others are 3e-11 apart.
 TIE = 1e-15
@@ -52,7 +53,12 @@ def test_the_order_is_the_proved_one_and_the_times_are_right(solve, kind):
             chain = Chain(**case["chain"])
             unit = 1 / chain.fastest_frequency_bound
             found, proved = solve(chain, case), case["transitions"]
-            assert in_groups(found, TIE * unit) == in_groups(proved, TIE * unit), case["gap"]
+            assert in_groups(found, TIE * unit) == in_groups(proved, TIE * unit), case[
+                "gap"
+            ]
             np.testing.assert_allclose(
-                [time for time, *_ in found], [time for time, *_ in proved], rtol=0, atol=tolerance * unit
+                [time for time, *_ in found],
+                [time for time, *_ in proved],
+                rtol=0,
+                atol=tolerance * unit,
             )

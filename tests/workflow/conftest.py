@@ -14,13 +14,14 @@ from pathlib import Path
 import pytest
 import snakemake.cli
 
-# Imports and the search for plugins, once instead of in every run of Snakemake, which is a fork of this one.
+# Imports and the search for plugins, once instead of in every run of Snakemake, which
+# is a fork of this one.
 for module in (
     "jsonschema",
     "nbformat",
     "precursors.model.config",
     "precursors.ensembles.studies",
-    "precursors.accuracy.proof",
+    "precursors.proof",
     "smart_open",
     "snakemake.report",
     "snakemake.storage",
@@ -51,7 +52,8 @@ class Outcome:
 
     @property
     def plan(self) -> list[tuple[str, set[str]]]:
-        """Jobs that were run or would be, such as "simulate_scene fig10", with their outputs."""
+        """Jobs that were run or would be, such as "simulate_scene fig10", with their
+        outputs."""
         found = []
         for block in re.split(r"\n(?=(?:local)?rule \w+:)", self.text):
             if rule := re.match(r"(?:local)?rule (\w+):", block):
@@ -90,7 +92,8 @@ class Workspace:
         return Outcome(process.exitcode, output.read_text(encoding="utf-8"))
 
     def pretend(self, *targets: str) -> Outcome:
-        """Make what is missing of the targets, with the name of its rule as its content."""
+        """Make what is missing of the targets, with the name of its rule as its
+        content."""
         for job, outputs in self.run("-n", *targets).plan:
             for name in outputs:
                 (self.path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -104,10 +107,13 @@ class Workspace:
         return outcome.jobs
 
     def edit(self, name: str, old: str, new: str) -> None:
-        """Replace a text that stands in a file exactly once, or add one to its end if there is no old one."""
+        """Replace a text that stands in a file exactly once, or add one to its end if
+        there is no old one."""
         file = self.path / name
         text = file.read_text(encoding="utf-8")
-        assert not old or text.count(old) == 1, f"{old!r} stands {text.count(old)} times in {name}"
+        assert not old or text.count(old) == 1, (
+            f"{old!r} stands {text.count(old)} times in {name}"
+        )
         file.write_text(text.replace(old, new) if old else text + new, encoding="utf-8")
 
     def add_scenes(self, scenes: str) -> None:
@@ -118,7 +124,11 @@ class Workspace:
         """Time of change and content of every file in results."""
         files = [path for path in (self.path / "results").rglob("*") if path.is_file()]
         return {
-            str(file.relative_to(self.path)): (file.stat().st_mtime_ns, file.read_bytes()) for file in files
+            str(file.relative_to(self.path)): (
+                file.stat().st_mtime_ns,
+                file.read_bytes(),
+            )
+            for file in files
         }
 
 
@@ -137,7 +147,9 @@ def copy_workflow(path: Path) -> Workspace:
     for name in ("Snakefile", "config.yaml"):
         shutil.copy2(ROOT / name, path)
     for name in ("workflow", "src", "paper", "profiles"):
-        shutil.copytree(ROOT / name, path / name, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(
+            ROOT / name, path / name, ignore=shutil.ignore_patterns("__pycache__")
+        )
     return Workspace(path)
 
 
@@ -158,13 +170,15 @@ def _finished(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
 
 @pytest.fixture(scope="session")
 def untouched(tmp_path_factory: pytest.TempPathFactory) -> tuple[Workspace, Outcome]:
-    """A copy of the workflow that has not been run, and what `snakemake -n all` says; shared by tests."""
+    """A copy of the workflow that has not been run, and what `snakemake -n all` says;
+    shared by tests."""
     workspace = copy_workflow(tmp_path_factory.mktemp("untouched") / "copy")
     return workspace, workspace.run("-n", "all")
 
 
 @pytest.fixture
 def finished(_finished: Workspace, tmp_path: Path) -> Workspace:
-    """A copy of the workflow with MORE_SCENES, run to the end with stand-ins for what the scripts compute."""
+    """A copy of the workflow with MORE_SCENES, run to the end with stand-ins for what
+    the scripts compute."""
     shutil.copytree(_finished.path, tmp_path / "copy")
     return Workspace(tmp_path / "copy")

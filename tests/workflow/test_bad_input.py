@@ -1,4 +1,5 @@
-"""Snakemake refuses a wrong configuration or directory in one line, and touches nothing."""
+"""Snakemake refuses a wrong configuration or directory in one line, and touches
+nothing."""
 
 import pytest
 
@@ -9,10 +10,22 @@ from precursors import Run
     ("old", "new", "words"),
     [
         ("mu_k: 0.45", "mu_k: 0.8", "configuration: chain: "),
-        ("figure: {}", "figure: {width_mm: 17}", "the width must be between 40 and 400 mm, but is 17"),
+        (
+            "figure: {}",
+            "figure: {width_mm: 17}",
+            "the width must be between 40 and 400 mm, but is 17",
+        ),
         ("duration: 10.0", "durations: 10.0", "'durations' was unexpected"),
-        ("scenes:", "scenes:\n  paper: {title: a, theta: 0}", "scenes.paper has the name of a target"),
-        ("scenes:", "scenes:\n  noise: {title: a, theta: 0}", "scenes.noise has the name of a target"),
+        (
+            "scenes:",
+            "scenes:\n  paper: {title: a, theta: 0}",
+            "scenes.paper has the name of a target",
+        ),
+        (
+            "scenes:",
+            "scenes:\n  noise: {title: a, theta: 0}",
+            "scenes.noise has the name of a target",
+        ),
         (
             "  mu_k: 0.45",
             "  mu_k: 0.45\n  mu_k: 0.46",
@@ -26,7 +39,9 @@ def test_a_wrong_configuration_is_refused_in_one_line(finished, old, new, words)
     outcome = finished.run("-c1", "all")
     assert outcome.code != 0
     assert "Traceback" not in outcome.text
-    assert len([line for line in outcome.text.splitlines() if words in line]) == 1, outcome.text
+    assert len([line for line in outcome.text.splitlines() if words in line]) == 1, (
+        outcome.text
+    )
     assert finished.results() == before
 
 
@@ -40,7 +55,9 @@ def test_values_of_the_command_line_are_taken(workspace):
 
 
 def test_a_wrong_file_of_the_command_line_is_named(workspace):
-    (workspace.path / "mine.yaml").write_text("duration: 3\nduration: 4\n", encoding="utf-8")
+    (workspace.path / "mine.yaml").write_text(
+        "duration: 3\nduration: 4\n", encoding="utf-8"
+    )
     outcome = workspace.run("-n", "--configfile", "mine.yaml")
     assert outcome.code != 0
     assert "mine.yaml: the key 'duration' stands there twice" in outcome.text

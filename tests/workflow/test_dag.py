@@ -11,11 +11,18 @@ from conftest import ROOT, copy_workflow
 from precursors.hierarchy.models import scene_answers
 
 PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
-# Rules that `all` leaves out, and write_provenance, which conftest leaves out of all lists of jobs.
+# Rules that `all` leaves out, and write_provenance, which conftest leaves out of all
+# lists of jobs.
 ON_DEMAND = {"certify_scene", "prove_again", "write_provenance"}
-# The paper shows nearly all tables and figures, and is set again when one of them may change.
+# The paper shows nearly all tables and figures, and is set again when one of them may
+# change.
 PAPER = {"write_paper"}
-LISTS_OF_SCENES = {"tabulate_reproduction", "tabulate_claims", "draw_reproduction", "write_explorer"} | PAPER
+LISTS_OF_SCENES = {
+    "tabulate_reproduction",
+    "tabulate_claims",
+    "draw_reproduction",
+    "write_explorer",
+} | PAPER
 CODE = "\nADDED = 1\n"  # to a module
 
 
@@ -29,7 +36,9 @@ def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
     rules = {
         rule
         for file in (ROOT / "workflow/rules").glob("*.smk")
-        for text in re.split(r"^(?=rule )", file.read_text(encoding="utf-8"), flags=re.MULTILINE)
+        for text in re.split(
+            r"^(?=rule )", file.read_text(encoding="utf-8"), flags=re.MULTILINE
+        )
         for rule in re.findall(r"\Arule (\w+):", text)
         if "\n    output:" in text
     }
@@ -41,7 +50,10 @@ def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
 
 def test_words_format_and_touch_run_nothing_again(finished):
     before = finished.results()
-    for file in [*finished.path.glob("src/**/*.py"), *finished.path.glob("workflow/scripts/*.py")]:
+    for file in [
+        *finished.path.glob("src/**/*.py"),
+        *finished.path.glob("workflow/scripts/*.py"),
+    ]:
         text = file.read_text(encoding="utf-8").replace('"""', '"""Other words. ', 1)
         file.write_text(f"{text}\n\n# more words\n", encoding="utf-8")
     finished.edit("config.yaml", "", "# more words\n")
@@ -51,11 +63,15 @@ def test_words_format_and_touch_run_nothing_again(finished):
     assert finished.results() == before
 
 
-def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(finished, tmp_path):
+def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(
+    finished, tmp_path
+):
     clone = copy_workflow(tmp_path / "clone")
     shutil.copy(finished.path / "config.yaml", clone.path)
     for name in ("results", ".snakemake/metadata"):
-        shutil.copytree(finished.path / name, clone.path / name, copy_function=shutil.copyfile)
+        shutil.copytree(
+            finished.path / name, clone.path / name, copy_function=shutil.copyfile
+        )
     assert clone.would_run() == set()
     clone.edit("src/precursors/figures/theta_window.py", "", CODE)
     assert clone.would_run() == {"draw_ensembles"} | PAPER
@@ -64,18 +80,32 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(fi
 @pytest.mark.parametrize(
     ("module", "run", "left"),
     [
-        ("figures/scene", {"draw_reproduction"}, {"tabulate", "simulate", "draw_accuracy"}),
-        ("figures/style", {"draw_reproduction", "draw_accuracy"}, {"tabulate", "simulate"}),
+        (
+            "figures/scene",
+            {"draw_reproduction"},
+            {"tabulate", "simulate", "draw_accuracy"},
+        ),
+        (
+            "figures/style",
+            {"draw_reproduction", "draw_accuracy"},
+            {"tabulate", "simulate"},
+        ),
         (
             "methods/moreau_jean",
             {"tabulate_work_precision", "draw_accuracy"},
             {"take", "run_chunk", "simulate"},
         ),
-        ("analysis/slips", {"simulate_scene fig10", "tabulate_reproduction"}, {"take_certificates"}),
+        (
+            "analysis/slips",
+            {"simulate_scene fig10", "tabulate_reproduction"},
+            {"take_certificates"},
+        ),
         ("solver/kernel/events", PAPERS | {"run_chunk"}, set()),
     ],
 )
-def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(finished, module, run, left):
+def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
+    finished, module, run, left
+):
     finished.edit(f"src/precursors/{module}.py", "", CODE)
     jobs = finished.would_run()
     assert run <= jobs
@@ -92,7 +122,12 @@ def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(finishe
             "title: the same",
             {"draw_reproduction", "write_explorer"},
         ),
-        ("config.yaml", "figure: {}", "figure: {width_mm: 85, font_size: 9}", {"draw_reproduction"}),
+        (
+            "config.yaml",
+            "figure: {}",
+            "figure: {width_mm: 85, font_size: 9}",
+            {"draw_reproduction"},
+        ),
         (
             "config.yaml",
             'edge\n    theta: "9/10"\n',
@@ -102,13 +137,19 @@ def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(finishe
         ("config.yaml", "model: law", "model: rigid", {"tabulate_quick_answers"}),
     ],
 )
-def test_an_edit_of_the_paper_or_of_the_configuration_runs_what_reads_it(finished, file, old, new, jobs):
+def test_an_edit_of_the_paper_or_of_the_configuration_runs_what_reads_it(
+    finished, file, old, new, jobs
+):
     finished.edit(file, old, new)
     assert finished.would_run() - PAPER == jobs - PAPER
 
 
-def test_four_lines_make_a_new_scene_of_any_name_and_another_model_answers_its_own(finished):
-    finished.add_scenes(scene("fig10_slips", "duration: 1.0"))  # looks like the name of a table
+def test_four_lines_make_a_new_scene_of_any_name_and_another_model_answers_its_own(
+    finished,
+):
+    finished.add_scenes(
+        scene("fig10_slips", "duration: 1.0")
+    )  # looks like the name of a table
     assert finished.would_run() == {"simulate_scene fig10_slips"} | LISTS_OF_SCENES
     assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
 
@@ -121,15 +162,25 @@ def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(fi
 
 
 def test_larger_studies_are_an_overlay_of_the_configuration(finished):
-    outcome = finished.run("-n", "--configfile", "config.yaml", "workflow/full.yaml", "--", "all")
+    outcome = finished.run(
+        "-n", "--configfile", "config.yaml", "workflow/full.yaml", "--", "all"
+    )
     assert outcome.code == 0, outcome.text
-    assert {"tabulate_work_precision", "tabulate_step_sweep", "tabulate_predictability"} <= outcome.jobs
+    assert {
+        "tabulate_work_precision",
+        "tabulate_step_sweep",
+        "tabulate_predictability",
+    } <= outcome.jobs
     assert not {"simulate_scene fig10", "tabulate_definitions"} & outcome.jobs
 
 
-def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(workspace):
+def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
+    workspace,
+):
     workspace.edit("config.yaml", "  fig12:\n    title", "  mine:\n    title")
-    workspace.edit("config.yaml", "fig13: [fig11, fig10, fig12]", "fig13: [fig11, fig10, mine]")
+    workspace.edit(
+        "config.yaml", "fig13: [fig11, fig10, fig12]", "fig13: [fig11, fig10, mine]"
+    )
     jobs = workspace.would_run()
     assert "tabulate_definitions" in jobs
     assert not {"tabulate_claims", "write_paper"} & jobs
@@ -144,7 +195,9 @@ def test_the_answer_of_a_model_is_computed(workspace):
     pd.testing.assert_frame_equal(answers, expected, check_dtype=False)
 
 
-def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(workspace):
+def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(
+    workspace,
+):
     grid, noise = "map_theta_friction_ratio", "noise_members"
     tables = [f"results/tables/{study}.csv" for study in (grid, noise)]
     workspace.edit("config.yaml", "chunks: 1", "chunks: 2")
@@ -159,4 +212,7 @@ def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_to
     ):
         workspace.edit("config.yaml", old, new)
         made = workspace.run("-n", *tables).made
-        assert Counter(name.split("/")[2] for name in made if "/ensembles/" in name) == expected
+        assert (
+            Counter(name.split("/")[2] for name in made if "/ensembles/" in name)
+            == expected
+        )

@@ -16,9 +16,12 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", flags=re.MULTILINE | re.DOTALL)
 
 
 def blocks(section):
-    """Language, name of the file if there is one, and text of the blocks of a section of adding.md."""
+    """Language, name of the file if there is one, and text of the blocks of a section
+    of adding.md."""
     text = (DOCS / "adding.md").read_text(encoding="utf-8")
-    (body,) = [part for part in text.split("\n## ")[1:] if part.startswith(f"{section}\n")]
+    (body,) = [
+        part for part in text.split("\n## ")[1:] if part.startswith(f"{section}\n")
+    ]
     for language, code in BLOCK.findall(body):
         named = re.match(r"# ([\w./]+\.\w+|Snakefile|\w+/Snakefile)\n", code)
         yield language, named and named[1], code[named.end() :] if named else code
@@ -31,10 +34,15 @@ SECTIONS = ("A scene", "A figure", "A model", "A method", "Within another workfl
 def documented(tmp_path_factory):
     """A copy of the workflow with the new files and the changes of all sections."""
     workspace = copy_workflow(tmp_path_factory.mktemp("documented") / "copy")
-    for language, name, code in (block for section in SECTIONS for block in blocks(section)):
+    for language, name, code in (
+        block for section in SECTIONS for block in blocks(section)
+    ):
         if name and language == "diff":
             lines = code.splitlines(keepends=True)
-            old, new = ("".join(line[1:] for line in lines if line[0] in signs) for signs in (" -", " +"))
+            old, new = (
+                "".join(line[1:] for line in lines if line[0] in signs)
+                for signs in (" -", " +")
+            )
             workspace.edit(name, old, new)
         elif name:
             (workspace.path / name).parent.mkdir(exist_ok=True)
@@ -43,28 +51,40 @@ def documented(tmp_path_factory):
 
 
 def command(section):
-    (found,) = [code.split() for language, _, code in blocks(section) if language == "sh"]
+    (found,) = [
+        code.split() for language, _, code in blocks(section) if language == "sh"
+    ]
     return found[1:]
 
 
 def test_the_scene_and_the_figure_shown_are_made(documented):
-    assert {"simulate_scene steep", "draw_reproduction"} <= documented.run("-n", *command("A scene")).jobs
+    assert {"simulate_scene steep", "draw_reproduction"} <= documented.run(
+        "-n", *command("A scene")
+    ).jobs
     outcome = documented.run(*command("A figure"))
     assert outcome.code == 0, outcome.text
-    assert (documented.path / command("A figure")[-1]).read_bytes().startswith(b"\x89PNG")
+    assert (
+        (documented.path / command("A figure")[-1]).read_bytes().startswith(b"\x89PNG")
+    )
 
 
 def run_python(documented, code: str) -> str:
     """What Python prints with the library of the copy."""
     environment = {**os.environ, "PYTHONPATH": str(documented.path / "src")}
     command = [sys.executable, "-c", code]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        command, env=environment, capture_output=True, text=True, check=True
+    )
     return done.stdout + done.stderr
 
 
 @pytest.mark.parametrize("section", ["A model", "A method"])
 def test_the_model_and_the_method_shown_give_what_is_shown(documented, section):
-    code = "\n".join(code for language, name, code in blocks(section) if language == "python" and not name)
+    code = "\n".join(
+        code
+        for language, name, code in blocks(section)
+        if language == "python" and not name
+    )
     (shown,) = [code for language, _, code in blocks(section) if language == "text"]
     assert run_python(documented, code) == shown
 
@@ -87,7 +107,9 @@ print(*(method.look[0] for name, method in METHODS.items() if name != "scipy_rk2
 """
 
 
-def test_the_method_shown_has_its_points_in_the_default_chart_in_a_colour_of_its_own(documented):
+def test_the_method_shown_has_its_points_in_the_default_chart_in_a_colour_of_its_own(
+    documented,
+):
     drawn, others = run_python(documented, CHART_OF_THE_METHOD).splitlines()[-2:]
     points, color = drawn.split()
     assert int(points) == 2
@@ -101,17 +123,23 @@ def test_the_workflow_shown_uses_this_one_as_a_module(documented):
     assert {"precursors_simulate_scene soft", "precursors_write_paper"} <= outcome.jobs
     outcome = outer.run("-c1")
     assert outcome.code == 0, outcome.text
-    assert float((outer.path / "first_slip.txt").read_text().split(",")[0]) == pytest.approx(2.8)
+    assert float(
+        (outer.path / "first_slip.txt").read_text().split(",")[0]
+    ) == pytest.approx(2.8)
 
 
 def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
     found: dict[str, list[str]] = {}
-    for language, code in BLOCK.findall((DOCS / "customise.md").read_text(encoding="utf-8")):
+    for language, code in BLOCK.findall(
+        (DOCS / "customise.md").read_text(encoding="utf-8")
+    ):
         found.setdefault(language, []).append(code)
     monkeypatch.chdir(workspace.path)
     (workspace.path / "mine.yaml").write_text(found["yaml"][0], encoding="utf-8")
     (workspace.path / "loads.csv").write_text("50\n" * 8, encoding="utf-8")
-    (workspace.path / "measured.csv").write_text("t,F_X\n0,0\n2,150\n", encoding="utf-8")
+    (workspace.path / "measured.csv").write_text(
+        "t,F_X\n0,0\n2,150\n", encoding="utf-8"
+    )
     for line in "".join(found["sh"]).splitlines():
         program, *arguments = shlex.split(line, comments=True)
         if program == "precursors":
@@ -130,11 +158,21 @@ def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
 
 
 def test_every_page_is_rendered_with_links_that_the_makefile_can_follow(tmp_path):
-    command = [sys.executable, "-m", "pdoc", "-o", str(tmp_path), "-d", "numpy", str(DOCS / "guide.py")]
+    command = [
+        sys.executable,
+        "-m",
+        "pdoc",
+        "-o",
+        str(tmp_path),
+        "-d",
+        "numpy",
+        str(DOCS / "guide.py"),
+    ]
     subprocess.run(command, check=True, cwd=ROOT)
     guide = (tmp_path / "guide.html").read_text(encoding="utf-8")
     titles = [
-        page.read_text(encoding="utf-8").splitlines()[0].removeprefix("# ") for page in DOCS.glob("*.md")
+        page.read_text(encoding="utf-8").splitlines()[0].removeprefix("# ")
+        for page in DOCS.glob("*.md")
     ]
     assert [title for title in titles if f">{title}</h1>" not in guide] == []
     linked = re.findall(r'href="[a-z]+\.md(.*?)"', guide)
@@ -147,5 +185,9 @@ PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_files_that_a_page_links_to_exist(page):
     links = re.findall(r"\]\(([^)#]+)", page.read_text(encoding="utf-8"))
-    here = [link for link in links if "://" not in link and not link.startswith("../../actions")]
+    here = [
+        link
+        for link in links
+        if "://" not in link and not link.startswith("../../actions")
+    ]
     assert [link for link in here if not (page.parent / link).exists()] == []

@@ -20,7 +20,11 @@ SEED = 1964
 # A run and its table, the chunks of a study, a figure.
 TARGETS = [
     f"results/{name}"
-    for name in ("tables/fig10_slips.csv", "tables/map_theta_friction_ratio.csv", "figures/fig09.svg")
+    for name in (
+        "tables/fig10_slips.csv",
+        "tables/map_theta_friction_ratio.csv",
+        "figures/fig09.svg",
+    )
 ]
 
 

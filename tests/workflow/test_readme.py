@@ -42,12 +42,20 @@ def test_the_list_of_results_is_that_of_the_workflow(workspace):
     assert outcome.code == 0, outcome.text
     made = {file.removeprefix("results/") for file in outcome.made}
     assert len(made) > 100
-    lines = [line.split(" | ")[0] for line in RESULTS.splitlines() if line.startswith("| `")]
+    lines = [
+        line.split(" | ")[0] for line in RESULTS.splitlines() if line.startswith("| `")
+    ]
     listed = {path: set() for path in re.findall(r"`([^`]+[^/])`", " ".join(lines))}
     for path, files in listed.items():
         # Names in braces are wildcards, or alternatives.
-        pattern = re.sub(r"\\\{([^{}]+)\\\}", lambda m: f"({m[1].replace(',', '|')})", re.escape(path))
-        pattern = re.sub(r"\((\w+)\)", lambda m: SCENES if m[1] == "scene" else r"[\w-]+", pattern)
+        pattern = re.sub(
+            r"\\\{([^{}]+)\\\}",
+            lambda m: f"({m[1].replace(',', '|')})",
+            re.escape(path),
+        )
+        pattern = re.sub(
+            r"\((\w+)\)", lambda m: SCENES if m[1] == "scene" else r"[\w-]+", pattern
+        )
         files.update(file for file in made if re.fullmatch(pattern, file))
     assert made - set().union(*listed.values()) == set()
     assert [path for path, files in listed.items() if not files] == [*OF_MAKE]
@@ -55,17 +63,24 @@ def test_the_list_of_results_is_that_of_the_workflow(workspace):
 
 def test_the_reproduction_shown_is_the_golden_one():
     golden = pd.read_csv(ROOT / "tests/golden/reproduction.csv")
-    for scene, _, events_paper, events, mu_paper, mu_sapp, time in rows(README, "scene | theta"):
+    for scene, _, events_paper, events, mu_paper, mu_sapp, time in rows(
+        README, "scene | theta"
+    ):
         table = golden[golden["scene"] == scene].set_index("quantity")
         counted = table.loc["events counted in Fig. 13, the first global slip included"]
         friction = table.loc["apparent static friction coefficient mu_sapp"]
-        assert [int(events_paper), int(events)] == [counted["paper"], counted["reproduced"]]
+        assert [int(events_paper), int(events)] == [
+            counted["paper"],
+            counted["reproduced"],
+        ]
         assert float(mu_paper) == friction["paper"]
         assert mu_sapp == f"{friction['reproduced']:.4f}"
         assert time == f"{table.loc['time of the first global slip', 'reproduced']:.3f}"
 
 
-@pytest.mark.parametrize(("theta", "events", "mu_sapp", "end"), rows(NUMBERS, "theta | events counted | mu"))
+@pytest.mark.parametrize(
+    ("theta", "events", "mu_sapp", "end"), rows(NUMBERS, "theta | events counted | mu")
+)
 def test_the_fragile_scene_is_as_fragile_as_shown(theta, events, mu_sapp, end):
     run = simulate(Chain.from_slider(theta=theta), until="global slip")
     slips = find_slips(run)
@@ -78,28 +93,49 @@ def read(name: str) -> dict:
     return yaml.safe_load((ROOT / name).read_text(encoding="utf-8"))
 
 
-def test_every_file_that_an_independent_check_compares_is_made_by_the_workflow_and_kept(untouched):
+def test_every_file_that_an_independent_check_compares_is_made_by_the_workflow_and_kept(
+    untouched,
+):
     manifest = read("codecheck.yml")["manifest"]
     files = {entry["file"] for entry in manifest if entry["comment"]}
     assert len(files) == len(manifest) > 10
     assert files <= untouched[1].made
-    assert [file for file in files if not (ROOT / "tests/golden" / Path(file).name).is_file()] == []
+    assert [
+        file
+        for file in files
+        if not (ROOT / "tests/golden" / Path(file).name).is_file()
+    ] == []
 
 
 def test_papers_versions_titles_and_authors_are_the_same_wherever_they_stand():
     citation, metadata = read("CITATION.cff"), read("metadata.yaml")
     (paper,) = citation["references"]
-    assert {"title", "authors", "license", "abstract"} <= citation.keys()  # what an archive asks for
-    assert [author["family-names"] for author in paper["authors"]] == ["Maegawa", "Suzuki", "Nakano"]
+    assert {
+        "title",
+        "authors",
+        "license",
+        "abstract",
+    } <= citation.keys()  # what an archive asks for
+    assert [author["family-names"] for author in paper["authors"]] == [
+        "Maegawa",
+        "Suzuki",
+        "Nakano",
+    ]
     assert f"doi:{paper['doi']}" in README
     changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     (latest, *_) = re.findall(r"^## \[([^\]]+)\]", changelog, flags=re.MULTILINE)
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))[
+        "project"
+    ]
     assert latest == citation["version"] == project["version"]
     assert project["license"] == "MIT"
     assert f"version {latest}, commit" in " ".join(README.split())
-    source = " ".join((ROOT / "paper/paper.typ").read_text(encoding="utf-8").replace("\\", "").split())
+    source = " ".join(
+        (ROOT / "paper/paper.typ").read_text(encoding="utf-8").replace("\\", "").split()
+    )
     assert metadata["title"] in source
-    names = [[author["name"] for author in of["authors"]] for of in (metadata, citation)]
+    names = [
+        [author["name"] for author in of["authors"]] for of in (metadata, citation)
+    ]
     assert names[0] == names[1]
     assert (ROOT / metadata["bibliography"]).is_file()

@@ -1,4 +1,5 @@
-"""The rules are written as Snakemake's own tools ask for, and know the code that they run."""
+"""The rules are written as Snakemake's own tools ask for, and know the code that they
+run."""
 
 import re
 import subprocess
@@ -18,15 +19,21 @@ def test_lint_asks_for_nothing_but_one_software_environment_per_rule(workspace):
 def test_a_rule_with_a_script_has_the_digest_of_that_script_as_a_parameter():
     for file in (ROOT / "workflow/rules").glob("*.smk"):
         text = file.read_text(encoding="utf-8")
-        assert re.findall(r'code=digest\(\s*"(\w+)"', text) == re.findall(r'scripts/(\w+)\.py"', text)
+        assert re.findall(r'code=digest\(\s*"(\w+)"', text) == re.findall(
+            r'scripts/(\w+)\.py"', text
+        )
 
 
 def test_a_target_that_make_does_not_know_is_answered_with_one_that_it_does():
-    told = subprocess.run(["make", "tset"], cwd=ROOT, capture_output=True, text=True, check=False).stderr
+    told = subprocess.run(
+        ["make", "tset"], cwd=ROOT, capture_output=True, text=True, check=False
+    ).stderr
     assert "there is no target tset; did you mean test?" in told
 
 
-def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(untouched):
+def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(
+    untouched,
+):
     workspace, _ = untouched
     targets = {"fig13", "eq15", "mu_sapp", "paper_figures", "accuracy", "paper"}
     outcome = workspace.run("-n", "-s", "workflow/Snakefile", *targets)

@@ -1,4 +1,5 @@
-"""The scripts and the lists of tables give what they promise, and say in one line what goes wrong."""
+"""The scripts and the lists of tables give what they promise, and say in one line what
+goes wrong."""
 
 from __future__ import annotations
 
@@ -26,22 +27,26 @@ from precursors import Run, simulate
 from precursors.accuracy import failures, work_precision
 from precursors.accuracy.failures.common import Threshold
 from precursors.accuracy.failures.locating import SMALLEST
-from precursors.accuracy.proof import Certificate, ExactChain, certify
 from precursors.accuracy.solver_vs_proof import proof_tables
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.lyapunov import lyapunov_table
 from precursors.analysis.slips import slip_table
 from precursors.ensembles.studies import MAP
 from precursors.figures import style
+from precursors.proof import Certificate, ExactChain, certify
 from precursors.support.files import read_table
 
 READERS = {".csv": "support.files:read_table"}
 SCRIPTS = ROOT / "workflow/scripts"
-PAIR, DURATION = ExactChain.from_slider(n_blocks=2, theta="1/2", drive_velocity="1e-3"), 0.5
+PAIR, DURATION = (
+    ExactChain.from_slider(n_blocks=2, theta="1/2", drive_velocity="1e-3"),
+    0.5,
+)
 
 
 class Named(list):
-    """A list whose last entries have names, as a script is given files and parameters by Snakemake."""
+    """A list whose last entries have names, as a script is given files and parameters
+    by Snakemake."""
 
     def __init__(self, *values: Any, **named: Any) -> None:
         super().__init__([*values, *named.values()])
@@ -53,12 +58,19 @@ class Named(list):
 
 def run_script(name: str, directory: Path, **job: Any) -> str:
     """Run a script as a job of the rule "rule" does; its log."""
-    given = {key: job.get(key, Named()) for key in ("input", "output", "params", "wildcards", "resources")}
+    given = {
+        key: job.get(key, Named())
+        for key in ("input", "output", "params", "wildcards", "resources")
+    }
     log, handler = directory / f"{name}.log", signal.getsignal(signal.SIGINT)
     snakemake = Named(rule="rule", log=[log], config=job.get("config"), **given)
     try:
-        runpy.run_path(str(SCRIPTS / f"{name}.py"), {"snakemake": snakemake}, "__main__")
-        assert signal.getsignal(signal.SIGINT) == signal.SIG_DFL  # compiled code is stopped at once
+        runpy.run_path(
+            str(SCRIPTS / f"{name}.py"), {"snakemake": snakemake}, "__main__"
+        )
+        assert (
+            signal.getsignal(signal.SIGINT) == signal.SIG_DFL
+        )  # compiled code is stopped at once
     finally:
         signal.signal(signal.SIGINT, handler)
     return log.read_text(encoding="utf-8")
@@ -68,19 +80,37 @@ def run_script(name: str, directory: Path, **job: Any) -> str:
 
 
 @pytest.mark.parametrize(("seconds", "told"), [(4, ""), (5, "rule, fig10: some 5 s\n")])
-def test_a_job_logs_what_it_took_and_tells_beforehand_if_that_is_long(tmp_path, capsys, seconds, told):
-    params = Named(function="support.files:read_table", inputs={}, options={"path": tmp_path / "a.csv"})
+def test_a_job_logs_what_it_took_and_tells_beforehand_if_that_is_long(
+    tmp_path, capsys, seconds, told
+):
+    params = Named(
+        function="support.files:read_table",
+        inputs={},
+        options={"path": tmp_path / "a.csv"},
+    )
     params.names, params.readers = ["a"], READERS
     (tmp_path / "a.csv").write_text("x\n1\n")
     job = {"wildcards": Named(scene="fig10"), "resources": Named(seconds=seconds)}
-    log = run_script("make_tables", tmp_path, output=Named(str(tmp_path / "b.csv")), params=params, **job)
+    log = run_script(
+        "make_tables",
+        tmp_path,
+        output=Named(str(tmp_path / "b.csv")),
+        params=params,
+        **job,
+    )
     assert re.fullmatch(r"rule, fig10: \d\.\d{3} s\n", log)
     assert capsys.readouterr().err == told
     assert (tmp_path / "b.csv").read_text() == "x\n1\n"
 
 
-def test_what_goes_wrong_in_a_job_is_one_line_and_a_traceback_in_its_log_if_it_is_ours(tmp_path):
-    params = Named(function="support.files:read_table", inputs={}, options={"path": tmp_path / "none.csv"})
+def test_what_goes_wrong_in_a_job_is_one_line_and_a_traceback_in_its_log_if_it_is_ours(
+    tmp_path,
+):
+    params = Named(
+        function="support.files:read_table",
+        inputs={},
+        options={"path": tmp_path / "none.csv"},
+    )
     params.names, params.readers = ["a"], READERS
     with pytest.raises(SystemExit, match=r"^rule: .*none\.csv'$"):
         run_script("make_tables", tmp_path, output=Named("a.csv"), params=params)
@@ -94,23 +124,39 @@ def test_what_goes_wrong_in_a_job_is_one_line_and_a_traceback_in_its_log_if_it_i
 def test_each_figure_is_drawn_from_its_tables_into_its_own_files(tmp_path, monkeypatch):
     def draw(table, title, look=None):
         figure = Figure(figsize=(2, 1))
-        figure.text(0, 0, f"{title} {len(table)} {[len(each) for each in table]} {look and look.font_size}")
+        figure.text(
+            0,
+            0,
+            f"{title} {len(table)} {[len(each) for each in table]} {look and look.font_size}",
+        )
         return figure
 
-    monkeypatch.setitem(sys.modules, "precursors.figures.ours", module := ModuleType("ours"))
+    monkeypatch.setitem(
+        sys.modules, "precursors.figures.ours", module := ModuleType("ours")
+    )
     module.draw = draw
     (tmp_path / "a.csv").write_text("x\n1\n2\n")
     table, look = str(tmp_path / "a.csv"), style.Look(font_size=9.0)
     figures = {
         "ours": {"tables": {"table": table}, "options": {"title": "one"}, "look": {}},
-        "two": {"module": "ours", "tables": {"table": [table]}, "options": {"title": "two"}},
+        "two": {
+            "module": "ours",
+            "tables": {"table": [table]},
+            "options": {"title": "two"},
+        },
     }
     figures["two"]["look"] = {"font_size": 9.0}
-    output = Named(*(tmp_path / f"{name}.{kind}" for name in figures for kind in ("svg", "png")))
-    run_script("draw", tmp_path, output=output, params=Named(figures=figures, readers=READERS))
+    output = Named(
+        *(tmp_path / f"{name}.{kind}" for name in figures for kind in ("svg", "png"))
+    )
+    run_script(
+        "draw", tmp_path, output=output, params=Named(figures=figures, readers=READERS)
+    )
     for path in output:
         name, x = path.stem, read_table(table)
-        figure, of_page = (draw(x, "one"), None) if name == "ours" else (draw([x], "two", look), look)
+        figure, of_page = (
+            (draw(x, "one"), None) if name == "ours" else (draw([x], "two", look), look)
+        )
         style.save(figure, expected := tmp_path / f"expected{path.suffix}", of_page)
         assert path.read_bytes() == expected.read_bytes()
 
@@ -118,7 +164,10 @@ def test_each_figure_is_drawn_from_its_tables_into_its_own_files(tmp_path, monke
 def test_a_chunk_of_a_study_has_every_nth_member(tmp_path):
     output = Named(chunk=tmp_path / "2of3.csv")
     arguments = {"slider": {"mu_s": 0.7, "n_blocks": 2}, "points": 4}
-    job = {"wildcards": Named(study=MAP, chunk="2of3"), "params": Named(arguments=arguments)}
+    job = {
+        "wildcards": Named(study=MAP, chunk="2of3"),
+        "params": Named(arguments=arguments),
+    }
     run_script("run_chunk", tmp_path, output=output, **job)
     chunk = pd.read_csv(output.chunk)
     assert (chunk["member"].tolist(), chunk["theta"].tolist()) == ([1], [0.95])
@@ -138,9 +187,15 @@ def simulate_scene(directory, slider, duration, **additions):
 def test_a_scene_has_its_run_its_slips_and_its_trace(tmp_path, additions):
     simulate_scene(tmp_path, {"theta": 0.0, "normal_load": 400.0}, 1.0, **additions)
     run = Run.load(tmp_path / "run.h5")
-    assert (run.duration, run.slider["theta"], run.larger is None) == (1.0, 0.0, not additions)
+    assert (run.duration, run.slider["theta"], run.larger is None) == (
+        1.0,
+        0.0,
+        not additions,
+    )
     for name, table in (("slips", slip_table(run)), ("trace", load_trace(run))):
-        pd.testing.assert_frame_equal(read_table(tmp_path / f"{name}.csv"), table, check_exact=True)
+        pd.testing.assert_frame_equal(
+            read_table(tmp_path / f"{name}.csv"), table, check_exact=True
+        )
 
 
 def test_a_run_that_meets_its_cap_is_kept_under_another_name(tmp_path, monkeypatch):
@@ -155,7 +210,9 @@ def test_a_run_that_meets_its_cap_is_kept_under_another_name(tmp_path, monkeypat
 # What make calls
 
 
-def call(name: str, directory: Path, *arguments: object) -> subprocess.CompletedProcess[str]:
+def call(
+    name: str, directory: Path, *arguments: object
+) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, SCRIPTS / f"{name}.py", *arguments]
     return subprocess.run(command, cwd=directory, capture_output=True, text=True)
 
@@ -170,8 +227,12 @@ fig10 0                          all events up to the first global slip  1      
 """  # noqa: W291
 
 
-def test_the_reproduction_is_printed_beside_the_paper_with_the_names_of_the_figures(tmp_path):
-    golden = pd.read_csv(ROOT / "tests/golden/reproduction.csv").query("scene == 'fig10'")
+def test_the_reproduction_is_printed_beside_the_paper_with_the_names_of_the_figures(
+    tmp_path,
+):
+    golden = pd.read_csv(ROOT / "tests/golden/reproduction.csv").query(
+        "scene == 'fig10'"
+    )
     golden.to_csv(tmp_path / "reproduction.csv", index=False)
     for name in ("b.svg", "a.svg", "a.png"):
         (tmp_path / name).touch()
@@ -186,14 +247,18 @@ def test_the_reproduction_is_printed_beside_the_paper_with_the_names_of_the_figu
         ("codecheck", [], "codecheck: "),
     ],
 )
-def test_a_script_that_make_runs_says_in_one_line_which_file_is_missing(tmp_path, script, arguments, told):
+def test_a_script_that_make_runs_says_in_one_line_which_file_is_missing(
+    tmp_path, script, arguments, told
+):
     done = call(script, tmp_path, *arguments)
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (1, "", 1)
     assert done.stderr.startswith(told)
     assert arguments[:1] == [] or arguments[0] in done.stderr
 
 
-def test_numbers_are_as_kept_to_a_millionth_and_pictures_if_they_look_the_same(tmp_path):
+def test_numbers_are_as_kept_to_a_millionth_and_pictures_if_they_look_the_same(
+    tmp_path,
+):
     golden, results, files = tmp_path / "tests/golden", tmp_path / "results", []
     golden.mkdir(parents=True)
     results.mkdir()
@@ -207,14 +272,18 @@ def test_numbers_are_as_kept_to_a_millionth_and_pictures_if_they_look_the_same(t
         image.imsave(results / files[-1], np.full((rows, 8, 3), shade))
     listed = [{"file": f"results/{file}"} for file in files]
     (tmp_path / "codecheck.yml").write_text(json.dumps({"manifest": listed}))
-    assert call("codecheck", tmp_path, "--list").stdout.split() == [entry["file"] for entry in listed]
+    assert call("codecheck", tmp_path, "--list").stdout.split() == [
+        entry["file"] for entry in listed
+    ]
     done = call("codecheck", tmp_path)
     *lines, total = done.stdout.splitlines()
     as_kept = [line.endswith(": as kept") for line in lines]
     assert as_kept == [True, False, True, False, True, False, False]
     assert lines[5].endswith("1.png: another picture")
     assert (done.returncode, total) == (1, "3 of 7 files as kept")
-    assert [bool(codecheck.difference(results / file, golden / file)) for file in files[:2]] == [False, True]
+    assert [
+        bool(codecheck.difference(results / file, golden / file)) for file in files[:2]
+    ] == [False, True]
 
 
 # Proofs
@@ -227,7 +296,9 @@ def committed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_a_fitting_certificate_is_taken_over_and_another_chain_or_duration_is_proved(committed, tmp_path):
+def test_a_fitting_certificate_is_taken_over_and_another_chain_or_duration_is_proved(
+    committed, tmp_path
+):
     chains = {
         "same": (PAIR, DURATION),
         "shorter": (PAIR, 0.3),
@@ -239,43 +310,79 @@ def test_a_fitting_certificate_is_taken_over_and_another_chain_or_duration_is_pr
     job = {"input": Named(committed=[committed]), "params": params}
     run_script("take_certificates", tmp_path, output=Named(*outputs), **job)
     certificates = map(Certificate.load, outputs)
-    assert [(each.chain, float(each.duration)) for each in certificates] == [*chains.values()]
+    assert [(each.chain, float(each.duration)) for each in certificates] == [
+        *chains.values()
+    ]
     taken = [output.read_bytes() == committed.read_bytes() for output in outputs]
     assert taken == [True, False, False]
 
 
 def test_a_certificate_is_proved_again(committed: Path, tmp_path: Path) -> None:
-    job = {"input": Named(certificate=committed), "output": Named(table=tmp_path / "pair.csv")}
+    job = {
+        "input": Named(certificate=committed),
+        "output": Named(table=tmp_path / "pair.csv"),
+    }
     run_script("prove_again", tmp_path, **job)
     row = pd.read_csv(tmp_path / "pair.csv").iloc[0]
-    assert (row["chain"], row["transitions"]) == ("pair", len(Certificate.load(committed).transitions))
+    assert (row["chain"], row["transitions"]) == (
+        "pair",
+        len(Certificate.load(committed).transitions),
+    )
     assert 0.0 <= row["cpu_s"] < 60.0
 
 
 # Tables
 
 
-def test_the_tables_hold_what_is_proved_and_what_the_solver_gets_right(committed: Path) -> None:
+def test_the_tables_hold_what_is_proved_and_what_the_solver_gets_right(
+    committed: Path,
+) -> None:
     certificate = Certificate.load(committed)
     effort = pd.DataFrame({"chain": ["else"], "transitions": [1], "cpu_s": [1.0]})
     tables = proof_tables({"pair": certificate}, effort, 1e-9)
     row, facts = tables["certificates"].iloc[0], tables["solver_vs_proof"].iloc[0]
     assert row["transitions"] == len(certificate.transitions)
-    assert row["largest_time_width_s"] == float(2 * max(t.time.radius for t in certificate.transitions))
-    assert pd.isna(row["cpu_s"])  # the time of another proof is not taken for that of this one
-    assert facts["agreeing_transitions"] == facts["transitions"] == len(certificate.transitions)
-    assert facts["horizon_s"] == facts["right_until_s"] == facts["duration_s"] == DURATION
-    assert tables["horizon"]["actual_error_s"].iloc[-1] == facts["time_error_while_agreeing_s"]
+    assert row["largest_time_width_s"] == float(
+        2 * max(t.time.radius for t in certificate.transitions)
+    )
+    assert pd.isna(
+        row["cpu_s"]
+    )  # the time of another proof is not taken for that of this one
+    assert (
+        facts["agreeing_transitions"]
+        == facts["transitions"]
+        == len(certificate.transitions)
+    )
+    assert (
+        facts["horizon_s"] == facts["right_until_s"] == facts["duration_s"] == DURATION
+    )
+    assert (
+        tables["horizon"]["actual_error_s"].iloc[-1]
+        == facts["time_error_while_agreeing_s"]
+    )
 
 
 def test_methods_are_measured_to_the_first_slip_and_to_the_end(monkeypatch):
-    values = {"global slip": {"exact": [0.0], "leapfrog": [1e-6, 1e-7]}, None: {"exact": [0.0]}}
-    monkeypatch.setattr(work_precision, "charted_values", lambda case, _full: values[case.until])
+    values = {
+        "global slip": {"exact": [0.0], "leapfrog": [1e-6, 1e-7]},
+        None: {"exact": [0.0]},
+    }
+    monkeypatch.setattr(
+        work_precision, "charted_values", lambda case, _full: values[case.until]
+    )
     certificate = certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), 6.0)
-    table = work_precision.work_precision_table({"two": certificate}, {"two": 0.25}, False)
-    expected = [("global slip", "exact"), *[("global slip", "leapfrog")] * 2, ("end", "exact")]
+    table = work_precision.work_precision_table(
+        {"two": certificate}, {"two": 0.25}, False
+    )
+    expected = [
+        ("global slip", "exact"),
+        *[("global slip", "leapfrog")] * 2,
+        ("end", "exact"),
+    ]
     assert [*zip(table["until"], table["method"], strict=True)] == expected
-    assert table[["scene", "theta"]].drop_duplicates().to_numpy().tolist() == [["two", 0.25]]
+    assert table[["scene", "theta"]].drop_duplicates().to_numpy().tolist() == [
+        ["two", 0.25]
+    ]
     exact = table[table["method"] == "exact"]
     assert (exact["transitions_right"] == exact["transitions_true"]).all()
     assert exact["transitions_true"].is_monotonic_increasing
@@ -283,11 +390,18 @@ def test_methods_are_measured_to_the_first_slip_and_to_the_end(monkeypatch):
 
 
 def test_failure_modes_are_tabulated_with_their_curves_and_thresholds(monkeypatch):
-    two = {name: failures.FAILURE_MODES[name] for name in ("stiffness", "restart_on_root")}
+    two = {
+        name: failures.FAILURE_MODES[name] for name in ("stiffness", "restart_on_root")
+    }
     monkeypatch.setattr(failures, "FAILURE_MODES", two)
-    monkeypatch.setattr(failures, "thresholds", lambda: [Threshold("a", 2, "fails", "s", "b", 2.0, 3.0)])
+    monkeypatch.setattr(
+        failures, "thresholds", lambda: [Threshold("a", 2, "fails", "s", "b", 2.0, 3.0)]
+    )
     tables = failures.failure_tables()
-    assert tables["failures"]["failure_mode"].tolist() == ["stiffness"] + ["restart_on_root"] * 2
+    assert (
+        tables["failures"]["failure_mode"].tolist()
+        == ["stiffness"] + ["restart_on_root"] * 2
+    )
     assert tables["failures"]["measured"].tolist()[1:] == [82, SMALLEST]
     assert tables["thresholds"]["n_blocks"].tolist() == [2, 10]
     assert tables["thresholds"]["ratio"].tolist() == [1.5, pytest.approx(1.0, rel=0.02)]

@@ -1,6 +1,6 @@
 # methods, proofs
 
-from precursors.accuracy.proof.chains import chain_duration, exact_chain, scene_exact_chain
+from precursors.proof.chains import chain_duration, exact_chain, scene_exact_chain
 from precursors.model.chain import parse_theta
 
 CHAINS = config["accuracy"]["proved"]

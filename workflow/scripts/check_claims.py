@@ -1,4 +1,5 @@
-"""Check the existing results without recomputing them: print every claim with its verdict (`make check`).
+"""Check the existing results without recomputing them: print every claim with its
+verdict (`make check`).
 
 The exit code is 1 if a verdict is not the expected one.
 """
@@ -19,10 +20,16 @@ from precursors.support.files import read_table
 WIDTH = 110
 
 
-def main(tables: str | Path = "results/tables", expected: str | Path = "tests/golden/claims.csv") -> None:
-    """Print the claims by the tables of a directory, and exit with 1 if a verdict is unexpected."""
+def main(
+    tables: str | Path = "results/tables",
+    expected: str | Path = "tests/golden/claims.csv",
+) -> None:
+    """Print the claims by the tables of a directory, and exit with 1 if a verdict is
+    unexpected."""
     try:
-        found = evaluate({name: read_table(Path(tables, f"{name}.csv")) for name in CLAIM_TABLES})
+        found = evaluate(
+            {name: read_table(Path(tables, f"{name}.csv")) for name in CLAIM_TABLES}
+        )
     except (OSError, ValueError) as error:
         sys.exit(f"check: {error}")
     print("\n".join([*entries(found), *totals(found)]))
@@ -32,7 +39,8 @@ def main(tables: str | Path = "results/tables", expected: str | Path = "tests/go
 
 
 def entries(claims: pd.DataFrame) -> Iterator[str]:
-    """Each claim: its verdict, section and statement, its numbers, and its shares of the ensembles."""
+    """Each claim: its verdict, section and statement, its numbers, and its shares of
+    the ensembles."""
     for number, claim in enumerate(claims.to_dict("records"), start=1):
         unit = "" if claim["unit"] == "1" else f" {claim['unit']}"
         compared = f" ({claim['expected']}{unit})" if claim["expected"] else ""
@@ -42,7 +50,9 @@ def entries(claims: pd.DataFrame) -> Iterator[str]:
             if pd.notna(claim[f"{name}_share"])
         ]
         yield f"{number:2d}  {claim['verdict'].upper()}  [{claim['claim']}]  {claim['section']}"
-        evidence = "; ".join([f"{claim['ours']}{unit}{compared}: {claim['rule']}", *shares])
+        evidence = "; ".join(
+            [f"{claim['ours']}{unit}{compared}: {claim['rule']}", *shares]
+        )
         for line in (claim["statement"], evidence):
             yield fill(line, WIDTH, initial_indent=" " * 4, subsequent_indent=" " * 4)
 
@@ -51,7 +61,11 @@ def totals(claims: pd.DataFrame) -> Iterator[str]:
     """How many claims of each kind have which verdict."""
     for kind in KINDS:
         verdicts = Counter(claims["verdict"][claims["kind"] == kind])
-        counts = ", ".join(f"{verdicts[verdict]} {verdict}" for verdict in VERDICTS if verdicts[verdict])
+        counts = ", ".join(
+            f"{verdicts[verdict]} {verdict}"
+            for verdict in VERDICTS
+            if verdicts[verdict]
+        )
         yield f"{verdicts.total()} of kind {kind!r}: {counts}"
 
 

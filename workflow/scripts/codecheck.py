@@ -9,24 +9,39 @@ import yaml
 from matplotlib import image
 
 GOLDEN = Path("tests/golden")
-# Numbers differ between machines by roundings; pixels (0 to 1) by the release of Matplotlib.
-RELATIVE, ABSOLUTE, PIXELS = 1e-6, 1e-9, 0.02
-# Exponents of a chaotic motion, which stand in some claims, differ between processors; verdicts do not.
+# Numbers differ between machines by roundings; pixels (0 to 1) by the release of
+# Matplotlib.
+RELATIVE = 1e-6
+ABSOLUTE = 1e-9
+PIXELS = 0.02
+# Exponents of a chaotic motion, which stand in some claims, differ between processors;
+# verdicts do not.
 COLUMNS = {"claims.csv": ["claim", "verdict"]}
 
 
 def manifest() -> list[str]:
     """The files of codecheck.yml."""
-    return [entry["file"] for entry in yaml.safe_load(Path("codecheck.yml").read_text("utf-8"))["manifest"]]
+    return [
+        entry["file"]
+        for entry in yaml.safe_load(Path("codecheck.yml").read_text("utf-8"))[
+            "manifest"
+        ]
+    ]
 
 
 def difference(made: Path, kept: Path) -> str:
-    """Say where a table or figure differs from the one that is kept; empty if it does not."""
+    """Say where a table or figure differs from the one that is kept; empty if it does
+    not."""
     if made.suffix == ".png":
         drawn, expected = (image.imread(path) for path in (made, kept))
-        same = drawn.shape == expected.shape and np.sqrt(np.mean((drawn - expected) ** 2)) <= PIXELS
+        same = (
+            drawn.shape == expected.shape
+            and np.sqrt(np.mean((drawn - expected) ** 2)) <= PIXELS
+        )
         return "" if same else "another picture"
-    new, old = (pd.read_csv(path, usecols=COLUMNS.get(made.name)) for path in (made, kept))
+    new, old = (
+        pd.read_csv(path, usecols=COLUMNS.get(made.name)) for path in (made, kept)
+    )
     try:
         pd.testing.assert_frame_equal(new, old, rtol=RELATIVE, atol=ABSOLUTE)
     except AssertionError as error:
@@ -36,10 +51,14 @@ def difference(made: Path, kept: Path) -> str:
 
 def main() -> None:
     """Print a line for each file; the exit code is that of the worst."""
-    found = {file: difference(Path(file), GOLDEN / Path(file).name) for file in manifest()}
+    found = {
+        file: difference(Path(file), GOLDEN / Path(file).name) for file in manifest()
+    }
     for file, problem in found.items():
         print(f"{file}: {problem or 'as kept'}")
-    print(f"{sum(not problem for problem in found.values())} of {len(found)} files as kept")
+    print(
+        f"{sum(not problem for problem in found.values())} of {len(found)} files as kept"
+    )
     sys.exit(any(found.values()))
 
 

@@ -8,7 +8,8 @@ from job import job, read
 
 from precursors.figures import style
 
-gc.disable()  # looking for garbage among a figure's many objects takes a seventh of the time
+# looking for garbage among a figure's many objects takes a seventh of the time
+gc.disable()
 with job() as snakemake:
     for name, figure in snakemake.params.figures.items():
         asked = {"look": style.Look(**figure["look"])} if figure.get("look") else {}

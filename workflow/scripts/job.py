@@ -1,4 +1,5 @@
-"""What scripts of the workflow share: one line on an error, the threads they were given, their inputs."""
+"""What scripts of the workflow share: one line on an error, the threads they were
+given, their inputs."""
 
 import os
 import signal
@@ -11,7 +12,8 @@ from pkgutil import resolve_name
 from time import perf_counter
 from typing import Any
 
-# Numba reads its variable when it is imported; Snakemake sets the other from the `threads` of the rule.
+# Numba reads its variable when it is imported; Snakemake sets the other from the
+# `threads` of the rule.
 os.environ.setdefault("NUMBA_NUM_THREADS", os.environ.get("OMP_NUM_THREADS", "1"))
 
 LONG = 5  # [s]: a job that takes longer says so
@@ -21,15 +23,16 @@ LONG = 5  # [s]: a job that takes longer says so
 def job() -> Iterator[Any]:
     """Yield the object `snakemake` of a script, and write the log of its job.
 
-    A wrong value or file is one line in the log and on the terminal; other errors add a traceback to the log.
+    A wrong value or file is one line in the log and on the terminal; other errors add a
+    traceback to the log.
     """
     snakemake = vars(sys.modules["__main__"])["snakemake"]
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Python's own handler waits until compiled code returns
-    log, name, start = (
-        Path(snakemake.log[0]),
-        ", ".join([snakemake.rule, *snakemake.wildcards]),
-        perf_counter(),
-    )
+    signal.signal(
+        signal.SIGINT, signal.SIG_DFL
+    )  # Python's own handler waits until compiled code returns
+    log = Path(snakemake.log[0])
+    name = ", ".join([snakemake.rule, *snakemake.wildcards])
+    start = perf_counter()
     seconds = snakemake.resources.get("seconds", 0)
     if seconds >= LONG:
         print(f"{name}: some {seconds} s", file=sys.stderr)
@@ -38,13 +41,16 @@ def job() -> Iterator[Any]:
     except Exception as error:
         line = f"{name}: {' '.join(str(error).split()) or type(error).__name__}\n"
         expected = isinstance(error, ValueError | OSError)
-        log.write_text(line if expected else f"{line}\n{traceback.format_exc()}", encoding="utf-8")
+        log.write_text(
+            line if expected else f"{line}\n{traceback.format_exc()}", encoding="utf-8"
+        )
         sys.exit(line.rstrip())
     log.write_text(f"{name}: {perf_counter() - start:.3f} s\n", encoding="utf-8")
 
 
 def read(files: Any, readers: Mapping[str, str]) -> Any:
-    """What a file holds, or each of a list or mapping; a reader is "room.module:name", by the ending."""
+    """What a file holds, or each of a list or mapping; a reader is "room.module:name",
+    by the ending."""
     if isinstance(files, Mapping):
         return {name: read(file, readers) for name, file in files.items()}
     if isinstance(files, str):

@@ -11,8 +11,14 @@ from precursors.support.files import read_table
 def main(table: str | Path, figures: str | Path) -> None:
     """Print the table of the reproduction for reading, four digits a number."""
     found = read_table(table).rename_axis(index=None).set_index("scene")
-    print(found.to_string(float_format="{:.4g}".format, na_rep="-", justify="left", index_names=False))
-    print(f"Figures: {', '.join(sorted(path.name for path in Path(figures).glob('*.svg')))} in {figures}")
+    print(
+        found.to_string(
+            float_format="{:.4g}".format, na_rep="-", justify="left", index_names=False
+        )
+    )
+    print(
+        f"Figures: {', '.join(sorted(path.name for path in Path(figures).glob('*.svg')))} in {figures}"
+    )
 
 
 if __name__ == "__main__":

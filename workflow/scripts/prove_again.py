@@ -1,4 +1,5 @@
-"""Make the proof of a certificate again, and write what it took; an altered one is refused."""
+"""Make the proof of a certificate again, and write what it took; an altered one is
+refused."""
 
 from pathlib import Path
 from time import process_time
@@ -6,8 +7,8 @@ from time import process_time
 import pandas as pd
 from job import job
 
-from precursors.accuracy.proof import verify
-from precursors.accuracy.proof.chains import certificate_row
+from precursors.proof import verify
+from precursors.proof.chains import certificate_row
 from precursors.support.files import write_table
 
 with job() as snakemake:

@@ -1,4 +1,5 @@
-"""Run one chunk of a study, "1of4" to "4of4": every n-th member, a row each with what its run gave."""
+"""Run one chunk of a study, "1of4" to "4of4": every n-th member, a row each with what
+its run gave."""
 
 from job import job
 

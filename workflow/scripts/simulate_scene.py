@@ -1,8 +1,8 @@
 """Simulate a scene: its run, its slips and its load curve.
 
-The slip table has every event; `counted` tells those of Fig. 13. The trace is the exact tangential load at
-points between which it is straight to 1e-4 N, every transition among them. A run that meets its cap on
-transitions is kept too.
+The slip table has every event; `counted` tells those of Fig. 13. The trace is the exact
+tangential load at points between which it is straight to 1e-4 N, every transition among
+them. A run that meets its cap on transitions is kept too.
 """
 
 from pathlib import Path
@@ -17,13 +17,16 @@ from precursors.solver.simulate import TransitionLimitError, simulate
 from precursors.support.files import write_table
 
 with job() as snakemake:
-    params, output = snakemake.params, snakemake.output
+    params = snakemake.params
+    output = snakemake.output
     chain = Chain.from_slider(**params.slider)
     try:
         if any(params.additions.values()):
             from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 
-            run = simulate_with_accuracy(LargerChain(chain, **params.additions), params.duration)
+            run = simulate_with_accuracy(
+                LargerChain(chain, **params.additions), params.duration
+            )
         else:
             run = simulate(chain, duration=params.duration)
     except TransitionLimitError as error:

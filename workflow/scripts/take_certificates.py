@@ -1,19 +1,28 @@
-"""Take over the committed certificates that are about the very chains asked for; prove the others."""
+"""Take over the committed certificates that are about the very chains asked for; prove
+the others."""
 
 from pathlib import Path
 
 from job import job
 
-from precursors.accuracy.proof import Certificate, ExactChain, certify
-from precursors.accuracy.proof.chains import is_about
+from precursors.proof import Certificate, ExactChain, certify
+from precursors.proof.chains import is_about
 from precursors.support.files import write_whole
 
 with job() as snakemake:
-    known = {path: Certificate.load(path) for path in snakemake.input.get("committed", [])}
+    known = {
+        path: Certificate.load(path) for path in snakemake.input.get("committed", [])
+    }
     params = snakemake.params
-    for text, duration, output in zip(params.chains, params.durations, snakemake.output, strict=True):
+    for text, duration, output in zip(
+        params.chains, params.durations, snakemake.output, strict=True
+    ):
         chain = ExactChain(**text)
-        fitting = [path for path, certificate in known.items() if is_about(certificate, chain, duration)]
+        fitting = [
+            path
+            for path, certificate in known.items()
+            if is_about(certificate, chain, duration)
+        ]
         if fitting:
             write_whole(output, Path(fitting[0]).read_bytes())
         else:

@@ -3,7 +3,6 @@
 import pandas as pd
 from job import job
 
-from precursors.accuracy.proof.chains import chain_duration
 from precursors.figures.explorer.page import (
     Proved,
     Scene,
@@ -11,10 +10,14 @@ from precursors.figures.explorer.page import (
     proved_slider,
     write_explorer,
 )
+from precursors.proof.chains import chain_duration
 
 with job() as snakemake:
     params = snakemake.params
     slips = map(pd.read_csv, snakemake.input.slips)
     scenes = map(Scene, params.titles, params.sliders, map(counted_events, slips))
-    proved = [Proved(proved_slider(values), chain_duration(values)) for values in params.proved.values()]
+    proved = [
+        Proved(proved_slider(values), chain_duration(values))
+        for values in params.proved.values()
+    ]
     write_explorer([*scenes], proved, params.duration, snakemake.output.page)

@@ -1,4 +1,5 @@
-"""Set a document of paper/ with the fonts that Typst brings along; the same bytes on every machine."""
+"""Set a document of paper/ with the fonts that Typst brings along; the same bytes on
+every machine."""
 
 import re
 import shutil
@@ -14,8 +15,11 @@ from precursors.support.files import write_whole
 EPOCH = 0
 
 
-def main(main_file: str | Path, results: Iterable[str | Path], output: str | Path) -> None:
-    """Set a Typst file, which finds its directory as /paper and these results by their paths.
+def main(
+    main_file: str | Path, results: Iterable[str | Path], output: str | Path
+) -> None:
+    """Set a Typst file, which finds its directory as /paper and these results by their
+    paths.
 
     Raises
     ------
@@ -33,7 +37,10 @@ def main(main_file: str | Path, results: Iterable[str | Path], output: str | Pat
             shutil.copyfile(path, root / path)
         try:
             pages, warnings = typst.compile_with_warnings(
-                root / "paper" / main_file.name, root=root, ignore_system_fonts=True, timestamp=EPOCH
+                root / "paper" / main_file.name,
+                root=root,
+                ignore_system_fonts=True,
+                timestamp=EPOCH,
             )
         except typst.TypstError as error:
             raise ValueError(_line(error)) from None
@@ -45,7 +52,9 @@ def main(main_file: str | Path, results: Iterable[str | Path], output: str | Pat
 def _line(problem: object) -> str:
     """What Typst says, in one line, with the places in the source."""
     places = re.findall(r"(paper/\S+\.typ:\d+)", getattr(problem, "diagnostic", ""))
-    message = getattr(problem, "message", str(problem)).removeprefix("assertion failed: ")
+    message = getattr(problem, "message", str(problem)).removeprefix(
+        "assertion failed: "
+    )
     return f"{message} ({', '.join(dict.fromkeys(places))})"
 
 

@@ -1,4 +1,5 @@
-"""How far the run of any method is from the truth: transitions and slips in order, their times and loads."""
+"""How far the run of any method is from the truth: transitions and slips in order,
+their times and loads."""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
 
 if TYPE_CHECKING:
-    from precursors.accuracy.proof import Certificate
+    from precursors.proof import Certificate
 
 # What Figs. 10-13 show of a slip event, apart from when and under which load.
 OUTCOME = ["front", "is_global"]
@@ -29,9 +30,11 @@ Transition = tuple[Fraction, int, int, Fraction]
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """What runs are compared with: the true transitions, rounded to doubles in a run, and what that left.
+    """What runs are compared with: the true transitions, rounded to doubles in a run,
+    and what that left.
 
-    `time_rest` [s] and `load_rest` [N], shape (n_transitions,), are true numbers less rounded ones.
+    `time_rest` [s] and `load_rest` [N], shape (n_transitions,), are true numbers less
+    rounded ones.
     """
 
     run: Run
@@ -44,20 +47,32 @@ class Truth:
         return cls(run, np.zeros(len(run.transitions)), np.zeros(len(run.transitions)))
 
     @classmethod
-    def exact(cls, chain: Chain, duration: float, transitions: Sequence[Transition]) -> Truth:
+    def exact(
+        cls, chain: Chain, duration: float, transitions: Sequence[Transition]
+    ) -> Truth:
         """Take transitions in exact numbers, all there are up to `duration` [s]."""
-        times, blocks, modes, loads = zip(*transitions, strict=True) if transitions else ((),) * 4
+        times, blocks, modes, loads = (
+            zip(*transitions, strict=True) if transitions else ((),) * 4
+        )
         (time, time_rest), (load, load_rest) = _rounded(times), _rounded(loads)
-        return cls(Run.from_transitions(chain, duration, time, blocks, modes, load), time_rest, load_rest)
+        return cls(
+            Run.from_transitions(chain, duration, time, blocks, modes, load),
+            time_rest,
+            load_rest,
+        )
 
     @classmethod
     def proved(cls, certificate: Certificate) -> Truth:
-        """Take what a certificate proves, the midpoints of its enclosures, as far as it goes."""
+        """Take what a certificate proves, the midpoints of its enclosures, as far as it
+        goes."""
         transitions = [
-            (t.time.midpoint, t.block, t.mode, t.tangential_load.midpoint) for t in certificate.transitions
+            (t.time.midpoint, t.block, t.mode, t.tangential_load.midpoint)
+            for t in certificate.transitions
         ]
         ends_with_slip = certificate.until and transitions and not certificate.tie
-        duration = float(transitions[-1][0] if ends_with_slip else certificate.proved_until)
+        duration = float(
+            transitions[-1][0] if ends_with_slip else certificate.proved_until
+        )
         return cls.exact(certificate.chain.to_chain(), duration, transitions)
 
     @cached_property
@@ -66,7 +81,8 @@ class Truth:
         return find_slips(self.run)
 
     def until_global_slip(self) -> Truth:
-        """Cut to the end of the first global slip, as `simulate(..., until="global slip")` does.
+        """Cut to the end of the first global slip, as `simulate(..., until="global
+        slip")` does.
 
         Without one, or if it does not end, nothing is cut.
         """
@@ -76,7 +92,10 @@ class Truth:
             return self
         transitions = self.run.transitions
         n = int(np.searchsorted(transitions["time"], end, side="right"))
-        columns = [transitions[name][:n] for name in ("time", "block", "mode", "tangential_load")]
+        columns = [
+            transitions[name][:n]
+            for name in ("time", "block", "mode", "tangential_load")
+        ]
         run = Run.from_transitions(self.run.chain, end, *columns)
         return Truth(run, self.time_rest[:n], self.load_rest[:n])
 
@@ -85,11 +104,12 @@ class Truth:
 class Comparison:
     """How far a run agrees with the truth, and how closely as far as it does.
 
-    A transition is right if its block and mode are; a slip event, if its front is, and whether all blocks
-    slid at once. What is right ends with the first that is wrong or missing. `time_errors` [s] are those of
-    right transitions, `load_error` is the largest of F_X at the onsets of right slips [N], NaN if none is;
-    `first_difference` is the time [s] of the first transition that is true or found but not both, infinite if
-    there is none.
+    A transition is right if its block and mode are; a slip event, if its front is, and
+    whether all blocks slid at once. What is right ends with the first that is wrong or
+    missing. `time_errors` [s] are those of right transitions, `load_error` is the
+    largest of F_X at the onsets of right slips [N], NaN if none is; `first_difference`
+    is the time [s] of the first transition that is true or found but not both, infinite
+    if there is none.
     """
 
     transitions_right: int
@@ -104,15 +124,18 @@ class Comparison:
 
     @property
     def time_error(self) -> float:
-        """Largest error of the times of the transitions that are right [s]; NaN if none is."""
+        """Largest error of the times of the transitions that are right [s]; NaN if none
+        is."""
         return _largest(self.time_errors)
 
 
 def compare(run: Run, truth: Truth) -> Comparison:
-    """Compare a run with the truth over the same time, both to the end or both to the first global slip.
+    """Compare a run with the truth over the same time, both to the end or both to the
+    first global slip.
 
-    After the first difference, and soon after the first global slip, the motions are as different as those of
-    two chains: chaotic. So only what comes before the first difference has an error.
+    After the first difference, and soon after the first global slip, the motions are as
+    different as those of two chains: chaotic. So only what comes before the first
+    difference has an error.
 
     Raises
     ------
@@ -125,11 +148,18 @@ def compare(run: Run, truth: Truth) -> Comparison:
             f"the run must have as many blocks as the truth, {true_run.chain.n_blocks}, "
             f"but has {run.chain.n_blocks}"
         )
-    found, true, n = run.transitions, true_run.transitions, transitions_right(run, true_run)
+    found = run.transitions
+    true = true_run.transitions
+    n = transitions_right(run, true_run)
     slips = find_slips(run)
-    n_slips = _agreeing(slips[OUTCOME].to_records(index=False), truth.slips[OUTCOME].to_records(index=False))
+    n_slips = _agreeing(
+        slips[OUTCOME].to_records(index=False),
+        truth.slips[OUTCOME].to_records(index=False),
+    )
     onsets = np.searchsorted(true["time"], truth.slips["onset"][:n_slips])
-    at_onsets = (slips["load_before"] - truth.slips["load_before"])[:n_slips] - truth.load_rest[onsets]
+    at_onsets = (slips["load_before"] - truth.slips["load_before"])[
+        :n_slips
+    ] - truth.load_rest[onsets]
     return Comparison(
         transitions_right=n,
         transitions_found=len(found),
@@ -139,13 +169,18 @@ def compare(run: Run, truth: Truth) -> Comparison:
         slips_true=len(truth.slips),
         time_errors=abs(found["time"][:n] - true["time"][:n] - truth.time_rest[:n]),
         load_error=_largest(abs(at_onsets.to_numpy())),
-        first_difference=float(min([*found["time"][n : n + 1], *true["time"][n : n + 1]], default=np.inf)),
+        first_difference=float(
+            min([*found["time"][n : n + 1], *true["time"][n : n + 1]], default=np.inf)
+        ),
     )
 
 
 def transitions_right(run: Run, true: Run) -> int:
-    """Number of transitions before the first that is missing or whose block or mode is wrong."""
-    return _agreeing(run.transitions[["block", "mode"]], true.transitions[["block", "mode"]])
+    """Number of transitions before the first that is missing or whose block or mode is
+    wrong."""
+    return _agreeing(
+        run.transitions[["block", "mode"]], true.transitions[["block", "mode"]]
+    )
 
 
 def _rounded(numbers: Sequence[Fraction]) -> tuple[FloatArray, FloatArray]:

@@ -1,4 +1,5 @@
-"""The solver compared with the proof: the errors it makes, and the errors it predicts."""
+"""The solver compared with the proof: the errors it makes, and the errors it
+predicts."""
 
 from __future__ import annotations
 
@@ -9,11 +10,11 @@ import numpy as np
 import pandas as pd
 
 from precursors.accuracy.compare import Comparison, Truth, compare
-from precursors.accuracy.proof import Certificate
-from precursors.accuracy.proof.chains import certificates_table
 from precursors.analysis.horizon import PredictedErrors, predicted_errors
 from precursors.analysis.slips import find_slips, first_global
 from precursors.model.chain import FloatArray
+from precursors.proof import Certificate
+from precursors.proof.chains import certificates_table
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
@@ -32,12 +33,15 @@ class Validation(NamedTuple):
 def proof_tables(
     certificates: Mapping[str, Certificate], effort: pd.DataFrame, tolerance: float
 ) -> dict[str, pd.DataFrame]:
-    """What is proved, how the errors of the solver grow, and what it gets right: tables by file name."""
+    """What is proved, how the errors of the solver grow, and what it gets right: tables
+    by file name."""
     runs = {name: validate(certificate) for name, certificate in certificates.items()}
     errors = [error_table(run).assign(chain=name) for name, run in runs.items()]
     return {
         "certificates": certificates_table(certificates, effort),
-        "horizon": pd.concat(errors)[["chain", "time_s", "actual_error_s", "predicted_error_s"]],
+        "horizon": pd.concat(errors)[
+            ["chain", "time_s", "actual_error_s", "predicted_error_s"]
+        ],
         "solver_vs_proof": pd.DataFrame(
             [{"chain": name, **summary(run, tolerance)} for name, run in runs.items()]
         ),
@@ -45,7 +49,8 @@ def proof_tables(
 
 
 def validate(certificate: Certificate) -> Validation:
-    """Run the chain of a certificate, rounded to double precision, as far as it is proved, and compare."""
+    """Run the chain of a certificate, rounded to double precision, as far as it is
+    proved, and compare."""
     truth = Truth.proved(certificate)
     start = [float(x) for x in certificate.start_positions]
     run = simulate(truth.run.chain, truth.run.duration, start_positions=start)
@@ -53,7 +58,8 @@ def validate(certificate: Certificate) -> Validation:
 
 
 def error_table(validation: Validation) -> pd.DataFrame:
-    """Largest error so far, actual and predicted, at up to `ROWS` transitions; NaN where order is unknown."""
+    """Largest error so far, actual and predicted, at up to `ROWS` transitions; NaN
+    where order is unknown."""
     run, compared, predictions = validation
     n = len(run.transitions)
     actual, predicted = np.full((2, n), np.nan)
@@ -73,9 +79,9 @@ def error_table(validation: Validation) -> pd.DataFrame:
 def summary(validation: Validation, tolerance: float) -> dict[str, float]:
     """What the run gets right, in one row of solver_vs_proof.csv.
 
-    `right_until_s` is when the first transition is in error by more than the tolerance, of another block, or
-    to another mode; `horizon_s` is when this is predicted. `largest_ratio` is that of actual to predicted
-    error, both the largest so far.
+    `right_until_s` is when the first transition is in error by more than the tolerance,
+    of another block, or to another mode; `horizon_s` is when this is predicted.
+    `largest_ratio` is that of actual to predicted error, both the largest so far.
     """
     run, compared, predictions = validation
     n = compared.transitions_right
@@ -83,7 +89,9 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
     wrong = time[compared.time_errors > tolerance]
     predicted = predictions.time_error[:n]
     known = np.isfinite(predicted)
-    ratio = np.maximum.accumulate(compared.time_errors[known]) / np.maximum.accumulate(predicted[known])
+    ratio = np.maximum.accumulate(compared.time_errors[known]) / np.maximum.accumulate(
+        predicted[known]
+    )
     slips = find_slips(run)
     first = first_global(slips)
     first_end = -np.inf if first is None else float(slips["end"].iloc[first])
@@ -95,7 +103,11 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
         "time_error_to_first_global_slip_s": _largest(compared.time_errors[:until]),
         "time_error_while_agreeing_s": _largest(compared.time_errors),
         "right_until_s": float(
-            min(wrong[0] if wrong.size else np.inf, compared.first_difference, run.duration)
+            min(
+                wrong[0] if wrong.size else np.inf,
+                compared.first_difference,
+                run.duration,
+            )
         ),
         "horizon_s": predictions.horizon(tolerance),
         "order_lost_s": compared.first_difference,

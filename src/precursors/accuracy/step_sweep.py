@@ -1,4 +1,5 @@
-"""What the step of Runge and Kutta's method does to the numbers that the paper prints."""
+"""What the step of Runge and Kutta's method does to the numbers that the paper
+prints."""
 
 from __future__ import annotations
 
@@ -15,21 +16,28 @@ from precursors.methods import METHODS
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Run
 
-# Steps [s] from the coarsest to the finest. RK4 that also makes every step while nothing slides ends earlier.
-COARSEST, FINEST = 1e-5, 1e-9
+# Steps [s] from the coarsest to the finest. RK4 that also makes every step while
+# nothing slides ends earlier.
+COARSEST = 1e-5
+FINEST = 1e-9
 
 
 def charted_steps(full: bool = False) -> dict[str, FloatArray]:
-    """Steps of the default chart or the full one [s], by name of the method, evenly spaced by logarithm."""
+    """Steps of the default chart or the full one [s], by name of the method, evenly
+    spaced by logarithm."""
     per_decade, finest_every_step = (24, 1e-7) if full else (6, 1e-6)
     finest = {"rk4_skip": FINEST, "rk4": finest_every_step}
     return {
-        name: np.geomspace(COARSEST, last, round(per_decade * math.log10(COARSEST / last)) + 1)
+        name: np.geomspace(
+            COARSEST, last, round(per_decade * math.log10(COARSEST / last)) + 1
+        )
         for name, last in finest.items()
     }
 
 
-def step_sweep_table(runs: Mapping[str, Run], thetas: Mapping[str, float], full: bool) -> pd.DataFrame:
+def step_sweep_table(
+    runs: Mapping[str, Run], thetas: Mapping[str, float], full: bool
+) -> pd.DataFrame:
     """One row per scene, method and step; see `row`."""
     return pd.DataFrame(
         {"scene": scene, "theta": thetas[scene], **row}
@@ -38,16 +46,22 @@ def step_sweep_table(runs: Mapping[str, Run], thetas: Mapping[str, float], full:
     )
 
 
-def sweep(exact: Run, steps: Mapping[str, Iterable[float]]) -> Iterator[dict[str, object]]:
-    """The exact solver's numbers up to the end of the first global slip, then each method's at each step [s].
+def sweep(
+    exact: Run, steps: Mapping[str, Iterable[float]]
+) -> Iterator[dict[str, object]]:
+    """The exact solver's numbers up to the end of the first global slip, then each
+    method's at each step [s].
 
-    The duration of the exact run, to the first global slip or longer, limits the other runs. Rows: see `row`.
+    The duration of the exact run, to the first global slip or longer, limits the other
+    runs. Rows: see `row`.
     """
     truth = Truth.of_run(exact).until_global_slip().run
     yield row("exact", math.nan, truth, truth)
     for method, values in steps.items():
         for step in map(float, values):
-            result = attempt(METHODS[method].solve, exact.chain, exact.duration, step, "global slip")
+            result = attempt(
+                METHODS[method].solve, exact.chain, exact.duration, step, "global slip"
+            )
             yield row(method, step, result.run, truth)
 
 
@@ -57,9 +71,9 @@ def row(method: str, step: float, run: Run, truth: Run) -> dict[str, object]:
     Returns
     -------
     dict
-        method; step_s [s], NaN for the exact solver; events_counted, the number of events in Fig. 13; mu_sapp
-        (Eq. 1), NaN without a global slip; transitions_right before the first wrong one, and
-        transitions_true, all there are.
+        method; step_s [s], NaN for the exact solver; events_counted, the number of
+        events in Fig. 13; mu_sapp (Eq. 1), NaN without a global slip; transitions_right
+        before the first wrong one, and transitions_true, all there are.
     """
     slips = slip_table(run)
     friction = apparent_friction(slips)

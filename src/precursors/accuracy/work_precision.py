@@ -1,4 +1,5 @@
-"""Speed against accuracy: methods with several settings, timed side by side and compared with the truth."""
+"""Speed against accuracy: methods with several settings, timed side by side and
+compared with the truth."""
 
 from __future__ import annotations
 
@@ -17,16 +18,21 @@ from precursors.model.chain import Chain
 from precursors.support import timing
 
 if TYPE_CHECKING:
-    from precursors.accuracy.proof import Certificate
+    from precursors.proof import Certificate
 
-# Rounds of which a time is the median. In the default chart, a call that takes longer than `LONG` [s] is
-# timed once: it is a mean over what else the machine does, as the short calls of a round together are.
-ROUNDS, ROUNDS_FULL = 3, 5
-LONG, LONG_FULL = 0.05, math.inf
-# A method is given up at a setting with which one call takes longer [s]: in the default chart, in the
-# full one.
-LONGEST, LONGEST_FULL = 2.0, 5.0
-# What a method compiles, loads or builds for a chain and a value, it does in a run that is so short [s].
+# Rounds of which a time is the median. In the default chart, a call that takes longer
+# than `LONG` [s] is timed once: it is a mean over what else the machine does, as the
+# short calls of a round together are.
+ROUNDS = 3
+ROUNDS_FULL = 5
+LONG = 0.05
+LONG_FULL = math.inf
+# A method is given up at a setting with which one call takes longer [s]: in the default
+# chart, in the full one.
+LONGEST = 2.0
+LONGEST_FULL = 5.0
+# What a method compiles, loads or builds for a chain and a value, it does in a run that
+# is so short [s].
 WARM_UP = 0.4
 SHORTEST = 0.0025  # s, of a round: see `timing.measure`
 COUNTS = (
@@ -41,7 +47,8 @@ COUNTS = (
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """What all methods are asked to do: a scene's chain, for a duration [s] or until its first global slip.
+    """What all methods are asked to do: a scene's chain, for a duration [s] or until
+    its first global slip.
 
     The true run goes over the same time.
     """
@@ -53,15 +60,26 @@ class Case:
     until: Literal["global slip"] | None
     truth: Truth
 
-    def run(self, method: Method, value: float, duration: float | None = None) -> Result:
-        """Run a method with a value of its setting; of a run that breaks off, what there is."""
-        return attempt(method.solve, self.chain, duration or self.duration, value, self.until)
+    def run(
+        self, method: Method, value: float, duration: float | None = None
+    ) -> Result:
+        """Run a method with a value of its setting; of a run that breaks off, what
+        there is."""
+        return attempt(
+            method.solve, self.chain, duration or self.duration, value, self.until
+        )
 
 
-def proved_cases(scene: str, theta: float, certificate: Certificate) -> tuple[Case, Case]:
-    """Make cases of what a certificate proves: to the end of the first global slip, and to its own end."""
-    chain, truth = certificate.chain.to_chain(), Truth.proved(certificate)
-    whole = Case(scene, theta, chain, float(certificate.proved_until), certificate.until, truth)
+def proved_cases(
+    scene: str, theta: float, certificate: Certificate
+) -> tuple[Case, Case]:
+    """Make cases of what a certificate proves: to the end of the first global slip, and
+    to its own end."""
+    chain = certificate.chain.to_chain()
+    truth = Truth.proved(certificate)
+    whole = Case(
+        scene, theta, chain, float(certificate.proved_until), certificate.until, truth
+    )
     return replace(whole, until="global slip", truth=truth.until_global_slip()), whole
 
 
@@ -79,8 +97,11 @@ def work_precision_table(
 
 
 def charted_values(case: Case, full: bool = False) -> dict[str, tuple[float, ...]]:
-    """Values of each method's setting in the default chart or the full one, by name of the method."""
-    return {name: method.values_of(case.until, full) for name, method in METHODS.items()}
+    """Values of each method's setting in the default chart or the full one, by name of
+    the method."""
+    return {
+        name: method.values_of(case.until, full) for name, method in METHODS.items()
+    }
 
 
 def measure_methods(
@@ -92,22 +113,25 @@ def measure_methods(
 ) -> pd.DataFrame:
     """Time methods with several settings, and compare each run with the truth.
 
-    `values` of each method's setting go from loose to tight. A time is the median of some rounds in which
-    methods take turns, after a short warm-up; a call that takes longer than `long` [s] is timed once. A
-    method is given up at a value with which a call takes longer than `longest` [s].
+    `values` of each method's setting go from loose to tight. A time is the median of
+    some rounds in which methods take turns, after a short warm-up; a call that takes
+    longer than `long` [s] is timed once. A method is given up at a value with which a
+    call takes longer than `longest` [s].
 
     Returns
     -------
     DataFrame
-        A row per method and value; `evaluations` is NaN for a method that counts none, and errors are those
-        of `Comparison`.
+        A row per method and value; `evaluations` is NaN for a method that counts none,
+        and errors are those of `Comparison`.
     """
     tasks: list[tuple[Callable[[], Result], timing.Seconds]] = []
     rows = []
     for name, some in values.items():
         for value in some:
             task = partial(case.run, METHODS[name], value)
-            result, seconds = timing.second_call(task, partial(task, min(WARM_UP, case.duration)))
+            result, seconds = timing.second_call(
+                task, partial(task, min(WARM_UP, case.duration))
+            )
             if seconds.wall > longest:
                 break
             tasks.append((task, seconds))
@@ -124,7 +148,9 @@ def measure_methods(
     return pd.DataFrame(rows)
 
 
-def _row(case: Case, method: Method, value: float, result: Result, seconds: float) -> dict[str, object]:
+def _row(
+    case: Case, method: Method, value: float, result: Result, seconds: float
+) -> dict[str, object]:
     found = compare(result.run, case.truth)
     return {
         "scene": case.scene,

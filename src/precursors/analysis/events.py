@@ -28,17 +28,20 @@ EVENT = np.dtype(
 
 
 def slip_events(runs: Sequence[Run]) -> NDArray[np.void]:
-    """Slip events of some runs: maximal time intervals in which at least one block slides.
+    """Slip events of some runs: maximal time intervals in which at least one block
+    slides.
 
-    An event ends where no block slides, unless the next one releases at the same instant. One that the end of
-    its run cuts off has end and load_after NaN.
+    An event ends where no block slides, unless the next one releases at the same
+    instant. One that the end of its run cuts off has end and load_after NaN.
 
     Returns
     -------
     structured array of dtype EVENT
         One row per event, in the order of the runs and of time.
     """
-    time, of_block, mode, load = (_joined(runs, name) for name in TRANSITION.names or ())
+    time, of_block, mode, load = (
+        _joined(runs, name) for name in TRANSITION.names or ()
+    )
     pauses = np.concatenate([[], *(run.intervals[1:] for run in runs)])
     lengths = np.array([len(run.transitions) for run in runs], dtype=int)
     n_blocks = np.array([run.chain.n_blocks for run in runs], dtype=int)
@@ -46,7 +49,8 @@ def slip_events(runs: Sequence[Run]) -> NDArray[np.void]:
     run = np.repeat(np.arange(len(runs)), lengths)
 
     sliding = mode != 0
-    # Every block of every run has its own number, so that sorting shows what each block did before.
+    # Every block of every run has its own number, so that sorting shows what each block
+    # did before.
     block = of_block + np.repeat(np.cumsum(n_blocks) - n_blocks, lengths)
     order = np.argsort(block.astype(np.min_scalar_type(n_blocks.sum())), kind="stable")
     same_block = block[order][1:] == block[order][:-1]
@@ -60,15 +64,20 @@ def slip_events(runs: Sequence[Run]) -> NDArray[np.void]:
     lasts = np.flatnonzero(ends)
     firsts = np.append(0, lasts + 1)[:-1]
     event = np.repeat(np.arange(len(lasts)), lasts - firsts + 1)
-    # Slides, block by block, and which of them are the first of their block in their event.
+    # Slides, block by block, and which of them are the first of their block in their
+    # event.
     slides = order[sliding[order]]
     is_first = np.ones(len(slides), dtype=bool)
     is_first[1:] = (np.diff(block[slides]) != 0) | (np.diff(event[slides]) != 0)
 
     events = np.empty(len(lasts), EVENT)
     events["run"] = run[firsts]
-    events["first"], events["last"] = firsts - starts[events["run"]], lasts - starts[events["run"]]
-    events["onset"], events["load_before"] = time[firsts], load[firsts]
+    events["first"], events["last"] = (
+        firsts - starts[events["run"]],
+        lasts - starts[events["run"]],
+    )
+    events["onset"] = time[firsts]
+    events["load_before"] = load[firsts]
     so_far = [np.maximum.accumulate(run.transitions["tangential_load"]) for run in runs]
     events["largest_load"] = np.concatenate([load[:0], *so_far])[firsts]
     finished = n_sliding[lasts] == 0
@@ -83,4 +92,6 @@ def slip_events(runs: Sequence[Run]) -> NDArray[np.void]:
 
 def _joined(runs: Sequence[Run], name: str) -> NDArray:
     """One column of the transitions of all runs."""
-    return np.concatenate([np.empty(0, TRANSITION[name]), *(run.transitions[name] for run in runs)])
+    return np.concatenate(
+        [np.empty(0, TRANSITION[name]), *(run.transitions[name] for run in runs)]
+    )

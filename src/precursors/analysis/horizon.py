@@ -1,8 +1,9 @@
 """Predictability time: until when a run is accurate to a given tolerance.
 
-Runs whose parameters and start differ from those of the run by a few roundings show how far it may be off:
-their spread in time is the error of a transition's time, and the order of transitions is known as long as all
-of them agree. It is an estimate; `certify` gives a proof.
+Runs whose parameters and start differ from those of the run by a few roundings show how
+far it may be off: their spread in time is the error of a transition's time, and the
+order of transitions is known as long as all of them agree. It is an estimate; `certify`
+gives a proof.
 """
 
 from __future__ import annotations
@@ -17,15 +18,18 @@ from precursors.solver.run import Run
 from precursors.solver.simulate import simulate_many
 
 EPS = float(np.finfo(float).eps)
-# The spread of so many neighbours is within 40 % of that of very many, nineteen times in twenty.
+# The spread of so many neighbours is within 40 % of that of very many, nineteen times
+# in twenty.
 N_NEIGHBOURS = 16
-# Standard deviation of a value of a neighbour, in units of its largest rounding error EPS / 2: more than the
-# solver takes for zero, so that neighbours disagree on a transition that rounding decides.
+# Standard deviation of a value of a neighbour, in units of its largest rounding error
+# EPS / 2: more than the solver takes for zero, so that neighbours disagree on a
+# transition that rounding decides.
 ROUNDINGS = 64.0
-# An error is taken for so many times the spread by one rounding. This is for the roundings on the way, too,
-# which are not drawn.
+# An error is taken for so many times the spread by one rounding. This is for the
+# roundings on the way, too, which are not drawn.
 SIGMAS = 6.0
-# Neighbours run a little longer than the run, so that none lacks a transition that comes just before the end.
+# Neighbours run a little longer than the run, so that none lacks a transition that
+# comes just before the end.
 LONGER = 1.0 + 1e-6
 SEED = 2010
 # What neighbours differ in, beside their weights and starts.
@@ -34,9 +38,11 @@ NUMBERS = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu
 
 @dataclass(frozen=True, eq=False)
 class PredictedErrors:
-    """The errors that a run predicts of itself: times of its transitions and their errors [s].
+    """The errors that a run predicts of itself: times of its transitions and their
+    errors [s].
 
-    Errors are infinite from `order_known_until` on, which is infinite itself where all of the order is known.
+    Errors are infinite from `order_known_until` on, which is infinite itself where all
+    of the order is known.
     """
 
     time: FloatArray
@@ -46,57 +52,81 @@ class PredictedErrors:
 
     def horizon(self, tolerance: float) -> float:
         """Predictability time [s]; see the function `horizon`."""
-        wrong = np.flatnonzero((self.time_error > tolerance) & np.isfinite(self.time_error))
+        wrong = np.flatnonzero(
+            (self.time_error > tolerance) & np.isfinite(self.time_error)
+        )
         first = np.inf
         if wrong.size:
-            # This transition may come earlier by its error, but not before the one ahead of it.
+            # This transition may come earlier by its error, but not before the one
+            # ahead of it.
             k = int(wrong[0])
-            first = max(self.time[k] - self.time_error[k], self.time[k - 1] if k else 0.0)
+            first = max(
+                self.time[k] - self.time_error[k], self.time[k - 1] if k else 0.0
+            )
         return float(min(first, self.order_known_until, self.duration))
 
 
 def horizon(run: Run, tolerance: float) -> float:
-    """Time [s] until which transitions are in order, and their times right to a tolerance [s]."""
+    """Time [s] until which transitions are in order, and their times right to a
+    tolerance [s]."""
     positive("tolerance", tolerance, "s")
     return predicted_errors(run).horizon(tolerance)
 
 
 def predicted_errors(run: Run) -> PredictedErrors:
-    """Estimate the error of every transition's time, and from when the order of transitions is unknown.
+    """Estimate the error of every transition's time, and from when the order of
+    transitions is unknown.
 
-    The neighbours are drawn from a fixed seed. A run and its continuation have the same errors as far as both
-    go. The work is that of `N_NEIGHBOURS` runs.
+    The neighbours are drawn from a fixed seed. A run and its continuation have the same
+    errors as far as both go. The work is that of `N_NEIGHBOURS` runs.
     """
     time = run.transitions["time"].astype(np.float64)
     others = neighbours(run)
     n = min(_agreeing(run, other) for other in others)
-    following = [one.transitions["time"][n] for one in (run, *others) if len(one.transitions) > n]
+    following = [
+        one.transitions["time"][n] for one in (run, *others) if len(one.transitions) > n
+    ]
     unknown = min(following, default=np.inf)
     if run.chain.mu_s - run.chain.mu_k < ROUNDINGS * EPS:
-        # A block released from rest then comes back to standstill and only touches it: it may stop or not.
+        # A block released from rest then comes back to standstill and only touches it:
+        # it may stop or not.
         released = time[(run.transitions["mode"] != 0) & (time > 0.0)]
         unknown = min(unknown, released.min(initial=np.inf))
     shifts = np.array([other.transitions["time"][:n] for other in others]) - time[:n]
     error = np.full(len(time), np.inf)
-    error[:n] = SIGMAS / ROUNDINGS * np.sqrt(np.mean(shifts**2, axis=0)) + EPS * time[:n]
+    error[:n] = (
+        SIGMAS / ROUNDINGS * np.sqrt(np.mean(shifts**2, axis=0)) + EPS * time[:n]
+    )
     error[time >= unknown] = np.inf
-    return PredictedErrors(time, error, run.duration, unknown if unknown < run.duration else np.inf)
+    return PredictedErrors(
+        time, error, run.duration, unknown if unknown < run.duration else np.inf
+    )
 
 
 def neighbours(run: Run) -> list[Run]:
-    """Runs of chains and starts that differ by `ROUNDINGS` roundings, of the same duration."""
+    """Runs of chains and starts that differ by `ROUNDINGS` roundings, of the same
+    duration."""
     random = np.random.default_rng(SEED)
 
     def draw(*shape: int) -> FloatArray:
         return ROUNDINGS * EPS / 2 * random.standard_normal((N_NEIGHBOURS, *shape))
 
-    chain, n = run.chain, run.chain.n_blocks
-    # Eq. 7 adds two numbers: a small weight is rounded like its difference from the mean.
-    size = (chain.weights > 0) * (chain.weights + abs(chain.weights - chain.normal_load / n))
-    weights, positions, velocities = chain.weights + draw(n) * size, draw(n), draw(n)
+    chain = run.chain
+    n = run.chain.n_blocks
+    # Eq. 7 adds two numbers: a small weight is rounded like its difference from the
+    # mean.
+    size = (chain.weights > 0) * (
+        chain.weights + abs(chain.weights - chain.normal_load / n)
+    )
+    weights = chain.weights + draw(n) * size
+    positions = draw(n)
+    velocities = draw(n)
     chains = []
     for of_one, factors in zip(weights, 1 + draw(len(NUMBERS)), strict=True):
-        changed = {name: f * getattr(chain, name) for name, f in zip(NUMBERS, factors, strict=True)}
+        changed = {
+            name: f * getattr(chain, name)
+            for name, f in zip(NUMBERS, factors, strict=True)
+        }
         changed["mu_k"] = min(changed["mu_k"], changed["mu_s"])
         chains.append(replace(chain, weights=of_one, **changed))
     return simulate_many(
@@ -110,5 +140,8 @@ def neighbours(run: Run) -> list[Run]:
 def _agreeing(run: Run, other: Run) -> int:
     """How many transitions of two runs are the same, in the same order."""
     n = min(len(run.transitions), len(other.transitions))
-    same = [run.transitions[name][:n] == other.transitions[name][:n] for name in ("block", "mode")]
+    same = [
+        run.transitions[name][:n] == other.transitions[name][:n]
+        for name in ("block", "mode")
+    ]
     return int(np.argmin(np.append(np.logical_and(*same), False)))

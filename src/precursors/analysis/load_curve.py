@@ -10,25 +10,35 @@ from precursors.solver.run import Run
 
 # A fiftieth of a pixel where a slip of 1 N fills 200 pixels.
 TOLERANCE_N = 1e-4
-# Phase of the fastest vibration from one point to the next, at most: no wiggle fits in between.
+# Phase of the fastest vibration from one point to the next, at most: no wiggle fits in
+# between.
 PHASE_PER_STEP = np.pi / 4
 MOST_HALVINGS = 30
 
 
-def load_curve(run: Run, tolerance: float = TOLERANCE_N) -> tuple[FloatArray, FloatArray]:
-    """Times [s] and loads [N] between which F_X(t) is a straight line to within a tolerance [N].
+def load_curve(
+    run: Run, tolerance: float = TOLERANCE_N
+) -> tuple[FloatArray, FloatArray]:
+    """Times [s] and loads [N] between which F_X(t) is a straight line to within a
+    tolerance [N].
 
-    F_X grows linearly while block 1 sticks: there only transitions are points. While it slides, intervals are
-    halved until they are straight. Between two points the cubic through both loads and slopes stands for the
-    curve. It leaves the chord by no more than a quarter of the interval times the larger difference between
-    the chord's slope and another. A larger chain's run has its points already.
+    F_X grows linearly while block 1 sticks: there only transitions are points. While it
+    slides, intervals are halved until they are straight. Between two points the cubic
+    through both loads and slopes stands for the curve. It leaves the chord by no more
+    than a quarter of the interval times the larger difference between the chord's slope
+    and another. A larger chain's run has its points already.
     """
     if run.load_points is not None:
         return run.load_points[:, 0], run.load_points[:, 1]
     slides = _slides_of_block_1(run)
     step = PHASE_PER_STEP / run.chain.fastest_frequency_bound
-    coarse = [np.linspace(start, end, int(np.ceil((end - start) / step)) + 1) for start, end in slides]
-    times = np.unique(np.concatenate([[0.0, run.duration], run.transitions["time"], *coarse]))
+    coarse = [
+        np.linspace(start, end, int(np.ceil((end - start) / step)) + 1)
+        for start, end in slides
+    ]
+    times = np.unique(
+        np.concatenate([[0.0, run.duration], run.transitions["time"], *coarse])
+    )
     loads, slopes = _loads_and_slopes(run, times)
     slide = np.searchsorted(slides[:, 0], times[:-1], side="right") - 1
     is_curved = (slide >= 0) & (times[:-1] < np.append(slides[:, 1], -np.inf)[slide])
@@ -36,20 +46,26 @@ def load_curve(run: Run, tolerance: float = TOLERANCE_N) -> tuple[FloatArray, Fl
     for _ in range(MOST_HALVINGS):
         interval = times[begin + 1] - times[begin]
         chord = (loads[begin + 1] - loads[begin]) / interval
-        turn = np.maximum(np.abs(slopes[begin] - chord), np.abs(slopes[begin + 1] - chord))
+        turn = np.maximum(
+            np.abs(slopes[begin] - chord), np.abs(slopes[begin + 1] - chord)
+        )
         begin = begin[interval * turn / 4 > tolerance]
         if not len(begin):
             break
         middle = (times[begin] + times[begin + 1]) / 2
         load, slope = _loads_and_slopes(run, middle)
         times = np.insert(times, begin + 1, middle)
-        loads, slopes = np.insert(loads, begin + 1, load), np.insert(slopes, begin + 1, slope)
-        begin = np.repeat(begin + np.arange(len(begin)), 2) + np.tile([0, 1], len(begin))
+        loads = np.insert(loads, begin + 1, load)
+        slopes = np.insert(slopes, begin + 1, slope)
+        begin = np.repeat(begin + np.arange(len(begin)), 2) + np.tile(
+            [0, 1], len(begin)
+        )
     return times, loads
 
 
 def load_trace(run: Run) -> pd.DataFrame:
-    """Points of the exact F_X: straight lines between them draw it, see `load_curve`."""
+    """Points of the exact F_X: straight lines between them draw it, see
+    `load_curve`."""
     times, loads = load_curve(run)
     return pd.DataFrame({"time_s": times, "tangential_load_N": loads})
 
@@ -64,4 +80,6 @@ def _slides_of_block_1(run: Run) -> FloatArray:
 def _loads_and_slopes(run: Run, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """F_X [N] and dF_X/dt = K (V - v_1) [N/s] at some times."""
     forces, velocities = run.forces_and_velocities(times)
-    return forces[:, 0], run.chain.drive_stiffness * (run.chain.drive_velocity - velocities[:, 0])
+    return forces[:, 0], run.chain.drive_stiffness * (
+        run.chain.drive_velocity - velocities[:, 0]
+    )

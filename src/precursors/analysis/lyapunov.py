@@ -1,7 +1,9 @@
-"""The largest Lyapunov exponent of a chain: how fast two runs that all but agree come apart.
+"""The largest Lyapunov exponent of a chain: how fast two runs that all but agree come
+apart.
 
-A difference is measured at the onset of each slip event, when all blocks rest: there it is one of spring
-forces alone. A shift in time, or of all blocks with the drive, neither grows nor decays and is not in it.
+A difference is measured at the onset of each slip event, when all blocks rest: there it
+is one of spring forces alone. A shift in time, or of all blocks with the drive, neither
+grows nor decays and is not in it.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ CONFIDENCE = 0.95
 # Part of the run left out at its start, before stick-slip has become steady.
 TRANSIENT = 0.1
 SEED = 2010
-# Distance of two runs in units of mu_s F_Z: far above rounding, and so small that it grows linearly.
+# Distance of two runs in units of mu_s F_Z: far above rounding, and so small that it
+# grows linearly.
 DISTANCE = 1e-9
 # A distance that shrinks to less than this in one event is lost in rounding.
 LEAST = 1e-4
@@ -39,8 +42,8 @@ LEAST = 1e-4
 class LyapunovExponent:
     """Mean rate of growth of the logarithm of a small difference.
 
-    `uncertainty` is half the width of the 95 % confidence interval. The means are those over so many slip
-    events and transitions, from one onset to another.
+    `uncertainty` is half the width of the 95 % confidence interval. The means are those
+    over so many slip events and transitions, from one onset to another.
     """
 
     exponent_per_s: float
@@ -54,17 +57,18 @@ class LyapunovExponent:
 
 
 def lyapunov_exponent(run: Run) -> LyapunovExponent:
-    """Largest Lyapunov exponent of a run, from the distance of a second one (Benettin et al. 1980).
+    """Largest Lyapunov exponent of a run, from the distance of a second one (Benettin
+    et al. 1980).
 
-    A run in double precision follows the exact one only for a while. After that it is another typical run,
-    which serves a mean as well. The uncertainty comes from the means over stretches of equally many events,
-    by Student's t.
+    A run in double precision follows the exact one only for a while. After that it is
+    another typical run, which serves a mean as well. The uncertainty comes from the
+    means over stretches of equally many events, by Student's t.
 
     Raises
     ------
     ValueError
-        If the run has fewer events than stretches, or all differences die out (one block: every event ends in
-        the same state).
+        If the run has fewer events than stretches, or all differences die out (one
+        block: every event ends in the same state).
     """
     onset, growth = _growth(run)
     kept = np.arange(int(TRANSIENT * len(onset)), len(onset))
@@ -87,15 +91,20 @@ def lyapunov_exponent(run: Run) -> LyapunovExponent:
 
 
 def _growth(run: Run) -> tuple[NDArray[np.int64], FloatArray]:
-    """Number of the first transition of each event, and the logarithm of how far a difference has grown.
+    """Number of the first transition of each event, and the logarithm of how far a
+    difference has grown.
 
-    Between two events the chain rests, and the drive changes nothing but the force in its own spring. So the
-    forces in the others say what will happen. From one rest to the next a second run starts `DISTANCE` beside
-    the run; how far it is off then is the growth, and the direction in which it is off is the next start.
+    Between two events the chain rests, and the drive changes nothing but the force in
+    its own spring. So the forces in the others say what will happen. From one rest to
+    the next a second run starts `DISTANCE` beside the run; how far it is off then is
+    the growth, and the direction in which it is off is the next start.
     """
-    chain, events = run.chain, slip_events([run])
+    chain = run.chain
+    events = slip_events([run])
     if chain.n_blocks == 1:
-        raise ValueError("all differences die out: every event of one block ends in the same state")
+        raise ValueError(
+            "all differences die out: every event of one block ends in the same state"
+        )
     finished = events[np.isfinite(events["end"])]
     rests = (finished["end"][:-1] + finished["onset"][1:]) / 2.0
     forces = run.spring_forces(rests)
@@ -105,28 +114,44 @@ def _growth(run: Run) -> tuple[NDArray[np.int64], FloatArray]:
     for before, after, span in zip(forces, forces[1:], np.diff(rests), strict=False):
         start = before.copy()
         start[1:] += distance * direction / np.linalg.norm(direction)
-        beside = simulate(chain, span, start_positions=positions_from_compressions(start / chain.springs))
+        beside = simulate(
+            chain,
+            span,
+            start_positions=positions_from_compressions(start / chain.springs),
+        )
         direction = beside.spring_forces([span])[0, 1:] - after[1:]
         factor = float(np.linalg.norm(direction)) / distance
         if factor < LEAST:
-            raise ValueError(f"all differences die out within {span:g} s: N = {chain.n_blocks}")
+            raise ValueError(
+                f"all differences die out within {span:g} s: N = {chain.n_blocks}"
+            )
         growth.append(np.log(factor))
     return finished["first"][2:], np.cumsum(growth)
 
 
 def _mean_rate(log: np.ndarray, length: np.ndarray) -> tuple[float, float]:
     """Total growth over total length, and half the width of its confidence interval."""
-    n, rate = len(log), log.sum() / length.sum()
+    n = len(log)
+    rate = log.sum() / length.sum()
     left = (log - rate * length) / length.mean()
-    return float(rate), float(scipy.stats.t.ppf((1 + CONFIDENCE) / 2, n - 1) * left.std(ddof=1) / np.sqrt(n))
+    return float(rate), float(
+        scipy.stats.t.ppf((1 + CONFIDENCE) / 2, n - 1) * left.std(ddof=1) / np.sqrt(n)
+    )
 
 
-def lyapunov_table(sliders: Mapping[str, Mapping[str, Any]], duration: float) -> pd.DataFrame:
-    """One row a scene, from a run of `duration` [s]; NaN where it has no exponent (one block, few events)."""
+def lyapunov_table(
+    sliders: Mapping[str, Mapping[str, Any]], duration: float
+) -> pd.DataFrame:
+    """One row a scene, from a run of `duration` [s]; NaN where it has no exponent (one
+    block, few events)."""
     rows = []
     for scene, slider in sliders.items():
-        found = dict.fromkeys((field.name for field in fields(LyapunovExponent)), math.nan)
+        found = dict.fromkeys(
+            (field.name for field in fields(LyapunovExponent)), math.nan
+        )
         with suppress(ValueError):
-            found = asdict(lyapunov_exponent(simulate(Chain.from_slider(**slider), duration)))
+            found = asdict(
+                lyapunov_exponent(simulate(Chain.from_slider(**slider), duration))
+            )
         rows.append({"scene": scene, "theta": slider["theta"], **found})
     return pd.DataFrame(rows)

@@ -1,4 +1,5 @@
-"""Statistics of one number over several runs: moments, quantiles, and an interval that holds the median."""
+"""Statistics of one number over several runs: moments, quantiles, and an interval that
+holds the median."""
 
 from __future__ import annotations
 
@@ -9,13 +10,15 @@ import pandas as pd
 import scipy
 from numpy.typing import ArrayLike
 
-# Two intervals of this confidence hold both medians in 95 % of cases or more (Bonferroni).
+# Two intervals of this confidence hold both medians in 95 % of cases or more
+# (Bonferroni).
 EACH_OF_TWO = 0.975
 QUANTILES = {"q05": 0.05, "q25": 0.25, "q50": 0.5, "q75": 0.75, "q95": 0.95}
 
 
 def statistics(values: pd.Series) -> dict[str, float]:
-    """Mean, deviation, quantiles, ends q50_low and q50_high of `median_interval`, and how many values."""
+    """Mean, deviation, quantiles, ends q50_low and q50_high of `median_interval`, and
+    how many values."""
     values = values.dropna()
     low, high = median_interval(values)
     return {
@@ -29,14 +32,20 @@ def statistics(values: pd.Series) -> dict[str, float]:
 
 
 def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, float]:
-    """Interval that holds the median of what the values were drawn from, in at least this share of cases.
+    """Interval that holds the median of what the values were drawn from, in at least
+    this share of cases.
 
-    Its ends are two of the values. Each value lies below the median with probability one half, so that the
-    number of those that do is binomial for any distribution. NaN where even the smallest and the largest
-    value are too near: for 95 %, below six values.
+    Its ends are two of the values. Each value lies below the median with probability
+    one half, so that the number of those that do is binomial for any distribution. NaN
+    where even the smallest and the largest value are too near: for 95 %, below six
+    values.
     """
     values = np.sort(np.asarray(values, float))
-    left_out = int(scipy.stats.binom.ppf((1.0 - share) / 2.0, len(values), 0.5)) if len(values) else 0
+    left_out = (
+        int(scipy.stats.binom.ppf((1.0 - share) / 2.0, len(values), 0.5))
+        if len(values)
+        else 0
+    )
     if not left_out:
         return math.nan, math.nan
     return float(values[left_out - 1]), float(values[-left_out])
@@ -50,14 +59,16 @@ def median_difference(values: pd.Series, others: pd.Series) -> tuple[float, floa
 
 
 def compared(low: float, high: float, tolerance: float) -> str:
-    """Whether an interval of a difference lies within the tolerance, outside of it, or across its edge."""
+    """Whether an interval of a difference lies within the tolerance, outside of it, or
+    across its edge."""
     if -tolerance <= low and high <= tolerance:
         return "same"
     return "different" if low > tolerance or high < -tolerance else "undecided"
 
 
 def share_interval(hits: int, of: int, share: float = 0.95) -> tuple[float, float]:
-    """Interval of a probability of which so many hits were seen (Clopper and Pearson): never too short."""
+    """Interval of a probability of which so many hits were seen (Clopper and Pearson):
+    never too short."""
     tail = (1.0 - share) / 2.0
     low = scipy.stats.beta.ppf(tail, hits, of - hits + 1) if hits else 0.0
     high = scipy.stats.beta.ppf(1.0 - tail, hits + 1, of - hits) if hits < of else 1.0

@@ -9,7 +9,8 @@ if TYPE_CHECKING:
 
 
 def first_global(slips: pd.DataFrame) -> int | None:
-    """Row number of the first global slip by the column `is_global`; None without one."""
+    """Row number of the first global slip by the column `is_global`; None without
+    one."""
     is_global = slips["is_global"].to_numpy(bool)
     return int(is_global.argmax()) if is_global.any() else None
 

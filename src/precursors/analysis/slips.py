@@ -1,4 +1,5 @@
-"""Slip events, precursors, the first global slip and mu_sapp (Eq. 1), under every reading of these words."""
+"""Slip events, precursors, the first global slip and mu_sapp (Eq. 1), under every
+reading of these words."""
 
 from __future__ import annotations
 
@@ -46,10 +47,11 @@ def find_slips(run: Run) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        One row per event: onset, end [s], load_before, load_after (F_X at onset and end), largest_load (F_X
-        up to the onset) [N], front (farthest block that slid, 1..N), n_slid (blocks that slid at some time),
-        n_simultaneous (most blocks that slid at the same instant), is_global (all N at the same instant).
-        The event that the end of the run cuts off has end and load_after NaN.
+        One row per event: onset, end [s], load_before, load_after (F_X at onset and
+        end), largest_load (F_X up to the onset) [N], front (farthest block that slid,
+        1..N), n_slid (blocks that slid at some time), n_simultaneous (most blocks that
+        slid at the same instant), is_global (all N at the same instant). The event that
+        the end of the run cuts off has end and load_after NaN.
     """
     if not isinstance(run, Run):
         raise TypeError(f"slips are found in a Run, but this is {type(run).__name__}")
@@ -60,29 +62,37 @@ def find_slips(run: Run) -> pd.DataFrame:
 def slip_table(run: Run) -> pd.DataFrame:
     """Every slip event of a run, with units in the names of the columns.
 
-    `counted` marks the rows of Fig. 13. theta, n_blocks, normal_load_N (F_Z) and length_m (L) say which
-    slider it was, the same in every row; theta is NaN where the run does not know its slider.
+    `counted` marks the rows of Fig. 13. theta, n_blocks, normal_load_N (F_Z) and
+    length_m (L) say which slider it was, the same in every row; theta is NaN where the
+    run does not know its slider.
     """
     slips = find_slips(run)
     return slips.rename(columns=WITH_UNITS).assign(
         counted=slips.index.isin(find_precursors(slips).index),
         theta=run.slider["theta"] if run.slider else np.nan,
         n_blocks=run.chain.n_blocks,
-        normal_load_N=run.slider["normal_load"] if run.slider else run.chain.normal_load,
+        normal_load_N=run.slider["normal_load"]
+        if run.slider
+        else run.chain.normal_load,
         length_m=run.chain.length,
     )
 
 
 def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame:
-    """Events of Fig. 13: short ones left out, up to and including the first global slip.
+    """Events of Fig. 13: short ones left out, up to and including the first global
+    slip.
 
-    An event is short if its front is strictly less than the farthest front before it; equal ones are counted.
-    `short` may name another reading, a key of SHORT_EVENTS. Without a global slip all events that are not
-    short are returned.
+    An event is short if its front is strictly less than the farthest front before it;
+    equal ones are counted. `short` may name another reading, a key of SHORT_EVENTS.
+    Without a global slip all events that are not short are returned.
     """
     if not isinstance(slips, pd.DataFrame) or not {"front", "is_global"} <= set(slips):
-        given = "another table" if isinstance(slips, pd.DataFrame) else type(slips).__name__
-        raise TypeError(f"precursors are found in the table of find_slips, but this is {given}")
+        given = (
+            "another table" if isinstance(slips, pd.DataFrame) else type(slips).__name__
+        )
+        raise TypeError(
+            f"precursors are found in the table of find_slips, but this is {given}"
+        )
     until_global = up_to_first_global(slips)
     front = until_global["front"]
     farthest_before = front.cummax().shift(fill_value=0)
@@ -96,18 +106,21 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
 
 @dataclass(frozen=True)
 class Definition:
-    """A reading of what the paper leaves open; the default is the one that gives its numbers.
+    """A reading of what the paper leaves open; the default is the one that gives its
+    numbers.
 
     Attributes
     ----------
     global_slip : str or float
-        A key of GLOBAL_SLIPS, or the drop of F_X [N] above which an event is a global slip.
+        A key of GLOBAL_SLIPS, or the drop of F_X [N] above which an event is a global
+        slip.
     front : str
         The column of the slip table that is the length of an event, a key of FRONTS.
     short : str
         Which events Fig. 13 leaves out, a key of SHORT_EVENTS.
     largest : bool
-        Whether mu_sapp (Eq. 1) is the largest load up to the first global slip, or that at its onset.
+        Whether mu_sapp (Eq. 1) is the largest load up to the first global slip, or that
+        at its onset.
     """
 
     global_slip: str | float = "at once"
@@ -135,13 +148,17 @@ class Definition:
         elif self.global_slip == "each":
             is_global = slips["n_slid"] == slips["n_blocks"]
         else:
-            is_global = slips["load_before_N"] - slips["load_after_N"] > self.global_slip
+            is_global = (
+                slips["load_before_N"] - slips["load_after_N"] > self.global_slip
+            )
         return slips.assign(front=slips[self.front], is_global=is_global)
 
 
 # The readings of mu_sapp (Eq. 1). The first is the one that gives the paper's numbers.
 DEFINITIONS = tuple(
-    Definition(global_slip, largest=largest) for global_slip in GLOBAL_SLIPS for largest in (True, False)
+    Definition(global_slip, largest=largest)
+    for global_slip in GLOBAL_SLIPS
+    for largest in (True, False)
 )
 
 
@@ -156,7 +173,8 @@ class ApparentFriction:
     time : float
         Onset of the first global slip [s].
     event, events_counted : int
-        Number of the first global slip among all events, from 1, and among those of Fig. 13.
+        Number of the first global slip among all events, from 1, and among those of
+        Fig. 13.
     """
 
     mu_sapp: float
@@ -169,7 +187,8 @@ class ApparentFriction:
 def apparent_friction(
     slips: pd.DataFrame, definition: Definition = DEFINITIONS[0]
 ) -> ApparentFriction | None:
-    """Apparent static friction coefficient (Eq. 1) of a slip table; None without a global slip."""
+    """Apparent static friction coefficient (Eq. 1) of a slip table; None without a
+    global slip."""
     slips = definition.read(slips)
     first = first_global(slips)
     if first is None:
@@ -188,7 +207,7 @@ def apparent_friction(
 def mu_sapp(largest_load: Any, normal_load: Any) -> Any:
     """Eq. 1: the largest F_X [N] up to the first global slip over F_Z [N].
 
-    F_X is largest where block 1 begins to slide, or sticks after it slid backward: dF_X/dt = K (V - v_1).
-    So the largest load is that of a transition, to within V.
+    F_X is largest where block 1 begins to slide, or sticks after it slid backward:
+    dF_X/dt = K (V - v_1). So the largest load is that of a transition, to within V.
     """
     return largest_load / normal_load

@@ -3,24 +3,27 @@
 Assumptions:
 
 1. Block 1 begins every event, when the force on it reaches mu_s w_1.
-2. The event leaves it at rest under mu_k w_1. So the drive must add (mu_s - mu_k) w_1 until the next event.
-3. At the first global slip friction is mu_k w_i everywhere: residual strain has spread over the chain. Then
-   F_X = mu_k F_Z, and block 1 has moved by the compression of the springs, (mu_k/k) sum_i (i - 1) w_i.
+2. The event leaves it at rest under mu_k w_1. So the drive must add (mu_s - mu_k) w_1
+  until the next event.
+3. At the first global slip friction is mu_k w_i everywhere: residual strain has spread
+  over the chain. Then F_X = mu_k F_Z, and block 1 has moved by the compression of the
+  springs, (mu_k/k) sum_i (i - 1) w_i.
 4. Events take no time.
 
-By 3 the drive has added K V t = mu_k [F_Z + (K/k) sum_i (i - 1) w_i]. By 1 and 2 the first event takes
-mu_s w_1 of this, and each other one (mu_s - mu_k) w_1. So the number of events is
+By 3 the drive has added K V t = mu_k [F_Z + (K/k) sum_i (i - 1) w_i]. By 1 and 2 the
+first event takes mu_s w_1 of this, and each other one (mu_s - mu_k) w_1. So the number
+of events is
 
     n = mu_k [F_Z - w_1 + (K/k) sum_i (i - 1) w_i] / ((mu_s - mu_k) w_1).
 
-A soft drive (K much below E S/L) and many blocks leave n = mu_k F_Z / ((mu_s - mu_k) w_1). The number
-belongs to the block: w_1 goes down as 1/N. In a real interface the load on the length that can slip alone
-stands for w_1.
+A soft drive (K much below E S/L) and many blocks leave n = mu_k F_Z / ((mu_s - mu_k)
+w_1). The number belongs to the block: w_1 goes down as 1/N. In a real interface the
+load on the length that can slip alone stands for w_1.
 
-Assumption 2 is the weak one. A block that slides alone swings through: it stops under (2 mu_k - mu_s) w_1,
-and the next event takes 2 (mu_s - mu_k) w_1. Waves of longer events leave it near mu_k w_1. So there are
-fewer events than by the law where many events are of one block: few blocks, or a small load at the leading
-edge.
+Assumption 2 is the weak one. A block that slides alone swings through: it stops under
+(2 mu_k - mu_s) w_1, and the next event takes 2 (mu_s - mu_k) w_1. Waves of longer
+events leave it near mu_k w_1. So there are fewer events than by the law where many
+events are of one block: few blocks, or a small load at the leading edge.
 """
 
 from __future__ import annotations
@@ -54,23 +57,37 @@ def added_load(chain: Chain) -> float:
 def predicted_events(chain: Chain) -> float:
     """Number of slip events up to the first global slip."""
     w_1 = chain.weights[0]
-    return float((added_load(chain) - chain.mu_k * w_1) / ((chain.mu_s - chain.mu_k) * w_1))
+    return float(
+        (added_load(chain) - chain.mu_k * w_1) / ((chain.mu_s - chain.mu_k) * w_1)
+    )
 
 
 def event_law_study(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> Study:
-    """Chains on which the law is tested: N and theta; friction; stiffness of the drive; shape of the load."""
+    """Chains on which the law is tested: N and theta; friction; stiffness of the drive;
+    shape of the load."""
     blocks = []
     for group, case in enumerate(_cases(settings)):
-        member = {"theta": 0.0, **slider, "loading": "linear", "load_noise": NOISE, **case}
+        member = {
+            "theta": 0.0,
+            **slider,
+            "loading": "linear",
+            "load_noise": NOISE,
+            **case,
+        }
         chain = chain_of(member | {"load_noise": 0.0})
         duration = MOST_LOAD * added_load(chain) / chain.loading_rate
-        draws = {"group": group, "draw": np.arange(settings["runs"]), "duration": duration}
+        draws = {
+            "group": group,
+            "draw": np.arange(settings["runs"]),
+            "duration": duration,
+        }
         blocks.append(member | draws)
     return Study(stack(blocks), seed=settings["seed"])
 
 
 def _cases(settings: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-    numbers, middle = settings["n_blocks"], settings["middle"]
+    numbers = settings["n_blocks"]
+    middle = settings["middle"]
     for theta, n in product(THETAS, numbers):
         yield {"varied": "N and theta", "theta": theta, "n_blocks": n}
     for mu_s, mu_k in FRICTION:
@@ -81,7 +98,9 @@ def _cases(settings: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         yield {"varied": "loading", "n_blocks": n, "loading": loading}
 
 
-def event_law_tables(chunks: Iterable[pd.DataFrame], slider: Mapping[str, Any]) -> dict[str, pd.DataFrame]:
+def event_law_tables(
+    chunks: Iterable[pd.DataFrame], slider: Mapping[str, Any]
+) -> dict[str, pd.DataFrame]:
     """The tables of the study, by file name."""
     members = gather(chunks)
     return {"event_law_members": members, "event_law": event_law_table(members, slider)}
@@ -90,19 +109,26 @@ def event_law_tables(chunks: Iterable[pd.DataFrame], slider: Mapping[str, Any]) 
 def event_law_table(members: pd.DataFrame, slider: Mapping[str, Any]) -> pd.DataFrame:
     """The law beside the runs, a row for each chain.
 
-    Over the runs with a global slip: medians of the events, of their ratio to the law with its 95 % interval,
-    of rise, the load [(mu_s - mu_k) w_1] that the drive adds between two events (assumption 2 says 1), and of
-    path, K V t over what assumption 3 says.
+    Over the runs with a global slip: medians of the events, of their ratio to the law
+    with its 95 % interval, of rise, the load [(mu_s - mu_k) w_1] that the drive adds
+    between two events (assumption 2 says 1), and of path, K V t over what assumption 3
+    says.
     """
-    members = members.assign(**{name: slider[name] for name in set(slider) - set(members)})
+    members = members.assign(
+        **{name: slider[name] for name in set(slider) - set(members)}
+    )
     rows = []
     for case, runs in members.groupby(CASE, sort=False):
         chain = chain_of(runs.iloc[0].to_dict() | {"load_noise": 0.0})
         done = runs[runs["reached"]]
-        events, load = done["events_to_global_slip"], chain.loading_rate * done["time_s"]
-        law, w_1 = predicted_events(chain), chain.weights[0]
+        events = done["events_to_global_slip"]
+        load = chain.loading_rate * done["time_s"]
+        law = predicted_events(chain)
+        w_1 = chain.weights[0]
         low, high = median_interval(events / law)
-        rise = (load - chain.mu_s * w_1) / (events - 1) / ((chain.mu_s - chain.mu_k) * w_1)
+        rise = (
+            (load - chain.mu_s * w_1) / (events - 1) / ((chain.mu_s - chain.mu_k) * w_1)
+        )
         found = {
             "law": law,
             "n_runs": len(runs),

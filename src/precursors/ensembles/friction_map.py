@@ -1,4 +1,5 @@
-"""The map: events counted, mu_sapp and the share of global slips over theta and mu_k/mu_s."""
+"""The map: events counted, mu_sapp and the share of global slips over theta and
+mu_k/mu_s."""
 
 from __future__ import annotations
 
@@ -11,7 +12,8 @@ import numpy as np
 from precursors.ensembles.study import Study, stack
 from precursors.model.chain import Chain
 
-THETA, FRICTION_RATIO = (-0.95, 0.95), (0.1, 0.95)
+THETA = (-0.95, 0.95)
+FRICTION_RATIO = (0.1, 0.95)
 # Length of a run: how often the drive could load the chain to its limit mu_s F_Z.
 LOADINGS = 2.0
 
@@ -19,11 +21,13 @@ LOADINGS = 2.0
 def loading_time(slider: Mapping[str, Any]) -> float:
     """Time [s] in which the drive travels mu_s F_Z (1/K + (N - 1)/(2 k)).
 
-    That compresses the spring of the drive by mu_s F_Z. A load that all blocks carry evenly compresses the
-    other springs by half of this on average.
+    That compresses the spring of the drive by mu_s F_Z. A load that all blocks carry
+    evenly compresses the other springs by half of this on average.
     """
     chain = Chain.from_slider(**slider)
-    compliance = 1.0 / chain.drive_stiffness + (chain.n_blocks - 1) / (2.0 * chain.stiffness)
+    compliance = 1.0 / chain.drive_stiffness + (chain.n_blocks - 1) / (
+        2.0 * chain.stiffness
+    )
     return chain.mu_s * chain.normal_load * compliance / chain.drive_velocity
 
 
@@ -33,8 +37,17 @@ def map_study(slider: Mapping[str, Any], points: int) -> Study:
     ratio, theta = (
         grid.ravel()
         for grid in np.meshgrid(
-            np.linspace(*FRICTION_RATIO, side), np.linspace(*THETA, points // side), indexing="ij"
+            np.linspace(*FRICTION_RATIO, side),
+            np.linspace(*THETA, points // side),
+            indexing="ij",
         )
     )
-    members = {**slider, "theta": theta, "friction_ratio": ratio, "mu_k": slider["mu_s"] * ratio}
-    return Study(stack([members | {"duration": LOADINGS * loading_time(slider)}]), until=None)
+    members = {
+        **slider,
+        "theta": theta,
+        "friction_ratio": ratio,
+        "mu_k": slider["mu_s"] * ratio,
+    }
+    return Study(
+        stack([members | {"duration": LOADINGS * loading_time(slider)}]), until=None
+    )

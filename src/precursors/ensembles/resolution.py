@@ -1,4 +1,5 @@
-"""Convergence with N: which numbers of the paper depend on how finely the slider is cut into blocks."""
+"""Convergence with N: which numbers of the paper depend on how finely the slider is cut
+into blocks."""
 
 from __future__ import annotations
 
@@ -15,33 +16,46 @@ from precursors.ensembles.study import NOISE, Study, gather, stack
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
 
-# All slip events up to the first global slip, and those of Fig. 13, which are never shorter than one before.
+# All slip events up to the first global slip, and those of Fig. 13, which are never
+# shorter than one before.
 COUNTS = ("events_to_global_slip", "events_counted")
 # Numbers that are extrapolated to infinite N as a + b/N.
 EXTRAPOLATED = ("mu_sapp", "time_s", "front_speed_m_per_s")
 QUANTITIES = (*COUNTS, *EXTRAPOLATED)
 # Samples of a bootstrap, and the ends of its 95 % interval.
-SAMPLES, ENDS = 1000, (0.025, 0.975)
+SAMPLES = 1000
+ENDS = (0.025, 0.975)
 POINT = ["scene", "theta", "n_blocks"]
 
 
 def resolution_study(
-    sliders: Mapping[str, Mapping[str, Any]], duration: float, settings: Mapping[str, Any]
+    sliders: Mapping[str, Mapping[str, Any]],
+    duration: float,
+    settings: Mapping[str, Any],
 ) -> Study:
     """Chains of more and more blocks with the loading of some scenes.
 
-    Draw 0 of each chain has the normal loads of Eq. 7, the others have them with noise. Chains with as many
-    blocks as the scene are those of `noise_study`.
+    Draw 0 of each chain has the normal loads of Eq. 7, the others have them with noise.
+    Chains with as many blocks as the scene are those of `noise_study`.
     """
     blocks: list[dict[str, Any]] = []
     for scene, slider in sliders.items():
-        for n_blocks, n_runs in zip(settings["n_blocks"], settings["runs"], strict=True):
+        for n_blocks, n_runs in zip(
+            settings["n_blocks"], settings["runs"], strict=True
+        ):
             if n_blocks == slider["n_blocks"]:
                 continue
             draw = np.arange(n_runs + 1)
             noise = np.where(draw == 0, 0.0, NOISE)
-            block = {**slider, "n_blocks": n_blocks, "duration": duration, "scene": scene}
-            blocks.append(block | {"load_noise": noise, "draw": draw, "group": len(blocks)})
+            block = {
+                **slider,
+                "n_blocks": n_blocks,
+                "duration": duration,
+                "scene": scene,
+            }
+            blocks.append(
+                block | {"load_noise": noise, "draw": draw, "group": len(blocks)}
+            )
     return Study(stack(blocks), seed=settings["seed"])
 
 
@@ -52,7 +66,8 @@ def resolution_tables(
     uniform: str,
     extrapolate_from: int,
 ) -> dict[str, pd.DataFrame]:
-    """The tables of the study, by file name; `noise` has the members with the scenes' own N."""
+    """The tables of the study, by file name; `noise` has the members with the scenes'
+    own N."""
     gathered = gather(chunks)
     runs = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
     members = with_front_speed(runs, slider["length"])
@@ -66,7 +81,8 @@ def resolution_tables(
 
 
 def with_front_speed(members: pd.DataFrame, length: float) -> pd.DataFrame:
-    """Add the mean speed of the front of the first global slip from block 1 to block N [m/s].
+    """Add the mean speed of the front of the first global slip from block 1 to block N
+    [m/s].
 
     It is NaN without such a front. `length` is that of the contact, L [m].
     """
@@ -84,57 +100,101 @@ def wave_speed(slider: Mapping[str, float]) -> float:
 def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
     """Both counts of events against N, one row per n_blocks and scene.
 
-    Each row has the median of each count, also over that of the scene `uniform`, and the median of the share
-    of events that are counted.
+    Each row has the median of each count, also over that of the scene `uniform`, and
+    the median of the share of events that are counted.
     """
     runs = with_noise(members)
     rows = []
-    for (n_blocks, scene, theta), own in runs.groupby(["n_blocks", "scene", "theta"], sort=False):
+    for (n_blocks, scene, theta), own in runs.groupby(
+        ["n_blocks", "scene", "theta"], sort=False
+    ):
         even = runs[(runs["n_blocks"] == n_blocks) & (runs["scene"] == uniform)]
         row = {"n_blocks": n_blocks, "scene": scene, "theta": theta, "runs": len(own)}
         for count in COUNTS:
             row[count] = own[count].median()
             row[f"{count}_over_uniform"] = own[count].median() / even[count].median()
-        rows.append(row | {"share_counted": (own["events_counted"] / own["events_to_global_slip"]).median()})
+        rows.append(
+            row
+            | {
+                "share_counted": (
+                    own["events_counted"] / own["events_to_global_slip"]
+                ).median()
+            }
+        )
     return pd.DataFrame(rows).sort_values(["n_blocks", "theta"], ignore_index=True)
 
 
 def predictability_table(
-    sliders: Mapping[str, Mapping[str, Any]], n_blocks: Iterable[int], duration: float, tolerance: float
+    sliders: Mapping[str, Mapping[str, Any]],
+    n_blocks: Iterable[int],
+    duration: float,
+    tolerance: float,
 ) -> pd.DataFrame:
-    """Predictability time (horizon_s) and end of the first global slip, without noise: a row per scene and N.
+    """Predictability time (horizon_s) and end of the first global slip, without noise:
+    a row per scene and N.
 
-    Where the horizon is not before the end, the run is `predictable`: its numbers do not depend on rounding.
+    Where the horizon is not before the end, the run is `predictable`: its numbers do
+    not depend on rounding.
     """
     rows = []
     for scene, slider in sliders.items():
         for n in n_blocks:
-            run = simulate(Chain.from_slider(**{**slider, "n_blocks": n}), duration, until="global slip")
-            found = {"horizon_s": horizon(run, tolerance), "global_slip_s": run.duration}
+            run = simulate(
+                Chain.from_slider(**{**slider, "n_blocks": n}),
+                duration,
+                until="global slip",
+            )
+            found = {
+                "horizon_s": horizon(run, tolerance),
+                "global_slip_s": run.duration,
+            }
             predictable = found["horizon_s"] >= run.duration
-            rows.append({"scene": scene, "n_blocks": n, **found, "predictable": predictable})
+            rows.append(
+                {"scene": scene, "n_blocks": n, **found, "predictable": predictable}
+            )
     return pd.DataFrame(rows)
 
 
 def extrapolation_table(members: pd.DataFrame, from_n_blocks: int) -> pd.DataFrame:
-    """Extrapolate numbers to an infinite number of blocks as a + b/N, by least squares over the medians.
+    """Extrapolate numbers to an infinite number of blocks as a + b/N, by least squares
+    over the medians.
 
-    Chains with fewer than `from_n_blocks` blocks are left out. One row per scene and quantity has a, b, the
-    ends of their bootstrap intervals, and how many N took part.
+    Chains with fewer than `from_n_blocks` blocks are left out. One row per scene and
+    quantity has a, b, the ends of their bootstrap intervals, and how many N took part.
     """
     rows = []
     large = with_noise(members[members["n_blocks"] >= from_n_blocks])
     for scene, of_scene in large.groupby("scene", sort=False):
         for quantity in EXTRAPOLATED:
             numbers = of_scene.dropna(subset=quantity).groupby("n_blocks")[quantity]
-            medians, random = numbers.median(), np.random.default_rng(0)
+            medians = numbers.median()
+            random = np.random.default_rng(0)
             # Medians of as many resamplings, a row for each N.
             samples = [
-                np.median(random.choice(values.to_numpy(float), (SAMPLES, len(values))), axis=1)
+                np.median(
+                    random.choice(values.to_numpy(float), (SAMPLES, len(values))),
+                    axis=1,
+                )
                 for _, values in numbers
             ]
-            (b, a), (b_all, a_all) = (np.polyfit(1.0 / medians.index, y, 1) for y in (medians, samples))
-            (a_low, a_high), (b_low, b_high) = np.quantile(a_all, ENDS), np.quantile(b_all, ENDS)
-            found = {"a": a, "a_low": a_low, "a_high": a_high, "b": b, "b_low": b_low, "b_high": b_high}
-            rows.append({"scene": scene, "quantity": quantity} | found | {"n_points": len(medians)})
+            (b, a), (b_all, a_all) = (
+                np.polyfit(1.0 / medians.index, y, 1) for y in (medians, samples)
+            )
+            (a_low, a_high), (b_low, b_high) = (
+                np.quantile(a_all, ENDS),
+                np.quantile(b_all, ENDS),
+            )
+            found = {
+                "a": a,
+                "a_low": a_low,
+                "a_high": a_high,
+                "b": b,
+                "b_low": b_low,
+                "b_high": b_high,
+            }
+            rows.append(
+                {"scene": scene, "quantity": quantity}
+                | found
+                | {"n_points": len(medians)}
+            )
     return pd.DataFrame(rows)

@@ -11,7 +11,8 @@ if TYPE_CHECKING:
     from precursors.ensembles.study import Study
 
 MAP = "map_theta_friction_ratio"
-# Module and function of each study, imported when it is made: who reads the rules waits for no compiler.
+# Module and function of each study, imported when it is made: who reads the rules waits
+# for no compiler.
 STUDIES = {
     "noise_members": "noise.noise_study",
     "digits_members": "printed_digits.digits_study",
@@ -26,7 +27,9 @@ PREDICTED_UP_TO = 30  # blocks; the predictability time of longer chains takes m
 def make_study(name: str, arguments: dict[str, Any]) -> Study:
     """A study by its name and the arguments of its function."""
     module, function = STUDIES[name].split(".")
-    study: Study = getattr(import_module(f"precursors.ensembles.{module}"), function)(**arguments)
+    study: Study = getattr(import_module(f"precursors.ensembles.{module}"), function)(
+        **arguments
+    )
     return study
 
 

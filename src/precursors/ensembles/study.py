@@ -17,11 +17,13 @@ from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate_many
 
 ARGUMENTS = tuple(inspect.signature(Chain.from_slider).parameters)
-# Columns that the table of a study does not have where they are the same for all members.
+# Columns that the table of a study does not have where they are the same for all
+# members.
 LEFT_OUT = {*ARGUMENTS, "duration"} - {"theta", "n_blocks"}
 # Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
 BLOCKS_PER_BATCH = 2000
-# Relative noise in the normal loads: a tenth of what an experiment knows of them, and well above rounding.
+# Relative noise in the normal loads: a tenth of what an experiment knows of them, and
+# well above rounding.
 NOISE = 1e-3
 # Normal load at a place x from 0 (leading edge) to 1 (trailing edge), but for a factor.
 LOADINGS: dict[str, Callable[[FloatArray], FloatArray]] = {
@@ -40,9 +42,10 @@ class Study:
     Attributes
     ----------
     members : DataFrame
-        One row per run. Its columns are arguments of `Chain.from_slider`; duration, the time limit of the run
-        [s]; loading, a key of `LOADINGS`; load_noise (see `chain_of`) with group and draw, the numbers of the
-        random stream. All other columns are labels.
+        One row per run. Its columns are arguments of `Chain.from_slider`; duration, the
+        time limit of the run [s]; loading, a key of `LOADINGS`; load_noise (see
+        `chain_of`) with group and draw, the numbers of the random stream. All other
+        columns are labels.
     until : "global slip" or None
         As in `simulate`.
     seed : int
@@ -54,21 +57,26 @@ class Study:
     seed: int = 0
 
     def chunk(self, i: int, n: int) -> Study:
-        """Chunk i = 1..n: every n-th member, from the i-th on, about an n-th of the work."""
+        """Chunk i = 1..n: every n-th member, from the i-th on, about an n-th of the
+        work."""
         return replace(self, members=self.members.iloc[i - 1 :: n])
 
 
 def stack(blocks: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
-    """Members of several ensembles one below the other; each has a value or an array for every column."""
+    """Members of several ensembles one below the other; each has a value or an array
+    for every column."""
     return pd.concat([pd.DataFrame(block) for block in blocks], ignore_index=True)
 
 
 def chain_of(member: Mapping[Any, Any], seed: int = 0) -> Chain:
     """Chain of a member; it depends on nothing but the member and the seed.
 
-    Noise of size s changes each normal load to w_i (1 + s u_i) with u_i uniform in -1..1.
+    Noise of size s changes each normal load to w_i (1 + s u_i) with u_i uniform in
+    -1..1.
     """
-    chain = Chain.from_slider(**{name: member[name] for name in ARGUMENTS if name in member})
+    chain = Chain.from_slider(
+        **{name: member[name] for name in ARGUMENTS if name in member}
+    )
     chain = loaded(chain, member.get("loading", "linear"))
     size = member.get("load_noise", 0.0)
     if size == 0.0:
@@ -79,7 +87,8 @@ def chain_of(member: Mapping[Any, Any], seed: int = 0) -> Chain:
 
 
 def loaded(chain: Chain, loading: str) -> Chain:
-    """The chain with the same total load in another shape, a key of LOADINGS; "linear" is Eq. 7 as it is."""
+    """The chain with the same total load in another shape, a key of LOADINGS; "linear"
+    is Eq. 7 as it is."""
     if loading == "linear":
         return chain
     weights = LOADINGS[loading](np.linspace(0.0, 1.0, chain.n_blocks))
@@ -92,37 +101,48 @@ def run_members(study: Study) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        The members, each with the summary of its run (see `summary.SUMMARY`), units in the names: load_N. A
-        member that meets the limit of transitions is summarised as far as it came.
+        The members, each with the summary of its run (see `summary.SUMMARY`), units in
+        the names: load_N. A member that meets the limit of transitions is summarised as
+        far as it came.
     """
     size = max(1, BLOCKS_PER_BATCH // max(study.members["n_blocks"], default=1))
     results = [pd.DataFrame(np.empty(0, SUMMARY))]
     for _, members in study.members.groupby("duration", sort=False):
         for begin in range(0, len(members), size):
             batch = members.iloc[begin : begin + size]
-            chains = [chain_of(member, study.seed) for member in batch.to_dict("records")]
-            summary = summarise(_runs(chains, float(batch["duration"].iloc[0]), study.until))
+            chains = [
+                chain_of(member, study.seed) for member in batch.to_dict("records")
+            ]
+            summary = summarise(
+                _runs(chains, float(batch["duration"].iloc[0]), study.until)
+            )
             results.append(pd.DataFrame(summary, index=batch.index))
     return study.members.join(pd.concat(results).rename(columns=WITH_UNITS))
 
 
 def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
-    """One table of a study from its chunks, without columns that say nothing (`LEFT_OUT`).
+    """One table of a study from its chunks, without columns that say nothing
+    (`LEFT_OUT`).
 
     Raises
     ------
     ValueError
         If a chunk is missing or there twice.
     """
-    together = pd.concat([table for table in chunks if len(table)]).sort_values("member", ignore_index=True)
+    together = pd.concat([table for table in chunks if len(table)]).sort_values(
+        "member", ignore_index=True
+    )
     if (together["member"] != together.index).any():
         raise ValueError("the chunks are not all members of their study, each once")
-    constant = [name for name in LEFT_OUT & set(together) if len(set(together[name])) == 1]
+    constant = [
+        name for name in LEFT_OUT & set(together) if len(set(together[name])) == 1
+    ]
     return together.drop(columns=["member", *constant])
 
 
 def _runs(chains: Sequence[Chain], duration: float, until: Until) -> list[Run]:
-    """Run a batch; a run that meets the limit of transitions is kept as far as it came."""
+    """Run a batch; a run that meets the limit of transitions is kept as far as it
+    came."""
     try:
         return simulate_many(chains, duration, until, 1)
     except TransitionLimitError as limit:

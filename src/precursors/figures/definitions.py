@@ -11,7 +11,8 @@ from matplotlib.patches import Patch
 
 from precursors.figures import style
 
-ROW_MM, MARGIN_MM = 6.0, 26.0
+ROW_MM = 6.0
+MARGIN_MM = 26.0
 LOADINGS = 3
 # Shades by how many of the two numbers of a cell are the paper's.
 OF_TWO = ListedColormap(["white", "#D6EAF7", style.SKY])
@@ -23,16 +24,24 @@ CHANGED = {
     "size of theta": "degree",
     "switching": "switching",
 }
-SYMBOLS = {"F_X": "$F_X$", "|F| <= mu_k w": r"$|F| \leq \mu_k w$", "size of theta": r"$|\theta|$"}
+SYMBOLS = {
+    "F_X": "$F_X$",
+    "|F| <= mu_k w": r"$|F| \leq \mu_k w$",
+    "size of theta": r"$|\theta|$",
+}
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw a row for each reading of definitions.csv, and a column for each loading and for the count of six.
+    """Draw a row for each reading of definitions.csv, and a column for each loading and
+    for the count of six.
 
     The first row is ours, and each other one has one change.
     """
     readings = [table.iloc[i : i + LOADINGS] for i in range(0, len(table), LOADINGS)]
-    of_two = table["events_counted_is_papers"].astype(int) + table["mu_sapp_is_papers_within_a_digit"]
+    of_two = (
+        table["events_counted_is_papers"].astype(int)
+        + table["mu_sapp_is_papers_within_a_digit"]
+    )
     with style.page(style.PAGE_MM, MARGIN_MM + ROW_MM * len(readings)) as figure:
         axes = figure.subplots()
         edges: dict[str, Any] = {"edgecolors": style.GREY, "linewidth": 0.4}
@@ -41,9 +50,14 @@ def draw(table: pd.DataFrame) -> Figure:
         for row, reading in enumerate(readings):
             numbers = zip(reading["events_counted"], reading["mu_sapp"], strict=True)
             texts = [f"{_number(n, '.0f')}   {_number(mu, '.3f')}" for n, mu in numbers]
-            for column, text in enumerate([*texts, f"{reading['numbers_within_a_digit'].iloc[0]} of 6"]):
+            for column, text in enumerate(
+                [*texts, f"{reading['numbers_within_a_digit'].iloc[0]} of 6"]
+            ):
                 axes.text(column + 0.5, row + 0.5, text, ha="center", va="center")
-        axes.set_yticks([row + 0.5 for row in range(len(readings))], [_name(r.iloc[0]) for r in readings])
+        axes.set_yticks(
+            [row + 0.5 for row in range(len(readings))],
+            [_name(r.iloc[0]) for r in readings],
+        )
         heads = [r"$\theta < 0$", r"$\theta = 0$", r"$\theta > 0$", "the paper's"]
         axes.set_xticks([column + 0.5 for column in range(LOADINGS + 1)], heads)
         axes.xaxis.tick_top()

@@ -1,4 +1,5 @@
-"""The number of slip events up to the first global slip beside the law, and where the law fails."""
+"""The number of slip events up to the first global slip beside the law, and where the
+law fails."""
 
 from __future__ import annotations
 
@@ -28,25 +29,48 @@ OTHERS = {
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw counts against the law, their ratio against N, and the load between two events (event_law.csv)."""
+    """Draw counts against the law, their ratio against N, and the load between two
+    events (event_law.csv)."""
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         counts, ratios, rises = figure.subplots(1, 3)
         linear = table[table["varied"] == "N and theta"]
         for theta, rows in linear.groupby("theta"):
-            color, marker = min(THETA_COLORS.items(), key=lambda item: abs(item[0] - float(str(theta))))[1]
+            color, marker = min(
+                THETA_COLORS.items(), key=lambda item: abs(item[0] - float(str(theta)))
+            )[1]
             look: dict[str, Any] = {"color": color, "marker": marker, "markersize": 3.5}
             counts.plot(rows["law"], rows["events"], **look, linestyle="none")
-            errors = [rows["ratio"] - rows["ratio_low"], rows["ratio_high"] - rows["ratio"]]
+            errors = [
+                rows["ratio"] - rows["ratio_low"],
+                rows["ratio_high"] - rows["ratio"],
+            ]
             label = style.theta_text(float(str(theta)))
-            ratios.errorbar(rows["n_blocks"], rows["ratio"], errors, **look, elinewidth=0.8, label=label)
+            ratios.errorbar(
+                rows["n_blocks"],
+                rows["ratio"],
+                errors,
+                **look,
+                elinewidth=0.8,
+                label=label,
+            )
             rises.plot(rows["n_blocks"], rows["rise"], **look)
         for varied, (color, marker, label) in OTHERS.items():
             rows = table[table["varied"] == varied]
-            counts.plot(rows["law"], rows["events"], marker, color=color, markersize=4, label=label)
+            counts.plot(
+                rows["law"],
+                rows["events"],
+                marker,
+                color=color,
+                markersize=4,
+                label=label,
+            )
         ends = [table["law"].min(), table["law"].max()]
         counts.plot(ends, ends, **style.DOTTED)
         counts.set(
-            xscale="log", yscale="log", xlabel="Events by the law [-]", ylabel="Events in the runs [-]"
+            xscale="log",
+            yscale="log",
+            xlabel="Events by the law [-]",
+            ylabel="Events in the runs [-]",
         )
         counts.legend(loc="upper left", handlelength=1.2)
         ratios.set(ylabel="Events in the runs / by the law [-]")

@@ -1,4 +1,5 @@
-"""The failure gallery: a panel for each failure mode; its numbers are in failures.csv and thresholds.csv."""
+"""The failure gallery: a panel for each failure mode; its numbers are in failures.csv
+and thresholds.csv."""
 
 from __future__ import annotations
 
@@ -16,15 +17,36 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from precursors.figures import style
 
 HEIGHT_MM = 192.0
-ROWS, COLUMNS = 4, 3
+ROWS = 4
+COLUMNS = 3
 TEXT_SIZE = 7.0
 # A layout made for the longest title would leave no room for the panels.
-LAYOUT = {"left": 0.07, "right": 0.99, "bottom": 0.045, "top": 0.97, "wspace": 0.38, "hspace": 0.48}
-TITLE: dict[str, Any] = {"loc": "left", "x": -0.18, "pad": 5.0, "fontsize": TEXT_SIZE, "fontweight": "bold"}
-# A logarithmic axis that spans less than this factor, above this number, has decimal labels.
-FEW_DECADES, SHORT = 110.0, 1e-4
-MICRO, MILLI = 1e6, 1e3
-DASHED: dict[str, Any] = {"color": style.BLACK, "linewidth": 0.6, "linestyle": (0, (4, 2))}
+LAYOUT = {
+    "left": 0.07,
+    "right": 0.99,
+    "bottom": 0.045,
+    "top": 0.97,
+    "wspace": 0.38,
+    "hspace": 0.48,
+}
+TITLE: dict[str, Any] = {
+    "loc": "left",
+    "x": -0.18,
+    "pad": 5.0,
+    "fontsize": TEXT_SIZE,
+    "fontweight": "bold",
+}
+# A logarithmic axis that spans less than this factor, above this number, has decimal
+# labels.
+FEW_DECADES = 110.0
+SHORT = 1e-4
+MICRO = 1e6
+MILLI = 1e3
+DASHED: dict[str, Any] = {
+    "color": style.BLACK,
+    "linewidth": 0.6,
+    "linestyle": (0, (4, 2)),
+}
 
 # What is right is black and theory grey; what fails has these colours in turn.
 COLORS = 2 * (style.VERMILION, style.BLUE, style.GREEN)
@@ -39,10 +61,11 @@ THEORY_OF = "theory, "
 
 @dataclass(frozen=True)
 class Panel:
-    """A panel: its title, its axes, and the thresholds marked on its x axis, by what fails and the method.
+    """A panel: its title, its axes, and the thresholds marked on its x axis, by what
+    fails and the method.
 
-    `scale` is from the table's x and y to the axes, and `log` names the logarithmic axes. What fails is drawn
-    by a line if `joined`, and by markers if `marked`.
+    `scale` is from the table's x and y to the axes, and `log` names the logarithmic
+    axes. What fails is drawn by a line if `joined`, and by markers if `marked`.
     """
 
     title: str
@@ -60,10 +83,14 @@ class Panel:
 
 
 STEP = r"Step $\Delta t$ [$\mu$s]"
-F_X, TIME, RIGHT_ONES = "$F_X$ [N]", "Time [s]", "Transitions right [-]"
-LIMIT, LOST = "energy grows without bound, no friction", "no global slip, or numbers overflow"
+F_X = "$F_X$ [N]"
+TIME = "Time [s]"
+RIGHT_ONES = "Transitions right [-]"
+LIMIT = "energy grows without bound, no friction"
+LOST = "no global slip, or numbers overflow"
 ZONE = "Karnopp's dead zone"
-TOO_NARROW, TOO_WIDE = "a narrower zone is jumped over", "creep in a wider zone changes transitions"
+TOO_NARROW = "a narrower zone is jumped over"
+TOO_WIDE = "creep in a wider zone changes transitions"
 MERGED = ("two of three transitions lose their order", "DOP853, transitions merged")
 
 PANELS = {
@@ -115,20 +142,30 @@ CHARTED_BLOCKS = 10
 
 
 def draw(thresholds: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
-    """Draw the failure modes, from thresholds.csv and failures/{mode}.csv in the order of `PANELS`."""
-    limits = thresholds[thresholds["n_blocks"] == CHARTED_BLOCKS].set_index(["fails", "method"])
+    """Draw the failure modes, from thresholds.csv and failures/{mode}.csv in the order
+    of `PANELS`."""
+    limits = thresholds[thresholds["n_blocks"] == CHARTED_BLOCKS].set_index(
+        ["fails", "method"]
+    )
     with style.page(style.PAGE_MM, HEIGHT_MM, lay_out=False) as figure:
         grid = figure.subplots(ROWS, COLUMNS).flat
-        for letter, axes, panel, table in zip("abcdefghijkl", grid, PANELS.values(), curves, strict=True):
+        for letter, axes, panel, table in zip(
+            "abcdefghijkl", grid, PANELS.values(), curves, strict=True
+        ):
             _draw_panel(axes, letter, panel, limits, table)
         figure.subplots_adjust(**LAYOUT)
     return figure
 
 
-def _draw_panel(axes: Axes, letter: str, panel: Panel, limits: pd.DataFrame, curves: pd.DataFrame) -> None:
+def _draw_panel(
+    axes: Axes, letter: str, panel: Panel, limits: pd.DataFrame, curves: pd.DataFrame
+) -> None:
     _draw_curves(axes, panel, curves)
     for limit in panel.limits:
-        axes.axvline(panel.scale[0] * limits["predicted"][limit], **DASHED | {"color": style.GREY})
+        axes.axvline(
+            panel.scale[0] * limits["predicted"][limit],
+            **DASHED | {"color": style.GREY},
+        )
         axes.axvline(panel.scale[0] * limits["measured"][limit], **style.DOTTED)
     axes.set_xscale("log" if "x" in panel.log else "linear")
     axes.set_yscale("log" if "y" in panel.log else "linear")
@@ -137,28 +174,46 @@ def _draw_panel(axes: Axes, letter: str, panel: Panel, limits: pd.DataFrame, cur
         _label_decades(axes.xaxis if name == "x" else axes.yaxis)
     axes.set_xlabel(panel.x, fontsize=TEXT_SIZE)
     axes.set_ylabel(panel.y, fontsize=TEXT_SIZE)
-    axes.legend(loc=panel.key, fontsize=TEXT_SIZE, handlelength=1.4, labelspacing=0.2, borderaxespad=0.3)
+    axes.legend(
+        loc=panel.key,
+        fontsize=TEXT_SIZE,
+        handlelength=1.4,
+        labelspacing=0.2,
+        borderaxespad=0.3,
+    )
     axes.set_title(f"{letter}  {panel.title}", **TITLE)
 
 
 def _draw_curves(axes: Axes, panel: Panel, curves: pd.DataFrame) -> None:
     name, x, y = curves.columns[:3]
-    failing = [curve for curve in curves[name].unique() if curve not in RIGHT and THEORY_OF not in curve]
+    failing = [
+        curve
+        for curve in curves[name].unique()
+        if curve not in RIGHT and THEORY_OF not in curve
+    ]
     color = dict(zip(failing, COLORS, strict=False))
     for curve in curves[name].unique():
         points = curves[curves[name] == curve]
-        look = RIGHT.get(curve, {"color": color.get(curve.removeprefix(THEORY_OF), style.GREY)})
+        look = RIGHT.get(
+            curve, {"color": color.get(curve.removeprefix(THEORY_OF), style.GREY)}
+        )
         look = {"label": pretty(curve), **look}
         if curve in color and panel.marked:
             look |= {"marker": "o", "markersize": 2.4}
             look |= {"linewidth": 0.6} if panel.joined else {"linestyle": "none"}
         if curve.startswith(THEORY_OF):
             look |= {"linewidth": 0.6, "label": "_"}
-        axes.plot(points[x] * panel.scale[0], points[y] * panel.scale[1], drawstyle=panel.drawstyle, **look)
+        axes.plot(
+            points[x] * panel.scale[0],
+            points[y] * panel.scale[1],
+            drawstyle=panel.drawstyle,
+            **look,
+        )
 
 
 def _label_decades(axis: Axis) -> None:
-    """Label the decades of a logarithmic axis; on an axis of few decades label 1, 2 and 5 times them."""
+    """Label the decades of a logarithmic axis; on an axis of few decades label 1, 2 and
+    5 times them."""
     low, high = sorted(axis.get_view_interval())
     if high < low * FEW_DECADES and low > SHORT:
         axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -171,4 +226,8 @@ def pretty(text: str) -> str:
     text = text.replace("dt =", r"$\Delta t$ =").replace("theta =", r"$\theta$ =")
     text = text.replace("= -", "= \N{MINUS SIGN}")
     text = re.sub(r"\b1(?:\.0+)?e([-+]\d+)", lambda m: f"$10^{{{int(m[1])}}}$", text)
-    return re.sub(r"(\d+(?:\.\d+)?)e([-+]\d+)", lambda m: rf"${m[1]}\times10^{{{int(m[2])}}}$", text)
+    return re.sub(
+        r"(\d+(?:\.\d+)?)e([-+]\d+)",
+        lambda m: rf"${m[1]}\times10^{{{int(m[2])}}}$",
+        text,
+    )

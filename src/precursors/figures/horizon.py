@@ -1,4 +1,5 @@
-"""Predictability time: actual and predicted error of the times, and the Lyapunov exponents."""
+"""Predictability time: actual and predicted error of the times, and the Lyapunov
+exponents."""
 
 from __future__ import annotations
 
@@ -15,11 +16,18 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from precursors.figures import style
 
 COLUMNS = 3
-ROW_MM, KEY_MM = 36.0, 5.0
+ROW_MM = 36.0
+KEY_MM = 5.0
 ERROR_RANGE = (1e-18, 1e-2)
-PREDICTED, ACTUAL = style.VERMILION, style.BLACK
+PREDICTED = style.VERMILION
+ACTUAL = style.BLACK
 DASHED: dict[str, Any] = {"linewidth": 0.6, "linestyle": (0, (4, 2))}
-CROSS: dict[str, Any] = {"color": ACTUAL, "marker": "x", "linestyle": "none", "markersize": 4}
+CROSS: dict[str, Any] = {
+    "color": ACTUAL,
+    "marker": "x",
+    "linestyle": "none",
+    "markersize": 4,
+}
 # What a chain has of its own: the factor to the unit that is shown, and the words.
 WORDS = {
     "n_blocks": (1, "$N$ = {}"),
@@ -37,10 +45,12 @@ def draw(
     chains: Mapping[str, Mapping[str, Any]],
     tolerance: float,
 ) -> Figure:
-    """Draw the errors of each chain over time, and the largest Lyapunov exponent of each scene.
+    """Draw the errors of each chain over time, and the largest Lyapunov exponent of
+    each scene.
 
-    The tables are horizon.csv, solver_vs_proof.csv and lyapunov.csv. `chains` says in which parameters each
-    chain differs from the paper's, and `tolerance` above which error a time counts as wrong [s].
+    The tables are horizon.csv, solver_vs_proof.csv and lyapunov.csv. `chains` says in
+    which parameters each chain differs from the paper's, and `tolerance` above which
+    error a time counts as wrong [s].
     """
     rows = math.ceil((len(chains) + 1) / COLUMNS)
     facts = overview.set_index("chain").to_dict("index")
@@ -71,11 +81,14 @@ def _title(values: Mapping[str, Any]) -> str:
     """What a chain has of its own, in the order of `WORDS`."""
     own = [(values[name], *WORDS[name]) for name in WORDS if name in values]
     return ", ".join(
-        words.format(x if isinstance(x, str) else f"{x * factor:.4g}") for x, factor, words in own
+        words.format(x if isinstance(x, str) else f"{x * factor:.4g}")
+        for x, factor, words in own
     )
 
 
-def _draw_errors(axes: Axes, errors: pd.DataFrame, facts: Mapping[Any, float], tolerance: float) -> None:
+def _draw_errors(
+    axes: Axes, errors: pd.DataFrame, facts: Mapping[Any, float], tolerance: float
+) -> None:
     duration = facts["duration_s"]
     axes.set(yscale="log", xlim=(0.0, duration), ylim=ERROR_RANGE)
     axes.yaxis.set_major_locator(LogLocator(base=1e4, numticks=20))
@@ -92,9 +105,18 @@ def _draw_errors(axes: Axes, errors: pd.DataFrame, facts: Mapping[Any, float], t
 
 
 def _draw_exponents(axes: Axes, table: pd.DataFrame) -> None:
-    exponent, half_width = table["exponent_per_s"], table["uncertainty_per_s"]
+    exponent = table["exponent_per_s"]
+    half_width = table["uncertainty_per_s"]
     place = np.arange(len(table))
-    axes.errorbar(exponent, place, xerr=half_width, fmt="o", markersize=3, capsize=2, color=style.BLUE)
+    axes.errorbar(
+        exponent,
+        place,
+        xerr=half_width,
+        fmt="o",
+        markersize=3,
+        capsize=2,
+        color=style.BLUE,
+    )
     axes.axvline(0.0, **style.DOTTED)
     axes.set_xlim(min(0.0, (exponent - half_width).min()), None)
     axes.set_yticks(place, [style.theta_text(theta) for theta in table["theta"]])

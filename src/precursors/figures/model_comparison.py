@@ -1,4 +1,5 @@
-"""Which model answers which question: questions down, models across; value, error and cost in each cell."""
+"""Which model answers which question: questions down, models across; value, error and
+cost in each cell."""
 
 from __future__ import annotations
 
@@ -13,9 +14,12 @@ from matplotlib.patches import Patch, Rectangle
 from precursors.figures import style
 
 WIDTH_MM = 178.0
-ROW_MM, HEAD_MM = 14.0, 31.0
+ROW_MM = 14.0
+HEAD_MM = 31.0
 DIM = "#5A5A5A"
-ANSWERED, MISSED, SILENT = "#CDE7DC", "#F6DDD0", "#F2F2F2"
+ANSWERED = "#CDE7DC"
+MISSED = "#F6DDD0"
+SILENT = "#F2F2F2"
 SMALLEST: dict[str, Any] = {"fill": False, "edgecolor": style.GREEN, "linewidth": 1.4}
 QUESTIONS = {
     "first_load": "First precursor,\nload [N]",
@@ -39,7 +43,8 @@ MODELS = {
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw the values over the scenes, the largest error and the median cost of each model.
+    """Draw the values over the scenes, the largest error and the median cost of each
+    model.
 
     The table is model_comparison.csv.
     """
@@ -59,13 +64,25 @@ def draw(table: pd.DataFrame) -> Figure:
         for y, question in enumerate(questions["question"]):
             for x, model in enumerate(models):
                 if (question, model) in cells.index:
-                    _draw_cell(axes, x, y, cells.loc[question, model], SCALES.get(question, 1.0))
+                    _draw_cell(
+                        axes,
+                        x,
+                        y,
+                        cells.loc[question, model],
+                        SCALES.get(question, 1.0),
+                    )
                 else:
                     axes.add_patch(_box(x, y, facecolor=SILENT))
-                    axes.text(x, y, "\N{EN DASH}", ha="center", va="center", color=style.GREY)
+                    axes.text(
+                        x, y, "\N{EN DASH}", ha="center", va="center", color=style.GREY
+                    )
         axes.set(xlim=(-0.5, len(models) - 0.5), ylim=(len(questions) - 0.5, -0.5))
-        axes.set_xticks(range(len(models)), [MODELS[model] for model in models], fontsize=7)
-        axes.set_yticks(range(len(questions)), [_row_label(row) for _, row in questions.iterrows()])
+        axes.set_xticks(
+            range(len(models)), [MODELS[model] for model in models], fontsize=7
+        )
+        axes.set_yticks(
+            range(len(questions)), [_row_label(row) for _, row in questions.iterrows()]
+        )
         axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False)
         axes.spines[:].set_visible(False)
         entries = [
@@ -83,9 +100,16 @@ def _draw_cell(axes: Axes, x: float, y: int, cell: pd.Series, scale: float) -> N
     axes.add_patch(_box(x, y, facecolor=ANSWERED if cell["is_answer"] else MISSED))
     if cell["is_smallest"]:
         axes.add_patch(_box(x, y, **SMALLEST))
-    low, high = f"{cell['low'] * scale:.3g}", f"{cell['high'] * scale:.3g}"
+    low = f"{cell['low'] * scale:.3g}"
+    high = f"{cell['high'] * scale:.3g}"
     centred: dict[str, Any] = {"ha": "center", "va": "center"}
-    axes.text(x, y - 0.26, low if low == high else f"{low}\N{EN DASH}{high}", fontsize=7, **centred)
+    axes.text(
+        x,
+        y - 0.26,
+        low if low == high else f"{low}\N{EN DASH}{high}",
+        fontsize=7,
+        **centred,
+    )
     error = _error_text(cell["error"], cell["error_unit"])
     axes.text(x, y + 0.02, error, fontsize=7, fontweight="bold", **centred)
     axes.text(x, y + 0.3, _time_text(cell["cost_s"]), fontsize=7, color=DIM, **centred)
@@ -113,5 +137,9 @@ def _error_text(error: float, unit: str) -> str:
 def _time_text(seconds: float) -> str:
     for size, unit in ((1e-3, "ms"), (1e-6, "µs")):
         if seconds >= size:
-            return f"{seconds / size:.2g} {unit}" if seconds < 100 * size else f"{seconds / size:.0f} {unit}"
+            return (
+                f"{seconds / size:.2g} {unit}"
+                if seconds < 100 * size
+                else f"{seconds / size:.0f} {unit}"
+            )
     return "< 1 µs"

@@ -29,12 +29,18 @@ EXPERIMENT: dict[str, Any] = {"linestyle": "none", "marker": "<", "markersize": 
 BAND = Patch(color=style.GREY, alpha=0.3, linewidth=0, label="5 to 95 %")
 
 
-def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame, papers_n: int) -> Figure:
+def draw(
+    table: pd.DataFrame,
+    limits: pd.DataFrame,
+    predictability: pd.DataFrame,
+    papers_n: int,
+) -> Figure:
     """Draw four numbers against N; a dotted line marks the paper's.
 
-    Of resolution.csv, medians are lines and 5 to 95 % of the runs are bands. Of resolution_limits.csv, limits
-    for large N are diamonds beyond the last N. A run without noise is a dot where it is predictable up to its
-    global slip (predictability.csv).
+    Of resolution.csv, medians are lines and 5 to 95 % of the runs are bands. Of
+    resolution_limits.csv, limits for large N are diamonds beyond the last N. A run
+    without noise is a dot where it is predictable up to its global slip
+    (predictability.csv).
     """
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         axes = figure.subplots(2, 2, sharex=True)
@@ -42,22 +48,38 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame
         for panel, quantity in zip(axes.flat, LABELS, strict=True):
             rows = table[table["quantity"] == quantity]
             for scene, of_scene in rows.groupby("scene", sort=False):
-                limit = limits[(limits["scene"] == scene) & (limits["quantity"] == quantity)]
+                limit = limits[
+                    (limits["scene"] == scene) & (limits["quantity"] == quantity)
+                ]
                 foreseen = predictability[predictability["scene"] == scene]
-                _draw_scene(panel, of_scene, limit.assign(n_blocks=beyond), foreseen, quantity)
+                _draw_scene(
+                    panel, of_scene, limit.assign(n_blocks=beyond), foreseen, quantity
+                )
             panel.set(ylabel=LABELS[quantity], xscale="log")
             panel.axvline(papers_n, **style.DOTTED)
         axes[0, 0].set_yscale("log")
         style.set_ticks(axes[0, 0].yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000])
-        for _, events in table[table["quantity"] == "events_to_global_slip"].groupby("scene", sort=False):
+        for _, events in table[table["quantity"] == "events_to_global_slip"].groupby(
+            "scene", sort=False
+        ):
             color = style.theta_color(events["theta"].iloc[0])
-            axes[0, 0].plot(events["n_blocks"], events["q50"], color=color, **ALL_EVENTS)
+            axes[0, 0].plot(
+                events["n_blocks"], events["q50"], color=color, **ALL_EVENTS
+            )
         speed = limits["wave_speed_m_per_s"].iloc[0] * SCALES["front_speed_m_per_s"]
-        axes[1, 1].axhline(speed, color=style.GREEN, linestyle="--", label=r"$c=\sqrt{ESL/M}$")
+        axes[1, 1].axhline(
+            speed, color=style.GREEN, linestyle="--", label=r"$c=\sqrt{ESL/M}$"
+        )
         for sign, count in printed.EVENTS_OF_EXPERIMENT.items():
             axes[0, 0].plot(beyond, count, **EXPERIMENT, color=style.theta_color(sign))
         label = f"experiment, {printed.MU_SAPP:g}"
-        axes[0, 1].axhline(printed.MU_SAPP, color=style.ORANGE, linestyle=":", linewidth=1.2, label=label)
+        axes[0, 1].axhline(
+            printed.MU_SAPP,
+            color=style.ORANGE,
+            linestyle=":",
+            linewidth=1.2,
+            label=label,
+        )
         for panel in axes[1]:
             panel.set_xlabel(style.BLOCKS_LABEL)
             style.set_ticks(panel.xaxis, [2, 5, 10, 20, 50, 100, 200])
@@ -79,17 +101,39 @@ def draw(table: pd.DataFrame, limits: pd.DataFrame, predictability: pd.DataFrame
 
 
 def _draw_scene(
-    axes: Axes, table: pd.DataFrame, limit: pd.DataFrame, foreseen: pd.DataFrame, quantity: str
+    axes: Axes,
+    table: pd.DataFrame,
+    limit: pd.DataFrame,
+    foreseen: pd.DataFrame,
+    quantity: str,
 ) -> None:
-    theta, scale = table["theta"].iloc[0], SCALES.get(quantity, 1.0)
+    theta = table["theta"].iloc[0]
+    scale = SCALES.get(quantity, 1.0)
     color = style.theta_color(theta)
     label = style.theta_text(theta) if quantity == "events_counted" else None
-    low, high = table["q05"] * scale, table["q95"] * scale
-    axes.fill_between(table["n_blocks"], low, high, color=color, alpha=0.15, linewidth=0)
+    low = table["q05"] * scale
+    high = table["q95"] * scale
+    axes.fill_between(
+        table["n_blocks"], low, high, color=color, alpha=0.15, linewidth=0
+    )
     axes.plot(table["n_blocks"], table["q50"] * scale, color=color, label=label)
-    right = table[table["n_blocks"].isin(foreseen.loc[foreseen["predictable"], "n_blocks"])]
-    axes.plot(right["n_blocks"], right["without_noise"] * scale, **WITHOUT_NOISE, color=color)
+    right = table[
+        table["n_blocks"].isin(foreseen.loc[foreseen["predictable"], "n_blocks"])
+    ]
+    axes.plot(
+        right["n_blocks"], right["without_noise"] * scale, **WITHOUT_NOISE, color=color
+    )
     if quantity == "time_s":
         axes.plot(foreseen["n_blocks"], foreseen["horizon_s"], **HORIZON, color=color)
-    errors = [(limit["a"] - limit["a_low"]) * scale, (limit["a_high"] - limit["a"]) * scale]
-    axes.errorbar(limit["n_blocks"], limit["a"] * scale, errors, color=color, elinewidth=0.8, **LIMIT)
+    errors = [
+        (limit["a"] - limit["a_low"]) * scale,
+        (limit["a_high"] - limit["a"]) * scale,
+    ]
+    axes.errorbar(
+        limit["n_blocks"],
+        limit["a"] * scale,
+        errors,
+        color=color,
+        elinewidth=0.8,
+        **LIMIT,
+    )

@@ -1,4 +1,5 @@
-"""The numbers that the paper prints against the step of RK4: events counted, mu_sapp, transitions right."""
+"""The numbers that the paper prints against the step of RK4: events counted, mu_sapp,
+transitions right."""
 
 from __future__ import annotations
 
@@ -12,15 +13,26 @@ from precursors.figures import style
 
 HEIGHT_MM = 88.0
 EXACT = "exact"
-EVERY_STEP: dict[str, Any] = {"marker": "+", "markersize": 6, "markeredgewidth": 0.8, "color": style.BLUE}
+EVERY_STEP: dict[str, Any] = {
+    "marker": "+",
+    "markersize": 6,
+    "markeredgewidth": 0.8,
+    "color": style.BLUE,
+}
 RIGHT: dict[str, Any] = {"marker": "o", "markersize": 3, "color": style.GREEN}
-WRONG = RIGHT | {"markeredgewidth": 0.8, "color": style.VERMILION, "markerfacecolor": "white"}
+WRONG = RIGHT | {
+    "markeredgewidth": 0.8,
+    "color": style.VERMILION,
+    "markerfacecolor": "white",
+}
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw a column of panels for each scene of step_sweep.csv, in the order of the table."""
+    """Draw a column of panels for each scene of step_sweep.csv, in the order of the
+    table."""
     right = table["transitions_right"] == table["transitions_true"]
-    every_step, waiting = table["method"] == "rk4", table["method"] == "rk4_skip"
+    every_step = table["method"] == "rk4"
+    waiting = table["method"] == "rk4_skip"
     groups = (
         ("RK4, every step", every_step, EVERY_STEP),
         ("RK4, waits in closed form: some transition wrong", waiting & ~right, WRONG),
@@ -30,7 +42,9 @@ def draw(table: pd.DataFrame) -> Figure:
     values = (table["events_counted"], table["mu_sapp"], percentage)
     scenes = table.groupby("scene", sort=False)
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        grid = figure.subplots(len(values), len(scenes), sharex=True, sharey="row", squeeze=False)
+        grid = figure.subplots(
+            len(values), len(scenes), sharex=True, sharey="row", squeeze=False
+        )
         for column, (_, rows) in zip(grid.T, scenes, strict=True):
             for axes, value in zip(column, values, strict=True):
                 of_scene = value[rows.index]
@@ -38,7 +52,13 @@ def draw(table: pd.DataFrame) -> Figure:
                 axes.axhline(exact, color=style.BLACK, label=EXACT, zorder=1)
                 for label, chosen, look in groups:
                     points = rows.index[chosen[rows.index]]
-                    axes.plot(rows["step_s"][points], value[points], linestyle="none", **look, label=label)
+                    axes.plot(
+                        rows["step_s"][points],
+                        value[points],
+                        linestyle="none",
+                        **look,
+                        label=label,
+                    )
             column[0].set_title(style.theta_text(rows["theta"].iloc[0]), pad=3)
             column[-1].set_xlabel(r"Step $\Delta t$ [s]")
         grid[0, 0].set(ylabel=style.EVENTS_LABEL, xscale="log")
@@ -46,5 +66,7 @@ def draw(table: pd.DataFrame) -> Figure:
         grid[1, 0].set_ylabel(style.MU_SAPP_LABEL)
         grid[2, 0].set(ylabel="Transitions right [%]", ylim=(0, 108))
         figure.align_ylabels(grid[:, 0])
-        figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
+        figure.legend(
+            *grid[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=4
+        )
     return figure

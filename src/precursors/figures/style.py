@@ -1,4 +1,5 @@
-"""The look of all figures: sizes, colours, words for numbers, the page, and the files."""
+"""The look of all figures: sizes, colours, words for numbers, the page, and the
+files."""
 
 from __future__ import annotations
 
@@ -46,8 +47,19 @@ PNG_DPI = 300
 BLOCKS_LABEL = "Number of blocks $N$ [-]"
 EVENTS_LABEL = "Events counted [-]"
 MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
-COLORS_OF_AN_ARTIST = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
-DOTTED: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "linestyle": (0, (1, 2)), "zorder": 1}
+COLORS_OF_AN_ARTIST = (
+    "color",
+    "facecolor",
+    "edgecolor",
+    "markerfacecolor",
+    "markeredgecolor",
+)
+DOTTED: dict[str, Any] = {
+    "color": GREY,
+    "linewidth": 0.6,
+    "linestyle": (0, (1, 2)),
+    "zorder": 1,
+}
 
 _SETTINGS: dict[str, Any] = {
     "axes.linewidth": 0.6,
@@ -66,7 +78,8 @@ _SETTINGS: dict[str, Any] = {
     # Element ids of an SVG come from this salt instead of a random number.
     "svg.hashsalt": "precursors",
     "svg.fonttype": "path",
-    # TrueType, which programs that draw can edit; journals refuse the Type 3 that is the default.
+    # TrueType, which programs that draw can edit; journals refuse the Type 3 that is
+    # the default.
     "pdf.fonttype": 42,
     "ps.fonttype": 42,
 }
@@ -81,12 +94,14 @@ _METADATA: dict[str, dict[str, str | None]] = {
 
 @dataclass(frozen=True)
 class Look:
-    """What a journal asks of a figure: its width [mm], None for the figure's own, and its text.
+    """What a journal asks of a figure: its width [mm], None for the figure's own, and
+    its text.
 
     Raises
     ------
     ValueError
-        If the width or the size is none that can be drawn, or the font is not installed.
+        If the width or the size is none that can be drawn, or the font is not
+        installed.
     """
 
     width_mm: float | None = None
@@ -95,9 +110,13 @@ class Look:
 
     def __post_init__(self) -> None:
         if self.width_mm is not None and not 40 <= self.width_mm <= 400:
-            raise ValueError(f"the width must be between 40 and 400 mm, but is {self.width_mm:g}")
+            raise ValueError(
+                f"the width must be between 40 and 400 mm, but is {self.width_mm:g}"
+            )
         if not 4 <= self.font_size <= 24:
-            raise ValueError(f"the font size must be between 4 and 24 pt, but is {self.font_size:g}")
+            raise ValueError(
+                f"the font size must be between 4 and 24 pt, but is {self.font_size:g}"
+            )
         try:
             findfont(self.font, fallback_to_default=False)
         except ValueError:
@@ -111,12 +130,21 @@ class Look:
     @property
     def settings(self) -> dict[str, Any]:
         """The settings of Matplotlib that follow."""
-        sizes = dict.fromkeys(("font.size", "axes.labelsize", "axes.titlesize"), self.font_size)
-        small = dict.fromkeys(("xtick.labelsize", "ytick.labelsize", "legend.fontsize"), self.small)
+        sizes = dict.fromkeys(
+            ("font.size", "axes.labelsize", "axes.titlesize"), self.font_size
+        )
+        small = dict.fromkeys(
+            ("xtick.labelsize", "ytick.labelsize", "legend.fontsize"), self.small
+        )
         settings = _SETTINGS | sizes | small | {"font.family": self.font}
         if self.font != Look.font:  # symbols in it, too
-            settings |= dict.fromkeys((f"mathtext.{kind}" for kind in ("rm", "cal", "bf")), self.font)
-            settings |= {"mathtext.fontset": "custom", "mathtext.it": f"{self.font}:italic"}
+            settings |= dict.fromkeys(
+                (f"mathtext.{kind}" for kind in ("rm", "cal", "bf")), self.font
+            )
+            settings |= {
+                "mathtext.fontset": "custom",
+                "mathtext.it": f"{self.font}:italic",
+            }
         return settings
 
 
@@ -124,10 +152,11 @@ class Look:
 def page(
     width_mm: float, height_mm: float, lay_out: bool = True, look: Look | None = None
 ) -> Iterator[Figure]:
-    """Make a figure of a given size on paper [mm], with room for its labels when the block ends.
+    """Make a figure of a given size on paper [mm], with room for its labels when the
+    block ends.
 
-    The settings of a user's matplotlibrc have no effect. The layout is done once, because a layout for each
-    file would make the files differ slightly.
+    The settings of a user's matplotlibrc have no effect. The layout is done once,
+    because a layout for each file would make the files differ slightly.
     """
     look = look or Look()
     with matplotlib.style.context(look.settings, after_reset=True):
@@ -139,15 +168,19 @@ def page(
 
 
 def save(figure: Figure, path: str | Path, look: Look | None = None) -> None:
-    """Write a figure as PNG (300 dpi), SVG, PDF or EPS, complete or not at all, always the same bytes.
+    """Write a figure as PNG (300 dpi), SVG, PDF or EPS, complete or not at all, always
+    the same bytes.
 
     `look` is that of its page. EPS knows no transparency: it has the colours on white.
     """
     ending = Path(path).suffix.lower()
-    settings, buffer = (look or Look()).settings, BytesIO()
+    settings = (look or Look()).settings
+    buffer = BytesIO()
     with matplotlib.style.context(settings, after_reset=True):
         figure = opaque(figure) if ending == ".eps" else figure
-        figure.savefig(buffer, format=ending[1:], dpi=PNG_DPI, metadata=_METADATA[ending])
+        figure.savefig(
+            buffer, format=ending[1:], dpi=PNG_DPI, metadata=_METADATA[ending]
+        )
     write_whole(path, re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
 
 
@@ -160,25 +193,30 @@ def opaque(figure: Figure) -> Figure:
             continue
         artist.set_alpha(None)
         colors: list[tuple[str, Any]] = [
-            (part, getattr(artist, f"get_{part}", tuple)()) for part in COLORS_OF_AN_ARTIST
+            (part, getattr(artist, f"get_{part}", tuple)())
+            for part in COLORS_OF_AN_ARTIST
         ]
         for part, color in colors:
             if len(color := to_rgba_array(color)):
                 strength = np.where(color[:, 3:] == 1, alpha, color[:, 3:])
                 color[:, :3] = 1 - strength * (1 - color[:, :3])
                 color[:, 3:] = strength > 0
-                getattr(artist, f"set_{part}")(color if isinstance(artist, Collection) else color[0])
+                getattr(artist, f"set_{part}")(
+                    color if isinstance(artist, Collection) else color[0]
+                )
     return copy
 
 
 def set_ticks(axis: Axis, values: Sequence[float]) -> None:
-    """Put ticks at some values of an axis and nowhere else, labelled as decimal numbers."""
+    """Put ticks at some values of an axis and nowhere else, labelled as decimal
+    numbers."""
     axis.set_ticks(values, labels=[f"{value:g}" for value in values])
     axis.set_minor_locator(NullLocator())
 
 
 def fraction_text(value: float) -> str:
-    """Write a number as a fraction if it has a small denominator (-5/6), else as a decimal number."""
+    """Write a number as a fraction if it has a small denominator (-5/6), else as a
+    decimal number."""
     fraction = Fraction(value).limit_denominator(12)
     return str(fraction) if isclose(fraction, value) else f"{value:.4g}"
 
@@ -205,5 +243,6 @@ def draw_key(figure: Figure, entries: Sequence[Any], **how: Any) -> None:
 
 
 def mark(label: str, **look: Any) -> Line2D:
-    """Make an entry of a key that looks like a plotted line or marker; black where no color is given."""
+    """Make an entry of a key that looks like a plotted line or marker; black where no
+    color is given."""
     return Line2D([], [], **{"color": BLACK, **look}, label=label)

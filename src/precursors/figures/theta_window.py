@@ -13,24 +13,41 @@ from precursors.figures import style
 
 HEIGHT_MM = 78.0
 BINS = {"mu_sapp": 0.005, "events_counted": 1.0}  # their widths
-RUN: dict[str, Any] = {"color": style.BLUE, "marker": ".", "markersize": 1.5, "linestyle": "none"}
-ALONE: dict[str, Any] = {"color": style.VERMILION, "marker": "o", "markersize": 3.5, "linestyle": "none"}
+RUN: dict[str, Any] = {
+    "color": style.BLUE,
+    "marker": ".",
+    "markersize": 1.5,
+    "linestyle": "none",
+}
+ALONE: dict[str, Any] = {
+    "color": style.VERMILION,
+    "marker": "o",
+    "markersize": 3.5,
+    "linestyle": "none",
+}
 
 
 def draw(members: pd.DataFrame) -> Figure:
-    """Draw every run as a dot over theta, a column for each scene, with histograms beside the dots.
+    """Draw every run as a dot over theta, a column for each scene, with histograms
+    beside the dots.
 
     `members` is theta_window_members.csv; point 0 of a scene is the scene itself.
     """
     scenes = members.groupby("scene", sort=False)
-    grid: dict[str, Any] = {"sharey": "row", "height_ratios": [1.3, 1], "width_ratios": [4, 1] * len(scenes)}
+    grid: dict[str, Any] = {
+        "sharey": "row",
+        "height_ratios": [1.3, 1],
+        "width_ratios": [4, 1] * len(scenes),
+    }
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         axes = figure.subplots(2, 2 * len(scenes), squeeze=False, **grid)
         for i, (_, of_scene) in enumerate(scenes):
-            alone, runs = of_scene[of_scene["point"] == 0].iloc[0], of_scene[of_scene["point"] > 0]
+            alone = of_scene[of_scene["point"] == 0].iloc[0]
+            runs = of_scene[of_scene["point"] > 0]
             change = (runs["theta"] - alone["theta"]) * 1e3
             for row, (quantity, width) in enumerate(BINS.items()):
-                dots, bars = axes[row, 2 * i], axes[row, 2 * i + 1]
+                dots = axes[row, 2 * i]
+                bars = axes[row, 2 * i + 1]
                 values = runs[quantity].dropna()
                 bins = np.arange(values.min() - width / 2, values.max() + width, width)
                 dots.plot(change, runs[quantity], **RUN)
@@ -47,6 +64,9 @@ def draw(members: pd.DataFrame) -> Figure:
         figure.align_ylabels(axes[:, 0])
         axes[1, 0].yaxis.set_major_locator(MaxNLocator(integer=True))
         figure.supxlabel(r"Change of $\theta$ [$10^{-3}$]", fontsize=8)
-        entries = [style.mark("one run", **RUN | {"markersize": 4}), style.mark("the scene", **ALONE)]
+        entries = [
+            style.mark("one run", **RUN | {"markersize": 4}),
+            style.mark("the scene", **ALONE),
+        ]
         style.draw_key(figure, entries, loc="outside upper right")
     return figure

@@ -1,4 +1,5 @@
-"""Speed against accuracy: errors, and how far the sequence of transitions is right, against work."""
+"""Speed against accuracy: errors, and how far the sequence of transitions is right,
+against work."""
 
 from __future__ import annotations
 
@@ -13,8 +14,12 @@ from matplotlib.ticker import LogLocator, NullLocator, PercentFormatter
 from precursors.figures import style
 
 HEIGHT_MM = 190.0
-FIRST_SLIP, WHOLE_RUN = "global slip", "end"
-EXTENTS = {FIRST_SLIP: "to the end of the first global slip", WHOLE_RUN: "for the whole run"}
+FIRST_SLIP = "global slip"
+WHOLE_RUN = "end"
+EXTENTS = {
+    FIRST_SLIP: "to the end of the first global slip",
+    WHOLE_RUN: "for the whole run",
+}
 # Columns that measure the work of a method: the factor to what is drawn, and the words.
 WORK = {
     "seconds": (1e3, "Wall time {} [ms]"),
@@ -29,33 +34,48 @@ PART_LABEL = "(c) Transitions right\nbefore the first wrong one"
 # Of the rows: wrong sequences and errors twice, and the part that is right.
 HEIGHTS = (1.0, 2.4, 1.0, 2.4, 2.8)
 Look = dict[str, Any]
-OPEN: Look = {"markerfacecolor": "none", "markeredgewidth": 0.7, "alpha": 0.75, "linestyle": "none"}
+OPEN: Look = {
+    "markerfacecolor": "none",
+    "markeredgewidth": 0.7,
+    "alpha": 0.75,
+    "linestyle": "none",
+}
 
 
 def draw(table: pd.DataFrame, work: str = "seconds") -> Figure:
-    """Draw errors of F_X at the onsets of slips, errors of transition times, and the part that is right.
+    """Draw errors of F_X at the onsets of slips, errors of transition times, and the
+    part that is right.
 
-    `table` is work_precision.csv, and `work` its column on the horizontal axis. A column of panels is a value
-    of theta. The errors are those up to the end of the first global slip, because the motion is chaotic after
-    it; a method has one only if its sequence is right: of slip events in (a), of transitions in (b). A wrong
-    sequence is open, in a band above the errors, as high as the part of it that is wrong. The part that is
-    right is that of the whole run, if the table has it.
+    `table` is work_precision.csv, and `work` its column on the horizontal axis. A
+    column of panels is a value of theta. The errors are those up to the end of the
+    first global slip, because the motion is chaotic after it; a method has one only if
+    its sequence is right: of slip events in (a), of transitions in (b). A wrong
+    sequence is open, in a band above the errors, as high as the part of it that is
+    wrong. The part that is right is that of the whole run, if the table has it.
     """
     factor, words = WORK[work]
     rows = table.dropna(subset=work).assign(work=table[work] * factor)
     extent = WHOLE_RUN if (rows["until"] == WHOLE_RUN).any() else FIRST_SLIP
-    first, whole = rows[rows["until"] == FIRST_SLIP], rows[rows["until"] == extent]
+    first = rows[rows["until"] == FIRST_SLIP]
+    whole = rows[rows["until"] == extent]
     thetas = sorted(rows["theta"].unique())
     looks = {row["method"]: _look(row) for row in table.to_dict("records")}
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         panels = figure.subplots(
-            5, len(thetas), sharex="col", sharey="row", squeeze=False, height_ratios=HEIGHTS
+            5,
+            len(thetas),
+            sharex="col",
+            sharey="row",
+            squeeze=False,
+            height_ratios=HEIGHTS,
         )
         for column, theta in zip(panels.T, thetas, strict=True):
             column[0].set_title(style.theta_text(theta), pad=4)
             of_theta = first[first["theta"] == theta]
             for i, (error, sequence, _) in enumerate(ERRORS):
-                _draw_errors(column[2 * i], column[2 * i + 1], of_theta, error, sequence, looks)
+                _draw_errors(
+                    column[2 * i], column[2 * i + 1], of_theta, error, sequence, looks
+                )
             of_theta = whole[whole["theta"] == theta]
             _draw_right(column[-1], of_theta, looks)
             for n in of_theta["transitions_true"][:1]:
@@ -74,16 +94,27 @@ def draw(table: pd.DataFrame, work: str = "seconds") -> Figure:
             panels[row, len(thetas) // 2].set_xlabel(words.format(EXTENTS[until]))
         figure.align_ylabels(panels[:, 0])
         names = table.drop_duplicates("method").set_index("method")["label"]
-        entries = [style.mark(style.plain(label), **looks[method]) for method, label in names.items()]
-        entries.append(style.mark("open: wrong sequence", marker="o", markersize=4.2, **OPEN))
+        entries = [
+            style.mark(style.plain(label), **looks[method])
+            for method, label in names.items()
+        ]
+        entries.append(
+            style.mark("open: wrong sequence", marker="o", markersize=4.2, **OPEN)
+        )
         style.draw_key(figure, entries, ncols=4, handletextpad=0.5, columnspacing=1.2)
     return figure
 
 
 def _draw_errors(
-    band: Axes, axes: Axes, rows: pd.DataFrame, error: str, sequence: str, looks: Mapping[str, Look]
+    band: Axes,
+    axes: Axes,
+    rows: pd.DataFrame,
+    error: str,
+    sequence: str,
+    looks: Mapping[str, Look],
 ) -> None:
-    """Draw the errors of right sequences, joined, and above them the wrong sequences."""
+    """Draw the errors of right sequences, joined, and above them the wrong
+    sequences."""
     is_right, part = _right(rows, sequence)
     for method in reversed(rows["method"].unique()):
         of_method = rows["method"] == method
@@ -109,14 +140,27 @@ def _draw_right(axes: Axes, rows: pd.DataFrame, looks: Mapping[str, Look]) -> No
 
 
 def _right(rows: pd.DataFrame, sequence: str) -> tuple[pd.Series, pd.Series]:
-    """Whether the whole sequence is right, and the part of it before the first difference."""
-    right, found, true = (rows[f"{sequence}_{what}"] for what in ("right", "found", "true"))
+    """Whether the whole sequence is right, and the part of it before the first
+    difference."""
+    right, found, true = (
+        rows[f"{sequence}_{what}"] for what in ("right", "found", "true")
+    )
     return (right == true) & (found == true), right / true
 
 
 def _look(row: Mapping[Hashable, Any]) -> Look:
-    """How a method is drawn, from its row's colour and marker ("3,1,180" is a tuple)."""
-    marker = tuple(map(int, row["marker"].split(","))) if "," in row["marker"] else row["marker"]
+    """How a method is drawn, from its row's colour and marker ("3,1,180" is a
+    tuple)."""
+    marker = (
+        tuple(map(int, row["marker"].split(",")))
+        if "," in row["marker"]
+        else row["marker"]
+    )
     size, zorder = (8.0, 4.0) if row["method"] == "exact" else (4.2, 2.5)
-    look = {"color": row["color"], "marker": marker, "markersize": size, "zorder": zorder}
+    look = {
+        "color": row["color"],
+        "marker": marker,
+        "markersize": size,
+        "zorder": zorder,
+    }
     return look | {"markeredgewidth": 0.0, "linewidth": 0.9}

@@ -1,4 +1,5 @@
-"""Compare the models: what each answers, how far from the paper's chain, and at what cost."""
+"""Compare the models: what each answers, how far from the paper's chain, and at what
+cost."""
 
 from __future__ import annotations
 
@@ -16,32 +17,41 @@ from precursors.model.scenes import PAPERS_MODEL
 from precursors.support import timing
 
 WAVEFORM_SAMPLES = 2001
-# Of runs with noise in the normal loads: its relative size, well below what an experiment knows of them; the
-# seed; how many runs; and how often they are drawn again for the interval of an error (bootstrap).
-NOISE, SEED, DRAWS, RESAMPLES = 1e-3, 2014, 200, 500
+# Of runs with noise in the normal loads: its relative size, well below what an
+# experiment knows of them; the seed; how many runs; and how often they are drawn again
+# for the interval of an error (bootstrap).
+NOISE = 1e-3
+SEED = 2014
+DRAWS = 200
+RESAMPLES = 500
 
 
-# Largest error that counts as an answer, with its whole 95 % interval, in the unit of the question's error.
+# Largest error that counts as an answer, with its whole 95 % interval, in the unit of
+# the question's error.
 TOLERANCES = {
     "first_load": 1e-6,  # a formula is right to rounding
     "events_counted": 1,  # the paper counts whole events by eye
-    "mu_sapp": 0.05,  # a fifth of (mu_s - mu_k)/mu_k: it tells the models from mu_k and from mu_s
+    # a fifth of (mu_s - mu_k)/mu_k: it tells the models from mu_k and from mu_s
+    "mu_sapp": 0.05,
     "mu_sapp_band": 0.05,  # as mu_sapp
     "front_loads": 0.02,  # 8 N, less than a step from one block to the next of ten
     "slip_duration": 0.1,  # the experiment's duration is printed with one digit
     "waveform": 0.02,  # as front_loads
 }
-ROUNDS, SHORTEST = 3, 0.003  # how often a model is timed, and for how long at least [s]
+# how often a model is timed, and for how long at least [s]
+ROUNDS = 3
+SHORTEST = 0.003
 
 
 @dataclass(frozen=True)
 class Question:
     """One question to all models.
 
-    `shown` is one number that stands for the answer in the table, and `error` (answer, answer of the paper's
-    chain, chain) their distance, in units of `error_unit`. A `statistic` (values, axis) is asked of runs with
-    noise in the normal loads: one run of the chain at theta = 5/6 is a draw of many, and no measure of a
-    model. `quantity` is that of the models, where it is not the name of the question.
+    `shown` is one number that stands for the answer in the table, and `error` (answer,
+    answer of the paper's chain, chain) their distance, in units of `error_unit`. A
+    `statistic` (values, axis) is asked of runs with noise in the normal loads: one run
+    of the chain at theta = 5/6 is a draw of many, and no measure of a model. `quantity`
+    is that of the models, where it is not the name of the question.
     """
 
     shown: Callable[[Any], float]
@@ -72,12 +82,14 @@ def ends_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> Any:
 
 
 def front_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
-    """Root mean square over the blocks of the error in the load that brings the front there, over F_Z."""
+    """Root mean square over the blocks of the error in the load that brings the front
+    there, over F_Z."""
     return root_mean_square(answer - exact) / chain.normal_load
 
 
 def waveform_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
-    """Root mean square over time of the error in F_X, over F_Z, up to the end of the exact first global slip.
+    """Root mean square over time of the error in F_X, over F_Z, up to the end of the
+    exact first global slip.
 
     An answer that ends earlier keeps its last load.
     """
@@ -96,9 +108,13 @@ QUESTIONS = {
     "events_counted": Question(float, difference, "events", np.median),
     "mu_sapp": Question(float, relative, statistic=np.median),
     # The upper end stands for both.
-    "mu_sapp_band": Question(lambda ends: float(ends[1]), ends_error, "1", ends_of_band, "mu_sapp"),
+    "mu_sapp_band": Question(
+        lambda ends: float(ends[1]), ends_error, "1", ends_of_band, "mu_sapp"
+    ),
     # The load at which the front reaches the middle stands for all.
-    "front_loads": Question(lambda loads: float(loads[(len(loads) - 1) // 2]), front_error),
+    "front_loads": Question(
+        lambda loads: float(loads[(len(loads) - 1) // 2]), front_error
+    ),
     "slip_duration": Question(float, relative),
     # The largest load stands for the waveform.
     "waveform": Question(lambda wave: float(wave[:, 1].max()), waveform_error),
@@ -119,22 +135,31 @@ def compare_models(
 ) -> pd.DataFrame:
     """Ask every model every question it answers, for the chains of some scenes.
 
-    `models` go from the smallest to the largest, the paper's chain among them; `rounds` is how often each is
-    timed.
+    `models` go from the smallest to the largest, the paper's chain among them; `rounds`
+    is how often each is timed.
 
     Returns
     -------
     DataFrame
-        One row for each scene, question and model that answers it: model_number (1, 2, ...), name and label
-        of the model, value and its unit (a statistic of runs with noise where the question has one), error
-        against the paper's chain with its 95 % interval (error_low, error_high, which are the error where
-        there is no noise), tolerance, is_answer (the whole interval is within it), is_smallest (the first
-        model that answers in every scene), and cost_s (median time of all the model's answers [s]).
+        One row for each scene, question and model that answers it: model_number (1, 2,
+        ...), name and label of the model, value and its unit (a statistic of runs with
+        noise where the question has one), error against the paper's chain with its 95 %
+        interval (error_low, error_high, which are the error where there is no noise),
+        tolerance, is_answer (the whole interval is within it), is_smallest (the first
+        model that answers in every scene), and cost_s (median time of all the model's
+        answers [s]).
     """
     rows = []
-    tasks = {(n, s): partial(m.ask, chain) for n, m in models.items() for s, chain in chains.items()}
+    tasks = {
+        (n, s): partial(m.ask, chain)
+        for n, m in models.items()
+        for s, chain in chains.items()
+    }
     answers = {key: ask() for key, ask in tasks.items()}
-    noisy = {(name, scene): noisy_answers(models[name], chains[scene]) for name, scene in tasks}
+    noisy = {
+        (name, scene): noisy_answers(models[name], chains[scene])
+        for name, scene in tasks
+    }
     costs = timing.measure(tasks, rounds, SHORTEST)
     for name_of_question, question in QUESTIONS.items():
         quantity = question.quantity or name_of_question
@@ -142,12 +167,16 @@ def compare_models(
             if quantity not in answered:
                 continue
             if question.statistic:
-                samples = (noisy[name, scene][quantity], noisy[PAPERS_MODEL, scene][quantity])
+                samples = (
+                    noisy[name, scene][quantity],
+                    noisy[PAPERS_MODEL, scene][quantity],
+                )
                 answer, error, low, high = noisy_error(
                     question, *samples, chains[scene], name == PAPERS_MODEL
                 )
             else:
-                answer, exact = answered[quantity], answers[PAPERS_MODEL, scene][quantity]
+                answer = answered[quantity]
+                exact = answers[PAPERS_MODEL, scene][quantity]
                 error = low = high = question.error(answer, exact, chains[scene])
             rows.append(
                 {
@@ -171,9 +200,14 @@ def compare_models(
 
 
 def noisy_error(
-    question: Question, values: FloatArray, exact: FloatArray, chain: Chain, is_papers: bool
+    question: Question,
+    values: FloatArray,
+    exact: FloatArray,
+    chain: Chain,
+    is_papers: bool,
 ) -> tuple[Any, float, float, float]:
-    """Statistic of a model's runs, and its error against those of the chain with a 95 % interval.
+    """Statistic of a model's runs, and its error against those of the chain with a 95 %
+    interval.
 
     Both samples are drawn again and again. The chain has no error against itself.
     """
@@ -183,7 +217,8 @@ def noisy_error(
         return answer, 0.0, 0.0, 0.0
     random = np.random.default_rng(SEED)
     drawn, drawn_exact = (
-        question.statistic(random.choice(sample, (len(sample), RESAMPLES)), 0) for sample in (values, exact)
+        question.statistic(random.choice(sample, (len(sample), RESAMPLES)), 0)
+        for sample in (values, exact)
     )
     low, high = np.quantile(question.error(drawn, drawn_exact, chain), [0.025, 0.975])
     error = question.error(answer, question.statistic(exact, 0), chain)
@@ -191,17 +226,31 @@ def noisy_error(
 
 
 def noisy_answers(model: Model, chain: Chain) -> dict[str, FloatArray]:
-    """Answers to the noisy questions for chains with noise in the normal loads, the same for all models."""
+    """Answers to the noisy questions for chains with noise in the normal loads, the
+    same for all models."""
     random = np.random.default_rng(SEED)
     noises = NOISE * random.uniform(-1.0, 1.0, (DRAWS, chain.n_blocks))
-    noisy = {question.quantity or name for name, question in QUESTIONS.items() if question.statistic}
+    noisy = {
+        question.quantity or name
+        for name, question in QUESTIONS.items()
+        if question.statistic
+    }
     asked = noisy & set(model.answers)
-    drawn = [model.ask(replace(chain, weights=chain.weights * (1.0 + noise))) for noise in noises if asked]
-    return {quantity: np.array([answers[quantity] for answers in drawn]) for quantity in asked}
+    drawn = [
+        model.ask(replace(chain, weights=chain.weights * (1.0 + noise)))
+        for noise in noises
+        if asked
+    ]
+    return {
+        quantity: np.array([answers[quantity] for answers in drawn])
+        for quantity in asked
+    }
 
 
 def with_smallest(table: pd.DataFrame) -> pd.DataFrame:
     """Mark for each question the smallest model that answers it in every scene."""
     answers = table.groupby(["question", "model_number"])["is_answer"].all()
     smallest = answers[answers].reset_index().groupby("question")["model_number"].min()
-    return table.assign(is_smallest=table["model_number"] == table["question"].map(smallest))
+    return table.assign(
+        is_smallest=table["model_number"] == table["question"].map(smallest)
+    )

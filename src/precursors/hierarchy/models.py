@@ -1,4 +1,5 @@
-"""The models, from the smallest to the largest, and the quantities that each of them answers."""
+"""The models, from the smallest to the largest, and the quantities that each of them
+answers."""
 
 from __future__ import annotations
 
@@ -15,17 +16,24 @@ from precursors.analysis.events import slip_events
 from precursors.analysis.slips import mu_sapp
 from precursors.hierarchy import rigid, statics
 from precursors.hierarchy.larger import LargerChain, simulate_larger
-from precursors.hierarchy.quasistatic import ENERGY_CONSERVED, OVERDAMPED, quasistatic_slips
+from precursors.hierarchy.quasistatic import (
+    ENERGY_CONSERVED,
+    OVERDAMPED,
+    quasistatic_slips,
+)
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.scenes import PAPERS_MODEL
 from precursors.model.statics import load_bound
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-# Longest run, in units of the time in which the drive reaches mu_s F_Z against all springs in a row.
+# Longest run, in units of the time in which the drive reaches mu_s F_Z against all
+# springs in a row.
 LIMIT = 10.0
-# The larger chain that stands for all: its creep runs away at 0.21 L, and it is smooth enough for this step.
-LARGER, LARGER_STEP = {"weakening_velocity": 0.006, "relaxation_time": 1e-4}, 0.5
+# The larger chain that stands for all: its creep runs away at 0.21 L, and it is smooth
+# enough for this step.
+LARGER = {"weakening_velocity": 0.006, "relaxation_time": 1e-4}
+LARGER_STEP = 0.5
 
 # What one may ask of a chain, up to and including its first global slip, and its unit.
 UNITS = {
@@ -41,7 +49,8 @@ UNITS = {
 
 @dataclass(frozen=True)
 class Model:
-    """A model of the table: its name in figures, and its answers by quantity from what `prepare` returns."""
+    """A model of the table: its name in figures, and its answers by quantity from what
+    `prepare` returns."""
 
     label: str
     answers: Mapping[str, Callable[[Any], Any]]
@@ -57,8 +66,8 @@ class Model:
 class Motion:
     """A chain up to the end of its first global slip, or to where it is given up.
 
-    `slips` have the columns of `find_slips`. `waveform` is time [s] and load [N] at the start and at each
-    transition, or at the `load_points` of a larger chain.
+    `slips` have the columns of `find_slips`. `waveform` is time [s] and load [N] at the
+    start and at each transition, or at the `load_points` of a larger chain.
     """
 
     chain: Chain
@@ -78,13 +87,16 @@ def run_to_global_slip(chain: Chain) -> Run:
 
 def run_larger(chain: Chain) -> Run:
     """Run the larger chain of `LARGER` to the end of its first global slip."""
-    return simulate_larger(LargerChain(chain, **LARGER), longest_run(chain), "global slip", LARGER_STEP)
+    return simulate_larger(
+        LargerChain(chain, **LARGER), longest_run(chain), "global slip", LARGER_STEP
+    )
 
 
 def move(chain: Chain, solve: Callable[[Chain], Run] = run_to_global_slip) -> Motion:
     """Follow a chain through time to the end of its first global slip."""
     run = solve(chain)
-    times, loads = run.transitions["time"], run.transitions["tangential_load"]
+    times = run.transitions["time"]
+    loads = run.transitions["tangential_load"]
     waveform = np.column_stack([np.append(0.0, times), np.append(0.0, loads)])
     points = waveform if run.load_points is None else run.load_points
     return Motion(chain, slip_events([run]), points)
@@ -102,7 +114,8 @@ def move_without_inertia(chain: Chain, overshoot: float = ENERGY_CONSERVED) -> M
 
 
 def front_loads(motion: Motion) -> FloatArray:
-    """F_X at the onset of the first event whose front reaches block 1..N or beyond [N]; NaN if none."""
+    """F_X at the onset of the first event whose front reaches block 1..N or beyond [N];
+    NaN if none."""
     farthest = np.maximum.accumulate(motion.slips["front"])
     event = np.searchsorted(farthest, np.arange(1, motion.chain.n_blocks + 1))
     return np.append(motion.slips["load_before"], np.nan)[event]
@@ -133,16 +146,28 @@ _EVENTS: dict[str, Callable[[Motion], Any]] = {
     "mu_sapp": apparent_friction,
     "front_loads": front_loads,
 }
-_MOTION = _EVENTS | {"slip_duration": slip_duration, "waveform": lambda motion: motion.waveform}
+_MOTION = _EVENTS | {
+    "slip_duration": slip_duration,
+    "waveform": lambda motion: motion.waveform,
+}
 
 # From the smallest to the largest; the key is the word after `model:` in a scene.
 MODELS: dict[str, Model] = {
-    "statics": Model("statics", {"load_bound": load_bound, "first_load": statics.first_precursor_load}),
+    "statics": Model(
+        "statics",
+        {"load_bound": load_bound, "first_load": statics.first_precursor_load},
+    ),
     "law": Model(
-        "front law", {"front_loads": statics.front_load_law, "mu_sapp": statics.apparent_friction_law}
+        "front law",
+        {
+            "front_loads": statics.front_load_law,
+            "mu_sapp": statics.apparent_friction_law,
+        },
     ),
     "rigid": Model("rigid slider", rigid.ANSWERS),
-    "overdamped": Model("overdamped chain", _EVENTS, partial(move_without_inertia, overshoot=OVERDAMPED)),
+    "overdamped": Model(
+        "overdamped chain", _EVENTS, partial(move_without_inertia, overshoot=OVERDAMPED)
+    ),
     "quasistatic": Model("quasi-static chain", _EVENTS, move_without_inertia),
     PAPERS_MODEL: Model("paper's chain", _MOTION, move),
     "larger": Model("larger chain", _MOTION, partial(move, solve=run_larger)),
@@ -150,21 +175,28 @@ MODELS: dict[str, Model] = {
 
 
 def scene_answers(slider: Mapping[str, Any], model: str) -> pd.DataFrame:
-    """Ask a model all that it answers about a slider, up to the end of the first global slip.
+    """Ask a model all that it answers about a slider, up to the end of the first global
+    slip.
 
     Returns
     -------
     DataFrame
-        One row per number: model, quantity, value and its unit; block (1..N) for the load at which the front
-        first reaches each block; time_s [s] for the tangential load over time.
+        One row per number: model, quantity, value and its unit; block (1..N) for the
+        load at which the front first reaches each block; time_s [s] for the tangential
+        load over time.
     """
     tables = []
     for quantity, answer in MODELS[model].ask(Chain.from_slider(**slider)).items():
         value = np.asarray(answer)
-        table = pd.DataFrame({"value": np.atleast_1d(value if value.ndim < 2 else value[:, 1])})
+        table = pd.DataFrame(
+            {"value": np.atleast_1d(value if value.ndim < 2 else value[:, 1])}
+        )
         table["block"] = pd.array(
-            range(1, len(table) + 1) if value.ndim == 1 else [None] * len(table), "Int64"
+            range(1, len(table) + 1) if value.ndim == 1 else [None] * len(table),
+            "Int64",
         )
         table["time_s"] = value[:, 0] if value.ndim == 2 else np.nan
-        tables.append(table.assign(model=model, quantity=quantity, unit=UNITS[quantity]))
+        tables.append(
+            table.assign(model=model, quantity=quantity, unit=UNITS[quantity])
+        )
     return pd.concat(tables)[["model", "quantity", "block", "time_s", "value", "unit"]]

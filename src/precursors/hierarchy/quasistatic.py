@@ -1,24 +1,29 @@
-"""The quasi-static chain: slips are cascades from one state of rest to the next, without inertia or time.
+"""The quasi-static chain: slips are cascades from one state of rest to the next,
+without inertia or time.
 
-The load grows until block 1 reaches its strength. Then a set of blocks moves at once. With B the stiffness
-matrix of the chain, g_i the net force of the springs on block i and s_i the direction of its slip, the blocks
-S of the set would be in balance with kinetic friction after the displacements
+The load grows until block 1 reaches its strength. Then a set of blocks moves at once.
+With B the stiffness matrix of the chain, g_i the net force of the springs on block i
+and s_i the direction of its slip, the blocks S of the set would be in balance with
+kinetic friction after the displacements
 
     u* = B_SS^-1 (g - s mu_k w)_S,
 
-and they move by (1 + overshoot) u*. A block at rest that this pushes beyond mu_s w joins the set, which then
-moves anew from where it began. One that would move against its direction once it has joined is put out again,
-and so is one that began the slip where no other does. When no block joins, all stop.
-Those whose net force then exceeds mu_s w begin a further stage of the same event. Without time, "all blocks
-at the same instant" has no meaning: a global slip is an event in which every block slides.
+and they move by (1 + overshoot) u*. A block at rest that this pushes beyond mu_s w
+joins the set, which then moves anew from where it began. One that would move against
+its direction once it has joined is put out again, and so is one that began the slip
+where no other does. When no block joins, all stop. Those whose net force then exceeds
+mu_s w begin a further stage of the same event. Without time, "all blocks at the same
+instant" has no meaning: a global slip is an event in which every block slides.
 
 Two values of the overshoot have a meaning:
 
-* overshoot = 1 ("quasistatic"). On the straight line through u*, the elastic energy set free equals the
-  friction heat again at 2 u*. The set has no kinetic energy left there, so it stops. Its net forces are
-  mirrored about mu_k w. For one block this is the exact slip, 2 (mu_s - mu_k) w / (k + K).
-* overshoot = 0 ("overdamped"). All kinetic energy is lost on the way: the limit of a slip that is damped at
-  every instant. Which set moves does not depend on the order in which blocks join it.
+* overshoot = 1 ("quasistatic"). On the straight line through u*, the elastic energy set
+  free equals the friction heat again at 2 u*. The set has no kinetic energy left there,
+  so it stops. Its net forces are mirrored about mu_k w. For one block this is the exact
+  slip, 2 (mu_s - mu_k) w / (k + K).
+* overshoot = 0 ("overdamped"). All kinetic energy is lost on the way: the limit of a
+  slip that is damped at every instant. Which set moves does not depend on the order in
+  which blocks join it.
 """
 
 from __future__ import annotations
@@ -35,7 +40,8 @@ from precursors.analysis.slips import COLUMNS
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.kernel.compiled import entry
 
-ENERGY_CONSERVED, OVERDAMPED = 1.0, 0.0
+ENERGY_CONSERVED = 1.0
+OVERDAMPED = 0.0
 MAX_EVENTS = 1_000_000
 MAX_STAGES = 100_000  # of one event, each with less elastic energy than the one before
 ROUNDING = 1e-12  # of F_Z: a block that far beyond its strength still rests
@@ -57,30 +63,40 @@ class Cascade(NamedTuple):
 def quasistatic_slips(
     chain: Chain, overshoot: float = ENERGY_CONSERVED, max_events: int = MAX_EVENTS
 ) -> NDArray[np.void]:
-    """Slip events of the quasi-static chain, from rest to its first global slip, as `find_slips` has them.
+    """Slip events of the quasi-static chain, from rest to its first global slip, as
+    `find_slips` has them.
 
-    An event ends when it begins; `n_simultaneous` is the largest set that moves. `overshoot` is how far the
-    blocks move beyond the balance with kinetic friction, from 0 (all kinetic energy is lost) to 1 (none is).
+    An event ends when it begins; `n_simultaneous` is the largest set that moves.
+    `overshoot` is how far the blocks move beyond the balance with kinetic friction,
+    from 0 (all kinetic energy is lost) to 1 (none is).
 
     Raises
     ------
     ValueError
         If the overshoot is not within 0..1, a block has no weight, or mu_s = mu_k.
     RuntimeError
-        If the first global slip is not reached within `max_events`, or an event does not come to rest within
-        MAX_STAGES stages.
+        If the first global slip is not reached within `max_events`, or an event does
+        not come to rest within MAX_STAGES stages.
     """
     if not 0.0 <= overshoot <= 1.0:
         raise ValueError(f"overshoot must be between 0 and 1, but is {overshoot:g}")
     if chain.mu_s == chain.mu_k:
-        raise ValueError(f"mu_k of a quasi-static chain must be below mu_s = {chain.mu_s:g}, but is equal")
+        raise ValueError(
+            f"mu_k of a quasi-static chain must be below mu_s = {chain.mu_s:g}, but is equal"
+        )
     if not chain.weights.all():
         block = int(np.argmin(chain.weights)) + 1
-        raise ValueError(f"every block of a quasi-static chain must have weight, but block {block} has 0 N")
+        raise ValueError(
+            f"every block of a quasi-static chain must have weight, but block {block} has 0 N"
+        )
     limit = chain.strength + ROUNDING * chain.normal_load
     numbers = Cascade(chain.springs, limit, chain.kinetic_friction, 1.0 + overshoot)
-    strength, stiffness, n = float(chain.strength[0]), chain.drive_stiffness, chain.n_blocks
-    net, load, moved = np.zeros(n), 0.0, 0.0
+    strength = float(chain.strength[0])
+    stiffness = chain.drive_stiffness
+    n = chain.n_blocks
+    net = np.zeros(n)
+    load = 0.0
+    moved = 0.0
     rows = []
     for event in range(1, max_events + 1):
         load += strength - net[0]
@@ -90,11 +106,24 @@ def quasistatic_slips(
             raise RuntimeError(
                 f"event {event} does not come to rest within {MAX_STAGES} stages; a larger mu_s - mu_k helps"
             )
-        time, before = (load / stiffness + moved) / chain.drive_velocity, load
+        time = (load / stiffness + moved) / chain.drive_velocity
+        before = load
         load -= stiffness * slip[0]
         moved += slip[0]
         slid = np.flatnonzero(slip)
-        rows.append((time, time, before, load, before, slid[-1] + 1, len(slid), at_once, len(slid) == n))
+        rows.append(
+            (
+                time,
+                time,
+                before,
+                load,
+                before,
+                slid[-1] + 1,
+                len(slid),
+                at_once,
+                len(slid) == n,
+            )
+        )
         if len(slid) == n:
             slips = np.array(rows, SLIP)
             slips["largest_load"] = np.maximum.accumulate(slips["load_before"])
@@ -104,16 +133,22 @@ def quasistatic_slips(
 
 @compiled
 def slip_of_event(cascade, net, max_stages):
-    """Displacements [m] of one event that block 1 begins, and the largest set that moves at once.
+    """Displacements [m] of one event that block 1 begins, and the largest set that
+    moves at once.
 
-    `net` [N] becomes what it is after the event. The set is 0 if the event does not come to rest.
+    `net` [N] becomes what it is after the event. The set is 0 if the event does not
+    come to rest.
     """
-    n, at_once = net.shape[0], 0
-    slip, direction = np.zeros(n), np.zeros(n)
+    n = net.shape[0]
+    at_once = 0
+    slip = np.zeros(n)
+    direction = np.zeros(n)
     direction[0] = 1.0
     for _ in range(max_stages):
         step = slip_of_stage(cascade, net, direction)
-        lost, moving, beyond = lost_force(cascade.springs, step), 0, 0
+        lost = lost_force(cascade.springs, step)
+        moving = 0
+        beyond = 0
         for i in range(n):
             slip[i] += step[i]
             net[i] -= lost[i]
@@ -128,13 +163,15 @@ def slip_of_event(cascade, net, max_stages):
 
 @compiled
 def beyond_strength(cascade, net, i):
-    """Direction in which a net force [N] moves block i, or 0 if static friction holds it."""
+    """Direction in which a net force [N] moves block i, or 0 if static friction holds
+    it."""
     return math.copysign(1.0, net) if abs(net) > cascade.limit[i] else 0.0
 
 
 @compiled
 def slip_of_stage(cascade, net, direction):
-    """Displacements [m] of the set that `direction` begins, once no block joins or leaves it."""
+    """Displacements [m] of the set that `direction` begins, once no block joins or
+    leaves it."""
     n = net.shape[0]
     state = np.zeros(n, np.int64)
     while True:
@@ -147,23 +184,29 @@ def slip_of_stage(cascade, net, direction):
         if leaves >= 0:
             for i in range(n):
                 if step[i] * direction[i] < 0.0 and state[i] == leaves:
-                    direction[i], state[i] = 0.0, PUT_OUT
+                    direction[i] = 0.0
+                    state[i] = PUT_OUT
             continue
-        lost, joins = lost_force(cascade.springs, step), False
+        lost = lost_force(cascade.springs, step)
+        joins = False
         for i in range(n):
             if direction[i] == 0.0 and state[i] != PUT_OUT:
                 direction[i] = beyond_strength(cascade, net[i] - lost[i], i)
                 if direction[i] != 0.0:
-                    state[i], joins = JOINED, True
+                    state[i] = JOINED
+                    joins = True
         if not joins:
             return step
 
 
 @compiled
 def balance(cascade, net, direction):
-    """Displacements u* [m] that put the moving blocks in balance with friction (Thomas' algorithm)."""
+    """Displacements u* [m] that put the moving blocks in balance with friction (Thomas'
+    algorithm)."""
     n = net.shape[0]
-    ratio, solved, step = np.zeros(n), np.zeros(n), np.zeros(n)
+    ratio = np.zeros(n)
+    solved = np.zeros(n)
+    step = np.zeros(n)
     for i in range(n):
         if direction[i] != 0.0:
             behind = cascade.springs[i]
@@ -180,9 +223,12 @@ def balance(cascade, net, direction):
 
 @compiled
 def lost_force(springs, step):
-    """Forces [N] by which displacements [m] lower the net forces of the springs on the blocks."""
-    lost, ahead = np.empty_like(step), 0.0
+    """Forces [N] by which displacements [m] lower the net forces of the springs on the
+    blocks."""
+    lost = np.empty_like(step)
+    ahead = 0.0
     for i in range(step.shape[0] - 1, -1, -1):
         behind = springs[i] * step[i] - (springs[i] * step[i - 1] if i > 0 else 0.0)
-        lost[i], ahead = behind - ahead, behind
+        lost[i] = behind - ahead
+        ahead = behind
     return lost

@@ -1,4 +1,5 @@
-"""The rigid slider (N = 1): stick-slip of one block driven through K, in closed form."""
+"""The rigid slider (N = 1): stick-slip of one block driven through K, in closed
+form."""
 
 from __future__ import annotations
 
@@ -10,17 +11,20 @@ import numpy as np
 
 from precursors.model.chain import Chain, FloatArray
 
-# Corners of the half wave that draws a slip; straight lines between them are within 0.3 % of its height.
+# Corners of the half wave that draws a slip; straight lines between them are within 0.3
+# % of its height.
 WAVE_POINTS = 33
 
 
 def onset_load(chain: Chain) -> float:
-    """Tangential load mu_s F_Z at which the slider is released [N]: mu_sapp = mu_s (Sect. 6.2)."""
+    """Tangential load mu_s F_Z at which the slider is released [N]: mu_sapp = mu_s
+    (Sect. 6.2)."""
     return chain.mu_s * chain.normal_load
 
 
 def load_drop(chain: Chain) -> float:
-    """Fall of the tangential load in each slip, 2 (mu_s - mu_k) F_Z [N], at any drive velocity."""
+    """Fall of the tangential load in each slip, 2 (mu_s - mu_k) F_Z [N], at any drive
+    velocity."""
     return 2.0 * (chain.mu_s - chain.mu_k) * chain.normal_load
 
 
@@ -32,15 +36,18 @@ def frequency(chain: Chain) -> float:
 def rigid_slip_duration(chain: Chain) -> float:
     """Duration of each slip [s]: (pi + 2 atan(2 K V / (omega drop))) / omega.
 
-    From the release on, x' = V (1 - cos(omega t)) + (drop / 2) (omega / K) sin(omega t), which is zero again
-    where tan(omega t / 2) = -omega drop / (2 K V).
+    From the release on, x' = V (1 - cos(omega t)) + (drop / 2) (omega / K) sin(omega
+    t), which is zero again where tan(omega t / 2) = -omega drop / (2 K V).
     """
     omega = frequency(chain)
-    return (math.pi + 2.0 * math.atan2(2.0 * chain.loading_rate, omega * load_drop(chain))) / omega
+    return (
+        math.pi + 2.0 * math.atan2(2.0 * chain.loading_rate, omega * load_drop(chain))
+    ) / omega
 
 
 def slip_load(chain: Chain, since: FloatArray) -> FloatArray:
-    """Tangential load F_X at times `since` the release [s] within a slip [N], shape (len(since),)."""
+    """Tangential load F_X at times `since` the release [s] within a slip [N], shape
+    (len(since),)."""
     omega = frequency(chain)
     kinetic = chain.mu_k * chain.normal_load
     swing = 0.5 * load_drop(chain) * np.cos(omega * since)
@@ -49,10 +56,13 @@ def slip_load(chain: Chain, since: FloatArray) -> FloatArray:
 
 
 def waveform(chain: Chain) -> FloatArray:
-    """Time [s] and load [N] from the start to the end of the first slip, shape (WAVE_POINTS + 1, 2)."""
+    """Time [s] and load [N] from the start to the end of the first slip, shape
+    (WAVE_POINTS + 1, 2)."""
     since = np.linspace(0.0, rigid_slip_duration(chain), WAVE_POINTS)
     onset = onset_load(chain) / chain.loading_rate
-    return np.concatenate([[[0.0, 0.0]], np.column_stack([onset + since, slip_load(chain, since)])])
+    return np.concatenate(
+        [[[0.0, 0.0]], np.column_stack([onset + since, slip_load(chain, since)])]
+    )
 
 
 ANSWERS: dict[str, Callable[[Chain], Any]] = {

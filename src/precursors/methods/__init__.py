@@ -8,7 +8,8 @@ from itertools import cycle
 
 from precursors.methods.common import DivergedError, Method, Result
 
-# The module of a method and the package it needs beyond the library's own; without that it is absent.
+# The module of a method and the package it needs beyond the library's own; without that
+# it is absent.
 MODULES = {
     "exact": None,
     "heyoka_events": "heyoka",
@@ -36,7 +37,8 @@ SPARE = (
 
 
 def with_looks(methods: Iterable[Method]) -> Iterator[Method]:
-    """Give methods without a colour and a marker those of `SPARE` whose colour no other has."""
+    """Give methods without a colour and a marker those of `SPARE` whose colour no other
+    has."""
     every = list(methods)
     taken = {method.look[0] for method in every}
     spare = cycle([look for look in SPARE if look[0] not in taken] or SPARE)

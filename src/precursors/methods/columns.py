@@ -1,11 +1,13 @@
 """The chain in columns: what every method knows of it.
 
-The state is the force T_i in the spring behind each block and the block's velocity v_i. Unlike positions,
-these numbers do not grow with the drive, so their rounding does not grow either. Column 0 of every array is
-the drive, columns 1..N the blocks, column N + 1 the free end.
+The state is the force T_i in the spring behind each block and the block's velocity v_i.
+Unlike positions, these numbers do not grow with the drive, so their rounding does not
+grow either. Column 0 of every array is the drive, columns 1..N the blocks, column N + 1
+the free end.
 
-Units are SI, or those of solvers with a tolerance, which meet numbers near one: force in N, time in
-tau = sqrt(m / stiffest spring), velocity in N/tau. Then 1/m and the largest c_i are 1."""
+Units are SI, or those of solvers with a tolerance, which meet numbers near one: force
+in N, time in tau = sqrt(m / stiffest spring), velocity in N/tau. Then 1/m and the
+largest c_i are 1."""
 
 from __future__ import annotations
 
@@ -15,22 +17,29 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from precursors.model import switching
+from precursors.methods import switching
 from precursors.model.chain import Chain, FloatArray
 
-# Rows of a system, which stay: the spring behind each column [N/m], 1/m, mu_s w and mu_k w [N]; the largest
-# forces [N] that do not release a stuck block backward and do not turn a stopping block round.
+# Rows of a system, which stay: the spring behind each column [N/m], 1/m, mu_s w and
+# mu_k w [N]; the largest forces [N] that do not release a stuck block backward and do
+# not turn a stopping block round.
 SPRING, INVERSE_MASS, STRENGTH, KINETIC, BACKWARD, TURNING = range(6)
-# Rows of a state, which change: spring force [N], velocity [m/s], mode, 1/m where a block slides, mode_i mu_k
-# w_i [N]. The first two are also those of its rates, and of states that a method tries.
+# Rows of a state, which change: spring force [N], velocity [m/s], mode, 1/m where a
+# block slides, mode_i mu_k w_i [N]. The first two are also those of its rates, and of
+# states that a method tries.
 FORCE, VELOCITY, MODE, MOBILITY, FRICTION = range(5)
 RATES = MODE  # number of these
 
-# Rule of switching: from mu_s w and mu_k w to the rows BACKWARD and TURNING. The first is ours.
-SWITCHING_RULES: dict[str, Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]] = {
+# Rule of switching: from mu_s w and mu_k w to the rows BACKWARD and TURNING. The first
+# is ours.
+SWITCHING_RULES: dict[
+    str, Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
+] = {
     switching.COULOMB: lambda strength, _kinetic: (strength, strength),
     switching.KINETIC: lambda strength, kinetic: (strength, kinetic),
-    switching.FORWARD_ONLY: lambda strength, _kinetic: (np.full_like(strength, np.inf),) * 2,
+    switching.FORWARD_ONLY: lambda strength, _kinetic: (
+        (np.full_like(strength, np.inf),) * 2
+    ),
 }
 
 
@@ -42,12 +51,18 @@ def time_unit(chain: Chain) -> float:
 def at_rest(
     chain: Chain, rule: str = switching.COULOMB, scaled: bool = False
 ) -> tuple[FloatArray, FloatArray]:
-    """System and state of a chain whose blocks all stick, springs at natural length; `scaled`: in tau."""
-    system, state = np.zeros((6, chain.n_blocks + 2)), np.zeros((5, chain.n_blocks + 2))
+    """System and state of a chain whose blocks all stick, springs at natural length;
+    `scaled`: in tau."""
+    system = np.zeros((6, chain.n_blocks + 2))
+    state = np.zeros((5, chain.n_blocks + 2))
     blocks = system[:, 1:-1]
-    blocks[SPRING], blocks[INVERSE_MASS] = chain.springs, 1.0 / chain.mass
-    blocks[STRENGTH], blocks[KINETIC] = chain.strength, chain.kinetic_friction
-    blocks[BACKWARD], blocks[TURNING] = SWITCHING_RULES[rule](blocks[STRENGTH], blocks[KINETIC])
+    blocks[SPRING] = chain.springs
+    blocks[INVERSE_MASS] = 1.0 / chain.mass
+    blocks[STRENGTH] = chain.strength
+    blocks[KINETIC] = chain.kinetic_friction
+    blocks[BACKWARD], blocks[TURNING] = SWITCHING_RULES[rule](
+        blocks[STRENGTH], blocks[KINETIC]
+    )
     state[VELOCITY, 0] = chain.drive_velocity
     if scaled:
         blocks[SPRING] /= np.max(chain.springs)
@@ -59,11 +74,17 @@ def at_rest(
 def set_modes(system: FloatArray, state: FloatArray, modes: ArrayLike) -> None:
     """Set the modes of all blocks, shape (N,), and what follows from them."""
     state[MODE, 1:-1] = modes
-    state[MOBILITY], state[FRICTION] = abs(state[MODE]) * system[INVERSE_MASS], state[MODE] * system[KINETIC]
+    state[MOBILITY], state[FRICTION] = (
+        abs(state[MODE]) * system[INVERSE_MASS],
+        state[MODE] * system[KINETIC],
+    )
 
 
-def sliding_forward(chain: Chain, velocities: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """System and state of blocks that slide forward [m/s], shape (N,), springs at natural length."""
+def sliding_forward(
+    chain: Chain, velocities: ArrayLike
+) -> tuple[FloatArray, FloatArray]:
+    """System and state of blocks that slide forward [m/s], shape (N,), springs at
+    natural length."""
     system, state = at_rest(chain)
     set_modes(system, state, 1.0)
     state[VELOCITY, 1:-1] = velocities

@@ -8,16 +8,24 @@ from numba import int64, njit
 
 from precursors.solver.kernel.compiled import entry
 
-# Numba counts references to all arrays of a tuple at each call, which costs more than a step. So what is
-# called in every step is inlined. Assignments to slices are loops here: Numba compiles their errors' texts.
-# A function is compiled anew for a literal number, unless its variable has a type.
+# Numba counts references to all arrays of a tuple at each call, which costs more than a
+# step. So what is called in every step is inlined. Assignments to slices are loops
+# here: Numba compiles their errors' texts. A function is compiled anew for a literal
+# number, unless its variable has a type.
 apart = njit(error_model="numpy", fastmath={"contract"}, locals={"first": int64})
 inner = njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
 # Written into its only caller before that is compiled, not compiled for itself as well.
 template = njit(inline="always")
 # Python calls these; their code is kept until one of these files is edited.
 NAMES = (
-    "columns compiled dop853 equations events fixed_step karnopp leapfrog moreau_jean newmark rk4 rk4_located"
+    "columns compiled dop853 equations events fixed_step karnopp leapfrog moreau_jean "
+    "newmark rk4 rk4_located"
 )
 COMPILED = [f"{name}.py" for name in NAMES.split()]
-outer = entry(Path(__file__).parent, COMPILED, error_model="numpy", fastmath={"contract"}, nogil=True)
+outer = entry(
+    Path(__file__).parent,
+    COMPILED,
+    error_model="numpy",
+    fastmath={"contract"},
+    nogil=True,
+)

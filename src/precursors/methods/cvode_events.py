@@ -1,7 +1,9 @@
-"""SUNDIALS CVODE (Adams, BDF) with root functions, by scikit-sundae, started anew at each transition.
+"""SUNDIALS CVODE (Adams, BDF) with root functions, by scikit-sundae, started anew at
+each transition.
 
-A. C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363. The chain is not stiff between transitions, for
-which CVODE's documentation recommends Adams; BDF is there for comparison.
+A. C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363. The chain is not stiff
+between transitions, for which CVODE's documentation recommends Adams; BDF is there for
+comparison.
 """
 
 from __future__ import annotations
@@ -12,18 +14,29 @@ from typing import Literal
 import numpy as np
 
 from precursors.methods.common import Method, Result
-from precursors.methods.events import EventMotion, event_functions, march_restarting, rates_of
+from precursors.methods.events import (
+    EventMotion,
+    event_functions,
+    march_restarting,
+    rates_of,
+)
 from precursors.model.chain import Chain, FloatArray
 
 Formula = Literal["Adams", "BDF"]
 MAX_STEPS = 1_000_000
-EVENT_FOUND, FALLING = 2, -1
+EVENT_FOUND = 2
+FALLING = -1
 
 
 def solve_cvode(
-    chain: Chain, duration: float, tolerance: float, until: str | None = None, formula: Formula = "Adams"
+    chain: Chain,
+    duration: float,
+    tolerance: float,
+    until: str | None = None,
+    formula: Formula = "Adams",
 ) -> Result:
-    """Run a chain by CVODE; rtol is the tolerance, atol the same number in N and N/tau (see `events`).
+    """Run a chain by CVODE; rtol is the tolerance, atol the same number in N and N/tau
+    (see `events`).
 
     Raises
     ------
@@ -33,7 +46,10 @@ def solve_cvode(
     from sksundae.cvode import CVODE
 
     motion = EventMotion(chain, duration, until)
-    system, state, matrix, n_events = motion.system, motion.state, motion.jacobian(), 2 * chain.n_blocks
+    system = motion.system
+    state = motion.state
+    matrix = motion.jacobian()
+    n_events = 2 * chain.n_blocks
 
     def right_hand_side(_time: float, y: FloatArray, result: FloatArray) -> None:
         rates_of(y, system, state, result)
@@ -41,7 +57,9 @@ def solve_cvode(
     def events(_time: float, y: FloatArray, result: FloatArray) -> None:
         event_functions(y, system, state, result)
 
-    def jacobian(_time: float, _y: FloatArray, _rates: FloatArray, result: FloatArray) -> None:
+    def jacobian(
+        _time: float, _y: FloatArray, _rates: FloatArray, result: FloatArray
+    ) -> None:
         result[:] = matrix
 
     events.direction = [FALLING] * n_events  # type: ignore[attr-defined]
@@ -64,7 +82,11 @@ def solve_cvode(
         if not solution.success:
             raise RuntimeError(f"CVODE at t = {motion.onset:.9g} s: {solution.message}")
         motion.y[:] = solution.y
-        fired = np.flatnonzero(solution.i_events[-1]) if solution.status == EVENT_FOUND else [-1]
+        fired = (
+            np.flatnonzero(solution.i_events[-1])
+            if solution.status == EVENT_FOUND
+            else [-1]
+        )
         return float(solution.t), int(fired[0])
 
     return march_restarting(motion, next_transition)

@@ -1,9 +1,12 @@
-"""DOP853 in compiled code, with dense output on which events are located, started anew at each transition.
+"""DOP853 in compiled code, with dense output on which events are located, started anew
+at each transition.
 
-Dormand and Prince's pair of order 8 with errors of order 5 and 3 and dense output of order 7 (E. Hairer, S.
-P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, 1993, II.5-II.10). Coefficients, error
-norm and step control are SciPy's. So a run tells how much of `scipy_dop853` is the method, and how much is
-Python. Events are looked for at `PROBES` points of each step, so that two roots in one step are not missed.
+Dormand and Prince's pair of order 8 with errors of order 5 and 3 and dense output of
+order 7 (E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations
+I, 1993, II.5-II.10). Coefficients, error norm and step control are SciPy's. So a run
+tells how much of `scipy_dop853` is the method, and how much is Python. Events are
+looked for at `PROBES` points of each step, so that two roots in one step are not
+missed.
 """
 
 from __future__ import annotations
@@ -22,20 +25,29 @@ from precursors.methods.fixed_step import begin_leg, feels, march, switch
 from precursors.model.chain import Chain
 
 STAGES = 12
-# Row s: shares of the stages before s in the state of stage s. Stage 12 is the end of the step, then come
-# three for the dense output, whose rows of shares are DENSE.
+# Row s: shares of the stages before s in the state of stage s. Stage 12 is the end of
+# the step, then come three for the dense output, whose rows of shares are DENSE.
 A = np.zeros((16, 16))
-A[:STAGES, :STAGES], A[STAGES, :STAGES], A[STAGES + 1 :] = DOP853.A, DOP853.B, DOP853.A_EXTRA
+A[:STAGES, :STAGES] = DOP853.A
+A[STAGES, :STAGES] = DOP853.B
+A[STAGES + 1 :] = DOP853.A_EXTRA
 DENSE, FIFTH, THIRD = map(np.ascontiguousarray, (DOP853.D, DOP853.E5, DOP853.E3))
-# Of the step: caution, exponent of the error and largest growth, as in SciPy; the first over its order.
-SAFETY, EXPONENT, LONGER, FIRST_STEP = 0.9, -1.0 / 8.0, 10.0, 3.0
+# Of the step: caution, exponent of the error and largest growth, as in SciPy; the first
+# over its order.
+SAFETY = 0.9
+EXPONENT = -1.0 / 8.0
+LONGER = 10.0
+FIRST_STEP = 3.0
 TINY = float(np.finfo(float).tiny)  # so that an error is not 0/0
-PROBES, CORRECTIONS, ROOT_ERROR = 8, 60, 1e-15
+PROBES = 8
+CORRECTIONS = 60
+ROOT_ERROR = 1e-15
 
 
 @inner
 def stages(system, state, last, h, k, end, trial):
-    """Rates `k` of all stages of a step h, the first being known, and the state at its end."""
+    """Rates `k` of all stages of a step h, the first being known, and the state at its
+    end."""
     for stage in range(1, 16):
         copy(state, last, trial)
         for before in range(stage):
@@ -73,7 +85,8 @@ def polynomial(state, last, end, h, k, f):
         for i in range(1, last + 2):
             change = end[row, i] - state[row, i]
             start = h * k[0, row, i] - change
-            f[0, row, i], f[1, row, i] = change, start
+            f[0, row, i] = change
+            f[1, row, i] = start
             f[2, row, i] = 2.0 * change - h * (k[0, row, i] + k[STAGES, row, i])
             for power in range(4):
                 total = 0.0
@@ -84,7 +97,8 @@ def polynomial(state, last, end, h, k, f):
 
 @apart
 def functions_at(x, system, state, last, f, result, values):
-    """State at the part x of a step by the dense output, and the event functions in it; the least of them."""
+    """State at the part x of a step by the dense output, and the event functions in it;
+    the least of them."""
     for row in range(2):
         for i in range(1, last + 2):
             y = 0.0
@@ -100,34 +114,55 @@ def functions_at(x, system, state, last, f, result, values):
 
 @inner
 def first_root(low, high, before, after, system, state, last, f, result, values):
-    """First root between two parts of a step, with values of the functions there, and its block."""
-    root, block = high, 0
+    """First root between two parts of a step, with values of the functions there, and
+    its block."""
+    root = high
+    block = 0
     for j in range(1, feels(state, last) + 1):
         if after[j] >= 0.0:
             continue
-        a, b, g, g_b, x = low, high, max(before[j], 0.0), after[j], high
-        for _ in range(CORRECTIONS):  # false position, halving the value of an end that stays (Illinois)
-            x_before, x = x, b - g_b * (b - a) / (g_b - g)
+        a = low
+        b = high
+        g = max(before[j], 0.0)
+        g_b = after[j]
+        x = high
+        for _ in range(
+            CORRECTIONS
+        ):  # false position, halving the value of an end that stays (Illinois)
+            x_before = x
+            x = b - g_b * (b - a) / (g_b - g)
             functions_at(x, system, state, last, f, result, values)
             if values[j] < 0.0:
-                b, g_b, g = x, values[j], 0.5 * g
+                b = x
+                g_b = values[j]
+                g = 0.5 * g
             else:
-                a, g, g_b = x, values[j], 0.5 * g_b
+                a = x
+                g = values[j]
+                g_b = 0.5 * g_b
             if x == x_before or b - a < ROOT_ERROR or values[j] == 0.0:
                 break
         if block == 0 or x < root:
-            root, block = x, j
+            root = x
+            block = j
     return root, block
 
 
 @template
 def advance(motion, tolerance, until, watches):
-    """Go on to the next event where it `watches` for one, or to a time [tau]: the block, or 0."""
-    system, state, progress = motion.system, motion.state, motion.progress[0]
-    n, last = state.shape[1], progress.last
-    k, f = np.zeros((len(A), RATES, n)), np.zeros((7, RATES, n))
-    end, trial = np.zeros((RATES, n)), state[:RATES].copy()
-    before, after = np.zeros(n), np.zeros(n)
+    """Go on to the next event where it `watches` for one, or to a time [tau]: the
+    block, or 0."""
+    system = motion.system
+    state = motion.state
+    progress = motion.progress[0]
+    n = state.shape[1]
+    last = progress.last
+    k = np.zeros((len(A), RATES, n))
+    f = np.zeros((7, RATES, n))
+    end = np.zeros((RATES, n))
+    trial = state[:RATES].copy()
+    before = np.zeros(n)
+    after = np.zeros(n)
     rates(by_mode, 0.0, system, state, last, state, k[0])
     for i in range(1, feels(state, last) + 1):
         before[i] = event_function(system, state, state, i)
@@ -151,7 +186,9 @@ def advance(motion, tolerance, until, watches):
                 high = probe / PROBES
                 if functions_at(high, system, state, last, f, trial, after) < 0.0:
                     low = (probe - 1) / PROBES
-                    root, block = first_root(low, high, before, after, system, state, last, f, trial, end[0])
+                    root, block = first_root(
+                        low, high, before, after, system, state, last, f, trial, end[0]
+                    )
                     functions_at(root, system, state, last, f, trial, after)
                     progress.elapsed += root * h
                     copy(trial, last, state)
@@ -167,25 +204,45 @@ def advance(motion, tolerance, until, watches):
 def run_dop853(motion, tolerance, window):
     """Run from event to event.
 
-    Transitions that are due within a window [tau] after another are made together at its end.
+    Transitions that are due within a window [tau] after another are made together at
+    its end.
     """
-    state, progress = motion.state, motion.progress[0]
+    state = motion.state
+    progress = motion.progress[0]
     while begin_leg(motion):
         nudge_starting(state, NUDGE)
         watches = window == 0.0 or progress.elapsed >= progress.noted + window
-        until = progress.remaining if watches else min(progress.noted + window, progress.remaining)
+        until = (
+            progress.remaining
+            if watches
+            else min(progress.noted + window, progress.remaining)
+        )
         block = advance(motion, tolerance, until, watches)
         switch(motion, block)
 
 
 def solve_dop853(
-    chain: Chain, duration: float, tolerance: float, until: str | None = None, window: float = 0.0
+    chain: Chain,
+    duration: float,
+    tolerance: float,
+    until: str | None = None,
+    window: float = 0.0,
 ) -> Result:
-    """Run a chain by DOP853; rtol is the tolerance, atol the same number in N and N/tau (see `columns`).
+    """Run a chain by DOP853; rtol is the tolerance, atol the same number in N and N/tau
+    (see `columns`).
 
-    Transitions that are due within a window [s] after another are made together at its end.
+    Transitions that are due within a window [s] after another are made together at its
+    end.
     """
-    return march(run_dop853, (window / time_unit(chain),), chain, duration, tolerance, until, scaled=True)
+    return march(
+        run_dop853,
+        (window / time_unit(chain),),
+        chain,
+        duration,
+        tolerance,
+        until,
+        scaled=True,
+    )
 
 
 METHODS = (

@@ -1,6 +1,8 @@
-"""The equations of motion while nothing switches (Eqs. 2-6), and stick and slip (Eq. 5).
+"""The equations of motion while nothing switches (Eqs. 2-6), and stick and slip (Eq.
+5).
 
-    dT_i/dt = c_i (v_{i-1} - v_i),    m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides,
+    dT_i/dt = c_i (v_{i-1} - v_i),    m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i
+    where block i slides,
 
 with c = K, k, k, ... and v_0 = V, in the arrays of `columns`."""
 
@@ -32,16 +34,20 @@ def net_force(y, i):
 
 @inner
 def by_mode(_system, state, i, net, velocity, _parameter):
-    """Velocity of block i as the springs see it, and its acceleration: friction is that of its mode."""
+    """Velocity of block i as the springs see it, and its acceleration: friction is that
+    of its mode."""
     return velocity, state[MOBILITY, i] * (net - state[FRICTION, i])
 
 
 @inner
 def rates(law, parameter, system, state, last, y, rate):
-    """Rates of a state y under a law of friction (Eqs. 2-6); blocks ahead of 1..last rest."""
+    """Rates of a state y under a law of friction (Eqs. 2-6); blocks ahead of 1..last
+    rest."""
     behind = y[VELOCITY, 0]
     for i in range(1, last + 1):
-        here, rate[VELOCITY, i] = law(system, state, i, net_force(y, i), y[VELOCITY, i], parameter)
+        here, rate[VELOCITY, i] = law(
+            system, state, i, net_force(y, i), y[VELOCITY, i], parameter
+        )
         rate[FORCE, i] = system[SPRING, i] * (behind - here)
         behind = here
     rate[FORCE, last + 1] = system[SPRING, last + 1] * behind
@@ -50,7 +56,8 @@ def rates(law, parameter, system, state, last, y, rate):
 
 @inner
 def copy(y, last, result):
-    """Copy spring forces and velocities up to the next after the last block that slides."""
+    """Copy spring forces and velocities up to the next after the last block that
+    slides."""
     for row in range(2):
         for i in range(1, last + 2):
             result[row, i] = y[row, i]
@@ -60,28 +67,36 @@ def copy(y, last, result):
 def accelerate(state, last, h):
     """Change the velocities of blocks 1..last by h times the acceleration."""
     for i in range(1, last + 1):
-        state[VELOCITY, i] += h * state[MOBILITY, i] * (net_force(state, i) - state[FRICTION, i])
+        state[VELOCITY, i] += (
+            h * state[MOBILITY, i] * (net_force(state, i) - state[FRICTION, i])
+        )
 
 
 @inner
 def stretch(system, state, last, h):
-    """Change the spring forces by what blocks 1..last move in a time h at their velocities."""
+    """Change the spring forces by what blocks 1..last move in a time h at their
+    velocities."""
     for i in range(1, last + 1):
-        state[FORCE, i] += h * system[SPRING, i] * (state[VELOCITY, i - 1] - state[VELOCITY, i])
+        state[FORCE, i] += (
+            h * system[SPRING, i] * (state[VELOCITY, i - 1] - state[VELOCITY, i])
+        )
     state[FORCE, last + 1] += h * system[SPRING, last + 1] * state[VELOCITY, last]
 
 
 @inner
 def solve_springs(system, state, last, weight, result, factor):
-    """Solve x_i = r_i + weight / m (c_i (x_{i-1} - x_i) - c_{i+1} (x_i - x_{i+1})) for blocks 1..last.
+    """Solve x_i = r_i + weight / m (c_i (x_{i-1} - x_i) - c_{i+1} (x_i - x_{i+1})) for
+    blocks 1..last.
 
-    `result` is r and becomes x, by elimination of the tridiagonal system; x_0 is given, and x_i = r_i where
-    block i sticks.
+    `result` is r and becomes x, by elimination of the tridiagonal system; x_0 is given,
+    and x_i = r_i where block i sticks.
     """
-    spring, mobility = system[SPRING], state[MOBILITY]
+    spring = system[SPRING]
+    mobility = state[MOBILITY]
     factor[0] = 0.0
     for i in range(1, last + 1):
-        behind, ahead = weight * mobility[i] * spring[i], weight * mobility[i] * spring[i + 1]
+        behind = weight * mobility[i] * spring[i]
+        ahead = weight * mobility[i] * spring[i + 1]
         pivot = 1.0 / (1.0 + behind + ahead - behind * factor[i - 1])
         factor[i] = ahead * pivot
         result[i] = (result[i] + behind * result[i - 1]) * pivot
@@ -95,7 +110,8 @@ def solve_springs(system, state, last, weight, result, factor):
 
 @inner
 def event_function(system, state, y, i):
-    """What is positive while block i keeps its mode in a state y: its velocity along it, or a margin [N]."""
+    """What is positive while block i keeps its mode in a state y: its velocity along
+    it, or a margin [N]."""
     if state[MODE, i] != 0.0:
         return state[MODE, i] * y[VELOCITY, i]
     net = net_force(y, i)
@@ -111,6 +127,7 @@ def move_by(system, state, i, mode):
 
 @inner
 def resting_mode(system, state, i):
-    """Mode of a block that stops: by the rule of switching it sticks, or slides on along the force."""
+    """Mode of a block that stops: by the rule of switching it sticks, or slides on
+    along the force."""
     net = net_force(state, i)
     return int(np.sign(net)) if abs(net) > system[TURNING, i] else 0

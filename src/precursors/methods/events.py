@@ -1,12 +1,15 @@
-"""A chain in motion for the solvers of others: its state, its equations and event functions, the switching.
+"""A chain in motion for the solvers of others: its state, its equations and event
+functions, the switching.
 
-Such a solver gets y = (T_1..T_N, v_1..v_N) in N and N/tau, without the columns of the drive and of the free
-end, which would count in its error norm. Its relative tolerance means the same at 0 s and at 10 s, as each
-slip event has its own time, counted from its onset in tau.
+Such a solver gets y = (T_1..T_N, v_1..v_N) in N and N/tau, without the columns of the
+drive and of the free end, which would count in its error norm. Its relative tolerance
+means the same at 0 s and at 10 s, as each slip event has its own time, counted from its
+onset in tau.
 
-An event function falls through zero at a transition. Function 2 i (i from 0) is the velocity of block i + 1
-in the direction of its mode while it slides, and its margin mu_s w - F against being released forward while
-it sticks; function 2 i + 1 is its margin against being released backward."""
+An event function falls through zero at a transition. Function 2 i (i from 0) is the
+velocity of block i + 1 in the direction of its mode while it slides, and its margin
+mu_s w - F against being released forward while it sticks; function 2 i + 1 is its
+margin against being released backward."""
 
 from __future__ import annotations
 
@@ -48,32 +51,39 @@ from precursors.methods.fixed_step import (
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import TransitionLimitError
 
-# A block that starts gets this velocity [N/tau] in the direction of its acceleration. From exactly zero, a
-# solver that brackets the stop within its first step takes the start for the root: SciPy's brentq returns it
-# and the block never gets away; heyoka's finds it, drops it for its direction and misses the stop.
+# A block that starts gets this velocity [N/tau] in the direction of its acceleration.
+# From exactly zero, a solver that brackets the stop within its first step takes the
+# start for the root: SciPy's brentq returns it and the block never gets away; heyoka's
+# finds it, drops it for its direction and misses the stop.
 NUDGE = math.sqrt(np.finfo(float).tiny)
 # More transitions per block at one instant are a solver that has lost its way.
 MAX_AT_ONCE = 8
-# Rows of the settings: 1 for blocks that slide, mode_i mu_k w_i, mode_i, 1 for blocks that stick.
+# Rows of the settings: 1 for blocks that slide, mode_i mu_k w_i, mode_i, 1 for blocks
+# that stick.
 SLIDES, FRICTIONS, MODES, STICKS = range(4)
 
 
 class EventMotion:
     """A chain in motion, with the numbers that a solver carries, or keeps itself.
 
-    `y`, shape (2 N,), is the state; `settings` is what each block does, in the rows SLIDES, FRICTIONS, MODES
-    and STICKS. `nudge` is the velocity of a block that starts, see `NUDGE`.
+    `y`, shape (2 N,), is the state; `settings` is what each block does, in the rows
+    SLIDES, FRICTIONS, MODES and STICKS. `nudge` is the velocity of a block that starts,
+    see `NUDGE`.
     """
 
-    def __init__(self, chain: Chain, duration: float, until: str | None, nudge: float = NUDGE) -> None:
+    def __init__(
+        self, chain: Chain, duration: float, until: str | None, nudge: float = NUDGE
+    ) -> None:
         self.chain, self.nudge, self.tau = chain, nudge, time_unit(chain)
         self.motion = motion_from_rest(chain, duration, until, scaled=True)
         self.system, self.state = self.motion.system, self.motion.state
         self.y, self.settings = np.zeros(2 * chain.n_blocks), np.zeros_like(self.state)
-        self.slides, self.evaluations = False, 0
+        self.slides = False
+        self.evaluations = 0
 
     def put(self, modes: ArrayLike, forces: ArrayLike, velocities: ArrayLike) -> None:
-        """Put the blocks into modes, the springs under forces [N], and give velocities [N/tau], each (N,)."""
+        """Put the blocks into modes, the springs under forces [N], and give velocities
+        [N/tau], each (N,)."""
         set_modes(self.system, self.state, modes)
         self.y[:] = np.concatenate([forces, velocities])
         sliding = np.flatnonzero(self.state[MODE])
@@ -82,7 +92,8 @@ class EventMotion:
         self.motion.progress["last"] = sliding.max(initial=0)
 
     def begin(self) -> bool:
-        """Wait in closed form until block 1 slides; False if the run ends before or while a block slides."""
+        """Wait in closed form until block 1 slides; False if the run ends before or
+        while a block slides."""
         return not self.slides and self.switch(-1, 0.0)
 
     @property
@@ -111,16 +122,19 @@ class EventMotion:
         return jacobian_of(self.system, self.state)
 
     def switch(self, event: int, elapsed: float) -> bool:
-        """Make the transition of an event function that has reached zero, and any that is overdue with it.
+        """Make the transition of an event function that has reached zero, and any that
+        is overdue with it.
 
-        Returns whether a block still slides; if none does, the slip event has ended. Event -1 is the wait.
+        Returns whether a block still slides; if none does, the slip event has ended.
+        Event -1 is the wait.
         """
         status = go_on(*self.motion, self.y, self.settings, self.nudge, event, elapsed)
         self.slides = status == MOVING
         if status == LOST:
             run = run_of(self.motion, self.chain, status)
             raise TransitionLimitError(
-                f"the solver makes transition after transition at t = {run.duration:.9g} s", run
+                f"the solver makes transition after transition at t = {run.duration:.9g} s",
+                run,
             )
         if status == PAUSED:
             self.motion = with_room(self.motion)
@@ -128,7 +142,8 @@ class EventMotion:
         return self.slides
 
     def run(self) -> Result:
-        """Transitions and cost so far: of a run that is over, or goes on to its end in its present modes."""
+        """Transitions and cost so far: of a run that is over, or goes on to its end in
+        its present modes."""
         status = FINISHED
         if self.slides:
             self.motion.progress["elapsed"] = self.remaining
@@ -137,12 +152,15 @@ class EventMotion:
         return Result(run_of(self.motion, self.chain, status), self.evaluations)
 
 
-def march_restarting(motion: EventMotion, next_transition: Callable[[float], tuple[float, int]]) -> Result:
+def march_restarting(
+    motion: EventMotion, next_transition: Callable[[float], tuple[float, int]]
+) -> Result:
     """Run a chain by a solver that is started anew at each transition.
 
-    `next_transition(time)` integrates the state in `motion` from a time [tau] to the next root of an event
-    function. It returns the time of that and the function's number, or the end of the run and -1. If another
-    has fired at the same instant, it is overdue after this one or fires again at once.
+    `next_transition(time)` integrates the state in `motion` from a time [tau] to the
+    next root of an event function. It returns the time of that and the function's
+    number, or the end of the run and -1. If another has fired at the same instant, it
+    is overdue after this one or fires again at once.
     """
     while motion.begin():
         time = 0.0
@@ -158,17 +176,20 @@ def take(state, y):
     """Take over a solver's state."""
     n = state.shape[1] - 2
     for i in range(n):
-        state[FORCE, i + 1], state[VELOCITY, i + 1] = y[i], y[n + i]
+        state[FORCE, i + 1] = y[i]
+        state[VELOCITY, i + 1] = y[n + i]
 
 
 @outer
 def rates_of(y, system, state, result):
     """Right-hand side of the equations of motion."""
     take(state, y)
-    n, rate = state.shape[1] - 2, np.empty_like(state)
+    n = state.shape[1] - 2
+    rate = np.empty_like(state)
     rates(by_mode, 0.0, system, state, n, state, rate)
     for i in range(n):
-        result[i], result[n + i] = rate[FORCE, i + 1], rate[VELOCITY, i + 1]
+        result[i] = rate[FORCE, i + 1]
+        result[n + i] = rate[VELOCITY, i + 1]
 
 
 @outer
@@ -176,15 +197,19 @@ def event_functions(y, system, state, result):
     """All event functions, shape (2 N,); what cannot happen is 1."""
     take(state, y)
     for i in range(1, state.shape[1] - 1):
-        slides, net = state[MODE, i] != 0.0, net_force(state, i)
-        result[2 * i - 2] = state[MODE, i] * state[VELOCITY, i] if slides else system[STRENGTH, i] - net
+        slides = state[MODE, i] != 0.0
+        net = net_force(state, i)
+        result[2 * i - 2] = (
+            state[MODE, i] * state[VELOCITY, i] if slides else system[STRENGTH, i] - net
+        )
         result[2 * i - 1] = 1.0 if slides else system[BACKWARD, i] + net
 
 
 def jacobian_of(system: FloatArray, state: FloatArray) -> FloatArray:
     """Matrix of the equations of motion, shape (2 N, 2 N)."""
     n = state.shape[1] - 2
-    net, result = np.eye(n) - np.eye(n, k=1), np.zeros((2 * n, 2 * n))
+    net = np.eye(n) - np.eye(n, k=1)
+    result = np.zeros((2 * n, 2 * n))
     result[:n, n:] = -system[SPRING, 1:-1, None] * net.T
     result[n:, :n] = state[MOBILITY, 1:-1, None] * net
     return result
@@ -200,12 +225,14 @@ def nudge_starting(state, nudge):
 
 @outer
 def go_on(system, state, progress, record, y, settings, nudge, event, elapsed):
-    """Make the transition of an event and those overdue with it, or wait (-1) until block 1 slides.
+    """Make the transition of an event and those overdue with it, or wait (-1) until
+    block 1 slides.
 
-    Returns MOVING where a block slides, PAUSED where the record is full, and LOST where transitions repeat
-    without time going on.
+    Returns MOVING where a block slides, PAUSED where the record is full, and LOST where
+    transitions repeat without time going on.
     """
-    motion, n = Motion(system, state, progress, record), state.shape[1] - 2
+    motion = Motion(system, state, progress, record)
+    n = state.shape[1] - 2
     if event < 0:
         progress[0].legs = 0
         begin_leg(motion)
@@ -221,7 +248,10 @@ def go_on(system, state, progress, record, y, settings, nudge, event, elapsed):
             status = PAUSED
     nudge_starting(state, nudge)
     for i in range(n):
-        y[i], y[n + i] = state[FORCE, i + 1], state[VELOCITY, i + 1]
-        settings[SLIDES, i], settings[STICKS, i] = state[MOBILITY, i + 1], 1.0 - state[MOBILITY, i + 1]
-        settings[MODES, i], settings[FRICTIONS, i] = state[MODE, i + 1], state[FRICTION, i + 1]
+        y[i] = state[FORCE, i + 1]
+        y[n + i] = state[VELOCITY, i + 1]
+        settings[SLIDES, i] = state[MOBILITY, i + 1]
+        settings[STICKS, i] = 1.0 - state[MOBILITY, i + 1]
+        settings[MODES, i] = state[MODE, i + 1]
+        settings[FRICTIONS, i] = state[FRICTION, i + 1]
     return status

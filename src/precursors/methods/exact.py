@@ -9,8 +9,11 @@ from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
 
 
-def solve(chain: Chain, duration: float, _value: float = 0.0, until: str | None = None) -> Result:
-    """Simulate exactly; nothing sets the accuracy. Each derivative of a Taylor series is an evaluation."""
+def solve(
+    chain: Chain, duration: float, _value: float = 0.0, until: str | None = None
+) -> Result:
+    """Simulate exactly; nothing sets the accuracy. Each derivative of a Taylor series
+    is an evaluation."""
     run = simulate(chain, duration, cast(Literal["global slip"] | None, until))
     return Result(run, round(run.evaluations))
 

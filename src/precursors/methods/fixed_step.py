@@ -1,7 +1,9 @@
-"""A chain in motion: its transitions, its waiting while all blocks stick, and its run from rest to the end.
+"""A chain in motion: its transitions, its waiting while all blocks stick, and its run
+from rest to the end.
 
-A compiled method is a function (motion, setting, *parameters). It works in legs, the steps up to the next
-change of a mode, while there is one to begin: `begin_leg` waits while all blocks stick, and ends the run."""
+A compiled method is a function (motion, setting, *parameters). It works in legs, the
+steps up to the next change of a mode, while there is one to begin: `begin_leg` waits
+while all blocks stick, and ends the run."""
 
 from __future__ import annotations
 
@@ -13,29 +15,47 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.methods.columns import BACKWARD, FORCE, MODE, STRENGTH, VELOCITY, at_rest, time_unit
+from precursors.methods.columns import (
+    BACKWARD,
+    FORCE,
+    MODE,
+    STRENGTH,
+    VELOCITY,
+    at_rest,
+    time_unit,
+)
 from precursors.methods.common import DivergedError, Kind, Method, Result, Smooth
 from precursors.methods.compiled import apart, inner, template
-from precursors.methods.equations import event_function, move_by, net_force, resting_mode
+from precursors.methods.equations import (
+    event_function,
+    move_by,
+    net_force,
+    resting_mode,
+)
+from precursors.methods.switching import COULOMB
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span, positive
-from precursors.model.switching import COULOMB
 from precursors.solver.run import TRANSITION, Run
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 
 FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, LOST, MOVING = range(6)
-# A leg has at most so many steps, and a call so many legs, so that Ctrl-C is heard within a second or so.
+# A leg has at most so many steps, and a call so many legs, so that Ctrl-C is heard
+# within a second or so.
 STEPS_IN_LEG = 1000
 LEGS_PER_CALL = 5000
 FIRST_ROOM = 4096  # transitions
 
-# Short times since the onset of a slip event, in the unit of the system, are not rounded as long ones.
+# Short times since the onset of a slip event, in the unit of the system, are not
+# rounded as long ones.
 PROGRESS = np.dtype(
     [
         ("unit", "f8"),  # [s]
         ("duration", "f8"),  # of the run [s]
         ("loading_rate", "f8"),  # K V [N/s]
-        ("waits", "i8"),  # whether it waits in closed form while all blocks stick, or makes each step
+        (
+            "waits",
+            "i8",
+        ),  # whether it waits in closed form while all blocks stick, or makes each step
         ("until_global", "i8"),  # whether the run ends with the first global slip
         ("onset", "f8"),  # of the slip event [s]
         ("remaining", "f8"),  # from the onset to the end of the run [unit]
@@ -53,12 +73,19 @@ PROGRESS = np.dtype(
     ]
 )
 RECORD = np.dtype(
-    [("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8"), ("interval", "f8")]
+    [
+        ("time", "f8"),
+        ("block", "i4"),
+        ("mode", "i1"),
+        ("tangential_load", "f8"),
+        ("interval", "f8"),
+    ]
 )
 
 
 class Motion(NamedTuple):
-    """A chain in motion: what stays, what changes, how far it is (one row), and its transitions so far."""
+    """A chain in motion: what stays, what changes, how far it is (one row), and its
+    transitions so far."""
 
     system: FloatArray
     state: FloatArray
@@ -76,10 +103,17 @@ def motion_from_rest(
 ) -> Motion:
     """A chain at the start of its run, see `march`."""
     progress = np.zeros(1, PROGRESS)
-    progress["duration"], progress["until_global"] = checked_span(duration, until), until is not None
-    progress["unit"], progress["loading_rate"] = time_unit(chain) if scaled else 1.0, chain.loading_rate
-    progress["remaining"], progress["waits"] = progress["duration"] / progress["unit"], waits
-    return Motion(*at_rest(chain, rule, scaled), progress, np.empty(FIRST_ROOM + chain.n_blocks, RECORD))
+    progress["duration"] = checked_span(duration, until)
+    progress["until_global"] = until is not None
+    progress["unit"] = time_unit(chain) if scaled else 1.0
+    progress["loading_rate"] = chain.loading_rate
+    progress["remaining"] = progress["duration"] / progress["unit"]
+    progress["waits"] = waits
+    return Motion(
+        *at_rest(chain, rule, scaled),
+        progress,
+        np.empty(FIRST_ROOM + chain.n_blocks, RECORD),
+    )
 
 
 # Switching between stick and slip
@@ -87,8 +121,11 @@ def motion_from_rest(
 
 @apart
 def change_mode(motion, i, new):
-    """Set a block's new mode and record it; the number of sliding blocks and the farthest one follow."""
-    system, state, progress = motion.system, motion.state, motion.progress[0]
+    """Set a block's new mode and record it; the number of sliding blocks and the
+    farthest one follow."""
+    system = motion.system
+    state = motion.state
+    progress = motion.progress[0]
     progress.sliding += abs(new) - int(abs(state[MODE, i]))
     state[MODE, i] = new
     move_by(system, state, i, new)
@@ -105,9 +142,12 @@ def record_transition(motion, i, new):
     progress = motion.progress[0]
     row = motion.record[progress.transitions]
     row.time = progress.onset + progress.elapsed * progress.unit
-    row.block, row.mode, row.tangential_load = i, new, motion.state[FORCE, 1]
+    row.block = i
+    row.mode = new
+    row.tangential_load = motion.state[FORCE, 1]
     row.interval = progress.waited + (progress.elapsed - progress.noted) * progress.unit
-    progress.noted, progress.waited = progress.elapsed, 0.0
+    progress.noted = progress.elapsed
+    progress.waited = 0.0
     progress.transitions += 1
     progress.at_once = progress.at_once + 1 if row.interval == 0.0 else 0
     if progress.sliding == motion.state.shape[1] - 2:
@@ -116,7 +156,8 @@ def record_transition(motion, i, new):
 
 @apart
 def change_state(motion, i):
-    """Release a stuck block in the direction of its force, or let a sliding one stop or turn round."""
+    """Release a stuck block in the direction of its force, or let a sliding one stop or
+    turn round."""
     state = motion.state
     old = int(state[MODE, i])
     if old == 0:
@@ -130,13 +171,15 @@ def change_state(motion, i):
 
 @inner
 def feels(state, last):
-    """Farthest block whose force can change: beyond the next after the last that slides, none does."""
+    """Farthest block whose force can change: beyond the next after the last that
+    slides, none does."""
     return min(last + 1, state.shape[1] - 2)
 
 
 @inner
 def all_keep_their_modes(system, state, last):
-    """Whether no sliding block's velocity has changed its sign and no stuck block's force exceeds mu_s w."""
+    """Whether no sliding block's velocity has changed its sign and no stuck block's
+    force exceeds mu_s w."""
     for i in range(1, feels(state, last) + 1):  # noqa: SIM110
         if not event_function(system, state, state, i) >= 0.0:
             return False
@@ -145,8 +188,10 @@ def all_keep_their_modes(system, state, last):
 
 @apart
 def switch(motion, first):
-    """Change the state of a block at its event (or of none, 0), then of all that do not keep their modes."""
-    system, state = motion.system, motion.state
+    """Change the state of a block at its event (or of none, 0), then of all that do not
+    keep their modes."""
+    system = motion.system
+    state = motion.state
     farthest = feels(state, motion.progress[0].last)
     if first > 0:
         change_state(motion, first)
@@ -170,7 +215,8 @@ def rest(motion):
 
     Returns MOVING where the run goes on.
     """
-    state, progress = motion.state, motion.progress[0]
+    state = motion.state
+    progress = motion.progress[0]
     if progress.was_global and progress.until_global:
         return GLOBAL_SLIP
     if progress.noted > 0.0 or progress.waits:  # count the time from now on
@@ -194,7 +240,8 @@ def rest(motion):
 
 @inner
 def obstacle(motion):
-    """Why no step can be made: a full record, or numbers that have overflowed; MOVING if one can."""
+    """Why no step can be made: a full record, or numbers that have overflowed; MOVING
+    if one can."""
     if motion.progress[0].transitions + motion.state.shape[1] > motion.record.shape[0]:
         return PAUSED
     return MOVING if math.isfinite(motion.state[FORCE, 1]) else DIVERGED
@@ -204,7 +251,8 @@ def obstacle(motion):
 def begin_leg(motion, can_rest=True, releases=True):
     """Whether to make the steps of another leg; `status` says why not.
 
-    Where all blocks stick and `can_rest`, it waits and, if it `releases`, lets block 1 slide.
+    Where all blocks stick and `can_rest`, it waits and, if it `releases`, lets block 1
+    slide.
     """
     progress = motion.progress[0]
     status = obstacle(motion) if progress.legs != LEGS_PER_CALL else PAUSED
@@ -226,12 +274,15 @@ def begin_leg(motion, can_rest=True, releases=True):
 def run_in_steps(motion, step, advance, starts, work):
     """Run in steps.
 
-    `advance(system, state, last, h, work)` makes a step of h [s] and returns the evaluations made. If it
-    `starts`, a leg begins with a step of no length, which evaluates the forces. A block whose velocity has
-    changed its sign at the end of a step is stopped there, and sticks or turns round; a stuck block whose
-    force exceeds mu_s w at the end of a step is released there.
+    `advance(system, state, last, h, work)` makes a step of h [s] and returns the
+    evaluations made. If it `starts`, a leg begins with a step of no length, which
+    evaluates the forces. A block whose velocity has changed its sign at the end of a
+    step is stopped there, and sticks or turns round; a stuck block whose force exceeds
+    mu_s w at the end of a step is released there.
     """
-    system, state, progress = motion.system, motion.state, motion.progress[0]
+    system = motion.system
+    state = motion.state
+    progress = motion.progress[0]
     while begin_leg(motion):
         if starts:
             progress.evaluations += advance(system, state, progress.last, 0.0, work)
@@ -261,14 +312,16 @@ def march(
 ) -> Result:
     """Run a compiled method from rest: `method` is (motion, setting, *parameters).
 
-    `setting` is a step [s] or, where the method meets the numbers of solvers with a tolerance (`scaled`, see
-    `columns`), a tolerance. `rule` is a key of `SWITCHING_RULES`. A method `waits` in closed form while all
-    blocks stick, or makes each step then as well. The others are those of `precursors.simulate`.
+    `setting` is a step [s] or, where the method meets the numbers of solvers with a
+    tolerance (`scaled`, see `columns`), a tolerance. `rule` is a key of
+    `SWITCHING_RULES`. A method `waits` in closed form while all blocks stick, or makes
+    each step then as well. The others are those of `precursors.simulate`.
 
     Raises
     ------
     ValueError, DivergedError, TransitionLimitError
-        If an argument is out of range, the numbers overflow, or there are more than `max_transitions`.
+        If an argument is out of range, the numbers overflow, or there are more than
+        `max_transitions`.
     """
     positive("tolerance" if scaled else "step", setting, "1" if scaled else "s")
     motion = motion_from_rest(chain, duration, until, rule, scaled, waits)
@@ -279,10 +332,13 @@ def march(
         status = int(motion.progress["status"][0])
     run = run_of(motion, chain, status)
     if status == DIVERGED:
-        raise DivergedError(f"the numbers overflow at t = {run.duration:.9g} s: shorten the step", run)
+        raise DivergedError(
+            f"the numbers overflow at t = {run.duration:.9g} s: shorten the step", run
+        )
     if status == PAUSED:
         raise TransitionLimitError(
-            f"max_transitions = {max_transitions} reached at t = {run.duration:.9g} s", run
+            f"max_transitions = {max_transitions} reached at t = {run.duration:.9g} s",
+            run,
         )
     return Result(run, int(motion.progress["evaluations"][0]))
 
@@ -295,9 +351,11 @@ def slide(
     step: float,
     n_steps: int,
 ) -> None:
-    """Make n steps [s] of all blocks as they slide in a state, without switching, by the code of `march`.
+    """Make n steps [s] of all blocks as they slide in a state, without switching, by
+    the code of `march`.
 
-    Blocks that count as stuck, that nothing holds and that nothing releases keep their motion and their mode.
+    Blocks that count as stuck, that nothing holds and that nothing releases keep their
+    motion and their mode.
     """
     free = system.copy()
     free[[STRENGTH, BACKWARD]] = np.inf
@@ -317,20 +375,29 @@ def with_room(motion: Motion) -> Motion:
     """The motion with a longer record where its own is full."""
     if motion.progress["transitions"][0] + motion.state.shape[1] <= len(motion.record):
         return motion
-    return motion._replace(record=np.resize(motion.record, 2 * len(motion.record) + motion.state.shape[1]))
+    return motion._replace(
+        record=np.resize(motion.record, 2 * len(motion.record) + motion.state.shape[1])
+    )
 
 
 def run_of(motion: Motion, chain: Chain, status: int) -> Run:
     """The run so far; of a diverged one what is finite."""
     progress = motion.progress[0]
-    rows, unit = motion.record[: progress["transitions"]], progress["unit"]
+    rows = motion.record[: progress["transitions"]]
+    unit = progress["unit"]
     n = int(np.isfinite(rows["tangential_load"]).sum())
     since = progress["waited"] + (progress["elapsed"] - progress["noted"]) * unit
     # The last interval includes those of the transitions that are left out.
     intervals = np.add.reduceat(np.append(rows["interval"], since), np.arange(n + 1))
-    reached = progress["duration"] if status == FINISHED else progress["onset"] + progress["elapsed"] * unit
+    reached = (
+        progress["duration"]
+        if status == FINISHED
+        else progress["onset"] + progress["elapsed"] * unit
+    )
     time, block, mode, load = (rows[name][:n] for name in TRANSITION.names or ())
-    return Run.from_transitions(chain, float(reached), time, block, mode, load, intervals)
+    return Run.from_transitions(
+        chain, float(reached), time, block, mode, load, intervals
+    )
 
 
 def fixed_step(
@@ -345,7 +412,8 @@ def fixed_step(
 ) -> Method:
     """Make the row of a compiled fixed-step method.
 
-    `method`, its parameters and `waits` are those of `march`; `smooth` is the rest of `Smooth`.
+    `method`, its parameters and `waits` are those of `march`; `smooth` is the rest of
+    `Smooth`.
     """
     return Method(
         name,

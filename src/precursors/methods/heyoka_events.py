@@ -1,8 +1,10 @@
-"""heyoka.py: Taylor series of adaptive order and step, with polynomial root isolation for events.
+"""heyoka.py: Taylor series of adaptive order and step, with polynomial root isolation
+for events.
 
-F. Biscani and D. Izzo, MNRAS 504 (2021) 2614 and 513 (2022) 4833. One integrator is compiled for each chain
-and tolerance: what the blocks do are its runtime parameters, so that a transition compiles nothing. The
-switching is done in the events' callbacks, so that a slip event is one call.
+F. Biscani and D. Izzo, MNRAS 504 (2021) 2614 and 513 (2022) 4833. One integrator is
+compiled for each chain and tolerance: what the blocks do are its runtime parameters, so
+that a transition compiles nothing. The switching is done in the events' callbacks, so
+that a slip event is one call.
 """
 
 from __future__ import annotations
@@ -20,22 +22,29 @@ from precursors.model.chain import Chain
 
 # The tightest is rounding, heyoka's own default.
 CHARTED = (1e-6, 1e-8, 1e-10, 1e-12, 1e-14, float(np.finfo(float).eps))
-# Beyond it the code is compiled in compact mode, which heyoka's documentation recommends for large systems.
+# Beyond it the code is compiled in compact mode, which heyoka's documentation
+# recommends for large systems.
 LARGE = 20
 
 Callback = Callable[[Any, int], bool]
 
 
-def integrator_of(chain: Chain, tolerance: float, callback: Callable[[int], Callback]) -> Any:
-    """heyoka's integrator of a chain: `callback(event)` is what it calls at an event function's root."""
+def integrator_of(
+    chain: Chain, tolerance: float, callback: Callable[[int], Callback]
+) -> Any:
+    """heyoka's integrator of a chain: `callback(event)` is what it calls at an event
+    function's root."""
     import heyoka as hy
 
     n = chain.n_blocks
     system, state = at_rest(chain, scaled=True)
-    strength, coupling = system[STRENGTH, 1:-1], system[SPRING, 1:-1]
+    strength = system[STRENGTH, 1:-1]
+    coupling = system[SPRING, 1:-1]
     force = [hy.expression(f"T{i}") for i in range(n)]
     velocity = [hy.expression(f"v{i}") for i in range(n)]
-    slides, friction, mode, sticks = ([hy.par[row * n + i] for i in range(n)] for row in range(4))
+    slides, friction, mode, sticks = (
+        [hy.par[row * n + i] for i in range(n)] for row in range(4)
+    )
     net = [force[i] - force[i + 1] for i in range(n - 1)] + [force[-1]]
     behind = [state[VELOCITY, 0], *velocity[:-1]]
     falling = {"direction": hy.event_direction.negative}
@@ -60,12 +69,14 @@ def integrator_of(chain: Chain, tolerance: float, callback: Callable[[int], Call
 
 @lru_cache(maxsize=32)
 def _integrator(chain: Chain, tolerance: float) -> tuple[Any, list[EventMotion]]:
-    """heyoka's integrator of a chain, and a list of the one motion that it carries at present."""
+    """heyoka's integrator of a chain, and a list of the one motion that it carries at
+    present."""
     present: list[EventMotion] = []
 
     def callback(event: int) -> Callback:
         def switch(solver: Any, _direction: int) -> bool:
-            # The function that fired means something else from now on: its cooldown must not hide a root.
+            # The function that fired means something else from now on: its cooldown
+            # must not hide a root.
             solver.reset_cooldowns()
             return present[0].switch(event, solver.time)
 
@@ -75,12 +86,17 @@ def _integrator(chain: Chain, tolerance: float) -> tuple[Any, list[EventMotion]]
 
 
 def solve_heyoka(
-    chain: Chain, duration: float, tolerance: float, until: str | None = None, nudge: float = NUDGE
+    chain: Chain,
+    duration: float,
+    tolerance: float,
+    until: str | None = None,
+    nudge: float = NUDGE,
 ) -> Result:
-    """Run a chain by heyoka.py; the tolerance sets the order of the series too, 0 is heyoka's own, rounding.
+    """Run a chain by heyoka.py; the tolerance sets the order of the series too, 0 is
+    heyoka's own, rounding.
 
-    A step of a series of order p counts as p evaluations: each derivative applies the equations once. `nudge`
-    is explained in `events.NUDGE`.
+    A step of a series of order p counts as p evaluations: each derivative applies the
+    equations once. `nudge` is explained in `events.NUDGE`.
     """
     solver, present = _integrator(chain, float(tolerance))
     motion = EventMotion(chain, duration, until, nudge)

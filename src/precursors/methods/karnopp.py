@@ -1,15 +1,17 @@
-"""Friction as a part of the right-hand side, by Karnopp's dead zone or Eq. 4 as printed, with RK4's steps.
+"""Friction as a part of the right-hand side, by Karnopp's dead zone or Eq. 4 as
+printed, with RK4's steps.
 
-Karnopp: a block slower than a small velocity dv counts as resting. It does not stretch the springs, and
-its friction balances their force up to mu_s w; outside, friction is mu_k w against the velocity. There
-are no modes: the law is evaluated four times a step (D. Karnopp, J. Dyn. Syst. Meas. Control 107, 1985,
-100-103).
+Karnopp: a block slower than a small velocity dv counts as resting. It does not stretch
+the springs, and its friction balances their force up to mu_s w; outside, friction is
+mu_k w against the velocity. There are no modes: the law is evaluated four times a step
+(D. Karnopp, J. Dyn. Syst. Meas. Control 107, 1985, 100-103).
 
-Eq. 4 taken literally is the same with dv = 0: friction is static where the velocity is exactly zero, and
-nowhere else. A velocity that crosses zero between two evaluations is never exactly zero, so a block that
-has once slid never sticks again: it trembles about zero by what a step changes its velocity, and creeps
-in proportion. With the paper's drive the load then never exceeds mu_s w_1 at steps from 1e-7 s on (theta
-<= 0); at finer ones it rises past it, without slips."""
+Eq. 4 taken literally is the same with dv = 0: friction is static where the velocity is
+exactly zero, and nowhere else. A velocity that crosses zero between two evaluations is
+never exactly zero, so a block that has once slid never sticks again: it trembles about
+zero by what a step changes its velocity, and creeps in proportion. With the paper's
+drive the load then never exceeds mu_s w_1 at steps from 1e-7 s on (theta <= 0); at
+finer ones it rises past it, without slips."""
 
 from __future__ import annotations
 
@@ -34,25 +36,27 @@ from precursors.methods.rk4 import room, step_of_law
 from precursors.model.chain import Chain
 from precursors.model.checks import not_negative, positive
 
-# Part of the width that is certainly safe, found by trial: below 0.1 blocks jump over the zone, above 0.2 the
-# error grows for nothing.
+# Part of the width that is certainly safe, found by trial: below 0.1 blocks jump over
+# the zone, above 0.2 the error grows for nothing.
 PART_OF_SAFE_WIDTH = 0.15
 
 
 def safe_width(chain: Chain, step: float) -> float:
     """Dead zone dv [m/s] that no block can jump over in a step on its way to rest.
 
-    Where the springs' force is within mu_s w, a sliding block slows down by at most (mu_s + mu_k) w h / m a
-    step, and the zone is 2 dv wide.
+    Where the springs' force is within mu_s w, a sliding block slows down by at most
+    (mu_s + mu_k) w h / m a step, and the zone is 2 dv wide.
     """
     slowdown = (chain.strength + chain.kinetic_friction).max() / chain.mass
     return 0.5 * step * float(slowdown)
 
 
 def release_delay(chain: Chain, dead_zone: float) -> float:
-    """Time [s] for which block 1, alone at its limit, creeps in the dead zone: m dv = K V t^2 / 2.
+    """Time [s] for which block 1, alone at its limit, creeps in the dead zone: m dv = K
+    V t^2 / 2.
 
-    The error of Karnopp's method is this delay's, of the order of the square root of the width.
+    The error of Karnopp's method is this delay's, of the order of the square root of
+    the width.
     """
     return math.sqrt(2.0 * chain.mass * dead_zone / chain.loading_rate)
 
@@ -65,7 +69,8 @@ def solve(
     dead_zone: float | None = None,
     **limits: Any,
 ) -> Result:
-    """Integrate with a dead zone of some velocity [m/s], by default `PART_OF_SAFE_WIDTH` of `safe_width`."""
+    """Integrate with a dead zone of some velocity [m/s], by default
+    `PART_OF_SAFE_WIDTH` of `safe_width`."""
     if dead_zone is None:
         dead_zone = PART_OF_SAFE_WIDTH * safe_width(chain, positive("step", step, "s"))
     width = not_negative("dead_zone", dead_zone, "m/s")
@@ -85,7 +90,8 @@ def by_velocity(system, _state, i, net, velocity, dead_zone):
 @outer
 def slide(system, state, h, n_steps, dead_zone):
     """Make n steps of the whole chain, with nothing recorded."""
-    n, work = state.shape[1] - 2, room(state)
+    n = state.shape[1] - 2
+    work = room(state)
     for _ in range(n_steps):
         step_of_law(by_velocity, dead_zone, system, state, n, h, work)
 
@@ -108,9 +114,11 @@ def all_are_recorded(state, dead_zone):
 @apart
 def record_modes(motion, dead_zone):
     """Record the blocks that have entered, left or crossed the dead zone in a step."""
-    state, progress = motion.state, motion.progress[0]
+    state = motion.state
+    progress = motion.progress[0]
     for i in range(1, state.shape[1] - 1):
-        old, new = int(state[MODE, i]), mode_of(state[VELOCITY, i], dead_zone)
+        old = int(state[MODE, i])
+        new = mode_of(state[VELOCITY, i], dead_zone)
         if new != old:
             state[MODE, i] = new
             progress.sliding += abs(new) - abs(old)
@@ -120,15 +128,24 @@ def record_modes(motion, dead_zone):
 @outer
 def run_karnopp(motion, step, dead_zone):
     """Run in steps with the law in each evaluation."""
-    system, state, progress = motion.system, motion.state, motion.progress[0]
-    n, work = state.shape[1] - 2, room(state)
+    system = motion.system
+    state = motion.state
+    progress = motion.progress[0]
+    n = state.shape[1] - 2
+    work = room(state)
     # No block is released: its velocity decides.
     while begin_leg(motion, all_keep_their_modes(system, state, n), False):
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
-            progress.evaluations += step_of_law(by_velocity, dead_zone, system, state, n, h, work)
+            progress.evaluations += step_of_law(
+                by_velocity, dead_zone, system, state, n, h, work
+            )
             progress.elapsed += h
-            if h < step or progress.sliding == 0 or not all_are_recorded(state, dead_zone):
+            if (
+                h < step
+                or progress.sliding == 0
+                or not all_are_recorded(state, dead_zone)
+            ):
                 break
         record_modes(motion, dead_zone)
 

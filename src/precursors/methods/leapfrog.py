@@ -1,8 +1,9 @@
-"""Fixed steps of one evaluation: velocity Verlet (leapfrog), semi-implicit Euler and forward Euler.
+"""Fixed steps of one evaluation: velocity Verlet (leapfrog), semi-implicit Euler and
+forward Euler.
 
-Stick and slip are switched once a step, as with `rk4`; while all blocks stick the wait is in closed form.
-The first two are symplectic: they keep a mode's energy up to their limit. Forward Euler has no limit, as it
-makes energy at any step.
+Stick and slip are switched once a step, as with `rk4`; while all blocks stick the wait
+is in closed form. The first two are symplectic: they keep a mode's energy up to their
+limit. Forward Euler has no limit, as it makes energy at any step.
 """
 
 from __future__ import annotations
@@ -17,11 +18,13 @@ from precursors.methods.fixed_step import fixed_step, run_in_steps
 
 LIMIT = 2.0  # largest stable omega dt, of both symplectic methods
 # Share of a step of the forces that is made before the step of the motion.
-VERLET, SEMI_IMPLICIT = 0.5, 1.0
+VERLET = 0.5
+SEMI_IMPLICIT = 1.0
 
 
 def energy_factor(z: float) -> float:
-    """Factor on the energy in a step in the long run, z = omega dt: 1 up to the limit, for both methods."""
+    """Factor on the energy in a step in the long run, z = omega dt: 1 up to the limit,
+    for both methods."""
     return math.exp(2.0 * math.acosh(max(0.5 * z * z - 1.0, 1.0)))
 
 
@@ -32,7 +35,8 @@ def euler_energy_factor(z: float) -> float:
 
 @inner
 def symplectic_step(system, state, last, h, before):
-    """A part of a step of the forces, a step of the motion, the rest of the forces (L. Verlet, 1967)."""
+    """A part of a step of the forces, a step of the motion, the rest of the forces (L.
+    Verlet, 1967)."""
     accelerate(state, last, before * h)
     stretch(system, state, last, h)
     if before < 1.0:
@@ -54,8 +58,8 @@ def euler_step(system, state, last, h, rate):
 def run_symplectic(motion, step, before):
     """Run with a step [s], see `run_in_steps`.
 
-    The forces at the end of a step of Verlet are those at the start of the next: one evaluation a step, and
-    one more where friction has changed in between.
+    The forces at the end of a step of Verlet are those at the start of the next: one
+    evaluation a step, and one more where friction has changed in between.
     """
     run_in_steps(motion, step, symplectic_step, before < 1.0, before)
 
@@ -82,7 +86,13 @@ METHODS = (
         )
         for name, label, before, order, look in (
             ("leapfrog", "leapfrog", VERLET, 2, ("#56B4E9", "X")),
-            ("semi_implicit_euler", "semi-implicit Euler", SEMI_IMPLICIT, 1, ("#2B7FB0", "P")),
+            (
+                "semi_implicit_euler",
+                "semi-implicit Euler",
+                SEMI_IMPLICIT,
+                1,
+                ("#2B7FB0", "P"),
+            ),
         )
     ),
     fixed_step(

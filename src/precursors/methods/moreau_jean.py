@@ -1,15 +1,18 @@
-"""Moreau-Jean time stepping: implicit springs, friction as a set-valued law of the velocity at a step's end.
+"""Moreau-Jean time stepping: implicit springs, friction as a set-valued law of the
+velocity at a step's end.
 
-M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235-257; V. Acary and B. Brogliato, Numerical Methods
-for Nonsmooth Dynamical Systems (2008). With the spring forces at the part theta of the step,
+M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235-257; V. Acary and B.
+Brogliato, Numerical Methods for Nonsmooth Dynamical Systems (2008). With the spring
+forces at the part theta of the step,
 
     m (v' - v) = h (T*_i - T*_{i+1} - R_i),
     T* = T + theta h c_i (u_{i-1} - u_i),  u = theta v' + (1 - theta) v,
 
-the friction R_i of a block is mode_i mu_k w_i where v' has the sign of its mode, and anything up to mu_s w_i
-where v' = 0. As mu_s > mu_k both can be true: a block that stuck at the last step sticks, one that slid
-slides. The modes are found by an active set: solve the tridiagonal system for the blocks that slide, stop
-those that go against their mode, release those whose R exceeds mu_s w, until nothing changes.
+the friction R_i of a block is mode_i mu_k w_i where v' has the sign of its mode, and
+anything up to mu_s w_i where v' = 0. As mu_s > mu_k both can be true: a block that
+stuck at the last step sticks, one that slid slides. The modes are found by an active
+set: solve the tridiagonal system for the blocks that slide, stop those that go against
+their mode, release those whose R exceeds mu_s w, until nothing changes.
 """
 
 from __future__ import annotations
@@ -33,13 +36,22 @@ from precursors.methods.columns import (
 from precursors.methods.common import Method
 from precursors.methods.compiled import inner, outer
 from precursors.methods.equations import move_by, net_force, solve_springs
-from precursors.methods.fixed_step import STEPS_IN_LEG, begin_leg, change_mode, fixed_step, step_length
+from precursors.methods.fixed_step import (
+    STEPS_IN_LEG,
+    begin_leg,
+    change_mode,
+    fixed_step,
+    step_length,
+)
 
-# theta: of order 2 while nothing switches, without damping; of order 1, damping what is faster than a step.
-TRAPEZOIDAL, IMPLICIT = 0.5, 1.0
+# theta: of order 2 while nothing switches, without damping; of order 1, damping what is
+# faster than a step.
+TRAPEZOIDAL = 0.5
+IMPLICIT = 1.0
 KNOWN, FACTOR, NEW = range(3)  # rows to work in
 CHARTED = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
-# The active set settles in two or three solutions; where it goes in a circle, this many are enough.
+# The active set settles in two or three solutions; where it goes in a circle, this many
+# are enough.
 SOLUTIONS_PER_BLOCK = 4
 
 
@@ -51,7 +63,9 @@ def energy_factor(z: float, theta: float) -> float:
 @inner
 def explicit_forces(system, state, last, h, theta, known):
     """Spring forces T* without the share of the new velocities."""
-    force, velocity, spring = state[FORCE], state[VELOCITY], system[SPRING]
+    force = state[FORCE]
+    velocity = state[VELOCITY]
+    spring = system[SPRING]
     part = theta * (1.0 - theta) * h
     for i in range(1, last + 2):
         known[i] = force[i] + part * spring[i] * (velocity[i - 1] - velocity[i])
@@ -62,7 +76,9 @@ def explicit_forces(system, state, last, h, theta, known):
 @inner
 def solve_velocities(system, state, last, h, theta, work):
     """New velocities of the blocks 1..last that slide."""
-    known, factor, new = work[KNOWN], work[FACTOR], work[NEW]
+    known = work[KNOWN]
+    factor = work[FACTOR]
+    new = work[NEW]
     for i in range(1, last + 1):
         slides = h * state[MOBILITY, i]
         net = known[i] - known[i + 1] - state[FRICTION, i]
@@ -73,9 +89,12 @@ def solve_velocities(system, state, last, h, theta, work):
 @inner
 def finish(system, state, last, h, theta, new):
     """Take over the new velocities and stretch the springs."""
-    force, velocity, spring = state[FORCE], state[VELOCITY], system[SPRING]
+    force = state[FORCE]
+    velocity = state[VELOCITY]
+    spring = system[SPRING]
     for i in range(1, last + 2):
-        before, after = velocity[i - 1] - velocity[i], new[i - 1] - new[i]
+        before = velocity[i - 1] - velocity[i]
+        after = new[i - 1] - new[i]
         force[i] += h * spring[i] * (theta * after + (1.0 - theta) * before)
         if i > 1:
             velocity[i - 1] = new[i - 1]
@@ -91,7 +110,10 @@ def set_trial(system, state, trial, i, mode):
 @inner
 def static_friction(system, state, i, h, theta, work):
     """Friction R_i that keeps block i at v' = 0, or brings it there [N]."""
-    known, new, spring, reach = work[KNOWN], work[NEW], system[SPRING], theta * theta * h
+    known = work[KNOWN]
+    new = work[NEW]
+    spring = system[SPRING]
+    reach = theta * theta * h
     behind = known[i] + reach * spring[i] * (new[i - 1] - new[i])
     ahead = known[i + 1] + reach * spring[i + 1] * (new[i] - new[i + 1])
     return behind - ahead + state[VELOCITY, i] / (system[INVERSE_MASS, i] * h)
@@ -99,7 +121,8 @@ def static_friction(system, state, i, h, theta, work):
 
 @inner
 def step_modes(system, state, last, h, theta, work, trial):
-    """Find modes and new velocities of a step; return the farthest sliding block and the solutions made."""
+    """Find modes and new velocities of a step; return the farthest sliding block and
+    the solutions made."""
     n_blocks = state.shape[1] - 2
     new = work[NEW]
     explicit_forces(system, state, last, h, theta, work[KNOWN])
@@ -127,12 +150,15 @@ def step_modes(system, state, last, h, theta, work, trial):
 def run_moreau_jean(motion, step, theta):
     """Run in steps.
 
-    A block that turns round needs a step to stop in, whose friction brakes it: where its springs overcome the
-    static friction at the end of that step, it turns. Each solution of the tridiagonal system counts as an
-    evaluation.
+    A block that turns round needs a step to stop in, whose friction brakes it: where
+    its springs overcome the static friction at the end of that step, it turns. Each
+    solution of the tridiagonal system counts as an evaluation.
     """
-    system, state, progress = motion.system, motion.state, motion.progress[0]
-    work, trial = np.zeros_like(state), state[MODE].copy()
+    system = motion.system
+    state = motion.state
+    progress = motion.progress[0]
+    work = np.zeros_like(state)
+    trial = state[MODE].copy()
     work[NEW, 0] = state[VELOCITY, 0]
     while begin_leg(motion):
         trial[1] = state[MODE, 1]
@@ -146,7 +172,8 @@ def run_moreau_jean(motion, step, theta):
             if h < step or solutions > 1:
                 break
         for i in range(1, last + 1):
-            old, new = int(state[MODE, i]), int(trial[i])
+            old = int(state[MODE, i])
+            new = int(trial[i])
             if old != 0 and new == 0:
                 state[VELOCITY, i] = 0.0
                 net = net_force(state, i)
@@ -159,8 +186,17 @@ def run_moreau_jean(motion, step, theta):
 
 def _method(name: str, label: str, theta: float, order: int, **others: Any) -> Method:
     others |= {"smooth": (order, math.inf, partial(energy_factor, theta=theta))}
-    name, label = f"moreau_jean_{name}", f"Moreau-Jean, {label}"
-    return fixed_step(name, label, run_moreau_jean, theta, values=CHARTED, whole=CHARTED[3:8:2], **others)
+    name = f"moreau_jean_{name}"
+    label = f"Moreau-Jean, {label}"
+    return fixed_step(
+        name,
+        label,
+        run_moreau_jean,
+        theta,
+        values=CHARTED,
+        whole=CHARTED[3:8:2],
+        **others,
+    )
 
 
 METHODS = (
@@ -173,5 +209,7 @@ METHODS = (
         quick_whole=(1e-7,),
         look=("#8C3A6B", "8"),
     ),
-    _method("one", "implicit", IMPLICIT, 1, quick=(1e-6, 1e-7), look=("#CC79A7", "4,1,0")),
+    _method(
+        "one", "implicit", IMPLICIT, 1, quick=(1e-6, 1e-7), look=("#CC79A7", "4,1,0")
+    ),
 )

@@ -1,13 +1,14 @@
-"""Regularised friction: a steep tanh in place of the jump at zero velocity, and a Stribeck drop to mu_k.
+"""Regularised friction: a steep tanh in place of the jump at zero velocity, and a
+Stribeck drop to mu_k.
 
 The friction coefficient at velocity v is
 
     mu(v) = tanh(v / width) (mu_k + (mu_s - mu_k) exp(-(v / (STRIBECK width))^2)),
 
-smooth, so that an integrator for stiff equations runs through without events. Nothing ever sticks: a block
-under a constant load F < mu_s w creeps at `creep_velocity`, and the equations are as stiff as
-mu_s w / (m width). A block counts as sliding while its speed is above that of largest friction, from where
-friction falls with speed.
+smooth, so that an integrator for stiff equations runs through without events. Nothing
+ever sticks: a block under a constant load F < mu_s w creeps at `creep_velocity`, and
+the equations are as stiff as mu_s w / (m width). A block counts as sliding while its
+speed is above that of largest friction, from where friction falls with speed.
 """
 
 from __future__ import annotations
@@ -30,13 +31,17 @@ from precursors.solver.run import Run
 
 Solver = Literal["Radau", "BDF"]
 SOLVERS: dict[Solver, Any] = {"Radau": Radau, "BDF": BDF}
-# The drop begins where tanh has all but reached 1, so that friction at its largest is mu_s to 1e-3.
+# The drop begins where tanh has all but reached 1, so that friction at its largest is
+# mu_s to 1e-3.
 STRIBECK = 100.0
-# At widths up to 1e-7 m/s the times come out the same to 1e-4 s at 1e-5 and at 1e-8: the width decides.
+# At widths up to 1e-7 m/s the times come out the same to 1e-4 s at 1e-5 and at 1e-8:
+# the width decides.
 TOLERANCE = 1e-6
 
 
-def friction_coefficient(velocity: FloatArray, width: float, mu_s: float, mu_k: float) -> FloatArray:
+def friction_coefficient(
+    velocity: FloatArray, width: float, mu_s: float, mu_k: float
+) -> FloatArray:
     """mu(v) of velocities [m/s] for a width [m/s]."""
     z = velocity / width
     return np.tanh(z) * (mu_k + (mu_s - mu_k) * np.exp(-((z / STRIBECK) ** 2)))
@@ -45,15 +50,19 @@ def friction_coefficient(velocity: FloatArray, width: float, mu_s: float, mu_k: 
 def friction_slope(velocity: Any, width: float, mu_s: float, mu_k: float) -> Any:
     """d mu / dv [s/m]."""
     z = velocity / width
-    tanh, drop = np.tanh(z), (mu_s - mu_k) * np.exp(-((z / STRIBECK) ** 2))
-    return ((1.0 - tanh**2) * (mu_k + drop) - tanh * drop * 2.0 * z / STRIBECK**2) / width
+    tanh = np.tanh(z)
+    drop = (mu_s - mu_k) * np.exp(-((z / STRIBECK) ** 2))
+    return (
+        (1.0 - tanh**2) * (mu_k + drop) - tanh * drop * 2.0 * z / STRIBECK**2
+    ) / width
 
 
 def creep_velocity(load: float, weight: float, width: float, mu_s: float) -> float:
-    """Velocity [m/s] at which a block held by friction creeps under a load F [N]: width atanh(F / mu_s w).
+    """Velocity [m/s] at which a block held by friction creeps under a load F [N]: width
+    atanh(F / mu_s w).
 
-    The Stribeck drop is left out: at the load r mu_s w it changes the velocity by a part of about
-    (1 - mu_k / mu_s) (atanh(r) / STRIBECK)^2 r / ((1 - r^2) atanh(r)).
+    The Stribeck drop is left out: at the load r mu_s w it changes the velocity by a
+    part of about (1 - mu_k / mu_s) (atanh(r) / STRIBECK)^2 r / ((1 - r^2) atanh(r)).
     """
     return width * math.atanh(load / (mu_s * weight))
 
@@ -65,8 +74,11 @@ def peak_velocity(width: float, mu_s: float, mu_k: float) -> float:
 
 def equations(
     chain: Chain, width: float
-) -> tuple[Callable[[float, FloatArray], FloatArray], Callable[[float, FloatArray], FloatArray]]:
-    """Right-hand side and Jacobian for the state y of `events`, friction being a function of velocity."""
+) -> tuple[
+    Callable[[float, FloatArray], FloatArray], Callable[[float, FloatArray], FloatArray]
+]:
+    """Right-hand side and Jacobian for the state y of `events`, friction being a
+    function of velocity."""
     n = chain.n_blocks
     law = (width * chain.mass / time_unit(chain), chain.mu_s, chain.mu_k)
     system, state = at_rest(chain, scaled=True)
@@ -90,12 +102,17 @@ def equations(
 
 
 def solve_regularised(
-    chain: Chain, duration: float, width: float, until: str | None = None, solver: Solver = "Radau"
+    chain: Chain,
+    duration: float,
+    width: float,
+    until: str | None = None,
+    solver: Solver = "Radau",
 ) -> Result:
-    """Run a chain with friction that turns over within a width [m/s], by SciPy's Radau or BDF.
+    """Run a chain with friction that turns over within a width [m/s], by SciPy's Radau
+    or BDF.
 
-    rtol is `TOLERANCE`, and atol the same number in N and N/tau (see `events`), but at most a hundredth of
-    the width.
+    rtol is `TOLERANCE`, and atol the same number in N and N/tau (see `events`), but at
+    most a hundredth of the width.
 
     Raises
     ------
@@ -105,12 +122,19 @@ def solve_regularised(
     duration = checked_span(duration, until)
     positive("width", width, "m/s")
     n = chain.n_blocks
-    tau, velocity_unit = time_unit(chain), chain.mass / time_unit(chain)
+    tau = time_unit(chain)
+    velocity_unit = chain.mass / time_unit(chain)
     right_hand_side, matrix = equations(chain, width)
     threshold = peak_velocity(width, chain.mu_s, chain.mu_k) * velocity_unit
     atol = np.repeat([TOLERANCE, min(TOLERANCE, 0.01 * width * velocity_unit)], n)
     stepper = SOLVERS[solver](
-        right_hand_side, 0.0, np.zeros(2 * n), duration / tau, rtol=TOLERANCE, atol=atol, jac=matrix
+        right_hand_side,
+        0.0,
+        np.zeros(2 * n),
+        duration / tau,
+        rtol=TOLERANCE,
+        atol=atol,
+        jac=matrix,
     )
     mode = np.zeros(n, np.int64)
     rows: list[tuple[float, int, int, float]] = []
@@ -120,12 +144,19 @@ def solve_regularised(
         if stepper.status == "failed":
             raise RuntimeError(f"{solver} at t = {stepper.t * tau:.9g} s: {message}")
         velocity = stepper.y[n:]
-        new = np.where(np.abs(velocity) > threshold, np.sign(velocity), 0.0).astype(np.int64)
+        new = np.where(np.abs(velocity) > threshold, np.sign(velocity), 0.0).astype(
+            np.int64
+        )
         if (new == mode).all():
             continue
         dense = stepper.dense_output()
         crossings = sorted(
-            (_crossing(dense, n + i, mode[i] or new[i], threshold, stepper.t_old, stepper.t), i)
+            (
+                _crossing(
+                    dense, n + i, mode[i] or new[i], threshold, stepper.t_old, stepper.t
+                ),
+                i,
+            )
             for i in np.flatnonzero(new != mode).tolist()
         )
         for time, i in crossings:
@@ -139,12 +170,18 @@ def solve_regularised(
     return Result(Run.from_transitions(chain, duration, *columns), stepper.nfev)
 
 
-def _crossing(dense, column: int, way: int, threshold: float, start: float, end: float) -> float:
-    """When the velocity in a column, in the direction of a mode, crosses the threshold in a step."""
+def _crossing(
+    dense, column: int, way: int, threshold: float, start: float, end: float
+) -> float:
+    """When the velocity in a column, in the direction of a mode, crosses the threshold
+    in a step."""
     return brentq(lambda time: way * float(dense(time)[column]) - threshold, start, end)
 
 
-_LOOKS: dict[Solver, tuple[str, str]] = {"Radau": ("#7A5C3E", "6,1,0"), "BDF": ("#C4A27A", "8,1,0")}
+_LOOKS: dict[Solver, tuple[str, str]] = {
+    "Radau": ("#7A5C3E", "6,1,0"),
+    "BDF": ("#C4A27A", "8,1,0"),
+}
 METHODS = tuple(
     Method(
         f"regularised_{solver.lower()}",

@@ -1,4 +1,5 @@
-"""The classical Runge-Kutta method with a fixed step; stick and slip are switched once a step."""
+"""The classical Runge-Kutta method with a fixed step; stick and slip are switched once
+a step."""
 
 from __future__ import annotations
 
@@ -16,13 +17,15 @@ LIMIT = 2.0 * math.sqrt(2.0)  # largest stable omega dt
 
 
 def energy_factor(z: float) -> float:
-    """Factor on the energy in a step, z = omega dt: |1 + iz - z^2/2 - iz^3/6 + z^4/24|^2."""
+    """Factor on the energy in a step, z = omega dt: |1 + iz - z^2/2 - iz^3/6 +
+    z^4/24|^2."""
     return 1.0 - z**6 / 72.0 + z**8 / 576.0
 
 
 @template
 def rk4_step(system, state, last, h, work):
-    """One step h [s] of blocks 1..last: four evaluations (W. Kutta, Z. Math. Phys. 46, 1901, 435-453)."""
+    """One step h [s] of blocks 1..last: four evaluations (W. Kutta, Z. Math. Phys. 46,
+    1901, 435-453)."""
     return step_of_law(by_mode, 0.0, system, state, last, h, work)
 
 
@@ -52,21 +55,26 @@ def step_from_rates(law, parameter, system, state, last, h, work):
 
 @inner
 def stage(law, parameter, system, state, last, share, ahead, work):
-    """Evaluate the rates of the trial state as `rates`, add their share, make the next trial state.
+    """Evaluate the rates of the trial state as `rates`, add their share, make the next
+    trial state.
 
     One loop: for short chains, to write down the rates costs more than the sums.
     """
     _, trial, total = work
-    behind, force = trial[VELOCITY, 0], trial[FORCE, 1]
+    behind = trial[VELOCITY, 0]
+    force = trial[FORCE, 1]
     for i in range(1, last + 1):
         force_ahead = trial[FORCE, i + 1]
-        here, acceleration = law(system, state, i, force - force_ahead, trial[VELOCITY, i], parameter)
+        here, acceleration = law(
+            system, state, i, force - force_ahead, trial[VELOCITY, i], parameter
+        )
         force_rate = system[SPRING, i] * (behind - here)
         total[FORCE, i] += share * force_rate
         total[VELOCITY, i] += share * acceleration
         trial[FORCE, i] = state[FORCE, i] + ahead * force_rate
         trial[VELOCITY, i] = state[VELOCITY, i] + ahead * acceleration
-        behind, force = here, force_ahead
+        behind = here
+        force = force_ahead
     force_rate = system[SPRING, last + 1] * behind
     total[FORCE, last + 1] += share * force_rate
     trial[FORCE, last + 1] = state[FORCE, last + 1] + ahead * force_rate

@@ -1,10 +1,11 @@
-"""The classical Runge-Kutta method with a fixed step, cut where a block changes its state.
+"""The classical Runge-Kutta method with a fixed step, cut where a block changes its
+state.
 
-An event function of each block is positive while its state lasts: its velocity in its mode's direction,
-or what mu_s w is larger than its force. The cubic through the values and rates of this function at both
-ends of a step shows the first zero, also of two in one step. The step is then made again as long as that,
-and its length corrected until the function is zero to rounding. While all blocks stick the wait is in
-closed form."""
+An event function of each block is positive while its state lasts: its velocity in its
+mode's direction, or what mu_s w is larger than its force. The cubic through the values
+and rates of this function at both ends of a step shows the first zero, also of two in
+one step. The step is then made again as long as that, and its length corrected until
+the function is zero to rounding. While all blocks stick the wait is in closed form."""
 
 from __future__ import annotations
 
@@ -12,7 +13,14 @@ import math
 
 import numpy as np
 
-from precursors.methods.columns import BACKWARD, INVERSE_MASS, MODE, SPRING, STRENGTH, VELOCITY
+from precursors.methods.columns import (
+    BACKWARD,
+    INVERSE_MASS,
+    MODE,
+    SPRING,
+    STRENGTH,
+    VELOCITY,
+)
 from precursors.methods.compiled import apart, inner, outer
 from precursors.methods.equations import by_mode, copy, event_function, net_force, rates
 from precursors.methods.fixed_step import (
@@ -37,7 +45,8 @@ NEVER = 2.0  # a part of the step beyond its end
 
 @inner
 def evaluate(system, state, last, rate, event):
-    """Rates of blocks 1..last; event functions of all that can change, and their rates (rows of `event`)."""
+    """Rates of blocks 1..last; event functions of all that can change, and their rates
+    (rows of `event`)."""
     rates(by_mode, 0.0, system, state, last, state, rate)
     for i in range(1, feels(state, last) + 1):
         event[0, i] = event_function(system, state, state, i)
@@ -45,7 +54,9 @@ def evaluate(system, state, last, rate, event):
             event[1, i] = state[MODE, i] * rate[VELOCITY, i]
         else:
             net = net_force(state, i)
-            sign = 1.0 if system[STRENGTH, i] - net < system[BACKWARD, i] + net else -1.0
+            sign = (
+                1.0 if system[STRENGTH, i] - net < system[BACKWARD, i] + net else -1.0
+            )
             event[1, i] = -sign * net_force(rate, i)
 
 
@@ -53,7 +64,9 @@ def evaluate(system, state, last, rate, event):
 def cubic_at(s, g0, b0, g1, b1):
     """Cubic with values g0, g1 and slopes b0, b1 at s = 0 and 1 (Hermite)."""
     r = 1.0 - s
-    return r * r * ((1.0 + 2.0 * s) * g0 + s * b0) + s * s * ((1.0 + 2.0 * r) * g1 - r * b1)
+    return r * r * ((1.0 + 2.0 * s) * g0 + s * b0) + s * s * (
+        (1.0 + 2.0 * r) * g1 - r * b1
+    )
 
 
 @inner
@@ -77,7 +90,8 @@ def falls_to_zero(low, high, g0, b0, g1, b1):
 
 @apart
 def first_zero(g0, b0, g1, b1, rounding):
-    """First place in 0 < s <= 1 where the cubic becomes negative by more than a rounding, or NEVER."""
+    """First place in 0 < s <= 1 where the cubic becomes negative by more than a
+    rounding, or NEVER."""
     g0 = max(g0, 0.0)
     if g0 + b0 / 3.0 >= 0.0 and g1 - b1 / 3.0 >= 0.0 and g1 >= 0.0:
         return NEVER
@@ -89,7 +103,11 @@ def first_zero(g0, b0, g1, b1, rounding):
     if discriminant > 0.0:
         q = -0.5 * (b + math.copysign(math.sqrt(discriminant), b))
         for turn in (q / a, b0 / q):
-            if 0.0 < turn < 1.0 and b + 2.0 * a * turn > 0.0 and cubic_at(turn, g0, b0, g1, b1) < -rounding:
+            if (
+                0.0 < turn < 1.0
+                and b + 2.0 * a * turn > 0.0
+                and cubic_at(turn, g0, b0, g1, b1) < -rounding
+            ):
                 lowest = turn
     if lowest == 1.0 and g1 >= -rounding:
         return NEVER
@@ -108,56 +126,78 @@ def first_zero(g0, b0, g1, b1, rounding):
 
 @inner
 def roundings(system):
-    """Roundings of the event functions: of a force while a block sticks [N], of a velocity [m/s]."""
+    """Roundings of the event functions: of a force while a block sticks [N], of a
+    velocity [m/s]."""
     force = ROUNDINGS * system[STRENGTH].sum()
     return force, force * math.sqrt(system[INVERSE_MASS, 1] / system[SPRING].max())
 
 
 @inner
 def first_transition(state, last, h, before, after, rounding):
-    """Block that changes its state first in a step, and the part of the step at which it does."""
-    first, block = NEVER, 0
+    """Block that changes its state first in a step, and the part of the step at which
+    it does."""
+    first = NEVER
+    block = 0
     for i in range(1, feels(state, last) + 1):
         zero = rounding[0] if state[MODE, i] == 0.0 else rounding[1]
-        s = first_zero(before[0, i], h * before[1, i], after[0, i], h * after[1, i], zero)
+        s = first_zero(
+            before[0, i], h * before[1, i], after[0, i], h * after[1, i], zero
+        )
         if s < first:
-            first, block = s, i
+            first = s
+            block = i
     return first, block
 
 
 @outer
 def run_located(motion, step):
     """Run in steps that end where a block changes its state."""
-    system, state, progress = motion.system, motion.state, motion.progress[0]
+    system = motion.system
+    state = motion.state
+    progress = motion.progress[0]
     rounding = roundings(system)
     rate, trial, total = room(state)
-    # The state at a step's start, and event functions with their rates; rates and functions at its end.
-    start, event = np.zeros(state.shape), np.zeros(state.shape)
-    rate_after, event_after = np.zeros(rate.shape), np.zeros(state.shape)
+    # The state at a step's start, and event functions with their rates; rates and
+    # functions at its end.
+    start = np.zeros(state.shape)
+    event = np.zeros(state.shape)
+    rate_after = np.zeros(rate.shape)
+    event_after = np.zeros(state.shape)
     idle = 0
     while begin_leg(motion):
         last = progress.last
         evaluate(system, state, last, rate, event)
         progress.evaluations += 1
         for _ in range(STEPS_IN_LEG):
-            h, s, i = step_length(progress, step), 1.0, 0
+            h = step_length(progress, step)
+            s = 1.0
+            i = 0
             copy(state, last, start)
             for correction in range(CORRECTIONS + 1):
-                step_from_rates(by_mode, 0.0, system, state, last, s * h, (rate, trial, total))
+                step_from_rates(
+                    by_mode, 0.0, system, state, last, s * h, (rate, trial, total)
+                )
                 progress.evaluations += 3
                 if correction == 0:
                     evaluate(system, state, last, rate_after, event_after)
                     progress.evaluations += 1
-                    s, i = first_transition(state, last, h, event, event_after, rounding)
-                    # Where blocks change without time going on, rounding can decide in a circle: make a whole
-                    # step.
+                    s, i = first_transition(
+                        state, last, h, event, event_after, rounding
+                    )
+                    # Where blocks change without time going on, rounding can decide in
+                    # a circle: make a whole step.
                     if s > 1.0 or idle > state.size:
                         i = 0
                         break
                 else:
                     zero = rounding[0] if state[MODE, i] == 0.0 else rounding[1]
                     g = event_function(system, state, state, i)
-                    ends = event[0, i], h * event[1, i], event_after[0, i], h * event_after[1, i]
+                    ends = (
+                        event[0, i],
+                        h * event[1, i],
+                        event_after[0, i],
+                        h * event_after[1, i],
+                    )
                     slope = cubic_slope(s, *ends)
                     if abs(g) <= zero or slope >= 0.0 or correction == CORRECTIONS:
                         break

@@ -1,9 +1,11 @@
-"""SciPy's solve_ivp with terminal events, restarted at each transition: RK45, DOP853, LSODA and Radau.
+"""SciPy's solve_ivp with terminal events, restarted at each transition: RK45, DOP853,
+LSODA and Radau.
 
-Events are the velocities of the blocks that slide and the margins of the stuck blocks beside them;
-elsewhere no force changes. SciPy looks for an event where its function has changed sign over a step, so a
-velocity that falls below zero and rises again within one step is missed without a warning. A shorter
-`max_step` is one cure; to look at more points of each step, as `dop853` does, is another."""
+Events are the velocities of the blocks that slide and the margins of the stuck blocks
+beside them; elsewhere no force changes. SciPy looks for an event where its function has
+changed sign over a step, so a velocity that falls below zero and rises again within one
+step is missed without a warning. A shorter `max_step` is one cure; to look at more
+points of each step, as `dop853` does, is another."""
 
 from __future__ import annotations
 
@@ -35,15 +37,18 @@ def solve_scipy(
     nudge: float = NUDGE,
     direction: float = FALLING,
 ) -> Result:
-    """Run a chain by `scipy.integrate.solve_ivp`; rtol is the tolerance, atol the same in N and N/tau.
+    """Run a chain by `scipy.integrate.solve_ivp`; rtol is the tolerance, atol the same
+    in N and N/tau.
 
-    `max_step` is the longest step [s]; `nudge` is explained in `events.NUDGE`. SciPy's `direction` of an
-    event takes any root where it is 0, its default, also one that a restart lies on.
+    `max_step` is the longest step [s]; `nudge` is explained in `events.NUDGE`. SciPy's
+    `direction` of an event takes any root where it is 0, its default, also one that a
+    restart lies on.
 
     Raises
     ------
     TransitionLimitError, RuntimeError
-        If transition follows transition without time going on, or SciPy reports a failure.
+        If transition follows transition without time going on, or SciPy reports a
+        failure.
     """
     motion = EventMotion(chain, duration, until, nudge)
 
@@ -67,17 +72,27 @@ def solve_scipy(
         )
         motion.evaluations += solution.nfev
         if not solution.success:
-            raise RuntimeError(f"{solver} at t = {motion.onset:.9g} s: {solution.message}")
+            raise RuntimeError(
+                f"{solver} at t = {motion.onset:.9g} s: {solution.message}"
+            )
         motion.y[:] = solution.y[:, -1]
-        fired = [number for number, times in zip(numbers, solution.t_events or (), strict=True) if len(times)]
+        fired = [
+            number
+            for number, times in zip(numbers, solution.t_events or (), strict=True)
+            if len(times)
+        ]
         return float(solution.t[-1]), fired[0] if fired else -1
 
     return march_restarting(motion, next_transition)
 
 
-def watched(motion: EventMotion, direction: float = FALLING) -> Iterator[tuple[int, EventFunction]]:
+def watched(
+    motion: EventMotion, direction: float = FALLING
+) -> Iterator[tuple[int, EventFunction]]:
     """Numbers and functions of the events that can come next."""
-    n, mode, strength = motion.chain.n_blocks, motion.state[MODE].tolist(), motion.system[STRENGTH].tolist()
+    n = motion.chain.n_blocks
+    mode = motion.state[MODE].tolist()
+    strength = motion.system[STRENGTH].tolist()
     for block in range(1, n + 1):
         found: list[EventFunction] = []
         if mode[block]:
@@ -102,7 +117,9 @@ def _margin(n_blocks: int, block: int, strength: float, way: float) -> EventFunc
 def _method(solver: Solver, values: tuple[float, ...], **others: Any) -> Method:
     label = f"SciPy {solver} with events"
     solve = partial(solve_scipy, solver=solver)
-    return Method(f"scipy_{solver.lower()}", label, "relative tolerance", solve, values, **others)
+    return Method(
+        f"scipy_{solver.lower()}", label, "relative tolerance", solve, values, **others
+    )
 
 
 METHODS = (
@@ -114,6 +131,8 @@ METHODS = (
         quick=(1e-11,),
         look=("#0072B2", "^"),
     ),
-    _method("LSODA", values=(1e-4, 1e-6, 1e-8, 1e-10), whole=(1e-10,), look=("#4F9FD0", "<")),
+    _method(
+        "LSODA", values=(1e-4, 1e-6, 1e-8, 1e-10), whole=(1e-10,), look=("#4F9FD0", "<")
+    ),
     _method("Radau", values=(1e-4, 1e-5), look=("#8FBFE0", ">")),
 )

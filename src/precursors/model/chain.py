@@ -23,14 +23,17 @@ from precursors.model.checks import (
 )
 
 FloatArray = NDArray[np.float64]
-# Beyond these a single slip takes more windows of time than a run can have, or a time is lost in rounding.
-STIFFEST, FASTEST = 1e12, 1e20
+# Beyond these a single slip takes more windows of time than a run can have, or a time
+# is lost in rounding.
+STIFFEST = 1e12
+FASTEST = 1e20
 _POSITIVE = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "length")
 
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """N blocks in a row on a rigid plane, pushed at block 1 through a spring (Eqs. 2-6).
+    """N blocks in a row on a rigid plane, pushed at block 1 through a spring (Eqs.
+    2-6).
 
     Parameters
     ----------
@@ -64,7 +67,13 @@ class Chain:
         object.__setattr__(self, "weights", weights)
         for name, unit in zip(_POSITIVE, ("kg", "N/m", "N/m", "m/s", "m"), strict=True):
             object.__setattr__(self, name, positive(name, getattr(self, name), unit))
-        if max(self.stiffness / self.drive_stiffness, self.drive_stiffness / self.stiffness) > STIFFEST:
+        if (
+            max(
+                self.stiffness / self.drive_stiffness,
+                self.drive_stiffness / self.stiffness,
+            )
+            > STIFFEST
+        ):
             raise ValueError(
                 f"stiffness and drive_stiffness must be within a factor of {STIFFEST:g}, but are "
                 f"{self.stiffness!r} and {self.drive_stiffness!r} N/m"
@@ -74,9 +83,12 @@ class Chain:
                 f"sqrt(stiffness/mass) must be between {1 / FASTEST:g} and {FASTEST:g} rad/s, but is "
                 f"{self.fastest_frequency_bound:g}"
             )
-        mu_s, mu_k = not_negative("mu_s", self.mu_s, "1"), number("mu_k", self.mu_k, "1")
+        mu_s = not_negative("mu_s", self.mu_s, "1")
+        mu_k = number("mu_k", self.mu_k, "1")
         if not 0 <= mu_k <= mu_s:
-            raise ValueError(f"mu_k must be between 0 and mu_s = {mu_s!r}, but is {mu_k!r}")
+            raise ValueError(
+                f"mu_k must be between 0 and mu_s = {mu_s!r}, but is {mu_k!r}"
+            )
         object.__setattr__(self, "mu_s", mu_s)
         object.__setattr__(self, "mu_k", mu_k)
 
@@ -96,14 +108,16 @@ class Chain:
         length: float = 0.1,
         weights: ArrayLike | None = None,
     ) -> Chain:
-        """Cut a slider into N equal blocks (Eqs. 7, 9 and 10); the defaults are the paper's.
+        """Cut a slider into N equal blocks (Eqs. 7, 9 and 10); the defaults are the
+        paper's.
 
         Parameters
         ----------
         n_blocks : int
             Number N of blocks, at least 1.
         theta : float or str
-            Degree of non-uniformity of the normal loading, -1 <= theta <= 1; a fraction as "5/6" is read.
+            Degree of non-uniformity of the normal loading, -1 <= theta <= 1; a fraction
+            as "5/6" is read.
         normal_load : float
             Total normal load F_Z [N].
         mu_s, mu_k : float
@@ -113,12 +127,17 @@ class Chain:
         slider_mass, youngs_modulus, cross_section, length : float
             M [kg], E [Pa], S [m^2] and L [m] of the slider.
         weights : array_like, shape (N,), optional
-            Normal load of each block [N], from the trailing edge on. The loading is then as measured:
-            n_blocks, theta and normal_load do not count.
+            Normal load of each block [N], from the trailing edge on. The loading is
+            then as measured: n_blocks, theta and normal_load do not count.
 
-        A ValueError says in one line which parameter is wrong, what it must be, and what it is.
+        A ValueError says in one line which parameter is wrong, what it must be, and
+        what it is.
         """
-        loads = linear_weights(n_blocks, normal_load, theta) if weights is None else _weights(weights)
+        loads = (
+            linear_weights(n_blocks, normal_load, theta)
+            if weights is None
+            else _weights(weights)
+        )
         n = len(loads)
         youngs_modulus = positive("youngs_modulus", youngs_modulus, "Pa")
         cross_section = positive("cross_section", cross_section, "m^2")
@@ -157,7 +176,9 @@ class Chain:
     @property
     def springs(self) -> FloatArray:
         """Stiffness of the spring behind each block [N/m], shape (N,): K, k, k, ..."""
-        return np.concatenate([[self.drive_stiffness], np.full(self.n_blocks - 1, self.stiffness)])
+        return np.concatenate(
+            [[self.drive_stiffness], np.full(self.n_blocks - 1, self.stiffness)]
+        )
 
     @property
     def fastest_frequency_bound(self) -> float:
@@ -185,14 +206,18 @@ class Chain:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Chain):
             return NotImplemented
-        return all(np.array_equal(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
+        return all(
+            np.array_equal(getattr(self, f.name), getattr(other, f.name))
+            for f in fields(self)
+        )
 
     def __hash__(self) -> int:
         return hash(self.weights.tobytes())
 
 
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:
-    """Normal loads w_i that change linearly along the slider [N], shape (N,) (Eq. 7; w_1 = F_Z at N = 1)."""
+    """Normal loads w_i that change linearly along the slider [N], shape (N,) (Eq. 7;
+    w_1 = F_Z at N = 1)."""
     n = whole("n_blocks", n_blocks, at_least=1, at_most=MOST_BLOCKS)
     load = positive("normal_load", normal_load, "N")
     degree = parse_theta(theta)
@@ -203,32 +228,48 @@ def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> Flo
 
 
 def written_fraction(text: str) -> Fraction:
-    """Return a decimal or a fraction as it is written, or raise a ValueError or ZeroDivisionError."""
+    """Return a decimal or a fraction as it is written, or raise a ValueError or
+    ZeroDivisionError."""
     if re.search(r"[eE][-+]?[\d_]{4}", text):
-        raise ValueError(f"{text!r} has an exponent of four digits")  # 10**exponent would be written out
+        raise ValueError(
+            f"{text!r} has an exponent of four digits"
+        )  # 10**exponent would be written out
     return Fraction(text)
 
 
 def parse_theta(theta: float | str) -> float:
-    """Read theta from a number between -1 and 1, or from a fraction written as "5/6"."""
+    """Read theta from a number between -1 and 1, or from a fraction written as
+    "5/6"."""
     try:
-        value = written_fraction(theta) if isinstance(theta, str) else Fraction(number("theta", theta, "1"))
+        value = (
+            written_fraction(theta)
+            if isinstance(theta, str)
+            else Fraction(number("theta", theta, "1"))
+        )
         if abs(value) <= 1:
             return float(value)
     except (ArithmeticError, ValueError):
         pass
-    raise ValueError(f'theta must be a number between -1 and 1, or a fraction as "5/6", but is {theta!r}')
+    raise ValueError(
+        f'theta must be a number between -1 and 1, or a fraction as "5/6", but is {theta!r}'
+    )
 
 
-def theta_from_load_cells(load_a: float, load_b: float, spacing: float, length: float) -> Fraction:
-    """Degree of non-uniformity from two load cells: (F_ZB - F_ZA)/F_Z * L/d, as in the paper's Sect. 5.2.
+def theta_from_load_cells(
+    load_a: float, load_b: float, spacing: float, length: float
+) -> Fraction:
+    """Degree of non-uniformity from two load cells: (F_ZB - F_ZA)/F_Z * L/d, as in the
+    paper's Sect. 5.2.
 
-    The straight line through the readings of two cells a distance `spacing` [m] apart is extended over the
-    contact of length `length` [m]. Nothing is rounded: 100 N and 300 N at 60 mm on 100 mm give 5/6.
+    The straight line through the readings of two cells a distance `spacing` [m] apart
+    is extended over the contact of length `length` [m]. Nothing is rounded: 100 N and
+    300 N at 60 mm on 100 mm give 5/6.
     """
     a = Fraction(repr(not_negative("load_a", load_a, "N")))
     b = Fraction(repr(not_negative("load_b", load_b, "N")))
-    span = Fraction(repr(positive("length", length, "m"))) / Fraction(repr(positive("spacing", spacing, "m")))
+    span = Fraction(repr(positive("length", length, "m"))) / Fraction(
+        repr(positive("spacing", spacing, "m"))
+    )
     if a + b == 0:
         raise ValueError("load_a or load_b must be above 0 N, but both are 0 N")
     theta = (b - a) / (a + b) * span
@@ -246,7 +287,9 @@ def _weights(values: ArrayLike) -> FloatArray:
         raise ValueError(
             f"weights must be one number [N] a block, at most {MOST_BLOCKS}, but have shape {weights.shape}"
         )
-    for i in np.flatnonzero(~((weights == 0) | ((weights >= SMALLEST) & (weights <= LARGEST))))[:1]:
+    for i in np.flatnonzero(
+        ~((weights == 0) | ((weights >= SMALLEST) & (weights <= LARGEST)))
+    )[:1]:
         raise ValueError(
             f"weights must be 0 N, or between {SMALLEST:g} and {LARGEST:g} N, but that of block {i + 1} is "
             f"{float(weights[i])!r} N"

@@ -1,4 +1,5 @@
-"""Checks of arguments: each returns the value, or raises a ValueError that names the parameter."""
+"""Checks of arguments: each returns the value, or raises a ValueError that names the
+parameter."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 Until = Literal["global slip"] | None
 
 # Products and squares of three such numbers stay within the range of doubles.
-SMALLEST, LARGEST = 1e-60, 1e60
+SMALLEST = 1e-60
+LARGEST = 1e60
 MOST_BLOCKS = 100_000
 
 
@@ -29,45 +31,68 @@ def number(name: str, value: object, unit: str) -> float:
 
 
 def number_array(name: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
-    """Return a new array of floats, or raise a ValueError that names the parameter and its type."""
-    kind = "a masked array" if np.ma.isMaskedArray(values) else "lists of different lengths"
+    """Return a new array of floats, or raise a ValueError that names the parameter and
+    its type."""
+    kind = (
+        "a masked array"
+        if np.ma.isMaskedArray(values)
+        else "lists of different lengths"
+    )
     with suppress(TypeError, ValueError):
         array = np.asarray(values)
         if not np.ma.isMaskedArray(values):
             kind = f"of type {array.dtype}"
             if array.dtype.kind in "iufO":
                 return np.array(array, dtype=np.float64)
-    raise ValueError(f"{name} must be numbers [{unit}], but are {kind}: {' '.join(repr(values).split())}")
+    raise ValueError(
+        f"{name} must be numbers [{unit}], but are {kind}: {' '.join(repr(values).split())}"
+    )
 
 
 def positive(name: str, value: object, unit: str) -> float:
-    """Return a float above zero that can be computed with, or raise a ValueError that names the parameter."""
+    """Return a float above zero that can be computed with, or raise a ValueError that
+    names the parameter."""
     result = number(name, value, unit)
     if result <= 0:
         raise ValueError(f"{name} must be above 0 {unit}, but is {value!r}")
     if not SMALLEST <= result <= LARGEST:
-        raise ValueError(f"{name} must be between {SMALLEST:g} and {LARGEST:g} {unit}, but is {value!r}")
+        raise ValueError(
+            f"{name} must be between {SMALLEST:g} and {LARGEST:g} {unit}, but is {value!r}"
+        )
     return result
 
 
 def not_negative(name: str, value: object, unit: str) -> float:
-    """Return a float of zero or more, or raise a ValueError that names the parameter."""
+    """Return a float of zero or more, or raise a ValueError that names the
+    parameter."""
     result = number(name, value, unit)
     if not 0 <= result <= LARGEST:
-        raise ValueError(f"{name} must be between 0 and {LARGEST:g} [{unit}], but is {value!r}")
+        raise ValueError(
+            f"{name} must be between 0 and {LARGEST:g} [{unit}], but is {value!r}"
+        )
     return result
 
 
 def whole(name: str, value: object, at_least: int, at_most: float = math.inf) -> int:
-    """Return an int within these limits, or raise a ValueError that names the parameter."""
-    if isinstance(value, bool) or not isinstance(value, Integral) or not at_least <= int(value) <= at_most:
-        limits = f"of at least {at_least}" if at_most == math.inf else f"from {at_least} to {at_most}"
+    """Return an int within these limits, or raise a ValueError that names the
+    parameter."""
+    if (
+        isinstance(value, bool)
+        or not isinstance(value, Integral)
+        or not at_least <= int(value) <= at_most
+    ):
+        limits = (
+            f"of at least {at_least}"
+            if at_most == math.inf
+            else f"from {at_least} to {at_most}"
+        )
         raise ValueError(f"{name} must be a whole number {limits}, but is {value!r}")
     return int(value)
 
 
 def checked_span(duration: object, until: object) -> float:
-    """Return the duration [s] of a run, or raise a ValueError about it or about `until`."""
+    """Return the duration [s] of a run, or raise a ValueError about it or about
+    `until`."""
     checked_until(until)
     return positive("duration", duration, "s")
 

@@ -11,11 +11,18 @@ from typing import Any
 
 from precursors.model.chain import Chain, parse_theta
 from precursors.model.checks import positive
-from precursors.model.scenes import Config, scene_additions, scene_duration, scene_slider, scenes_with_theta
+from precursors.model.scenes import (
+    Config,
+    scene_additions,
+    scene_duration,
+    scene_slider,
+    scenes_with_theta,
+)
 
 
 def check_file(path: str | os.PathLike[str]) -> None:
-    """Refuse a YAML file that cannot be read, has a key twice, or a number that YAML reads as another.
+    """Refuse a YAML file that cannot be read, has a key twice, or a number that YAML
+    reads as another.
 
     The ValueError says in one line which file, where in it, and what is wrong.
     """
@@ -24,12 +31,15 @@ def check_file(path: str | os.PathLike[str]) -> None:
     class Loader(yaml.SafeLoader):
         """Reads plain values, and each key once."""
 
-        def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        def construct_mapping(
+            self, node: yaml.MappingNode, deep: bool = False
+        ) -> dict[Any, Any]:
             keys = [key.value for key, _ in node.value]
             for i, (key, _) in enumerate(node.value):
                 if key.value in keys[:i]:
                     raise yaml.MarkedYAMLError(
-                        problem=f"the key {key.value!r} stands there twice", problem_mark=key.start_mark
+                        problem=f"the key {key.value!r} stands there twice",
+                        problem_mark=key.start_mark,
                     )
             return super().construct_mapping(node, deep)
 
@@ -41,7 +51,11 @@ def check_file(path: str | os.PathLike[str]) -> None:
                     problem_mark=node.start_mark,
                 )
             whole = node.tag.endswith("int")
-            return self.construct_yaml_int(node) if whole else self.construct_yaml_float(node)
+            return (
+                self.construct_yaml_int(node)
+                if whole
+                else self.construct_yaml_float(node)
+            )
 
     for tag in ("int", "float"):
         Loader.add_constructor(f"tag:yaml.org,2002:{tag}", Loader.plain_number)
@@ -75,7 +89,8 @@ def read_numbers(values: Any) -> Any:
 def check_config(config: Config, schema_path: str | os.PathLike[str]) -> None:
     """Refuse a configuration, as YAML gives it, that the workflow cannot run.
 
-    The ValueError says in one line which value, where, and what it must be. The JSON schema is YAML, too.
+    The ValueError says in one line which value, where, and what it must be. The JSON
+    schema is YAML, too.
     """
     import yaml
     from jsonschema import Draft202012Validator
@@ -85,7 +100,8 @@ def check_config(config: Config, schema_path: str | os.PathLike[str]) -> None:
     error = best_match(Draft202012Validator(schema).iter_errors(config))
     if error is not None:
         where = error.json_path.removeprefix("$").lstrip(".") or "top level"
-        hint, message = "", error.message
+        hint = ""
+        message = error.message
         if error.validator == "pattern" and "description" in error.schema:
             message = f"{error.instance!r} must be {error.schema['description']}"
         elif error.validator == "minItems":
@@ -113,7 +129,9 @@ def _check_chains(config: Config) -> None:
             positive("duration", scene_duration(config, name), "s")
         for name, values in config["accuracy"]["proved"].items():
             where = f"accuracy.proved.{name}"
-            Chain.from_slider(**{key: value for key, value in values.items() if key != "duration"})
+            Chain.from_slider(
+                **{key: value for key, value in values.items() if key != "duration"}
+            )
         where = "theta in reproduction"
         for theta in config["reproduction"]["theta"]:
             parse_theta(theta)
@@ -130,7 +148,11 @@ def _check_names_and_lengths(config: Config) -> None:
     ):
         for name in names:
             if name not in known:
-                raise ValueError(f"{where} holds {name!r}, but must hold names of {', '.join(known)}")
+                raise ValueError(
+                    f"{where} holds {name!r}, but must hold names of {', '.join(known)}"
+                )
     resolution = config["ensembles"]["resolution"]
     if len(resolution["runs"]) != len(resolution["n_blocks"]):
-        raise ValueError("ensembles.resolution.runs must have one number for each of n_blocks")
+        raise ValueError(
+            "ensembles.resolution.runs must have one number for each of n_blocks"
+        )

@@ -8,10 +8,13 @@ SCENES = {
     "fig11": {"events_counted": 6, "mu_sapp": MU_SAPP},
     "fig12": {"events_counted": 14, "mu_sapp": MU_SAPP},
 }
-# Events of the experiment (Sect. 3.2.2), which is never fitted, by the sign of theta: -1 for the larger load
-# at the trailing edge.
+# Events of the experiment (Sect. 3.2.2), which is never fitted, by the sign of theta:
+# -1 for the larger load at the trailing edge.
 EVENTS_OF_EXPERIMENT = {-1: 11, 0: 19, 1: 27}
-# Uniform loading (Sect. 3.2.1): F_X at the first global slip, and how long a global slip lasts.
-FIRST_GLOBAL_SLIP_N, SLIP_DURATION_S = 200.0, 0.002
+# Uniform loading (Sect. 3.2.1): F_X at the first global slip, and how long a global
+# slip lasts.
+FIRST_GLOBAL_SLIP_N = 200.0
+SLIP_DURATION_S = 0.002
 # Fig. 7: F_ZA and F_ZB at theta = 5/6, and how far the two load cells are apart.
-CELL_LOADS_N, CELL_SPACING_M = (100.0, 300.0), 0.06
+CELL_LOADS_N = (100.0, 300.0)
+CELL_SPACING_M = 0.06

@@ -12,25 +12,43 @@ from typing import Any
 import numpy as np
 
 from precursors.model.chain import Chain, parse_theta, theta_from_load_cells
-from precursors.support.spreadsheet import read_columns
+from precursors.model.spreadsheet import read_columns
 
 Config = Mapping[str, Any]
 
 # Arguments of `Chain.from_slider` and their defaults, the paper's.
-SLIDER = {name: p.default for name, p in inspect.signature(Chain.from_slider).parameters.items()}
+SLIDER = {
+    name: p.default
+    for name, p in inspect.signature(Chain.from_slider).parameters.items()
+}
 PAPERS_MODEL = "chain"
 # What a larger chain adds to the paper's (`hierarchy.larger`), with units.
-ADDITIONS = {"weakening_velocity": "m/s", "relaxation_time": "s", "viscosity": "N s/m", "push_height": "m"}
+ADDITIONS = {
+    "weakening_velocity": "m/s",
+    "relaxation_time": "s",
+    "viscosity": "N s/m",
+    "push_height": "m",
+}
 
 
 def scenes_with(config: Config, output: str) -> list[str]:
-    """Names of the scenes that have a "run", or "answers" because they name a model, in order."""
-    return [name for name, scene in config["scenes"].items() if ("model" in scene) == (output == "answers")]
+    """Names of the scenes that have a "run", or "answers" because they name a model, in
+    order."""
+    return [
+        name
+        for name, scene in config["scenes"].items()
+        if ("model" in scene) == (output == "answers")
+    ]
 
 
 def scenes_with_theta(config: Config) -> list[str]:
-    """Names of the scenes that have a run and whose normal load changes linearly along the slider."""
-    return [name for name in scenes_with(config, "run") if "weights" not in config["scenes"][name]]
+    """Names of the scenes that have a run and whose normal load changes linearly along
+    the slider."""
+    return [
+        name
+        for name in scenes_with(config, "run")
+        if "weights" not in config["scenes"][name]
+    ]
 
 
 def scene_model(config: Config, name: str) -> str:
@@ -44,7 +62,8 @@ def scene_duration(config: Config, name: str) -> float:
 
 
 def read_weights(path: str | PathLike[str]) -> list[float]:
-    """Normal loads [N] from a table with a number for each block, or with the block's number before it."""
+    """Normal loads [N] from a table with a number for each block, or with the block's
+    number before it."""
     table = read_columns(path, ["normal load of each block [N]"])
     n, width = table.shape
     if width == 1 or (n == 1 and width != 2):
@@ -57,10 +76,19 @@ def read_weights(path: str | PathLike[str]) -> list[float]:
     )
 
 
-def measured(slider: Mapping[str, Any], weights: str | PathLike[str] | Sequence[float]) -> dict[str, Any]:
+def measured(
+    slider: Mapping[str, Any], weights: str | PathLike[str] | Sequence[float]
+) -> dict[str, Any]:
     """A slider with measured normal loads [N], a list or a file; there is no theta."""
-    loads = read_weights(weights) if isinstance(weights, str | PathLike) else list(weights)
-    known = {"weights": loads, "n_blocks": len(loads), "normal_load": math.fsum(loads), "theta": math.nan}
+    loads = (
+        read_weights(weights) if isinstance(weights, str | PathLike) else list(weights)
+    )
+    known = {
+        "weights": loads,
+        "n_blocks": len(loads),
+        "normal_load": math.fsum(loads),
+        "theta": math.nan,
+    }
     return {**slider, **known}
 
 
@@ -69,22 +97,29 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
     slider = scene_as_written(config, name)
     if "weights" in slider:
         return measured(slider, slider["weights"])
-    return slider | {"theta": parse_theta(slider["theta"]), "normal_load": float(slider["normal_load"])}
+    return slider | {
+        "theta": parse_theta(slider["theta"]),
+        "normal_load": float(slider["normal_load"]),
+    }
 
 
 def scene_additions(config: Config, name: str) -> dict[str, float]:
-    """What the scene adds to the paper's chain, keys of `ADDITIONS`; a smaller model takes nothing."""
+    """What the scene adds to the paper's chain, keys of `ADDITIONS`; a smaller model
+    takes nothing."""
     scene = config["scenes"][name]
     given = {key: float(scene[key]) for key in ADDITIONS if key in scene}
     if "viscosity" in given and "relaxation_time" in given:
-        raise ValueError("viscosity must not be given beside relaxation_time, which is viscosity / k")
+        raise ValueError(
+            "viscosity must not be given beside relaxation_time, which is viscosity / k"
+        )
     if given and "model" in scene:
         raise ValueError(f"{', '.join(given)} must not be given beside model")
     return given
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:
-    """Arguments for a scene before any rounding: theta and F_Z = F_ZA + F_ZB of load cells are fractions.
+    """Arguments for a scene before any rounding: theta and F_Z = F_ZA + F_ZB of load
+    cells are fractions.
 
     A scene must give one of theta, load cells and weights.
     """
@@ -97,14 +132,25 @@ def scene_as_written(config: Config, name: str) -> dict[str, Any]:
                 raise ValueError(f"{key} must not be given beside weights")
         return slider | {"weights": scene["weights"]}
     if ("theta" in scene) == bool(cells) or len(cells) == 1:
-        given = " and ".join([key for key in ("theta", *cells) if key in scene]) or "neither"
+        given = (
+            " and ".join([key for key in ("theta", *cells) if key in scene])
+            or "neither"
+        )
         raise ValueError(
             f"needed is either theta or both load_cell_a and load_cell_b, or weights, but given is {given}"
         )
     if "theta" in scene:
         return slider | {"theta": scene["theta"]}
     if "normal_load" in scene:
-        raise ValueError("normal_load must not be given beside load cells, whose sum it is")
-    a, b = scene["load_cell_a"], scene["load_cell_b"]
-    theta = theta_from_load_cells(a, b, spacing=config["load_cells"]["spacing"], length=slider["length"])
-    return slider | {"theta": theta, "normal_load": Fraction(repr(a)) + Fraction(repr(b))}
+        raise ValueError(
+            "normal_load must not be given beside load cells, whose sum it is"
+        )
+    a = scene["load_cell_a"]
+    b = scene["load_cell_b"]
+    theta = theta_from_load_cells(
+        a, b, spacing=config["load_cells"]["spacing"], length=slider["length"]
+    )
+    return slider | {
+        "theta": theta,
+        "normal_load": Fraction(repr(a)) + Fraction(repr(b)),
+    }

@@ -17,7 +17,8 @@ def load_bound(chain: Chain) -> float:
 
 
 def maximal_compressions(chain: Chain) -> FloatArray:
-    """Compressions y_i^max [m], shape (N,), with every block at +mu_s w_i (Eq. 12, corrected).
+    """Compressions y_i^max [m], shape (N,), with every block at +mu_s w_i (Eq. 12,
+    corrected).
 
     Each spring carries the strength of all blocks ahead of it.
     """
@@ -25,34 +26,40 @@ def maximal_compressions(chain: Chain) -> FloatArray:
 
 
 def positions_from_compressions(compressions: FloatArray) -> FloatArray:
-    """Positions x_i [m], shape (N,), for compressions y_i = x_{i-1} - x_i and a drive at x_0 = 0 (Eq. 11)."""
+    """Positions x_i [m], shape (N,), for compressions y_i = x_{i-1} - x_i and a drive
+    at x_0 = 0 (Eq. 11)."""
     return -np.cumsum(compressions)
 
 
 def maximal_strain_positions(chain: Chain) -> FloatArray:
-    """Positions [m], shape (N,), of maximal residual strain (Eq. 12, corrected), with x_0 = 0."""
+    """Positions [m], shape (N,), of maximal residual strain (Eq. 12, corrected), with
+    x_0 = 0."""
     return positions_from_compressions(maximal_compressions(chain))
 
 
 def balance_matrix(chain: Chain) -> FloatArray:
-    """Matrix B [N/m], shape (N, N), whose B y is the net force of the springs on each block (Eqs. 2, 11)."""
+    """Matrix B [N/m], shape (N, N), whose B y is the net force of the springs on each
+    block (Eqs. 2, 11)."""
     return np.diag(chain.springs) - np.diag(chain.springs[1:], 1)
 
 
 def compressions_as_printed(chain: Chain) -> FloatArray:
-    """Compressions y_i [m], shape (N,), that Eq. 12 gives as printed: K y_N, not k y_N, in its last line."""
+    """Compressions y_i [m], shape (N,), that Eq. 12 gives as printed: K y_N, not k y_N,
+    in its last line."""
     balance = balance_matrix(chain)
     balance[-1, -1] = chain.drive_stiffness
     return np.linalg.solve(balance, chain.strength).astype(np.float64)
 
 
 def largest_load_at_rest(chain: Chain) -> tuple[float, FloatArray]:
-    """Largest F_X = K y_1 [N] of all states of rest, and the compressions [m] of that state (Eqs. 5, 11-13).
+    """Largest F_X = K y_1 [N] of all states of rest, and the compressions [m] of that
+    state (Eqs. 5, 11-13).
 
-    A linear program: the y_i are free, and a block is at rest if |s_i y_i - s_{i+1} y_{i+1}| <= mu_s w_i
-    with s = K, k, k, ...
+    A linear program: the y_i are free, and a block is at rest if |s_i y_i - s_{i+1}
+    y_{i+1}| <= mu_s w_i with s = K, k, k, ...
     """
-    # y_i in units of F_Z/s_i and forces in units of F_Z: the program is as well scaled for any K/k.
+    # y_i in units of F_Z/s_i and forces in units of F_Z: the program is as well scaled
+    # for any K/k.
     unit = chain.normal_load / chain.springs
     net = balance_matrix(chain) * unit / chain.normal_load
     limit = chain.strength / chain.normal_load
@@ -67,6 +74,8 @@ def largest_load_at_rest(chain: Chain) -> tuple[float, FloatArray]:
         options={"primal_feasibility_tolerance": LP_FEASIBILITY},
     )
     if found.status != 0:
-        raise RuntimeError(f"linear program of N = {chain.n_blocks} blocks: {found.message}")
+        raise RuntimeError(
+            f"linear program of N = {chain.n_blocks} blocks: {found.message}"
+        )
     compressions = np.asarray(found.x) * unit
     return float(chain.drive_stiffness * compressions[0]), compressions

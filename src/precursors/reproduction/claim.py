@@ -1,4 +1,5 @@
-"""What a claim is: a statement of the paper, and the function that finds whether the model agrees."""
+"""What a claim is: a statement of the paper, and the function that finds whether the
+model agrees."""
 
 from __future__ import annotations
 
@@ -13,16 +14,20 @@ from numpy.typing import ArrayLike
 from precursors.analysis.run_statistics import share_interval
 from precursors.reproduction.tables import Tables
 
-HOLDS, EXACT = "holds", "holds for exactly these inputs"
-DOES_NOT_HOLD, UNDECIDED = "does not hold", "cannot be decided"
+HOLDS = "holds"
+EXACT = "holds for exactly these inputs"
+DOES_NOT_HOLD = "does not hold"
+UNDECIDED = "cannot be decided"
 VERDICTS = (HOLDS, EXACT, DOES_NOT_HOLD, UNDECIDED)
-# The six printed numbers by which the readings of the paper's words were chosen, and what was found after.
-CHOSE, RESULT = "chose the readings", "result"
+# The six printed numbers by which the readings of the paper's words were chosen, and
+# what was found after.
+CHOSE = "chose the readings"
+RESULT = "result"
 KINDS = (CHOSE, RESULT)
 # A claim that holds in the run must hold in this share of an ensemble, too.
 ENOUGH = 0.95
-# Ensembles around the run: noise of 0.1 % in the normal loads, and sliders whose inputs are printed alike.
-# Draw 0 is the run itself.
+# Ensembles around the run: noise of 0.1 % in the normal loads, and sliders whose inputs
+# are printed alike. Draw 0 is the run itself.
 ENSEMBLES = {"noise": "noise_members", "digits": "digits_members"}
 
 
@@ -41,10 +46,11 @@ class Share:
 
 @dataclass(frozen=True)
 class Finding:
-    """Our numbers; whether the claim holds for them (None: an interval crosses the tolerance).
+    """Our numbers; whether the claim holds for them (None: an interval crosses the
+    tolerance).
 
-    `expected` is what ours are compared with, and `shares` has the share of each ensemble whose draws have
-    these numbers.
+    `expected` is what ours are compared with, and `shares` has the share of each
+    ensemble whose draws have these numbers.
     """
 
     ours: ArrayLike
@@ -54,7 +60,8 @@ class Finding:
 
     @property
     def verdict(self) -> str:
-        """The run decides whether a claim holds, the ensembles whether it does so for these inputs only."""
+        """The run decides whether a claim holds, the ensembles whether it does so for
+        these inputs only."""
         if self.holds is None:
             return UNDECIDED
         if not self.holds:
@@ -72,8 +79,8 @@ Find = Callable[[Tables], Finding]
 class Claim:
     """A statement of the paper that a run could contradict.
 
-    `section` says where the paper states it, `kind` is one of KINDS, `rule` says when it holds, `unit` is the
-    unit of its numbers, and `find` compares it with the tables.
+    `section` says where the paper states it, `kind` is one of KINDS, `rule` says when
+    it holds, `unit` is the unit of its numbers, and `find` compares it with the tables.
     """
 
     name: str
@@ -85,7 +92,8 @@ class Claim:
     find: Find
 
     def row(self, tables: Tables) -> dict[str, Any]:
-        """The claim's row of claims.csv; a run without an event that a claim is about contradicts it.
+        """The claim's row of claims.csv; a run without an event that a claim is about
+        contradicts it.
 
         Raises
         ------
@@ -97,8 +105,14 @@ class Claim:
         except (IndexError, ZeroDivisionError):
             finding = Finding((), False)
         except (KeyError, TypeError, ValueError) as error:
-            raise ValueError(f"claim {self.name}: the tables do not have its numbers: {error}") from error
-        row: dict[str, Any] = {"claim": self.name, "section": self.section, "kind": self.kind}
+            raise ValueError(
+                f"claim {self.name}: the tables do not have its numbers: {error}"
+            ) from error
+        row: dict[str, Any] = {
+            "claim": self.name,
+            "section": self.section,
+            "kind": self.kind,
+        }
         row |= {"statement": self.statement, "rule": self.rule, "unit": self.unit}
         row |= {"expected": shown(finding.expected), "ours": shown(finding.ours)}
         for name in ENSEMBLES:
@@ -115,10 +129,12 @@ def in_draws(
     holds: Callable[[pd.DataFrame], Any],
     expected: ArrayLike = (),
 ) -> Finding:
-    """A claim on numbers of the members: found in the run, and counted over the draws of both ensembles.
+    """A claim on numbers of the members: found in the run, and counted over the draws
+    of both ensembles.
 
-    `ours` takes runs, one row per draw and (quantity, scene) as columns, to the numbers of the claim, one row
-    per draw; `holds` says of each number whether it agrees, which NaN, no global slip, does not.
+    `ours` takes runs, one row per draw and (quantity, scene) as columns, to the numbers
+    of the claim, one row per draw; `holds` says of each number whether it agrees, which
+    NaN, no global slip, does not.
     """
     shares = []
     for name, members in ENSEMBLES.items():

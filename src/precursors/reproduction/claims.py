@@ -1,7 +1,8 @@
-"""All claims of the paper that a run could contradict. Numbers are in the order of SCENES.
+"""All claims of the paper that a run could contradict. Numbers are in the order of
+SCENES.
 
-`claims.csv` has what the paper states, in our words, and when it holds. Here is a function for each claim,
-with its name, that compares it with the tables.
+`claims.csv` has what the paper states, in our words, and when it holds. Here is a
+function for each claim, with its name, that compares it with the tables.
 """
 
 from __future__ import annotations
@@ -28,13 +29,16 @@ from precursors.support.files import read_table
 LAST_DIGIT = 0.01
 # The smallest mu_s that is printed as 0.70.
 MU_S = 0.695
-# Times whose steps vary by less than this (standard deviation over mean) would be called periodic.
+# Times whose steps vary by less than this (standard deviation over mean) would be
+# called periodic.
 PERIODIC = 0.05
 # Probability by chance below which a trend counts as one.
 CHANCE = 0.05
 # "Approximately" 200 N and 2 ms.
-NEAR_LOAD, NEAR_TIME = 0.05, 0.25
-# A length is a whole number of blocks: a straight line passes it by half a block at most.
+NEAR_LOAD = 0.05
+NEAR_TIME = 0.25
+# A length is a whole number of blocks: a straight line passes it by half a block at
+# most.
 HALF_A_BLOCK = 0.5
 # L_p/L from which the length of the experiment's precursors grows faster (Sect. 6.1).
 KINK = 0.7
@@ -50,7 +54,12 @@ def of_claim(find: Find) -> Find:
 
 def printed_count(scene: str, count: float, t: Tables) -> Finding:
     """Events of Fig. 13."""
-    return in_draws(t, lambda runs: runs["events_counted"][[scene]], lambda counts: counts == count, count)
+    return in_draws(
+        t,
+        lambda runs: runs["events_counted"][[scene]],
+        lambda counts: counts == count,
+        count,
+    )
 
 
 def printed_friction(scene: str, t: Tables) -> Finding:
@@ -63,8 +72,14 @@ def printed_friction(scene: str, t: Tables) -> Finding:
     )
 
 
-for scene, side in {TRAILING: "trailing", UNIFORM: "uniform", LEADING: "leading"}.items():
-    FINDINGS[f"count-{side}"] = partial(printed_count, scene, printed.SCENES[scene]["events_counted"])
+for scene, side in {
+    TRAILING: "trailing",
+    UNIFORM: "uniform",
+    LEADING: "leading",
+}.items():
+    FINDINGS[f"count-{side}"] = partial(
+        printed_count, scene, printed.SCENES[scene]["events_counted"]
+    )
     FINDINGS[f"friction-{side}"] = partial(printed_friction, scene)
 
 
@@ -72,13 +87,15 @@ for scene, side in {TRAILING: "trailing", UNIFORM: "uniform", LEADING: "leading"
 def chaos(t: Tables) -> Finding:
     """Largest Lyapunov exponent, above its uncertainty."""
     exponent, uncertainty = (
-        one(t["lyapunov"], column, scene=UNIFORM) for column in ("exponent_per_s", "uncertainty_per_s")
+        one(t["lyapunov"], column, scene=UNIFORM)
+        for column in ("exponent_per_s", "uncertainty_per_s")
     )
     return Finding(exponent, exponent > uncertainty, uncertainty)
 
 
 def line_of_lengths(slips: pd.DataFrame, along: str) -> FloatArray:
-    """Slope and offset of the straight line through the lengths along a column; needed are two events."""
+    """Slope and offset of the straight line through the lengths along a column; needed
+    are two events."""
     slips.iloc[1]
     return np.polyfit(slips[along], slips["front"], 1)
 
@@ -92,7 +109,9 @@ def variation_of_steps(times: pd.Series) -> float:
 @of_claim
 def stick_slip_is_not_periodic(t: Tables) -> Finding:
     """Intervals between the global slips."""
-    variation = variation_of_steps(rows(t[f"{UNIFORM}_slips"], is_global=True)["onset_s"])
+    variation = variation_of_steps(
+        rows(t[f"{UNIFORM}_slips"], is_global=True)["onset_s"]
+    )
     return Finding(variation, variation > PERIODIC)
 
 
@@ -105,38 +124,54 @@ def precursors_are_not_periodic(t: Tables) -> Finding:
 
 @of_claim
 def every_slip_drops_the_load(t: Tables) -> Finding:
-    """Smallest drop of F_X in a slip event of each scene (the last event may be cut off)."""
-    smallest = [(s["load_before_N"] - s["load_after_N"]).min() for s in (t[f"{x}_slips"] for x in SCENES)]
+    """Smallest drop of F_X in a slip event of each scene (the last event may be cut
+    off)."""
+    smallest = [
+        (s["load_before_N"] - s["load_after_N"]).min()
+        for s in (t[f"{x}_slips"] for x in SCENES)
+    ]
     return Finding(smallest, min(smallest) > 0)
 
 
 @of_claim
 def lengths_tend_to_increase(t: Tables) -> Finding:
-    """Probability that lengths in random order rise as much: one-sided test of Kendall's tau."""
+    """Probability that lengths in random order rise as much: one-sided test of
+    Kendall's tau."""
     lengths = up_to_first_global(t[f"{UNIFORM}_slips"])["front"].to_numpy(float)
-    by_chance = float(scipy.stats.kendalltau(range(len(lengths)), lengths, alternative="greater").pvalue)
+    by_chance = float(
+        scipy.stats.kendalltau(
+            range(len(lengths)), lengths, alternative="greater"
+        ).pvalue
+    )
     return Finding(by_chance, by_chance < CHANCE)
 
 
 @of_claim
 def length_is_linear_in_time(t: Tables) -> Finding:
-    """Largest distance of the lengths before the global slip from a straight line in time [blocks]."""
+    """Largest distance of the lengths before the global slip from a straight line in
+    time [blocks]."""
     counted = rows(before_global(t, UNIFORM), counted=True)
     line = line_of_lengths(counted, "onset_s")
-    distance = float(np.abs(counted["front"] - np.polyval(line, counted["onset_s"])).max())
+    distance = float(
+        np.abs(counted["front"] - np.polyval(line, counted["onset_s"])).max()
+    )
     return Finding(distance, distance <= HALF_A_BLOCK)
 
 
 @of_claim
 def count_grows_with_theta(t: Tables) -> Finding:
-    """Counts of Fig. 13 from theta to theta, in each draw and by the medians of the noise ensemble."""
+    """Counts of Fig. 13 from theta to theta, in each draw and by the medians of the
+    noise ensemble."""
     by_draw = in_draws(
         t,
         lambda runs: runs["events_counted"][list(SCENES)],
         lambda counts: counts.diff(axis=1).iloc[:, 1:] > 0,
     )
     pairs = [(UNIFORM, TRAILING), (LEADING, UNIFORM)]
-    medians = [rows(t["noise_differences"], quantity="events_counted", scene=a, other=b) for a, b in pairs]
+    medians = [
+        rows(t["noise_differences"], quantity="events_counted", scene=a, other=b)
+        for a, b in pairs
+    ]
     low, high = (pd.concat(medians)[name] for name in ("low", "high"))
     if (low <= 0).any() and by_draw.holds:
         return replace(by_draw, holds=None if (high > 0).all() else False)
@@ -153,10 +188,17 @@ def growth_falls_with_theta(t: Tables) -> Finding:
 
 @of_claim
 def friction_independent_of_loading(t: Tables) -> Finding:
-    """Differences of the medians of mu_sapp in the noise ensemble; each with a verdict of its interval."""
+    """Differences of the medians of mu_sapp in the noise ensemble; each with a verdict
+    of its interval."""
     pairs = rows(t["noise_differences"], quantity="mu_sapp")
     verdicts = set(pairs["verdict"])
-    holds = False if "different" in verdicts else None if "undecided" in verdicts else not pairs.empty
+    holds = (
+        False
+        if "different" in verdicts
+        else None
+        if "undecided" in verdicts
+        else not pairs.empty
+    )
     return Finding(pairs["difference"], holds, LAST_DIGIT)
 
 
@@ -195,7 +237,10 @@ def eq15_in_motion(t: Tables) -> Finding:
 @of_claim
 def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
     """Largest F_X of all, against that at the first global slip."""
-    first = [up_to_first_global(t[f"{scene}_slips"])["load_before_N"].iloc[-1] for scene in SCENES]
+    first = [
+        up_to_first_global(t[f"{scene}_slips"])["load_before_N"].iloc[-1]
+        for scene in SCENES
+    ]
     largest = largest_loads(t)
     return Finding(largest, bool(np.less_equal(largest, first).all()), first)
 
@@ -205,44 +250,60 @@ def short_events(t: Tables) -> Finding:
     """Events before the first global slip that Fig. 13 leaves out."""
     return in_draws(
         t,
-        lambda runs: (runs["events_to_global_slip"] - runs["events_counted"])[list(SCENES)],
+        lambda runs: (runs["events_to_global_slip"] - runs["events_counted"])[
+            list(SCENES)
+        ],
         lambda short: short > 0,
     )
 
 
 @of_claim
 def static_and_kinetic_friction(t: Tables) -> Finding:
-    """Median of the events counted over theta, where mu_k/mu_s is largest and smallest."""
+    """Median of the events counted over theta, where mu_k/mu_s is largest and
+    smallest."""
     counts = t["map_theta_friction_ratio"].dropna(subset=["events_counted"])
-    medians = counts.groupby("friction_ratio")["events_counted"].median().sort_index(ascending=False)
+    medians = (
+        counts.groupby("friction_ratio")["events_counted"]
+        .median()
+        .sort_index(ascending=False)
+    )
     return Finding(medians.iloc[[0, -1]], bool(medians.iloc[0] > medians.iloc[-1]))
 
 
 @of_claim
 def precursors_in_later_periods(t: Tables) -> Finding:
     """Share of the stick phases between global slips that have a partial slip."""
-    share = float(np.mean(np.diff(np.flatnonzero(t[f"{UNIFORM}_slips"]["is_global"])) > 1))
+    share = float(
+        np.mean(np.diff(np.flatnonzero(t[f"{UNIFORM}_slips"]["is_global"])) > 1)
+    )
     return Finding(share, share > 0.5)
 
 
 def growth(slips: pd.DataFrame) -> tuple[float, float]:
-    """Growth of L_p/L with the load [1/N] before and after the last event of Fig. 13 with L_p/L <= KINK.
+    """Growth of L_p/L with the load [1/N] before and after the last event of Fig. 13
+    with L_p/L <= KINK.
 
-    It ends with the first event of the whole length: from there on the length cannot grow.
+    It ends with the first event of the whole length: from there on the length cannot
+    grow.
     """
     counted = rows(slips, counted=True)
-    length, load = (counted["front"] / counted["n_blocks"]).to_numpy(), counted["load_before_N"].to_numpy()
+    length = (counted["front"] / counted["n_blocks"]).to_numpy()
+    load = counted["load_before_N"].to_numpy()
     until = int(np.argmax(length == length.max())) + 1
-    length, load = length[:until], load[:until]
+    length = length[:until]
+    load = load[:until]
     kink = np.flatnonzero(length <= KINK)[-1]
-    rise, span = np.diff(length[[0, kink, -1]]), np.diff(load[[0, kink, -1]])
+    rise = np.diff(length[[0, kink, -1]])
+    span = np.diff(load[[0, kink, -1]])
     return rise[0] / span[0], rise[1] / span[1]
 
 
 @of_claim
 def no_rapid_growth(t: Tables) -> Finding:
     """Growth beyond KINK against that before."""
-    before, beyond = zip(*(growth(t[f"{scene}_slips"]) for scene in SCENES), strict=True)
+    before, beyond = zip(
+        *(growth(t[f"{scene}_slips"]) for scene in SCENES), strict=True
+    )
     return Finding(beyond, bool(np.less_equal(beyond, before).all()), before)
 
 
@@ -283,11 +344,19 @@ def evaluate(tables: Tables) -> pd.DataFrame:
 
 
 def differences(found: pd.DataFrame, expected: pd.DataFrame) -> list[str]:
-    """Say in a line each which claims are new, missing, or of another verdict than expected."""
+    """Say in a line each which claims are new, missing, or of another verdict than
+    expected."""
     new, old = (table.set_index("claim")["verdict"] for table in (found, expected))
     both = [name for name in new.index if name in old.index]
     return [
-        *(f"{name}: is not among the expected claims" for name in new.index.difference(old.index)),
+        *(
+            f"{name}: is not among the expected claims"
+            for name in new.index.difference(old.index)
+        ),
         *(f"{name}: is missing" for name in old.index.difference(new.index)),
-        *(f"{name}: is {new[name]!r}, expected {old[name]!r}" for name in both if new[name] != old[name]),
+        *(
+            f"{name}: is {new[name]!r}, expected {old[name]!r}"
+            for name in both
+            if new[name] != old[name]
+        ),
     ]

@@ -20,12 +20,13 @@ from precursors.analysis.slips import (
 from precursors.methods.columns import SWITCHING_RULES
 from precursors.methods.fixed_step import march
 from precursors.methods.rk4_located import run_located
+from precursors.methods.switching import COULOMB
 from precursors.model.chain import Chain, parse_theta
-from precursors.model.switching import COULOMB
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-# The paper says that mu_sapp "appears to have" its value, which it prints with two digits.
+# The paper says that mu_sapp "appears to have" its value, which it prints with two
+# digits.
 LAST_DIGIT = 0.01
 # The size of theta where it is that of the scenes.
 OF_SCENES = "as in the scenes"
@@ -44,21 +45,24 @@ def definitions_table(
 ) -> pd.DataFrame:
     """One row for each reading and loading; the first three rows are ours.
 
-    Of the six numbers of a reading, `numbers_within_a_digit` counts those that differ from the paper's by at
-    most one unit of its last digit. A reading that has no global slip has no numbers.
+    Of the six numbers of a reading, `numbers_within_a_digit` counts those that differ
+    from the paper's by at most one unit of its last digit. A reading that has no global
+    slip has no numbers.
 
     Parameters
     ----------
     runs : sequence of Run
         The scenes with theta < 0, theta = 0 and theta > 0.
     slider, duration : mapping, float
-        Arguments of `Chain.from_slider` but theta, and time to simulate [s], for other sizes of theta.
+        Arguments of `Chain.from_slider` but theta, and time to simulate [s], for other
+        sizes of theta.
     degrees : sequence
         Other sizes of theta.
     load_drops : iterable of float
         Drops of F_X [N]; an event with a larger drop is a global slip in this reading.
     paper : sequence of mapping
-        The paper's events_counted and mu_sapp in the order of the runs, as far as it has them.
+        The paper's events_counted and mu_sapp in the order of the runs, as far as it
+        has them.
     """
     rows = []
     for changed, degree, rule, definition in readings(degrees, load_drops):
@@ -71,31 +75,45 @@ def definitions_table(
             "front": FRONTS[definition.front],
         }
         for sign, of_scene, printed in zip(SIGNS, runs, paper, strict=True):
-            run, theta = of_scene, of_scene.slider["theta"] if of_scene.slider else math.nan
+            run = of_scene
+            theta = of_scene.slider["theta"] if of_scene.slider else math.nan
             if degree != OF_SCENES:
                 theta = sign * parse_theta(degree)
-                run = simulate(Chain.from_slider(**{**slider, "theta": theta}), duration)
+                run = simulate(
+                    Chain.from_slider(**{**slider, "theta": theta}), duration
+                )
             if rule != COULOMB:
                 run = march(run_located, (), run.chain, duration, STEP, rule=rule).run
             found = apparent_friction(slip_table(run), definition)
-            counted, friction = (found.events_counted, found.mu_sapp) if found else (math.nan, math.nan)
+            counted, friction = (
+                (found.events_counted, found.mu_sapp) if found else (math.nan, math.nan)
+            )
             agree = {
                 "events_counted_is_papers": counted == printed.get("events_counted"),
                 "mu_sapp_is_papers_within_a_digit": (
                     abs(friction - printed.get("mu_sapp", math.nan)) <= LAST_DIGIT
                 ),
             }
-            row = {**reading, "theta": theta, "events_counted": counted, "mu_sapp": friction, **agree}
+            row = {
+                **reading,
+                "theta": theta,
+                "events_counted": counted,
+                "mu_sapp": friction,
+                **agree,
+            }
             rows.append(row | {"numbers_within_a_digit": sum(agree.values())})
     table = pd.DataFrame(rows)
     of_reading = table.groupby(table.index // len(SIGNS))
-    return table.assign(numbers_within_a_digit=of_reading["numbers_within_a_digit"].transform("sum"))
+    return table.assign(
+        numbers_within_a_digit=of_reading["numbers_within_a_digit"].transform("sum")
+    )
 
 
 def readings(
     degrees: Iterable[float | str], load_drops: Iterable[float]
 ) -> Iterator[tuple[str, float | str, str, Definition]]:
-    """Our reading and those with one change: what is changed, size of theta, switching, definition."""
+    """Our reading and those with one change: what is changed, size of theta, switching,
+    definition."""
     ours = Definition()
     drops: list[str | float] = [*list(GLOBAL_SLIPS)[1:], *load_drops]
     yield "nothing", OF_SCENES, COULOMB, ours

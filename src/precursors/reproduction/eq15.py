@@ -1,7 +1,7 @@
 """Eq. 15, mu_sapp <= mu_s: checked in symbols, over all states of rest, and in motion.
 
-The equation is about rest. So `fast_drive` drives the chain ever faster, until inertia breaks it, and
-`below_limit` says how far from the state of Eq. 12 a run stays.
+The equation is about rest. So `fast_drive` drives the chain ever faster, until inertia
+breaks it, and `below_limit` says how far from the state of Eq. 12 a run stays.
 """
 
 from __future__ import annotations
@@ -31,20 +31,26 @@ from precursors.solver.simulate import simulate
 SYMBOLIC_BLOCKS = 10
 # A start slightly below the maximal strain, as a fraction of it.
 SLIGHTLY_BELOW = 0.999
-# Of the speed at which a rigid slider would pass the bound: the chain bends, and moves before F_X = mu_k F_Z.
+# Of the speed at which a rigid slider would pass the bound: the chain bends, and moves
+# before F_X = mu_k F_Z.
 RIGID_TOLERANCE = 0.25
-# Of the speed that is found, and of the distance from the limit: more than rounding errors reach in 10 s.
+# Of the speed that is found, and of the distance from the limit: more than rounding
+# errors reach in 10 s.
 DIGITS = 4
-# A run ends after the drive has advanced so many times what the bound needs, if nothing stops it before.
+# A run ends after the drive has advanced so many times what the bound needs, if nothing
+# stops it before.
 ADVANCES = 3
 # Relative. HiGHS is asked for 1e-10 of F_Z; sums of N terms are rounded to 1e-16 each.
-LP_TOLERANCE, ROUNDING = 1e-9, 1e-12
+LP_TOLERANCE = 1e-9
+ROUNDING = 1e-12
 
 AT_LIMIT = "F_X = mu_s F_Z with all blocks at their limit"
 AS_PRINTED = "Eq. 12 as printed gives mu_s F_Z + (k/K - 1) mu_s w_N"
 AT_REST = "largest F_X of all states of rest is mu_s F_Z"
 FULL_STRAIN = "mu_sapp = mu_s, pushed from maximal residual strain"
-LESS_STRAIN = f"mu_sapp < mu_s, pushed from {SLIGHTLY_BELOW:g} of maximal residual strain"
+LESS_STRAIN = (
+    f"mu_sapp < mu_s, pushed from {SLIGHTLY_BELOW:g} of maximal residual strain"
+)
 RIGID = "mu_sapp = mu_s for a rigid slider, N = 1"
 FAST = "F_X passes mu_s F_Z in motion from (mu_s - mu_k) F_Z / sqrt(K M) on, to 25 %"
 BELOW = "some block at rest is below its limit (least part at slip onsets, above 0)"
@@ -62,12 +68,17 @@ class Check(NamedTuple):
 
 
 def eq15_table(runs: Mapping[str, Run], duration: float) -> pd.DataFrame:
-    """One row per `Check` of the runs of the scenes; a global slip is awaited for `duration` [s]."""
+    """One row per `Check` of the runs of the scenes; a global slip is awaited for
+    `duration` [s]."""
     scenes = {scene: run.chain for scene, run in runs.items()}
     rows = [*in_symbols(SYMBOLIC_BLOCKS)]
     rows += [as_printed(scene, chain) for scene, chain in scenes.items()]
     rows += [at_rest(scene, chain) for scene, chain in scenes.items()]
-    rows += [row for scene, chain in scenes.items() for row in in_motion(scene, chain, duration)]
+    rows += [
+        row
+        for scene, chain in scenes.items()
+        for row in in_motion(scene, chain, duration)
+    ]
     for scene, run in runs.items():
         rows += [fast_drive(scene, run.chain), below_limit(scene, run)]
     first = next(iter(scenes.values()))
@@ -75,31 +86,45 @@ def eq15_table(runs: Mapping[str, Run], duration: float) -> pd.DataFrame:
 
 
 def in_symbols(n: int) -> Iterator[Check]:
-    """The load of Eq. 12 for N blocks with any normal loads, as it follows from Eq. 2 and as printed."""
+    """The load of Eq. 12 for N blocks with any normal loads, as it follows from Eq. 2
+    and as printed."""
     import sympy  # slow, and the names of the checks are wanted without it
 
     from precursors.reproduction import derivation
 
-    w, bound = derivation.weights(n), derivation.bound(n)
+    w = derivation.weights(n)
+    bound = derivation.bound(n)
     excess = (derivation.k / derivation.K - 1) * derivation.mu_s * w[-1]
     for check, equations, expected in (
         (AT_LIMIT, derivation.balances(n), bound),
         (AS_PRINTED, derivation.balances_as_printed(n), bound + excess),
     ):
-        found, wanted = derivation.load(equations), sympy.expand(expected)
-        yield Check(check, f"N = {n}, in symbols", "N", str(wanted), str(found), found == wanted)
+        found = derivation.load(equations)
+        wanted = sympy.expand(expected)
+        yield Check(
+            check, f"N = {n}, in symbols", "N", str(wanted), str(found), found == wanted
+        )
 
 
 def as_printed(scene: str, chain: Chain) -> Check:
-    """The load of Eq. 12 as printed, from its N equations in numbers and by the formula."""
+    """The load of Eq. 12 as printed, from its N equations in numbers and by the
+    formula."""
     stiffer = chain.stiffness / chain.drive_stiffness - 1
     expected = load_bound(chain) + stiffer * float(chain.strength[-1])
     found = float(chain.drive_stiffness * compressions_as_printed(chain)[0])
-    return Check(AS_PRINTED, scene, "N", expected, found, math.isclose(found, expected, rel_tol=ROUNDING))
+    return Check(
+        AS_PRINTED,
+        scene,
+        "N",
+        expected,
+        found,
+        math.isclose(found, expected, rel_tol=ROUNDING),
+    )
 
 
 def at_rest(case: str, chain: Chain) -> Check:
-    """The largest load over all states of rest, which is reached in the state of Eq. 12 (corrected)."""
+    """The largest load over all states of rest, which is reached in the state of Eq. 12
+    (corrected)."""
     expected = load_bound(chain)
     found, compressions = largest_load_at_rest(chain)
     holds = math.isclose(found, expected, rel_tol=LP_TOLERANCE) and np.allclose(
@@ -109,10 +134,12 @@ def at_rest(case: str, chain: Chain) -> Check:
 
 
 def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[Check]:
-    """mu_sapp of a chain pushed from the state of maximal residual strain, and from slightly below it.
+    """mu_sapp of a chain pushed from the state of maximal residual strain, and from
+    slightly below it.
 
     At a fraction a of that strain every block is at a mu_s w_i. Block 1 slips first, at
-    F_X = a mu_s F_Z + (1 - a) mu_s w_1, and the others are near enough to their limits to follow it.
+    F_X = a mu_s F_Z + (1 - a) mu_s w_1, and the others are near enough to their limits
+    to follow it.
     """
     full = maximal_strain_positions(chain)
     share = float(chain.weights[0]) / chain.normal_load
@@ -124,9 +151,11 @@ def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[Check]:
 
 
 def largest_load(chain: Chain, speed: float) -> float:
-    """Largest F_X [N], from natural length, up to the end of the first global slip of a chain driven so fast.
+    """Largest F_X [N], from natural length, up to the end of the first global slip of a
+    chain driven so fast.
 
-    Driven fast, a chain never stops: its run then has time for a swing of the whole slider on the drive.
+    Driven fast, a chain never stops: its run then has time for a swing of the whole
+    slider on the drive.
     """
     driven = replace(chain, drive_velocity=speed)
     swing = math.tau * math.sqrt(chain.n_blocks * chain.mass / chain.drive_stiffness)
@@ -135,10 +164,12 @@ def largest_load(chain: Chain, speed: float) -> float:
 
 
 def fast_drive(scene: str, chain: Chain) -> Check:
-    """The speed of the drive that takes F_X beyond mu_s F_Z, and that of a rigid slider; NaN if none does.
+    """The speed of the drive that takes F_X beyond mu_s F_Z, and that of a rigid
+    slider; NaN if none does.
 
-    A rigid slider that slides at rest under mu_k F_Z when the drive comes at V has at most
-    F_X = mu_k F_Z + V sqrt(K M). The speed is sought up to that at which V sqrt(K M) alone is mu_s F_Z.
+    A rigid slider that slides at rest under mu_k F_Z when the drive comes at V has at
+    most F_X = mu_k F_Z + V sqrt(K M). The speed is sought up to that at which V sqrt(K
+    M) alone is mu_s F_Z.
     """
     momentum = math.sqrt(chain.drive_stiffness * chain.n_blocks * chain.mass)
     expected = (chain.mu_s - chain.mu_k) * chain.normal_load / momentum
@@ -148,14 +179,27 @@ def fast_drive(scene: str, chain: Chain) -> Check:
 
     between = chain.drive_velocity, load_bound(chain) / momentum
     passes = excess(between[0]) <= 0.0 < excess(between[1])
-    found = round(scipy.optimize.brentq(excess, *between, xtol=1e-6), DIGITS) if passes else math.nan
-    return Check(FAST, scene, "m/s", expected, found, math.isclose(found, expected, rel_tol=RIGID_TOLERANCE))
+    found = (
+        round(scipy.optimize.brentq(excess, *between, xtol=1e-6), DIGITS)
+        if passes
+        else math.nan
+    )
+    return Check(
+        FAST,
+        scene,
+        "m/s",
+        expected,
+        found,
+        math.isclose(found, expected, rel_tol=RIGID_TOLERANCE),
+    )
 
 
 def below_limit(scene: str, run: Run) -> Check:
-    """How near a run comes to the state of Eq. 12, in which all blocks are at their limits at once.
+    """How near a run comes to the state of Eq. 12, in which all blocks are at their
+    limits at once.
 
-    At the onset of each slip: what the block farthest from its limit mu_s w_i is below it, over mu_s w_i.
+    At the onset of each slip: what the block farthest from its limit mu_s w_i is below
+    it, over mu_s w_i.
     """
     forces = run.spring_forces(find_slips(run)["onset"])
     below = 1.0 + np.diff(forces, append=0.0) / run.chain.strength
@@ -164,13 +208,26 @@ def below_limit(scene: str, run: Run) -> Check:
 
 
 def rigid(chain: Chain, duration: float) -> Check:
-    """mu_sapp of one block with the weight and the mass of the whole chain, pushed from natural length."""
-    block = replace(chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass)
+    """mu_sapp of one block with the weight and the mass of the whole chain, pushed from
+    natural length."""
+    block = replace(
+        chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass
+    )
     found = pushed(block, None, duration)
-    return Check(RIGID, "N = 1", "1", chain.mu_s, found, math.isclose(found, chain.mu_s, rel_tol=ROUNDING))
+    return Check(
+        RIGID,
+        "N = 1",
+        "1",
+        chain.mu_s,
+        found,
+        math.isclose(found, chain.mu_s, rel_tol=ROUNDING),
+    )
 
 
 def pushed(chain: Chain, start: FloatArray | None, duration: float) -> float:
-    """mu_sapp (Eq. 1) of a chain pushed from rest at some positions [m]; NaN without a global slip."""
-    found = apparent_friction(slip_table(simulate(chain, duration, "global slip", start_positions=start)))
+    """mu_sapp (Eq. 1) of a chain pushed from rest at some positions [m]; NaN without a
+    global slip."""
+    found = apparent_friction(
+        slip_table(simulate(chain, duration, "global slip", start_positions=start))
+    )
     return found.mu_sapp if found else math.nan

@@ -1,7 +1,10 @@
-"""The paper's scenes, and the tables that the ledger is made from: who reads the rules imports no more."""
+"""The paper's scenes, and the tables that the ledger is made from: who reads the rules
+imports no more."""
 
 # By theta: -5/6, 0 and 5/6.
-TRAILING, UNIFORM, LEADING = "fig11", "fig10", "fig12"
+TRAILING = "fig11"
+UNIFORM = "fig10"
+LEADING = "fig12"
 SCENES = (TRAILING, UNIFORM, LEADING)
 SLIPS = tuple(f"{scene}_slips" for scene in SCENES)
 CLAIM_TABLES = (

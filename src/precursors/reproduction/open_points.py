@@ -1,4 +1,5 @@
-"""Misprints of the paper, and points that it leaves open beside the readings of definitions.csv."""
+"""Misprints of the paper, and points that it leaves open beside the readings of
+definitions.csv."""
 
 from __future__ import annotations
 
@@ -24,7 +25,10 @@ Pair = tuple[ArrayLike, ArrayLike]
 def eq12(t: Tables) -> Pair:
     """F_X of the state of Eq. 12."""
     checks = (eq15.AS_PRINTED, eq15.AT_REST)
-    as_printed, right = ([float(one(t["eq15"], "found", check=c, case=s)) for s in SCENES] for c in checks)
+    as_printed, right = (
+        [float(one(t["eq15"], "found", check=c, case=s)) for s in SCENES]
+        for c in checks
+    )
     return as_printed, right
 
 
@@ -35,8 +39,13 @@ def counts(t: Tables) -> list[int]:
 
 def residual_strain(t: Tables) -> Pair:
     """mu_sapp from the largest residual strain, and from natural length."""
-    most = [float(one(t["eq15"], "found", check=eq15.FULL_STRAIN, case=scene)) for scene in SCENES]
-    return most, [one(t["mu_sapp"], "mu_sapp", scene=scene, is_papers=True) for scene in SCENES]
+    most = [
+        float(one(t["eq15"], "found", check=eq15.FULL_STRAIN, case=scene))
+        for scene in SCENES
+    ]
+    return most, [
+        one(t["mu_sapp"], "mu_sapp", scene=scene, is_papers=True) for scene in SCENES
+    ]
 
 
 def short_events(t: Tables) -> Pair:
@@ -62,8 +71,10 @@ def ratio_at_cells(t: Tables) -> Pair:
 
 
 def theta_by_moments(t: Tables) -> Pair:
-    """theta by moments with ten blocks, and with a line contact, against that of the straight line."""
-    # Moments about the middle of the contact, over F_Z L: of the cells, and of the loads with theta = 1.
+    """theta by moments with ten blocks, and with a line contact, against that of the
+    straight line."""
+    # Moments about the middle of the contact, over F_Z L: of the cells, and of the
+    # loads with theta = 1.
     cells = difference_of_cells() * printed.CELL_SPACING_M / slider(t, "length_m") / 2
     n = int(slider(t, "n_blocks"))
     blocks = float(linear_weights(n, 1.0, 1.0) @ ((np.arange(n) + 0.5) / n - 0.5))
@@ -72,11 +83,13 @@ def theta_by_moments(t: Tables) -> Pair:
 
 def end_to_end(t: Tables) -> Pair:
     """Stiffness of the slider from end to end."""
-    n, k = slider(t, "n_blocks"), one(t["measures"], "stiffness_N_per_m", scene=UNIFORM)
+    n = slider(t, "n_blocks")
+    k = one(t["measures"], "stiffness_N_per_m", scene=UNIFORM)
     return k / (n - 1), k / n
 
 
-# By the point of open_points.csv, which says in words what the paper prints and what is taken instead.
+# By the point of open_points.csv, which says in words what the paper prints and what is
+# taken instead.
 NUMBERS: dict[str, Callable[[Tables], Pair]] = {
     "eq12": eq12,
     "fig8": lambda t: (0, slider(t, "theta", LEADING)),
@@ -92,8 +105,14 @@ NUMBERS: dict[str, Callable[[Tables], Pair]] = {
 
 
 def open_points_table(tables: Tables) -> pd.DataFrame:
-    """One row per point: section, kind, as_printed, taken, unit, number_as_printed, number_taken."""
+    """One row per point: section, kind, as_printed, taken, unit, number_as_printed,
+    number_taken."""
     table = read_table(Path(__file__).with_name("open_points.csv"), dtype=str)
-    pairs = [NUMBERS[point](tables) if point in NUMBERS else ((), ()) for point in table.pop("point")]
+    pairs = [
+        NUMBERS[point](tables) if point in NUMBERS else ((), ())
+        for point in table.pop("point")
+    ]
     numbers = [[shown(values) for values in pair] for pair in pairs]
-    return table.join(pd.DataFrame(numbers, columns=["number_as_printed", "number_taken"]))
+    return table.join(
+        pd.DataFrame(numbers, columns=["number_as_printed", "number_taken"])
+    )

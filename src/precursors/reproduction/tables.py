@@ -35,6 +35,7 @@ def one(table: pd.DataFrame, column: str, **where: Any) -> Any:
 
 
 def before_global(tables: Tables, scene: str) -> pd.DataFrame:
-    """Slip events of a scene before the first global slip: its precursors, short ones included."""
+    """Slip events of a scene before the first global slip: its precursors, short ones
+    included."""
     slips = tables[f"{scene}_slips"]
     return slips.iloc[: first_global(slips)]

@@ -1,17 +1,23 @@
-"""The method of the compiled kernel in plain Python: from transition to transition by the earliest root.
+"""The method of the compiled kernel in plain Python: from transition to transition by
+the earliest root.
 
-Between two transitions the chain is linear: friction is constant, and the load grows linearly in time. With
-the force T_i in the spring behind each block, its stiffness c_i = K, k, k, ... and v_0 = V (Eqs. 2-6),
+Between two transitions the chain is linear: friction is constant, and the load grows
+linearly in time. With the force T_i in the spring behind each block, its stiffness c_i
+= K, k, k, ... and v_0 = V (Eqs. 2-6),
 
-    dT_i/dt = c_i (v_{i-1} - v_i),    m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides.
+    dT_i/dt = c_i (v_{i-1} - v_i),    m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i
+    where block i slides.
 
-1. In a short window, Taylor series of `ORDER` terms have all digits. Blocks far ahead of the front need none.
-2. Event functions are the velocity of a block that slides, and the margins mu_s w_i -+ (T_i - T_{i+1}) of a
-   block that sticks. The earliest root of all of them is the next transition.
-3. With |g''| <= M, the positive root of g + g' s - M s^2/2 is a safe step: no root of g lies before it. Such
-   steps converge to the first root, or prove that the window has none.
-4. A block that stops sticks if |T_i - T_{i+1}| <= mu_s w_i, and otherwise follows that force. A block that
-   lets go slides in the direction of the force.
+1. In a short window, Taylor series of `ORDER` terms have all digits. Blocks far ahead
+  of the front need none.
+2. Event functions are the velocity of a block that slides, and the margins mu_s w_i -+
+  (T_i - T_{i+1}) of a block that sticks. The earliest root of all of them is the next
+  transition.
+3. With |g''| <= M, the positive root of g + g' s - M s^2/2 is a safe step: no root of g
+  lies before it. Such steps converge to the first root, or prove that the window has
+  none.
+4. A block that stops sticks if |T_i - T_{i+1}| <= mu_s w_i, and otherwise follows that
+  force. A block that lets go slides in the direction of the force.
 5. Where all blocks stick, only T_1 grows, by K V in a second, until block 1 lets go.
 """
 
@@ -29,14 +35,19 @@ Floats = NDArray[np.floating]
 REAL = np.longdouble  # more digits, where the machine has them
 ORDER = 24
 WINDOW = 1.375  # longest window times largest frequency: WINDOW^ORDER / ORDER! is 3e-21
-ROUNDINGS = 8 * float(np.finfo(float).eps)  # a value below so many roundings of its terms counts as zero
+ROUNDINGS = 8 * float(
+    np.finfo(float).eps
+)  # a value below so many roundings of its terms counts as zero
 N = np.arange(ORDER + 1, dtype=REAL)
-BINOMIAL = np.array([[math.comb(n, k) for n in range(ORDER + 1)] for k in range(ORDER + 1)], dtype=REAL)
+BINOMIAL = np.array(
+    [[math.comb(n, k) for n in range(ORDER + 1)] for k in range(ORDER + 1)], dtype=REAL
+)
 EXPONENT = np.maximum(N[None, :] - N[:, None], 0).astype(int)
 
 
 class State(NamedTuple):
-    """Velocities [m/s], spring forces [N] and modes; column 0 is the drive, N + 1 the free end."""
+    """Velocities [m/s], spring forces [N] and modes; column 0 is the drive, N + 1 the
+    free end."""
 
     velocity: Floats
     force: Floats
@@ -44,26 +55,42 @@ class State(NamedTuple):
 
 
 def at_start(chain: Chain, positions: Floats, velocities: Floats) -> State:
-    """State at time 0: a block slides if it moves, or if its springs overcome the static friction (Eq. 5)."""
+    """State at time 0: a block slides if it moves, or if its springs overcome the
+    static friction (Eq. 5)."""
     force = np.pad(-chain.springs * np.diff(positions, prepend=0.0), 1).astype(REAL)
     net = force[1:-1] - force[2:]
-    rounding = ROUNDINGS * (chain.strength + 4.0 * chain.springs.max() * abs(positions).max())
+    rounding = ROUNDINGS * (
+        chain.strength + 4.0 * chain.springs.max() * abs(positions).max()
+    )
     pushed = np.where(abs(net) > chain.strength + rounding, np.sign(net), 0.0)
     mode = np.where(velocities != 0.0, np.sign(velocities), pushed)
-    return State(np.r_[chain.drive_velocity, velocities, REAL(0)], force, np.pad(mode.astype(np.int64), 1))
+    return State(
+        np.r_[chain.drive_velocity, velocities, REAL(0)],
+        force,
+        np.pad(mode.astype(np.int64), 1),
+    )
 
 
 def expand(chain: Chain, state: State, window: float) -> tuple[Floats, Floats]:
-    """Taylor series of velocities and spring forces, row n times s^n, with s = 1 at the end of the window."""
+    """Taylor series of velocities and spring forces, row n times s^n, with s = 1 at the
+    end of the window."""
     v, force = np.zeros((2, ORDER + 1, chain.n_blocks + 2), dtype=REAL)
-    v[0], force[0] = state.velocity, state.force
+    v[0] = state.velocity
+    force[0] = state.force
     last = min(int(np.flatnonzero(state.mode).max(initial=0)) + 1, chain.n_blocks)
-    springs, mode = chain.springs[:last], state.mode[1 : last + 1]
+    springs = chain.springs[:last]
+    mode = state.mode[1 : last + 1]
     friction = mode * chain.kinetic_friction[:last]
     for n in range(ORDER):
-        pull = force[n, 1 : last + 1] - force[n, 2 : last + 2] - (friction if n == 0 else 0.0)
+        pull = (
+            force[n, 1 : last + 1]
+            - force[n, 2 : last + 2]
+            - (friction if n == 0 else 0.0)
+        )
         v[n + 1, 1 : last + 1] = window / (n + 1) * abs(mode) * pull / chain.mass
-        force[n + 1, 1 : last + 1] = window / (n + 1) * springs * (v[n, :last] - v[n, 1 : last + 1])
+        force[n + 1, 1 : last + 1] = (
+            window / (n + 1) * springs * (v[n, :last] - v[n, 1 : last + 1])
+        )
     return v, force
 
 
@@ -75,83 +102,131 @@ def powers(s: float) -> Floats:
 def move(state: State, v: Floats, force: Floats, s: float) -> State:
     """The state at s, summed from the smallest term on."""
     terms = powers(s)[:, None]
-    return State((v * terms)[::-1].sum(axis=0), (force * terms)[::-1].sum(axis=0), state.mode)
+    return State(
+        (v * terms)[::-1].sum(axis=0), (force * terms)[::-1].sum(axis=0), state.mode
+    )
 
 
 def safe_step(g: float, slope: float, curvature: float) -> float:
-    """Positive root of g + slope s - curvature s^2/2 for g >= 0: no root of g lies before it."""
+    """Positive root of g + slope s - curvature s^2/2 for g >= 0: no root of g lies
+    before it."""
     root = math.sqrt(slope * slope + 2.0 * curvature * g)
     rising = (slope + root) / curvature if curvature else math.inf
     return 2.0 * g / (root - slope) if slope < 0.0 else rising
 
 
 def first_root(series: Floats, zero: float, limit: float) -> float:
-    """First root of a polynomial in 0 <= s < limit <= 1, or infinity; a value up to `zero` is zero."""
+    """First root of a polynomial in 0 <= s < limit <= 1, or infinity; a value up to
+    `zero` is zero."""
     resolved = np.flatnonzero(abs(series) > zero)
     if resolved.size == 0:
         return math.inf
-    # A root at the start belongs to the last transition: divide it out. If g then falls, the next is at once.
+    # A root at the start belongs to the last transition: divide it out. If g then
+    # falls, the next is at once.
     c = np.append(series[resolved[0] :], np.zeros(resolved[0]))
-    s, left = 0.0, 1.0
+    s = 0.0
+    left = 1.0
     while c[0] + np.minimum(c[1:], 0.0).sum() <= 0.0:
         step = safe_step(max(c[0], 0.0), c[1], float((N * (N - 1.0)) @ abs(c)))
-        if c[0] <= zero or left * step <= 1e-17:  # the root, but for a last step of Newton
+        if (
+            c[0] <= zero or left * step <= 1e-17
+        ):  # the root, but for a last step of Newton
             return s + left * max(-c[0] / c[1], 0.0) if c[1] < 0.0 else s
         if s + left * step >= limit:
             return math.inf
         # The series about the new place, on what is left of the window.
         c = (BINOMIAL * powers(step)[EXPONENT]) @ c * powers(1.0 - step)
-        s, left = s + left * step, left * (1.0 - step)
+        s = s + left * step
+        left = left * (1.0 - step)
     return math.inf
 
 
-def next_transition(chain: Chain, state: State, window: float, eps: float) -> tuple[float, int, int, State]:
-    """(s, block, new mode) of the first transition in the window, and the state at s; (1, 0, 0) if none."""
+def next_transition(
+    chain: Chain, state: State, window: float, eps: float
+) -> tuple[float, int, int, State]:
+    """(s, block, new mode) of the first transition in the window, and the state at s;
+    (1, 0, 0) if none."""
     v, force = expand(chain, state, window)
-    net, sliding = force[:, 1:-1] - force[:, 2:], state.mode[1:-1]
+    net = force[:, 1:-1] - force[:, 2:]
+    sliding = state.mode[1:-1]
     sizes = abs(force).sum(axis=0)
     zero = 2.0 * eps * (sizes[1:-1] + sizes[2:] + chain.strength)
-    first, block, new = 1.0, 0, 0
+    first = 1.0
+    block = 0
+    new = 0
     for side in (1, -1):
-        margin = np.concatenate([[chain.strength], np.zeros((ORDER, chain.n_blocks))]) - side * net
+        margin = (
+            np.concatenate([[chain.strength], np.zeros((ORDER, chain.n_blocks))])
+            - side * net
+        )
         g = np.where(sliding, sliding * v[:, 1:-1], margin)
         below = np.where(sliding, zero * window / chain.mass, zero)
         may = g[0] + np.minimum(g[1:], 0.0).sum(axis=0) <= below
         for i in np.flatnonzero(may & ((sliding == 0) | (side == 1))):
             s = first_root(g[:, i], float(below[i]), first)
             if s < first:
-                first, block, new = s, int(i) + 1, side
+                first = s
+                block = int(i) + 1
+                new = side
     state = move(state, v, force, first)
     if state.mode[block]:
         state.velocity[block] = 0.0
         net_force = state.force[block] - state.force[block + 1]
-        new = 0 if abs(net_force) <= (chain.strength + zero)[block - 1] else int(np.sign(net_force))
+        new = (
+            0
+            if abs(net_force) <= (chain.strength + zero)[block - 1]
+            else int(np.sign(net_force))
+        )
     return first, block, new, state
 
 
 def find_transitions(
-    chain: Chain, state: State, duration: float, until_global: bool, longest_slip: float, most: int
+    chain: Chain,
+    state: State,
+    duration: float,
+    until_global: bool,
+    longest_slip: float,
+    most: int,
 ) -> tuple[list[tuple[float, float, int, int, float]], float, float]:
-    """Transitions (time, time since the last, block, mode, load); time of the end, and since the last."""
-    rows = [(0.0, 0.0, int(i), int(state.mode[i]), state.force[1]) for i in np.flatnonzero(state.mode)]
-    window, is_global, at_once = WINDOW / chain.fastest_frequency_bound, False, 0
+    """Transitions (time, time since the last, block, mode, load); time of the end, and
+    since the last."""
+    rows = [
+        (0.0, 0.0, int(i), int(state.mode[i]), state.force[1])
+        for i in np.flatnonzero(state.mode)
+    ]
+    window = WINDOW / chain.fastest_frequency_bound
+    is_global = False
+    at_once = 0
     onset = elapsed = since = 0.0
-    while len(rows) < most and elapsed < longest_slip and (left := duration - onset - elapsed) > 0.0:
+    while (
+        len(rows) < most
+        and elapsed < longest_slip
+        and (left := duration - onset - elapsed) > 0.0
+    ):
         is_global = is_global or bool(state.mode[1:-1].all())
         if not state.mode.any():
             if until_global and is_global:
                 break
-            wait = max((chain.strength[0] - state.force[1] + state.force[2]) / chain.loading_rate, 0.0)
-            onset, elapsed, since = onset + elapsed + min(wait, left), 0.0, since + min(wait, left)
+            wait = max(
+                (chain.strength[0] - state.force[1] + state.force[2])
+                / chain.loading_rate,
+                0.0,
+            )
+            onset = onset + elapsed + min(wait, left)
+            elapsed = 0.0
+            since = since + min(wait, left)
             if wait >= left:
                 break
             state.force[1] = max(state.force[1], state.force[2] + chain.strength[0])
-            block, new = 1, 1
+            block = 1
+            new = 1
         else:
             roundings = ROUNDINGS * 2.0 ** (at_once // (4 * chain.n_blocks))
             span = min(window, left, longest_slip - elapsed)
             s, block, new, state = next_transition(chain, state, span, roundings)
-            elapsed, since, at_once = elapsed + s * span, since + s * span, at_once + 1 if s == 0.0 else 0
+            elapsed = elapsed + s * span
+            since = since + s * span
+            at_once = at_once + 1 if s == 0.0 else 0
         if block and new != state.mode[block]:
             state.mode[block] = new
             rows.append((onset + elapsed, since, block, new, state.force[1]))

@@ -11,14 +11,16 @@ from precursors.model.chain import FloatArray
 
 IntArray = NDArray[np.int64]
 
-TRANSITION = np.dtype([("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")])
+TRANSITION = np.dtype(
+    [("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")]
+)
 
 
 class States(NamedTuple):
     """Stored states, a row each; row 0 is the start, before any transition.
 
-    Spring forces [N], velocities [m/s] and modes, each (S, N); the number of transitions before, and the time
-    since the last of them [s].
+    Spring forces [N], velocities [m/s] and modes, each (S, N); the number of
+    transitions before, and the time since the last of them [s].
     """
 
     force: FloatArray
@@ -31,9 +33,14 @@ class States(NamedTuple):
     def from_rows(cls, rows: FloatArray) -> States:
         """States from rows of `after`, `offset`, N forces, N velocities and N modes."""
         n = (rows.shape[1] - 2) // 3
-        after, mode = rows[:, 0].astype(np.int64), rows[:, 2 + 2 * n :].astype(np.int64)
+        after = rows[:, 0].astype(np.int64)
+        mode = rows[:, 2 + 2 * n :].astype(np.int64)
         return cls(
-            rows[:, 2 : 2 + n].copy(), rows[:, 2 + n : 2 + 2 * n].copy(), mode, after, rows[:, 1].copy()
+            rows[:, 2 : 2 + n].copy(),
+            rows[:, 2 + n : 2 + 2 * n].copy(),
+            mode,
+            after,
+            rows[:, 1].copy(),
         )
 
 

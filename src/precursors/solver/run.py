@@ -28,23 +28,28 @@ class Run:
     duration : float
         Time reached [s].
     transitions : structured array
-        time [s], block (1..N), mode (+1 slides forward, 0 sticks, -1 slides backward), tangential_load [N].
+        time [s], block (1..N), mode (+1 slides forward, 0 sticks, -1 slides backward),
+        tangential_load [N].
     intervals : array, shape (n_transitions + 1,)
-        Time [s] from the start to the first transition, between transitions, and from the last one to the
-        end; it resolves what a difference of two absolute times cannot.
+        Time [s] from the start to the first transition, between transitions, and from
+        the last one to the end; it resolves what a difference of two absolute times
+        cannot.
     start_positions, start_velocities : array, shape (N,)
         State at time 0 [m], [m/s].
     states : States
         Stored states from which `at` starts.
     evaluations : float
-        Evaluations of the forces of the whole chain that the solver made, each derivative counted as one; 0
-        where it is not known.
+        Evaluations of the forces of the whole chain that the solver made, each
+        derivative counted as one; 0 where it is not known.
     slider : dict or None
-        Arguments of `Chain.from_slider` that the chain was made from, theta as a float; None if not known.
+        Arguments of `Chain.from_slider` that the chain was made from, theta as a float;
+        None if not known.
     larger : dict or None
-        Of a larger chain, its numbers and its accuracy (see `hierarchy.larger`); None of the paper's chain.
+        Of a larger chain, its numbers and its accuracy (see `hierarchy.larger`); None
+        of the paper's chain.
     load_points : array, shape (n, 2), or None
-        Of a larger chain, times [s] and F_X [N] between which straight lines draw the load.
+        Of a larger chain, times [s] and F_X [N] between which straight lines draw the
+        load.
     """
 
     chain: Chain
@@ -73,16 +78,21 @@ class Run:
         tangential_load: ArrayLike,
         intervals: ArrayLike | None = None,
     ) -> Run:
-        """Make a run, from rest with springs at natural length, from columns of its transitions.
+        """Make a run, from rest with springs at natural length, from columns of its
+        transitions.
 
-        It knows no states between them, so that `at` refuses. `intervals` are by default differences of
-        `time`, whose rounding grows with the time.
+        It knows no states between them, so that `at` refuses. `intervals` are by
+        default differences of `time`, whose rounding grows with the time.
         """
         transitions = np.empty(len(np.atleast_1d(np.asarray(time))), dtype=TRANSITION)
-        transitions["time"], transitions["block"], transitions["mode"] = time, block, mode
+        transitions["time"] = time
+        transitions["block"] = block
+        transitions["mode"] = mode
         transitions["tangential_load"] = tangential_load
         if intervals is None:
-            intervals = np.diff(np.concatenate([[0.0], transitions["time"], [duration]]))
+            intervals = np.diff(
+                np.concatenate([[0.0], transitions["time"], [duration]])
+            )
         at_rest = np.zeros(chain.n_blocks)
         return cls(
             chain=chain,
@@ -95,7 +105,8 @@ class Run:
         )
 
     def at(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Positions [m] and velocities [m/s], each (len(times), N), exact to rounding."""
+        """Positions [m] and velocities [m/s], each (len(times), N), exact to
+        rounding."""
         when = self._times(times)
         force, velocity = self.forces_and_velocities(when)
         # x_1 = V t - T_1/K (Eq. 3), x_2 = x_1 - T_2/k, ...
@@ -107,16 +118,22 @@ class Run:
         return self.forces_and_velocities(times)[0][:, 0]
 
     def spring_forces(self, times: ArrayLike) -> FloatArray:
-        """Force in the spring behind each block [N], shape (len(times), N); column 0 is F_X."""
+        """Force in the spring behind each block [N], shape (len(times), N); column 0 is
+        F_X."""
         return self.forces_and_velocities(times)[0]
 
     def forces_and_velocities(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Spring forces [N] and velocities [m/s], each (len(times), N): the state, apart from the drive's."""
+        """Spring forces [N] and velocities [m/s], each (len(times), N): the state,
+        apart from the drive's."""
         when = self._times(times)
         if self.larger is not None:
-            raise ValueError("the run of a larger chain knows its transitions and load_points only")
+            raise ValueError(
+                "the run of a larger chain knows its transitions and load_points only"
+            )
         if len(self.states.after) == 0:
-            raise ValueError("the run has no stored states: only a run that simulate made can be evaluated")
+            raise ValueError(
+                "the run has no stored states: only a run that simulate made can be evaluated"
+            )
         # Who only reads a run waits for no compiler.
         from precursors.solver import kernel
 
@@ -130,7 +147,9 @@ class Run:
     def _times(self, times: ArrayLike) -> FloatArray:
         when = np.atleast_1d(number_array("times", times, "s"))
         if when.ndim > 1:
-            raise ValueError(f"times must be one number [s] or a list of them, but have shape {when.shape}")
+            raise ValueError(
+                f"times must be one number [s] or a list of them, but have shape {when.shape}"
+            )
         outside = ~((when >= 0.0) & (when <= self.duration))
         if outside.any():
             raise ValueError(
@@ -138,14 +157,19 @@ class Run:
             )
         return when
 
-    def save(self, path: str | PathLike[str], slider: dict[str, Any] | None = None) -> None:
-        """Write the run to an HDF5 file, whole or not at all; its directory is made if it is missing.
+    def save(
+        self, path: str | PathLike[str], slider: dict[str, Any] | None = None
+    ) -> None:
+        """Write the run to an HDF5 file, whole or not at all; its directory is made if
+        it is missing.
 
-        `slider` are arguments of `Chain.from_slider` to keep in the file, by default those of the run.
+        `slider` are arguments of `Chain.from_slider` to keep in the file, by default
+        those of the run.
         """
         write_run(self if slider is None else replace(self, slider=slider), path)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Run:
-        """Read a run from a file that `save` wrote; any other file is a `RunFileError`."""
+        """Read a run from a file that `save` wrote; any other file is a
+        `RunFileError`."""
         return cls(**read_run(path))

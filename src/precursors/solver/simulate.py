@@ -12,7 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.checks import LARGEST, Until, checked_span, number_array, positive, whole
+from precursors.model.checks import (
+    LARGEST,
+    Until,
+    checked_span,
+    number_array,
+    positive,
+    whole,
+)
 from precursors.solver import kernel
 from precursors.solver.kernel.arrays import Progress
 from precursors.solver.kernel.compiled import untyped
@@ -23,20 +30,25 @@ from precursors.support.waiting import tell
 MAX_TRANSITIONS = 10_000_000
 # Stored states are thinned out so that they never take more room than this.
 STATES_BYTES = 64 * 2**20
-# The kernel returns after so many windows, so that Ctrl-C is heard within about a second.
+# The kernel returns after so many windows, so that Ctrl-C is heard within about a
+# second.
 WINDOWS_PER_CALL = 500_000
-# Blocks that slide without end would keep the kernel busy for ever: some 10 minutes at N = 10.
+# Blocks that slide without end would keep the kernel busy for ever: some 10 minutes at
+# N = 10.
 MAX_WINDOWS = 1_000_000_000
-# Transitions that a run may have before it gets a record of its own, and that a thread's record has room for.
+# Transitions that a run may have before it gets a record of its own, and that a
+# thread's record has room for.
 FIRST_ROOM = 2048
 SHARED_ROOM = 16384
-# Chains of a batch: many for little work between batches, few for all threads to end together.
+# Chains of a batch: many for little work between batches, few for all threads to end
+# together.
 LARGEST_BATCH = 64
 BATCHES_PER_THREAD = 8
 
 
 class _End(NamedTuple):
-    """Where runs end: at a time [s], after a global slip, in a slip so long [s], at so many transitions."""
+    """Where runs end: at a time [s], after a global slip, in a slip so long [s], at so
+    many transitions."""
 
     duration: float
     until_global: bool
@@ -45,7 +57,8 @@ class _End(NamedTuple):
 
 
 class TransitionLimitError(RuntimeError):
-    """A run met its cap on transitions or on work; `run` holds what was computed up to there."""
+    """A run met its cap on transitions or on work; `run` holds what was computed up to
+    there."""
 
     def __init__(self, message: str, run: Run) -> None:
         super().__init__(message)
@@ -61,7 +74,8 @@ def simulate(
     max_transitions: int = MAX_TRANSITIONS,
     longest_slip: float | None = None,
 ) -> Run:
-    """Run a chain from rest, or from a given start, through all its transitions (Eqs. 2-6).
+    """Run a chain from rest, or from a given start, through all its transitions (Eqs.
+    2-6).
 
     Parameters
     ----------
@@ -70,13 +84,16 @@ def simulate(
     duration : float
         Time to run [s]; with `until`, the limit.
     until : "global slip", optional
-        Stop at the end of the first event in which all blocks slide at the same instant.
+        Stop at the end of the first event in which all blocks slide at the same
+        instant.
     start_positions, start_velocities : array_like, shape (N,), optional
-        Positions [m] relative to springs at natural length, and velocities [m/s], at time 0; zero by default.
+        Positions [m] relative to springs at natural length, and velocities [m/s], at
+        time 0; zero by default.
     max_transitions : int
         Cap on the number of transitions.
     longest_slip : float, optional
-        Stop when one slip event has lasted so long [s]: some runs of many blocks never come to rest again.
+        Stop when one slip event has lasted so long [s]: some runs of many blocks never
+        come to rest again.
 
     Returns
     -------
@@ -86,8 +103,8 @@ def simulate(
     Raises
     ------
     TransitionLimitError
-        If the cap, or one on the work of chains that hardly ever rest, is met; its attribute `run` holds what
-        was computed.
+        If the cap, or one on the work of chains that hardly ever rest, is met; its
+        attribute `run` holds what was computed.
     """
     end = _end([chain], duration, until, max_transitions, longest_slip)
     positions = _start("start_positions", start_positions, "m", chain)
@@ -113,25 +130,36 @@ def simulate_many(
     duration, until, longest_slip
         As in `simulate`, for all of them.
     threads : int, optional
-        Threads to use; by default as many as Numba takes, one for each core of this process.
+        Threads to use; by default as many as Numba takes, one for each core of this
+        process.
     start_positions, start_velocities : sequence of array_like, optional
         One start for each chain, as in `simulate`.
 
     Returns
     -------
     list of Run
-        In the order of `chains`; `TransitionLimitError` if one of them meets the cap of `simulate`.
+        In the order of `chains`; `TransitionLimitError` if one of them meets the cap of
+        `simulate`.
     """
     if isinstance(chains, Chain):
-        raise TypeError("what simulate_many runs must be a list of chains, but is a Chain")
+        raise TypeError(
+            "what simulate_many runs must be a list of chains, but is a Chain"
+        )
     chains = list(chains)
     end = _end(chains, duration, until, MAX_TRANSITIONS, longest_slip)
-    threads = untyped.config.NUMBA_NUM_THREADS if threads is None else whole("threads", threads, at_least=1)
+    threads = (
+        untyped.config.NUMBA_NUM_THREADS
+        if threads is None
+        else whole("threads", threads, at_least=1)
+    )
     positions = _starts("start_positions", start_positions, "m", chains)
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)
 
     def run(batch: list[int]) -> list[Run]:
-        start = np.array([positions[j] for j in batch]), np.array([velocities[j] for j in batch])
+        start = (
+            np.array([positions[j] for j in batch]),
+            np.array([velocities[j] for j in batch]),
+        )
         return _run_batch([chains[j] for j in batch], *start, end)
 
     runs: dict[int, Run] = {}
@@ -143,13 +171,23 @@ def simulate_many(
 
 
 def _end(
-    chains: Sequence[Chain], duration: float, until: Until, most: int, longest_slip: float | None
+    chains: Sequence[Chain],
+    duration: float,
+    until: Until,
+    most: int,
+    longest_slip: float | None,
 ) -> _End:
     """Check what is simulated and where it ends."""
     for chain in chains:
         if not isinstance(chain, Chain):
-            raise TypeError(f"what is simulated must be a Chain, but is {type(chain).__name__}")
-    longest = math.inf if longest_slip is None else positive("longest_slip", longest_slip, "s")
+            raise TypeError(
+                f"what is simulated must be a Chain, but is {type(chain).__name__}"
+            )
+    longest = (
+        math.inf
+        if longest_slip is None
+        else positive("longest_slip", longest_slip, "s")
+    )
     most = whole("max_transitions", most, at_least=1)
     return _End(checked_span(duration, until), until is not None, longest, most)
 
@@ -163,7 +201,9 @@ def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> Floa
             f"{name} must have shape ({chain.n_blocks},), one [{unit}] a block, but have {start.shape}"
         )
     if not (abs(start) <= LARGEST).all():
-        raise ValueError(f"{name} must be finite, and not beyond {LARGEST:g} {unit}, but are {start}")
+        raise ValueError(
+            f"{name} must be finite, and not beyond {LARGEST:g} {unit}, but are {start}"
+        )
     return start
 
 
@@ -173,7 +213,9 @@ def _starts(
     if values is None:
         return [np.zeros(chain.n_blocks) for chain in chains]
     if len(values) != len(chains):
-        raise ValueError(f"{name} must be one for each of the {len(chains)} chains, but are {len(values)}")
+        raise ValueError(
+            f"{name} must be one for each of the {len(chains)} chains, but are {len(values)}"
+        )
     return [
         _start(f"{name}[{j}]", value, unit, chain)
         for j, (value, chain) in enumerate(zip(values, chains, strict=True))
@@ -181,7 +223,8 @@ def _starts(
 
 
 def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
-    """Numbers of chains of equal length, so many at a time as one call of the kernel takes."""
+    """Numbers of chains of equal length, so many at a time as one call of the kernel
+    takes."""
     most = min(LARGEST_BATCH, max(1, len(chains) // (threads * BATCHES_PER_THREAD)))
     alike: dict[int, list[int]] = {}
     for j, chain in enumerate(chains):
@@ -192,7 +235,8 @@ def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
 
 
 class _Workspace(NamedTuple):
-    """Memory, record and states for chains of one length; a state is stored after `stride` transitions."""
+    """Memory, record and states for chains of one length; a state is stored after
+    `stride` transitions."""
 
     n_blocks: int
     stride: int
@@ -213,8 +257,11 @@ def _workspace_for(n_blocks: int) -> _Workspace:
         stride = max(10, 1 + n_blocks // 3)
         record = np.empty(max(SHARED_ROOM, 2 * n_blocks), kernel.ROW)
         states = room_for_states(max(SHARED_ROOM // stride, 2), n_blocks)
-        memory, words = kernel.memory_for(n_blocks), kernel.words(record)
-        work = _own.workspace = _Workspace(n_blocks, stride, memory, record, words, states)
+        memory = kernel.memory_for(n_blocks)
+        words = kernel.words(record)
+        work = _own.workspace = _Workspace(
+            n_blocks, stride, memory, record, words, states
+        )
     return work
 
 
@@ -225,10 +272,14 @@ _Part = tuple[NDArray[np.void], FloatArray, States]
 def _run_batch(
     chains: Sequence[Chain], positions: FloatArray, velocities: FloatArray, end: _End
 ) -> list[Run]:
-    """Run chains of equal length one after the other, in as few calls of the kernel as it takes."""
-    work, n = _workspace_for(chains[0].n_blocks), len(chains)
+    """Run chains of equal length one after the other, in as few calls of the kernel as
+    it takes."""
+    work = _workspace_for(chains[0].n_blocks)
+    n = len(chains)
     parameters = np.array([kernel.parameters(chain) for chain in chains])
-    batch = kernel.Batch(parameters, np.array([chain.weights for chain in chains]), positions, velocities)
+    batch = kernel.Batch(
+        parameters, np.array([chain.weights for chain in chains]), positions, velocities
+    )
     progress = np.zeros(n, kernel.PROGRESS)
     limits = kernel.Limits(
         end.duration,
@@ -249,11 +300,14 @@ def _run_batch(
         )
         parts = _parts(work, reached[:n_finished]) if n_finished else []
         if is_paused:
-            finished, last = reached[:n_finished], slice(n_finished, n_finished + 1)
+            finished = reached[:n_finished]
+            last = slice(n_finished, n_finished + 1)
             record = work.record[int((finished["transitions"] + 1).sum()) :]
             states = work.states[int(finished["stored"].sum()) :]
             rest = work._replace(record=record, states=states)
-            parts.append(_go_on(_rows(here, last), limits, reached[last], rest, end.most))
+            parts.append(
+                _go_on(_rows(here, last), limits, reached[last], rest, end.most)
+            )
         for j, part in enumerate(parts, done):
             run = _run(chains[j], positions[j], velocities[j], progress[j], part, end)
             if progress["status"][j] == kernel.PAUSED:
@@ -263,7 +317,12 @@ def _run_batch(
 
 
 def _run(
-    chain: Chain, positions: FloatArray, velocities: FloatArray, last: np.void, part: _Part, end: _End
+    chain: Chain,
+    positions: FloatArray,
+    velocities: FloatArray,
+    last: np.void,
+    part: _Part,
+    end: _End,
 ) -> Run:
     """A run from its start, where it ended, and what was recorded of it."""
     transitions, intervals, states = part
@@ -302,43 +361,71 @@ def _rows(columns: Any, rows: slice) -> Any:
 
 def _parts(work: _Workspace, progress: Progress) -> list[_Part]:
     """Cut the record of several runs, as `progress` has them, into one part a run."""
-    used, stored = progress["transitions"].tolist(), progress["stored"].tolist()
+    used = progress["transitions"].tolist()
+    stored = progress["stored"].tolist()
     transitions, intervals = _columns(work.record[: sum(used) + len(used)])
     states = States.from_rows(work.states[: sum(stored)])
     if len(used) == 1:
         return [(transitions[:-1], intervals, states)]
-    parts, first, first_state = [], 0, 0
+    parts = []
+    first = 0
+    first_state = 0
     for n, m in zip(used, stored, strict=True):
-        last, last_state = first + n, first_state + m
+        last = first + n
+        last_state = first_state + m
         rows = slice(first_state, last_state)
-        parts.append((transitions[first:last], intervals[first : last + 1], _rows(states, rows)))
-        first, first_state = last + 1, last_state
+        parts.append(
+            (transitions[first:last], intervals[first : last + 1], _rows(states, rows))
+        )
+        first = last + 1
+        first_state = last_state
     return parts
 
 
-def _go_on(batch: Any, limits: Any, progress: Progress, rest: _Workspace, most: int) -> _Part:
-    """Run on a chain that the kernel left unfinished, in a record of its own that grows as needed."""
+def _go_on(
+    batch: Any, limits: Any, progress: Progress, rest: _Workspace, most: int
+) -> _Part:
+    """Run on a chain that the kernel left unfinished, in a record of its own that grows
+    as needed."""
     [run], stride, duration = progress, limits.stride, limits.duration
-    n, stored = int(run["transitions"]), int(run["stored"])
-    record, states = rest.record[: n + 1], rest.states[:stored]
+    n = int(run["transitions"])
+    stored = int(run["stored"])
+    record = rest.record[: n + 1]
+    states = rest.states[:stored]
 
     def is_unfinished() -> bool:
         return bool(
-            run["status"] == kernel.PAUSED and run["transitions"] < most and run["windows"] < MAX_WINDOWS
+            run["status"] == kernel.PAUSED
+            and run["transitions"] < most
+            and run["windows"] < MAX_WINDOWS
         )
 
-    for _ in tell("running", iter(is_unfinished, False), lambda: run["onset"] / duration):
+    for _ in tell(
+        "running", iter(is_unfinished, False), lambda: run["onset"] / duration
+    ):
         if n + 1 >= len(record):
             record = np.resize(record, 1 + min(max(FIRST_ROOM, 2 * n), most))
         if stored >= len(states):
             rows = max(FIRST_ROOM // stride, 2 * len(states))
             if rows * states.itemsize * states.shape[1] > STATES_BYTES:
-                states, stride = states[::2], 2 * stride
-                run["stored"], rows = len(states), rows // 2
+                states = states[::2]
+                stride = 2 * stride
+                run["stored"] = len(states)
+                rows = rows // 2
             states = np.resize(states, (rows, states.shape[1]))
-        limits = limits._replace(transitions=len(record) - 1, states=len(states), stride=stride, goes_on=True)
-        kernel.run_batch(batch, limits, kernel.words(progress), kernel.words(record), states, rest.memory)
-        n, stored = int(run["transitions"]), int(run["stored"])
+        limits = limits._replace(
+            transitions=len(record) - 1, states=len(states), stride=stride, goes_on=True
+        )
+        kernel.run_batch(
+            batch,
+            limits,
+            kernel.words(progress),
+            kernel.words(record),
+            states,
+            rest.memory,
+        )
+        n = int(run["transitions"])
+        stored = int(run["stored"])
     record["interval"][n] = run["since"] * run["tau"]
     transitions, intervals = _columns(record[: n + 1])
     return transitions[:n], intervals, States.from_rows(states[:stored])

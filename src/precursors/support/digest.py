@@ -1,4 +1,5 @@
-"""What a job computes: a digest of the syntax trees of its script and of all that this imports."""
+"""What a job computes: a digest of the syntax trees of its script and of all that this
+imports."""
 
 from __future__ import annotations
 
@@ -9,18 +10,21 @@ from pathlib import Path
 
 
 def digest_code(root: str | Path, script: str, *modules: str) -> str:
-    """Digest of a script of the workflow, of some modules, and of all modules that these import.
+    """Digest of a script of the workflow, of some modules, and of all modules that
+    these import.
 
-    Comments, docstrings and the format of the code are left out, and so is what only a type checker imports.
-    `root` is the directory of the Snakefile, `script` a name such as "simulate_scene"; `modules` are those
-    of the library that the script imports by a name that it is given, such as "figures.scene".
+    Comments, docstrings and the format of the code are left out, and so is what only a
+    type checker imports. `root` is the directory of the Snakefile, `script` a name such
+    as "simulate_scene"; `modules` are those of the library that the script imports by a
+    name that it is given, such as "figures.scene".
 
     Raises
     ------
     OSError
         If a file cannot be read.
     """
-    library, scripts = Path(root, "src/precursors"), Path(root, "workflow/scripts")
+    library = Path(root, "src/precursors")
+    scripts = Path(root, "workflow/scripts")
     named = [_file_of(library, scripts, f"{library.name}.{name}") for name in modules]
     waiting = [scripts / f"{script}.py", *(file for file in named if file)]
     found: dict[Path, str] = {}
@@ -28,7 +32,9 @@ def digest_code(root: str | Path, script: str, *modules: str) -> str:
         if (path := waiting.pop()) not in found:
             found[path], imported = _read(library, path)
             waiting += imported
-    trees = sorted((path.relative_to(root).as_posix(), tree) for path, tree in found.items())
+    trees = sorted(
+        (path.relative_to(root).as_posix(), tree) for path, tree in found.items()
+    )
     return hashlib.sha256(repr(trees).encode()).hexdigest()[:16]
 
 
@@ -44,21 +50,28 @@ def _read(library: Path, path: Path) -> tuple[str, list[Path]]:
             names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
             names += [f"{node.module}.{alias.name}" for alias in node.names]
-        elif isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and ast.get_docstring(node, False):
+        elif isinstance(
+            node, ast.Module | ast.ClassDef | ast.FunctionDef
+        ) and ast.get_docstring(node, False):
             node.body = node.body[1:]
-    imported = {file for name in names if (file := _file_of(library, path.parent, name))}
+    imported = {
+        file for name in names if (file := _file_of(library, path.parent, name))
+    }
     if path.name == "__init__.py" and b"import_module(" in source:
         imported |= set(path.parent.glob("*.py"))  # by names that only a run knows
     return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), sorted(imported)
 
 
 def _is_for_type_checkers(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.If) and ast.unparse(statement.test) == "TYPE_CHECKING"
+    return (
+        isinstance(statement, ast.If) and ast.unparse(statement.test) == "TYPE_CHECKING"
+    )
 
 
 @cache
 def _file_of(library: Path, beside: Path, name: str) -> Path | None:
-    """The module of that name, or the one that defines it; None outside the library and the directory."""
+    """The module of that name, or the one that defines it; None outside the library and
+    the directory."""
     *parents, last = name.split(".")
     start = library.parent if parents[:1] == [library.name] else beside
     package = start.joinpath(*parents)

@@ -16,9 +16,11 @@ LEAST_ROOM = 10_000_000  # bytes; a run of 10 s and its figure take less
 
 
 def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
-    """Write a file under a temporary name beside `path`, and rename it: it is complete or as it was before.
+    """Write a file under a temporary name beside `path`, and rename it: it is complete
+    or as it was before.
 
-    What a killed process leaves behind is overwritten by the next one. Missing parent directories are made.
+    What a killed process leaves behind is overwritten by the next one. Missing parent
+    directories are made.
 
     Raises
     ------
@@ -48,16 +50,21 @@ def check_writable(path: str | os.PathLike[str], endings: Sequence[str] = ()) ->
     ValueError
         If its name has none of the endings.
     OSError
-        If it is a directory, or its directory cannot be made or written to, or has no room.
+        If it is a directory, or its directory cannot be made or written to, or has no
+        room.
     """
     target = Path(path).resolve()
     if endings and not target.name.lower().endswith(tuple(endings)):
-        raise ValueError(f"{path} must end in {', '.join(endings[:-1])} or {endings[-1]}")
+        raise ValueError(
+            f"{path} must end in {', '.join(endings[:-1])} or {endings[-1]}"
+        )
     if target.is_dir():
         raise OSError(f"cannot write {path}: it is a directory")
     parent = next(above for above in target.parents if above.exists())
     if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
-        raise OSError(f"cannot write {path}: {parent} is not a directory that can be written to")
+        raise OSError(
+            f"cannot write {path}: {parent} is not a directory that can be written to"
+        )
     if shutil.disk_usage(parent).free < LEAST_ROOM:
         raise OSError(f"cannot write {path}: no room in {parent}")
 

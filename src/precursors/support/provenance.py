@@ -1,4 +1,5 @@
-"""Where results come from: versions, machine, configuration, and checksums of all inputs and outputs."""
+"""Where results come from: versions, machine, configuration, and checksums of all
+inputs and outputs."""
 
 from __future__ import annotations
 
@@ -14,16 +15,30 @@ from pathlib import Path
 from typing import Any
 
 # What the results depend on, seen from the directory of the Snakefile.
-SOURCES = ("Snakefile", "config.yaml", "requirements.lock", "paper/**/*", "src/**/*", "workflow/**/*")
+SOURCES = (
+    "Snakefile",
+    "config.yaml",
+    "requirements.lock",
+    "paper/**/*",
+    "src/**/*",
+    "workflow/**/*",
+)
 # In the directory of the results, but not results.
-NOT_RESULTS = ("README.md", "benchmarks", "logs", "provenance.json", "records", "report.html")
+NOT_RESULTS = (
+    "README.md",
+    "benchmarks",
+    "logs",
+    "provenance.json",
+    "records",
+    "report.html",
+)
 
 
 def provenance(config: Mapping[str, Any], root: Path, results: Path) -> dict[str, Any]:
     """Collect where the results come from, ready for JSON.
 
-    Inputs are named as seen from `root`, the directory of the Snakefile, and outputs as seen from that of the
-    results.
+    Inputs are named as seen from `root`, the directory of the Snakefile, and outputs as
+    seen from that of the results.
     """
     return {
         "written": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -37,38 +52,54 @@ def provenance(config: Mapping[str, Any], root: Path, results: Path) -> dict[str
             "processor": processor_name(),
             "cores": os.cpu_count(),
         },
-        "packages": dict(sorted((p.metadata["Name"].lower(), p.version) for p in distributions())),
+        "packages": dict(
+            sorted((p.metadata["Name"].lower(), p.version) for p in distributions())
+        ),
         "config": config,
-        "inputs": checksums((path for pattern in SOURCES for path in root.glob(pattern)), root),
+        "inputs": checksums(
+            (path for pattern in SOURCES for path in root.glob(pattern)), root
+        ),
         "outputs": checksums(results.rglob("*"), results, leave_out=NOT_RESULTS),
     }
 
 
-def checksums(paths: Iterable[Path], root: Path, leave_out: tuple[str, ...] = ()) -> dict[str, Any]:
-    """Size [bytes] and SHA-256 of files by their names seen from `root`, without hidden and compiled ones."""
+def checksums(
+    paths: Iterable[Path], root: Path, leave_out: tuple[str, ...] = ()
+) -> dict[str, Any]:
+    """Size [bytes] and SHA-256 of files by their names seen from `root`, without hidden
+    and compiled ones."""
     table = {}
     for path in sorted(paths):
         parts = path.relative_to(root).parts
         hidden = any(part.startswith(".") or part == "__pycache__" for part in parts)
         if path.is_file() and not hidden and parts[0] not in leave_out:
             content = path.read_bytes()
-            table["/".join(parts)] = {"bytes": len(content), "sha256": hashlib.sha256(content).hexdigest()}
+            table["/".join(parts)] = {
+                "bytes": len(content),
+                "sha256": hashlib.sha256(content).hexdigest(),
+            }
     return table
 
 
 def processor_name() -> str:
-    """Name of the processor as Linux tells it; elsewhere, and where it does not, its kind."""
+    """Name of the processor as Linux tells it; elsewhere, and where it does not, its
+    kind."""
     told = Path("/proc/cpuinfo")
-    names = re.findall(r"model name\s*:\s*(.+)", told.read_text() if told.is_file() else "")
+    names = re.findall(
+        r"model name\s*:\s*(.+)", told.read_text() if told.is_file() else ""
+    )
     return next(iter(names), platform.processor() or platform.machine())
 
 
 def git_state(root: Path) -> dict[str, str | bool] | None:
-    """Commit of the sources, its software hash identifiers, and whether files were changed since.
+    """Commit of the sources, its software hash identifiers, and whether files were
+    changed since.
 
-    None where git does not know the sources. The identifiers (SWHID) are git's own hashes.
+    None where git does not know the sources. The identifiers (SWHID) are git's own
+    hashes.
     """
-    commit, tree = _git(root, "rev-parse", "HEAD"), _git(root, "rev-parse", "HEAD^{tree}")
+    commit = _git(root, "rev-parse", "HEAD")
+    tree = _git(root, "rev-parse", "HEAD^{tree}")
     if not commit or not _git(root, "ls-files", "Snakefile"):
         return None
     return {
@@ -82,7 +113,9 @@ def git_state(root: Path) -> dict[str, str | bool] | None:
 def _git(root: Path, *command: str) -> str:
     """What a git command prints, or nothing where it fails."""
     try:
-        answer = subprocess.run(["git", "-C", root, *command], capture_output=True, text=True)
+        answer = subprocess.run(
+            ["git", "-C", root, *command], capture_output=True, text=True
+        )
     except OSError:
         return ""
     return "" if answer.returncode else answer.stdout.strip()

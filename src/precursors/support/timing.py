@@ -1,8 +1,9 @@
 """One way to measure time: side by side, in turn, warmed up, medians.
 
-A machine's load changes from second to second, so what is compared is measured in the same round, one
-right after the other, and the ratio is the median of the rounds' ratios. Whoever measures sets
-OMP_NUM_THREADS and its like to 1 before NumPy is imported; Snakemake does so for a rule with one thread.
+A machine's load changes from second to second, so what is compared is measured in the
+same round, one right after the other, and the ratio is the median of the rounds'
+ratios. Whoever measures sets OMP_NUM_THREADS and its like to 1 before NumPy is
+imported; Snakemake does so for a rule with one thread.
 """
 
 from __future__ import annotations
@@ -18,8 +19,8 @@ Key = TypeVar("Key", bound=Hashable)
 T = TypeVar("T")
 
 ROUNDS = 11
-# A task is repeated within a round until it takes so long: what the task before it left in the processor's
-# caches, and the clock's steps, are then a small part of it.
+# A task is repeated within a round until it takes so long: what the task before it left
+# in the processor's caches, and the clock's steps, are then a small part of it.
 SHORTEST = 0.01  # s
 
 
@@ -32,7 +33,8 @@ class Seconds(NamedTuple):
 
 @dataclass(frozen=True)
 class Timing:
-    """Seconds per call in each round: on the clock, and of processor time of all threads."""
+    """Seconds per call in each round: on the clock, and of processor time of all
+    threads."""
 
     wall: tuple[float, ...]
     cpu: tuple[float, ...]
@@ -43,9 +45,12 @@ class Timing:
         return statistics.median(self.wall)
 
     def times_faster_than(self, other: Timing) -> tuple[float, float]:
-        """How many times longer the other takes, on the clock and in processor time: medians of rounds."""
+        """How many times longer the other takes, on the clock and in processor time:
+        medians of rounds."""
         return (
-            statistics.median(b / a for a, b in zip(self.wall, other.wall, strict=True)),
+            statistics.median(
+                b / a for a, b in zip(self.wall, other.wall, strict=True)
+            ),
             statistics.median(b / a for a, b in zip(self.cpu, other.cpu, strict=True)),
         )
 
@@ -58,14 +63,20 @@ def measure(
 ) -> dict[Key, Timing]:
     """Time tasks in turn, round after round, after warming each up.
 
-    Within a round a task is repeated for at least `shortest` [s], and the round counts the mean. `seconds` is
-    how long each task took when it was warm, if that is known (see `second_call`): one that took longer than
-    `shortest` has had its first round.
+    Within a round a task is repeated for at least `shortest` [s], and the round counts
+    the mean. `seconds` is how long each task took when it was warm, if that is known
+    (see `second_call`): one that took longer than `shortest` has had its first round.
     """
     warm = seconds or {name: second_call(task)[1] for name, task in tasks.items()}
-    found = {name: [warm[name]] if seconds and warm[name].wall > shortest else [] for name in tasks}
-    repeats = {name: max(1, round(shortest / max(warm[name].wall, 1e-9))) for name in tasks}
-    gc.freeze()  # what the libraries hold for good need not be looked through before every task
+    found = {
+        name: [warm[name]] if seconds and warm[name].wall > shortest else []
+        for name in tasks
+    }
+    repeats = {
+        name: max(1, round(shortest / max(warm[name].wall, 1e-9))) for name in tasks
+    }
+    # what the libraries hold for good need not be looked through before every task
+    gc.freeze()
     gc.disable()
     try:
         for done in range(rounds):
@@ -79,10 +90,14 @@ def measure(
     return {name: Timing(*zip(*found[name], strict=True)) for name in tasks}
 
 
-def second_call(task: Callable[[], T], warm_up: Callable[[], object] | None = None) -> tuple[T, Seconds]:
-    """Result of the second of two calls, and its time; the first is a shorter one, if that is given.
+def second_call(
+    task: Callable[[], T], warm_up: Callable[[], object] | None = None
+) -> tuple[T, Seconds]:
+    """Result of the second of two calls, and its time; the first is a shorter one, if
+    that is given.
 
-    What the first one compiles, loads or imports is no part of it, however long the first one takes.
+    What the first one compiles, loads or imports is no part of it, however long the
+    first one takes.
     """
     (warm_up or task)()
     return _timed(task)
@@ -90,7 +105,10 @@ def second_call(task: Callable[[], T], warm_up: Callable[[], object] | None = No
 
 def _timed(task: Callable[[], T], calls: int = 1) -> tuple[T, Seconds]:
     """Result of the last of some calls in a row, and the mean time of a call."""
-    clock, processor = time.perf_counter(), time.process_time()
+    clock = time.perf_counter()
+    processor = time.process_time()
     for _ in range(calls):
         result = task()
-    return result, Seconds((time.perf_counter() - clock) / calls, (time.process_time() - processor) / calls)
+    return result, Seconds(
+        (time.perf_counter() - clock) / calls, (time.process_time() - processor) / calls
+    )

@@ -15,7 +15,8 @@ SECOND = 1.0
 
 
 def tell(work: str, steps: Iterable[Step], done: Callable[[], float]) -> Iterator[Step]:
-    """Pass steps on; on stderr, if it is a terminal, say each second how much is done and what is left [s].
+    """Pass steps on; on stderr, if it is a terminal, say each second how much is done
+    and what is left [s].
 
     `done` is the part of the work that is done, between 0 and 1.
     """
@@ -25,7 +26,8 @@ def tell(work: str, steps: Iterable[Step], done: Callable[[], float]) -> Iterato
         for step in steps:
             yield step
             if is_told and (now := time.monotonic()) - last > SECOND:
-                part, last = done(), now
+                part = done()
+                last = now
                 left = f"{(now - start) * (1 / part - 1):.0f} s left" if part else ""
                 print(f"\r{work}: {part:.0%} {left}\x1b[K", end="", file=sys.stderr)
     finally:
@@ -33,8 +35,11 @@ def tell(work: str, steps: Iterable[Step], done: Callable[[], float]) -> Iterato
             print("\r\x1b[K", end="", file=sys.stderr)
 
 
-def in_thread(work: str, function: Callable[[], Result], done: Callable[[], float]) -> Result:
-    """Result of a compiled function that holds no lock of Python; how much is done is told as by `tell`.
+def in_thread(
+    work: str, function: Callable[[], Result], done: Callable[[], float]
+) -> Result:
+    """Result of a compiled function that holds no lock of Python; how much is done is
+    told as by `tell`.
 
     Ctrl-C does not wait for the function.
     """
@@ -47,6 +52,8 @@ def in_thread(work: str, function: Callable[[], Result], done: Callable[[], floa
             found.set_exception(error)
 
     Thread(target=run, daemon=True).start()
-    for _ in tell(work, iter(lambda: bool(wait([found], SECOND).not_done), False), done):
+    for _ in tell(
+        work, iter(lambda: bool(wait([found], SECOND).not_done), False), done
+    ):
         pass
     return found.result()

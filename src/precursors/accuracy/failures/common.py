@@ -17,10 +17,11 @@ FIVE_SLIPS = 1.25
 
 @dataclass(frozen=True)
 class Number:
-    """A measured number that shows a failure of a method with a setting; `exact` is what is right, or NaN.
+    """A measured number that shows a failure of a method with a setting; `exact` is
+    what is right, or NaN.
 
-    `predicted` is what the method should give, NaN where nothing is known; `theory` says from what that
-    follows, if not from the method and the chain.
+    `predicted` is what the method should give, NaN where nothing is known; `theory`
+    says from what that follows, if not from the method and the chain.
     """
 
     method: str
@@ -35,9 +36,11 @@ class Number:
 
 @dataclass(frozen=True)
 class Threshold:
-    """A value of a method's setting from which it fails, predicted and measured: infinity if it never does.
+    """A value of a method's setting from which it fails, predicted and measured:
+    infinity if it never does.
 
-    `method` is its label, `fails` what happens there, `theory` the formula that predicts it.
+    `method` is its label, `fails` what happens there, `theory` the formula that
+    predicts it.
     """
 
     method: str
@@ -51,7 +54,8 @@ class Threshold:
 
 @dataclass(frozen=True)
 class Failure:
-    """A failure, measured: its numbers, curves (columns: curve, x, y with units) and thresholds."""
+    """A failure, measured: its numbers, curves (columns: curve, x, y with units) and
+    thresholds."""
 
     numbers: tuple[Number, ...]
     curves: pd.DataFrame
@@ -59,16 +63,26 @@ class Failure:
 
 
 def curves(x: str, y: str, **points: tuple[ArrayLike, ArrayLike]) -> pd.DataFrame:
-    """Table of curves from (x, y) pairs of arrays by name; an underscore in a name is a space."""
+    """Table of curves from (x, y) pairs of arrays by name; an underscore in a name is a
+    space."""
     parts = [
-        pd.DataFrame({"curve": name.replace("_", " "), x: np.atleast_1d(xs), y: np.atleast_1d(ys)})
+        pd.DataFrame(
+            {
+                "curve": name.replace("_", " "),
+                x: np.atleast_1d(xs),
+                y: np.atleast_1d(ys),
+            }
+        )
         for name, (xs, ys) in points.items()
     ]
     return pd.concat(parts, ignore_index=True)
 
 
-def runge_kutta_step(rate: Callable[[FloatArray], FloatArray], y: FloatArray, h: float) -> FloatArray:
-    """One step of Runge and Kutta's method, as `methods.rk4` makes it, under any rate of change."""
+def runge_kutta_step(
+    rate: Callable[[FloatArray], FloatArray], y: FloatArray, h: float
+) -> FloatArray:
+    """One step of Runge and Kutta's method, as `methods.rk4` makes it, under any rate
+    of change."""
     k1 = rate(y)
     k2 = rate(y + 0.5 * h * k1)
     k3 = rate(y + 0.5 * h * k2)

@@ -1,4 +1,5 @@
-"""Energy that is made or lost: steps beyond the stability limit, and implicit damping."""
+"""Energy that is made or lost: steps beyond the stability limit, and implicit
+damping."""
 
 from __future__ import annotations
 
@@ -21,14 +22,15 @@ from precursors.methods.stability import (
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
 
-# Steps over which the factor per step is an average: more for leapfrog, whose energy also swings, fewer for
-# RK4, which damps the mode below the rounding of the others.
+# Steps over which the factor per step is an average: more for leapfrog, whose energy
+# also swings, fewer for RK4, which damps the mode below the rounding of the others.
 UNSTABLE_STEPS = {"rk4": 20, "leapfrog": 200}
 POINTS = 21
 # With friction: omega dt from RK4's limit on, and where its runs end.
 BEYOND = RK4_LIMIT * np.linspace(1.0, 1.25, 51)[1:]
 END = 10.0  # s
-# Time of a short slip [s], and the steps with which Moreau-Jean time stepping goes through it.
+# Time of a short slip [s], and the steps with which Moreau-Jean time stepping goes
+# through it.
 SLIP = 100e-6
 DAMPING_STEPS = (1e-6, 1e-7, 1e-8)
 
@@ -36,29 +38,52 @@ DAMPING_STEPS = (1e-6, 1e-7, 1e-8)
 def unstable() -> Failure:
     """RK4 above omega dt = 2 sqrt 2 and leapfrog above 2, without friction."""
     chain = without_friction(Chain.from_slider())
-    omega, mode = highest_frequency(chain), highest_mode(chain)
+    omega = highest_frequency(chain)
+    mode = highest_mode(chain)
     lines: dict[str, tuple[ArrayLike, ArrayLike]] = {}
     numbers = []
     for name, n_steps in UNSTABLE_STEPS.items():
         method = METHODS[name]
-        smooth, label = method.smooth, method.label.removesuffix(", every step")
+        smooth = method.smooth
+        label = method.label.removesuffix(", every step")
         assert smooth
-        z, fine = smooth.limit * np.linspace(0.9, 1.1, POINTS), smooth.limit * np.linspace(0.9, 1.1, 201)
-        left = [energy_left(chain, smooth.slide, x / omega, n_steps, mode) ** (1 / n_steps) for x in z]
-        lines[f"theory, {label}"] = (fine / omega, [smooth.energy_factor(x) for x in fine])
+        z = smooth.limit * np.linspace(0.9, 1.1, POINTS)
+        fine = smooth.limit * np.linspace(0.9, 1.1, 201)
+        left = [
+            energy_left(chain, smooth.slide, x / omega, n_steps, mode) ** (1 / n_steps)
+            for x in z
+        ]
+        lines[f"theory, {label}"] = (
+            fine / omega,
+            [smooth.energy_factor(x) for x in fine],
+        )
         lines[label] = (z / omega, left)
         factor = smooth.energy_factor(z[-1])
-        numbers.append(Number(label, f"omega dt = {z[-1]:.3g}", "energy a step", "1", left[-1], 1.0, factor))
+        numbers.append(
+            Number(
+                label,
+                f"omega dt = {z[-1]:.3g}",
+                "energy a step",
+                "1",
+                left[-1],
+                1.0,
+                factor,
+            )
+        )
     return Failure(tuple(numbers), curves("step_s", "energy_per_step", **lines))
 
 
 def silent_instability() -> Failure:
-    """RK4 above its limit with friction: stops take the energy away, so that no number overflows at first."""
+    """RK4 above its limit with friction: stops take the energy away, so that no number
+    overflows at first."""
     chain = Chain.from_slider()
-    omega, exact = highest_frequency(chain), simulate(chain, END, "global slip")
+    omega = highest_frequency(chain)
+    exact = simulate(chain, END, "global slip")
     true = apparent_friction(slip_table(exact))
     assert true
-    finished, mu_sapp, right = [], [], 0
+    finished = []
+    mu_sapp = []
+    right = 0
     for z in BEYOND:
         try:
             run = METHODS["rk4_skip"].solve(chain, END, z / omega, "global slip").run
@@ -83,17 +108,24 @@ def silent_instability() -> Failure:
 def numerical_damping() -> Failure:
     """Implicit Moreau-Jean time stepping slows down what moves freely."""
     chain = without_friction(Chain.from_slider())
-    omega, mode = highest_frequency(chain), highest_mode(chain)
+    omega = highest_frequency(chain)
+    mode = highest_mode(chain)
     times = np.linspace(0.0, SLIP, POINTS)
     lines: dict[str, tuple[ArrayLike, ArrayLike]] = {}
     numbers = []
-    runs = [*(("moreau_jean_one", step) for step in DAMPING_STEPS), ("moreau_jean_half", DAMPING_STEPS[0])]
+    runs = [
+        *(("moreau_jean_one", step) for step in DAMPING_STEPS),
+        ("moreau_jean_half", DAMPING_STEPS[0]),
+    ]
     for name, step in runs:
         method = METHODS[name]
         assert method.smooth
         n_steps = np.linspace(0, round(SLIP / step), POINTS).astype(int)
-        left = [energy_left(chain, method.smooth.slide, step, int(n), mode) for n in n_steps]
-        setting, factor = f"dt = {step:.0e} s", method.smooth.energy_factor(omega * step)
+        left = [
+            energy_left(chain, method.smooth.slide, step, int(n), mode) for n in n_steps
+        ]
+        setting = f"dt = {step:.0e} s"
+        factor = method.smooth.energy_factor(omega * step)
         number = partial(Number, method.label, setting, "energy left after 100 us", "1")
         numbers.append(number(left[-1], 1.0, factor ** (SLIP / step)))
         if name == "moreau_jean_one":

@@ -1,4 +1,5 @@
-"""A model without backward sliding: a block that would slide backward stays where it is."""
+"""A model without backward sliding: a block that would slide backward stays where it
+is."""
 
 from __future__ import annotations
 
@@ -11,8 +12,8 @@ from precursors.accuracy.failures.common import Failure, Number, curves
 from precursors.analysis.slips import apparent_friction, slip_table
 from precursors.methods.fixed_step import march
 from precursors.methods.rk4_located import run_located
+from precursors.methods.switching import FORWARD_ONLY
 from precursors.model.chain import Chain
-from precursors.model.switching import FORWARD_ONLY
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
@@ -27,7 +28,8 @@ def solve_forward_only(chain: Chain, duration: float, until: str | None = None) 
 
 def forward_only() -> Failure:
     """Backward sliding forbidden: another model, with other numbers."""
-    numbers, lines = [], {}
+    numbers = []
+    lines = {}
     for theta in THETAS:
         chain = Chain.from_slider(theta=theta)
         exact = simulate(chain, 10.0, "global slip")
@@ -36,11 +38,22 @@ def forward_only() -> Failure:
         backward = int(np.argmax(exact.transitions["mode"] < 0))
         n_right = transitions_right(run, exact)
         theory = "transitions before the first backward slip, read off the exact run"
-        numbers.append(number("transitions right", "1", n_right, len(exact.transitions), backward, theory))
+        numbers.append(
+            number(
+                "transitions right",
+                "1",
+                n_right,
+                len(exact.transitions),
+                backward,
+                theory,
+            )
+        )
         true, found = (apparent_friction(slip_table(r)) for r in (exact, run))
         assert true
         assert found
-        numbers.append(number("events counted", "1", found.events_counted, true.events_counted))
+        numbers.append(
+            number("events counted", "1", found.events_counted, true.events_counted)
+        )
         numbers.append(number("mu_sapp", "1", found.mu_sapp, true.mu_sapp))
         # The curves of the last theta are the ones that stay.
         for name, r in (("exact", exact), ("v < 0 forbidden", run)):

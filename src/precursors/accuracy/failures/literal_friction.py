@@ -16,7 +16,8 @@ POINTS = 66
 
 
 def load_after_limit(chain: Chain, step: float, times: FloatArray) -> FloatArray:
-    """F_X [N] with Eq. 4 as printed, at some times [s] after block 1 has first reached its limit."""
+    """F_X [N] with Eq. 4 as printed, at some times [s] after block 1 has first reached
+    its limit."""
     system, state = at_rest(chain)
     state[FORCE, 1] = chain.strength[0]
     load = []
@@ -38,8 +39,17 @@ def literal_friction() -> Failure:
     lines = {"exact": (exact_times, exact)}
     numbers = []
     for step in STEPS:
-        load, setting = load_after_limit(chain, step, times), f"dt = {step:.0e} s"
+        load = load_after_limit(chain, step, times)
+        setting = f"dt = {step:.0e} s"
         lines[setting] = (np.append(0.0, onset + times), np.append(0.0, load))
         largest = float(load.max()), float(exact.max()), limit
-        numbers.append(Number("RK4 with Eq. 4 as printed", setting, "largest F_X in 1 s", "N", *largest))
+        numbers.append(
+            Number(
+                "RK4 with Eq. 4 as printed",
+                setting,
+                "largest F_X in 1 s",
+                "N",
+                *largest,
+            )
+        )
     return Failure(tuple(numbers), curves("time_s", "tangential_load_N", **lines))

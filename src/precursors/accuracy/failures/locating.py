@@ -1,4 +1,5 @@
-"""Transitions that are located wrongly: two roots in one step, a restart on a root, merged transitions."""
+"""Transitions that are located wrongly: two roots in one step, a restart on a root,
+merged transitions."""
 
 from __future__ import annotations
 
@@ -22,13 +23,18 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-METHOD, MERGING = "DOP853 with events", "DOP853, transitions merged"
-MISSED, MERGED = "two roots of a velocity are missed", "two of three transitions lose their order"
-# At the loose tolerance DOP853 steps over two roots of a velocity; with steps of at most so many seconds, it
-# does not and does.
-LOOSE, TIGHT = 1e-7, 1e-10
-SHORT_STEP, LONG_STEP = 1e-6, 4e-6
-# Times [s] within which transitions are made at once; the first changes no sequence, the second does.
+METHOD = "DOP853 with events"
+MERGING = "DOP853, transitions merged"
+MISSED = "two roots of a velocity are missed"
+MERGED = "two of three transitions lose their order"
+# At the loose tolerance DOP853 steps over two roots of a velocity; with steps of at
+# most so many seconds, it does not and does.
+LOOSE = 1e-7
+TIGHT = 1e-10
+SHORT_STEP = 1e-6
+LONG_STEP = 4e-6
+# Times [s] within which transitions are made at once; the first changes no sequence,
+# the second does.
 WINDOWS = (1e-7, 3e-7, 1e-6)
 # Of the thresholds of both, to 9 % and 7 %.
 BISECTIONS = 4
@@ -36,8 +42,11 @@ RESTART_END = 1.0  # s
 SMALLEST = math.nextafter(0.0, 1.0)
 
 
-def solve_merging(chain: Chain, duration: float, window: float, until: str | None = None) -> Run:
-    """Run a chain whose transitions are made at once where they lie closer than a window [s]."""
+def solve_merging(
+    chain: Chain, duration: float, window: float, until: str | None = None
+) -> Run:
+    """Run a chain whose transitions are made at once where they lie closer than a
+    window [s]."""
     return solve_dop853(chain, duration, TIGHT, until, window).run
 
 
@@ -45,7 +54,8 @@ def motion_after(run: Run, number: int) -> EventMotion:
     """The motion of an exact run from its transition of this number (from 1) on."""
     chain = run.chain
     motion = EventMotion(chain, run.duration, None)
-    modes, done = np.zeros(chain.n_blocks), run.transitions[:number]
+    modes = np.zeros(chain.n_blocks)
+    done = run.transitions[:number]
     modes[done["block"] - 1] = done["mode"]  # the last one of each block
     time, block, mode, _ = run.transitions[number - 1].tolist()
     velocities = run.at([time])[1][0] * chain.mass / motion.tau
@@ -69,19 +79,22 @@ def missed_roots() -> Failure:
         return transitions_right(run, exact) <= wrong
 
     longest = bisect(misses, SHORT_STEP, LONG_STEP, BISECTIONS)
-    # The motion up to three times as long as the true one, from the last right transition on.
+    # The motion up to three times as long as the true one, from the last right
+    # transition on.
     column = chain.n_blocks + int(exact.transitions["block"][wrong]) - 1
     motion = motion_after(exact, wrong)
     span = 3.0 * float(exact.intervals[wrong]) / motion.tau
     integrate: Any = partial(solve_ivp, motion.rates, (0.0, span), motion.y, "DOP853")
     path = integrate(rtol=TIGHT, atol=TIGHT, dense_output=True).sol
     steps = integrate(rtol=LOOSE, atol=LOOSE)
-    times, to_velocity = np.linspace(0.0, span, 301), motion.tau / chain.mass
+    times = np.linspace(0.0, span, 301)
+    to_velocity = motion.tau / chain.mass
     velocity = path(times)[column] * to_velocity
     negative = np.flatnonzero(velocity[1:] < 0.0) + 1
     below_zero = float(np.ptp(times[negative]) * motion.tau)
 
-    # A step that is shorter than the time below zero ends in it or does not begin before it.
+    # A step that is shorter than the time below zero ends in it or does not begin
+    # before it.
     theory = "time for which the velocity is below zero, read off the exact run"
     return Failure(
         (Number(METHOD, f"rtol = {LOOSE:.0e}", "transitions right", "1", wrong, n),),
@@ -91,7 +104,17 @@ def missed_roots() -> Failure:
             exact=(times * motion.tau, velocity),
             steps_of_DOP853=(steps.t * motion.tau, steps.y[column] * to_velocity),
         ),
-        (Threshold(METHODS["scipy_dop853"].label, chain.n_blocks, MISSED, "s", theory, below_zero, longest),),
+        (
+            Threshold(
+                METHODS["scipy_dop853"].label,
+                chain.n_blocks,
+                MISSED,
+                "s",
+                theory,
+                below_zero,
+                longest,
+            ),
+        ),
     )
 
 
@@ -101,24 +124,40 @@ def restart_on_root() -> Failure:
     exact = simulate(chain, RESTART_END).transitions["time"]
 
     def times(start: float) -> FloatArray:
-        """Times of the transitions [s], where a block starts with a velocity [N/tau]."""
-        run = attempt(solve_scipy, chain, RESTART_END, 1e-9, nudge=start, direction=0.0).run
+        """Times of the transitions [s], where a block starts with a velocity
+        [N/tau]."""
+        run = attempt(
+            solve_scipy, chain, RESTART_END, 1e-9, nudge=start, direction=0.0
+        ).run
         return run.transitions["time"]
 
     found = times(0.0)
     same = int((found == found[0]).sum())
     # At the start the event function is zero, or it is not: no other velocity matters.
-    smallest = min(start for start in (0.0, SMALLEST) if len(times(start)) == len(exact))
+    smallest = min(
+        start for start in (0.0, SMALLEST) if len(times(start)) == len(exact)
+    )
     number = partial(Number, METHOD)
     return Failure(
         (
-            number("start from v = 0", f"transitions at t = {found[0]:g} s", "1", same, 1),
-            number("v > 0", "smallest start that gets away", "N/tau", smallest, predicted=SMALLEST),
+            number(
+                "start from v = 0", f"transitions at t = {found[0]:g} s", "1", same, 1
+            ),
+            number(
+                "v > 0",
+                "smallest start that gets away",
+                "N/tau",
+                smallest,
+                predicted=SMALLEST,
+            ),
         ),
         curves(
             "time_s",
             "transitions",
-            exact=(np.concatenate([[0.0], exact, [RESTART_END]]), [*range(len(exact) + 1), len(exact)]),
+            exact=(
+                np.concatenate([[0.0], exact, [RESTART_END]]),
+                [*range(len(exact) + 1), len(exact)],
+            ),
             restart=(np.append(0.0, found), np.arange(len(found) + 1)),
         ),
     )
@@ -132,10 +171,13 @@ def merged_transitions() -> Failure:
 
     @cache
     def right(window: float) -> int:
-        return transitions_right(solve_merging(chain, 10.0, window, "global slip"), exact)
+        return transitions_right(
+            solve_merging(chain, 10.0, window, "global slip"), exact
+        )
 
     longest = bisect(lambda window: right(window) < n, *WINDOWS[:2], BISECTIONS)
-    # Of three transitions, the last two are merged where both lie within a window after the first.
+    # Of three transitions, the last two are merged where both lie within a window after
+    # the first.
     intervals = exact.intervals[:-1]
     three = float((intervals[:-1] + intervals[1:]).min())
     number = partial(Number, MERGING, f"within {WINDOWS[1]:.0e} s")

@@ -1,4 +1,5 @@
-"""Regularised friction: blocks creep under less than mu_s w, and the narrower the law, the stiffer it is."""
+"""Regularised friction: blocks creep under less than mu_s w, and the narrower the law,
+the stiffer it is."""
 
 from __future__ import annotations
 
@@ -8,7 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
-from precursors.accuracy.failures.common import Failure, Number, Threshold, curves, runge_kutta_step
+from precursors.accuracy.failures.common import (
+    Failure,
+    Number,
+    Threshold,
+    curves,
+    runge_kutta_step,
+)
 from precursors.methods.columns import time_unit
 from precursors.methods.regularised import creep_velocity, equations
 from precursors.methods.stability import bisect, highest_frequency
@@ -17,21 +24,31 @@ from precursors.model.chain import Chain, FloatArray
 WIDTHS = (1e-5, 1e-6, 1e-7)  # m/s
 LOADS = np.array([0.3, 0.6, 0.9])  # parts of mu_s w
 STIFF_WIDTHS = np.geomspace(1e-9, 1e-4, 11)  # m/s
-CHARTED_WIDTH, CHARTED_LOAD = 1e-6, 0.9
+CHARTED_WIDTH = 1e-6
+CHARTED_LOAD = 0.9
 # A stiff decay is stable with RK4 up to this lambda dt.
 RK4_REAL_LIMIT = 2.785293563
-METHOD, UNSTABLE = "RK4, friction regularised to 1e-06 m/s", "creep becomes a growing oscillation"
-STEPS, BISECTIONS = 200, 8
+METHOD = "RK4, friction regularised to 1e-06 m/s"
+UNSTABLE = "creep becomes a growing oscillation"
+STEPS = 200
+BISECTIONS = 8
 
 
 def measured_creep(ratio: float, width: float) -> float:
-    """Velocity [m/s] of a block under the load ratio * mu_s w, which friction should hold."""
+    """Velocity [m/s] of a block under the load ratio * mu_s w, which friction should
+    hold."""
     # So soft a drive keeps the load constant.
     chain = Chain.from_slider(n_blocks=1, drive_stiffness=1e-3, drive_velocity=1e-12)
     start = [ratio * float(chain.strength[0]), 0.0]
     right_hand_side, jacobian = equations(chain, width)
     solution = solve_ivp(
-        right_hand_side, (0.0, 1.0), start, "Radau", jac=jacobian, rtol=1e-8, atol=[1e-8, 1e-18]
+        right_hand_side,
+        (0.0, 1.0),
+        start,
+        "Radau",
+        jac=jacobian,
+        rtol=1e-8,
+        atol=[1e-8, 1e-18],
     )
     return float(solution.y[1, -1]) * time_unit(chain) / chain.mass
 
@@ -39,23 +56,37 @@ def measured_creep(ratio: float, width: float) -> float:
 def creep() -> Failure:
     """Regularised friction: a block under less than mu_s w creeps."""
     block = Chain.from_slider(n_blocks=1)
-    weight, strength = float(block.weights[0]), float(block.strength[0])
+    weight = float(block.weights[0])
+    strength = float(block.strength[0])
     fine = np.linspace(0.02, 0.99, 98)
     lines: dict[str, tuple[ArrayLike, ArrayLike]] = {
         "the_drive": (fine[[0, -1]], 2 * (block.drive_velocity,))
     }
     for width in WIDTHS:
-        creeping = [creep_velocity(ratio * strength, weight, width, block.mu_s) for ratio in fine]
+        creeping = [
+            creep_velocity(ratio * strength, weight, width, block.mu_s)
+            for ratio in fine
+        ]
         lines[f"theory, width = {width:.0e} m/s"] = (fine, creeping)
-        lines[f"width = {width:.0e} m/s"] = (LOADS, [measured_creep(ratio, width) for ratio in LOADS])
-    speed, drive = measured_creep(CHARTED_LOAD, CHARTED_WIDTH), block.drive_velocity
+        lines[f"width = {width:.0e} m/s"] = (
+            LOADS,
+            [measured_creep(ratio, width) for ratio in LOADS],
+        )
+    speed = measured_creep(CHARTED_LOAD, CHARTED_WIDTH)
+    drive = block.drive_velocity
     theory = creep_velocity(CHARTED_LOAD * strength, weight, CHARTED_WIDTH, block.mu_s)
     setting = f"width = {CHARTED_WIDTH:.0e} m/s, F = {CHARTED_LOAD:g} mu_s w"
     number = partial(Number, "regularised friction", setting)
     return Failure(
         (
             number("velocity in stick", "m/s", speed, 0.0, theory),
-            number("velocity in stick, of the drive's", "1", speed / drive, 0.0, theory / drive),
+            number(
+                "velocity in stick, of the drive's",
+                "1",
+                speed / drive,
+                0.0,
+                theory / drive,
+            ),
         ),
         curves("load_over_strength", "velocity_m_per_s", **lines),
     )
@@ -69,12 +100,16 @@ def matrix_at_rest(chain: Chain, width: float) -> FloatArray:
 
 def fastest_rate(chain: Chain, width: float) -> float:
     """Largest eigenvalue of that matrix [1/s]."""
-    return float(np.abs(np.linalg.eigvals(matrix_at_rest(chain, width))).max()) / time_unit(chain)
+    return float(
+        np.abs(np.linalg.eigvals(matrix_at_rest(chain, width))).max()
+    ) / time_unit(chain)
 
 
 def creep_grows(chain: Chain, width: float, step: float) -> bool:
-    """Whether RK4 with a step [s] raises velocities far below the width, which friction should brake."""
-    matrix, n = matrix_at_rest(chain, width), chain.n_blocks
+    """Whether RK4 with a step [s] raises velocities far below the width, which friction
+    should brake."""
+    matrix = matrix_at_rest(chain, width)
+    n = chain.n_blocks
     start = state = np.ones(2 * n)
     for _ in range(STEPS):
         state = runge_kutta_step(matrix.__matmul__, state, step / time_unit(chain))
@@ -84,7 +119,9 @@ def creep_grows(chain: Chain, width: float, step: float) -> bool:
 def longest_step(chain: Chain, width: float) -> float:
     """Step [s] from which RK4 makes creep grow; by bisection."""
     expected = RK4_REAL_LIMIT / fastest_rate(chain, width)
-    return bisect(partial(creep_grows, chain, width), 0.5 * expected, 2.0 * expected, BISECTIONS)
+    return bisect(
+        partial(creep_grows, chain, width), 0.5 * expected, 2.0 * expected, BISECTIONS
+    )
 
 
 def stiffness() -> Failure:
@@ -93,7 +130,8 @@ def stiffness() -> Failure:
     omega = highest_frequency(chain)
     rates = [fastest_rate(chain, width) for width in STIFF_WIDTHS]
     at_unit_width = float(chain.strength.max()) / chain.mass
-    theory, rate = at_unit_width / STIFF_WIDTHS, fastest_rate(chain, CHARTED_WIDTH)
+    theory = at_unit_width / STIFF_WIDTHS
+    rate = fastest_rate(chain, CHARTED_WIDTH)
     number = partial(Number, "regularised friction", f"width = {CHARTED_WIDTH:.0e} m/s")
     predicted = RK4_REAL_LIMIT * CHARTED_WIDTH / at_unit_width
     limit = longest_step(chain, CHARTED_WIDTH)
@@ -106,5 +144,15 @@ def stiffness() -> Failure:
             measured=(STIFF_WIDTHS, rates),
             the_chain_itself=(STIFF_WIDTHS[[0, -1]], [omega, omega]),
         ),
-        (Threshold(METHOD, chain.n_blocks, UNSTABLE, "s", "2.785 m width / (mu_s w)", predicted, limit),),
+        (
+            Threshold(
+                METHOD,
+                chain.n_blocks,
+                UNSTABLE,
+                "s",
+                "2.785 m width / (mu_s w)",
+                predicted,
+                limit,
+            ),
+        ),
     )

@@ -1,10 +1,12 @@
-"""From which step each method fails: predicted and measured, for chains of 1 to 50 blocks.
+"""From which step each method fails: predicted and measured, for chains of 1 to 50
+blocks.
 
-While nothing switches, the energy of the fastest mode grows without bound beyond the limit of a method; a
-dissipative one, or one that makes energy, changes it at any step. With friction, a block that starts from
-rest turns back within a step beyond the limit and is stopped at its end: from stop to stop its distance from
-the middle is multiplied by Re R(omega dt), where a step multiplies an oscillation by R. So a slip ends,
-although the step is unstable, up to where this factor exceeds 1 in size.
+While nothing switches, the energy of the fastest mode grows without bound beyond the
+limit of a method; a dissipative one, or one that makes energy, changes it at any step.
+With friction, a block that starts from rest turns back within a step beyond the limit
+and is stopped at its end: from stop to stop its distance from the middle is multiplied
+by Re R(omega dt), where a step multiplies an oscillation by R. So a slip ends, although
+the step is unstable, up to where this factor exceeds 1 in size.
 """
 
 from __future__ import annotations
@@ -43,7 +45,9 @@ LOST = "no global slip, or numbers overflow"
 WRONG = "a transition of the first five slips is wrong"
 
 # Names of the formulas, omega being the chain's highest angular frequency.
-RK4_THEORY, TWO, NONE = "2 sqrt 2 / omega", "2 / omega", "none"
+RK4_THEORY = "2 sqrt 2 / omega"
+TWO = "2 / omega"
+NONE = "none"
 GROWING = {
     "rk4_skip": RK4_THEORY,
     "leapfrog": TWO,
@@ -56,8 +60,8 @@ CHANGING = {
     "moreau_jean_one": "factor 1 / (1 + (omega dt)^2) a step",
     "hht": "largest eigenvalue of a step",
 }
-# Limits of omega dt from stop to stop. Where a method locates its stops, or friction acts within a step, it
-# is the limit without friction.
+# Limits of omega dt from stop to stop. Where a method locates its stops, or friction
+# acts within a step, it is the limit without friction.
 STOPPING = {
     "rk4_skip": (2.0 * math.sqrt(3.0), "2 sqrt 3 / omega"),
     "rk4_located": (2.0 * math.sqrt(2.0), RK4_THEORY),
@@ -67,10 +71,14 @@ STOPPING = {
 }
 INTERVAL = "shortest time between two transitions, read off the exact run"
 
-# Five periods of the fastest mode [rad], and steps over which the change of its energy in one is an average.
-PERIODS, STEPS = 10.0 * math.pi, 200
-# With friction: parts of the limit, and where a run ends, in times to the first global slip and transitions.
-PARTS, LATER = 0.8 * 1.02 ** np.arange(50), 2.0
+# Five periods of the fastest mode [rad], and steps over which the change of its energy
+# in one is an average.
+PERIODS = 10.0 * math.pi
+STEPS = 200
+# With friction: parts of the limit, and where a run ends, in times to the first global
+# slip and transitions.
+PARTS = 0.8 * 1.02 ** np.arange(50)
+LATER = 2.0
 MOST: Any = {"max_transitions": 20_000}
 # Steps [s] with which the first five slips are run, from coarse to fine.
 COARSE_STEPS = 1e-5 * 10.0 ** -np.arange(0.0, 4.0, 0.25)
@@ -78,7 +86,8 @@ BISECTIONS = 10  # of the margin, to 1 %
 
 
 def thresholds() -> Iterator[Threshold]:
-    """All but those of friction laws and of locating, which are measured with these failures."""
+    """All but those of friction laws and of locating, which are measured with these
+    failures."""
     for n_blocks in SIZES:
         chain = Chain.from_slider(n_blocks=n_blocks)
         yield from without(without_friction(chain))
@@ -87,20 +96,26 @@ def thresholds() -> Iterator[Threshold]:
 
 
 def without(free: Chain) -> Iterator[Threshold]:
-    """Steps [s] from which energy grows without bound or changes too much, in a chain without friction."""
+    """Steps [s] from which energy grows without bound or changes too much, in a chain
+    without friction."""
     omega = highest_frequency(free)
     for name, theory in GROWING.items():
-        smooth, bounds = _smooth(name), (1e-2 / omega, 1e2 / omega)
+        smooth = _smooth(name)
+        bounds = (1e-2 / omega, 1e2 / omega)
         grows = is_unstable(free, smooth.slide, bounds[1])
         found = largest_stable_step(free, smooth.slide, *bounds) if grows else math.inf
         yield _threshold(name, free, GROWS, theory, smooth.limit / omega, found)
     for name, theory in CHANGING.items():
-        yield _threshold(name, free, CHANGES, theory, *changing_step(free, _smooth(name)))
+        yield _threshold(
+            name, free, CHANGES, theory, *changing_step(free, _smooth(name))
+        )
 
 
 def changing_step(free: Chain, smooth: Smooth) -> tuple[float, float]:
-    """Step [s] from which the energy of the fastest mode doubles or halves: predicted and measured."""
-    omega, mode = highest_frequency(free), highest_mode(free)
+    """Step [s] from which the energy of the fastest mode doubles or halves: predicted
+    and measured."""
+    omega = highest_frequency(free)
+    mode = highest_mode(free)
 
     def change(factor: float, z: float) -> float:
         return abs(math.log2(factor)) * PERIODS / z
@@ -115,13 +130,18 @@ def changing_step(free: Chain, smooth: Smooth) -> tuple[float, float]:
 
 
 def with_friction(chain: Chain) -> Iterator[Threshold]:
-    """Steps [s] from which a run from rest has no global slip, or its numbers overflow."""
-    omega, end = highest_frequency(chain), LATER * simulate(chain, 10.0, "global slip").duration
+    """Steps [s] from which a run from rest has no global slip, or its numbers
+    overflow."""
+    omega = highest_frequency(chain)
+    end = LATER * simulate(chain, 10.0, "global slip").duration
     for name, (limit, theory) in STOPPING.items():
         if name == "rk4_located" and chain.n_blocks != 10:
-            continue  # Of few blocks one stops in nearly every step, and many blocks take minutes.
+            # Of few blocks one stops in nearly every step, and many blocks take
+            # minutes.
+            continue
         if name == "leapfrog" and chain.n_blocks == 1:
-            # Block 1 turns back and forth where a stop lies beyond the limit of static friction.
+            # Block 1 turns back and forth where a stop lies beyond the limit of static
+            # friction.
             limit = 2.0 * math.sqrt(chain.mu_s / (chain.mu_s - chain.mu_k))
             theory = "2 sqrt(mu_s / (mu_s - mu_k)) / omega"
         found = first(partial(gets_lost, chain, name, end), PARTS * limit / omega)
@@ -129,9 +149,13 @@ def with_friction(chain: Chain) -> Iterator[Threshold]:
 
 
 def gets_lost(chain: Chain, name: str, end: float, step: float) -> bool:
-    """Whether a run has no global slip, or its numbers overflow, or it makes transitions without end."""
+    """Whether a run has no global slip, or its numbers overflow, or it makes
+    transitions without end."""
     try:
-        return METHODS[name].solve(chain, end, step, "global slip", **MOST).run.duration >= end
+        return (
+            METHODS[name].solve(chain, end, step, "global slip", **MOST).run.duration
+            >= end
+        )
     except (DivergedError, TransitionLimitError):
         return True
 
@@ -141,13 +165,21 @@ def five_slips(exact: Run) -> Iterator[Threshold]:
 
     `rk4` makes the steps of `rk4_skip`.
     """
-    chain, free = exact.chain, without_friction(exact.chain)
+    chain = exact.chain
+    free = without_friction(exact.chain)
     shortest = float(exact.intervals.min())
-    once_a_step = [name for name, of in METHODS.items() if of.kind == "once a step" and name != "rk4"]
+    once_a_step = [
+        name
+        for name, of in METHODS.items()
+        if of.kind == "once a step" and name != "rk4"
+    ]
     expected = dict.fromkeys([*once_a_step, "karnopp"], (INTERVAL, shortest))
     for name in ("forward_euler", "moreau_jean_one"):
         expected[name] = (CHANGING[name], changing_step(free, _smooth(name))[0])
-    expected["rk4_located"] = (RK4_THEORY, STOPPING["rk4_located"][0] / highest_frequency(chain))
+    expected["rk4_located"] = (
+        RK4_THEORY,
+        STOPPING["rk4_located"][0] / highest_frequency(chain),
+    )
     for name, (theory, predicted) in expected.items():
         found = first(partial(is_right, exact, name), COARSE_STEPS)
         yield _threshold(name, chain, WRONG, theory, predicted, found)
@@ -160,7 +192,8 @@ def is_right(exact: Run, name: str, value: float) -> bool:
 
 
 def margin(exact: Run) -> float:
-    """Smallest relative change of mu_s or mu_k from which transitions of the exact run change."""
+    """Smallest relative change of mu_s or mu_k from which transitions of the exact run
+    change."""
 
     def changes(part: float) -> bool:
         chains = (
@@ -169,7 +202,9 @@ def margin(exact: Run) -> float:
             for factor in (1.0 + part, 1.0 - part)
         )
         runs = (simulate(chain, until="global slip") for chain in chains)
-        return any(transitions_right(run, exact) < len(exact.transitions) for run in runs)
+        return any(
+            transitions_right(run, exact) < len(exact.transitions) for run in runs
+        )
 
     return bisect(changes, 1e-6, 0.1, BISECTIONS)
 
@@ -188,4 +223,6 @@ def _smooth(name: str) -> Smooth:
 def _threshold(
     name: str, chain: Chain, fails: str, theory: str, predicted: float, measured: float
 ) -> Threshold:
-    return Threshold(METHODS[name].label, chain.n_blocks, fails, "s", theory, predicted, measured)
+    return Threshold(
+        METHODS[name].label, chain.n_blocks, fails, "s", theory, predicted, measured
+    )

@@ -1,4 +1,5 @@
-"""The arrays that a run is made in: the chain, its motion, how far it is, the record."""
+"""The arrays that a run is made in: the chain, its motion, how far it is, the
+record."""
 
 from __future__ import annotations
 
@@ -12,14 +13,21 @@ from numpy.typing import NDArray
 from precursors.model.chain import FloatArray
 from precursors.solver.kernel.compiled import inner
 from precursors.solver.kernel.layout import ROWS, TERMS, WIDTH
-from precursors.solver.kernel.pointers import EIGHT, cast_to, numbers, shifted, whole_numbers
+from precursors.solver.kernel.pointers import (
+    EIGHT,
+    cast_to,
+    numbers,
+    shifted,
+    whole_numbers,
+)
 from precursors.solver.record import IntArray
 
 # In compiled code a vector is a pointer to a number for each column.
 Vector = Any
 
 # Vectors with a column for each block, and with a row for each term of a series.
-BY_COLUMN, BY_TERM = 14, 3
+BY_COLUMN = 14
+BY_TERM = 3
 # Doubles in a line of the cache.
 LINE = 8
 
@@ -27,8 +35,8 @@ LINE = 8
 class System(NamedTuple):
     """A chain in the kernel's units.
 
-    `tau` is in s, `speed` is the unit N/tau of velocities in m/s. Columns are the stiffness behind a block
-    and its friction, mu_s w_i and mu_k w_i [N].
+    `tau` is in s, `speed` is the unit N/tau of velocities in m/s. Columns are the
+    stiffness behind a block and its friction, mu_s w_i and mu_k w_i [N].
     """
 
     n_blocks: int
@@ -43,13 +51,15 @@ class System(NamedTuple):
 class Motion(NamedTuple):
     """The state, and the motion within a window from it.
 
-    State: `velocity`, `spring_force` in two doubles (the second in `force_rest`), the net force of the
-    springs on each block, and `mode`. It follows from the modes: `slides` is 1 or 0 (1 for the drive), `push`
-    is the friction against the motion, `hold` is mu_s w_i where a block sticks, `felt` is 1 where a block or
-    a neighbour of it moves. Window: `rate` has the derivatives, `wide` columns in a row (see `expand`),
-    `sign` is that of `watched`, `force_before` and `rest_before` are the spring forces at its start, `slip`
-    is the way since then; `whole` has the terms s^n / n! for its length, `weight` those for the time looked
-    at; `open` has the blocks that are not proved as bits; `series` is room for one function.
+    State: `velocity`, `spring_force` in two doubles (the second in `force_rest`), the
+    net force of the springs on each block, and `mode`. It follows from the modes:
+    `slides` is 1 or 0 (1 for the drive), `push` is the friction against the motion,
+    `hold` is mu_s w_i where a block sticks, `felt` is 1 where a block or a neighbour of
+    it moves. Window: `rate` has the derivatives, `wide` columns in a row (see
+    `expand`), `sign` is that of `watched`, `force_before` and `rest_before` are the
+    spring forces at its start, `slip` is the way since then; `whole` has the terms s^n
+    / n! for its length, `weight` those for the time looked at; `open` has the blocks
+    that are not proved as bits; `series` is room for one function.
     """
 
     velocity: Vector
@@ -74,7 +84,8 @@ class Motion(NamedTuple):
 
 
 class Batch(NamedTuple):
-    """Chains of equal length and their starts, a row each: see `units.parameters`; [N], [m], [m/s]."""
+    """Chains of equal length and their starts, a row each: see `units.parameters`; [N],
+    [m], [m/s]."""
 
     parameters: FloatArray
     weights: FloatArray
@@ -85,9 +96,10 @@ class Batch(NamedTuple):
 class Limits(NamedTuple):
     """Where a run ends or pauses.
 
-    It ends at `duration` [s], after a global slip, or when one slip has lasted `longest_slip` [s]. It pauses
-    when it has so many transitions, states, or windows in this call. A state is stored after every `stride`
-    transitions or so. With `goes_on`, the run is one that was paused.
+    It ends at `duration` [s], after a global slip, or when one slip has lasted
+    `longest_slip` [s]. It pauses when it has so many transitions, states, or windows in
+    this call. A state is stored after every `stride` transitions or so. With `goes_on`,
+    the run is one that was paused.
     """
 
     duration: float
@@ -100,28 +112,50 @@ class Limits(NamedTuple):
     goes_on: bool
 
 
-# Where a run is: tau [s]; time of the event's onset in two doubles [s], time since then and since the last
-# transition [tau]; numbers of transitions, sliding blocks, stored states, windows, derivatives of single
-# blocks, searches of a function and steps to roots; whether all blocks slid at once; how it ended; a block
-# beyond which none slides; windows on end in which time stood still.
+# Where a run is: tau [s]; time of the event's onset in two doubles [s], time since then
+# and since the last transition [tau]; numbers of transitions, sliding blocks, stored
+# states, windows, derivatives of single blocks, searches of a function and steps to
+# roots; whether all blocks slid at once; how it ended; a block beyond which none
+# slides; windows on end in which time stood still.
 PROGRESS = np.dtype(
     [(name, "f8") for name in ("tau", "onset", "onset_error", "elapsed", "since")]
-    + [(name, "i8") for name in ("transitions", "sliding", "stored", "windows", "derivatives")]
-    + [(name, "i8") for name in ("searches", "root_steps", "all_slid", "status", "farthest", "at_once")]
+    + [
+        (name, "i8")
+        for name in ("transitions", "sliding", "stored", "windows", "derivatives")
+    ]
+    + [
+        (name, "i8")
+        for name in (
+            "searches",
+            "root_steps",
+            "all_slid",
+            "status",
+            "farthest",
+            "at_once",
+        )
+    ]
 )
 progress_at = cast_to(from_dtype(PROGRESS))
 Progress = NDArray[np.void]
 
-# A transition and the interval before it [s]. After the last of a run comes the interval to its end.
+# A transition and the interval before it [s]. After the last of a run comes the
+# interval to its end.
 ROW = np.dtype(
-    [("time", "f8"), ("block", "i8"), ("mode", "i8"), ("tangential_load", "f8"), ("interval", "f8")]
+    [
+        ("time", "f8"),
+        ("block", "i8"),
+        ("mode", "i8"),
+        ("tangential_load", "f8"),
+        ("interval", "f8"),
+    ]
 )
 _row_at = cast_to(from_dtype(ROW))
 ROW_BYTES = ROW.itemsize
 
 
 def words(records: NDArray[np.void]) -> IntArray:
-    """The memory of records, a row each; Numba takes long to recognise an array of records."""
+    """The memory of records, a row each; Numba takes long to recognise an array of
+    records."""
     return records.view(np.int64).reshape(len(records), -1)
 
 
@@ -132,22 +166,28 @@ def recorded(k, record):
 
 
 def memory_for(n_blocks: int) -> FloatArray:
-    """Memory that `divide` divides, in which no group of blocks lies across two lines of the cache."""
-    memory = np.zeros((3 + BY_COLUMN + ROWS) * n_columns(n_blocks) + BY_TERM * TERMS + LINE)
+    """Memory that `divide` divides, in which no group of blocks lies across two lines
+    of the cache."""
+    memory = np.zeros(
+        (3 + BY_COLUMN + ROWS) * n_columns(n_blocks) + BY_TERM * TERMS + LINE
+    )
     block_1 = 1 + memory.ctypes.data // memory.itemsize
     return memory[-block_1 % LINE :]
 
 
 @register_jitable
 def n_columns(n_blocks):
-    """Columns of a row: the drive, the blocks and what is beyond them, in whole groups."""
+    """Columns of a row: the drive, the blocks and what is beyond them, in whole
+    groups."""
     return WIDTH * (n_blocks // WIDTH + 2)
 
 
 @inner
 def divide(memory, n_blocks):
-    """Divide memory into the vectors of a system (coupling, strength, friction) and a motion."""
-    wide, start = n_columns(n_blocks), numbers(memory.ctypes.data)
+    """Divide memory into the vectors of a system (coupling, strength, friction) and a
+    motion."""
+    wide = n_columns(n_blocks)
+    start = numbers(memory.ctypes.data)
     terms = (3 + BY_COLUMN + ROWS) * wide
 
     def at(k):
@@ -157,8 +197,14 @@ def divide(memory, n_blocks):
     open = whole_numbers(memory.ctypes.data + 16 * EIGHT * wide)
     state = at(3), at(4), at(5), at(6), mode, at(8), at(9), at(10), at(11)
     window = at(12), at(13), at(14), at(15), open
-    of_terms = shifted(start, terms), shifted(start, terms + TERMS), shifted(start, terms + 2 * TERMS)
-    return (start, at(1), at(2)), Motion(*(state + window + of_terms + (at(3 + BY_COLUMN), wide)))
+    of_terms = (
+        shifted(start, terms),
+        shifted(start, terms + TERMS),
+        shifted(start, terms + 2 * TERMS),
+    )
+    return (start, at(1), at(2)), Motion(
+        *(state + window + of_terms + (at(3 + BY_COLUMN), wide))
+    )
 
 
 @inner

@@ -23,7 +23,8 @@ untyped: Any = numba
 
 KEPT = 20  # states of the sources whose machine code is kept
 
-# Numba compiles a function anew for an argument that is a literal number, unless its variable has a type.
+# Numba compiles a function anew for an argument that is a literal number, unless its
+# variable has a type.
 INDEX = dict.fromkeys(("block_1", "first_row", "last_row"), int64)
 _options: dict[str, Any] = {"error_model": "numpy", "locals": INDEX}
 # Products may be fused with sums, but not in the event loop, in starts and in units.
@@ -34,7 +35,8 @@ unfused: Any = untyped.njit(**_options)
 
 
 class UserCache(UserWideCacheLocator):  # type: ignore[misc]
-    """Tells Numba to keep machine code in `place`, which all clones with these sources share.
+    """Tells Numba to keep machine code in `place`, which all clones with these sources
+    share.
 
     Numba's own locators put the directory of the sources into the path.
     """
@@ -55,10 +57,12 @@ class UserCache(UserWideCacheLocator):  # type: ignore[misc]
 
 
 def entry(directory: Path, modules: Iterable[str] = (), **options: Any) -> Any:
-    """Decorator for functions that Python calls; their code is kept until a module in `directory` is edited.
+    """Decorator for functions that Python calls; their code is kept until a module in
+    `directory` is edited.
 
-    Numba looks at the file of a function only, and not at those of the functions that it calls. So the code
-    is kept in a directory that is named after the checksum of all modules, or of those named.
+    Numba looks at the file of a function only, and not at those of the functions that
+    it calls. So the code is kept in a directory that is named after the checksum of all
+    modules, or of those named.
     """
     place = _cache_place(directory, checksum(directory, modules))
 
@@ -77,7 +81,8 @@ def entry(directory: Path, modules: Iterable[str] = (), **options: Any) -> Any:
 
 
 class Announcement(event.Listener):  # type: ignore[misc]
-    """Says on stderr, once, that code is compiled: for `event.install_listener("numba:compile", ...)`."""
+    """Says on stderr, once, that code is compiled: for
+    `event.install_listener("numba:compile", ...)`."""
 
     is_made = False
 
@@ -85,35 +90,51 @@ class Announcement(event.Listener):  # type: ignore[misc]
         """Say it."""
         if not self.is_made:
             self.is_made = True
-            print("compiling the solver for this machine, once: some 20 s", file=sys.stderr, flush=True)
+            print(
+                "compiling the solver for this machine, once: some 20 s",
+                file=sys.stderr,
+                flush=True,
+            )
 
     def on_end(self, _: event.Event) -> None:
         """Say nothing."""
 
 
 def checksum(directory: Path, modules: Iterable[str] = ()) -> str:
-    """Checksum of all modules in a directory, or of those named, and of Numba's version."""
+    """Checksum of all modules in a directory, or of those named, and of Numba's
+    version."""
     digest = hashlib.sha256(numba.__version__.encode())
-    for file in [directory / name for name in modules] or sorted(directory.glob("*.py")):
+    for file in [directory / name for name in modules] or sorted(
+        directory.glob("*.py")
+    ):
         digest.update(f"{file.name} {file.stat().st_size} ".encode())
         digest.update(file.read_bytes())
     return digest.hexdigest()[:16]
 
 
 def _cache_place(directory: Path, digest: str) -> Path | None:
-    """A directory that can be written, named after the checksum of the modules; None, with a warning.
+    """A directory that can be written, named after the checksum of the modules; None,
+    with a warning.
 
     What was compiled from sources of long ago is removed.
     """
-    bases = [Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "precursors"), directory / "__pycache__"]
+    bases = [
+        Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "precursors"),
+        directory / "__pycache__",
+    ]
     if untyped.config.CACHE_DIR:
         bases = [Path(untyped.config.CACHE_DIR)]
     for base in bases:
         try:
             place = base.expanduser() / f"{directory.name}-{digest}"
             place.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=place):  # which also marks when it was used last
-                places = sorted(place.parent.glob(f"{directory.name}-*"), key=lambda one: one.stat().st_mtime)
+            with tempfile.TemporaryFile(
+                dir=place
+            ):  # which also marks when it was used last
+                places = sorted(
+                    place.parent.glob(f"{directory.name}-*"),
+                    key=lambda one: one.stat().st_mtime,
+                )
             for old in places[:-KEPT]:
                 shutil.rmtree(old, ignore_errors=True)
             return place

@@ -1,9 +1,16 @@
-"""The event loop: chains from their start, transition after transition, into a record."""
+"""The event loop: chains from their start, transition after transition, into a
+record."""
 
 from __future__ import annotations
 
 from precursors.solver.kernel.arrays import progress_at, recorded
-from precursors.solver.kernel.compiled import inner, inner_unfused, outer, seldom, unfused
+from precursors.solver.kernel.compiled import (
+    inner,
+    inner_unfused,
+    outer,
+    seldom,
+    unfused,
+)
 from precursors.solver.kernel.friction import (
     farthest_sliding,
     mode_at_rest,
@@ -12,38 +19,64 @@ from precursors.solver.kernel.friction import (
     take_neighbours,
 )
 from precursors.solver.kernel.guess import LEAST, MARGIN, NEAR, find_root, guess
-from precursors.solver.kernel.layout import FINISHED, PAUSED, PROOF_ORDER, ROUNDINGS, STOPPED, WIDTH, WINDOW
+from precursors.solver.kernel.layout import (
+    FINISHED,
+    PAUSED,
+    PROOF_ORDER,
+    ROUNDINGS,
+    STOPPED,
+    WIDTH,
+    WINDOW,
+)
 from precursors.solver.kernel.pointers import EIGHT, numbers, row_address
 from precursors.solver.kernel.proof import prove, search
 from precursors.solver.kernel.roots import zero_below
-from precursors.solver.kernel.series import begin, expand, move, order_at, powers, take_net_force, two_sum
+from precursors.solver.kernel.series import (
+    begin,
+    expand,
+    move,
+    order_at,
+    powers,
+    take_net_force,
+    two_sum,
+)
 from precursors.solver.kernel.units import lay_out
 
 
 @outer
 def run_batch(batch, limits, progress, record, states, memory):
-    """Run chain after chain from its start, as many as there is room for, into one record.
+    """Run chain after chain from its start, as many as there is room for, into one
+    record.
 
-    Row j of `batch` is a chain with its start, row j of `progress` has the words of where it ended. Limits
-    are those of each chain. Returns how many chains are finished and whether the one after them is paused:
-    its state is in `memory`, and what it recorded follows that of the others. It can go on where it is all
-    there is.
+    Row j of `batch` is a chain with its start, row j of `progress` has the words of
+    where it ended. Limits are those of each chain. Returns how many chains are finished
+    and whether the one after them is paused: its state is in `memory`, and what it
+    recorded follows that of the others. It can go on where it is all there is.
     """
     n_blocks = batch.weights.shape[1]
     used = stored = windows = 0
     for j in range(batch.weights.shape[0]):
         if not limits.goes_on:
             full = used + max(limits.transitions, n_blocks) >= record.shape[0]
-            if full or stored + limits.states > states.shape[0] or windows > limits.windows:
+            if (
+                full
+                or stored + limits.states > states.shape[0]
+                or windows > limits.windows
+            ):
                 return j, False
             memory[:] = 0.0
         chain, motion = lay_out(batch.parameters[j], batch.weights[j], memory)
         mine = progress_at(row_address(progress, j))
-        my_record, my_states = row_address(record, used), row_address(states, stored)
+        my_record = row_address(record, used)
+        my_states = row_address(states, stored)
         if not limits.goes_on:
             start = batch.positions[j], batch.velocities[j]
-            take_start(start, batch.parameters[j], chain, motion, mine, my_record, my_states)
-        mine.status = find_transitions(chain, motion, limits, mine, my_record, my_states)
+            take_start(
+                start, batch.parameters[j], chain, motion, mine, my_record, my_states
+            )
+        mine.status = find_transitions(
+            chain, motion, limits, mine, my_record, my_states
+        )
         if mine.status == PAUSED:
             return j, True
         recorded(mine.transitions, my_record).interval = mine.since * mine.tau
@@ -55,20 +88,25 @@ def run_batch(batch, limits, progress, record, states, memory):
 
 @unfused
 def take_start(start, parameters, chain, motion, progress, record, states):
-    """Take a start at time 0. In the first state all modes are 0; blocks that move are transitions."""
+    """Take a start at time 0. In the first state all modes are 0; blocks that move are
+    transitions."""
     positions, velocities = start
     mass, stiffness, spring, _, _, _ = parameters
     stiffest = farthest = before = 0.0
     for i in range(chain.n_blocks):
-        stiffest, farthest = max(stiffest, spring), max(farthest, abs(positions[i]))
+        stiffest = max(stiffest, spring)
+        farthest = max(farthest, abs(positions[i]))
         motion.spring_force[i + 1] = spring * (before - positions[i])
         motion.velocity[i + 1] = velocities[i] * (mass / chain.tau)
-        before, spring = positions[i], stiffness
-    progress.tau, progress.farthest = chain.tau, chain.n_blocks
+        before = positions[i]
+        spring = stiffness
+    progress.tau = chain.tau
+    progress.farthest = chain.n_blocks
     store_state(chain, motion, progress, states)
     for i in range(1, chain.n_blocks + 1):
         take_net_force(i, motion)
-        # A position of size x is known to its rounding: a block at its limit to within that still sticks.
+        # A position of size x is known to its rounding: a block at its limit to within
+        # that still sticks.
         rounding = ROUNDINGS * (chain.strength[i] + 4.0 * stiffest * farthest)
         mode = mode_at_rest(motion.net_force[i], chain.strength[i] + rounding)
         if motion.velocity[i] != 0.0:
@@ -84,9 +122,11 @@ def take_start(start, parameters, chain, motion, progress, record, states):
 
 @unfused
 def find_transitions(chain, motion, limits, progress, record, states):
-    """Run a chain until `duration` [s], the end of the first global slip, full records or enough windows.
+    """Run a chain until `duration` [s], the end of the first global slip, full records
+    or enough windows.
 
-    The state and `progress` are left at the time reached; record and states are filled from where it says.
+    The state and `progress` are left at the time reached; record and states are filled
+    from where it says.
     """
     status = PAUSED
     last_window = progress.windows + limits.windows
@@ -111,7 +151,8 @@ def store_state(chain, motion, progress, states):
     """Store the state that is reached: see `record.States.from_rows`."""
     n = chain.n_blocks
     state = numbers(states + EIGHT * progress.stored * (2 + 3 * n))
-    state[0], state[1] = progress.transitions, progress.since * chain.tau
+    state[0] = progress.transitions
+    state[1] = progress.since * chain.tau
     for i in range(1, n + 1):
         state[i + 1] = motion.spring_force[i]
         state[i + 1 + n] = motion.velocity[i] * chain.speed
@@ -131,7 +172,8 @@ def rest(chain, motion, limits, progress, record):
     """All blocks stick: end the run, or wait in closed form until block 1 lets go."""
     if limits.until_global and progress.all_slid != 0:
         return STOPPED
-    force, second = motion.spring_force, motion.force_rest
+    force = motion.spring_force
+    second = motion.force_rest
     block_1 = 1
     remaining = max(time_left(limits, progress), 0.0)
     loading_rate = chain.coupling[1] * chain.drive_velocity
@@ -152,7 +194,8 @@ def rest(chain, motion, limits, progress, record):
 
 @seldom
 def start_clock(wait, progress):
-    """Start a new event `wait` after the end of the last; the onset is carried in two doubles."""
+    """Start a new event `wait` after the end of the last; the onset is carried in two
+    doubles."""
     add = (progress.elapsed + wait) * progress.tau + progress.onset_error
     total = progress.onset + add
     progress.onset_error = add - (total - progress.onset)
@@ -173,8 +216,12 @@ def count_sliding(more, chain, progress):
 def note_transition(i, new, load, progress, record):
     """Record that block i has a new mode now."""
     transition = recorded(progress.transitions, record)
-    transition.time = progress.onset + (progress.onset_error + progress.elapsed * progress.tau)
-    transition.block, transition.mode, transition.tangential_load = i, new, load
+    transition.time = progress.onset + (
+        progress.onset_error + progress.elapsed * progress.tau
+    )
+    transition.block = i
+    transition.mode = new
+    transition.tangential_load = load
     transition.interval = progress.since * progress.tau
     progress.since = 0.0
     progress.transitions += 1
@@ -201,8 +248,12 @@ def slide(chain, motion, limits, progress, record):
     old = motion.mode[i]
     new = side
     if old != 0:
-        # A block that sticks at the limit lets go at once where its force grows: its margin decides.
-        new = mode_at_rest(motion.net_force[i], chain.strength[i] + zero_below(i, roundings, chain, motion))
+        # A block that sticks at the limit lets go at once where its force grows: its
+        # margin decides.
+        new = mode_at_rest(
+            motion.net_force[i],
+            chain.strength[i] + zero_below(i, roundings, chain, motion),
+        )
     set_mode(i, new, chain, motion)
     progress.farthest = max(progress.farthest, i)
     if new != old:
@@ -213,39 +264,50 @@ def slide(chain, motion, limits, progress, record):
 
 @inner_unfused
 def next_transition(window, roundings, chain, motion, progress):
-    """Go to the first transition in a window: (time in it, block, side); (window, 0, 1) if there is none.
+    """Go to the first transition in a window: (time in it, block, side); (window, 0, 1)
+    if there is none.
 
-    Guess it, go there, and prove for all blocks at once that nothing comes before. A wrong guess costs time
-    only: where the proof fails, the functions of those blocks are searched.
+    Guess it, go there, and prove for all blocks at once that nothing comes before. A
+    wrong guess costs time only: where the proof fails, the functions of those blocks
+    are searched.
     """
     end = last_column(chain, progress.farthest)
     whole = motion.whole
     begin(end, motion)
-    first_row, last_row = 2, PROOF_ORDER
+    first_row = 2
+    last_row = PROOF_ORDER
     expand(first_row, last_row, end, chain, motion)
     if whole[1] != window:
         powers(window, PROOF_ORDER, whole)
     share, guessed = guess(end, motion)
-    s, i, side = min(max(MARGIN * share, LEAST), 1.0) * window, 0, 1
+    s = min(max(MARGIN * share, LEAST), 1.0) * window
+    i = 0
+    side = 1
     rows = order_at(s)
     first_row = PROOF_ORDER + 2
     expand(first_row, rows, end, chain, motion)
     if guessed > 0:
         root = find_root(share * window, guessed, rows, motion, progress)
         if NEAR * window < root <= s:
-            s, i = root, guessed
+            s = root
+            i = guessed
             side = -1 if motion.sign[i] > 0.0 else 1
     progress.derivatives += rows * end
     move(s, end, chain, motion)
     if prove(end, i, motion) != 0:
-        share, found, found_side = search(order_at(s), end, roundings, chain, motion, progress)
+        share, found, found_side = search(
+            order_at(s), end, roundings, chain, motion, progress
+        )
         if share < 1.0:
-            s, i, side = share * s, found, found_side
+            s = share * s
+            i = found
+            side = found_side
             move(s, end, chain, motion)
     return s, i, side
 
 
 @inner
 def last_column(chain, farthest):
-    """Last column of the groups that take part: no block beyond the next one feels that `farthest` slides."""
+    """Last column of the groups that take part: no block beyond the next one feels that
+    `farthest` slides."""
     return WIDTH * ((min(farthest + 1, chain.n_blocks) + WIDTH - 1) // WIDTH)

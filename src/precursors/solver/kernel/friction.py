@@ -1,4 +1,5 @@
-"""Coulomb's law (Eqs. 4-6): modes of blocks, what follows from them, and which one a block at rest takes."""
+"""Coulomb's law (Eqs. 4-6): modes of blocks, what follows from them, and which one a
+block at rest takes."""
 
 from __future__ import annotations
 
@@ -28,15 +29,18 @@ def take_mode(i, chain, motion):
 
 @inner
 def take_neighbours(i, chain, motion):
-    """Set whether the function watched of block i changes: it or a neighbour of it moves."""
-    slides, coupling = motion.slides, chain.coupling
+    """Set whether the function watched of block i changes: it or a neighbour of it
+    moves."""
+    slides = motion.slides
+    coupling = chain.coupling
     moved = slides[i] + coupling[i] * slides[i - 1] + coupling[i + 1] * slides[i + 1]
     motion.felt[i] = 1.0 if moved > 0.0 else 0.0
 
 
 @inner
 def mode_at_rest(force, limit):
-    """Mode of a block whose velocity is zero: it sticks within its limit, or follows the force (Eq. 5)."""
+    """Mode of a block whose velocity is zero: it sticks within its limit, or follows
+    the force (Eq. 5)."""
     if abs(force) <= limit:
         return 0
     return 1 if force > 0.0 else -1
@@ -44,7 +48,8 @@ def mode_at_rest(force, limit):
 
 @seldom
 def farthest_sliding(start, mode):
-    """Farthest block that slides, if none of those beyond `start` does; 1 where none slides."""
+    """Farthest block that slides, if none of those beyond `start` does; 1 where none
+    slides."""
     i = start
     while i > 1 and mode[i] == 0:
         i -= 1

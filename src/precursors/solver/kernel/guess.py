@@ -10,60 +10,86 @@ from precursors.solver.kernel.compiled import inner
 from precursors.solver.kernel.layout import PROOF_ORDER, WIDTH
 from precursors.solver.kernel.series import powers
 
-# A root this near to the start is left to the search: a block that has just begun to move has one there that
-# was dealt with already.
+# A root this near to the start is left to the search: a block that has just begun to
+# move has one there that was dealt with already.
 NEAR = 1e-6
-# The window ends a little after the guess, so that it needs fewer rows, but not before this part of it.
-MARGIN, LEAST = 1.2, 0.125
+# The window ends a little after the guess, so that it needs fewer rows, but not before
+# this part of it.
+MARGIN = 1.2
+LEAST = 0.125
 # Steps to the root from the terms of the guess, then from all terms.
-EARLY_STEPS, STEPS = 2, 6
-# Halley's step has an error of the order of its cube: after one so short, relative to the time, none is left.
+EARLY_STEPS = 2
+STEPS = 6
+# Halley's step has an error of the order of its cube: after one so short, relative to
+# the time, none is left.
 LAST_STEP = 2e-6
 
 
 @inner
 def watched(n, i, slides, motion):
-    """n-th derivative, but for sign and constant, of the functions g that are watched of a group.
+    """n-th derivative, but for sign and constant, of the functions g that are watched
+    of a group.
 
-    A root of g is a transition. Where a block slides, g is its velocity in the sense of its sliding: it
-    stops. Where it sticks, g is the margin mu_s w - side F on the side that is nearer at the start (Eq. 5):
-    it lets go. `Motion.sign` is the sense of the sliding, or -side; `Motion.hold` is mu_s w.
+    A root of g is a transition. Where a block slides, g is its velocity in the sense of
+    its sliding: it stops. Where it sticks, g is the margin mu_s w - side F on the side
+    that is nearer at the start (Eq. 5): it lets go. `Motion.sign` is the sense of the
+    sliding, or -side; `Motion.hold` is mu_s w.
     """
-    return lanes.choose(slides, lanes.load(row(n, motion), i), lanes.load(row(n + 1, motion), i))
+    return lanes.choose(
+        slides, lanes.load(row(n, motion), i), lanes.load(row(n + 1, motion), i)
+    )
 
 
 @inner
 def guess(end, motion):
-    """The block whose function seems to vanish first: (share of the window, block); (infinity, 0) if none.
+    """The block whose function seems to vanish first: (share of the window, block);
+    (infinity, 0) if none.
 
-    Each function that is negative at the end of the window has a root about where the parabola has one that
-    shares its value and slope at the start, and its value at the end.
+    Each function that is negative at the end of the window has a root about where the
+    parabola has one that shares its value and slope at the start, and its value at the
+    end.
     """
-    whole, zero = motion.whole, lanes.spread(0.0)
-    share, block = np.inf, 0
+    whole = motion.whole
+    zero = lanes.spread(0.0)
+    share = np.inf
+    block = 0
     for i in range(1, end + 1, WIDTH):
         slides = lanes.load(motion.slides, i)
-        nearer = lanes.choose(lanes.load(row(1, motion), i), lanes.spread(-1.0), lanes.spread(1.0))
+        nearer = lanes.choose(
+            lanes.load(row(1, motion), i), lanes.spread(-1.0), lanes.spread(1.0)
+        )
         sign = lanes.choose(slides, lanes.load(motion.sign, i), nearer)
         g = sign * watched(0, i, slides, motion) + lanes.load(motion.hold, i)
         slope = sign * watched(1, i, slides, motion) * whole[1]
-        bend = (whole[2] * watched(2, i, slides, motion) + whole[3] * watched(3, i, slides, motion)) + (
-            whole[4] * watched(4, i, slides, motion) + whole[5] * watched(5, i, slides, motion)
+        bend = (
+            whole[2] * watched(2, i, slides, motion)
+            + whole[3] * watched(3, i, slides, motion)
+        ) + (
+            whole[4] * watched(4, i, slides, motion)
+            + whole[5] * watched(5, i, slides, motion)
         )
         bend = sign * (
-            bend + (whole[6] * watched(6, i, slides, motion) + whole[7] * watched(7, i, slides, motion))
+            bend
+            + (
+                whole[6] * watched(6, i, slides, motion)
+                + whole[7] * watched(7, i, slides, motion)
+            )
         )
         lanes.store(motion.sign, i, sign)
         below = lanes.only(lanes.load(motion.felt, i), zero - (g + (slope + bend)))
         if lanes.where_negative(zero - below) == 0:
             continue
         root = lanes.square_root(lanes.larger(slope * slope - 4.0 * (g * bend), zero))
-        # The root of g + slope u + bend u^2 in [0, 1], without a difference of equal numbers.
-        u = lanes.choose(slope, slope + root, 2.0 * g) / lanes.choose(slope, -2.0 * bend, root - slope)
+        # The root of g + slope u + bend u^2 in [0, 1], without a difference of equal
+        # numbers.
+        u = lanes.choose(slope, slope + root, 2.0 * g) / lanes.choose(
+            slope, -2.0 * bend, root - slope
+        )
         u = lanes.choose(below, u, lanes.spread(np.inf))
         smallest = lanes.smallest(u)
         if smallest < share:
-            share, block = smallest, i
+            share = smallest
+            block = i
             bits = ~lanes.where_negative(smallest - u)
             while bits & 1 == 0:
                 bits >>= 1
@@ -73,7 +99,8 @@ def guess(end, motion):
 
 @inner
 def find_root(s, i, order, motion, progress):
-    """The root near s of the function watched of block i; infinity if no root is found. `weight` is used."""
+    """The root near s of the function watched of block i; infinity if no root is found.
+    `weight` is used."""
     weight = motion.weight
     for k in range(STEPS):
         terms = PROOF_ORDER if k < EARLY_STEPS else order
@@ -89,14 +116,21 @@ def find_root(s, i, order, motion, progress):
 
 @inner
 def function_at(i, order, weight, motion):
-    """The function watched of block i and two derivatives, at the time of `weight`, up to an even order."""
-    sign, lowest = motion.sign[i], 0 if motion.slides[i] > 0.0 else 1
-    start, c1, c2 = row(lowest, motion)[i], row(lowest + 1, motion)[i], row(lowest + 2, motion)[i]
+    """The function watched of block i and two derivatives, at the time of `weight`, up
+    to an even order."""
+    sign = motion.sign[i]
+    lowest = 0 if motion.slides[i] > 0.0 else 1
+    start = row(lowest, motion)[i]
+    c1 = row(lowest + 1, motion)[i]
+    c2 = row(lowest + 2, motion)[i]
     g = g_odd = slope = slope_odd = bend = bend_odd = 0.0
     # Even and odd terms apart: two short chains of sums instead of a long one.
     for n in range(order, 2, -2):
-        even, odd = row(lowest + n, motion)[i], row(lowest + n - 1, motion)[i]
-        w, w1, w2 = weight[n], weight[n - 1], weight[n - 2]
+        even = row(lowest + n, motion)[i]
+        odd = row(lowest + n - 1, motion)[i]
+        w = weight[n]
+        w1 = weight[n - 1]
+        w2 = weight[n - 2]
         g += w * even
         g_odd += w1 * odd
         slope += w1 * even
@@ -105,4 +139,8 @@ def function_at(i, order, weight, motion):
         bend_odd += weight[n - 3] * odd
     g += g_odd + weight[2] * c2 + weight[1] * c1
     slope += slope_odd + weight[1] * c2
-    return (motion.hold[i] + sign * start) + sign * g, sign * (c1 + slope), sign * (c2 + (bend + bend_odd))
+    return (
+        (motion.hold[i] + sign * start) + sign * g,
+        sign * (c1 + slope),
+        sign * (c2 + (bend + bend_odd)),
+    )

@@ -1,7 +1,8 @@
-"""Four doubles at once in compiled code: a type for Numba on which +, -, *, / act lane by lane.
+"""Four doubles at once in compiled code: a type for Numba on which +, -, *, / act lane
+by lane.
 
-Loops over the blocks of a chain are too short for LLVM to vectorise by itself. A value of this type becomes
-one AVX register, or two of SSE or NEON.
+Loops over the blocks of a chain are too short for LLVM to vectorise by itself. A value
+of this type becomes one AVX register, or two of SSE or NEON.
 """
 
 from __future__ import annotations
@@ -11,12 +12,20 @@ import operator
 
 from llvmlite import ir
 from numba.core import cgutils, types
-from numba.extending import intrinsic, lower_builtin, models, register_model, type_callable
+from numba.extending import (
+    intrinsic,
+    lower_builtin,
+    models,
+    register_model,
+    type_callable,
+)
 
 from precursors.solver.kernel.layout import WIDTH
 from precursors.solver.kernel.pointers import NUMBERS
 
-DOUBLE, BITS, PLACE = ir.DoubleType(), ir.IntType(WIDTH), ir.IntType(32)
+DOUBLE = ir.DoubleType()
+BITS = ir.IntType(WIDTH)
+PLACE = ir.IntType(32)
 VECTOR = ir.VectorType(DOUBLE, WIDTH)
 ZERO = ir.Constant(VECTOR, [0.0] * WIDTH)
 
@@ -38,7 +47,8 @@ class _FourModel(models.PrimitiveModel):
 
 
 def _operation(build, result, *kinds):
-    """Make a function of compiled code from one that builds its instructions, (builder, *values) -> value."""
+    """Make a function of compiled code from one that builds its instructions, (builder,
+    *values) -> value."""
 
     def generate(context, builder, signature, arguments):
         value = build(builder, *arguments)
@@ -64,12 +74,16 @@ def _pack(builder, *values):
 
 
 def _shuffle(builder, a, b, lanes):
-    return builder.shuffle_vector(a, b, ir.Constant(ir.VectorType(PLACE, WIDTH), list(lanes)))
+    return builder.shuffle_vector(
+        a, b, ir.Constant(ir.VectorType(PLACE, WIDTH), list(lanes))
+    )
 
 
 def _call(builder, name, value):
     kind = ir.FunctionType(VECTOR, [VECTOR])
-    function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64")
+    function = cgutils.get_or_insert_function(
+        builder.module, kind, f"llvm.{name}.v{WIDTH}f64"
+    )
     return builder.call(function, [value])
 
 
@@ -84,7 +98,12 @@ def _where(builder, flag, a, b):
 def _across(builder, comparison, a):
     """Select one of all lanes, by halves."""
     for step in (2, 1):
-        a = _select(builder, comparison, a, _shuffle(builder, a, a, [lane ^ step for lane in range(WIDTH)]))
+        a = _select(
+            builder,
+            comparison,
+            a,
+            _shuffle(builder, a, a, [lane ^ step for lane in range(WIDTH)]),
+        )
     return builder.extract_element(a, ir.Constant(PLACE, 0))
 
 
@@ -94,17 +113,34 @@ def _where_negative(builder, a):
 
 
 # values[i : i + 4], and values[i : i + 4] = a.
-load = _operation(lambda b, values, i: b.load(_group(b, values, i), align=8), four, NUMBERS, types.intp)
+load = _operation(
+    lambda b, values, i: b.load(_group(b, values, i), align=8),
+    four,
+    NUMBERS,
+    types.intp,
+)
 store = _operation(
-    lambda b, values, i, a: b.store(a, _group(b, values, i), align=8), types.void, NUMBERS, types.intp, four
+    lambda b, values, i, a: b.store(a, _group(b, values, i), align=8),
+    types.void,
+    NUMBERS,
+    types.intp,
+    four,
 )
 # One number in all lanes, or one in each.
 spread = _operation(lambda b, value: _pack(b, *WIDTH * [value]), four, types.float64)
-pack = _operation(lambda b, w, x, y, z: _pack(b, w, x, y, z), four, *WIDTH * [types.float64])
-# Each lane's neighbour behind: the last lane of `before`, then all but the last of `here`.
-behind = _operation(lambda b, before, here: _shuffle(b, before, here, range(3, 7)), four, four, four)
-# Each lane's neighbour ahead: all but the first lane of `here`, then the first of `after`.
-ahead = _operation(lambda b, here, after: _shuffle(b, here, after, range(1, 5)), four, four, four)
+pack = _operation(
+    lambda b, w, x, y, z: _pack(b, w, x, y, z), four, *WIDTH * [types.float64]
+)
+# Each lane's neighbour behind: the last lane of `before`, then all but the last of
+# `here`.
+behind = _operation(
+    lambda b, before, here: _shuffle(b, before, here, range(3, 7)), four, four, four
+)
+# Each lane's neighbour ahead: all but the first lane of `here`, then the first of
+# `after`.
+ahead = _operation(
+    lambda b, here, after: _shuffle(b, here, after, range(1, 5)), four, four, four
+)
 magnitude = _operation(lambda b, a: _call(b, "fabs", a), four, four)
 square_root = _operation(lambda b, a: _call(b, "sqrt", a), four, four)
 # Of each pair of lanes, and of all lanes.

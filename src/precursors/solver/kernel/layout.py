@@ -1,4 +1,5 @@
-"""What all parts of the kernel agree on: lanes, windows, orders, roundings, and how a run can end."""
+"""What all parts of the kernel agree on: lanes, windows, orders, roundings, and how a
+run can end."""
 
 from __future__ import annotations
 
@@ -7,7 +8,8 @@ from itertools import count
 
 import numpy as np
 
-# Blocks are worked on four at a time; there are as many columns beyond block N: the free end, and room.
+# Blocks are worked on four at a time; there are as many columns beyond block N: the
+# free end, and room.
 WIDTH = 4
 # Longest window, times the bound of the chain's largest frequency.
 WINDOW = 1.5
@@ -19,7 +21,11 @@ PROOF_ORDER = 8
 
 def order_for(length: float) -> int:
     """Even order at which the series of a window of a length may be cut."""
-    enough = (n for n in count(PROOF_ORDER, 2) if length ** (n + 1) / math.factorial(n + 1) <= NEGLIGIBLE)
+    enough = (
+        n
+        for n in count(PROOF_ORDER, 2)
+        if length ** (n + 1) / math.factorial(n + 1) <= NEGLIGIBLE
+    )
     return next(enough)
 
 
@@ -32,9 +38,13 @@ ROWS = ORDER + 2
 # Room for the terms of a series, in whole groups.
 TERMS = ROWS + 2 * WIDTH
 INVERSE_FACTORIAL = np.array([1.0 / math.factorial(n) for n in range(TERMS)])
-# A value below so many roundings of the forces it was computed from counts as zero. Transitions may follow
-# one another for ever while time stands still, as roundings decide: the limit is doubled until they do not.
+# A value below so many roundings of the forces it was computed from counts as zero.
+# Transitions may follow one another for ever while time stands still, as roundings
+# decide: the limit is doubled until they do not.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
 
-# A run reached its duration; it ended before, at rest or in a long slip; or it can go on.
-FINISHED, STOPPED, PAUSED = 0, 1, 2
+# A run reached its duration; it ended before, at rest or in a long slip; or it can go
+# on.
+FINISHED = 0
+STOPPED = 1
+PAUSED = 2

@@ -1,8 +1,9 @@
 """Memory as compiled code passes it on: addresses, and pointers to which they are cast.
 
-Numba counts references to arrays wherever a tuple of them is handed on, which takes longer than the
-arithmetic here. Pointers have no counts, and no bounds either: their memory is that of arrays which the
-caller of the compiled function holds. `p[i]` reads and writes.
+Numba counts references to arrays wherever a tuple of them is handed on, which takes
+longer than the arithmetic here. Pointers have no counts, and no bounds either: their
+memory is that of arrays which the caller of the compiled function holds. `p[i]` reads
+and writes.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ EIGHT = 8
 
 
 def cast_to(kind):
-    """Function of compiled code that takes an address for a pointer, or a record with named fields."""
+    """Function of compiled code that takes an address for a pointer, or a record with
+    named fields."""
 
     @intrinsic
     def cast(typingctx, address):

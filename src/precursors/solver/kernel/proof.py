@@ -1,23 +1,27 @@
-"""Prove that no transition comes before the one that was guessed; search where the proof fails.
+"""Prove that no transition comes before the one that was guessed; search where the
+proof fails.
 
 **No root before the end.** Let g be a power series in u on [0, 1] with the terms a_n:
 
     g(u) = a_0 + a_1 u + ... + a_5 u^5 + u^6 r(u),    r(u) = a_6 + a_7 u + a_8 u^2 + ...
 
-Let R = |a_7| + 2 |a_8| + 3 |a_9| + ... >= |r'|, so that r(u) differs from r(1) by (1 - u) R at most. Then the
-value g(1), which is known to rounding, replaces all terms from the sixth on:
+Let R = |a_7| + 2 |a_8| + 3 |a_9| + ... >= |r'|, so that r(u) differs from r(1) by (1 -
+u) R at most. Then the value g(1), which is known to rounding, replaces all terms from
+the sixth on:
 
     Q(u) - u^6 (1 - u) R <= g(u) <= Q(u) + u^6 (1 - u) R,
     Q(u) = a_0 + ... + a_5 u^5 + r(1) u^6,    Q(1) = g(1).
 
-The Bernstein coefficients of Q of degree 6 are b_k = sum_j C(k, j) a_j / C(6, j) for k < 6, and b_6 = g(1).
-In degree 7 they are means of neighbours, (k b_{k-1} + (7 - k) b_k) / 7, and u^6 (1 - u) has one coefficient,
-1/7 at k = 6. On [0, 1] a polynomial lies between its smallest and largest coefficients, so g lies between
+The Bernstein coefficients of Q of degree 6 are b_k = sum_j C(k, j) a_j / C(6, j) for k
+< 6, and b_6 = g(1). In degree 7 they are means of neighbours, (k b_{k-1} + (7 - k) b_k)
+/ 7, and u^6 (1 - u) has one coefficient, 1/7 at k = 6. On [0, 1] a polynomial lies
+between its smallest and largest coefficients, so g lies between
 
-    min(b_0, ..., b_5, g(1), (6 b_5 + g(1) - R) / 7)  and  max(b_0, ..., b_5, g(1), (6 b_5 + g(1) + R) / 7).
+    min(b_0, ..., b_5, g(1), (6 b_5 + g(1) - R) / 7)  and  max(b_0, ..., b_5, g(1), (6
+    b_5 + g(1) + R) / 7).
 
-If the lower one is not negative then g > 0 on (0, 1), or its lower bound is zero everywhere: each Bernstein
-polynomial is positive there.
+If the lower one is not negative then g > 0 on (0, 1), or its lower bound is zero
+everywhere: each Bernstein polynomial is positive there.
 """
 
 from __future__ import annotations
@@ -33,22 +37,36 @@ from precursors.solver.kernel.guess import watched
 from precursors.solver.kernel.layout import WIDTH, WINDOW
 from precursors.solver.kernel.roots import first_root, zero_below
 
-# sum_n (n - 6) s^n/n! for n >= 9 is at most so many times s^9/9!, where s is at most the longest window.
-TAIL = sum((n - 6) * WINDOW ** (n - 9) * math.factorial(9) / math.factorial(n) for n in range(9, 40))
+# sum_n (n - 6) s^n/n! for n >= 9 is at most so many times s^9/9!, where s is at most
+# the longest window.
+TAIL = sum(
+    (n - 6) * WINDOW ** (n - 9) * math.factorial(9) / math.factorial(n)
+    for n in range(9, 40)
+)
 
 
 @inner
 def enclose(a0, a1, a2, a3, a4, a5, at_end, rest):
     """Bounds of g on [0, 1] in each lane: (lower, upper).
 
-    a0..a5 are a_j / C(6, j), `at_end` is g(1), and `rest` is R. The lower bound leaves g(1) itself out: the
-    function whose root ends the window is zero there, to rounding.
+    a0..a5 are a_j / C(6, j), `at_end` is g(1), and `rest` is R. The lower bound leaves
+    g(1) itself out: the function whose root ends the window is zero there, to rounding.
     """
     # Sums of neighbours, again and again, are the sums with binomial coefficients.
-    c0, c1, c2, c3, c4 = a0 + a1, a1 + a2, a2 + a3, a3 + a4, a4 + a5
-    d0, d1, d2, d3 = c0 + c1, c1 + c2, c2 + c3, c3 + c4
-    e0, e1, e2 = d0 + d1, d1 + d2, d2 + d3
-    f0, f1 = e0 + e1, e1 + e2
+    c0 = a0 + a1
+    c1 = a1 + a2
+    c2 = a2 + a3
+    c3 = a3 + a4
+    c4 = a4 + a5
+    d0 = c0 + c1
+    d1 = c1 + c2
+    d2 = c2 + c3
+    d3 = c3 + c4
+    e0 = d0 + d1
+    e1 = d1 + d2
+    e2 = d2 + d3
+    f0 = e0 + e1
+    f1 = e1 + e2
     b5 = f0 + f1
     low = lanes.smaller(lanes.smaller(a0, c0), lanes.smaller(d0, e0))
     low = lanes.smaller(low, lanes.smaller(f0, b5))
@@ -61,22 +79,30 @@ def enclose(a0, a1, a2, a3, a4, a5, at_end, rest):
 
 @inner
 def prove(end, candidate, motion):
-    """Mark the blocks in `open` that may change their mode before the time reached; zero if there are none.
+    """Mark the blocks in `open` that may change their mode before the time reached;
+    zero if there are none.
 
-    The state has been brought there by `move`. Of block `candidate` it is known that its function
-    vanishes there. A block that sticks must not reach its other limit either, where g = 2 mu_s w.
+    The state has been brought there by `move`. Of block `candidate` it is known that
+    its function vanishes there. A block that sticks must not reach its other limit
+    either, where g = 2 mu_s w.
     """
-    weight, found = motion.weight, 0
-    # No later row of a velocity is larger than rows 7 and 8, nor the tenth of a net force.
+    weight = motion.weight
+    found = 0
+    # No later row of a velocity is larger than rows 7 and 8, nor the tenth of a net
+    # force.
     largest = lanes.spread(0.0)
     for i in range(1, end + 1, WIDTH):
         largest = lanes.larger(largest, lanes.magnitude(lanes.load(row(7, motion), i)))
         largest = lanes.larger(largest, lanes.magnitude(lanes.load(row(8, motion), i)))
     tail = TAIL * weight[9] * lanes.largest(largest)
     for i in range(1, end + 1, WIDTH):
-        slides, sign = lanes.load(motion.slides, i), lanes.load(motion.sign, i)
-        hold, felt = lanes.load(motion.hold, i), lanes.load(motion.felt, i)
-        now = lanes.choose(slides, lanes.load(motion.velocity, i), lanes.load(motion.net_force, i))
+        slides = lanes.load(motion.slides, i)
+        sign = lanes.load(motion.sign, i)
+        hold = lanes.load(motion.hold, i)
+        felt = lanes.load(motion.felt, i)
+        now = lanes.choose(
+            slides, lanes.load(motion.velocity, i), lanes.load(motion.net_force, i)
+        )
         at_end = sign * now + hold
         rest = lanes.magnitude(watched(7, i, slides, motion)) * weight[7]
         rest = rest + lanes.magnitude(watched(8, i, slides, motion)) * (2.0 * weight[8])
@@ -102,8 +128,11 @@ def prove(end, candidate, motion):
 
 @seldom
 def search(order, end, roundings, chain, motion, progress):
-    """First root of the functions of the blocks in `open`: (share of the time reached, block, side)."""
-    share, block, side = np.inf, 0, 1
+    """First root of the functions of the blocks in `open`: (share of the time reached,
+    block, side)."""
+    share = np.inf
+    block = 0
+    side = 1
     for group in range(1, end + 1, WIDTH):
         open = motion.open[group]
         for i in range(group, group + WIDTH):
@@ -115,14 +144,17 @@ def search(order, end, roundings, chain, motion, progress):
                     s = first_root(order + 1, zero, motion.series, progress)
                     progress.searches += 1
                     if s < share:
-                        share, block, side = s, i, way
+                        share = s
+                        block = i
+                        side = way
     return share, block, side
 
 
 @inner
 def fill_series(i, sign, order, motion):
     """Series of the function watched of block i, with the time reached as unit."""
-    weight, series = motion.weight, motion.series
+    weight = motion.weight
+    series = motion.series
     lowest = 0 if motion.slides[i] > 0.0 else 1
     series[0] = motion.hold[i] + sign * row(lowest, motion)[i]
     for n in range(1, order + 1):

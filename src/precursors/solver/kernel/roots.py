@@ -1,4 +1,5 @@
-"""The first root of one function by safe steps: the careful way, where the guess was not proved."""
+"""The first root of one function by safe steps: the careful way, where the guess was
+not proved."""
 
 from __future__ import annotations
 
@@ -10,19 +11,25 @@ from precursors.solver.kernel.arrays import row
 from precursors.solver.kernel.compiled import inner, seldom
 from precursors.solver.kernel.layout import PROOF_ORDER
 
-# A search that takes so many steps starts anew from where it is: near a flat start its steps are tiny.
+# A search that takes so many steps starts anew from where it is: near a flat start its
+# steps are tiny.
 RESTART = 12
 
 
 @inner
 def zero_below(i, roundings, chain, motion):
-    """Size below which a force on block i, or what it does to its velocity in the window, counts as zero.
+    """Size below which a force on block i, or what it does to its velocity in the
+    window, counts as zero.
 
-    It follows from the forces, and from what the motion of the neighbours adds to them within the window.
+    It follows from the forces, and from what the motion of the neighbours adds to them
+    within the window.
     """
-    coupling, force = chain.coupling, motion.spring_force
+    coupling = chain.coupling
+    force = motion.spring_force
     still = abs(force[i]) + abs(force[i + 1]) + chain.strength[i]
-    moving = coupling[i] * fastest(i - 1, motion) + coupling[i + 1] * fastest(i + 1, motion)
+    moving = coupling[i] * fastest(i - 1, motion) + coupling[i + 1] * fastest(
+        i + 1, motion
+    )
     return roundings * (2.0 * still + moving + fastest(i, motion))
 
 
@@ -38,12 +45,14 @@ def fastest(i, motion):
 
 @seldom
 def first_root(count, zero, series, progress):
-    """First root in [0, 1] of a polynomial with so many terms, or infinity; a value up to `zero` is zero.
+    """First root in [0, 1] of a polynomial with so many terms, or infinity; a value up
+    to `zero` is zero.
 
-    A root at the start was dealt with already: it is divided out. Where the function then falls, the root is
-    at once. `series` is used up.
+    A root at the start was dealt with already: it is divided out. Where the function
+    then falls, the root is at once. `series` is used up.
     """
-    start, span = 0.0, 1.0
+    start = 0.0
+    span = 1.0
     while True:
         resolved = 0
         while resolved < count and abs(series[resolved]) <= zero:
@@ -56,7 +65,8 @@ def first_root(count, zero, series, progress):
                 series[n] = series[n + resolved]
         if series[0] < 0.0:
             return start
-        least, curvature = series[0], 0.0
+        least = series[0]
+        curvature = 0.0
         for n in range(1, count):
             least += min(series[n], 0.0)
             curvature -= n * (n - 1.0) * min(series[n], 0.0)
@@ -76,14 +86,16 @@ def first_root(count, zero, series, progress):
             if not x <= 1.0:
                 return np.inf
         move_series(x, count, series)
-        start, span = start + x * span, span * (1.0 - x)
+        start = start + x * span
+        span = span * (1.0 - x)
         if series[0] <= zero:
             return start
 
 
 @inner
 def safe_step(g, slope, curvature):
-    """Positive root of g + slope s - curvature s^2/2 (g >= 0): if -g'' <= curvature, no root is before."""
+    """Positive root of g + slope s - curvature s^2/2 (g >= 0): if -g'' <= curvature, no
+    root is before."""
     root = math.sqrt(slope * slope + 2.0 * curvature * g)
     if slope < 0.0:
         return 2.0 * g / (root - slope)

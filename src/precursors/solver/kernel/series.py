@@ -1,4 +1,5 @@
-"""The chain's linear operator (Eqs. 2 and 3): Taylor series of all blocks, and moving along them."""
+"""The chain's linear operator (Eqs. 2 and 3): Taylor series of all blocks, and moving
+along them."""
 
 from __future__ import annotations
 
@@ -11,16 +12,19 @@ from precursors.solver.kernel.pointers import numbers
 
 @inner
 def expand(start, order, end, chain, motion):
-    """Derivatives of blocks 1..end at the start of a window, rows start..order + 1; both are even.
+    """Derivatives of blocks 1..end at the start of a window, rows start..order + 1;
+    both are even.
 
-    Where a block slides, row n is the n-th derivative of its velocity v_i: row 1 is the net force F_i less
-    friction, and row n + 2 is c_i (v_{i-1} - v_i) - c_{i+1} (v_i - v_{i+1}) of row n (Eqs. 2 and 4). Where it
-    sticks, its velocity is zero and the same rows are those of its net force: row n + 1 is the n-th
-    derivative of F_i. Up to three groups of blocks stay in registers from row to row, even and odd rows side
-    by side.
+    Where a block slides, row n is the n-th derivative of its velocity v_i: row 1 is the
+    net force F_i less friction, and row n + 2 is c_i (v_{i-1} - v_i) - c_{i+1} (v_i -
+    v_{i+1}) of row n (Eqs. 2 and 4). Where it sticks, its velocity is zero and the same
+    rows are those of its net force: row n + 1 is the n-th derivative of F_i. Up to
+    three groups of blocks stay in registers from row to row, even and odd rows side by
+    side.
     """
     coupling = chain.coupling
-    still, drive = lanes.spread(0.0), lanes.spread(row(start - 2, motion)[0])
+    still = lanes.spread(0.0)
+    drive = lanes.spread(row(start - 2, motion)[0])
     groups = end // WIDTH
     if groups == 1:
         b1, a1, c1, m1, even1, odd1 = ready(start, 1, coupling, motion)
@@ -32,10 +36,12 @@ def expand(start, order, end, chain, motion):
         b1, a1, c1, m1, even1, odd1 = ready(start, 1, coupling, motion)
         b2, a2, c2, m2, even2, odd2 = ready(start, 1 + WIDTH, coupling, motion)
         for n in range(start, order + 1, 2):
-            v1, v2 = even1, even2
+            v1 = even1
+            v2 = even2
             even1 = row_from(drive, v1, v2, b1, a1, c1, m1, n, 1, motion)
             even2 = row_from(v1, v2, still, b2, a2, c2, m2, n, 1 + WIDTH, motion)
-            v1, v2 = odd1, odd2
+            v1 = odd1
+            v2 = odd2
             odd1 = row_from(still, v1, v2, b1, a1, c1, m1, n + 1, 1, motion)
             odd2 = row_from(v1, v2, still, b2, a2, c2, m2, n + 1, 1 + WIDTH, motion)
             drive = still
@@ -44,11 +50,15 @@ def expand(start, order, end, chain, motion):
         b2, a2, c2, m2, even2, odd2 = ready(start, 1 + WIDTH, coupling, motion)
         b3, a3, c3, m3, even3, odd3 = ready(start, 1 + 2 * WIDTH, coupling, motion)
         for n in range(start, order + 1, 2):
-            v1, v2, v3 = even1, even2, even3
+            v1 = even1
+            v2 = even2
+            v3 = even3
             even1 = row_from(drive, v1, v2, b1, a1, c1, m1, n, 1, motion)
             even2 = row_from(v1, v2, v3, b2, a2, c2, m2, n, 1 + WIDTH, motion)
             even3 = row_from(v2, v3, still, b3, a3, c3, m3, n, 1 + 2 * WIDTH, motion)
-            v1, v2, v3 = odd1, odd2, odd3
+            v1 = odd1
+            v2 = odd2
+            v3 = odd3
             odd1 = row_from(still, v1, v2, b1, a1, c1, m1, n + 1, 1, motion)
             odd2 = row_from(v1, v2, v3, b2, a2, c2, m2, n + 1, 1 + WIDTH, motion)
             odd3 = row_from(v2, v3, still, b3, a3, c3, m3, n + 1, 1 + 2 * WIDTH, motion)
@@ -59,39 +69,77 @@ def expand(start, order, end, chain, motion):
             here = lanes.only(moves, lanes.load(row(n, motion), 1))
             left = lanes.spread(row(n, motion)[0])
             for i in range(1, end + 1, WIDTH):
-                right, move_right = still, still
+                right = still
+                move_right = still
                 if i + WIDTH <= end:
                     move_right = lanes.load(motion.slides, i + WIDTH)
-                    right = lanes.only(move_right, lanes.load(row(n, motion), i + WIDTH))
-                behind, ahead = lanes.load(coupling, i), lanes.load(coupling, i + 1)
-                row_from(left, here, right, behind, ahead, behind + ahead, moves, n + 2, i, motion)
-                left, here, moves = here, right, move_right
+                    right = lanes.only(
+                        move_right, lanes.load(row(n, motion), i + WIDTH)
+                    )
+                behind = lanes.load(coupling, i)
+                ahead = lanes.load(coupling, i + 1)
+                row_from(
+                    left,
+                    here,
+                    right,
+                    behind,
+                    ahead,
+                    behind + ahead,
+                    moves,
+                    n + 2,
+                    i,
+                    motion,
+                )
+                left = here
+                here = right
+                moves = move_right
 
 
 @inner
 def begin(end, motion):
-    """Begin a window: rows 0 and 1 of blocks 1..end, and the spring forces that `move` starts from."""
-    force, rest = motion.spring_force, motion.force_rest
+    """Begin a window: rows 0 and 1 of blocks 1..end, and the spring forces that `move`
+    starts from."""
+    force = motion.spring_force
+    rest = motion.force_rest
     for i in range(1, end + 1, WIDTH):
         lanes.store(row(0, motion), i, lanes.load(motion.velocity, i))
-        lanes.store(row(1, motion), i, lanes.load(motion.net_force, i) - lanes.load(motion.push, i))
+        lanes.store(
+            row(1, motion),
+            i,
+            lanes.load(motion.net_force, i) - lanes.load(motion.push, i),
+        )
         lanes.store(motion.force_before, i, lanes.load(force, i))
         lanes.store(motion.rest_before, i, lanes.load(rest, i))
-    motion.force_before[end + 1], motion.rest_before[end + 1] = force[end + 1], rest[end + 1]
+    motion.force_before[end + 1] = force[end + 1]
+    motion.rest_before[end + 1] = rest[end + 1]
 
 
 @inner
 def ready(start, i, coupling, motion):
-    """Stiffness behind and ahead of a group and its sum, which blocks move, two rows before `start`."""
-    behind, ahead, moves = lanes.load(coupling, i), lanes.load(coupling, i + 1), lanes.load(motion.slides, i)
-    even, odd = lanes.load(row(start - 2, motion), i), lanes.load(row(start - 1, motion), i)
-    return behind, ahead, behind + ahead, moves, lanes.only(moves, even), lanes.only(moves, odd)
+    """Stiffness behind and ahead of a group and its sum, which blocks move, two rows
+    before `start`."""
+    behind = lanes.load(coupling, i)
+    ahead = lanes.load(coupling, i + 1)
+    moves = lanes.load(motion.slides, i)
+    even = lanes.load(row(start - 2, motion), i)
+    odd = lanes.load(row(start - 1, motion), i)
+    return (
+        behind,
+        ahead,
+        behind + ahead,
+        moves,
+        lanes.only(moves, even),
+        lanes.only(moves, odd),
+    )
 
 
 @inner
 def row_from(left, here, right, behind, ahead, both, moves, n, i, motion):
-    """Store row n of a group from the row two before, `here`; return it with zero where blocks stick."""
-    found = (behind * lanes.behind(left, here) - both * here) + ahead * lanes.ahead(here, right)
+    """Store row n of a group from the row two before, `here`; return it with zero where
+    blocks stick."""
+    found = (behind * lanes.behind(left, here) - both * here) + ahead * lanes.ahead(
+        here, right
+    )
     lanes.store(row(n, motion), i, found)
     return lanes.only(moves, found)
 
@@ -115,28 +163,38 @@ def powers(s, order, weight):
 
 @inner
 def sum_series(i, order, weight, motion):
-    """Velocities and slips of a group at the time of `weight`; the smallest terms come first."""
+    """Velocities and slips of a group at the time of `weight`; the smallest terms come
+    first."""
     ahead = weight[order + 1]
     v = v_odd = x = x_odd = lanes.spread(0.0)
     for n in range(order, 0, -2):
-        even, odd = lanes.load(row(n, motion), i), lanes.load(row(n - 1, motion), i)
-        w, below = weight[n], weight[n - 1]
+        even = lanes.load(row(n, motion), i)
+        odd = lanes.load(row(n - 1, motion), i)
+        w = weight[n]
+        below = weight[n - 1]
         v = v + w * even
         v_odd = v_odd + below * odd
         x = x + ahead * even
         x_odd = x_odd + w * odd
         ahead = below
-    start, moves = lanes.load(row(0, motion), i), lanes.load(motion.slides, i)
-    return lanes.only(moves, (v + start) + v_odd), lanes.only(moves, (x + ahead * start) + x_odd)
+    start = lanes.load(row(0, motion), i)
+    moves = lanes.load(motion.slides, i)
+    return lanes.only(moves, (v + start) + v_odd), lanes.only(
+        moves, (x + ahead * start) + x_odd
+    )
 
 
 @inner
 def move(s, end, chain, motion):
     """The state of blocks 1..end at time s of the window, from the rows of its start.
 
-    Forces are carried in two doubles: the rounding of one would be the largest error of a run.
+    Forces are carried in two doubles: the rounding of one would be the largest error of
+    a run.
     """
-    coupling, net_force, weight, order = chain.coupling, motion.net_force, motion.weight, order_at(s)
+    coupling = chain.coupling
+    net_force = motion.net_force
+    weight = motion.weight
+    order = order_at(s)
     powers(s, order, weight)
     left = lanes.spread(chain.drive_velocity * s)
     here = here_rest = lanes.spread(0.0)
@@ -144,26 +202,39 @@ def move(s, end, chain, motion):
         velocity, slip = sum_series(i, order, weight, motion)
         lanes.store(motion.velocity, i, velocity)
         lanes.store(motion.slip, i, slip)
-        change = lanes.load(coupling, i) * (lanes.behind(left, slip) - slip) + lanes.load(
-            motion.rest_before, i
-        )
+        change = lanes.load(coupling, i) * (
+            lanes.behind(left, slip) - slip
+        ) + lanes.load(motion.rest_before, i)
         force, rest = two_sum(lanes.load(motion.force_before, i), change)
         lanes.store(motion.spring_force, i, force)
         lanes.store(motion.force_rest, i, rest)
-        # From values in registers: what was just stored is not loaded across two groups, which would wait.
+        # From values in registers: what was just stored is not loaded across two
+        # groups, which would wait.
         if i > 1:
             lanes.store(net_force, i - WIDTH, difference(here, here_rest, force, rest))
-        left, here, here_rest = slip, force, rest
+        left = slip
+        here = force
+        here_rest = rest
     i = end + 1
-    force, rest = two_sum(motion.force_before[i], coupling[i] * motion.slip[end] + motion.rest_before[i])
-    motion.spring_force[i], motion.force_rest[i] = force, rest
-    lanes.store(net_force, i - WIDTH, difference(here, here_rest, lanes.spread(force), lanes.spread(rest)))
+    force, rest = two_sum(
+        motion.force_before[i], coupling[i] * motion.slip[end] + motion.rest_before[i]
+    )
+    motion.spring_force[i] = force
+    motion.force_rest[i] = rest
+    lanes.store(
+        net_force,
+        i - WIDTH,
+        difference(here, here_rest, lanes.spread(force), lanes.spread(rest)),
+    )
 
 
 @inner
 def difference(here, here_rest, after, after_rest):
-    """Net forces on a group, from the spring forces behind its blocks and those of the group after it."""
-    return (here - lanes.ahead(here, after)) + (here_rest - lanes.ahead(here_rest, after_rest))
+    """Net forces on a group, from the spring forces behind its blocks and those of the
+    group after it."""
+    return (here - lanes.ahead(here, after)) + (
+        here_rest - lanes.ahead(here_rest, after_rest)
+    )
 
 
 @inner
@@ -177,5 +248,6 @@ def two_sum(a, b):
 @inner
 def take_net_force(i, motion):
     """Net force on block i from those of its springs."""
-    force, rest = motion.spring_force, motion.force_rest
+    force = motion.spring_force
+    rest = motion.force_rest
     motion.net_force[i] = (force[i] - force[i + 1]) + (rest[i] - rest[i + 1])

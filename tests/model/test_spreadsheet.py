@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from precursors.model.scenes import read_weights
-from precursors.support.spreadsheet import read_columns
+from precursors.model.spreadsheet import read_columns
 
 TIME_AND_LOAD = ["t [s]", "F_X [N]"]
 ROWS = [[0.0, 0.0], [0.5, 40.25]]
@@ -33,7 +33,9 @@ def file(tmp_path):
     ],
 )
 def test_separators_decimal_commas_and_headers_are_understood(file, text):
-    np.testing.assert_array_equal(read_columns(file(text), TIME_AND_LOAD, exactly=True), ROWS)
+    np.testing.assert_array_equal(
+        read_columns(file(text), TIME_AND_LOAD, exactly=True), ROWS
+    )
 
 
 @pytest.mark.parametrize(
@@ -56,14 +58,18 @@ def test_separators_decimal_commas_and_headers_are_understood(file, text):
         ("PK\x03\x04\0\0", "is not plain text"),
     ],
 )
-def test_what_cannot_be_understood_for_certain_is_refused_in_one_line(file, text, about):
+def test_what_cannot_be_understood_for_certain_is_refused_in_one_line(
+    file, text, about
+):
     with pytest.raises(ValueError, match=r"table\.csv") as refused:
         read_columns(file(text), TIME_AND_LOAD, exactly=True)
     assert about in str(refused.value)
     assert "\n" not in str(refused.value)
 
 
-@pytest.mark.parametrize("text", ["30\n40\n50\n", "load [N]\n30\n40\n50", "30, 40, 50", "1;30\n2;40\n3;50"])
+@pytest.mark.parametrize(
+    "text", ["30\n40\n50\n", "load [N]\n30\n40\n50", "30, 40, 50", "1;30\n2;40\n3;50"]
+)
 def test_the_load_of_each_block_may_have_the_number_of_its_block(file, text):
     assert read_weights(file(text)) == [30.0, 40.0, 50.0]
 

@@ -1,4 +1,5 @@
-"""What must hold inside an interval between two transitions, and the proof that it does."""
+"""What must hold inside an interval between two transitions, and the proof that it
+does."""
 
 from __future__ import annotations
 
@@ -6,24 +7,32 @@ import math
 
 import numpy as np
 
-from precursors.accuracy.audit.motion import Motion
+from precursors.audit.motion import Motion
 from precursors.model.chain import FloatArray
 
 _FEWEST_CELLS = 2
 _PARTS = 8  # of a cell for which that does not suffice
-_NUMBERS_AT_ONCE = 200_000  # in an array: bounds the memory on long intervals and long chains
+_NUMBERS_AT_ONCE = (
+    200_000  # in an array: bounds the memory on long intervals and long chains
+)
 
 
 class Conditions:
-    """What must not be negative in an interval, as functions of the time s since its start.
+    """What must not be negative in an interval, as functions of the time s since its
+    start.
 
-    One column for each sliding block (its velocity [m/s] in the direction of its mode), then two for each
-    stuck block whose force can change (mu_s w - force and mu_s w + force [N]). `fourth` bounds the fourth
-    derivative of each column.
+    One column for each sliding block (its velocity [m/s] in the direction of its mode),
+    then two for each stuck block whose force can change (mu_s w - force and mu_s w +
+    force [N]). `fourth` bounds the fourth derivative of each column.
     """
 
     def __init__(
-        self, motion: Motion, mode: np.ndarray, force: FloatArray, strength: FloatArray, loading_rate: float
+        self,
+        motion: Motion,
+        mode: np.ndarray,
+        force: FloatArray,
+        strength: FloatArray,
+        loading_rate: float,
     ) -> None:
         self.motion = motion
         moves = mode != 0
@@ -43,52 +52,76 @@ class Conditions:
         self.fourth = np.concatenate([velocity @ np.abs(self.to_speed), bend, bend])
 
     def __call__(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Values and slopes at the times s, each of shape (len(s), number of columns)."""
+        """Values and slopes at the times s, each of shape (len(s), number of
+        columns)."""
         displacement, velocity, acceleration = self.motion.at(s)
         force = displacement @ self.to_force + self.force + s[:, None] * self.rate
         rate = velocity @ self.to_force + self.rate
-        values = [velocity @ self.to_speed, self.strength - force, self.strength + force]
+        values = [
+            velocity @ self.to_speed,
+            self.strength - force,
+            self.strength + force,
+        ]
         slopes = [acceleration @ self.to_speed, -rate, rate]
         return np.concatenate(values, axis=1), np.concatenate(slopes, axis=1)
 
-    def lowest(self, duration: float, tolerance: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Lowest values that were found and their times, each of shape (number of columns,).
+    def lowest(
+        self, duration: float, tolerance: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Lowest values that were found and their times, each of shape (number of
+        columns,).
 
-        Where none is below -tolerance, none is below -2 tolerance anywhere in the interval. The proof: with
-        a fourth derivative of at most M, g is off by at most M d^4/384 on a cell of width d from the cubic
-        that has its values and slopes at both ends, and a cubic is above the least of its Bernstein
-        coefficients. A cell for which that does not suffice is cut. The search ends where something is
-        below -tolerance.
+        Where none is below -tolerance, none is below -2 tolerance anywhere in the
+        interval. The proof: with a fourth derivative of at most M, g is off by at most
+        M d^4/384 on a cell of width d from the cubic that has its values and slopes at
+        both ends, and a cubic is above the least of its Bernstein coefficients. A cell
+        for which that does not suffice is cut. The search ends where something is below
+        -tolerance.
         """
         columns = len(self.fourth)
         fastest = self.motion.modes.frequencies.max(initial=0.0)
         # A cell of a radian of the fastest mode can usually be proved.
         n_cells = max(_FEWEST_CELLS, math.ceil(duration * fastest)) if fastest else 1
         at_once = max(_FEWEST_CELLS, _NUMBERS_AT_ONCE // columns)
-        lowest, when = np.full(columns, np.inf), np.zeros(columns)
+        lowest = np.full(columns, np.inf)
+        when = np.zeros(columns)
         for k in range(0, n_cells, at_once):
             # A row holds one edge of all cells, the next row the other.
-            edges = duration / n_cells * np.arange(k, min(k + at_once, n_cells) + 1, dtype=float)[:, None]
+            edges = (
+                duration
+                / n_cells
+                * np.arange(k, min(k + at_once, n_cells) + 1, dtype=float)[:, None]
+            )
             while edges.size and not np.any(lowest < -tolerance):
                 values, slopes = self(edges.ravel())
                 _note(values, edges.ravel(), lowest, when)
-                shape, width = (*edges.shape, columns), np.diff(edges, axis=0)[..., None]
-                bound = lower_bound(width, values.reshape(shape), slopes.reshape(shape), self.fourth)
+                shape = (*edges.shape, columns)
+                width = np.diff(edges, axis=0)[..., None]
+                bound = lower_bound(
+                    width, values.reshape(shape), slopes.reshape(shape), self.fourth
+                )
                 is_open = np.any(bound < -2 * tolerance, axis=-1)
                 edges = np.linspace(edges[:-1][is_open], edges[1:][is_open], _PARTS + 1)
         return lowest, when
 
 
-def lower_bound(width: FloatArray, values: FloatArray, slopes: FloatArray, fourth: FloatArray) -> FloatArray:
-    """Bound functions from below in cells, from their values and slopes at both edges."""
-    low, high = values[:-1], values[1:]
+def lower_bound(
+    width: FloatArray, values: FloatArray, slopes: FloatArray, fourth: FloatArray
+) -> FloatArray:
+    """Bound functions from below in cells, from their values and slopes at both
+    edges."""
+    low = values[:-1]
+    high = values[1:]
     inner = np.minimum(low + slopes[:-1] * (width / 3), high - slopes[1:] * (width / 3))
     return np.minimum(np.minimum(low, high), inner) - fourth * (width**4 / 384)
 
 
-def _note(values: FloatArray, times: FloatArray, lowest: FloatArray, when: FloatArray) -> None:
+def _note(
+    values: FloatArray, times: FloatArray, lowest: FloatArray, when: FloatArray
+) -> None:
     """Keep the lowest value of each column and its time."""
     row = np.argmin(values, axis=0)
     value = values[row, np.arange(values.shape[1])]
     deeper = value < lowest
-    lowest[deeper], when[deeper] = value[deeper], times[row[deeper]]
+    lowest[deeper] = value[deeper]
+    when[deeper] = times[row[deeper]]

@@ -1,8 +1,8 @@
 """The first root of all event functions, proved for every run within reach.
 
-An event function is positive while its block keeps its state: mode * velocity of a sliding block,
-mu_s w -+ net force of a stuck one. Its polynomials are balls wide enough for every run of the model: a proof
-holds for all.
+An event function is positive while its block keeps its state: mode * velocity of a
+sliding block, mu_s w -+ net force of a stuck one. Its polynomials are balls wide enough
+for every run of the model: a proof holds for all.
 """
 
 from __future__ import annotations
@@ -12,28 +12,32 @@ from dataclasses import dataclass
 
 from flint import arb, arb_poly, ctx
 
-from precursors.accuracy.proof.motion import Constants, State, expand, force_rate
+from precursors.proof.motion import Constants, State, expand, force_rate
 
 
 class Undecided(Exception):
-    """A question about some blocks that cannot be decided: more bits are needed, or there is a tie.
+    """A question about some blocks that cannot be decided: more bits are needed, or
+    there is a tie.
 
-    The ball `time` is the time within which it is undecided: [T] from where the step began, and [s] once the
-    proof has stopped.
+    The ball `time` is the time within which it is undecided: [T] from where the step
+    began, and [s] once the proof has stopped.
     """
 
     def __init__(self, question: str, blocks: tuple[int, ...], time: arb) -> None:
         super().__init__(question)
-        self.question, self.blocks, self.time = question, blocks, time
+        self.question = question
+        self.blocks = blocks
+        self.time = time
 
 
 @dataclass(frozen=True, eq=False)
 class EventFunction:
     """A function of time [T] that is positive until its block 1..N changes its state.
 
-    `direction` is 0 for the velocity of a sliding block, +1 or -1 for a stuck block's margin in that
-    direction. The function and its first two derivatives enclose those of every run. A `fresh` one is zero at
-    the transition at the start, with a slope that is not negative.
+    `direction` is 0 for the velocity of a sliding block, +1 or -1 for a stuck block's
+    margin in that direction. The function and its first two derivatives enclose those
+    of every run. A `fresh` one is zero at the transition at the start, with a slope
+    that is not negative.
     """
 
     block: int
@@ -53,7 +57,8 @@ class EventFunction:
 def event_functions(
     constants: Constants, state: State, fresh: set[int], valid: float, bits: int
 ) -> list[EventFunction]:
-    """Velocities of the sliding blocks and margins of the stuck ones that feel a change, up to `valid` [T].
+    """Velocities of the sliding blocks and margins of the stuck ones that feel a
+    change, up to `valid` [T].
 
     `fresh` are the blocks that have just begun to slide.
     """
@@ -62,10 +67,12 @@ def event_functions(
     distance = 2 * state.distance
     functions = []
     for i in range(1, len(state.mode) - 1):
-        reach, rate_reach = constants.force_reach[i] * distance, constants.force_rate_reach[i] * distance
+        reach = constants.force_reach[i] * distance
+        rate_reach = constants.force_rate_reach[i] * distance
         mode = state.mode[i]
         if mode:
-            function, curves = mode * polynomials[i], []
+            function = mode * polynomials[i]
+            curves = []
             for off, rest in zip((distance, reach, rate_reach), rests, strict=True):
                 curves.append(function + arb(0, off + rest))
                 function = function.derivative()
@@ -77,17 +84,20 @@ def event_functions(
             rate += arb(0, rate_reach)
             for way in (1, -1):
                 margin = constants.strength[i] - way * force
-                functions.append(EventFunction(i, way, i in fresh, margin, -way * rate, arb_poly([])))
+                functions.append(
+                    EventFunction(i, way, i in fresh, margin, -way * rate, arb_poly([]))
+                )
     return functions
 
 
 def first_root(
     functions: list[EventFunction], end: float, valid: float, back: arb, bits: int
 ) -> tuple[EventFunction, arb] | None:
-    """Return the function that crosses zero first and an enclosure of its root; None if none does by `end`.
+    """Return the function that crosses zero first and an enclosure of its root; None if
+    none does by `end`.
 
-    Times are in T: the polynomials hold up to `valid`, and a run may have had the transition at the start by
-    `back` before zero.
+    Times are in T: the polynomials hold up to `valid`, and a run may have had the
+    transition at the start by `back` before zero.
 
     Raises
     ------
@@ -102,7 +112,9 @@ def first_root(
             end = min(end, math.nextafter(float(root.upper()), math.inf))
     if not found:
         return None
-    root, first = min(found, key=lambda pair: pair[0])  # the earliest, unless two overlap
+    root, first = min(
+        found, key=lambda pair: pair[0]
+    )  # the earliest, unless two overlap
     for other, function in found:
         if function is not first and other.overlaps(root):
             question = f"whether first {first.what} or {function.what}"
@@ -110,7 +122,9 @@ def first_root(
     return first, root
 
 
-def _crossing(function: EventFunction, end: float, valid: float, back: arb, bits: int) -> arb | None:
+def _crossing(
+    function: EventFunction, end: float, valid: float, back: arb, bits: int
+) -> arb | None:
     """First root of a function up to `end`, or None once it is proved positive."""
     smallest = arb(2) ** -(bits // 2 + 8)
     pieces = [(arb(0), arb(end), True)]
@@ -144,10 +158,13 @@ def _crossing(function: EventFunction, end: float, valid: float, back: arb, bits
 
 
 def _falling_root(function: EventFunction, a: arb, b: arb, valid: float) -> arb | None:
-    """Enclose the root of a function that falls on [a, b], where a root next to b may lie a little beyond."""
+    """Enclose the root of a function that falls on [a, b], where a root next to b may
+    lie a little beyond."""
     if not function.value(b) < 0:
         b = b + (b - a)
-        if not (b <= valid and function.slope(a.union(b)) < 0 and function.value(b) < 0):
+        if not (
+            b <= valid and function.slope(a.union(b)) < 0 and function.value(b) < 0
+        ):
             return None
     root = a.union(b)
     while True:
@@ -162,8 +179,11 @@ def _falling_root(function: EventFunction, a: arb, b: arb, valid: float) -> arb 
 
 
 def newton(function: arb_poly, root: arb, bits: int) -> arb:
-    """Return an exact number near the root, to about `bits` bits; what is left of it is counted later."""
-    slope, x, good = function.derivative(), root.mid(), 24
+    """Return an exact number near the root, to about `bits` bits; what is left of it is
+    counted later."""
+    slope = function.derivative()
+    x = root.mid()
+    good = 24
     while good < bits:
         good = min(2 * good, bits)
         with ctx.workprec(good + 16):

@@ -15,13 +15,26 @@ from precursors.model.chain import Chain, written_fraction
 Number = Fraction | int | float | str
 
 _PARAMETERS = inspect.signature(Chain.from_slider).parameters
-_PAPERS_SLIDER = {name: of.default for name, of in _PARAMETERS.items() if isinstance(of.default, float)}
-_NUMBERS = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k", "length")
+_PAPERS_SLIDER = {
+    name: of.default
+    for name, of in _PARAMETERS.items()
+    if isinstance(of.default, float)
+}
+_NUMBERS = (
+    "mass",
+    "stiffness",
+    "drive_stiffness",
+    "drive_velocity",
+    "mu_s",
+    "mu_k",
+    "length",
+)
 
 
 @dataclass(frozen=True)
 class ExactChain:
-    """The parameters of the equations of motion (Eqs. 2-6) as fractions; fields and units as in `Chain`.
+    """The parameters of the equations of motion (Eqs. 2-6) as fractions; fields and
+    units as in `Chain`.
 
     Raises
     ------
@@ -39,24 +52,37 @@ class ExactChain:
     length: Fraction
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "weights", tuple(exact("weights", w) for w in self.weights))
+        object.__setattr__(
+            self, "weights", tuple(exact("weights", w) for w in self.weights)
+        )
         for name in _NUMBERS:
             object.__setattr__(self, name, exact(name, getattr(self, name)))
         self.to_chain()
 
     @classmethod
     def from_slider(cls, n_blocks: int = 10, **changes: Number) -> ExactChain:
-        """Cut a slider into N equal blocks (Eqs. 7, 9, 10) as `Chain.from_slider` does, without rounding.
+        """Cut a slider into N equal blocks (Eqs. 7, 9, 10) as `Chain.from_slider` does,
+        without rounding.
 
-        Numbers are taken as they are written: 0.7 and Fraction(7, 10) are the same, theta may be "5/6".
+        Numbers are taken as they are written: 0.7 and Fraction(7, 10) are the same,
+        theta may be "5/6".
         """
-        slider = {name: exact(name, x) for name, x in (_PAPERS_SLIDER | changes).items()}
+        slider = {
+            name: exact(name, x) for name, x in (_PAPERS_SLIDER | changes).items()
+        }
         Chain.from_slider(n_blocks, **{name: float(x) for name, x in slider.items()})
-        n, load, extent = n_blocks, slider["normal_load"], slider["length"]
+        n = n_blocks
+        load = slider["normal_load"]
+        extent = slider["length"]
         # At N = 1 Eq. 7 is 0/0; the one block carries the whole load.
-        offsets = [Fraction(2 * i - n - 1, n - 1) if n > 1 else Fraction(0) for i in range(1, n + 1)]
+        offsets = [
+            Fraction(2 * i - n - 1, n - 1) if n > 1 else Fraction(0)
+            for i in range(1, n + 1)
+        ]
         return cls(
-            weights=tuple(load / n * (1 + offset * slider["theta"]) for offset in offsets),
+            weights=tuple(
+                load / n * (1 + offset * slider["theta"]) for offset in offsets
+            ),
             mass=slider["slider_mass"] / n,
             stiffness=n * slider["youngs_modulus"] * slider["cross_section"] / extent,
             drive_stiffness=slider["drive_stiffness"],
@@ -73,7 +99,8 @@ class ExactChain:
         return cls(weights=tuple(Fraction(float(w)) for w in chain.weights), **numbers)
 
     def to_chain(self) -> Chain:
-        """Round every number once, to the chain that the solver in double precision is given."""
+        """Round every number once, to the chain that the solver in double precision is
+        given."""
         return Chain(
             weights=np.array([float(w) for w in self.weights]),
             **{name: float(getattr(self, name)) for name in _NUMBERS},
@@ -90,13 +117,17 @@ class ExactChain:
         return (self.drive_stiffness, *[self.stiffness] * (self.n_blocks - 1))
 
     def as_text(self) -> dict[str, str | list[str]]:
-        """Every number as a fraction in a string: `ExactChain(**chain.as_text())` is the chain."""
-        text: dict[str, str | list[str]] = {name: str(getattr(self, name)) for name in _NUMBERS}
+        """Every number as a fraction in a string: `ExactChain(**chain.as_text())` is
+        the chain."""
+        text: dict[str, str | list[str]] = {
+            name: str(getattr(self, name)) for name in _NUMBERS
+        }
         return {"weights": [str(w) for w in self.weights], **text}
 
 
 def exact(name: str, value: object) -> Fraction:
-    """Return a number as it is written: a fraction, a decimal in a string, or a float as Python prints it.
+    """Return a number as it is written: a fraction, a decimal in a string, or a float
+    as Python prints it.
 
     Raises
     ------
@@ -112,7 +143,9 @@ def exact(name: str, value: object) -> Fraction:
             return Fraction(repr(float(value)))
     except (ValueError, ZeroDivisionError):
         pass
-    raise ValueError(f'{name} must be a finite number, or one in quotes as "5/6", but is {value!r}')
+    raise ValueError(
+        f'{name} must be a finite number, or one in quotes as "5/6", but is {value!r}'
+    )
 
 
 def exact_start(

@@ -1,4 +1,5 @@
-"""Certificates come back from their files, are what is proved, and are refused if they are not."""
+"""Certificates come back from their files, are what is proved, and are refused if they
+are not."""
 
 from __future__ import annotations
 
@@ -16,7 +17,7 @@ from accuracy.made_up import tied_certificate
 from reference import Transition
 from reference.goldens import GOLDEN, SCENE_DIGITS, SCENES, csv_rows
 
-from precursors.accuracy.proof import (
+from precursors.proof import (
     Certificate,
     CertificateError,
     CertifiedTransition,
@@ -25,9 +26,16 @@ from precursors.accuracy.proof import (
     certify,
     verify,
 )
-from precursors.accuracy.proof.chains import chain_duration, exact_chain, is_about, scene_exact_chain
+from precursors.proof.chains import (
+    chain_duration,
+    exact_chain,
+    is_about,
+    scene_exact_chain,
+)
 
-CHAINS = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text())["accuracy"]["proved"]
+CHAINS = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text())[
+    "accuracy"
+]["proved"]
 # A committed certificate is smaller [bytes].
 LARGEST_FILE = 300_000
 COMMITTED = Path(__file__).parents[2] / "workflow" / "certificates"
@@ -37,7 +45,9 @@ SLIDER = ExactChain.from_slider
 
 
 @pytest.mark.parametrize(("scene", "chain"), PROVED_SCENES.items())
-def test_the_golden_tables_are_the_proof_rounded_digit_for_digit(scene: str, chain: str) -> None:
+def test_the_golden_tables_are_the_proof_rounded_digit_for_digit(
+    scene: str, chain: str
+) -> None:
     certificate = Certificate.load(COMMITTED / f"{chain}.json.gz")
     assert certificate.chain == SLIDER(theta=SCENES[scene])
     assert certificate.proved_until == 10
@@ -46,17 +56,25 @@ def test_the_golden_tables_are_the_proof_rounded_digit_for_digit(scene: str, cha
     # Both ends of every enclosure round to the digits of the golden table.
     for end in ("lower", "upper"):
         ends = [
-            Transition(getattr(t.time, end), t.block, t.mode, getattr(t.tangential_load, end))
+            Transition(
+                getattr(t.time, end), t.block, t.mode, getattr(t.tangential_load, end)
+            )
             for t in certificate.transitions
         ]
         assert csv_rows(ends, SCENE_DIGITS) == golden
 
 
 @pytest.mark.parametrize("name", CHAINS)
-def test_the_committed_certificates_are_about_the_chains_of_the_configuration(name: str) -> None:
+def test_the_committed_certificates_are_about_the_chains_of_the_configuration(
+    name: str,
+) -> None:
     certificate = Certificate.load(COMMITTED / f"{name}.json.gz")
-    assert is_about(certificate, exact_chain(CHAINS[name]), chain_duration(CHAINS[name]))
-    assert not is_about(certificate, exact_chain(CHAINS[name]), 2 * chain_duration(CHAINS[name]))
+    assert is_about(
+        certificate, exact_chain(CHAINS[name]), chain_duration(CHAINS[name])
+    )
+    assert not is_about(
+        certificate, exact_chain(CHAINS[name]), 2 * chain_duration(CHAINS[name])
+    )
     assert (COMMITTED / f"{name}.json.gz").stat().st_size < LARGEST_FILE
 
 
@@ -65,7 +83,9 @@ def small() -> Certificate:
     return certify(SLIDER(n_blocks=3, theta="1/2"), 4)
 
 
-def test_a_certificate_comes_back_from_its_file_which_is_always_the_same(small, tmp_path) -> None:
+def test_a_certificate_comes_back_from_its_file_which_is_always_the_same(
+    small, tmp_path
+) -> None:
     path = tmp_path / "small.json.gz"
     for certificate in (small, tied_certificate()):
         certificate.save(path)
@@ -85,14 +105,18 @@ def test_a_foreign_or_damaged_file_is_refused_in_one_line(small, tmp_path) -> No
         gzip.compress(b"{}"): "'format'",
         gzip.compress(b"[1, 2]"): "list indices must be integers",
         gzip.compress(b"[" * 100_000): "maximum recursion depth exceeded",
-        gzip.compress(b'{"format": "else"}'): "its format must be 'precursors certificate 1', but is 'else'",
+        gzip.compress(
+            b'{"format": "else"}'
+        ): "its format must be 'precursors certificate 1', but is 'else'",
         whole[: len(whole) // 2]: "Compressed file ended",
         whole[:-1]: "Compressed file ended",
         whole[:500] + bytes([whole[500] ^ 1]) + whole[501:]: "",
     }
     for content, why in damaged.items():
         path.write_bytes(content)
-        with pytest.raises(CertificateError, match=f"damaged.json.gz is not a whole certificate: {why}") as e:
+        with pytest.raises(
+            CertificateError, match=f"damaged.json.gz is not a whole certificate: {why}"
+        ) as e:
             Certificate.load(path)
         assert "\n" not in str(e.value)
 
@@ -101,13 +125,24 @@ def moved(enclosure: Enclosure, shift: Fraction, shrink: int = 1) -> Enclosure:
     return Enclosure(enclosure.midpoint + shift, enclosure.radius / shrink)
 
 
-WRONG_TIME, OTHER = "its time is not proved within", "block 2 goes to mode .1, which is not what is stated"
+WRONG_TIME, OTHER = (
+    "its time is not proved within",
+    "block 2 goes to mode .1, which is not what is stated",
+)
 SPOILED: dict[str, tuple[Callable[[CertifiedTransition], CertifiedTransition], str]] = {
-    "narrower": (lambda t: t._replace(time=moved(t.time, Fraction(0), shrink=1000)), WRONG_TIME),
+    "narrower": (
+        lambda t: t._replace(time=moved(t.time, Fraction(0), shrink=1000)),
+        WRONG_TIME,
+    ),
     "digit 2": (lambda t: t._replace(time=moved(t.time, Fraction(1, 100))), WRONG_TIME),
-    "digit 43": (lambda t: t._replace(time=moved(t.time, Fraction(1, 10**43))), WRONG_TIME),
+    "digit 43": (
+        lambda t: t._replace(time=moved(t.time, Fraction(1, 10**43))),
+        WRONG_TIME,
+    ),
     "another load": (
-        lambda t: t._replace(tangential_load=moved(t.tangential_load, 2 * t.tangential_load.radius)),
+        lambda t: t._replace(
+            tangential_load=moved(t.tangential_load, 2 * t.tangential_load.radius)
+        ),
         "its load is not proved within",
     ),
     "another block": (lambda t: t._replace(block=3), OTHER),
@@ -117,8 +152,15 @@ SPOILED: dict[str, tuple[Callable[[CertifiedTransition], CertifiedTransition], s
 
 @pytest.mark.parametrize(("spoil", "words"), SPOILED.values(), ids=SPOILED)
 def test_what_is_not_proved_is_refused(small: Certificate, spoil, words: str) -> None:
-    wrong = [*small.transitions[:7], spoil(small.transitions[7]), *small.transitions[8:]]
-    with pytest.raises(CertificateError, match=f"not what is proved with 256 bits: transition 8, .*{words}"):
+    wrong = [
+        *small.transitions[:7],
+        spoil(small.transitions[7]),
+        *small.transitions[8:],
+    ]
+    with pytest.raises(
+        CertificateError,
+        match=f"not what is proved with 256 bits: transition 8, .*{words}",
+    ):
         verify(dataclasses.replace(small, transitions=tuple(wrong)))
 
 
@@ -128,11 +170,23 @@ def test_an_end_that_is_not_found_is_refused(small: Certificate) -> None:
     assert tied.tie
     early = tied.tie._replace(time=Enclosure(Fraction(1, 10), Fraction(0)))
     for wrong, words in (
-        (dataclasses.replace(small, transitions=small.transitions[:-1]), "23 transitions instead of 24"),
-        (dataclasses.replace(tied, tie=None), r"a tie of blocks none instead of \(2, 6\)"),
-        (dataclasses.replace(tied, tie=tied.tie._replace(blocks=(2, 5))), r"\(2, 5\) instead of \(2, 6\)"),
+        (
+            dataclasses.replace(small, transitions=small.transitions[:-1]),
+            "23 transitions instead of 24",
+        ),
+        (
+            dataclasses.replace(tied, tie=None),
+            r"a tie of blocks none instead of \(2, 6\)",
+        ),
+        (
+            dataclasses.replace(tied, tie=tied.tie._replace(blocks=(2, 5))),
+            r"\(2, 5\) instead of \(2, 6\)",
+        ),
         (dataclasses.replace(tied, tie=early), "the tie is at t = 8.20659253e-06 s"),
-        (dataclasses.replace(small, tie=tied.tie), r"a tie of blocks \(2, 6\) instead of none"),
+        (
+            dataclasses.replace(small, tie=tied.tie),
+            r"a tie of blocks \(2, 6\) instead of none",
+        ),
     ):
         with pytest.raises(CertificateError, match=words):
             verify(wrong)
@@ -146,7 +200,11 @@ def test_theta_of_a_scene_is_not_rounded() -> None:
         "number": ({"theta": 0.5}, Fraction(1, 2)),
     }
     for name, (scene, theta) in scenes.items():
-        config = {"chain": slider, "load_cells": {"spacing": 0.06}, "scenes": {name: scene}}
+        config = {
+            "chain": slider,
+            "load_cells": {"spacing": 0.06},
+            "scenes": {name: scene},
+        }
         assert scene_exact_chain(config, name) == SLIDER(theta=theta)
 
 
@@ -160,7 +218,11 @@ def test_one_block_has_the_whole_load_whatever_theta_is():
         ({"theta": "7/6"}, {}, "theta"),
         ({"theta": 1 + Fraction(1, 10**30)}, {}, "weights"),
         ({"mu_s": "0.4"}, {}, "mu_k"),
-        ({"theta": "1e999999999"}, {}, 'theta must be a finite number, or one in quotes as "5/6", but is '),
+        (
+            {"theta": "1e999999999"},
+            {},
+            'theta must be a finite number, or one in quotes as "5/6", but is ',
+        ),
         ({"normal_load": float("nan")}, {}, "normal_load must be a finite number"),
         ({"n_blocks": 0}, {}, "n_blocks"),
         ({}, {"duration": 0}, "duration must be above 0 s, but is 0 s"),
@@ -179,10 +241,12 @@ def test_a_bad_argument_is_named(slider, argument, message: str) -> None:
         certify(SLIDER(**slider), **argument)
 
 
-def test_without_python_flint_the_missing_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_python_flint_the_missing_extra_is_named(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setitem(sys.modules, "flint", None)
     for name in ("tube", "motion", "event_roots"):
-        monkeypatch.delitem(sys.modules, f"precursors.accuracy.proof.{name}", raising=False)
+        monkeypatch.delitem(sys.modules, f"precursors.proof.{name}", raising=False)
     with pytest.raises(ModuleNotFoundError, match=r'pip install "precursors\[proof\]"'):
         certify(SLIDER(), 1)
 

@@ -9,29 +9,31 @@ from decimal import ROUND_CEILING, Context, Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from precursors.accuracy.proof.certificate import (
+from precursors.model.chain import Chain
+from precursors.model.checks import Until, checked_until
+from precursors.proof.certificate import (
     Certificate,
     CertificateError,
     CertifiedTransition,
     Enclosure,
     Tie,
 )
-from precursors.accuracy.proof.exact_chain import ExactChain, Number, exact, exact_start
-from precursors.model.chain import Chain
-from precursors.model.checks import Until, checked_until
+from precursors.proof.exact_chain import ExactChain, Number, exact, exact_start
 
 if TYPE_CHECKING:
     from flint import arb
 
-    from precursors.accuracy.proof.event_roots import Undecided
-    from precursors.accuracy.proof.tube import Proof
+    from precursors.proof.event_roots import Undecided
+    from precursors.proof.tube import Proof
 
 FIRST_BITS = 256
 MAX_BITS = 4096
 WIDTH = "1e-40"
-# Midpoints are written with at most so many decimals, and no more than their radius deserves.
+# Midpoints are written with at most so many decimals, and no more than their radius
+# deserves.
 DECIMALS = 45
-# A radius is written with this to spare, for a version of the ball arithmetic that rounds otherwise.
+# A radius is written with this to spare, for a version of the ball arithmetic that
+# rounds otherwise.
 SPARE = Fraction(101, 100)
 # Radii are rounded up to three digits, and to a few more decimals than midpoints have.
 ROUND_UP = Context(prec=3, Emin=-DECIMALS, rounding=ROUND_CEILING)
@@ -46,7 +48,8 @@ def certify(
     max_bits: int = MAX_BITS,
     start_velocities: Sequence[Number] | None = None,
 ) -> Certificate:
-    """Prove the transitions of a chain (Eqs. 2-6), in ball arithmetic on exact parameters.
+    """Prove the transitions of a chain (Eqs. 2-6), in ball arithmetic on exact
+    parameters.
 
     The proof is begun again with twice the bits until it is complete.
 
@@ -57,13 +60,15 @@ def certify(
     duration : number
         Time to prove [s]; numbers are taken as they are written, "1/3" is a third.
     until : "global slip", optional
-        Stop at the end of the first event in which all blocks slide at the same instant.
+        Stop at the end of the first event in which all blocks slide at the same
+        instant.
     start_positions, start_velocities : sequences of N numbers, optional
         At time 0 [m, m/s]; zero by default.
     width : number
         Largest radius of a time [s].
     max_bits : int
-        Largest working precision; a proof that is undecided there within `width` is a tie.
+        Largest working precision; a proof that is undecided there within `width` is a
+        tie.
 
     Raises
     ------
@@ -76,8 +81,11 @@ def certify(
     """
     exact_chain = ExactChain.from_chain(chain) if isinstance(chain, Chain) else chain
     if not isinstance(exact_chain, ExactChain):
-        raise TypeError(f"what is proved must be a chain, but is {type(chain).__name__}")
-    limit, widest = exact("duration", duration), exact("width", width)
+        raise TypeError(
+            f"what is proved must be a chain, but is {type(chain).__name__}"
+        )
+    limit = exact("duration", duration)
+    widest = exact("width", width)
     for name, value in (("duration", limit), ("width", widest)):
         if value <= 0:
             raise ValueError(f"{name} must be above 0 s, but is {value} s")
@@ -88,7 +96,9 @@ def certify(
     until = checked_until(until)
     bits = min(FIRST_BITS, max_bits)
     while True:
-        certificate = Certificate(exact_chain, limit, until, *start, widest, (), None, bits)
+        certificate = Certificate(
+            exact_chain, limit, until, *start, widest, (), None, bits
+        )
         proof, failure = _prove(certificate)
         if failure is None or bits == max_bits:
             break
@@ -101,7 +111,10 @@ def certify(
     tie = _tie(failure) if failure else None
     transitions = tuple(
         CertifiedTransition(
-            _rounded(_enclosure_of(t.time)), t.block, t.mode, _rounded(_enclosure_of(t.tangential_load))
+            _rounded(_enclosure_of(t.time)),
+            t.block,
+            t.mode,
+            _rounded(_enclosure_of(t.tangential_load)),
         )
         for t in proof.transitions
     )
@@ -109,7 +122,8 @@ def certify(
 
 
 def verify(certificate: Certificate | str | os.PathLike[str]) -> Certificate:
-    """Make the proof of a certificate, or of the file of one, again, with its bits; return the certificate.
+    """Make the proof of a certificate, or of the file of one, again, with its bits;
+    return the certificate.
 
     Each recorded enclosure must contain the proved one.
 
@@ -125,19 +139,24 @@ def verify(certificate: Certificate | str | os.PathLike[str]) -> Certificate:
     if not isinstance(certificate, Certificate):
         certificate = Certificate.load(certificate)
     for difference in _differences(certificate):
-        raise CertificateError(f"not what is proved with {certificate.bits} bits: {difference}")
+        raise CertificateError(
+            f"not what is proved with {certificate.bits} bits: {difference}"
+        )
     return certificate
 
 
 def _prove(certificate: Certificate) -> tuple[Proof, Undecided | None]:
-    """Prove the transitions of a certificate's chain with its bits; return why that stopped short, if so."""
+    """Prove the transitions of a certificate's chain with its bits; return why that
+    stopped short, if so."""
     try:
-        from precursors.accuracy.proof.event_roots import Undecided
-        from precursors.accuracy.proof.tube import Proof
+        from precursors.proof.event_roots import Undecided
+        from precursors.proof.tube import Proof
     except ModuleNotFoundError as error:
         if error.name != "flint":
             raise
-        raise ModuleNotFoundError('a proof needs python-flint: pip install "precursors[proof]"') from error
+        raise ModuleNotFoundError(
+            'a proof needs python-flint: pip install "precursors[proof]"'
+        ) from error
     proof = Proof(certificate)
     try:
         proof.run()
@@ -148,13 +167,20 @@ def _prove(certificate: Certificate) -> tuple[Proof, Undecided | None]:
 
 def _tie(failure: Undecided) -> Tie:
     time = _enclosure_of(failure.time)
-    return Tie(_rounded(time), failure.blocks, failure.question, Fraction(_round_up(2 * time.radius)))
+    return Tie(
+        _rounded(time),
+        failure.blocks,
+        failure.question,
+        Fraction(_round_up(2 * time.radius)),
+    )
 
 
 def _differences(certificate: Certificate) -> Iterator[str]:
     """Where a certificate is not what its proof gives."""
     proof, failure = _prove(certificate)
-    for number, (said, proved) in enumerate(zip(certificate.transitions, proof.transitions, strict=False), 1):
+    for number, (said, proved) in enumerate(
+        zip(certificate.transitions, proof.transitions, strict=False), 1
+    ):
         where = f"transition {number}, t = {float(proved.time):.9g} s"
         if (said.block, said.mode) != (proved.block, proved.mode):
             yield f"{where}: block {proved.block} goes to mode {proved.mode:+d}, which is not what is stated"
@@ -167,7 +193,11 @@ def _differences(certificate: Certificate) -> Iterator[str]:
     blocks = certificate.tie.blocks if certificate.tie else "none"
     if blocks != (found := failure.blocks if failure else "none"):
         yield f"a tie of blocks {blocks} instead of {found}"
-    if certificate.tie and failure and not certificate.tie.time.contains(_enclosure_of(failure.time)):
+    if (
+        certificate.tie
+        and failure
+        and not certificate.tie.time.contains(_enclosure_of(failure.time))
+    ):
         yield f"the tie is at t = {float(failure.time):.9g} s"
 
 
@@ -182,7 +212,8 @@ def _fraction(x: arb) -> Fraction:
 
 def _rounded(enclosure: Enclosure) -> Enclosure:
     """Round an enclosure outward to one of decimal numbers."""
-    # 10^-decimals is at most a hundredth of the radius, or at the least decimals that are written
+    # 10^-decimals is at most a hundredth of the radius, or at the least decimals that
+    # are written
     digit = _round_up(enclosure.radius).adjusted()
     decimals = min(DECIMALS, max(0, 2 - digit)) if enclosure.radius else DECIMALS
     midpoint = round(enclosure.midpoint, decimals)

@@ -1,4 +1,5 @@
-"""Event functions enclose the exact ones; their first root is found, of polynomials with known roots too."""
+"""Event functions enclose the exact ones; their first root is found, of polynomials
+with known roots too."""
 
 from __future__ import annotations
 
@@ -11,16 +12,16 @@ from accuracy.made_up import go_on, proof_of
 from flint import arb, arb_poly, ctx
 from scipy.linalg import expm
 
-from precursors.accuracy.proof.event_roots import (
+from precursors.proof.event_roots import (
     EventFunction,
     Undecided,
     event_functions,
     first_root,
     newton,
 )
-from precursors.accuracy.proof.exact_chain import ExactChain
-from precursors.accuracy.proof.motion import Constants, State, time_unit
-from precursors.accuracy.proof.tube import Proof
+from precursors.proof.exact_chain import ExactChain
+from precursors.proof.motion import Constants, State, time_unit
+from precursors.proof.tube import Proof
 
 BITS, END, VALID = 64, 1.0, 1.125
 # How closely a root is isolated: Newton's method has stopped to halve the enclosure.
@@ -29,11 +30,19 @@ ISOLATED = 1e-15
 NUMPY = 1e-12
 
 
-def function(value: list[float], block: int = 1, way: int = 0, width: float = 0.0, fresh: bool = False):
+def function(
+    value: list[float],
+    block: int = 1,
+    way: int = 0,
+    width: float = 0.0,
+    fresh: bool = False,
+):
     """An event function from its coefficients, known to within some width."""
     u = arb_poly(value)
     slope, around = u.derivative(), arb(0, width)
-    return EventFunction(block, way, fresh, u + around, slope + around, slope.derivative() + around)
+    return EventFunction(
+        block, way, fresh, u + around, slope + around, slope.derivative() + around
+    )
 
 
 def through(*roots: float, **how):
@@ -84,7 +93,9 @@ def test_random_polynomials_have_the_first_root_that_numpy_finds():
         coefficients = generator.normal(size=6)
         coefficients[0] = abs(coefficients[0])
         roots = np.polynomial.polynomial.polyroots(coefficients)
-        real = roots.real[(abs(roots.imag) < 1e-12) & (roots.real > 0) & (roots.real < END)]
+        real = roots.real[
+            (abs(roots.imag) < 1e-12) & (roots.real > 0) & (roots.real < END)
+        ]
         found = find(function(coefficients.tolist()))
         assert (found is None) == (not real.size)
         if found:
@@ -110,32 +121,54 @@ def test_a_root_that_is_known_to_a_width_is_enclosed_and_the_enclosure_is_about_
 DIP = [0.26, -1.0, 1.0]
 UNDECIDED = {
     "a double root": ([through(0.375, 0.375, block=4)], 0, "block 4 stops", (4,)),
-    "no root, but wide": ([function(DIP, 5, 1, 0.02)], 0, "block 5 is released forward", (5,)),
+    "no root, but wide": (
+        [function(DIP, 5, 1, 0.02)],
+        0,
+        "block 5 is released forward",
+        (5,),
+    ),
     "backward": ([function(DIP, 5, -1, 0.02)], 0, "block 5 is released backward", (5,)),
     "two at once": (
-        [through(0.875, block=7), through(0.375, block=2), through(0.375, 0.75, block=6, way=1)],
+        [
+            through(0.875, block=7),
+            through(0.375, block=2),
+            through(0.375, 0.75, block=6, way=1),
+        ],
         *(0, "first block 2 stops or block 6 is released forward", (2, 6)),
     ),
-    "at the start, with a slope": ([function([0.0, 0.5, -1.0])], 0, "block 1 stops", (1,)),
+    "at the start, with a slope": (
+        [function([0.0, 0.5, -1.0])],
+        0,
+        "block 1 stops",
+        (1,),
+    ),
     "at the start": ([function([0.0, 0.0, 1.0])], 0, "block 1 stops", (1,)),
     "at the start of some runs": ([function([1e-3, 1.0])], 2e-3, "block 1 stops", (1,)),
     "before the start of some runs": ([through(0.01)], 2e-2, "block 1 stops", (1,)),
 }
 
 
-@pytest.mark.parametrize(("functions", "back", "question", "blocks"), UNDECIDED.values(), ids=UNDECIDED)
+@pytest.mark.parametrize(
+    ("functions", "back", "question", "blocks"), UNDECIDED.values(), ids=UNDECIDED
+)
 def test_what_cannot_be_decided_is_asked(functions, back, question, blocks):
     with pytest.raises(Undecided, match=f"^whether {question}$") as asked:
         find(*functions, back=back)
     assert asked.value.blocks == blocks
-    assert abs(float(asked.value.time.mid()) - (0.0 if blocks == (1,) else 0.4375)) < 0.1
+    assert (
+        abs(float(asked.value.time.mid()) - (0.0 if blocks == (1,) else 0.4375)) < 0.1
+    )
 
 
 @pytest.mark.parametrize("bits", [64, 128])
 def test_a_double_root_is_given_up_at_a_width_that_follows_from_the_bits(bits):
     with pytest.raises(Undecided) as asked:
         find(through(0.375, 0.375), bits=bits)
-    assert 2.0 ** -(bits // 2 + 8) / 2 <= float(asked.value.time.rad()) < 2.0 ** -(bits // 2 + 8)
+    assert (
+        2.0 ** -(bits // 2 + 8) / 2
+        <= float(asked.value.time.rad())
+        < 2.0 ** -(bits // 2 + 8)
+    )
 
 
 @pytest.mark.parametrize("bits", [64, 256, 1024])
@@ -151,8 +184,13 @@ def test_newtons_method_gives_as_many_digits_as_are_asked_for_and_no_more(bits):
 
 
 def equations(of: Constants, mode: list[int]) -> np.ndarray:
-    """The matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1); blocks with mode 0 do not move."""
-    n, c, friction = len(mode) - 2, list(map(float, of.coupling)), list(map(float, of.friction))
+    """The matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1); blocks with
+    mode 0 do not move."""
+    n, c, friction = (
+        len(mode) - 2,
+        list(map(float, of.coupling)),
+        list(map(float, of.friction)),
+    )
     matrix = np.zeros((2 * n + 1, 2 * n + 1))
     matrix[0, -1] = c[1] * float(of.drive)
     for i in range(1, n + 1):
@@ -170,8 +208,11 @@ def vector(state: State) -> np.ndarray:
     return np.array([float(x) for x in (*state.force[1:-1], *state.rate[1:-1], 1.0)])
 
 
-def exact_rows(proof: Proof, function: EventFunction, matrix: np.ndarray) -> list[np.ndarray]:
-    """The event function and its derivatives, as far as it has any, as rows that multiply y."""
+def exact_rows(
+    proof: Proof, function: EventFunction, matrix: np.ndarray
+) -> list[np.ndarray]:
+    """The event function and its derivatives, as far as it has any, as rows that
+    multiply y."""
     n, i, way = proof.chain.n_blocks, function.block, function.direction
     row = np.zeros(2 * n + 1)
     if way == 0:
@@ -182,7 +223,9 @@ def exact_rows(proof: Proof, function: EventFunction, matrix: np.ndarray) -> lis
     return [row, (row - row[-1] * np.eye(2 * n + 1)[-1]) @ matrix]
 
 
-def functions_of(proof: Proof, distance: float, bits: int, valid: float = VALID) -> list[EventFunction]:
+def functions_of(
+    proof: Proof, distance: float, bits: int, valid: float = VALID
+) -> list[EventFunction]:
     with ctx.workprec(64):
         state = replace(proof.state, distance=arb(distance))
         return event_functions(proof.bounds, state, proof.fresh, valid, bits)
@@ -190,23 +233,31 @@ def functions_of(proof: Proof, distance: float, bits: int, valid: float = VALID)
 
 @pytest.fixture(scope="module")
 def sliding() -> Proof:
-    """Theta = -5/6 in the event in which block 10 first turns round: some blocks slide, some are stuck."""
+    """Theta = -5/6 in the event in which block 10 first turns round: some blocks slide,
+    some are stuck."""
     proof = proof_of(ExactChain.from_slider(theta="-5/6"), 256)
     while len(proof.transitions) < 53:
         go_on(proof)
     return proof
 
 
-# How close the exact motion comes to the bound of what 12 bits leave out: value, slope and bend of a speed,
-# the value of a margin (its rate is integrated, and the bound with it) and its slope.
+# How close the exact motion comes to the bound of what 12 bits leave out: value, slope
+# and bend of a speed, the value of a margin (its rate is integrated, and the bound with
+# it) and its slope.
 CLOSEST = {(0, 0): 0.7, (1, 0): 0.7, (2, 0): 0.7, (0, 1): 0.01, (1, 1): 0.15}
 
 
 @pytest.mark.parametrize("valid", [0.25, VALID])
-def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_than_they_must(sliding, valid):
-    """Beside the matrix exponential, with so few bits that the remainder of the series is seen."""
+def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_than_they_must(
+    sliding, valid
+):
+    """Beside the matrix exponential, with so few bits that the remainder of the series
+    is seen."""
     functions = functions_of(sliding, 0.0, 12, valid)
-    matrix, closest = equations(sliding.bounds, sliding.state.mode), dict.fromkeys(CLOSEST, 0.0)
+    matrix, closest = (
+        equations(sliding.bounds, sliding.state.mode),
+        dict.fromkeys(CLOSEST, 0.0),
+    )
     for t in (-valid, -valid / 2, valid / 2, valid):
         flow = expm(matrix * t) @ vector(sliding.state)
         for of in functions:
@@ -219,11 +270,16 @@ def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_t
     assert all(closest[key] > least for key, least in CLOSEST.items()), closest
 
 
-def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no_farther_one(sliding):
-    """At the start, where a function and its derivatives are linear in T_i / sqrt c_i and u_i."""
+def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no_farther_one(
+    sliding,
+):
+    """At the start, where a function and its derivatives are linear in T_i / sqrt c_i
+    and u_i."""
     n, distance, mode = sliding.chain.n_blocks, 1e-6, sliding.state.mode
     matrix = equations(sliding.bounds, [0, *[1] * n, 0])
-    scale = np.append(np.sqrt([float(c) for c in sliding.bounds.coupling[1:-1]]), np.ones(n))
+    scale = np.append(
+        np.sqrt([float(c) for c in sliding.bounds.coupling[1:-1]]), np.ones(n)
+    )
     functions = functions_of(sliding, distance, 64)
     for of in functions:
         for k, row in enumerate(exact_rows(sliding, of, matrix)):
@@ -232,15 +288,22 @@ def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no
             assert reach * (1 - 1e-9) <= float(ball.rad()) <= 1.001 * reach
     slides = {i for i in range(1, n + 1) if mode[i]}
     near = {1} | {i + way for i in slides for way in (1, -1)} & set(range(1, n + 1))
-    expected = {(i, 0) for i in slides} | {(i, way) for i in near - slides for way in (1, -1)}
+    expected = {(i, 0) for i in slides} | {
+        (i, way) for i in near - slides for way in (1, -1)
+    }
     assert {(of.block, of.direction) for of in functions} == expected
     assert len(slides) > 3
     assert len(near - slides) > 1
     assert {of.block for of in functions if of.fresh} == sliding.fresh == {10}
 
 
-SLOW: dict[str, Any] = {"n_blocks": 2, "drive_stiffness": "1e3", "drive_velocity": "1e-20"}
-# Slider, modes, forces and rates of the state, distance [N], and by how much its bound is too large.
+SLOW: dict[str, Any] = {
+    "n_blocks": 2,
+    "drive_stiffness": "1e3",
+    "drive_velocity": "1e-20",
+}
+# Slider, modes, forces and rates of the state, distance [N], and by how much its bound
+# is too large.
 CHANGES = {
     "the drive": ({"n_blocks": 1, "mu_k": 0}, [1], [0], [0], 0, 4.8),
     "friction": (SLOW, [1, -1], [0, 0], [0, 0], 0, 3.3),
@@ -251,16 +314,33 @@ CHANGES = {
 
 
 @pytest.mark.parametrize(
-    ("slider", "mode", "force", "rate", "distance", "slack"), CHANGES.values(), ids=CHANGES
+    ("slider", "mode", "force", "rate", "distance", "slack"),
+    CHANGES.values(),
+    ids=CHANGES,
 )
-def test_no_net_force_changes_by_more_than_its_bound(slider, mode, force, rate, distance, slack):
-    """Beside the matrix exponential; a run may have the velocity, or be as far as that from the state."""
+def test_no_net_force_changes_by_more_than_its_bound(
+    slider, mode, force, rate, distance, slack
+):
+    """Beside the matrix exponential; a run may have the velocity, or be as far as that
+    from the state."""
     chain, gap = ExactChain.from_slider(**slider), 0.5
-    state = State([*map(arb, (0, *force, 0))], [*map(arb, (0, *rate, 0))], [0, *mode, 0], arb(distance))
+    state = State(
+        [*map(arb, (0, *force, 0))],
+        [*map(arb, (0, *rate, 0))],
+        [0, *mode, 0],
+        arb(distance),
+    )
     constants = Constants.of(chain, time_unit(chain))
     matrix, y = equations(constants, state.mode), vector(state)
-    changes = [(expm(matrix * t) @ y - y)[: len(mode)] for t in np.linspace(-2 * gap, 2 * gap, 41)]
+    changes = [
+        (expm(matrix * t) @ y - y)[: len(mode)]
+        for t in np.linspace(-2 * gap, 2 * gap, 41)
+    ]
     largest = abs(np.diff(changes, append=0.0)).max()
     if distance:
         state.rate = [arb(0)] * len(state.rate)
-    assert largest <= float(state.largest_force_change(constants, arb(gap))) <= slack * largest
+    assert (
+        largest
+        <= float(state.largest_force_change(constants, arb(gap)))
+        <= slack * largest
+    )

@@ -1,21 +1,27 @@
-"""The proof: a run of balls that every run of the model stays in, transition by transition.
+"""The proof: a run of balls that every run of the model stays in, transition by
+transition.
 
-The state is a centre, exact, and a distance (see `motion`). With e the difference of two runs and f their
-friction, d|e|^2/dt = -2 sum e_{u_i} e_{f_i}. So the distance is constant while both have the same modes; a
-transition, which the two have at different instants, changes it as follows.
+The state is a centre, exact, and a distance (see `motion`). With e the difference of
+two runs and f their friction, d|e|^2/dt = -2 sum e_{u_i} e_{f_i}. So the distance is
+constant while both have the same modes; a transition, which the two have at different
+instants, changes it as follows.
 
-- A block stops: one run holds it at u = 0 with friction equal to its net force F, the other still slides with
-  mode * u > 0 under mu_k w. As mode * F < mu_k w (it was slowing down) the distance does not grow.
-- A block turns round: friction opposes the difference of the velocities; the distance does not grow.
-- A block is released: for the time `gap` between the two releases one slides, under mu_k w, and the other is
-  held by at most mu_s w. |e|^2 grows by at most ((mu_s - mu_k) w gap)^2. Only releases drive runs apart.
-- While all blocks rest, the next release is a matter of the forces alone: runs are compared each at its own
-  onset, where T_1 = T_2 + mu_s w_1, and the distance grows at most by sqrt(1 + c_2 / c_1).
+- A block stops: one run holds it at u = 0 with friction equal to its net force F, the
+  other still slides with mode * u > 0 under mu_k w. As mode * F < mu_k w (it was
+  slowing down) the distance does not grow.
+- A block turns round: friction opposes the difference of the velocities; the distance
+  does not grow.
+- A block is released: for the time `gap` between the two releases one slides, under
+  mu_k w, and the other is held by at most mu_s w. |e|^2 grows by at most ((mu_s - mu_k)
+  w gap)^2. Only releases drive runs apart.
+- While all blocks rest, the next release is a matter of the forces alone: runs are
+  compared each at its own onset, where T_1 = T_2 + mu_s w_1, and the distance grows at
+  most by sqrt(1 + c_2 / c_1).
 
-At a transition the centre is given its exact condition (u = 0, or F = +-mu_s w); the other runs have theirs
-within +-gap of it. Afterwards a run that is late is continued backwards, in its new modes, to the instant of
-the centre; a run that is early has its new modes before that instant. So event functions are proved from -gap
-on.
+At a transition the centre is given its exact condition (u = 0, or F = +-mu_s w); the
+other runs have theirs within +-gap of it. Afterwards a run that is late is continued
+backwards, in its new modes, to the instant of the centre; a run that is early has its
+new modes before that instant. So event functions are proved from -gap on.
 """
 
 from __future__ import annotations
@@ -26,15 +32,15 @@ from typing import NamedTuple
 
 from flint import arb, ctx
 
-from precursors.accuracy.proof.certificate import Certificate
-from precursors.accuracy.proof.event_roots import (
+from precursors.proof.certificate import Certificate
+from precursors.proof.event_roots import (
     EventFunction,
     Undecided,
     event_functions,
     first_root,
     newton,
 )
-from precursors.accuracy.proof.motion import (
+from precursors.proof.motion import (
     BOUND_BITS,
     Constants,
     State,
@@ -52,11 +58,13 @@ GUARD_BITS = 40
 # Precisions are a multiple of this, for which constants are kept.
 PRECISION_STEP = 32
 # A window without a transition, and how far beyond its end the polynomials hold [T].
-WINDOW, VALID = 1.0, 1.125
+WINDOW = 1.0
+VALID = 1.125
 
 
 class Proved(NamedTuple):
-    """A transition: ball of its time [s], block, mode, ball of the tangential load [N]."""
+    """A transition: ball of its time [s], block, mode, ball of the tangential load
+    [N]."""
 
     time: arb
     block: int
@@ -65,44 +73,72 @@ class Proved(NamedTuple):
 
 
 class Proof:
-    """The motion of a certificate's chain from its start, in balls, and the transitions proved so far."""
+    """The motion of a certificate's chain from its start, in balls, and the transitions
+    proved so far."""
 
     def __init__(self, certificate: Certificate) -> None:
-        self.chain, self.bits = certificate.chain, certificate.bits
+        self.chain = certificate.chain
+        self.bits = certificate.bits
         self.until = certificate.until
         self.unit_seconds = time_unit(self.chain)
         self.transitions: list[Proved] = []
         self._constants: dict[int, Constants] = {}
         with ctx.workprec(self.bits + GUARD_BITS):
             self.unit = ball(self.unit_seconds)
-            self.duration, self.width = ball(certificate.duration), ball(certificate.width)
+            self.duration, self.width = (
+                ball(certificate.duration),
+                ball(certificate.width),
+            )
             self.clock = arb(0)
-            self.state = self.at_start(certificate.start_positions, certificate.start_velocities)
+            self.state = self.at_start(
+                certificate.start_positions, certificate.start_velocities
+            )
         with ctx.workprec(BOUND_BITS):
             self.bounds = self.constants()
-        # how far the runs may be ahead or behind at the last transition [T], and who has just begun to slide
+        # how far the runs may be ahead or behind at the last transition [T], and who
+        # has just begun to slide
         self.gap = arb(0)
         self.fresh = {
-            i for i, v in enumerate(certificate.start_velocities, 1) if self.state.mode[i] and not v
+            i
+            for i, v in enumerate(certificate.start_velocities, 1)
+            if self.state.mode[i] and not v
         }
         self.all_slid = False
 
-    def at_start(self, positions: tuple[Fraction, ...], velocities: tuple[Fraction, ...]) -> State:
-        """Given positions and velocities; a block slides that moves, or is beyond its strength."""
-        chain, n = self.chain, self.chain.n_blocks
+    def at_start(
+        self, positions: tuple[Fraction, ...], velocities: tuple[Fraction, ...]
+    ) -> State:
+        """Given positions and velocities; a block slides that moves, or is beyond its
+        strength."""
+        chain = self.chain
+        n = self.chain.n_blocks
         x = (Fraction(0), *positions)
-        exact = [Fraction(0), *(k * (x[i] - x[i + 1]) for i, k in enumerate(chain.springs)), Fraction(0)]
+        exact = [
+            Fraction(0),
+            *(k * (x[i] - x[i + 1]) for i, k in enumerate(chain.springs)),
+            Fraction(0),
+        ]
         constants = self.constants()
-        least_distance = arb(2) ** (log2(max(constants.strength, key=float)) - self.bits)
+        least_distance = arb(2) ** (
+            log2(max(constants.strength, key=float)) - self.bits
+        )
         state = State([], [], [0] * (n + 2), least_distance)
-        rate = [Fraction(0), *(v * chain.mass / self.unit_seconds for v in velocities), Fraction(0)]
+        rate = [
+            Fraction(0),
+            *(v * chain.mass / self.unit_seconds for v in velocities),
+            Fraction(0),
+        ]
         state.absorb(constants, [ball(f) for f in exact], [ball(u) for u in rate])
         for i in range(1, n + 1):
             force = exact[i] - exact[i + 1]
-            push = rate[i] or (force if abs(force) > chain.mu_s * chain.weights[i - 1] else 0)
+            push = rate[i] or (
+                force if abs(force) > chain.mu_s * chain.weights[i - 1] else 0
+            )
             if push:
                 state.mode[i] = 1 if push > 0 else -1
-                self.transitions.append(Proved(arb(0), i, state.mode[i], ball(exact[1])))
+                self.transitions.append(
+                    Proved(arb(0), i, state.mode[i], ball(exact[1]))
+                )
         return state
 
     def constants(self) -> Constants:
@@ -117,10 +153,12 @@ class Proof:
         Raises
         ------
         Undecided
-            Where the precision does not suffice or there is a tie, with the time in s; `transitions` are
-            those that are proved.
+            Where the precision does not suffice or there is a tie, with the time in s;
+            `transitions` are those that are proved.
         """
-        for _ in tell("proving", count(), lambda: float((self.clock / self.duration).mid())):
+        for _ in tell(
+            "proving", count(), lambda: float((self.clock / self.duration).mid())
+        ):
             self.all_slid = self.all_slid or all(self.state.mode[1:-1])
             sliding = any(self.state.mode)
             if not sliding and self.until and self.all_slid:
@@ -135,13 +173,17 @@ class Proof:
         return self.transitions
 
     def load(self) -> bool:
-        """Load the resting chain until block 1 is released: no other block feels the drive."""
-        state, self.all_slid = self.state, False
+        """Load the resting chain until block 1 is released: no other block feels the
+        drive."""
+        state = self.state
+        self.all_slid = False
         with ctx.workprec(self.precision()):
             constants = self.constants()
             loading_rate = constants.coupling[1] * constants.drive
             lacking = constants.strength[1] - state.net_force(1)
-            step = (lacking + arb(0, state.distance * self.bounds.force_reach[1])) / loading_rate
+            step = (
+                lacking + arb(0, state.distance * self.bounds.force_reach[1])
+            ) / loading_rate
             if self.transitions and not step > self.gap:
                 raise Undecided("whether block 1 is released at once", (1,), step)
             force = list(state.force)
@@ -152,7 +194,8 @@ class Proof:
             state.absorb(constants, force, state.rate)
             self.clock += self.unit * step
             self.gap = arb(0)
-        state.mode[1], self.fresh = 1, {1}
+        state.mode[1] = 1
+        self.fresh = {1}
         return self.record(1)
 
     def slide(self) -> bool:
@@ -162,19 +205,23 @@ class Proof:
             return self.advance_window(WINDOW)
         event, root = first
         if root.upper() > WINDOW:
-            # The others are proved up to the end of the window only: stop short of the root, which is there.
+            # The others are proved up to the end of the window only: stop short of the
+            # root, which is there.
             return self.advance_window(WINDOW / 2)
         self.change(event, root)
         return self.record(event.block)
 
     def first_transition(self) -> tuple[EventFunction, arb] | None:
-        """Find the first root of all event functions, at a low precision that is raised until it suffices."""
+        """Find the first root of all event functions, at a low precision that is raised
+        until it suffices."""
         bits = BOUND_BITS
         while True:
             with ctx.workprec(bits):
                 try:
                     constants = self.constants()
-                    functions = event_functions(constants, self.state, self.fresh, VALID, bits)
+                    functions = event_functions(
+                        constants, self.state, self.fresh, VALID, bits
+                    )
                     return first_root(functions, WINDOW, VALID, self.gap, bits)
                 except Undecided:
                     if bits >= self.precision():
@@ -193,24 +240,31 @@ class Proof:
             return not self.clock > self.duration
 
     def change(self, event: EventFunction, root: arb) -> None:
-        """Advance to the root of an event function and let its block change its state."""
-        state, i = self.state, event.block
+        """Advance to the root of an event function and let its block change its
+        state."""
+        state = self.state
+        i = event.block
         before = state.distance
         with ctx.workprec(self.precision()):
             constants = self.constants()
             polynomials, rests = expand(constants, state, root.upper(), ctx.prec)
             if event.direction:
-                force = force_rate(constants, polynomials, i).integral() + state.net_force(i)
+                force = force_rate(
+                    constants, polynomials, i
+                ).integral() + state.net_force(i)
                 function = constants.strength[i] - event.direction * force
             else:
                 function = state.mode[i] * polynomials[i]
             step = newton(function, root, ctx.prec)
             advance(constants, state, polynomials, rests[0], step)
-            forces, rates = list(state.force), list(state.rate)
+            forces = list(state.force)
+            rates = list(state.rate)
             if event.direction:
                 # F = +-mu_s w: the spring behind takes up what is missing.
                 required = event.direction * constants.strength[i] + forces[i + 1]
-                state.distance += (required - forces[i]).abs_upper() / self.bounds.coupling[i].sqrt()
+                state.distance += (
+                    required - forces[i]
+                ).abs_upper() / self.bounds.coupling[i].sqrt()
                 forces[i] = required
             else:
                 state.distance += rates[i].abs_upper()
@@ -233,27 +287,41 @@ class Proof:
 
     def release(self, i: int, way: int) -> None:
         """Let the stuck block i slide: the only transition that drives runs apart."""
-        state, bounds = self.state, self.bounds
-        excess = bounds.strength[i] - bounds.friction[i] + state.largest_force_change(bounds, self.gap)
-        state.distance = (state.distance**2 + (excess * self.gap) ** 2).sqrt().abs_upper()
+        state = self.state
+        bounds = self.bounds
+        excess = (
+            bounds.strength[i]
+            - bounds.friction[i]
+            + state.largest_force_change(bounds, self.gap)
+        )
+        state.distance = (
+            (state.distance**2 + (excess * self.gap) ** 2).sqrt().abs_upper()
+        )
         state.mode[i] = way
         self.fresh = {i}
 
     def stop(self, event: EventFunction, root: arb) -> None:
-        """Let block i, whose velocity has reached zero, stick if friction holds it, or else turn round."""
-        i, state, bounds = event.block, self.state, self.bounds
-        spread = state.distance * bounds.force_reach[i] + state.largest_force_change(bounds, self.gap)
+        """Let block i, whose velocity has reached zero, stick if friction holds it, or
+        else turn round."""
+        i = event.block
+        state = self.state
+        bounds = self.bounds
+        spread = state.distance * bounds.force_reach[i] + state.largest_force_change(
+            bounds, self.gap
+        )
         force = state.net_force(i) + arb(0, spread)
         slows_down = state.mode[i] * force < bounds.friction[i]
         if slows_down and abs(force) < bounds.strength[i]:
             state.mode[i], self.fresh = 0, set()
         elif -state.mode[i] * force > bounds.strength[i]:
-            state.mode[i], self.fresh = -state.mode[i], {i}
+            state.mode[i] = -state.mode[i]
+            self.fresh = {i}
         else:
             raise Undecided(f"whether block {i} sticks or turns round", (i,), root)
 
     def record(self, i: int) -> bool:
-        """Note the transition of block i, just made; return whether it lies within the duration."""
+        """Note the transition of block i, just made; return whether it lies within the
+        duration."""
         state = self.state
         with ctx.workprec(self.bits + GUARD_BITS):
             time = self.clock + self.unit * arb(0, self.gap)
@@ -263,16 +331,32 @@ class Proof:
                 question = f"whether block {i} changes its state before the run ends"
                 raise Undecided(question, (i,), arb(0, self.gap))
             if not time.rad() < self.width:
-                raise Undecided("enclosures have become wider than asked for", (i,), arb(0, self.gap))
+                raise Undecided(
+                    "enclosures have become wider than asked for",
+                    (i,),
+                    arb(0, self.gap),
+                )
             change = state.largest_force_change(self.bounds, self.gap)
             reach = state.distance * self.bounds.coupling[1].sqrt() + change
-            self.transitions.append(Proved(time, i, state.mode[i], state.force[1] + arb(0, reach)))
+            self.transitions.append(
+                Proved(time, i, state.mode[i], state.force[1] + arb(0, reach))
+            )
         return True
 
     def precision(self) -> int:
-        """Bits that keep rounding well below the distance, which grows as the run goes on."""
+        """Bits that keep rounding well below the distance, which grows as the run goes
+        on."""
         largest = max(
-            log2(x) for x in (*self.bounds.strength, *self.state.force, *self.state.rate, arb(1)) if x != 0
+            log2(x)
+            for x in (
+                *self.bounds.strength,
+                *self.state.force,
+                *self.state.rate,
+                arb(1),
+            )
+            if x != 0
         )
-        bits = max(BOUND_BITS, min(largest - log2(self.state.distance), self.bits) + GUARD_BITS)
+        bits = max(
+            BOUND_BITS, min(largest - log2(self.state.distance), self.bits) + GUARD_BITS
+        )
         return bits + -bits % PRECISION_STEP

@@ -1,17 +1,19 @@
-"""The motion between transitions in ball arithmetic, and how far apart runs of the model can be.
+"""The motion between transitions in ball arithmetic, and how far apart runs of the
+model can be.
 
-Units: force in N, time in T (a power of two of seconds, and no frequency of the chain is above 2 / T),
-u = m v / T in N. With c_i = k_i T^2 / m and k_1 = K, Eqs. 2-4 are
+Units: force in N, time in T (a power of two of seconds, and no frequency of the chain
+is above 2 / T), u = m v / T in N. With c_i = k_i T^2 / m and k_1 = K, Eqs. 2-4 are
 
     dT_i/dt = c_i (u_{i-1} - u_i),
     du_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides, else u_i = 0,
 
-with T_i the force of the spring behind block i, T_{N+1} = 0 and u_0 the drive. The distance between two runs,
+with T_i the force of the spring behind block i, T_{N+1} = 0 and u_0 the drive. The
+distance between two runs,
 
     |e|^2 = sum e_{T_i}^2 / c_i + sum e_{u_i}^2,
 
-is the energy of their difference. While both have the same modes it does not change; see `tube` for what a
-transition does to it.
+is the energy of their difference. While both have the same modes it does not change;
+see `tube` for what a transition does to it.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ from itertools import groupby
 
 from flint import arb, arb_poly, ctx, fmpq
 
-from precursors.accuracy.proof.exact_chain import ExactChain
+from precursors.proof.exact_chain import ExactChain
 
 # Bits of the radii and of all that only bounds something.
 BOUND_BITS = 64
@@ -45,10 +47,14 @@ def log2(x: arb) -> int:
 
 
 def time_unit(chain: ExactChain) -> Fraction:
-    """Return T [s], the largest power of two for which no frequency of the chain exceeds 2 / T."""
+    """Return T [s], the largest power of two for which no frequency of the chain
+    exceeds 2 / T."""
     behind = chain.springs
     ahead = (*behind[1:], Fraction(0))
-    fastest = max(2 * (k + k_ahead) for k, k_ahead in zip(behind, ahead, strict=True)) / chain.mass
+    fastest = (
+        max(2 * (k + k_ahead) for k, k_ahead in zip(behind, ahead, strict=True))
+        / chain.mass
+    )
     ratio = LARGEST_FREQUENCY_SQUARED / fastest
     # the logarithm of the ratio to base 2, rounded down, or one more
     power = ratio.numerator.bit_length() - ratio.denominator.bit_length()
@@ -59,9 +65,9 @@ def time_unit(chain: ExactChain) -> Fraction:
 class Constants:
     """A chain in the units above, in balls; index 0 is the drive, N + 1 the free end.
 
-    coupling c_i [1], strength mu_s w_i and friction mu_k w_i [N], drive u_0 [N], frequency_squared a bound of
-    all [1/T^2]; force_reach and force_rate_reach are the largest changes of the net force on a block, and of
-    its rate, at unit distance.
+    coupling c_i [1], strength mu_s w_i and friction mu_k w_i [N], drive u_0 [N],
+    frequency_squared a bound of all [1/T^2]; force_reach and force_rate_reach are the
+    largest changes of the net force on a block, and of its rate, at unit distance.
     """
 
     coupling: list[arb]
@@ -75,8 +81,15 @@ class Constants:
     @classmethod
     def of(cls, chain: ExactChain, unit: Fraction) -> Constants:
         """Enclose the numbers of a chain at the working precision."""
-        c = [Fraction(0), *(k * unit**2 / chain.mass for k in chain.springs), Fraction(0)]
-        pairs = [(c[i], c[i + 1] if i <= chain.n_blocks else Fraction(0)) for i in range(len(c))]
+        c = [
+            Fraction(0),
+            *(k * unit**2 / chain.mass for k in chain.springs),
+            Fraction(0),
+        ]
+        pairs = [
+            (c[i], c[i + 1] if i <= chain.n_blocks else Fraction(0))
+            for i in range(len(c))
+        ]
         return cls(
             coupling=[ball(x) for x in c],
             strength=[arb(0), *(ball(chain.mu_s * w) for w in chain.weights), arb(0)],
@@ -84,16 +97,19 @@ class Constants:
             drive=ball(chain.drive_velocity * chain.mass / unit),
             frequency_squared=ball(max(2 * (a + b) for a, b in pairs)).abs_upper(),
             force_reach=[ball(a + b).sqrt().abs_upper() for a, b in pairs],
-            force_rate_reach=[ball(a * a + (a + b) ** 2 + b * b).sqrt().abs_upper() for a, b in pairs],
+            force_rate_reach=[
+                ball(a * a + (a + b) ** 2 + b * b).sqrt().abs_upper() for a, b in pairs
+            ],
         )
 
 
 @dataclass
 class State:
-    """A centre, exact, and a bound of the distance [N] within which every run of the model is from it.
+    """A centre, exact, and a bound of the distance [N] within which every run of the
+    model is from it.
 
-    The lists have T_i and u_i [N] and the mode of each block; index 0 and N + 1 are the drive and the free
-    end, kept at zero.
+    The lists have T_i and u_i [N] and the mode of each block; index 0 and N + 1 are the
+    drive and the free end, kept at zero.
     """
 
     force: list[arb]
@@ -107,12 +123,15 @@ class State:
 
     def sliding_rows(self) -> Iterator[list[int]]:
         """Blocks of each row of neighbours that slide."""
-        for slides, row in groupby(range(1, len(self.mode) - 1), key=lambda i: self.mode[i] != 0):
+        for slides, row in groupby(
+            range(1, len(self.mode) - 1), key=lambda i: self.mode[i] != 0
+        ):
             if slides:
                 yield list(row)
 
     def absorb(self, constants: Constants, force: list[arb], rate: list[arb]) -> None:
-        """Take the midpoints of balls as the new centre and count the radii as distance."""
+        """Take the midpoints of balls as the new centre and count the radii as
+        distance."""
         with ctx.workprec(BOUND_BITS):
             radii = size(constants, [x.rad() for x in force], [x.rad() for x in rate])
             self.distance = (self.distance + radii).abs_upper()
@@ -121,42 +140,61 @@ class State:
     def largest_force_change(self, constants: Constants, gap: arb) -> arb:
         """Bound how much a net force changes in any run during twice the gap [T], in N.
 
-        |(T, u)| grows at most at the rate sqrt(c_1) u_0 + |mu_k w|, forwards or backwards in time.
+        |(T, u)| grows at most at the rate sqrt(c_1) u_0 + |mu_k w|, forwards or
+        backwards in time.
         """
         friction = sum((f**2 for f in constants.friction), arb(0)).sqrt()
         gain = (constants.coupling[1].sqrt() * constants.drive + friction) * 2 * gap
-        fastest = size(constants, self.force, self.rate) + self.distance + gain + constants.drive
+        fastest = (
+            size(constants, self.force, self.rate)
+            + self.distance
+            + gain
+            + constants.drive
+        )
         return (constants.frequency_squared * fastest * 2 * gap).abs_upper()
 
 
 def size(constants: Constants, force: list[arb], rate: list[arb]) -> arb:
     """Distance of a state from rest without forces [N], see above."""
-    squares = (f**2 / c + u**2 for c, f, u in zip(constants.coupling, force, rate, strict=True) if c != 0)
+    squares = (
+        f**2 / c + u**2
+        for c, f, u in zip(constants.coupling, force, rate, strict=True)
+        if c != 0
+    )
     return sum(squares, arb(0)).sqrt()
 
 
 def expand(
     constants: Constants, state: State, span: float | arb, bits: int
 ) -> tuple[dict[int, arb_poly], list[arb]]:
-    """Taylor polynomials of u_i of the sliding blocks, to about `bits` bits for times up to +-`span` [T].
+    """Taylor polynomials of u_i of the sliding blocks, to about `bits` bits for times
+    up to +-`span` [T].
 
-    The list bounds what lies beyond them, of all u_i and of their first two derivatives.
+    The list bounds what lies beyond them, of all u_i and of their first two
+    derivatives.
     """
     series = coefficients(constants, state, order_for(float(span), bits))
     rests = [tail(constants, series, arb(span), derivative) for derivative in range(3)]
     return {i: arb_poly(row) for i, row in series.items()}, rests
 
 
-def coefficients(constants: Constants, state: State, order: int) -> dict[int, list[arb]]:
-    """Taylor coefficients 0..order of u_i of the sliding blocks, from the second-order form of Eq. 2,
+def coefficients(
+    constants: Constants, state: State, order: int
+) -> dict[int, list[arb]]:
+    """Taylor coefficients 0..order of u_i of the sliding blocks, from the second-order
+    form of Eq. 2,
 
     (n+1) (n+2) u_{i,n+2} = c_i (u_{i-1,n} - u_{i,n}) - c_{i+1} (u_{i,n} - u_{i+1,n}).
     """
     series: dict[int, list[arb]] = {}
     zeros = [arb(0)] * order
     for blocks in state.sliding_rows():
-        first, last = blocks[0], blocks[-1]
-        rows = [[state.rate[i], state.net_force(i) - state.mode[i] * constants.friction[i]] for i in blocks]
+        first = blocks[0]
+        last = blocks[-1]
+        rows = [
+            [state.rate[i], state.net_force(i) - state.mode[i] * constants.friction[i]]
+            for i in blocks
+        ]
         behind = [constants.drive, *zeros] if first == 1 else zeros
         coupling = constants.coupling[first + 1 : last + 2]
         for n in range(order - 1):
@@ -167,15 +205,20 @@ def coefficients(constants: Constants, state: State, order: int) -> dict[int, li
                 ahead = rows[j + 1][n] if first + j < last else zeros[n]
                 next_pull = c * (here - ahead)
                 rows[j].append((pull - next_pull) / scale)
-                pull, here = next_pull, ahead
+                pull = next_pull
+                here = ahead
         series.update(zip(blocks, rows, strict=True))
     return series
 
 
-def tail(constants: Constants, series: dict[int, list[arb]], span: arb, derivative: int) -> arb:
-    """Bound what lies beyond the last order of all u_i, or of a derivative, for times up to +-`span` [T].
+def tail(
+    constants: Constants, series: dict[int, list[arb]], span: arb, derivative: int
+) -> arb:
+    """Bound what lies beyond the last order of all u_i, or of a derivative, for times
+    up to +-`span` [T].
 
-    With a_n the largest coefficient, a_{n+2} <= omega^2 a_n / ((n+1)(n+2)); derivatives obey the same.
+    With a_n the largest coefficient, a_{n+2} <= omega^2 a_n / ((n+1)(n+2)); derivatives
+    obey the same.
     """
     last = len(next(iter(series.values()))) - 1
     bounds = []
@@ -190,7 +233,8 @@ def tail(constants: Constants, series: dict[int, list[arb]], span: arb, derivati
 
 
 def order_for(span: float, bits: int) -> int:
-    """Order whose remainder over `span` [T] is about 2^-bits of the largest term; `tail` has the bound."""
+    """Order whose remainder over `span` [T] is about 2^-bits of the largest term;
+    `tail` has the bound."""
     reach = max(math.sqrt(LARGEST_FREQUENCY_SQUARED) * span, 1e-9)
     order = 6
     while math.lgamma(order + 1) - order * math.log(reach) < bits * math.log(2):
@@ -198,19 +242,29 @@ def order_for(span: float, bits: int) -> int:
     return order
 
 
-def force_rate(constants: Constants, polynomials: dict[int, arb_poly], i: int) -> arb_poly:
+def force_rate(
+    constants: Constants, polynomials: dict[int, arb_poly], i: int
+) -> arb_poly:
     """Taylor polynomial of the rate of the net force on a stuck block i."""
     rate = arb_poly([constants.coupling[1] * constants.drive] if i == 1 else [])
-    for neighbour, c in ((i - 1, constants.coupling[i]), (i + 1, constants.coupling[i + 1])):
+    for neighbour, c in (
+        (i - 1, constants.coupling[i]),
+        (i + 1, constants.coupling[i + 1]),
+    ):
         if neighbour in polynomials:
             rate += c * polynomials[neighbour]
     return rate
 
 
 def advance(
-    constants: Constants, state: State, polynomials: dict[int, arb_poly], rest: arb, step: arb
+    constants: Constants,
+    state: State,
+    polynomials: dict[int, arb_poly],
+    rest: arb,
+    step: arb,
 ) -> None:
-    """Move the state by `step` [T], exact, with `rest` bounding the remainder of each u_i."""
+    """Move the state by `step` [T], exact, with `rest` bounding the remainder of each
+    u_i."""
     around = arb(0, rest)
     slip = [arb(0)] * len(state.mode)
     rate = list(state.rate)

@@ -1,21 +1,32 @@
-"""The auditor: it passes what is a motion of the model and finds each kind of falsification."""
+"""The auditor: it passes what is a motion of the model and finds each kind of
+falsification."""
 
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from accuracy.falsified import ENERGY_ROUNDING, SHIFT, STRAINED, WAYS, audits, changed, seen, shifted
+from audit.falsified import (
+    ENERGY_ROUNDING,
+    SHIFT,
+    STRAINED,
+    WAYS,
+    audits,
+    changed,
+    seen,
+    shifted,
+)
 from chains import first_transitions, positions_under
 from golden import small_tables
 from random_chains import trial_kind
 
 from precursors import Chain, Run, simulate
-from precursors.accuracy.audit import audit
-from precursors.accuracy.audit.checks import MAX_PROBLEMS, ROUNDINGS, Auditor
-from precursors.accuracy.audit.conditions import Conditions, lower_bound
+from precursors.audit import ROUNDINGS, audit
+from precursors.audit.checks import MAX_PROBLEMS, Auditor
+from precursors.audit.conditions import Conditions, lower_bound
 
-# What an exact run of the paper's scenes and edges is off by at most, in roundings; `ROUNDINGS` may pass.
+# What an exact run of the paper's scenes and edges is off by at most, in roundings;
+# `ROUNDINGS` may pass.
 FEW_ROUNDINGS = 4.0
 
 
@@ -49,7 +60,10 @@ EDGES = {
     "drive softer by 1e6": (SLIDER(drive_stiffness=25.0), {"duration": 1e5}),
     "drive stiffer by 1e6": (SLIDER(drive_stiffness=25e12), {}),
     "fast drive": (SLIDER(drive_velocity=1.0), {"duration": 0.01}),
-    "start velocities": (SLIDER(), {"start_velocities": np.linspace(-0.2, 0.3, 10), "duration": 1.0}),
+    "start velocities": (
+        SLIDER(),
+        {"start_velocities": np.linspace(-0.2, 0.3, 10), "duration": 1.0},
+    ),
     "overloaded start": (SLIDER(), {"start_positions": STRAINED, "duration": 1.0}),
 }
 
@@ -65,9 +79,11 @@ def test_runs_at_the_edges_of_the_model_pass(chain, options):
 
 @pytest.mark.parametrize(("dip", "is_motion"), [(1e-6, False), (-1e-6, True)])
 def test_a_dip_that_lies_between_all_first_probes_is_found(dip, is_motion):
-    """One block without friction: v = V + (u - V) cos(omega t) touches zero at start velocity u = 2 V.
+    """One block without friction: v = V + (u - V) cos(omega t) touches zero at start
+    velocity u = 2 V.
 
-    The dip is sqrt(8 dip) = 0.003 rad wide, a hundredth of the distance of the first probes.
+    The dip is sqrt(8 dip) = 0.003 rad wide, a hundredth of the distance of the first
+    probes.
     """
     chain = SLIDER(n_blocks=1, mu_s=0.0, mu_k=0.0)
     omega = math.sqrt(chain.drive_stiffness / chain.mass)
@@ -85,7 +101,8 @@ def test_a_dip_that_lies_between_all_first_probes_is_found(dip, is_motion):
 
 
 def test_the_bound_on_fourth_derivatives_holds():
-    """From random states: slopes are the derivatives of the values, and none bends more than the bound."""
+    """From random states: slopes are the derivatives of the values, and none bends more
+    than the bound."""
     chain, generator = SLIDER(n_blocks=7), np.random.default_rng(2010)
     run = simulate(chain, duration=1e-3)
     step = 0.02 / math.sqrt(4 * chain.stiffness / chain.mass)
@@ -96,7 +113,9 @@ def test_the_bound_on_fourth_derivatives_holds():
         state.velocity[:] = np.where(state.mode, generator.normal(size=7), 0.0)
         state.spring_force[:-1] = 100 * generator.normal(size=7)
         force, loading_rate = state.net_force(), chain.loading_rate
-        conditions = Conditions(state.motion(), state.mode, force, chain.strength, loading_rate)
+        conditions = Conditions(
+            state.motion(), state.mode, force, chain.strength, loading_rate
+        )
         values, slopes = conditions(seconds)
         rounding = 1e-14 * abs(values).max(axis=0)
         fourth = abs(np.diff(values, 4, axis=0) / step**4).max(axis=0)
@@ -104,17 +123,23 @@ def test_the_bound_on_fourth_derivatives_holds():
         assert np.any(fourth > 0.3 * conditions.fourth)
         central = (values[2:] - values[:-2]) / (2 * step)
         # the central difference is off by (omega step)^2/6 < 1e-4
-        assert np.all(abs(central - slopes[1:-1]) <= 1e-4 * abs(slopes).max(axis=0) + rounding / step)
+        assert np.all(
+            abs(central - slopes[1:-1])
+            <= 1e-4 * abs(slopes).max(axis=0) + rounding / step
+        )
 
 
 def test_no_function_is_below_its_bound_in_a_cell_and_one_with_a_constant_fourth_derivative_reaches_it():
-    """A cubic, known by its values and slopes at both ends, less M s^2 (d - s)^2 / 24."""
+    """A cubic, known by its values and slopes at both ends, less M s^2 (d - s)^2 /
+    24."""
     cells, width = np.random.default_rng(4).normal(size=(4, 2000)), 0.3
     cells[:, 0], fourth = 0.0, 1e4
     s = np.linspace(0.0, 1.0, 101)[:, None]
     slopes = 3.0 * np.diff(cells, axis=0)[[0, 2]] / width
     bound = lower_bound(np.array(width), cells[[0, 3]], slopes, np.array(fourth))
-    cubics = sum(math.comb(3, k) * s**k * (1 - s) ** (3 - k) * cells[k] for k in range(4))
+    cubics = sum(
+        math.comb(3, k) * s**k * (1 - s) ** (3 - k) * cells[k] for k in range(4)
+    )
     least = (cubics - fourth * width**4 / 24 * (s * (1 - s)) ** 2).min(axis=0)
     assert (bound <= least + 1e-12).all()
     assert bound[0, 0] == pytest.approx(least[0], rel=1e-12)
@@ -152,13 +177,20 @@ def test_nearly_every_mistake_by_chance_is_found_in_runs_of_random_chains(kind):
 
 def test_sixteen_roundings_of_a_load_are_allowed_and_1e_12_of_a_time(uniform):
     load = uniform.transitions["tangential_load"][100]
-    one = 1e-3 / audit(changed(uniform, 100, tangential_load=load + 1e-3), roundings=1e20).roundings
+    one = (
+        1e-3
+        / audit(
+            changed(uniform, 100, tangential_load=load + 1e-3), roundings=1e20
+        ).roundings
+    )
     for roundings in (15.0, 17.0):
         found = audit(changed(uniform, 100, tangential_load=load + roundings * one))
         assert found.ok == (roundings < 16)
     time = uniform.transitions["time"][100]
     for part in (0.9, 1.1):
-        found = audit(changed(uniform, 100, time=time + part * 1e-12 * uniform.duration))
+        found = audit(
+            changed(uniform, 100, time=time + part * 1e-12 * uniform.duration)
+        )
         assert found.ok == (part < 1)
 
 
@@ -173,7 +205,8 @@ def test_a_caller_sets_the_tolerance_for_an_approximate_run(uniform):
 
 @pytest.mark.parametrize("more", range(10))
 def test_positions_far_from_zero_are_known_to_their_rounding(more):
-    """Blocks 1 and 4 start at their limits; the soft drive is so far away that rounding moves them beyond."""
+    """Blocks 1 and 4 start at their limits; the soft drive is so far away that rounding
+    moves them beyond."""
     chain = SLIDER(n_blocks=5, drive_stiffness=25.0)
     pushes = 0.1 + 0.01 * more * np.arange(5)
     pushes[[0, 3]] = chain.strength[0], -chain.strength[3]
@@ -184,8 +217,11 @@ def test_positions_far_from_zero_are_known_to_their_rounding(more):
 
 
 def test_the_work_of_a_stiff_drive_keeps_its_digits():
-    """Three blocks swing without friction about a drive that moves on for 1e4 radians of its own spring."""
-    chain = SLIDER(n_blocks=3, mu_s=0.0, mu_k=0.0, drive_stiffness=7.5e12, drive_velocity=1e-2)
+    """Three blocks swing without friction about a drive that moves on for 1e4 radians
+    of its own spring."""
+    chain = SLIDER(
+        n_blocks=3, mu_s=0.0, mu_k=0.0, drive_stiffness=7.5e12, drive_velocity=1e-2
+    )
     duration = 1e4 / math.sqrt(chain.drive_stiffness / chain.mass)
     run = simulate(chain, duration=duration, start_velocities=[1.3e-2, 1e-2, 8e-3])
     report = audit(run)
@@ -195,9 +231,18 @@ def test_the_work_of_a_stiff_drive_keeps_its_digits():
 
 def test_arrays_that_do_not_fit_are_one_problem_and_no_crash(uniform):
     for run, problem in (
-        (replace(uniform, intervals=uniform.intervals[:-1]), "216 transitions need 217 intervals"),
-        (replace(uniform, intervals=-uniform.intervals), "an interval is negative or not finite"),
-        (changed(uniform, 7, block=11), "transition 7 has block 11, mode 1: there is no such block or mode"),
+        (
+            replace(uniform, intervals=uniform.intervals[:-1]),
+            "216 transitions need 217 intervals",
+        ),
+        (
+            replace(uniform, intervals=-uniform.intervals),
+            "an interval is negative or not finite",
+        ),
+        (
+            changed(uniform, 7, block=11),
+            "transition 7 has block 11, mode 1: there is no such block or mode",
+        ),
         (changed(uniform, 7, mode=-128), "mode -128: there is no such block or mode"),
     ):
         (found,) = audit(run).problems
@@ -214,10 +259,16 @@ def test_the_report_says_what_was_found_in_a_few_lines(uniform):
 
 
 @pytest.mark.parametrize(("theta", "evaluations"), [(0.0, 7740), ("-5/6", 4913)])
-def test_an_audit_evaluates_the_conditions_at_so_many_instants(theta, evaluations, monkeypatch):
+def test_an_audit_evaluates_the_conditions_at_so_many_instants(
+    theta, evaluations, monkeypatch
+):
     """As few as suffice for the proof: its effort is seen here, in no outcome."""
     seen = []
     evaluate = Conditions.__call__
-    monkeypatch.setattr(Conditions, "__call__", lambda self, s: seen.append(len(s)) or evaluate(self, s))
-    audit(simulate(Chain.from_slider(theta=theta), until="global slip")).raise_if_failed()
+    monkeypatch.setattr(
+        Conditions, "__call__", lambda self, s: seen.append(len(s)) or evaluate(self, s)
+    )
+    audit(
+        simulate(Chain.from_slider(theta=theta), until="global slip")
+    ).raise_if_failed()
     assert sum(seen) == evaluations

@@ -1,4 +1,5 @@
-"""The motion between two transitions, by the normal modes of the blocks that slide (Eqs. 2-6)."""
+"""The motion between two transitions, by the normal modes of the blocks that slide
+(Eqs. 2-6)."""
 
 from __future__ import annotations
 
@@ -16,8 +17,8 @@ from precursors.model.chain import Chain, FloatArray
 class Modes:
     """Normal modes of blocks that slide, between neighbours that do not move.
 
-    frequencies (n,) [rad/s]; shapes (n blocks, n): displacement = shapes @ q; spring_shapes (n springs, n):
-    the forces of the springs grow by -spring_shapes @ q.
+    frequencies (n,) [rad/s]; shapes (n blocks, n): displacement = shapes @ q;
+    spring_shapes (n springs, n): the forces of the springs grow by -spring_shapes @ q.
     """
 
     frequencies: FloatArray
@@ -26,17 +27,20 @@ class Modes:
 
 
 def normal_modes(chain: Chain, first: int, last: int) -> Modes:
-    """Normal modes of the blocks first..last, counted from 0, and of the springs behind and ahead of them.
+    """Normal modes of the blocks first..last, counted from 0, and of the springs behind
+    and ahead of them.
 
-    With springs s, the stiffness matrix is B B^T, B the bidiagonal matrix of +sqrt(s_i), -sqrt(s_i+1). Its
-    singular values, not the eigenvalues of the product, keep the digits of a mode that is slower than the
-    fastest by orders of magnitude (soft drive). Its right vectors give the spring forces without differences
-    of nearly equal displacements. LAPACK's gesvd leaves a bidiagonal matrix as it is and finds its singular
-    values to high relative accuracy (Demmel & Kahan, 1990).
+    With springs s, the stiffness matrix is B B^T, B the bidiagonal matrix of
+    +sqrt(s_i), -sqrt(s_i+1). Its singular values, not the eigenvalues of the product,
+    keep the digits of a mode that is slower than the fastest by orders of magnitude
+    (soft drive). Its right vectors give the spring forces without differences of nearly
+    equal displacements. LAPACK's gesvd leaves a bidiagonal matrix as it is and finds
+    its singular values to high relative accuracy (Demmel & Kahan, 1990).
     """
     roots = np.sqrt(chain.springs[first : last + 2])
     n = last - first + 1
-    # A last row of zeros makes B square where a spring follows the last block; it adds a frequency of zero.
+    # A last row of zeros makes B square where a spring follows the last block; it adds
+    # a frequency of zero.
     balance = np.diag(roots) - np.diag(roots[1:], 1)
     balance[n:] = 0.0
     left, singular, right = svd(balance, lapack_driver="gesvd", check_finite=False)
@@ -49,24 +53,33 @@ def normal_modes(chain: Chain, first: int, last: int) -> Modes:
 
 
 def modes_of_all(mode: np.ndarray, modes_of_row: Callable[[int, int], Modes]) -> Modes:
-    """Normal modes of all blocks that slide, and of all springs; each row of neighbours has its own."""
+    """Normal modes of all blocks that slide, and of all springs; each row of neighbours
+    has its own."""
     edges = np.diff((mode != 0).astype(np.int8), prepend=0, append=0)
-    rows = zip(np.flatnonzero(edges == 1).tolist(), np.flatnonzero(edges == -1).tolist(), strict=True)
-    n, done = int(np.count_nonzero(mode)), 0
+    rows = zip(
+        np.flatnonzero(edges == 1).tolist(),
+        np.flatnonzero(edges == -1).tolist(),
+        strict=True,
+    )
+    n = int(np.count_nonzero(mode))
+    done = 0
     modes = Modes(np.zeros(n), np.zeros((n, n)), np.zeros((len(mode) + 1, n)))
     for first, end in rows:
         row = modes_of_row(first, end - 1)
         columns = slice(done, done + len(row.frequencies))
         modes.frequencies[columns] = row.frequencies
         modes.shapes[columns, columns] = row.shapes
-        modes.spring_shapes[first : first + len(row.spring_shapes), columns] = row.spring_shapes
+        modes.spring_shapes[first : first + len(row.spring_shapes), columns] = (
+            row.spring_shapes
+        )
         done = columns.stop
     return modes
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Motion mode by mode: q'' + omega^2 q = push + ramp s, q = 0 and q' = speed at s = 0."""
+    """Motion mode by mode: q'' + omega^2 q = push + ramp s, q = 0 and q' = speed at s =
+    0."""
 
     modes: Modes
     speed: FloatArray
@@ -74,34 +87,51 @@ class Motion:
     ramp: FloatArray
 
     def at(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Modal displacements, velocities and accelerations at the times s, each of shape (len(s), n)."""
+        """Modal displacements, velocities and accelerations at the times s, each of
+        shape (len(s), n)."""
         omega = self.modes.frequencies
         half = (0.5 * s)[:, None] * omega
         versine = 2 * np.sin(half) ** 2  # 1 - cos without cancellation
         sine = 2 * np.sin(half) * np.cos(half)
         cosine = 1 - versine
-        # The difference cancels for omega s << 1, but relative to the drive's V s it keeps all digits.
+        # The difference cancels for omega s << 1, but relative to the drive's V s it
+        # keeps all digits.
         lag = s[:, None] - sine / omega
-        displacement = (self.speed / omega) * sine + (self.push * versine + self.ramp * lag) / omega**2
-        velocity = self.speed * cosine + (self.push / omega) * sine + (self.ramp / omega**2) * versine
-        acceleration = self.push * cosine + (self.ramp / omega - self.speed * omega) * sine
+        displacement = (self.speed / omega) * sine + (
+            self.push * versine + self.ramp * lag
+        ) / omega**2
+        velocity = (
+            self.speed * cosine
+            + (self.push / omega) * sine
+            + (self.ramp / omega**2) * versine
+        )
+        acceleration = (
+            self.push * cosine + (self.ramp / omega - self.speed * omega) * sine
+        )
         return displacement, velocity, acceleration
 
     def integral(self, s: float) -> FloatArray:
         """Integral of the modal displacements from 0 to s, shape (n,)."""
         omega = self.modes.frequencies
-        versine, lag = 2 * np.sin(0.5 * omega * s) ** 2, s - np.sin(omega * s) / omega
+        versine = 2 * np.sin(0.5 * omega * s) ** 2
+        lag = s - np.sin(omega * s) / omega
         ramp = self.ramp * (0.5 * s**2 - versine / omega**2)
         return (self.speed * versine + self.push * lag + ramp) / omega**2
 
     def fourth_derivatives(self) -> tuple[FloatArray, FloatArray]:
-        """Largest fourth derivatives of modal displacements and velocities, each of shape (n,)."""
+        """Largest fourth derivatives of modal displacements and velocities, each of
+        shape (n,)."""
         omega = self.modes.frequencies
         acceleration = np.hypot(self.push, self.ramp / omega - self.speed * omega)
         return acceleration * omega**2, acceleration * omega**3
 
     def largest_speed(self) -> float:
-        """Largest speed that all modes together can have: the root of the sum of the squares."""
+        """Largest speed that all modes together can have: the root of the sum of the
+        squares."""
         omega = self.modes.frequencies
-        largest = np.abs(self.speed) + np.abs(self.push / omega) + 2 * np.abs(self.ramp / omega**2)
+        largest = (
+            np.abs(self.speed)
+            + np.abs(self.push / omega)
+            + 2 * np.abs(self.ramp / omega**2)
+        )
         return float(np.linalg.norm(largest))

@@ -8,17 +8,20 @@ from typing import Any
 
 import pandas as pd
 
-from precursors.accuracy.proof.certificate import Certificate
-from precursors.accuracy.proof.exact_chain import ExactChain
 from precursors.model.scenes import PAPERS_MODEL, scene_as_written, scene_model
+from precursors.proof.certificate import Certificate
+from precursors.proof.exact_chain import ExactChain
 
 # Duration of a proof [s] where the configuration has none.
 PROVED_FOR = 10.0
 
 
 def exact_chain(values: Mapping[str, Any]) -> ExactChain:
-    """The chain of the configuration's `horizon.chains` that has some values of its own."""
-    return ExactChain.from_slider(**{name: x for name, x in values.items() if name != "duration"})
+    """The chain of the configuration's `horizon.chains` that has some values of its
+    own."""
+    return ExactChain.from_slider(
+        **{name: x for name, x in values.items() if name != "duration"}
+    )
 
 
 def chain_duration(values: Mapping[str, Any]) -> float:
@@ -27,7 +30,8 @@ def chain_duration(values: Mapping[str, Any]) -> float:
 
 
 def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
-    """Return the chain of a scene of the configuration; theta from load cells is not rounded (Sect. 5.2).
+    """Return the chain of a scene of the configuration; theta from load cells is not
+    rounded (Sect. 5.2).
 
     Raises
     ------
@@ -36,14 +40,19 @@ def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
     """
     model = scene_model(config, name)
     if model != PAPERS_MODEL:
-        raise ValueError(f"scenes.{name}.model must be {PAPERS_MODEL!r} for a proof, but is {model!r}")
+        raise ValueError(
+            f"scenes.{name}.model must be {PAPERS_MODEL!r} for a proof, but is {model!r}"
+        )
     if "weights" in config["scenes"][name]:
-        raise ValueError(f"scenes.{name} must have theta or load cells for a proof, but has weights")
+        raise ValueError(
+            f"scenes.{name} must have theta or load cells for a proof, but has weights"
+        )
     return ExactChain.from_slider(**scene_as_written(config, name))
 
 
 def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bool:
-    """Whether a certificate is about all of the run of a chain from rest, for `duration` [s]."""
+    """Whether a certificate is about all of the run of a chain from rest, for
+    `duration` [s]."""
     return (
         certificate.chain == chain
         and certificate.duration == Fraction(repr(duration))
@@ -52,9 +61,15 @@ def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bo
     )
 
 
-def certificates_table(certificates: Mapping[str, Certificate], effort: pd.DataFrame) -> pd.DataFrame:
-    """One row a chain; `effort` has the processor time that the committed proofs took."""
-    rows = [{"chain": name, **certificate_row(certificate)} for name, certificate in certificates.items()]
+def certificates_table(
+    certificates: Mapping[str, Certificate], effort: pd.DataFrame
+) -> pd.DataFrame:
+    """One row a chain; `effort` has the processor time that the committed proofs
+    took."""
+    rows = [
+        {"chain": name, **certificate_row(certificate)}
+        for name, certificate in certificates.items()
+    ]
     return pd.DataFrame(rows).merge(effort, on=["chain", "transitions"], how="left")
 
 
@@ -63,6 +78,8 @@ def certificate_row(certificate: Certificate) -> dict[str, float]:
     return {
         "proved_until_s": float(certificate.proved_until),
         "transitions": len(certificate.transitions),
-        "largest_time_width_s": float(max(t.time.upper - t.time.lower for t in certificate.transitions)),
+        "largest_time_width_s": float(
+            max(t.time.upper - t.time.lower for t in certificate.transitions)
+        ),
         "bits": certificate.bits,
     }

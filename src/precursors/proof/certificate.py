@@ -1,4 +1,5 @@
-"""Certificates: what is proved of a run, as a file that anyone can read and prove again."""
+"""Certificates: what is proved of a run, as a file that anyone can read and prove
+again."""
 
 from __future__ import annotations
 
@@ -12,9 +13,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from precursors.accuracy.proof.exact_chain import ExactChain, exact_start
 from precursors.model.chain import written_fraction
 from precursors.model.checks import Until, checked_until
+from precursors.proof.exact_chain import ExactChain, exact_start
 from precursors.support.files import write_whole
 
 FORMAT = "precursors certificate 1"
@@ -52,7 +53,8 @@ class Enclosure(NamedTuple):
 
 
 class CertifiedTransition(NamedTuple):
-    """A change of one block's state: time [s], block 1..N, mode +1 | 0 | -1, tangential load F_X [N]."""
+    """A change of one block's state: time [s], block 1..N, mode +1 | 0 | -1, tangential
+    load F_X [N]."""
 
     time: Enclosure
     block: int
@@ -63,7 +65,8 @@ class CertifiedTransition(NamedTuple):
 class Tie(NamedTuple):
     """Where a proof ends because instants cannot be told apart.
 
-    When [s], the blocks concerned, what could not be decided, and the length of time within which it is [s].
+    When [s], the blocks concerned, what could not be decided, and the length of time
+    within which it is [s].
     """
 
     time: Enclosure
@@ -76,9 +79,9 @@ class Tie(NamedTuple):
 class Certificate:
     """All transitions of a chain from its start [m, m/s] in order, proved.
 
-    It is about a `duration` [s], or ends with the first event in which all blocks slide at the same instant
-    (`until`), or before at a `tie`. No time has a radius above `width` [s]. `bits` is the working precision
-    at the start of the proof.
+    It is about a `duration` [s], or ends with the first event in which all blocks slide
+    at the same instant (`until`), or before at a `tie`. No time has a radius above
+    `width` [s]. `bits` is the working precision at the start of the proof.
     """
 
     chain: ExactChain
@@ -97,8 +100,11 @@ class Certificate:
         return self.tie.time.lower if self.tie else self.duration
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the certificate as JSON compressed with gzip, the same bytes for the same certificate."""
-        write_whole(path, gzip.compress(json.dumps(_content(self), indent=0).encode(), mtime=0))
+        """Write the certificate as JSON compressed with gzip, the same bytes for the
+        same certificate."""
+        write_whole(
+            path, gzip.compress(json.dumps(_content(self), indent=0).encode(), mtime=0)
+        )
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Certificate:
@@ -115,11 +121,15 @@ class Certificate:
         try:
             content = json.loads(gzip.decompress(raw))
             if content["format"] != FORMAT:
-                raise ValueError(f"its format must be {FORMAT!r}, but is {content['format']!r}")
+                raise ValueError(
+                    f"its format must be {FORMAT!r}, but is {content['format']!r}"
+                )
             return _certificate(content)
         except Exception as error:  # nearly any, as the file may hold anything
             why = str(error) or type(error).__name__
-            raise CertificateError(f"{path} is not a whole certificate: {why}") from error
+            raise CertificateError(
+                f"{path} is not a whole certificate: {why}"
+            ) from error
 
 
 def _content(certificate: Certificate) -> dict[str, Any]:
@@ -143,7 +153,12 @@ def _content(certificate: Certificate) -> dict[str, Any]:
             "closeness_s": _text(tie.closeness),
         },
         "transitions": [
-            [*_enclosure_text(t.time), t.block, t.mode, *_enclosure_text(t.tangential_load)]
+            [
+                *_enclosure_text(t.time),
+                t.block,
+                t.mode,
+                *_enclosure_text(t.tangential_load),
+            ]
             for t in certificate.transitions
         ],
     }
@@ -151,18 +166,23 @@ def _content(certificate: Certificate) -> dict[str, Any]:
 
 def _certificate(content: Mapping[str, Any]) -> Certificate:
     """The certificate in the content of a file."""
-    tie, chain = content["tie"], ExactChain(**content["chain"])
+    tie = content["tie"]
+    chain = ExactChain(**content["chain"])
     return Certificate(
         chain=chain,
         duration=written_fraction(content["duration_s"]),
         until=checked_until(content["until"]),
-        start_positions=exact_start("start_positions", chain, content["start_positions_m"], "m"),
+        start_positions=exact_start(
+            "start_positions", chain, content["start_positions_m"], "m"
+        ),
         start_velocities=exact_start(
             "start_velocities", chain, content.get("start_velocities_m_per_s"), "m/s"
         ),
         width=written_fraction(content["width_s"]),
         transitions=tuple(
-            CertifiedTransition(_enclosure(*row[:2]), int(row[2]), int(row[3]), _enclosure(*row[4:]))
+            CertifiedTransition(
+                _enclosure(*row[:2]), int(row[2]), int(row[3]), _enclosure(*row[4:])
+            )
             for row in content["transitions"]
         ),
         tie=tie
@@ -178,7 +198,9 @@ def _certificate(content: Mapping[str, Any]) -> Certificate:
 
 def _text(x: Fraction) -> str:
     """Write a decimal number exactly."""
-    return str(EXACT.divide(Decimal(x.numerator), Decimal(x.denominator)).normalize(EXACT)).lower()
+    return str(
+        EXACT.divide(Decimal(x.numerator), Decimal(x.denominator)).normalize(EXACT)
+    ).lower()
 
 
 def _enclosure_text(enclosure: Enclosure) -> tuple[str, str]:
