@@ -80,6 +80,16 @@ def test_a_row_or_file_that_is_missing_stops_the_build_in_one_line(here):
         )
 
 
+def test_a_finding_that_its_table_no_longer_bears_out_stops_the_build(here):
+    table = pd.read_csv("results/tables/noise_differences.csv")
+    table.replace({"verdict": {"different": "same"}}).to_csv(
+        "results/tables/noise_differences.csv", index=False
+    )
+    with pytest.raises(ValueError, match=r"^the tables no longer bear out: [^\n]*$"):
+        write()
+    assert not Path("paper.pdf").exists()
+
+
 # What is no number of ours: comments, names, symbols, code, places in the original,
 # lengths.
 NO_NUMBERS = [
