@@ -175,28 +175,25 @@ def gallery_of_failures():
     place = np.arange(len(thresholds))
     thresholds["measured"] = (place + 1.25) / thresholds["scale"]
     thresholds["predicted"] = (place + 3.75) / thresholds["scale"]
-    names = [
-        "exact",
-        "dt = 1e-07 s",
-        "theory, dt = 1e-07 s",
-        "theta = -1",
-        "1.2e-10 s",
-        "theory",
-    ]
+    roles = {
+        ("exact", "exact"): 1,
+        ("dt = 1e-07 s", "failing"): 2,
+        ("dt = 1e-07 s", "theory"): 3,
+        ("theta = -1", "failing"): 4,
+        ("1.2e-10 s", "failing"): 5,
+        ("theory", "theory"): 6,
+    }
     curves = []
-    for panel in panels:
+    for mode, panel in failure_gallery.PANELS.items():
         x, y = np.array([0.1, 0.2, 0.4]) / np.reshape(panel.scale, (2, 1))
-        curves.append(
-            pd.concat(
-                [
-                    pd.DataFrame({"c": name, "x": x, "y": n * y})
-                    for n, name in enumerate(names, 1)
-                ]
+        curves += [
+            pd.DataFrame({"curve": name, "role": role, "x": x, "y": n * y}).assign(
+                failure_mode=mode
             )
-        )
-    return failure_gallery.draw(
-        pd.concat([thresholds, thresholds.assign(n_blocks=2, measured=0.0)]), curves
-    )
+            for (name, role), n in roles.items()
+        ]
+    limits = pd.concat([thresholds, thresholds.assign(n_blocks=2, measured=0.0)])
+    return failure_gallery.draw(limits, pd.concat(curves))
 
 
 def predicted_errors():

@@ -21,8 +21,8 @@ from ensembles.studies import PAPER, study_of
 from methods.kept_runs import kept_runs
 
 from precursors import Chain, simulate
-from precursors.accuracy.failures import FAILURE_MODES, Failure
-from precursors.accuracy.failures.stability import LOST, thresholds
+from precursors.accuracy.failures import FAILURE_MODES, Failure, curve_table
+from precursors.accuracy.failures.stability import NO_GLOBAL_SLIP, thresholds
 from precursors.ensembles import noise, resolution
 from precursors.ensembles.event_law import event_law_tables
 from precursors.ensembles.printed_digits import digits_tables
@@ -79,26 +79,27 @@ def limits(measured: Callable[[str], Failure]) -> pd.DataFrame:
         *(limit for mode in FAILURE_MODES for limit in measured(mode).thresholds),
     ]
     table = pd.DataFrame(map(vars, found))
-    return table.assign(measured=table["measured"].where(table["fails"] != LOST, 0.0))
+    is_sure = table["fails"] != NO_GLOBAL_SLIP
+    return table.assign(measured=table["measured"].where(is_sure, 0.0))
 
 
 def failure_curves(measured: Callable[[str], Failure]) -> pd.DataFrame:
     """Of each of their curves the number of points; of both columns the ends, the mean
     and the largest."""
     rows = []
-    for name in FAILURE_MODES:
-        if name == CHAOTIC:
-            continue
-        for curve, points in measured(name).curves.groupby("curve", sort=False):
-            row = {"failure_mode": name, "curve": curve, "n": len(points)}
-            for axis, column in zip("xy", points.columns[1:], strict=True):
-                values = points[column].to_numpy(float)
-                ends = values[0], values[-1], values.mean(), values.max()
-                names = (
-                    f"{axis}_{which}" for which in ("first", "last", "mean", "largest")
-                )
-                row |= {axis: column} | dict(zip(names, ends, strict=True))
-            rows.append(row)
+    points = curve_table({m: measured(m) for m in FAILURE_MODES if m != CHAOTIC})
+    keys = ["failure_mode", "curve", "role", "x_is", "y_is"]
+    for key, of_curve in points.groupby(keys, sort=False):
+        row = dict(zip(keys, key, strict=True)) | {"n": len(of_curve)}
+        for axis in "xy":
+            values = of_curve[axis].to_numpy()
+            row |= {
+                f"{axis}_first": values[0],
+                f"{axis}_last": values[-1],
+                f"{axis}_mean": values.mean(),
+                f"{axis}_largest": values.max(),
+            }
+        rows.append(row)
     return pd.DataFrame(rows)
 
 

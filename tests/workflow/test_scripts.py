@@ -395,7 +395,9 @@ def test_failure_modes_are_tabulated_with_their_curves_and_thresholds(monkeypatc
     }
     monkeypatch.setattr(failures, "FAILURE_MODES", two)
     monkeypatch.setattr(
-        failures, "thresholds", lambda: [Threshold("a", 2, "fails", "s", "b", 2.0, 3.0)]
+        failures,
+        "thresholds",
+        lambda: [Threshold("a", "A", 2, "fails", "s", "b", 2.0, 3.0)],
     )
     tables = failures.failure_tables()
     assert (
@@ -405,7 +407,10 @@ def test_failure_modes_are_tabulated_with_their_curves_and_thresholds(monkeypatc
     assert tables["failures"]["measured"].tolist()[1:] == [82, SMALLEST]
     assert tables["thresholds"]["n_blocks"].tolist() == [2, 10]
     assert tables["thresholds"]["ratio"].tolist() == [1.5, pytest.approx(1.0, rel=0.02)]
-    assert len(tables["stiffness"]) == 24
+    curves = tables["failure_curves"]
+    of_stiffness = curves[curves["failure_mode"] == "stiffness"]
+    assert list(of_stiffness["role"].value_counts()[["theory", "reference"]]) == [11, 2]
+    assert set(of_stiffness["x_is"]) == {"width_m_per_s"}
 
 
 def test_a_scene_without_an_exponent_has_an_empty_row():

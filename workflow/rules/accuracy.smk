@@ -6,21 +6,6 @@ from precursors.model.chain import parse_theta
 CHAINS = config["accuracy"]["proved"]
 COMPARED = config["accuracy"]["compared"]
 COMMITTED = ROOT / "workflow/certificates"
-# As in precursors.accuracy.failures.FAILURE_MODES, which takes seconds to import.
-FAILURE_MODES = [
-    "unstable",
-    "silent_instability",
-    "numerical_damping",
-    "literal_friction",
-    "dead_zone_too_small",
-    "dead_zone_too_large",
-    "creep",
-    "stiffness",
-    "missed_roots",
-    "restart_on_root",
-    "merged_transitions",
-    "forward_only",
-]
 
 CERTIFICATES = {chain: f"results/certificates/chains/{chain}.json.gz" for chain in CHAINS}
 TABLES |= {
@@ -57,8 +42,7 @@ TABLES |= {
     "failures": {
         "function": "accuracy.failures:failure_tables",
         "tables": ["failures", "thresholds"],
-        "beside": FAILURE_MODES,
-        "folder": "failures/",
+        "beside": ["failure_curves"],
         "seconds": 4,
     },
 }

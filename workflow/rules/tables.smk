@@ -19,7 +19,7 @@ for name, table in TABLES.items():
             table.get("also", []),
         output:
             [report(f"results/tables/{each}.csv", category="Tables") for each in shown],
-            [f"results/tables/{table.get('folder', '')}{each}.csv" for each in beside],
+            [f"results/tables/{each}.csv" for each in beside],
         log:
             f"results/logs/tabulate_{name}.log",
         localrule: "seconds" not in table

@@ -1,10 +1,8 @@
-"""The failure gallery: a panel for each failure mode; its numbers are in failures.csv
-and thresholds.csv."""
+"""The failure gallery: a panel for each failure mode."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,24 +46,23 @@ DASHED: dict[str, Any] = {
     "linestyle": (0, (4, 2)),
 }
 
-# What is right is black and theory grey; what fails has these colours in turn.
+# Curves that fail have these colours in turn, and their theory has the same.
 COLORS = 2 * (style.VERMILION, style.BLUE, style.GREEN)
-RIGHT: dict[str, dict[str, Any]] = {
+LOOKS: dict[str, dict[str, Any]] = {
     "exact": {"color": style.BLACK},
     "theory": {"color": style.GREY},
-    "the drive": DASHED,
-    "the chain itself": DASHED,
+    "reference": DASHED,
 }
-THEORY_OF = "theory, "
 
 
 @dataclass(frozen=True)
 class Panel:
-    """A panel: its title, its axes, and the thresholds marked on its x axis, by what
-    fails and the method.
+    """A panel: its title, its axes, and the thresholds marked on its x axis.
+
+    A threshold is marked by the keys of what fails and of the method.
 
     `scale` is from the table's x and y to the axes, and `log` names the logarithmic
-    axes. What fails is drawn by a line if `joined`, and by markers if `marked`.
+    axes. A failing curve is a line if `joined`, and has markers if `marked`.
     """
 
     title: str
@@ -86,21 +83,16 @@ STEP = r"Step $\Delta t$ [$\mu$s]"
 F_X = "$F_X$ [N]"
 TIME = "Time [s]"
 RIGHT_ONES = "Transitions right [-]"
-LIMIT = "energy grows without bound, no friction"
-LOST = "no global slip, or numbers overflow"
-ZONE = "Karnopp's dead zone"
-TOO_NARROW = "a narrower zone is jumped over"
-TOO_WIDE = "creep in a wider zone changes transitions"
-MERGED = ("two of three transitions lose their order", "DOP853, transitions merged")
 
 PANELS = {
     "unstable": Panel(
         "Steps above the stability limit", STEP, "Energy factor per step [-]",
-        limits=((LIMIT, "RK4"), (LIMIT, "leapfrog")), scale=(MICRO, 1.0), joined=False,
+        limits=(("energy_unbounded", "rk4_skip"), ("energy_unbounded", "leapfrog")),
+        scale=(MICRO, 1.0), joined=False,
     ),
     "silent_instability": Panel(
         "The same with friction: no warning", STEP, style.MU_SAPP_LABEL,
-        limits=((LOST, "RK4"),), scale=(MICRO, 1.0), joined=False,
+        limits=(("no_global_slip", "rk4_skip"),), scale=(MICRO, 1.0), joined=False,
     ),
     "numerical_damping": Panel(
         "Implicit Moreau-Jean damps motion", r"Time [$\mu$s]", "Energy left [-]",
@@ -110,11 +102,11 @@ PANELS = {
     "dead_zone_too_small": Panel(
         "Dead zone too small: jumped over",
         r"Zone / safe width $(\mu_s+\mu_k)\,w\,\Delta t/2m$ [-]", RIGHT_ONES,
-        limits=((TOO_NARROW, ZONE),), log="x", key="lower right", ylim=(0.0, None),
+        limits=(("zone_jumped_over", "karnopp"),), log="x", key="lower right", ylim=(0.0, None),
     ),
     "dead_zone_too_large": Panel(
         "Dead zone too large: creep inside", "Width of the zone [m/s]", r"$F_X - \mu_s w_1$ at release [N]",
-        limits=((TOO_WIDE, ZONE),), log="xy", joined=False,
+        limits=(("creep_in_zone", "karnopp"),), log="xy", joined=False,
     ),
     "creep": Panel(
         "Regularised friction creeps in stick", r"Load / $\mu_s w$ [-]", "Velocity [m/s]",
@@ -132,7 +124,7 @@ PANELS = {
     ),
     "merged_transitions": Panel(
         "Transitions closer than a step merged", "Merged within [s]", RIGHT_ONES,
-        limits=(MERGED,), log="x", ylim=(0.0, None),
+        limits=(("order_lost", "dop853_merging"),), log="x", ylim=(0.0, None),
     ),
     "forward_only": Panel(
         r"No backward sliding ($\theta$ = 5/6)", TIME, F_X, marked=False, xmin=2.0, ylim=(125.0, None),
@@ -141,18 +133,16 @@ PANELS = {
 CHARTED_BLOCKS = 10
 
 
-def draw(thresholds: pd.DataFrame, curves: Sequence[pd.DataFrame]) -> Figure:
-    """Draw the failure modes, from thresholds.csv and failures/{mode}.csv in the order
-    of `PANELS`."""
+def draw(thresholds: pd.DataFrame, curves: pd.DataFrame) -> Figure:
+    """Draw the failure modes, from thresholds.csv and failure_curves.csv."""
     limits = thresholds[thresholds["n_blocks"] == CHARTED_BLOCKS].set_index(
         ["fails", "method"]
     )
     with style.page(style.PAGE_MM, HEIGHT_MM, lay_out=False) as figure:
         grid = figure.subplots(ROWS, COLUMNS).flat
-        for letter, axes, panel, table in zip(
-            "abcdefghijkl", grid, PANELS.values(), curves, strict=True
-        ):
-            _draw_panel(axes, letter, panel, limits, table)
+        for letter, axes, mode in zip("abcdefghijkl", grid, PANELS, strict=True):
+            own = curves[curves["failure_mode"] == mode]
+            _draw_panel(axes, letter, PANELS[mode], limits, own)
         figure.subplots_adjust(**LAYOUT)
     return figure
 
@@ -185,30 +175,29 @@ def _draw_panel(
 
 
 def _draw_curves(axes: Axes, panel: Panel, curves: pd.DataFrame) -> None:
-    name, x, y = curves.columns[:3]
-    failing = [
-        curve
-        for curve in curves[name].unique()
-        if curve not in RIGHT and THEORY_OF not in curve
-    ]
+    failing = curves.loc[curves["role"] == "failing", "curve"].unique()
     color = dict(zip(failing, COLORS, strict=False))
-    for curve in curves[name].unique():
-        points = curves[curves[name] == curve]
-        look = RIGHT.get(
-            curve, {"color": color.get(curve.removeprefix(THEORY_OF), style.GREY)}
-        )
-        look = {"label": pretty(curve), **look}
-        if curve in color and panel.marked:
-            look |= {"marker": "o", "markersize": 2.4}
-            look |= {"linewidth": 0.6} if panel.joined else {"linestyle": "none"}
-        if curve.startswith(THEORY_OF):
-            look |= {"linewidth": 0.6, "label": "_"}
+    for key, points in curves.groupby(["curve", "role"], sort=False):
+        name, role = map(str, key)
+        look = {"label": pretty(name), **LOOKS.get(role, {})}
+        if role == "theory" and name in color:
+            look |= {"color": color[name], "linewidth": 0.6, "label": "_"}
+        elif role == "failing":
+            look |= {"color": color[name]} | _marks(panel)
         axes.plot(
-            points[x] * panel.scale[0],
-            points[y] * panel.scale[1],
+            points["x"] * panel.scale[0],
+            points["y"] * panel.scale[1],
             drawstyle=panel.drawstyle,
             **look,
         )
+
+
+def _marks(panel: Panel) -> dict[str, Any]:
+    """Line and markers of a failing curve."""
+    if not panel.marked:
+        return {}
+    line = {"linewidth": 0.6} if panel.joined else {"linestyle": "none"}
+    return {"marker": "o", "markersize": 2.4, **line}
 
 
 def _label_decades(axis: Axis) -> None:

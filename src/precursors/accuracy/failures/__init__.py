@@ -1,10 +1,10 @@
-"""Failure modes of the methods on the paper's chain, each with a measured number that
-shows it."""
+"""Failure modes of the methods on the paper's chain, each shown by measured numbers."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from itertools import chain
 
+import numpy as np
 import pandas as pd
 
 from precursors.accuracy.failures.common import Failure, Number
@@ -50,18 +50,42 @@ __all__ = ["FAILURE_MODES", "Failure", "Number"]
 
 
 def failure_tables() -> dict[str, pd.DataFrame]:
-    """Numbers and thresholds of all failure modes, and the curves of each, by file
-    name."""
-    found = {name: measure() for name, measure in FAILURE_MODES.items()}
+    """Numbers, curves and thresholds of all failure modes: failures, failure_curves and
+    thresholds.
+
+    A row of failure_curves is a point: mode, curve, role (see `common.Curve`), x, y,
+    and the names of both quantities with their units (x_is, y_is).
+    """
+    found = {mode: measure() for mode, measure in FAILURE_MODES.items()}
     numbers = [
-        {"failure_mode": name, **asdict(n)}
-        for name, of in found.items()
-        for n in of.numbers
+        {"failure_mode": mode, **asdict(number)}
+        for mode, failure in found.items()
+        for number in failure.numbers
     ]
-    limits = pd.DataFrame(
-        map(asdict, chain(thresholds(), *(of.thresholds for of in found.values())))
-    )
-    return {name: of.curves for name, of in found.items()} | {
+    of_modes = chain.from_iterable(failure.thresholds for failure in found.values())
+    limits = pd.DataFrame(map(asdict, chain(thresholds(), of_modes)))
+    return {
         "failures": pd.DataFrame(numbers),
+        "failure_curves": curve_table(found),
         "thresholds": limits.assign(ratio=limits["measured"] / limits["predicted"]),
     }
+
+
+def curve_table(found: Mapping[str, Failure]) -> pd.DataFrame:
+    """The points of all curves of some failure modes."""
+    curves = [
+        pd.DataFrame(
+            {
+                "failure_mode": mode,
+                "curve": curve.name,
+                "role": curve.role,
+                "x": np.asarray(curve.x, float),
+                "y": np.asarray(curve.y, float),
+                "x_is": failure.x,
+                "y_is": failure.y,
+            }
+        )
+        for mode, failure in found.items()
+        for curve in failure.curves
+    ]
+    return pd.concat(curves, ignore_index=True)

@@ -1,12 +1,11 @@
-"""What a failure mode gives: the numbers that show it and the curves that draw it."""
+"""The numbers, curves and thresholds of a failure mode."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
-import numpy as np
-import pandas as pd
 from numpy.typing import ArrayLike
 
 from precursors.model.chain import FloatArray
@@ -17,11 +16,11 @@ FIVE_SLIPS = 1.25
 
 @dataclass(frozen=True)
 class Number:
-    """A measured number that shows a failure of a method with a setting; `exact` is
-    what is right, or NaN.
+    """A measured number that shows a failure of a method with a setting.
 
-    `predicted` is what the method should give, NaN where nothing is known; `theory`
-    says from what that follows, if not from the method and the chain.
+    `quantity` is a key; `exact` is the right value, or NaN. `predicted` is the value
+    that the method should give, NaN where nothing is known; `theory` says from what
+    that follows, if not from the method and the chain.
     """
 
     method: str
@@ -36,14 +35,14 @@ class Number:
 
 @dataclass(frozen=True)
 class Threshold:
-    """A value of a method's setting from which it fails, predicted and measured:
-    infinity if it never does.
+    """A value of a method's setting from which it fails, predicted and measured.
 
-    `method` is its label, `fails` what happens there, `theory` the formula that
-    predicts it.
+    Both are infinite if it never fails. `method` and `fails` (what happens there) are
+    keys, `label` names the method, and `theory` is the formula that predicts the value.
     """
 
     method: str
+    label: str
     n_blocks: int
     fails: str
     unit: str
@@ -53,29 +52,31 @@ class Threshold:
 
 
 @dataclass(frozen=True)
+class Curve:
+    """A curve of a failure mode: its name and points.
+
+    Its role is that of the method that fails, of the exact solution, of the theory
+    (that of a failing curve has its name), or of something to compare with.
+    """
+
+    name: str
+    x: ArrayLike
+    y: ArrayLike
+    role: Literal["failing", "exact", "theory", "reference"] = "failing"
+
+
+@dataclass(frozen=True)
 class Failure:
-    """A failure, measured: its numbers, curves (columns: curve, x, y with units) and
-    thresholds."""
+    """A failure, measured: its numbers, its curves and its thresholds.
+
+    `x` and `y` name the quantities of the curves, with units.
+    """
 
     numbers: tuple[Number, ...]
-    curves: pd.DataFrame
+    x: str
+    y: str
+    curves: tuple[Curve, ...]
     thresholds: tuple[Threshold, ...] = ()
-
-
-def curves(x: str, y: str, **points: tuple[ArrayLike, ArrayLike]) -> pd.DataFrame:
-    """Table of curves from (x, y) pairs of arrays by name; an underscore in a name is a
-    space."""
-    parts = [
-        pd.DataFrame(
-            {
-                "curve": name.replace("_", " "),
-                x: np.atleast_1d(xs),
-                y: np.atleast_1d(ys),
-            }
-        )
-        for name, (xs, ys) in points.items()
-    ]
-    return pd.concat(parts, ignore_index=True)
 
 
 def runge_kutta_step(

@@ -4,6 +4,7 @@ creep in it."""
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -11,10 +12,10 @@ from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures import common
 from precursors.accuracy.failures.common import (
     FIVE_SLIPS,
+    Curve,
     Failure,
     Number,
     Threshold,
-    curves,
 )
 from precursors.accuracy.failures.stability import margin
 from precursors.methods import METHODS, karnopp
@@ -23,11 +24,11 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-LABEL = METHODS["karnopp"].label
 STEPS = (4e-8, 2e-8)  # s
-# What fails, widths too small, as parts of the safe width, and widths too large [m/s].
-TOO_NARROW = "a narrower zone is jumped over"
-TOO_WIDE = "creep in a wider zone changes transitions"
+# Keys of what fails where the zone is too narrow and too wide; widths too small, as
+# parts of the safe width, and widths too large [m/s].
+ZONE_JUMPED_OVER = "zone_jumped_over"
+CREEP_IN_ZONE = "creep_in_zone"
 SMALL_ZONES = np.geomspace(0.02, 0.5, 10)
 LARGE_ZONES = np.geomspace(1e-5, 3e-2, 15)
 TOO_SMALL = 0.05
@@ -89,8 +90,7 @@ def jumped_over(turn: float) -> float:
 
 
 def predicted_dead_zone(exact: Run) -> float:
-    """What `smallest_dead_zone` should be: the width that no stop of the exact run
-    jumps over."""
+    """`smallest_dead_zone` by theory: the width that no stop of the exact run jumps over."""
     chain = exact.chain
     stops = exact.transitions[exact.transitions["mode"] == 0]
     forces = np.pad(exact.spring_forces(stops["time"]), ((0, 0), (0, 1)))
@@ -113,8 +113,7 @@ def largest_dead_zone(exact: Run, step: float) -> float:
 
 
 def first_excess(chain: Chain, dead_zone: float) -> float:
-    """What F_X exceeds mu_s w by when block 1 of a uniform chain first leaves the dead
-    zone [N]."""
+    """F_X - mu_s w [N] when block 1 of a uniform chain first leaves the dead zone."""
     limit = float(chain.strength.max())
     run = karnopp.solve(
         chain, 1.2 * limit / chain.loading_rate, STEPS[0], None, dead_zone
@@ -125,33 +124,37 @@ def first_excess(chain: Chain, dead_zone: float) -> float:
 def dead_zone_too_small() -> Failure:
     """Karnopp's dead zone, so narrow that blocks jump over it within a step."""
     exact = simulate(Chain.from_slider(), FIVE_SLIPS)
-    n = len(exact.transitions)
-    n_blocks = exact.chain.n_blocks
-    lines = {}
+    lines = []
     numbers = []
     for step in STEPS:
         safe = karnopp.safe_width(exact.chain, step)
         setting = f"dt = {step:.0e} s"
-        lines[setting] = (
-            SMALL_ZONES,
-            [right_with(exact, step, part * safe) for part in SMALL_ZONES],
+        right = [right_with(exact, step, part * safe) for part in SMALL_ZONES]
+        lines.append(Curve(setting, SMALL_ZONES, right))
+        numbers.append(
+            Number(
+                method="Karnopp",
+                setting=f"{setting}, zone = {TOO_SMALL:g} safe",
+                quantity="transitions_right",
+                unit="1",
+                measured=right_with(exact, step, TOO_SMALL * safe),
+                exact=len(exact.transitions),
+            )
         )
-        few = right_with(exact, step, TOO_SMALL * safe)
-        narrow = f"{setting}, zone = {TOO_SMALL:g} safe"
-        numbers.append(Number("Karnopp", narrow, "transitions right", "1", few, n))
-    found = predicted_dead_zone(exact), smallest_dead_zone(exact, STEPS[0])
-    limit = Threshold(
-        LABEL,
-        n_blocks,
-        TOO_NARROW,
-        "safe width",
-        "widest zone that a stop jumps over",
-        *found,
+    limit = _threshold(
+        exact.chain,
+        fails=ZONE_JUMPED_OVER,
+        unit="safe width",
+        theory="widest zone that a stop jumps over",
+        predicted=predicted_dead_zone(exact),
+        measured=smallest_dead_zone(exact, STEPS[0]),
     )
     return Failure(
         tuple(numbers),
-        curves("zone_over_safe_width", "transitions_right", **lines),
-        (limit,),
+        x="zone_over_safe_width",
+        y="transitions_right",
+        curves=tuple(lines),
+        thresholds=(limit,),
     )
 
 
@@ -160,43 +163,48 @@ def dead_zone_too_large() -> Failure:
     exact = simulate(Chain.from_slider(), FIVE_SLIPS)
     chain = exact.chain
     step = STEPS[0]
-    excess = [first_excess(chain, zone) for zone in LARGE_ZONES]
-    theory = [
-        chain.loading_rate * karnopp.release_delay(chain, zone) for zone in LARGE_ZONES
-    ]
-    creep = chain.loading_rate * karnopp.release_delay(chain, TOO_LARGE)
+    measured = [first_excess(chain, zone) for zone in LARGE_ZONES]
+    theory = [predicted_excess(chain, zone) for zone in LARGE_ZONES]
     wide = partial(Number, "Karnopp", f"zone = {TOO_LARGE:g} m/s")
-    right = right_with(exact, step, TOO_LARGE)
+    excess = wide(
+        "excess_at_release",
+        "N",
+        measured=first_excess(chain, TOO_LARGE),
+        exact=0.0,
+        predicted=predicted_excess(chain, TOO_LARGE),
+    )
+    right = wide(
+        "transitions_right",
+        "1",
+        measured=right_with(exact, step, TOO_LARGE),
+        exact=len(exact.transitions),
+    )
     # Creep raises the load at which block 1 is released, as a greater mu_s does.
     delay = margin(exact) * chain.strength.max() / chain.loading_rate
-    found = (
-        float(chain.loading_rate * delay**2 / (2.0 * chain.mass)),
-        largest_dead_zone(exact, step),
-    )
-    limit = Threshold(
-        LABEL,
-        chain.n_blocks,
-        TOO_WIDE,
-        "m/s",
-        "creep raises a load by the margin",
-        *found,
+    limit = _threshold(
+        chain,
+        fails=CREEP_IN_ZONE,
+        unit="m/s",
+        theory="creep raises a load by the margin",
+        predicted=float(chain.loading_rate * delay**2 / (2.0 * chain.mass)),
+        measured=largest_dead_zone(exact, step),
     )
     return Failure(
-        (
-            wide(
-                "F_X above mu_s w_1 at release",
-                "N",
-                first_excess(chain, TOO_LARGE),
-                0.0,
-                creep,
-            ),
-            wide("transitions right", "1", right, len(exact.transitions)),
+        (excess, right),
+        x="zone_m_per_s",
+        y="excess_N",
+        curves=(
+            Curve("theory", LARGE_ZONES, theory, "theory"),
+            Curve("measured", LARGE_ZONES, measured),
         ),
-        curves(
-            "zone_m_per_s",
-            "excess_N",
-            theory=(LARGE_ZONES, theory),
-            measured=(LARGE_ZONES, excess),
-        ),
-        (limit,),
+        thresholds=(limit,),
     )
+
+
+def predicted_excess(chain: Chain, dead_zone: float) -> float:
+    """`first_excess` by the closed form of the creep in a dead zone [N]."""
+    return chain.loading_rate * karnopp.release_delay(chain, dead_zone)
+
+
+def _threshold(chain: Chain, **values: Any) -> Threshold:
+    return Threshold("karnopp", METHODS["karnopp"].label, chain.n_blocks, **values)

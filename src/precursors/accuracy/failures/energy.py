@@ -6,10 +6,9 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from precursors.accuracy.compare import transitions_right
-from precursors.accuracy.failures.common import Failure, Number, curves
+from precursors.accuracy.failures.common import Curve, Failure, Number
 from precursors.analysis.slips import apparent_friction, slip_table
 from precursors.methods import METHODS, DivergedError
 from precursors.methods.rk4 import LIMIT as RK4_LIMIT
@@ -40,7 +39,7 @@ def unstable() -> Failure:
     chain = without_friction(Chain.from_slider())
     omega = highest_frequency(chain)
     mode = highest_mode(chain)
-    lines: dict[str, tuple[ArrayLike, ArrayLike]] = {}
+    lines = []
     numbers = []
     for name, n_steps in UNSTABLE_STEPS.items():
         method = METHODS[name]
@@ -53,24 +52,21 @@ def unstable() -> Failure:
             energy_left(chain, smooth.slide, x / omega, n_steps, mode) ** (1 / n_steps)
             for x in z
         ]
-        lines[f"theory, {label}"] = (
-            fine / omega,
-            [smooth.energy_factor(x) for x in fine],
-        )
-        lines[label] = (z / omega, left)
-        factor = smooth.energy_factor(z[-1])
+        theory = [smooth.energy_factor(x) for x in fine]
+        lines.append(Curve(label, fine / omega, theory, "theory"))
+        lines.append(Curve(label, z / omega, left))
         numbers.append(
             Number(
-                label,
-                f"omega dt = {z[-1]:.3g}",
-                "energy a step",
-                "1",
-                left[-1],
-                1.0,
-                factor,
+                method=label,
+                setting=f"omega dt = {z[-1]:.3g}",
+                quantity="energy_per_step",
+                unit="1",
+                measured=left[-1],
+                exact=1.0,
+                predicted=smooth.energy_factor(z[-1]),
             )
         )
-    return Failure(tuple(numbers), curves("step_s", "energy_per_step", **lines))
+    return Failure(tuple(numbers), "step_s", "energy_per_step", tuple(lines))
 
 
 def silent_instability() -> Failure:
@@ -95,14 +91,20 @@ def silent_instability() -> Failure:
         mu_sapp.append(friction.mu_sapp)
         right = max(right, transitions_right(run, exact))
     number = partial(Number, "RK4", "theta = 0")
-    numbers = (
-        number("least mu_sapp of these", "1", min(mu_sapp), true.mu_sapp),
-        number("largest mu_sapp of these", "1", max(mu_sapp), true.mu_sapp),
-        number("most transitions right of these", "1", right, len(exact.transitions)),
+    n = len(exact.transitions)
+    return Failure(
+        (
+            number("least_mu_sapp", "1", min(mu_sapp), true.mu_sapp),
+            number("largest_mu_sapp", "1", max(mu_sapp), true.mu_sapp),
+            number("most_transitions_right", "1", right, n),
+        ),
+        x="step_s",
+        y="mu_sapp",
+        curves=(
+            Curve("exact", BEYOND[[0, -1]] / omega, [true.mu_sapp] * 2, "exact"),
+            Curve("RK4", np.array(finished) / omega, mu_sapp),
+        ),
     )
-    line = BEYOND[[0, -1]] / omega, (true.mu_sapp, true.mu_sapp)
-    found = np.array(finished) / omega, mu_sapp
-    return Failure(numbers, curves("step_s", "mu_sapp", exact=line, RK4=found))
 
 
 def numerical_damping() -> Failure:
@@ -111,7 +113,7 @@ def numerical_damping() -> Failure:
     omega = highest_frequency(chain)
     mode = highest_mode(chain)
     times = np.linspace(0.0, SLIP, POINTS)
-    lines: dict[str, tuple[ArrayLike, ArrayLike]] = {}
+    lines = []
     numbers = []
     runs = [
         *(("moreau_jean_one", step) for step in DAMPING_STEPS),
@@ -126,9 +128,18 @@ def numerical_damping() -> Failure:
         ]
         setting = f"dt = {step:.0e} s"
         factor = method.smooth.energy_factor(omega * step)
-        number = partial(Number, method.label, setting, "energy left after 100 us", "1")
-        numbers.append(number(left[-1], 1.0, factor ** (SLIP / step)))
+        numbers.append(
+            Number(
+                method=method.label,
+                setting=setting,
+                quantity="energy_left",
+                unit="1",
+                measured=left[-1],
+                exact=1.0,
+                predicted=factor ** (SLIP / step),
+            )
+        )
         if name == "moreau_jean_one":
-            lines[f"theory, {setting}"] = (times, factor ** (times / step))
-            lines[setting] = (times, left)
-    return Failure(tuple(numbers), curves("time_s", "energy_left", **lines))
+            lines.append(Curve(setting, times, factor ** (times / step), "theory"))
+            lines.append(Curve(setting, times, left))
+    return Failure(tuple(numbers), "time_s", "energy_left", tuple(lines))

@@ -4,11 +4,12 @@ is."""
 from __future__ import annotations
 
 from functools import partial
+from typing import Literal
 
 import numpy as np
 
 from precursors.accuracy.compare import transitions_right
-from precursors.accuracy.failures.common import Failure, Number, curves
+from precursors.accuracy.failures.common import Curve, Failure, Number
 from precursors.analysis.slips import apparent_friction, slip_table
 from precursors.methods.fixed_step import march
 from precursors.methods.rk4_located import run_located
@@ -29,33 +30,40 @@ def solve_forward_only(chain: Chain, duration: float, until: str | None = None) 
 def forward_only() -> Failure:
     """Backward sliding forbidden: another model, with other numbers."""
     numbers = []
-    lines = {}
     for theta in THETAS:
         chain = Chain.from_slider(theta=theta)
         exact = simulate(chain, 10.0, "global slip")
         run = solve_forward_only(chain, 10.0, "global slip")
-        number = partial(Number, "v < 0 forbidden", f"theta = {theta}")
-        backward = int(np.argmax(exact.transitions["mode"] < 0))
-        n_right = transitions_right(run, exact)
-        theory = "transitions before the first backward slip, read off the exact run"
-        numbers.append(
-            number(
-                "transitions right",
-                "1",
-                n_right,
-                len(exact.transitions),
-                backward,
-                theory,
-            )
-        )
         true, found = (apparent_friction(slip_table(r)) for r in (exact, run))
         assert true
         assert found
-        numbers.append(
-            number("events counted", "1", found.events_counted, true.events_counted)
+        number = partial(Number, "v < 0 forbidden", f"theta = {theta}")
+        right = number(
+            "transitions_right",
+            "1",
+            measured=transitions_right(run, exact),
+            exact=len(exact.transitions),
+            predicted=int(np.argmax(exact.transitions["mode"] < 0)),
+            theory="transitions before the first backward slip, read off the exact run",
         )
-        numbers.append(number("mu_sapp", "1", found.mu_sapp, true.mu_sapp))
-        # The curves of the last theta are the ones that stay.
-        for name, r in (("exact", exact), ("v < 0 forbidden", run)):
-            lines[name] = (r.transitions["time"], r.transitions["tangential_load"])
-    return Failure(tuple(numbers), curves("time_s", "tangential_load_N", **lines))
+        numbers += [
+            right,
+            number("events_counted", "1", found.events_counted, true.events_counted),
+            number("mu_sapp", "1", found.mu_sapp, true.mu_sapp),
+        ]
+    # The curves are those of the last theta.
+    return Failure(
+        tuple(numbers),
+        x="time_s",
+        y="tangential_load_N",
+        curves=(
+            _loads("exact", exact, "exact"),
+            _loads("v < 0 forbidden", run, "failing"),
+        ),
+    )
+
+
+def _loads(name: str, run: Run, role: Literal["exact", "failing"]) -> Curve:
+    return Curve(
+        name, run.transitions["time"], run.transitions["tangential_load"], role
+    )

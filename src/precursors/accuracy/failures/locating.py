@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import transitions_right
-from precursors.accuracy.failures.common import Failure, Number, Threshold, curves
+from precursors.accuracy.failures.common import Curve, Failure, Number, Threshold
 from precursors.analysis.slips import find_slips
 from precursors.methods import METHODS
 from precursors.methods.dop853 import solve_dop853
@@ -25,8 +25,10 @@ from precursors.solver.simulate import simulate
 
 METHOD = "DOP853 with events"
 MERGING = "DOP853, transitions merged"
-MISSED = "two roots of a velocity are missed"
-MERGED = "two of three transitions lose their order"
+# Keys of what fails: two roots of a velocity are missed, two of three transitions lose
+# their order.
+ROOTS_MISSED = "roots_missed"
+ORDER_LOST = "order_lost"
 # At the loose tolerance DOP853 steps over two roots of a velocity; with steps of at
 # most so many seconds, it does not and does.
 LOOSE = 1e-7
@@ -95,26 +97,27 @@ def missed_roots() -> Failure:
 
     # A step that is shorter than the time below zero ends in it or does not begin
     # before it.
-    theory = "time for which the velocity is below zero, read off the exact run"
+    limit = Threshold(
+        method="scipy_dop853",
+        label=METHODS["scipy_dop853"].label,
+        n_blocks=chain.n_blocks,
+        fails=ROOTS_MISSED,
+        unit="s",
+        theory="time for which the velocity is below zero, read off the exact run",
+        predicted=below_zero,
+        measured=longest,
+    )
     return Failure(
-        (Number(METHOD, f"rtol = {LOOSE:.0e}", "transitions right", "1", wrong, n),),
-        curves(
-            "time_s",
-            "velocity_m_per_s",
-            exact=(times * motion.tau, velocity),
-            steps_of_DOP853=(steps.t * motion.tau, steps.y[column] * to_velocity),
-        ),
-        (
-            Threshold(
-                METHODS["scipy_dop853"].label,
-                chain.n_blocks,
-                MISSED,
-                "s",
-                theory,
-                below_zero,
-                longest,
+        (Number(METHOD, f"rtol = {LOOSE:.0e}", "transitions_right", "1", wrong, n),),
+        x="time_s",
+        y="velocity_m_per_s",
+        curves=(
+            Curve("exact", times * motion.tau, velocity, "exact"),
+            Curve(
+                "steps of DOP853", steps.t * motion.tau, steps.y[column] * to_velocity
             ),
         ),
+        thresholds=(limit,),
     )
 
 
@@ -138,27 +141,17 @@ def restart_on_root() -> Failure:
         start for start in (0.0, SMALLEST) if len(times(start)) == len(exact)
     )
     number = partial(Number, METHOD)
+    so_far = [*range(len(exact) + 1), len(exact)]
     return Failure(
         (
-            number(
-                "start from v = 0", f"transitions at t = {found[0]:g} s", "1", same, 1
-            ),
-            number(
-                "v > 0",
-                "smallest start that gets away",
-                "N/tau",
-                smallest,
-                predicted=SMALLEST,
-            ),
+            number("start from v = 0", "transitions_at_once", "1", same, 1),
+            number("v > 0", "smallest_start", "N/tau", smallest, predicted=SMALLEST),
         ),
-        curves(
-            "time_s",
-            "transitions",
-            exact=(
-                np.concatenate([[0.0], exact, [RESTART_END]]),
-                [*range(len(exact) + 1), len(exact)],
-            ),
-            restart=(np.append(0.0, found), np.arange(len(found) + 1)),
+        x="time_s",
+        y="transitions",
+        curves=(
+            Curve("exact", np.hstack([0.0, exact, RESTART_END]), so_far, "exact"),
+            Curve("restart", np.append(0.0, found), np.arange(len(found) + 1)),
         ),
     )
 
@@ -181,17 +174,27 @@ def merged_transitions() -> Failure:
     intervals = exact.intervals[:-1]
     three = float((intervals[:-1] + intervals[1:]).min())
     number = partial(Number, MERGING, f"within {WINDOWS[1]:.0e} s")
-    theory = "shortest time with three transitions, read off the exact run"
+    limit = Threshold(
+        method="dop853_merging",
+        label=MERGING,
+        n_blocks=chain.n_blocks,
+        fails=ORDER_LOST,
+        unit="s",
+        theory="shortest time with three transitions, read off the exact run",
+        predicted=three,
+        measured=longest,
+    )
+    merged = int((intervals < WINDOWS[1]).sum())
     return Failure(
         (
-            number("transitions merged", "1", int((intervals < WINDOWS[1]).sum()), 0),
-            number("transitions right", "1", right(WINDOWS[1]), n),
+            number("transitions_merged", "1", merged, 0),
+            number("transitions_right", "1", right(WINDOWS[1]), n),
         ),
-        curves(
-            "window_s",
-            "transitions_right",
-            exact=(WINDOWS[::2], (n, n)),
-            merged=(WINDOWS, [right(window) for window in WINDOWS]),
+        x="window_s",
+        y="transitions_right",
+        curves=(
+            Curve("exact", WINDOWS[::2], (n, n), "exact"),
+            Curve("merged", WINDOWS, [right(window) for window in WINDOWS]),
         ),
-        (Threshold(MERGING, chain.n_blocks, MERGED, "s", theory, three, longest),),
+        thresholds=(limit,),
     )

@@ -6,14 +6,13 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 
 from precursors.accuracy.failures.common import (
+    Curve,
     Failure,
     Number,
     Threshold,
-    curves,
     runge_kutta_step,
 )
 from precursors.methods.columns import time_unit
@@ -29,7 +28,7 @@ CHARTED_LOAD = 0.9
 # A stiff decay is stable with RK4 up to this lambda dt.
 RK4_REAL_LIMIT = 2.785293563
 METHOD = "RK4, friction regularised to 1e-06 m/s"
-UNSTABLE = "creep becomes a growing oscillation"
+CREEP_GROWS = "creep_grows"  # it becomes a growing oscillation
 STEPS = 200
 BISECTIONS = 8
 
@@ -59,36 +58,30 @@ def creep() -> Failure:
     weight = float(block.weights[0])
     strength = float(block.strength[0])
     fine = np.linspace(0.02, 0.99, 98)
-    lines: dict[str, tuple[ArrayLike, ArrayLike]] = {
-        "the_drive": (fine[[0, -1]], 2 * (block.drive_velocity,))
-    }
+    drive = block.drive_velocity
+    lines = [Curve("the drive", fine[[0, -1]], [drive, drive], "reference")]
     for width in WIDTHS:
+        setting = f"width = {width:.0e} m/s"
         creeping = [
             creep_velocity(ratio * strength, weight, width, block.mu_s)
             for ratio in fine
         ]
-        lines[f"theory, width = {width:.0e} m/s"] = (fine, creeping)
-        lines[f"width = {width:.0e} m/s"] = (
-            LOADS,
-            [measured_creep(ratio, width) for ratio in LOADS],
+        lines.append(Curve(setting, fine, creeping, "theory"))
+        lines.append(
+            Curve(setting, LOADS, [measured_creep(ratio, width) for ratio in LOADS])
         )
     speed = measured_creep(CHARTED_LOAD, CHARTED_WIDTH)
-    drive = block.drive_velocity
     theory = creep_velocity(CHARTED_LOAD * strength, weight, CHARTED_WIDTH, block.mu_s)
     setting = f"width = {CHARTED_WIDTH:.0e} m/s, F = {CHARTED_LOAD:g} mu_s w"
     number = partial(Number, "regularised friction", setting)
     return Failure(
         (
-            number("velocity in stick", "m/s", speed, 0.0, theory),
-            number(
-                "velocity in stick, of the drive's",
-                "1",
-                speed / drive,
-                0.0,
-                theory / drive,
-            ),
+            number("creep_velocity", "m/s", speed, 0.0, theory),
+            number("creep_over_drive", "1", speed / drive, 0.0, theory / drive),
         ),
-        curves("load_over_strength", "velocity_m_per_s", **lines),
+        x="load_over_strength",
+        y="velocity_m_per_s",
+        curves=tuple(lines),
     )
 
 
@@ -131,28 +124,35 @@ def stiffness() -> Failure:
     rates = [fastest_rate(chain, width) for width in STIFF_WIDTHS]
     at_unit_width = float(chain.strength.max()) / chain.mass
     theory = at_unit_width / STIFF_WIDTHS
-    rate = fastest_rate(chain, CHARTED_WIDTH)
-    number = partial(Number, "regularised friction", f"width = {CHARTED_WIDTH:.0e} m/s")
-    predicted = RK4_REAL_LIMIT * CHARTED_WIDTH / at_unit_width
-    limit = longest_step(chain, CHARTED_WIDTH)
+    limit = Threshold(
+        method="rk4_regularised",
+        label=METHOD,
+        n_blocks=chain.n_blocks,
+        fails=CREEP_GROWS,
+        unit="s",
+        theory="2.785 m width / (mu_s w)",
+        predicted=RK4_REAL_LIMIT * CHARTED_WIDTH / at_unit_width,
+        measured=longest_step(chain, CHARTED_WIDTH),
+    )
+    number = Number(
+        method="regularised friction",
+        setting=f"width = {CHARTED_WIDTH:.0e} m/s",
+        quantity="fastest_rate",
+        unit="1/s",
+        measured=fastest_rate(chain, CHARTED_WIDTH),
+        exact=omega,
+        predicted=at_unit_width / CHARTED_WIDTH,
+    )
     return Failure(
-        (number("fastest rate", "1/s", rate, omega, at_unit_width / CHARTED_WIDTH),),
-        curves(
-            "width_m_per_s",
-            "fastest_rate_per_s",
-            theory=(STIFF_WIDTHS, theory),
-            measured=(STIFF_WIDTHS, rates),
-            the_chain_itself=(STIFF_WIDTHS[[0, -1]], [omega, omega]),
-        ),
-        (
-            Threshold(
-                METHOD,
-                chain.n_blocks,
-                UNSTABLE,
-                "s",
-                "2.785 m width / (mu_s w)",
-                predicted,
-                limit,
+        (number,),
+        x="width_m_per_s",
+        y="fastest_rate_per_s",
+        curves=(
+            Curve("theory", STIFF_WIDTHS, theory, "theory"),
+            Curve("measured", STIFF_WIDTHS, rates),
+            Curve(
+                "the chain itself", STIFF_WIDTHS[[0, -1]], [omega, omega], "reference"
             ),
         ),
+        thresholds=(limit,),
     )

@@ -39,10 +39,13 @@ from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate
 
 SIZES = (1, 2, 10, 50)
-GROWS = "energy grows without bound, no friction"
-CHANGES = "energy doubles or halves in five periods, no friction"
-LOST = "no global slip, or numbers overflow"
-WRONG = "a transition of the first five slips is wrong"
+# Keys of what fails. Without friction, energy grows without bound, or doubles or halves
+# in five periods; with it, there is no global slip or numbers overflow, or a transition
+# of the first five slips is wrong.
+ENERGY_UNBOUNDED = "energy_unbounded"
+ENERGY_CHANGED = "energy_changed"
+NO_GLOBAL_SLIP = "no_global_slip"
+SEQUENCE_WRONG = "sequence_wrong"
 
 # Names of the formulas, omega being the chain's highest angular frequency.
 RK4_THEORY = "2 sqrt 2 / omega"
@@ -104,10 +107,12 @@ def without(free: Chain) -> Iterator[Threshold]:
         bounds = (1e-2 / omega, 1e2 / omega)
         grows = is_unstable(free, smooth.slide, bounds[1])
         found = largest_stable_step(free, smooth.slide, *bounds) if grows else math.inf
-        yield _threshold(name, free, GROWS, theory, smooth.limit / omega, found)
+        yield _threshold(
+            name, free, ENERGY_UNBOUNDED, theory, smooth.limit / omega, found
+        )
     for name, theory in CHANGING.items():
         yield _threshold(
-            name, free, CHANGES, theory, *changing_step(free, _smooth(name))
+            name, free, ENERGY_CHANGED, theory, *changing_step(free, _smooth(name))
         )
 
 
@@ -145,7 +150,7 @@ def with_friction(chain: Chain) -> Iterator[Threshold]:
             limit = 2.0 * math.sqrt(chain.mu_s / (chain.mu_s - chain.mu_k))
             theory = "2 sqrt(mu_s / (mu_s - mu_k)) / omega"
         found = first(partial(gets_lost, chain, name, end), PARTS * limit / omega)
-        yield _threshold(name, chain, LOST, theory, limit / omega, found)
+        yield _threshold(name, chain, NO_GLOBAL_SLIP, theory, limit / omega, found)
 
 
 def gets_lost(chain: Chain, name: str, end: float, step: float) -> bool:
@@ -182,7 +187,7 @@ def five_slips(exact: Run) -> Iterator[Threshold]:
     )
     for name, (theory, predicted) in expected.items():
         found = first(partial(is_right, exact, name), COARSE_STEPS)
-        yield _threshold(name, chain, WRONG, theory, predicted, found)
+        yield _threshold(name, chain, SEQUENCE_WRONG, theory, predicted, found)
 
 
 def is_right(exact: Run, name: str, value: float) -> bool:
@@ -224,5 +229,12 @@ def _threshold(
     name: str, chain: Chain, fails: str, theory: str, predicted: float, measured: float
 ) -> Threshold:
     return Threshold(
-        METHODS[name].label, chain.n_blocks, fails, "s", theory, predicted, measured
+        method=name,
+        label=METHODS[name].label,
+        n_blocks=chain.n_blocks,
+        fails=fails,
+        unit="s",
+        theory=theory,
+        predicted=predicted,
+        measured=measured,
     )
