@@ -83,3 +83,8 @@ def test_the_digest_changes_with_what_the_script_computes_and_with_nothing_else(
 def test_a_script_that_is_not_there_is_named(root):
     with pytest.raises(OSError, match="missing"):
         digest.digest_code(root, "missing")
+
+
+def test_a_misspelt_module_is_no_package_that_has_it(root):
+    with pytest.raises(ValueError, match=r"^there is no module precursors\.parts\.on$"):
+        digest.digest_code(root, "script", "parts.on")

@@ -22,11 +22,13 @@ def digest_code(root: str | Path, script: str, *modules: str) -> str:
     ------
     OSError
         If a file cannot be read.
+    ValueError
+        If there is no module of a name: a list of the workflow has it misspelt.
     """
     library = Path(root, "src/precursors")
     scripts = Path(root, "workflow/scripts")
-    named = [_file_of(library, scripts, f"{library.name}.{name}") for name in modules]
-    waiting = [scripts / f"{script}.py", *(file for file in named if file)]
+    named = [_named_module(library, name) for name in modules]
+    waiting = [scripts / f"{script}.py", *named]
     found: dict[Path, str] = {}
     while waiting:
         if (path := waiting.pop()) not in found:
@@ -36,6 +38,14 @@ def digest_code(root: str | Path, script: str, *modules: str) -> str:
         (path.relative_to(root).as_posix(), tree) for path, tree in found.items()
     )
     return hashlib.sha256(repr(trees).encode()).hexdigest()[:16]
+
+
+def _named_module(library: Path, name: str) -> Path:
+    module = library.joinpath(*name.split("."))
+    for file in (module.with_suffix(".py"), module / "__init__.py"):
+        if file.is_file():
+            return file
+    raise ValueError(f"there is no module {library.name}.{name}")
 
 
 @cache
