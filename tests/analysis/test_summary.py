@@ -1,12 +1,13 @@
 """The summary of many runs says what the slip table of each says."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from analysis.random_runs import random_chain, random_transitions
 
 from precursors import Chain, Run, find_precursors, find_slips, simulate
 from precursors.analysis.slips import apparent_friction, first_global, slip_table
-from precursors.analysis.summary import summarise
+from precursors.analysis.summary import KINK, summarise
 
 
 def table_path(run: Run) -> dict[str, float]:
@@ -22,6 +23,10 @@ def table_path(run: Run) -> dict[str, float]:
     return {
         "events_to_global_slip": len(up_to),
         "events_counted": len(find_precursors(slips)),
+        "records": find_precursors(slips)["front"].nunique(),
+        "speedup": speedup(find_precursors(slips), run.chain.n_blocks)
+        if reached
+        else np.nan,
         "mu_sapp": friction.mu_sapp if friction else np.nan,
         "load": friction.load if friction else np.nan,
         "time": start,
@@ -32,6 +37,19 @@ def table_path(run: Run) -> dict[str, float]:
         "n_global": int(slips.is_global.sum()),
         "n_all_events": len(slips),
     }
+
+
+def speedup(counted: pd.DataFrame, n_blocks: int) -> float:
+    """Growth of the length beyond the kink over that before it, event by event."""
+    length = (counted["front"] / n_blocks).tolist()
+    load = counted["load_before"].tolist()
+    end = length.index(1.0)
+    kink = max((i for i in range(end) if length[i] <= KINK), default=0)
+    rises = length[kink] - length[0], 1.0 - length[kink]
+    spans = load[kink] - load[0], load[end] - load[kink]
+    if rises[0] * spans[1] <= 0:
+        return np.nan
+    return (rises[1] / rises[0]) * (spans[0] / spans[1])
 
 
 def crossing_time(run: Run, start: float) -> float:
@@ -67,7 +85,7 @@ def test_runs_at_random_have_the_summary_of_their_slip_table():
         expected = table_path(run)
         assert set(found.dtype.names) == set(expected)
         for name, value in expected.items():
-            if name == "crossing_time":  # the only sum, added up in another order here
+            if name in ("crossing_time", "speedup"):  # computed in another order here
                 assert found[name] == pytest.approx(value, rel=1e-12, nan_ok=True)
             else:
                 np.testing.assert_equal(found[name], value, err_msg=name)

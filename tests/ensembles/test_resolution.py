@@ -26,12 +26,21 @@ def test_an_exact_law_is_extrapolated_exactly_from_the_runs_with_noise_and_a_glo
     ]
     members += [laws.assign(mu_sapp=9.9, **other) for other in others]
     table = resolution.extrapolation_table(
-        pd.concat(members), from_n_blocks=20
+        pd.concat(members), from_n_blocks=20, given={"time_s": 1.9}
     ).set_index("quantity")
     found = table.loc["mu_sapp"]
     assert found[["a", "b"]].tolist() == pytest.approx([0.45, 0.5], rel=1e-12)
     assert found["a_low"] < 0.45 < found["a_high"]
     assert found["n_points"] == 4
+    assert found["misfit"] == pytest.approx(0.0, abs=1e-12)
+    # A limit that is given leaves the slope: 0.1 = b/N by least squares over 1/N.
+    given = table.loc["time_s"]
+    assert given[["a_low", "a", "a_high"]].tolist() == [1.9] * 3
+    inverse = 1.0 / laws["n_blocks"]
+    slope = 0.1 * inverse.sum() / (inverse**2).sum()
+    assert given["b"] == pytest.approx(slope, rel=1e-12)
+    assert given["misfit"] == pytest.approx(0.1 - slope / 160, rel=1e-12)
+    assert table["given"].tolist() == [False, True, False]
 
 
 def test_bootstrap_intervals_hold_limits_in_95_of_100_cases(monkeypatch):
@@ -49,7 +58,7 @@ def test_bootstrap_intervals_hold_limits_in_95_of_100_cases(monkeypatch):
         {"scene": np.arange(len(n)) // (4 * runs), "n_blocks": n, **made_up}
     )
     members = members.assign(front_speed_m_per_s=1e3, reached=True, draw=1)
-    found = resolution.extrapolation_table(members, 20).query(
+    found = resolution.extrapolation_table(members, 20, {}).query(
         "quantity != 'front_speed_m_per_s'"
     )
     held = (

@@ -6,10 +6,10 @@ import pandas as pd
 import pytest
 from ensembles.studies import noise_of, study_of
 
-from precursors.analysis.run_statistics import compared
+from precursors.analysis.run_statistics import NOISE, compared
 from precursors.ensembles.noise import noise_table
 from precursors.ensembles.printed_digits import HALF_A_DIGIT, digits_table, share_row
-from precursors.ensembles.study import NOISE, chain_of
+from precursors.ensembles.study import chain_of
 
 NAN = np.nan
 
@@ -81,12 +81,17 @@ def test_agreement_by_hand():
     }
     paper = {scene: {"events_counted": 3, "mu_sapp": 0.5} for scene in mu}
     table = digits_table(members_of([3, 3, 3, 4, 3, 3], **mu), paper)
-    hits = table.set_index(["scene", "quantity", "question"])["k"]
-    assert hits["a", "mu_sapp", "as printed"] == 3
-    assert hits["b", "mu_sapp", "as in the run"] == 3
-    assert hits["b", "events_counted", "as printed"] == 4
-    assert hits["all", "mu_sapp", "same mu_sapp"] == 2
-    assert hits["all", "all", "all six numbers"] == 1
+    table = table.set_index(["scene", "quantity", "question"])
+    hits = table["k"]
+    assert hits["a", "mu_sapp", "as_printed"] == 3
+    assert hits["b", "mu_sapp", "as_in_run"] == 3
+    assert hits["b", "events_counted", "as_printed"] == 4
+    assert hits["all", "mu_sapp", "same_mu_sapp"] == 2
+    assert hits["all", "all", "all_six"] == 1
+    of_b = table.loc[("b", "mu_sapp", "as_printed")]
+    assert of_b[["q05", "q50", "q95"]].tolist() == pytest.approx(
+        [0.49235, 0.502, 0.5176]
+    )
 
 
 @pytest.mark.parametrize(

@@ -300,6 +300,7 @@ TABLES: dict[str, Callable[[], pd.DataFrame]] = {
             *(
                 "noise",
                 "noise_differences",
+                "noise_amplitudes",
                 "digits",
                 "resolution",
                 "counts_by_n",

@@ -51,15 +51,15 @@ def test_the_printed_digits_do_not_settle_the_coefficient():
     shares = (
         100 * table("digits", "scene", "quantity", "question")[["share", "low", "high"]]
     )
-    each = [shares["share"][scene, "mu_sapp", "as printed"] for scene in THETAS]
+    each = [shares["share"][scene, "mu_sapp", "as_printed"] for scene in THETAS]
     assert each == pytest.approx(
         said(r"0.705\), (\d+), (\d+) and (\d+) % have mu_sapp"), abs=1.5
     )
     same = said(r"In ([\d.]+) % \(95 % interval: ([\d.]+) to ([\d.]+) %\) the three")
-    assert shares.loc["all", "mu_sapp", "same mu_sapp"].tolist() == pytest.approx(
+    assert shares.loc["all", "mu_sapp", "same_mu_sapp"].tolist() == pytest.approx(
         same, abs=0.6
     )
-    six, _, high = shares.loc["all", "all", "all six numbers"]
+    six, _, high = shares.loc["all", "all", "all_six"]
     assert [six, high] == pytest.approx(
         [0.0, *said(r"In none \(below ([\d.]+) %\) all six")], abs=0.05
     )

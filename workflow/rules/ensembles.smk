@@ -10,7 +10,7 @@ TABLES |= {
     "noise": {
         "function": "ensembles.noise:noise_tables",
         "inputs": {"chunks": chunks_of(study="noise_members")},
-        "tables": ["noise", "noise_differences"],
+        "tables": ["noise", "noise_differences", "noise_amplitudes"],
         "beside": ["noise_members"],
     },
     "digits": {

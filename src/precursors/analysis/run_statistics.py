@@ -13,6 +13,9 @@ from numpy.typing import ArrayLike
 # Two intervals of this confidence hold both medians in 95 % of cases or more
 # (Bonferroni).
 EACH_OF_TWO = 0.975
+# Relative noise in the normal loads of an ensemble: a tenth of what an experiment knows
+# of them, and well above rounding.
+NOISE = 1e-3
 QUANTILES = {"q05": 0.05, "q25": 0.25, "q50": 0.5, "q75": 0.75, "q95": 0.95}
 
 

@@ -16,6 +16,8 @@ SUMMARY = np.dtype(
     [
         ("events_to_global_slip", "i8"),
         ("events_counted", "i8"),
+        ("records", "i8"),
+        ("speedup", "f8"),
         ("mu_sapp", "f8"),
         ("load", "f8"),
         ("time", "f8"),
@@ -28,6 +30,8 @@ SUMMARY = np.dtype(
     ]
 )
 SUMMARY_UNITS = {"load": "N", "time": "s", "end": "s", "crossing_time": "s"}
+# L_p/L from which the length of the experiment's precursors grows faster (Sect. 6.1).
+KINK = 0.7
 
 
 def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
@@ -40,8 +44,9 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     -------
     structured array, one row per run
         Up to and including the first global slip: events_to_global_slip (all slip
-        events), events_counted (those of Fig. 13), transitions; mu_sapp [1] (Eq. 1) and
-        the load F_X [N] that it stands for. Of the first global slip: time (its onset),
+        events), events_counted (those of Fig. 13), records (those of them that are
+        longer than all before), speedup (see `_speedup`), transitions; mu_sapp [1]
+        (Eq. 1) and the load F_X [N] that it stands for. Of the first global slip: time (its onset),
         end and crossing_time (from its onset until block N first slides) [s]. Where
         reached is False there was no global slip: these are NaN, and the counts are
         those of the whole run. A global slip that the end of the run cuts off has end
@@ -73,10 +78,15 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
     # Fronts of later runs are raised above all earlier ones, so that the running
     # maximum begins anew.
     front = events["front"] + events["run"] * MOST_BLOCKS
-    counted = until_global & (front == np.maximum.accumulate(front))
-    summaries["events_counted"] = np.bincount(
-        events["run"], counted, minlength=len(runs)
-    )
+    farthest = np.maximum.accumulate(front)
+    counts = {
+        "events_counted": front == farthest,
+        "records": np.diff(farthest, prepend=0) > 0,
+    }
+    for name, is_counted in counts.items():
+        summaries[name] = np.bincount(
+            events["run"], until_global & is_counted, minlength=len(runs)
+        )
 
     slips = events[last_counted[reached]]
     crossing_time = [
@@ -90,10 +100,38 @@ def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
         "end": slips["end"],
         "crossing_time": crossing_time,
         "transitions": slips["last"] + 1,
+        "speedup": _speedup(
+            events[until_global & (front == farthest)],
+            reached,
+            np.array([runs[i].chain.n_blocks for i in reached]),
+        ),
     }
     for name, values in first_global.items():
         summaries[name][reached] = values
     return summaries
+
+
+def _speedup(
+    counted: NDArray[np.void], runs: NDArray[np.int64], n_blocks: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """Growth of L_p with F_X beyond KINK L, over that before, in the counted events of
+    some runs.
+
+    The last event of up to KINK L divides the two, and the first of the whole length
+    ends the second. NaN where one of them has no rise of L_p or F_X.
+    """
+    # Counted fronts never fall, so that these numbers ascend.
+    front = counted["front"] + counted["run"] * MOST_BLOCKS
+    start = runs * MOST_BLOCKS
+    first = np.searchsorted(front, start)
+    kink = np.searchsorted(front, start + KINK * n_blocks, "right") - 1
+    last = np.searchsorted(front, start + n_blocks)
+    three = counted[np.array([first, np.maximum(first, kink), last])]
+    rise = np.diff(three["front"], axis=0)
+    span = np.diff(three["load_before"], axis=0)
+    before = rise[0] * span[1]
+    undefined = np.full(len(runs), np.nan)
+    return np.divide(rise[1] * span[0], before, out=undefined, where=before > 0)
 
 
 def _crossing_time(run: Run, slip: np.void) -> float:

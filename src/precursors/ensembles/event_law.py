@@ -35,8 +35,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.run_statistics import median_interval
-from precursors.ensembles.study import LOADINGS, NOISE, Study, chain_of, gather, stack
+from precursors.analysis.run_statistics import NOISE, median_interval
+from precursors.ensembles.study import LOADINGS, Study, chain_of, gather, stack
 from precursors.model.chain import Chain
 
 THETAS = (-0.9, -5 / 6, 0.0, 5 / 6, 0.95)
@@ -89,7 +89,7 @@ def _cases(settings: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
     numbers = settings["n_blocks"]
     middle = settings["middle"]
     for theta, n in product(THETAS, numbers):
-        yield {"varied": "N and theta", "theta": theta, "n_blocks": n}
+        yield {"varied": "n_and_theta", "theta": theta, "n_blocks": n}
     for mu_s, mu_k in FRICTION:
         yield {"varied": "friction", "n_blocks": middle, "mu_s": mu_s, "mu_k": mu_k}
     for stiffness in DRIVES:

@@ -10,18 +10,28 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.run_statistics import compared, median_difference, statistics
-from precursors.ensembles.study import NOISE, Study, gather, stack
+from precursors.analysis.run_statistics import (
+    NOISE,
+    compared,
+    median_difference,
+    statistics,
+)
+from precursors.ensembles.study import Study, gather, stack
+from precursors.model import printed
 
 # Two numbers are the same if they differ by no more than this: friction coefficients by
 # a unit of the last digit of the paper's 0.49, times by what can be read from the axis
 # of Figs. 10-12.
 TOLERANCES = {
-    "mu_sapp": 0.01,
+    "mu_sapp": printed.LAST_DIGIT,
     "events_counted": 0.0,
     "events_to_global_slip": 0.0,
     "time_s": 0.05,
 }
+# Other noise, with so many runs for one with NOISE: the difference of two mu_sapp grows
+# with it.
+AMPLITUDES = (1e-4, 1e-2, 3e-2)
+FEWER = 5
 
 
 def noise_study(
@@ -29,15 +39,19 @@ def noise_study(
     duration: float,
     settings: Mapping[str, Any],
 ) -> Study:
-    """Runs of each scene with noise in the normal loads; draw 0 has none."""
+    """Runs of each scene with noise in the normal loads; draw 0 has none.
+
+    Noise of another amplitude comes after them: the same draws, made smaller or larger.
+    """
     draw = np.arange(settings["runs"] + 1)
-    noise = {
-        "draw": draw,
-        "load_noise": np.where(draw == 0, 0.0, NOISE),
-        "duration": duration,
-    }
+    few = draw[1 : 1 + settings["runs"] // FEWER]
+    noises: list[dict[str, Any]] = [
+        {"draw": draw, "load_noise": np.where(draw == 0, 0.0, NOISE)}
+    ]
+    noises += [{"draw": few, "load_noise": amplitude} for amplitude in AMPLITUDES]
     blocks = [
-        {**slider, **noise, "scene": scene, "group": group}
+        {**slider, **noise, "duration": duration, "scene": scene, "group": group}
+        for noise in noises
         for group, (scene, slider) in enumerate(sliders.items())
     ]
     return Study(stack(blocks), seed=settings["seed"])
@@ -45,11 +59,13 @@ def noise_study(
 
 def noise_tables(chunks: Iterable[pd.DataFrame]) -> dict[str, pd.DataFrame]:
     """The tables of the study, by file name."""
-    members = gather(chunks)
+    gathered = gather(chunks)
+    members = gathered[gathered["load_noise"].isin((0.0, NOISE))]
     return {
         "noise_members": members,
         "noise": noise_table(members),
         "noise_differences": differences_table(members),
+        "noise_amplitudes": amplitudes_table(gathered),
     }
 
 
@@ -114,3 +130,14 @@ def differences_table(members: pd.DataFrame) -> pd.DataFrame:
             }
             rows.append(pair | found | {"verdict": compared(low, high, tolerance)})
     return pd.DataFrame(rows)
+
+
+def amplitudes_table(members: pd.DataFrame) -> pd.DataFrame:
+    """Differences of mu_sapp, as in `differences_table`, for each amplitude of the
+    noise, with the fewest runs of a scene."""
+    tables = {}
+    for amplitude, runs in with_noise(members).groupby("load_noise"):
+        differences = differences_table(runs).query("quantity == 'mu_sapp'")
+        fewest = runs["scene"].value_counts().min()
+        tables[amplitude] = differences.assign(runs=fewest)
+    return pd.concat(tables, names=["load_noise"]).reset_index("load_noise")

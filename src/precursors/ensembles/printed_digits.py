@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.run_statistics import share_interval
+from precursors.analysis.run_statistics import QUANTILES, share_interval
 from precursors.ensembles.noise import TOLERANCES
 from precursors.ensembles.study import Study, gather, stack
 
@@ -31,6 +31,7 @@ ENOUGH = 0.95
 ALL = "all"
 # Times are those of the drive, whose speed is printed with one digit.
 QUANTITIES = ("mu_sapp", "events_counted", "events_to_global_slip")
+ENDS = ("q05", "q50", "q95")
 
 
 def digits_study(
@@ -82,11 +83,12 @@ def digits_table(
     Returns
     -------
     DataFrame
-        One row per scene, quantity and question. "as in the run": is the number that of
-        the scene as it is? "as printed": is it the paper's? k of n sliders, their share
-        with its interval low to high, and the class by `ENOUGH`: robust, fragile or
-        undecided. Scene "all": do the three mu_sapp of a slider differ by no more than
-        0.01 ("same mu_sapp"), and are "all six numbers" the paper's?
+        One row per scene, quantity and question. as_in_run: is the number that of the
+        scene as it is? as_printed: is it the paper's? k of n sliders, their share with
+        its interval low to high, the class by `ENOUGH`: robust, fragile or undecided,
+        and q05, q50, q95, the 5, 50 and 95 % of the numbers drawn. Scene all: are the
+        three mu_sapp of a slider the same to a unit of the last digit (same_mu_sapp),
+        and are all six numbers the paper's (all_six)?
     """
     draws = members[members["draw"] > 0]
     found: list[tuple[Any, str, str, float, pd.Series]] = []
@@ -95,29 +97,32 @@ def digits_table(
         for quantity in QUANTITIES:
             drawn = runs.set_index("draw")[quantity]
             values = {
-                "as in the run": alone[quantity],
-                "as printed": paper[str(scene)].get(quantity),
+                "as_in_run": alone[quantity],
+                "as_printed": paper[str(scene)].get(quantity),
             }
             for question, value in values.items():
                 if value is not None:
                     agree = agrees(drawn, value, TOLERANCES[quantity])
                     found.append((scene, quantity, question, value, agree))
-    six = [agree for _, _, question, _, agree in found if question == "as printed"]
+    six = [agree for _, _, question, _, agree in found if question == "as_printed"]
     friction = draws.pivot_table(
         index="draw", columns="scene", values="mu_sapp", dropna=False
     )
     span = friction.max(axis=1, skipna=False) - friction.min(axis=1, skipna=False)
     same = agrees(span, 0.0, TOLERANCES["mu_sapp"])
-    found.append((ALL, "mu_sapp", "same mu_sapp", span.median(), same))
+    found.append((ALL, "mu_sapp", "same_mu_sapp", span.median(), same))
     if six:
         found.append(
-            (ALL, ALL, "all six numbers", len(six), pd.concat(six, axis=1).all(axis=1))
+            (ALL, ALL, "all_six", len(six), pd.concat(six, axis=1).all(axis=1))
         )
-    return pd.DataFrame(
+    table = pd.DataFrame(
         {"scene": scene, "quantity": quantity, "question": question, "value": value}
         | share_row(agree)
         for scene, quantity, question, value, agree in found
     )
+    numbers = draws.melt("scene", QUANTITIES, "quantity").groupby(["scene", "quantity"])
+    ends = {name: numbers["value"].quantile(QUANTILES[name]) for name in ENDS}
+    return table.join(pd.DataFrame(ends), on=["scene", "quantity"])
 
 
 def agrees(values: pd.Series, value: float, tolerance: float) -> pd.Series:

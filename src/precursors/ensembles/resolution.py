@@ -9,18 +9,21 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from scipy.stats import mannwhitneyu
 
 from precursors.analysis.horizon import horizon
+from precursors.analysis.run_statistics import NOISE
 from precursors.ensembles.noise import noise_table, with_noise
-from precursors.ensembles.study import NOISE, Study, gather, stack
-from precursors.model.chain import Chain
+from precursors.ensembles.study import Study, gather, stack
+from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import simulate
 
-# All slip events up to the first global slip, and those of Fig. 13, which are never
-# shorter than one before.
-COUNTS = ("events_to_global_slip", "events_counted")
-# Numbers that are extrapolated to infinite N as a + b/N.
-EXTRAPOLATED = ("mu_sapp", "time_s", "front_speed_m_per_s")
+# All slip events up to the first global slip; those of Fig. 13, which are never shorter
+# than one before; and those that are longer than all before.
+COUNTS = ("events_to_global_slip", "events_counted", "records")
+# Numbers that are extrapolated to infinite N as a + b/N, and the value of the slider
+# that is their limit a, where there is one.
+EXTRAPOLATED = {"mu_sapp": "mu_k", "time_s": None, "front_speed_m_per_s": None}
 QUANTITIES = (*COUNTS, *EXTRAPOLATED)
 # Samples of a bootstrap, and the ends of its 95 % interval.
 SAMPLES = 1000
@@ -71,7 +74,8 @@ def resolution_tables(
     gathered = gather(chunks)
     runs = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
     members = with_front_speed(runs, slider["length"])
-    limits = extrapolation_table(members, extrapolate_from)
+    given = {name: slider[key] for name, key in EXTRAPOLATED.items() if key}
+    limits = extrapolation_table(members, extrapolate_from, given)
     return {
         "resolution_members": gathered,
         "resolution": noise_table(members, POINT, QUANTITIES),
@@ -98,10 +102,11 @@ def wave_speed(slider: Mapping[str, float]) -> float:
 
 
 def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
-    """Both counts of events against N, one row per n_blocks and scene.
+    """Counts of events against N, one row per n_blocks and scene.
 
-    Each row has the median of each count, also over that of the scene `uniform`, and
-    the median of the share of events that are counted.
+    Each row has the median of each count, also over that of the scene `uniform`, with
+    the probability by chance of such a difference from this scene (two-sided test of
+    Mann and Whitney), and the median of the share of events that are counted.
     """
     runs = with_noise(members)
     rows = []
@@ -113,6 +118,7 @@ def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
         for count in COUNTS:
             row[count] = own[count].median()
             row[f"{count}_over_uniform"] = own[count].median() / even[count].median()
+            row[f"{count}_p"] = mannwhitneyu(own[count], even[count]).pvalue
         rows.append(
             row
             | {
@@ -155,12 +161,16 @@ def predictability_table(
     return pd.DataFrame(rows)
 
 
-def extrapolation_table(members: pd.DataFrame, from_n_blocks: int) -> pd.DataFrame:
+def extrapolation_table(
+    members: pd.DataFrame, from_n_blocks: int, given: Mapping[str, float]
+) -> pd.DataFrame:
     """Extrapolate numbers to an infinite number of blocks as a + b/N, by least squares
     over the medians.
 
-    Chains with fewer than `from_n_blocks` blocks are left out. One row per scene and
-    quantity has a, b, the ends of their bootstrap intervals, and how many N took part.
+    Chains with fewer than `from_n_blocks` blocks are left out. The limit a is fitted,
+    or `given` by the quantity. One row per scene and quantity has a, b, the ends of
+    their bootstrap intervals, whether a is given, misfit, the largest distance of a
+    median from the law, and how many N took part.
     """
     rows = []
     large = with_noise(members[members["n_blocks"] >= from_n_blocks])
@@ -177,24 +187,27 @@ def extrapolation_table(members: pd.DataFrame, from_n_blocks: int) -> pd.DataFra
                 )
                 for _, values in numbers
             ]
-            (b, a), (b_all, a_all) = (
-                np.polyfit(1.0 / medians.index, y, 1) for y in (medians, samples)
-            )
-            (a_low, a_high), (b_low, b_high) = (
-                np.quantile(a_all, ENDS),
-                np.quantile(b_all, ENDS),
-            )
-            found = {
-                "a": a,
-                "a_low": a_low,
-                "a_high": a_high,
-                "b": b,
-                "b_low": b_low,
-                "b_high": b_high,
-            }
-            rows.append(
-                {"scene": scene, "quantity": quantity}
-                | found
-                | {"n_points": len(medians)}
-            )
+            limit = given.get(quantity)
+            inverse = 1.0 / medians.index.to_numpy(float)
+            a, b = _line(inverse, medians.to_numpy(), limit)
+            row = {"scene": scene, "quantity": quantity, "a": a}
+            ends = [
+                np.quantile(drawn, ENDS)
+                for drawn in _line(inverse, np.array(samples), limit)
+            ]
+            row |= {"a_low": ends[0][0], "a_high": ends[0][1], "b": b}
+            row |= {"b_low": ends[1][0], "b_high": ends[1][1]}
+            row |= {"n_points": len(medians), "given": limit is not None}
+            misfit = np.abs(medians - a - b * inverse).max()
+            rows.append(row | {"misfit": misfit})
     return pd.DataFrame(rows)
+
+
+def _line(x: FloatArray, y: FloatArray, given: float | None) -> tuple[Any, Any]:
+    """Offset a and slope b of the line a + b x through y, shape (len(x), ...), with any
+    offset or a `given` one."""
+    if given is None:
+        b, a = np.polyfit(x, y, 1)
+        return a, b
+    b = x @ (y - given) / (x @ x)
+    return np.full_like(b, given), b

@@ -22,10 +22,7 @@ ARGUMENTS = tuple(inspect.signature(Chain.from_slider).parameters)
 LEFT_OUT = {*ARGUMENTS, "duration"} - {"theta", "n_blocks"}
 # Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
 BLOCKS_PER_BATCH = 2000
-# Relative noise in the normal loads: a tenth of what an experiment knows of them, and
-# well above rounding.
-NOISE = 1e-3
-# Normal load at a place x from 0 (leading edge) to 1 (trailing edge), but for a factor.
+# Normal load at a place x from 0 (trailing edge) to 1 (leading edge), but for a factor.
 LOADINGS: dict[str, Callable[[FloatArray], FloatArray]] = {
     "middle": lambda x: 0.2 + x * (1 - x),
     "edges": lambda x: 0.2 + (2 * x - 1) ** 2,

@@ -33,7 +33,7 @@ def draw(table: pd.DataFrame) -> Figure:
     events (event_law.csv)."""
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         counts, ratios, rises = figure.subplots(1, 3)
-        linear = table[table["varied"] == "N and theta"]
+        linear = table[table["varied"] == "n_and_theta"]
         for theta, rows in linear.groupby("theta"):
             color, marker = min(
                 THETA_COLORS.items(), key=lambda item: abs(item[0] - float(str(theta)))

@@ -11,16 +11,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from precursors.analysis.run_statistics import NOISE
 from precursors.hierarchy.models import MODELS, UNITS, Model
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.scenes import PAPERS_MODEL
 from precursors.support import timing
 
 WAVEFORM_SAMPLES = 2001
-# Of runs with noise in the normal loads: its relative size, well below what an
-# experiment knows of them; the seed; how many runs; and how often they are drawn again
-# for the interval of an error (bootstrap).
-NOISE = 1e-3
+# Of runs with noise in the normal loads: the seed; how many runs; and how often they
+# are drawn again for the interval of an error (bootstrap).
 SEED = 2014
 DRAWS = 200
 RESAMPLES = 500

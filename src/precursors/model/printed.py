@@ -2,6 +2,8 @@
 
 # Of all simulations and experiments.
 MU_SAPP = 0.49
+# A unit of its last digit: the paper says that mu_sapp "appears to have" this value.
+LAST_DIGIT = 0.01
 # Of each scene: the events are those counted in Fig. 13 (Sect. 5.2).
 SCENES = {
     "fig10": {"events_counted": 9, "mu_sapp": MU_SAPP},
