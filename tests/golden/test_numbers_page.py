@@ -85,7 +85,24 @@ def test_medians_with_noise_are_the_same_at_two_loadings_and_differ_at_the_third
     )
 
 
-def test_the_apparent_friction_falls_to_mu_k_with_the_number_of_blocks():
-    friction = table("resolution_limits", "quantity")["a"]["mu_sapp"]
-    (unit,) = said(r"falls to mu_k, within ([\d.]+),")
-    assert ((friction - 0.45).abs() < unit).all()
+def test_the_apparent_friction_approaches_mu_k_with_the_number_of_blocks():
+    friction = table("resolution", "quantity", "n_blocks")["q50"]["mu_sapp"]
+    n, near = said(r"with (\d+) blocks it is within ([\d.]+) of it")
+    assert ((friction[n] - 0.45).abs() < near).all()
+    assert (friction[10] - 0.45).min() > near
+
+
+def test_the_counts_of_two_loadings_draw_near_with_the_number_of_blocks():
+    more = table("counts_by_n", "n_blocks", "scene")["events_counted_over_uniform"]
+    coarse, fine = said(r"counts (\d+) % more .* ten blocks, and (\d+) % more with 160")
+    found = [100 * (more[n, "fig12"] - 1) for n in (10, 160)]
+    assert found == pytest.approx([coarse, fine], abs=0.5)
+
+
+def test_the_difference_of_mu_sapp_depends_on_the_amplitude_of_the_noise():
+    least, most = said(r"from 0.01 to 3 % it is larger by ([\d.]+) to ([\d.]+) \(200")
+    found = table("noise_amplitudes", "scene", "other").loc[("fig12", "fig10")]
+    assert found["load_noise"].tolist() == [1e-4, 1e-3, 1e-2, 3e-2]
+    assert [found["difference"].min(), found["difference"].max()] == pytest.approx(
+        [least, most], abs=0.005
+    )
