@@ -32,7 +32,7 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
     claims = read_table(golden / "claims.csv")
     write_text(
         golden / "check.txt",
-        "\n".join([*check_claims.entries(claims), *check_claims.totals(claims), ""]),
+        f"{check_claims.printed(claims)}\n",
     )
     for name, make in {**small_tables.TABLES, **small_tables.ELSEWHERE}.items():
         small_tables.write(make(), golden / f"small/{name}.csv")

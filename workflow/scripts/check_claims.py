@@ -6,18 +6,33 @@ The exit code is 1 if a verdict is not the expected one.
 
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from textwrap import fill
+from typing import Any
 
 import pandas as pd
 
-from precursors.reproduction.claim import ENSEMBLES, KINDS, VERDICTS
+from precursors.reproduction.claim import (
+    CHECK,
+    EXPERIMENT,
+    READINGS,
+    RESULT,
+    VERDICTS,
+    in_words,
+)
 from precursors.reproduction.claims import differences, evaluate
 from precursors.reproduction.inputs import CLAIM_TABLES
 from precursors.support.files import read_table
 
 WIDTH = 110
+HEADINGS = {
+    READINGS: "Numbers that chose our readings",
+    RESULT: "Claims about the model",
+    EXPERIMENT: "Beside the experiment",
+    CHECK: "Checks that cannot fail in practice",
+}
+RUNS = {"noise": "runs with 0.1 % noise", "digits": "sliders printed alike"}
 
 
 def main(
@@ -32,41 +47,59 @@ def main(
         )
     except (OSError, ValueError) as error:
         sys.exit(f"check: {error}")
-    print("\n".join([*entries(found), *totals(found)]))
+    print(printed(found))
     unexpected = differences(found, read_table(expected))
     if unexpected:
         sys.exit("\n".join(f"check: {line}" for line in unexpected))
 
 
+def printed(claims: pd.DataFrame) -> str:
+    """All claims and their totals."""
+    return "\n".join([*entries(claims), "", *totals(claims)]).lstrip()
+
+
 def entries(claims: pd.DataFrame) -> Iterator[str]:
-    """Each claim: its verdict, section and statement, its numbers, and its shares of
-    the ensembles."""
-    for number, claim in enumerate(claims.to_dict("records"), start=1):
-        unit = "" if claim["unit"] == "1" else f" {claim['unit']}"
-        compared = f" ({claim['expected']}{unit})" if claim["expected"] else ""
-        shares = [
-            f"{100 * claim[f'{name}_share']:.0f} % of the draws of {name}"
-            for name in ENSEMBLES
-            if pd.notna(claim[f"{name}_share"])
-        ]
-        yield f"{number:2d}  {claim['verdict'].upper()}  [{claim['claim']}]  {claim['section']}"
-        evidence = "; ".join(
-            [f"{claim['ours']}{unit}{compared}: {claim['rule']}", *shares]
-        )
-        for line in (claim["statement"], evidence):
-            yield fill(line, WIDTH, initial_indent=" " * 4, subsequent_indent=" " * 4)
+    """Each claim under the heading of its kind: section, statement, verdict, numbers,
+    and its shares of the ensembles."""
+    texts = claims.astype(object).where(claims.notna(), "").astype(str)
+    number = 0
+    for kind, of_kind in texts.groupby("kind", sort=False):
+        yield f"\n{HEADINGS[str(kind)]}\n"
+        for claim in of_kind.to_dict("records"):
+            number += 1
+            yield f"{number:2d}  {claim['statement']}"
+            yield f"    [{claim['claim']}]  {claim['section']}"
+            evidence = f"{claim['verdict_text'].upper()}: {numbers(claim)}"
+            indent = " " * 4
+            yield fill(evidence, WIDTH, initial_indent=indent, subsequent_indent=indent)
+
+
+def numbers(claim: Mapping[Any, str]) -> str:
+    """What was found and expected, the rule, the shares of the ensembles, and the
+    note."""
+    unit = "" if claim["unit"] == "1" else f" {claim['unit']}"
+    expected = f", expected {claim['expected']}{unit}" if claim["expected"] else ""
+    sentences = [f"found {claim['ours']}{unit}{expected} ({claim['rule']})."]
+    shares = [
+        f"{100 * float(claim[f'{name}_share']):.0f} % of the {runs}"
+        for name, runs in RUNS.items()
+        if claim[f"{name}_share"]
+    ]
+    if shares:
+        sentences.append(f"Agree: {', '.join(shares)}.")
+    return " ".join([*sentences, claim["note"]]).rstrip()
 
 
 def totals(claims: pd.DataFrame) -> Iterator[str]:
     """How many claims of each kind have which verdict."""
-    for kind in KINDS:
-        verdicts = Counter(claims["verdict"][claims["kind"] == kind])
+    for kind, of_kind in claims.groupby("kind", sort=False):
+        verdicts = Counter(of_kind["verdict"])
         counts = ", ".join(
-            f"{verdicts[verdict]} {verdict}"
+            f"{in_words(str(kind), verdict)} {verdicts[verdict]}"
             for verdict in VERDICTS
             if verdicts[verdict]
         )
-        yield f"{verdicts.total()} of kind {kind!r}: {counts}"
+        yield f"{HEADINGS[str(kind)]}: {len(of_kind)} ({counts})"
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-"""What a claim is: a statement of the paper, and the function that finds whether the
-model agrees."""
+"""A claim: a statement of the paper, and the function that finds whether the model
+agrees."""
 
 from __future__ import annotations
 
@@ -14,16 +14,22 @@ from numpy.typing import ArrayLike
 from precursors.analysis.run_statistics import share_interval
 from precursors.reproduction.tables import Tables
 
+# Verdicts: EXACT is one that holds for exactly these inputs.
 HOLDS = "holds"
-EXACT = "holds for exactly these inputs"
-DOES_NOT_HOLD = "does not hold"
-UNDECIDED = "cannot be decided"
-VERDICTS = (HOLDS, EXACT, DOES_NOT_HOLD, UNDECIDED)
-# The six printed numbers by which the readings of the paper's words were chosen, and
-# what was found after.
-CHOSE = "chose the readings"
+EXACT = "exact"
+FAILS = "fails"
+UNDECIDED = "undecided"
+VERDICTS = (HOLDS, EXACT, FAILS, UNDECIDED)
+# Kinds: the six printed numbers by which the readings of the paper's words were chosen;
+# what was found after; statements on PMMA, which say nothing of the model; and what
+# cannot fail in practice, which counts as no claim.
+READINGS = "readings"
 RESULT = "result"
-KINDS = (CHOSE, RESULT)
+EXPERIMENT = "experiment"
+CHECK = "check"
+KINDS = (READINGS, RESULT, EXPERIMENT, CHECK)
+# A claim that holds and one that fails, in words.
+IN_WORDS = {EXPERIMENT: ("agrees", "differs"), CHECK: ("passes", "fails")}
 # A claim that holds in the run must hold in this share of an ensemble, too.
 ENOUGH = 0.95
 # Ensembles around the run: noise of 0.1 % in the normal loads, and sliders whose inputs
@@ -49,14 +55,15 @@ class Finding:
     """Our numbers; whether the claim holds for them (None: an interval crosses the
     tolerance).
 
-    `expected` is what ours are compared with, and `shares` has the share of each
-    ensemble whose draws have these numbers.
+    `expected` is what ours are compared with, `shares` has the share of each ensemble
+    whose draws have these numbers, and `note` is a sentence that belongs to them.
     """
 
     ours: ArrayLike
     holds: bool | None
     expected: ArrayLike = ()
     shares: tuple[tuple[str, Share], ...] = ()
+    note: str = ""
 
     @property
     def verdict(self) -> str:
@@ -65,7 +72,7 @@ class Finding:
         if self.holds is None:
             return UNDECIDED
         if not self.holds:
-            return DOES_NOT_HOLD
+            return FAILS
         intervals = [share.interval for _, share in self.shares]
         if any(high < ENOUGH for _, high in intervals):
             return EXACT
@@ -73,6 +80,19 @@ class Finding:
 
 
 Find = Callable[[Tables], Finding]
+SAID = ("section", "kind", "statement", "rule", "unit")
+
+
+def in_words(kind: str, verdict: str) -> str:
+    """The verdict on a claim of some kind, in words."""
+    holds, fails = IN_WORDS.get(kind, ("holds", "does not hold"))
+    words = {
+        HOLDS: holds,
+        EXACT: f"{holds} only for exactly these inputs",
+        FAILS: fails,
+        UNDECIDED: "cannot be decided",
+    }
+    return words[verdict]
 
 
 @dataclass(frozen=True)
@@ -108,19 +128,16 @@ class Claim:
             raise ValueError(
                 f"claim {self.name}: the tables do not have its numbers: {error}"
             ) from error
-        row: dict[str, Any] = {
-            "claim": self.name,
-            "section": self.section,
-            "kind": self.kind,
-        }
-        row |= {"statement": self.statement, "rule": self.rule, "unit": self.unit}
+        row: dict[str, Any] = {"claim": self.name}
+        row |= {name: getattr(self, name) for name in SAID}
         row |= {"expected": shown(finding.expected), "ours": shown(finding.ours)}
         for name in ENSEMBLES:
             share = dict(finding.shares).get(name)
             low, high = share.interval if share else (None, None)
             row |= {f"{name}_share": share.k / share.n if share else None}
             row |= {f"{name}_low": low, f"{name}_high": high}
-        return row | {"verdict": finding.verdict}
+        row |= {"note": finding.note, "verdict": finding.verdict}
+        return row | {"verdict_text": in_words(self.kind, finding.verdict)}
 
 
 def in_draws(
