@@ -3,7 +3,6 @@ start at once."""
 
 import inspect
 import json
-import os
 import re
 import shlex
 import signal
@@ -17,21 +16,16 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.legend import Legend
 
 from precursors import Chain, Run, find_slips, simulate
+from precursors.analysis.horizon import predicted_errors
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
-from precursors.cli import (
-    CHAIN,
-    COMMANDS,
-    EPILOG,
-    LARGER,
-    Refused,
-    join_negative_values,
-    main,
-    parser,
-)
+from precursors.cli import Refused, commands, main
+from precursors.cli.options import CHAIN, EPILOG, LARGER, read_options
 from precursors.figures import precursor_lengths, scene, style
+from precursors.figures.run import plot
 from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
 from precursors.support import provenance
 
@@ -84,65 +78,23 @@ def test_help_loads_nothing_heavy_and_lists_the_exit_codes():
     assert [int(line.split()[0]) for line in codes[1:7]] == CODES
 
 
-def test_the_options_of_a_chain_stand_once_in_the_help(cli):
-    assert ["--theta" in cli(command, "--help")[1] for command in COMMANDS] == [
-        True,
-        False,
-        False,
-        False,
-    ]
+@pytest.mark.parametrize("command", ["simulate", "slips", "plot"])
+def test_the_help_of_a_command_states_the_defaults_of_the_library(cli, command):
+    code, told, _ = cli(command, "--help")
+    told = " ".join(told.split())
+    parameters = inspect.signature(Chain.from_slider).parameters
+    for name, meaning in CHAIN.items():
+        assert f"{meaning} ({parameters[name].default:g})" in told
+    assert code == 0
+    assert parameters.keys() - CHAIN.keys() == {"theta", "n_blocks", "weights"}
+    assert LARGER.keys() == inspect.signature(LargerChain).parameters.keys() - {"chain"}
 
 
 @pytest.mark.parametrize(
     "example", re.findall(r"^  precursors (.*?)(?:   .*)?$", EPILOG, re.MULTILINE)
 )
 def test_the_examples_of_the_help_are_read(example):
-    parser().parse_args(join_negative_values(example.split()))
-
-
-OF_A_CHAIN = """
-    --theta --blocks --weights --normal-load --mu-s --mu-k --drive-stiffness --drive-velocity --slider-mass
-    --youngs-modulus --cross-section --length --weakening-velocity --relaxation-time --viscosity --push-height
-    --duration --until-global-slip --max-transitions --json --output"""
-
-
-@pytest.mark.parametrize(
-    ("line", "offered"),
-    [
-        ("", "simulate slips plot audit"),
-        ("simulate --", OF_A_CHAIN),
-        ("slips --", f"{OF_A_CHAIN} --counted"),
-        (
-            "plot --",
-            f"{OF_A_CHAIN} --figure --data --width --font-size --font --title --no-inset",
-        ),
-        ("plot --figure ", "load lengths"),
-    ],
-)
-def test_a_shell_completes_commands_choices_and_for_every_command_the_options_of_a_chain(
-    tmp_path, line, offered
-):
-    line = f"precursors {line}"
-    wanted = {
-        "_ARGCOMPLETE": "1",
-        "COMP_LINE": line,
-        "COMP_POINT": str(len(line)),
-        "_ARGCOMPLETE_IFS": " ",
-    }
-    environment = (
-        os.environ | wanted | {"_ARGCOMPLETE_STDOUT_FILENAME": str(tmp_path / "told")}
-    )
-    subprocess.run(COMMAND, env=environment, check=True)
-    words = set((tmp_path / "told").read_text().split())
-    assert words - {"-h", "--help", "--version"} == set(offered.split())
-
-
-def test_the_help_states_the_defaults_of_the_library():
-    parameters = inspect.signature(Chain.from_slider).parameters
-    for name, (default, _) in CHAIN.items():
-        assert float(default) == parameters[name].default
-    assert CHAIN.keys() == parameters.keys() - {"theta", "n_blocks", "weights"}
-    assert LARGER.keys() == inspect.signature(LargerChain).parameters.keys() - {"chain"}
+    read_options(example.split())
 
 
 @pytest.mark.parametrize(
@@ -168,26 +120,29 @@ def test_the_version_is_told_with_the_commit_of_a_checkout(
 # simulate
 
 SUMMARY = """\
-6 events counted in Fig. 13, 7 in all; mu_sapp = 0.484 = 193.8 N / 400 N; first global slip at 2.632 s.
+6 events counted in Fig. 13, of 7 up to the first global slip and 41 in 10 s.
+mu_sapp = 0.484 = 193.8 N / 400 N; first global slip at 2.632 s.
 
 blocks             10
 duration_s         10
 transitions        1871
 events             7
 events_counted     6
+events_in_all      41
 mu_sapp            0.4844519979
 largest_load_N     193.7807992
 global_slip_s      2.631997364
 global_slip_end_s  2.632443711
 """
 CALM = """\
-0 events counted in Fig. 13, 0 in all; no global slip in 0.1 s.
+0 events counted in Fig. 13, of 0 in 0.1 s; no global slip.
 
 blocks             10
 duration_s         0.1
 transitions        0
 events             0
 events_counted     0
+events_in_all      0
 mu_sapp            -
 largest_load_N     -
 global_slip_s      -
@@ -209,7 +164,7 @@ def test_simulate_tells_what_a_run_says_and_where_it_is(cli, options, text, tmp_
     assert [
         f"{name} {'-' if value is None else f'{value:.10g}'}"
         for name, value in told.items()
-    ] == [" ".join(line.split()) for line in text.splitlines()[2:]]
+    ] == [" ".join(line.split()) for line in text.partition("\n\n")[2].splitlines()]
     assert len(Run.load(file).transitions) == told["transitions"]
 
 
@@ -354,19 +309,21 @@ def test_plot_draws_what_the_library_draws_as_it_is_told_to(
         "look": look,
     }
     lengths = {"data": np.array([[100.0, 0.5]]), "title": "Mine", "look": look}
-    for options, figure in (
-        ([], scene.draw(slips, trace, "N = 10")),
+    for options, figure, err in (
+        ([], scene.draw(slips, trace, "N = 10"), ""),
         (
             [*asked, "--data=loads.csv", "--no-inset"],
             scene.draw(slips, trace, "Mine", **measured),
+            "loads.csv: 2 points, t [s] 0 to 1.5, F_X [N] 0 to 120.5\n",
         ),
         (
             [*asked, "--figure=lengths", "--data=lengths.csv"],
             precursor_lengths.draw([slips], **lengths),
+            "lengths.csv: 1 points, F_X [N] 100 to 100, L_p/L [-] 0.5 to 0.5\n",
         ),
     ):
         told = f"output  {tmp_path / 'a.svg'}\n"
-        assert cli("plot", run_file, *options, "--output=a.svg") == (0, told, "")
+        assert cli("plot", run_file, *options, "--output=a.svg") == (0, told, err)
         style.save(figure, "b.svg", look if options else None)
         assert Path("a.svg").read_bytes() == Path("b.svg").read_bytes()
 
@@ -380,6 +337,45 @@ def test_plot_runs_a_chain_and_draws_into_a_file_of_its_own_name(
     )
     assert (code, json.loads(out)) == (0, {"output": str(tmp_path / "precursors.png")})
     assert Path("precursors.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_measured_values_in_another_unit_are_drawn_with_a_warning(run_file, tmp_path):
+    (tmp_path / "kN.csv").write_text("time,load\n0,0\n1500,0.12\n3000,0.2\n")
+    command = [*COMMAND, "plot", str(run_file), "--data=kN.csv"]
+    told = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert (told.returncode, told.stderr) == (
+        0,
+        "kN.csv: 3 points, t [s] 0 to 3000, F_X [N] 0 to 0.2\n"
+        "precursors: t [s] is measured from 0 to 3000, and computed from 0 to 3: is this the unit?\n"
+        "precursors: F_X [N] is measured from 0 to 0.2, and computed from 0 to 194.305: is this the unit?\n",
+    )
+
+
+def test_measured_loads_are_echoed_and_so_named_in_the_figures(
+    cli, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    Path("loads.csv").write_text("Normalkraft [N]\n30,0\n50,5\n40,0\n")
+    code, _, err = cli("simulate", "--weights=loads.csv", "--output=run.h5")
+    assert (code, err) == (0, "loads.csv: 3 blocks, 30 to 50.5 N, F_Z = 120.5 N\n")
+    run = Run.load("run.h5")
+    [legend] = plot(run, "lengths").axes[0].findobj(Legend)
+    assert legend.get_texts()[0].get_text().startswith("loads as measured: ")
+    assert plot(run).axes[0].get_title("left") == "loads as measured: N = 3"
+
+
+@pytest.mark.parametrize("command", ["simulate", "slips"])
+def test_a_global_slip_that_roundings_decide_is_told_as_such(cli, command):
+    options = ("--blocks", 50, "--until-global-slip")
+    code, _, err = cli(command, *options)
+    assert (code, err.count("\n")) == (0, 1)
+    known = predicted_errors(
+        simulate(Chain.from_slider(n_blocks=50), until="global slip")
+    ).order_known_until
+    assert err.startswith(
+        "the first global slip at 2.668 s is beyond predictability: "
+        f"roundings decide from {known:.3f} s on ("
+    )
 
 
 # audit
@@ -430,6 +426,11 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
         ),
         ("fly", 2, "'fly'"),
         ("simulat", 2, "did you mean simulate? (see precursors --help)"),
+        (
+            "simulate --font 9",
+            2,
+            "arguments: --font 9, which is an option of plot (see precursors --help)",
+        ),
         ("slips --thta 0", 2, "did you mean --theta? (see precursors --help)"),
         (
             "plot --figure length",
@@ -503,7 +504,7 @@ def test_what_goes_wrong_in_a_command_is_one_line_and_an_exit_code(
     def fail(_):
         raise error
 
-    monkeypatch.setitem(COMMANDS, "audit", (fail, "fail"))
+    monkeypatch.setattr(commands, "audit", fail)
     assert cli("audit", "run.h5") == (code, "", f"precursors audit: {told}\n")
     error = RuntimeError("of a library, which nobody expects")
     with pytest.raises(RuntimeError, match="nobody expects"):

@@ -41,7 +41,7 @@ def test_everything_that_computed_is_named_and_every_input_and_output_has_its_ch
         "config.yaml",
         "requirements.lock",
         "paper/paper.typ",
-        "src/precursors/cli.py",
+        "src/precursors/cli/options.py",
     }
     assert needed <= set(found["inputs"])
     assert not [

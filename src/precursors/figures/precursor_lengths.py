@@ -154,7 +154,7 @@ def _label(
     name = (
         style.theta_text(first["theta"])
         if pd.notna(first["theta"])
-        else r"$\theta$ unknown"
+        else "loads as measured"
     )
     for column, text in (
         ("n_blocks", ", $N = {:g}$"),

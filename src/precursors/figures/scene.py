@@ -155,7 +155,7 @@ def _title(slips: pd.DataFrame, title: str, width_mm: float, font_size: float) -
     parts = (
         [style.theta_text(slips["theta"].iloc[0])]
         if slips["theta"].notna().any()
-        else []
+        else ["loads as measured"] * (len(slips) > 0)
     )
     note = " (no global slip)" if len(slips) and not slips["is_global"].any() else ""
     text = ": ".join([*parts, style.plain(title)]).removesuffix(": ") + note

@@ -9,10 +9,8 @@ from fractions import Fraction
 from os import PathLike
 from typing import Any
 
-import numpy as np
-
 from precursors.model.chain import Chain, parse_theta, theta_from_load_cells
-from precursors.model.spreadsheet import read_columns
+from precursors.model.spreadsheet import read_weights
 
 Config = Mapping[str, Any]
 
@@ -59,21 +57,6 @@ def scene_model(config: Config, name: str) -> str:
 def scene_duration(config: Config, name: str) -> float:
     """Time that the scene is simulated for [s]."""
     return float(config["scenes"][name].get("duration", config["duration"]))
-
-
-def read_weights(path: str | PathLike[str]) -> list[float]:
-    """Normal loads [N] from a table with a number for each block, or with the block's
-    number before it."""
-    table = read_columns(path, ["normal load of each block [N]"])
-    n, width = table.shape
-    if width == 1 or (n == 1 and width != 2):
-        return [float(load) for load in table.flat]
-    if width == 2 and np.array_equal(table[:, 0], np.arange(1, n + 1)):
-        return [float(load) for load in table[:, 1]]
-    raise ValueError(
-        f"{path}: columns: {width}; needed is the normal load of each block [N], one a line, "
-        "alone or after the number of its block, 1, 2, 3, ..."
-    )
 
 
 def measured(

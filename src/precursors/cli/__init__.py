@@ -1,0 +1,71 @@
+"""The command `precursors`: simulate, slips, plot, audit.
+
+What a command needs is imported when it runs, so that `precursors --help` answers at
+once.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from collections.abc import Sequence
+
+from precursors.cli.options import read_options
+from precursors.support.files import check_writable
+
+DONE = 0
+REFUSED = 1
+WRONG_USE = 2
+FILE = 3
+NOT_INSTALLED = 4
+INTERRUPTED = 130
+
+
+class Refused(Exception):
+    """What the user asked for does not hold, or was not reached: each argument is a
+    line."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command and return its exit code; an error is one line on standard
+    error."""
+    # Starting threads costs more than any matrix here.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    warnings.formatwarning = lambda message, *_: f"precursors: {message}\n"
+    arguments = read_options(sys.argv[1:] if argv is None else argv)
+    try:
+        if getattr(arguments, "output", None):
+            is_figure = arguments.command == "plot"
+            endings = (".png", ".svg", ".pdf", ".eps") if is_figure else ()
+            check_writable(arguments.output, endings)
+        from precursors.cli import commands
+
+        getattr(commands, arguments.command)(arguments)
+        if sys.stdout:  # None where it was closed
+            sys.stdout.flush()
+        return DONE
+    except BrokenPipeError:  # the reader has enough, as in `precursors slips | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    except KeyboardInterrupt:
+        code = INTERRUPTED
+        lines = ["interrupted"]
+    except Refused as error:
+        code = REFUSED
+        lines = list(error.args)
+    except ModuleNotFoundError as error:
+        code = NOT_INSTALLED
+        lines = [f"{error}: install it to use this"]
+    except (ValueError, MemoryError) as error:
+        code = WRONG_USE
+        lines = [str(error) or "not enough memory for so many blocks or runs"]
+    except OSError as error:
+        code = FILE
+        lines = [
+            f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        ]
+    for line in lines:
+        told = " ".join(line.split())
+        print(f"precursors {arguments.command}: {told}", file=sys.stderr)
+    return code

@@ -1,0 +1,258 @@
+"""The commands: each takes its options, and prints or writes what was asked for."""
+
+from __future__ import annotations
+
+import json
+import sys
+from argparse import Namespace
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from importlib.metadata import version as installed_version
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+from precursors.cli import Refused
+from precursors.cli.options import CHAIN, DURATION, LARGER, RUN
+from precursors.support.files import write_table
+
+if TYPE_CHECKING:
+    from precursors.analysis.slips import ApparentFriction
+    from precursors.solver.run import Run
+
+FOUND = "{events_counted} events counted in Fig. 13, of {events} "
+FIRST_SLIP = """\
+up to the first global slip and {events_in_all} in {duration_s:g} s.
+mu_sapp = {mu_sapp:.3f} = {largest_load_N:.1f} N / {F_Z:g} N; first global slip at {global_slip_s:.3f} s.
+"""
+NO_SLIP = "in {duration_s:g} s; no global slip.\n"
+# A run with more transitions up to the first global slip takes seconds to repeat.
+MOST_REPEATED = 50_000
+
+
+def simulate(arguments: Namespace) -> None:
+    """Run a chain, and print a sentence and a summary."""
+    from precursors.analysis.slips import apparent_friction, slip_table
+
+    run = run_of_options(arguments)
+    table = slip_table(run)
+    first = apparent_friction(table)
+    values: dict[str, Any] = {
+        "blocks": run.chain.n_blocks,
+        "duration_s": run.duration,
+        "transitions": len(run.transitions),
+        "events": first.event if first else len(table),
+        "events_counted": int(table["counted"].sum()),
+        "events_in_all": len(table),
+        "mu_sapp": first and first.mu_sapp,
+        "largest_load_N": first and first.load,
+        "global_slip_s": first and first.time,
+        "global_slip_end_s": first and table["end_s"].iloc[first.event - 1],
+    }
+    if arguments.output:
+        run.save(arguments.output)
+        values["output"] = str(arguments.output)
+    if not arguments.json:
+        found = FOUND + (FIRST_SLIP if first else NO_SLIP)
+        print(found.format(**values, F_Z=run.chain.normal_load))
+    show_values(values, arguments.json)
+    tell_predictability(run, first)
+
+
+def slips(arguments: Namespace) -> None:
+    """List the slip events of a run file, or of a chain that is run."""
+    from precursors.analysis.slips import apparent_friction, slip_table
+
+    run = run_of(arguments)
+    table = slip_table(run)
+    first = apparent_friction(table)
+    if arguments.counted:
+        table = table[table["counted"]]
+    if arguments.output:
+        write_table(table, arguments.output)
+    if arguments.json:
+        found = table.astype(object).where(table.notna(), None)
+        print(json.dumps(found.to_dict(orient="records"), indent=1))
+    elif arguments.output:
+        print(f"{len(table)} events: {arguments.output}")
+    elif table.empty:
+        print("no slip event")
+    else:
+        shown = table.drop(columns=["theta", "n_blocks", "normal_load_N", "length_m"])
+        shown.columns = shown.columns.str.replace("load_|is_|n_", "", regex=True)
+        print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
+    tell_predictability(run, first)
+
+
+def plot(arguments: Namespace) -> None:
+    """Draw a run: its load and slips over time, or its propagation lengths against the
+    load."""
+    from precursors.figures.run import AXES, plot
+    from precursors.figures.style import Look, save
+    from precursors.model.spreadsheet import read_columns
+
+    look = Look(**given(arguments, ("width_mm", "font_size", "font")))
+    how = given(arguments, ("figure", "title", "inset"))
+    axes = AXES[arguments.figure]
+    if arguments.data:
+        how["data"] = data = read_columns(arguments.data, axes)
+        ranges = [
+            f"{name} {min(values):g} to {max(values):g}"
+            for name, values in zip(axes, data.T, strict=True)
+        ]
+        tell(f"{arguments.data}: {len(data)} points, {', '.join(ranges)}")
+    run = run_of(arguments)
+    save(plot(run, look=look, **how), arguments.output, look)
+    show_values({"output": str(arguments.output.resolve())}, arguments.json)
+
+
+def audit(arguments: Namespace) -> None:
+    """Check that each run file is whole and its run a motion of the model."""
+    from precursors.audit import audit
+
+    wrong: list[str] = []
+    for path in arguments.files:
+        try:
+            run = load(path)
+            if problems := audit(run).problems:
+                raise Refused(f"{path}: not a motion of the model: {problems[0]}")
+            print(
+                f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s"
+            )
+        except Refused as refused:
+            wrong += refused.args
+    if wrong:
+        raise Refused(*wrong)
+
+
+def version(_: Namespace) -> None:
+    """Print the version, and in a checkout the commit and its software hash
+    identifiers."""
+    from precursors.support.provenance import git_state
+
+    print(f"precursors {installed_version('precursors')}")
+    if state := git_state(Path(__file__).parents[3]):
+        print(
+            f"commit {state['commit']}{', and files have changed since' if state['changed'] else ''}"
+        )
+        print(state["swh_revision"], state["swh_directory"], sep="\n")
+
+
+def load(path: Path) -> Run:
+    """Read a run file."""
+    from precursors.solver.run import Run, RunFileError
+
+    try:
+        return Run.load(path)
+    except RunFileError as error:
+        raise Refused(str(error)) from error
+
+
+def run_of(arguments: Namespace) -> Run:
+    """Read the run file, or run the chain of the options."""
+    if arguments.file is None:
+        return run_of_options(arguments)
+    if given(arguments, ("theta", "n_blocks", "weights", *CHAIN, *LARGER, *RUN)):
+        raise ValueError(
+            f"{arguments.file}: a run file cannot be combined with options of a chain"
+        )
+    return load(arguments.file)
+
+
+def run_of_options(arguments: Namespace) -> Run:
+    """Run the chain of the options."""
+    from precursors.model.chain import Chain, parse_theta
+    from precursors.model.scenes import SLIDER, measured
+    from precursors.solver.simulate import TransitionLimitError, simulate
+
+    announce_compiling()
+    slider = given(arguments, ("theta", "n_blocks", *CHAIN))
+    if arguments.weights is None:
+        slider = {
+            name: slider.get(name, default)
+            for name, default in SLIDER.items()
+            if name != "weights"
+        }
+        slider["theta"] = parse_theta(slider["theta"])
+    elif slider.keys() & {"theta", "n_blocks", "normal_load"}:
+        raise ValueError(
+            "--weights cannot be combined with --theta, --blocks or --normal-load"
+        )
+    else:
+        slider = measured(SLIDER | slider, arguments.weights)
+    chain = Chain.from_slider(**slider)
+    if arguments.weights is not None:
+        loads = chain.weights
+        tell(
+            f"{arguments.weights}: {chain.n_blocks} blocks, {loads.min():g} to "
+            f"{loads.max():g} N, F_Z = {chain.normal_load:g} N"
+        )
+    added = given(arguments, LARGER)
+    how = {"duration": DURATION, **given(arguments, RUN)}
+    try:
+        if any(added.values()):
+            from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
+
+            run = simulate_with_accuracy(LargerChain(chain, **added), **how)
+        else:
+            run = simulate(chain, **how)
+    except TransitionLimitError as error:
+        if arguments.command != "simulate" or not arguments.output:
+            raise Refused(str(error)) from error
+        replace(error.run, slider=slider).save(arguments.output)
+        raise Refused(f"{error}; the run so far is in {arguments.output}") from error
+    return replace(run, slider=slider)
+
+
+def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:
+    """Options that were given, of those named."""
+    return {
+        name: value for name in names if (value := getattr(arguments, name)) is not None
+    }
+
+
+def announce_compiling() -> None:
+    """Tell whoever uses the solver for the first time why it takes so long."""
+    from numba.core import event
+
+    from precursors.solver.kernel.compiled import Announcement
+
+    event.register("numba:compile", Announcement())
+
+
+def tell(line: str) -> None:
+    """Say something beside the result."""
+    print(line, file=sys.stderr)
+
+
+def tell_predictability(run: Run, first: ApparentFriction | None) -> None:
+    """Say if roundings decide the first global slip."""
+    from precursors.analysis.horizon import predicted_errors
+
+    if first is None or run.larger is not None:
+        return
+    until = run.transitions[run.transitions["time"] <= first.time]
+    if len(until) > MOST_REPEATED:
+        return
+    start = monotonic()
+    up_to_slip = replace(run, duration=first.time, transitions=until)
+    known = predicted_errors(up_to_slip).order_known_until
+    if known < first.time:
+        tell(
+            f"the first global slip at {first.time:.3f} s is beyond predictability: roundings "
+            f"decide from {known:.3f} s on ({monotonic() - start:.1f} s to find out)"
+        )
+
+
+def show_values(values: Mapping[str, Any], as_json: bool) -> None:
+    """Print named values, one a line, ten digits a number; JSON has null for NaN."""
+    values = {
+        name: None if value != value else value for name, value in values.items()
+    }  # NaN
+    if as_json:
+        print(json.dumps(values, indent=1))
+        return
+    width = max(map(len, values))
+    for name, value in values.items():
+        text = f"{value:.10g}" if isinstance(value, float) else value
+        print(f"{name:<{width}}  {'-' if text is None else text}")

@@ -1,0 +1,198 @@
+"""The options of the command line, and what a mistake in them probably meant."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Sequence
+from difflib import get_close_matches
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, NoReturn
+
+WRONG_USE = 2
+EPILOG = """\
+examples:
+  precursors simulate --theta 5/6 --output run.h5     10 s of the paper's chain, summarised and saved
+  precursors slips run.h5 --counted                   the events counted in Fig. 13
+  precursors plot --weights loads.csv --width 85 --font-size 9 --output fig.pdf
+  precursors audit results/runs/*.h5                  is each run a motion of the model?
+
+exit codes:
+  0    done
+  1    a run file is damaged, a run does not hold, or a run reached its limit of transitions
+  2    an option is wrong, or a value is out of range
+  3    a file cannot be read or written
+  4    a package that this needs is not installed
+  130  interrupted (Ctrl-C)"""
+
+COMMANDS = {
+    "simulate": "run a chain and summarise it",
+    "slips": "list the slip events of a run",
+    "plot": "draw a run",
+    "audit": "check that runs are motions of the model, without the solver's code",
+}
+# Arguments of `Chain.from_slider` that are numbers.
+CHAIN = {
+    "normal_load": "total normal load F_Z [N]",
+    "mu_s": "coefficient of static friction",
+    "mu_k": "coefficient of kinetic friction",
+    "drive_stiffness": "stiffness K of the drive's spring [N/m]",
+    "drive_velocity": "speed V of the drive [m/s]",
+    "slider_mass": "mass M of the slider [kg]",
+    "youngs_modulus": "Young's modulus E [Pa]",
+    "cross_section": "cross section S [m^2]",
+    "length": "length L of the contact [m]",
+}
+# Fields of `LargerChain`, what such a chain adds to the paper's.
+LARGER = {
+    "weakening_velocity": "velocity v_c over which friction falls to mu_k [m/s]",
+    "relaxation_time": "relaxation time t_v of the material [s]",
+    "viscosity": "viscosity of the dashpots between neighbours [N s/m], instead of t_v",
+    "push_height": "height of the push above the interface [m]",
+}
+RUN = ("duration", "until", "max_transitions")
+DURATION = 10.0  # s
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser that says in one line what is wrong, and what was probably
+    meant."""
+
+    def error(self, message: str) -> NoReturn:
+        """Exit with one line on standard error."""
+        wrong = re.search(r"(?:arguments: |choice: ')([\w-]+)", message)
+        given = wrong[1] if wrong else ""
+        helps = {name: add_options(Parser(), name).format_help() for name in COMMANDS}
+        choices = re.findall(r"\w+", message.partition("choose from")[2])
+        known = choices or re.findall(r"--[a-z][a-z-]+", " ".join(helps.values()))
+        near = get_close_matches(given, known, 1)
+        hint = "".join(f"; did you mean {option}?" for option in near)
+        if near == [given]:
+            owners = [name for name, text in helps.items() if f" {given} " in text]
+            hint = f", which is an option of {' and '.join(owners)}"
+        message = message.replace(
+            "ignored explicit argument", "takes no value, but has"
+        )
+        self.exit(WRONG_USE, f"{self.prog}: {message}{hint} (see {self.prog} --help)\n")
+
+
+def read_options(argv: Sequence[str]) -> argparse.Namespace:
+    """Read the command and its options."""
+    top = Parser(
+        "precursors",
+        description="Simulate stick-slip chains exactly.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    text = "show version, commit and identifiers"
+    top.add_argument("--version", action="store_true", help=text)
+    subparsers = top.add_subparsers(dest="command", metavar="COMMAND")
+    for name, meaning in COMMANDS.items():
+        command = subparsers.add_parser(
+            name, help=meaning, description=f"{meaning[0].upper()}{meaning[1:]}."
+        )
+        if name in argv:  # the defaults of the others are not read
+            add_options(command, name)
+    arguments = top.parse_args(_join_negative_values(argv))
+    if arguments.version:
+        arguments.command = "version"
+    elif arguments.command is None:
+        top.error(f"needed is one of {', '.join(COMMANDS)}")
+    return arguments
+
+
+def add_options(command: Parser, name: str) -> Parser:
+    """Add the options of a command."""
+    add = command.add_argument
+    output: dict[str, Any] = {"type": Path, "metavar": "FILE"}
+    if name == "audit":
+        add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
+        return command
+    if name == "simulate":
+        add("--output", help="save the run (HDF5)", **output)
+    else:
+        text = "a run file; else the options of a chain"
+        add("file", nargs="?", type=Path, metavar="RUN.h5", help=text)
+    if name == "slips":
+        add("--counted", action="store_true", help="only the events counted in Fig. 13")
+        add("--output", help="write the table with every digit (CSV)", **output)
+    elif name == "plot":
+        file = Path("precursors.png")
+        add("--output", default=file, help=f"PNG, SVG, PDF or EPS ({file})", **output)
+        _add_look(command)
+    add("--json", action="store_true", help="print one JSON value")
+    _add_chain(command)
+    return command
+
+
+def _add_chain(command: Parser) -> None:
+    """Add the options of a chain and of its run."""
+    from precursors.model.scenes import SLIDER
+
+    number: dict[str, Any] = {"type": _number, "metavar": "X"}
+    about = "the defaults are the paper's"
+    add = command.add_argument_group("the chain", about).add_argument
+    text = "number of blocks (10)"
+    add("--blocks", dest="n_blocks", type=int, metavar="N", help=text)
+    text = 'non-uniformity of the normal loading, for example "5/6" (0)'
+    add("--theta", metavar="X", help=text)
+    text = "normal loads [N]; replaces --theta, --blocks and --normal-load"
+    add("--weights", metavar="FILE", help=text)
+    for name, meaning in CHAIN.items():
+        add(_option(name), help=f"{meaning} ({SLIDER[name]:g})", **number)
+    about = "each adds to the paper's chain; 0 by default"
+    add = command.add_argument_group("a larger chain", about).add_argument
+    for name, meaning in LARGER.items():
+        add(_option(name), help=meaning, **number)
+    about = "from rest, with every spring at its natural length"
+    add = command.add_argument_group("the run", about).add_argument
+    add("--duration", help=f"time to run [s] ({DURATION:g})", **number)
+    text = "stop at the end of the first global slip"
+    value: dict[str, Any] = {"action": "store_const", "const": "global slip"}
+    add("--until-global-slip", dest="until", help=text, **value)
+    add("--max-transitions", type=int, metavar="N", help="limit of transitions")
+
+
+def _add_look(command: Parser) -> None:
+    """Add the options of a figure."""
+    add = command.add_argument
+    text = "load over time as in Fig. 10 (default), or lengths as in Fig. 13"
+    add("--figure", choices=["load", "lengths"], default="load", help=text)
+    text = "measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it"
+    add("--data", metavar="FILE", help=text)
+    text = "width of the figure [mm] (178, or 85 for lengths)"
+    add("--width", dest="width_mm", type=_number, metavar="MM", help=text)
+    add("--font-size", type=_number, metavar="PT", help="size of the text [pt] (8)")
+    add("--font", metavar="NAME", help="an installed font (DejaVu Sans)")
+    add("--title", metavar="TEXT", help="title of the figure")
+    text = "without the magnified view"
+    add("--no-inset", dest="inset", action="store_false", help=text)
+
+
+def _option(name: str) -> str:
+    """The option for an argument."""
+    return f"--{name.replace('_', '-')}"
+
+
+def _number(text: str) -> float:
+    """Read a number, or a fraction such as 5/6."""
+    try:
+        return float(Fraction(text)) if "/" in text else float(text)
+    except (ValueError, ArithmeticError):
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a number or a fraction such as 5/6"
+        ) from None
+
+
+def _join_negative_values(argv: Sequence[str]) -> list[str]:
+    """Write `--theta -5/6` as `--theta=-5/6`, because argparse takes -5/6 for an
+    option."""
+    joined: list[str] = []
+    for argument in argv:
+        is_negative = re.fullmatch(r"-[\d.][\d./eE+-]*", argument)
+        if joined and is_negative and re.fullmatch(r"--[^=]+", joined[-1]):
+            joined[-1] += f"={argument}"
+        else:
+            joined.append(argument)
+    return joined

@@ -1,0 +1,86 @@
+"""The figure of a run in one line: its tables are made here, and drawn as those of the
+workflow."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from precursors.analysis.load_curve import load_trace
+from precursors.analysis.slips import slip_table
+from precursors.figures import precursor_lengths, scene
+from precursors.figures.style import Look
+from precursors.model.spreadsheet import LENGTH, LOAD, TIME
+from precursors.solver.run import Run
+
+# The axes of each figure, which are the columns of measured data.
+AXES = {"load": (TIME, LOAD), "lengths": (LOAD, LENGTH)}
+LEAST_SHARED = 0.1  # of the range of measured and computed values
+
+
+def plot(
+    run: Run,
+    figure: str = "load",
+    data: NDArray[np.float64] | None = None,
+    title: str | None = None,
+    inset: bool = True,
+    look: Look | Mapping[str, Any] | None = None,
+) -> Figure:
+    """Draw a run: its load and slips over time, or its propagation lengths against the
+    load.
+
+    Parameters
+    ----------
+    run : Run
+        The run, also of a larger chain.
+    figure : "load" or "lengths"
+        As Figs. 10-12, or as Fig. 13.
+    data : array, shape (n, 2), optional
+        Measured t [s] and F_X [N], or F_X [N] and L_p/L, which are drawn over it.
+    title : str, optional
+        By default the number of blocks, or nothing above lengths.
+    inset : bool
+        Whether the time before the first global slip is magnified.
+    look : Look or dict, optional
+        `width_mm`, `font_size` [pt] and `font`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        `savefig` writes it; no state of pyplot is used.
+    """
+    if figure not in AXES:
+        raise ValueError(f"figure must be one of {', '.join(AXES)}, but is {figure!r}")
+    look = Look(**look) if isinstance(look, Mapping) else look
+    slips = slip_table(run)
+    if figure == "lengths":
+        lengths = slips["front"] / slips["n_blocks"]
+        _warn_if_apart(AXES[figure], data, slips["load_before_N"], lengths)
+        return precursor_lengths.draw([slips], data=data, title=title, look=look)
+    title = f"N = {run.chain.n_blocks}" if title is None else title
+    trace = load_trace(run)
+    _warn_if_apart(AXES[figure], data, trace["time_s"], trace["tangential_load_N"])
+    return scene.draw(slips, trace, title, data=data, inset=inset, look=look)
+
+
+def _warn_if_apart(
+    axes: Sequence[str], data: NDArray[np.float64] | None, *computed: pd.Series
+) -> None:
+    """Warn of measured values in another unit than the computed ones."""
+    for j, (name, values) in enumerate(zip(axes, computed, strict=True)):
+        if data is None or not np.ptp(data[:, j]) or not len(values):
+            continue
+        both = np.append(data[:, j], values)
+        shared = np.ptp(data[:, j]) + np.ptp(values) - np.ptp(both)
+        if shared < LEAST_SHARED * np.ptp(both):
+            warnings.warn(
+                f"{name} is measured from {min(data[:, j]):g} to {max(data[:, j]):g}, "
+                f"and computed from {min(values):g} to {max(values):g}: is this the unit?",
+                stacklevel=3,
+            )
