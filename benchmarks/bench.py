@@ -40,7 +40,12 @@ import pandas as pd
 
 from precursors import Chain, Run, simulate, simulate_many
 from precursors.accuracy.compare import Truth, compare
-from precursors.accuracy.work_precision import ROUNDS, Case, measure_methods
+from precursors.accuracy.work_precision import (
+    ROUNDS,
+    Case,
+    charted_values,
+    measure_methods,
+)
 from precursors.methods import METHODS, cvode_events, events
 from precursors.methods.common import Result
 from precursors.methods.heyoka_events import solve_heyoka
@@ -140,12 +145,13 @@ def one_method(name: str, rounds: int) -> pd.DataFrame:
     first global slip."""
     truth = reference("0").until_global_slip()
     case = Case("uniform", 0.0, truth.run.chain, DURATION, "global slip", truth)
-    values: dict[str, tuple[float, ...]] = {
-        other: METHODS[other].quick[-1:]
-        for other in ("exact", "heyoka")
-        if other in METHODS
+    quick = charted_values(case.until, full=False)
+    values = {
+        other: settings[-1:]
+        for other, settings in quick.items()
+        if other in ("exact", "heyoka")
     }
-    values[name] = METHODS[name].values_of(case.until, full=not METHODS[name].quick)
+    values[name] = quick[name] or charted_values(case.until, full=True)[name]
     return measure_methods(case, values, rounds)
 
 
@@ -266,9 +272,13 @@ def in_callbacks() -> Iterable[Row]:
         "cvode_adams": [(cvode_events, "rates_of"), (cvode_events, "event_functions")],
     }
     for name in filter(METHODS.__contains__, callbacks):
-        method = METHODS[name]
+        tightest = charted_values("global slip", full=False)[name][-1]
         run = partial(
-            method.solve, Chain.from_slider(), DURATION, method.quick[-1], "global slip"
+            METHODS[name].solve,
+            Chain.from_slider(),
+            DURATION,
+            tightest,
+            "global slip",
         )
         run()
         part = median(part_within(run, callbacks[name]) for _ in range(timing.ROUNDS))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -26,7 +25,7 @@ from precursors.accuracy.work_precision import (
     measure_methods,
     proved_cases,
 )
-from precursors.methods import METHODS, Method, Result
+from precursors.methods import METHODS, ROWS, Method, Result
 from precursors.proof import ExactChain, certify
 
 FIVE = TRUE[:5]  # two slips, the second not over
@@ -63,12 +62,9 @@ def test_methods_run_up_to_a_tie():
 def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solver_comes_first(
     until,
 ):
-    full, default = (
-        charted_values(replace(case(FIVE), until=until), full) for full in (True, False)
-    )
+    full, default = (charted_values(until, full) for full in (True, False))
     assert next(iter(full.items())) == next(iter(default.items())) == ("exact", (0.0,))
-    for name, method in METHODS.items():
-        assert full[name] == (method.values if until else method.whole)
+    for name in METHODS:
         assert len(default[name]) <= len(full[name])
         for values in (full[name], default[name]):
             assert list(values) == sorted(values, reverse=True)
@@ -94,15 +90,7 @@ class Fake:
 @pytest.fixture
 def fake(monkeypatch: pytest.MonkeyPatch, clock) -> Fake:
     fake = Fake(clock)
-    method = Method(
-        "rk4",
-        "fake",
-        "time [s]",
-        fake.solve,
-        (CALL,),
-        kind="once a step",
-        look=("#123456", "p"),
-    )
+    method = Method("rk4", "time [s]", fake.solve, kind="once a step")
     monkeypatch.setitem(METHODS, "rk4", method)
     return fake
 
@@ -116,17 +104,9 @@ def test_a_row_holds_time_work_and_errors(fake):
     (row,) = measured(CALL)
     assert [row.pop(name) for name in ("error_load_N", "error_time_s")] == [1.0, 0.0]
     assert [row.pop(name) for name in COUNTS] == [4, 4, 5, 2, 2, 2]
-    about = [
-        "made up",
-        0.0,
-        "end",
-        "rk4",
-        "fake",
-        "once a step",
-        "#123456",
-        "p",
-        "time [s]",
-    ]
+    shown = [ROWS["rk4"][name] for name in ("color", "marker")]
+    about = ["made up", 0.0, "end", "rk4", ROWS["rk4"]["label"], "once a step"]
+    about += [*shown, "time [s]"]
     assert list(row.values()) == [*about, CALL, 7, CALL]
 
 

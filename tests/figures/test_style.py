@@ -3,7 +3,6 @@ do."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import matplotlib
@@ -17,7 +16,7 @@ from precursors.ensembles.event_law import THETAS
 from precursors.figures import precursor_lengths, style
 from precursors.figures.event_law import THETA_COLORS
 from precursors.figures.failure_gallery import PANELS
-from precursors.methods import METHODS, SPARE, Method, with_looks
+from precursors.methods import ROWS
 
 RULES = Path(__file__).parents[2] / "workflow/rules"
 # Colours have 255 levels; each way of mixing them rounds once.
@@ -83,16 +82,10 @@ def test_measured_lengths_are_shares_of_the_whole():
 
 
 def test_every_method_has_a_colour_and_a_marker_of_its_own():
-    new = (
-        Method(name, name, "step [s]", METHODS["rk4"].solve, (1e-6,))
-        for name in ("first", "second")
-    )
-    chosen = replace(
-        METHODS["rk4"], name="with a spare colour", look=(SPARE[0][0], "$P$")
-    )
-    every = list(with_looks([*METHODS.values(), chosen, *new]))
-    for looks in zip(*(method.look for method in every), strict=True):
-        assert len(set(looks)) == len(every)
+    for column in ("color", "marker"):
+        looks = [row[column] for row in ROWS.values()]
+        assert all(looks)
+        assert len(set(looks)) == len(looks)
 
 
 def test_every_failure_mode_has_a_panel_and_every_theta_of_the_law_a_colour():

@@ -28,11 +28,7 @@ DOCS = Path(__file__).parents[2] / "docs/performance.md"
 PEERS = {
     "heyoka",
     "cvode_adams",
-    "cvode_bdf",
     "scipy_dop853",
-    "scipy_rk45",
-    "scipy_lsoda",
-    "scipy_radau",
 }
 
 

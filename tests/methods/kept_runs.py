@@ -41,7 +41,6 @@ SETTINGS = {
     "width [m/s]": (1e-4,),
     "forward_euler": (5e-7, 1e-7),
     "rk4_located": (5e-6, 1e-6),
-    "scipy_radau": (1e-3, 1e-5),
     "literal": (1e-6,),
 }
 

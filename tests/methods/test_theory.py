@@ -11,7 +11,7 @@ from scipy.linalg import expm
 
 from precursors import Chain, simulate
 from precursors.accuracy.failures.regularised_friction import measured_creep
-from precursors.methods import METHODS, karnopp, moreau_jean, newmark
+from precursors.methods import METHODS, karnopp, moreau_jean
 from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
 from precursors.methods.fixed_step import slide
 from precursors.methods.regularised import STRIBECK, creep_velocity
@@ -118,20 +118,6 @@ def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(
     )
     assert (twice / once) ** (1 / n_steps) == pytest.approx(
         smooth.energy_factor(z), rel=FACTOR_TOLERANCE
-    )
-
-
-def test_hht_damps_a_mode_by_the_largest_eigenvalue_of_a_step(free):
-    hht, omega, mode = SMOOTH["hht"], highest_frequency(free), highest_mode(free)
-    # Its energy swings meanwhile, by a few per cent in all.
-    left = energy_left(free, hht.slide, 1.0 / omega, 200, mode)
-    assert left ** (1 / 200) == pytest.approx(hht.energy_factor(1.0), rel=5e-4)
-    assert hht.energy_factor(3.0) < 0.9
-    # At infinite frequency: J. Chung and G. M. Hulbert, J. Appl. Mech. 60 (1993) 371,
-    # Eq. 23.
-    alpha = newmark.HHT
-    assert hht.energy_factor(1e7) == pytest.approx(
-        ((1 + alpha) / (1 - alpha)) ** 2, rel=1e-6
     )
 
 

@@ -13,7 +13,7 @@ import pandas as pd
 
 from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import Truth, compare
-from precursors.methods import METHODS, Method, Result
+from precursors.methods import METHODS, ROWS, Method, Result
 from precursors.model.chain import Chain
 from precursors.support import timing
 
@@ -89,19 +89,21 @@ def work_precision_table(
     """Measure all methods on the proved chains, in both cases of each."""
     limits = (ROUNDS_FULL, LONGEST_FULL, LONG_FULL) if full else (ROUNDS, LONGEST, LONG)
     tables = [
-        measure_methods(case, charted_values(case, full), *limits)
+        measure_methods(case, charted_values(case.until, full), *limits)
         for scene, certificate in certificates.items()
         for case in proved_cases(scene, thetas[scene], certificate)
     ]
     return pd.concat(tables, ignore_index=True)
 
 
-def charted_values(case: Case, full: bool = False) -> dict[str, tuple[float, ...]]:
-    """Values of each method's setting in the default chart or the full one, by name of
-    the method."""
-    return {
-        name: method.values_of(case.until, full) for name, method in METHODS.items()
-    }
+def charted_values(until: str | None, full: bool) -> dict[str, tuple[float, ...]]:
+    """Values of each method's setting in the default chart or the full one.
+
+    They go from loose to tight, up to the first global slip (`until`) or for the whole
+    run (None).
+    """
+    column = ("values" if full else "quick") + ("" if until else "_whole")
+    return {name: tuple(map(float, row[column].split())) for name, row in ROWS.items()}
 
 
 def measure_methods(
@@ -157,10 +159,10 @@ def _row(
         "theta": case.theta,
         "until": case.until or "end",
         "method": method.name,
-        "label": method.label,
+        "label": ROWS[method.name]["label"],
         "kind": method.kind,
-        "color": method.look[0],
-        "marker": method.look[1],
+        "color": ROWS[method.name]["color"],
+        "marker": ROWS[method.name]["marker"],
         "setting": method.setting,
         "value": value,
         "evaluations": result.evaluations or math.nan,

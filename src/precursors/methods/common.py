@@ -1,11 +1,10 @@
-"""What all methods share: their result, their row in the table of methods, the error of
-a diverged run."""
+"""The interface of the methods: their result, their kind, the error of a diverged run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from precursors.model.chain import Chain
 from precursors.solver.run import Run
@@ -47,36 +46,19 @@ Kind = Literal["located", "once a step", "friction law"]
 
 @dataclass(frozen=True)
 class Method:
-    """A row of the table of methods: its key and its name in charts.
+    """A method by its name, which is its row in methods.csv.
 
     `setting` is what sets the accuracy, with its unit: "step [s]", "relative
     tolerance", "width [m/s]". `solve` is (chain, duration [s], value of the setting,
-    until) -> Result; `until` is None or "global slip". `values` of the setting, from
-    loose to tight, are those of the full chart up to the first global slip and `whole`
-    those for the whole run; `quick` and `quick_whole` are those of the default chart,
-    which takes seconds. `smooth` is the method without switching, where theory says
-    something about it. `look` is its colour and Matplotlib's name of its marker
-    ("3,1,180" is a tuple); by default what no other has.
+    until) -> Result; `until` is None or "global slip". `smooth` is the method without
+    switching, where theory says something about it.
     """
 
     name: str
-    label: str
     setting: str
     solve: Callable[[Chain, float, float, str | None], Result]
-    values: tuple[float, ...]
-    whole: tuple[float, ...] = ()
-    quick: tuple[float, ...] = ()
-    quick_whole: tuple[float, ...] = ()
     smooth: Smooth | None = None
     kind: Kind = "located"
-    look: tuple[str, str] = ("", "")
-
-    def values_of(self, until: Any, full: bool) -> tuple[float, ...]:
-        """Values to chart up to the first global slip (`until`) or for the whole run
-        (None)."""
-        if full:
-            return self.values if until else self.whole
-        return self.quick if until else self.quick_whole
 
 
 class DivergedError(RuntimeError):

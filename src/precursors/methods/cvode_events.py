@@ -1,15 +1,10 @@
-"""SUNDIALS CVODE (Adams, BDF) with root functions, by scikit-sundae, started anew at
-each transition.
+"""SUNDIALS CVODE with root functions, by scikit-sundae, restarted at each transition.
 
 A. C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363. The chain is not stiff
-between transitions, for which CVODE's documentation recommends Adams; BDF is there for
-comparison.
+between transitions, for which CVODE's documentation recommends the Adams formulas.
 """
 
 from __future__ import annotations
-
-from functools import partial
-from typing import Literal
 
 import numpy as np
 
@@ -22,18 +17,13 @@ from precursors.methods.events import (
 )
 from precursors.model.chain import Chain, FloatArray
 
-Formula = Literal["Adams", "BDF"]
 MAX_STEPS = 1_000_000
 EVENT_FOUND = 2
 FALLING = -1
 
 
 def solve_cvode(
-    chain: Chain,
-    duration: float,
-    tolerance: float,
-    until: str | None = None,
-    formula: Formula = "Adams",
+    chain: Chain, duration: float, tolerance: float, until: str | None = None
 ) -> Result:
     """Run a chain by CVODE; rtol is the tolerance, atol the same number in N and N/tau
     (see `events`).
@@ -65,7 +55,7 @@ def solve_cvode(
     events.direction = [FALLING] * n_events  # type: ignore[attr-defined]
     solver = CVODE(
         right_hand_side,
-        method=formula,
+        method="Adams",
         rtol=tolerance,
         atol=tolerance,
         eventsfn=events,
@@ -92,23 +82,4 @@ def solve_cvode(
     return march_restarting(motion, next_transition)
 
 
-METHODS = (
-    Method(
-        "cvode_adams",
-        "SUNDIALS CVODE, Adams",
-        "relative tolerance",
-        partial(solve_cvode, formula="Adams"),
-        values=(1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
-        whole=(1e-8, 1e-12),
-        quick=(1e-8,),
-        look=("#E69F00", "s"),
-    ),
-    Method(
-        "cvode_bdf",
-        "SUNDIALS CVODE, BDF",
-        "relative tolerance",
-        partial(solve_cvode, formula="BDF"),
-        values=(1e-3, 1e-5, 1e-7, 1e-9),
-        look=("#A87400", "D"),
-    ),
-)
+METHODS = (Method("cvode_adams", "relative tolerance", solve_cvode),)

@@ -245,16 +245,4 @@ def solve_dop853(
     )
 
 
-METHODS = (
-    Method(
-        "dop853",
-        "DOP853, compiled",
-        "relative tolerance",
-        solve_dop853,
-        values=(1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
-        whole=(1e-7, 1e-9, 1e-11, 1e-13),
-        quick=(1e-5, 1e-7, 1e-9, 1e-11),
-        quick_whole=(1e-11,),
-        look=("#000080", "H"),
-    ),
-)
+METHODS = (Method("dop853", "relative tolerance", solve_dop853),)

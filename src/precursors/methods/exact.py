@@ -1,4 +1,4 @@
-"""The exact solver as a row in the table of methods."""
+"""The exact solver as one of the methods."""
 
 from __future__ import annotations
 
@@ -18,16 +18,4 @@ def solve(
     return Result(run, round(run.evaluations))
 
 
-METHODS = (
-    Method(
-        "exact",
-        "exact",
-        "none",
-        solve,
-        values=(0.0,),
-        whole=(0.0,),
-        quick=(0.0,),
-        quick_whole=(0.0,),
-        look=("#000000", "*"),
-    ),
-)
+METHODS = (Method("exact", "none", solve),)

@@ -402,25 +402,21 @@ def run_of(motion: Motion, chain: Chain, status: int) -> Run:
 
 def fixed_step(
     name: str,
-    label: str,
     method: Callable[..., None],
     *parameters: Any,
     smooth: tuple[int, float, Callable[[float], float]] | None = None,
     kind: Kind = "once a step",
     waits: bool = True,
-    **others: Any,
 ) -> Method:
-    """Make the row of a compiled fixed-step method.
+    """Make a compiled fixed-step method.
 
     `method`, its parameters and `waits` are those of `march`; `smooth` is the rest of
     `Smooth`.
     """
     return Method(
         name,
-        label,
         "step [s]",
         partial(march, method, parameters, waits=waits),
         smooth=Smooth(partial(slide, method, parameters), *smooth) if smooth else None,
         kind=kind,
-        **others,
     )

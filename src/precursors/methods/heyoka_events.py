@@ -21,7 +21,6 @@ from precursors.methods.events import NUDGE, EventMotion
 from precursors.model.chain import Chain
 
 # The tightest is rounding, heyoka's own default.
-CHARTED = (1e-6, 1e-8, 1e-10, 1e-12, 1e-14, float(np.finfo(float).eps))
 # Beyond it the code is compiled in compact mode, which heyoka's documentation
 # recommends for large systems.
 LARGE = 20
@@ -112,16 +111,4 @@ def solve_heyoka(
     return motion.run()
 
 
-METHODS = (
-    Method(
-        "heyoka",
-        "heyoka.py, Taylor series",
-        "relative tolerance",
-        solve_heyoka,
-        values=CHARTED,
-        whole=CHARTED,
-        quick=CHARTED,
-        quick_whole=(1e-6, 1e-8, 2.2e-16),
-        look=("#D55E00", "o"),
-    ),
-)
+METHODS = (Method("heyoka", "relative tolerance", solve_heyoka),)

@@ -151,26 +151,7 @@ def run_karnopp(motion, step, dead_zone):
 
 
 METHODS = (
-    Method(
-        "karnopp",
-        "Karnopp's dead zone",
-        "step [s]",
-        solve,
-        values=(3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9),
-        whole=(1e-6, 1e-7, 1e-8),
-        quick=(1e-6, 1e-7),
-        quick_whole=(1e-7,),
-        kind="friction law",
-        look=("#5A5A5A", "3,1,0"),
-    ),
+    Method("karnopp", "step [s]", solve, kind="friction law"),
     # At finer steps it records more than ten million changes of sign.
-    Method(
-        "literal",
-        "Eq. 4 taken literally",
-        "step [s]",
-        partial(solve, dead_zone=0.0),
-        values=(3e-6,),
-        kind="friction law",
-        look=("#B5B5B5", "5,1,36"),
-    ),
+    Method("literal", "step [s]", partial(solve, dead_zone=0.0), kind="friction law"),
 )

@@ -71,38 +71,12 @@ def run_euler(motion, step):
 
 
 METHODS = (
-    *(
-        fixed_step(
-            name,
-            label,
-            run_symplectic,
-            before,
-            values=(6e-6, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9),
-            whole=(1e-6, 1e-7, 3e-8, 1e-8, 3e-9),
-            quick=(1e-6, 1e-7, 1e-8, 3e-9),
-            quick_whole=(1e-7,),
-            smooth=(order, LIMIT, energy_factor),
-            look=look,
-        )
-        for name, label, before, order, look in (
-            ("leapfrog", "leapfrog", VERLET, 2, ("#56B4E9", "X")),
-            (
-                "semi_implicit_euler",
-                "semi-implicit Euler",
-                SEMI_IMPLICIT,
-                1,
-                ("#2B7FB0", "P"),
-            ),
-        )
-    ),
+    fixed_step("leapfrog", run_symplectic, VERLET, smooth=(2, LIMIT, energy_factor)),
     fixed_step(
-        "forward_euler",
-        "forward Euler",
-        run_euler,
-        values=(1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9),
-        whole=(1e-7, 1e-8),
-        quick=(1e-7, 1e-8),
-        smooth=(1, 0.0, euler_energy_factor),
-        look=("#C2185B", "3,1,180"),
+        "semi_implicit_euler",
+        run_symplectic,
+        SEMI_IMPLICIT,
+        smooth=(1, LIMIT, energy_factor),
     ),
+    fixed_step("forward_euler", run_euler, smooth=(1, 0.0, euler_energy_factor)),
 )

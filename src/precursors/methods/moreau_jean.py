@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -49,7 +48,6 @@ from precursors.methods.fixed_step import (
 TRAPEZOIDAL = 0.5
 IMPLICIT = 1.0
 KNOWN, FACTOR, NEW = range(3)  # rows to work in
-CHARTED = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
 # The active set settles in two or three solutions; where it goes in a circle, this many
 # are enough.
 SOLUTIONS_PER_BLOCK = 4
@@ -184,32 +182,12 @@ def run_moreau_jean(motion, step, theta):
                 change_mode(motion, i, new)
 
 
-def _method(name: str, label: str, theta: float, order: int, **others: Any) -> Method:
-    others |= {"smooth": (order, math.inf, partial(energy_factor, theta=theta))}
-    name = f"moreau_jean_{name}"
-    label = f"Moreau-Jean, {label}"
-    return fixed_step(
-        name,
-        label,
-        run_moreau_jean,
-        theta,
-        values=CHARTED,
-        whole=CHARTED[3:8:2],
-        **others,
-    )
+def _method(name: str, theta: float, order: int) -> Method:
+    smooth = (order, math.inf, partial(energy_factor, theta=theta))
+    return fixed_step(name, run_moreau_jean, theta, smooth=smooth)
 
 
 METHODS = (
-    _method(
-        "half",
-        "trapezoidal",
-        TRAPEZOIDAL,
-        2,
-        quick=(1e-6, 1e-7, 1e-8),
-        quick_whole=(1e-7,),
-        look=("#8C3A6B", "8"),
-    ),
-    _method(
-        "one", "implicit", IMPLICIT, 1, quick=(1e-6, 1e-7), look=("#CC79A7", "4,1,0")
-    ),
+    _method("moreau_jean_half", TRAPEZOIDAL, 2),
+    _method("moreau_jean_one", IMPLICIT, 1),
 )

@@ -15,11 +15,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import partial
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
-from scipy.integrate import BDF, Radau
+from scipy.integrate import Radau
 from scipy.optimize import brentq
 
 from precursors.methods.columns import SPRING, VELOCITY, at_rest, set_modes, time_unit
@@ -29,8 +28,6 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span, positive
 from precursors.solver.run import Run
 
-Solver = Literal["Radau", "BDF"]
-SOLVERS: dict[Solver, Any] = {"Radau": Radau, "BDF": BDF}
 # The drop begins where tanh has all but reached 1, so that friction at its largest is
 # mu_s to 1e-3.
 STRIBECK = 100.0
@@ -102,14 +99,9 @@ def equations(
 
 
 def solve_regularised(
-    chain: Chain,
-    duration: float,
-    width: float,
-    until: str | None = None,
-    solver: Solver = "Radau",
+    chain: Chain, duration: float, width: float, until: str | None = None
 ) -> Result:
-    """Run a chain with friction that turns over within a width [m/s], by SciPy's Radau
-    or BDF.
+    """Run a chain with friction that turns over within a width [m/s], by SciPy's Radau.
 
     rtol is `TOLERANCE`, and atol the same number in N and N/tau (see `events`), but at
     most a hundredth of the width.
@@ -126,8 +118,8 @@ def solve_regularised(
     velocity_unit = chain.mass / time_unit(chain)
     right_hand_side, matrix = equations(chain, width)
     threshold = peak_velocity(width, chain.mu_s, chain.mu_k) * velocity_unit
-    atol = np.repeat([TOLERANCE, min(TOLERANCE, 0.01 * width * velocity_unit)], n)
-    stepper = SOLVERS[solver](
+    atol: Any = np.repeat([TOLERANCE, min(TOLERANCE, 0.01 * width * velocity_unit)], n)
+    stepper = Radau(
         right_hand_side,
         0.0,
         np.zeros(2 * n),
@@ -142,7 +134,7 @@ def solve_regularised(
     while stepper.status == "running":
         message = stepper.step()
         if stepper.status == "failed":
-            raise RuntimeError(f"{solver} at t = {stepper.t * tau:.9g} s: {message}")
+            raise RuntimeError(f"Radau at t = {stepper.t * tau:.9g} s: {message}")
         velocity = stepper.y[n:]
         new = np.where(np.abs(velocity) > threshold, np.sign(velocity), 0.0).astype(
             np.int64
@@ -178,19 +170,6 @@ def _crossing(
     return brentq(lambda time: way * float(dense(time)[column]) - threshold, start, end)
 
 
-_LOOKS: dict[Solver, tuple[str, str]] = {
-    "Radau": ("#7A5C3E", "6,1,0"),
-    "BDF": ("#C4A27A", "8,1,0"),
-}
-METHODS = tuple(
-    Method(
-        f"regularised_{solver.lower()}",
-        f"regularised friction, SciPy {solver}",
-        "width [m/s]",
-        partial(solve_regularised, solver=solver),
-        values=(1e-5,),
-        kind="friction law",
-        look=look,
-    )
-    for solver, look in _LOOKS.items()
+METHODS = (
+    Method("regularised_radau", "width [m/s]", solve_regularised, kind="friction law"),
 )

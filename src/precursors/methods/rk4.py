@@ -12,7 +12,6 @@ from precursors.methods.compiled import inner, outer, template
 from precursors.methods.equations import by_mode, rates
 from precursors.methods.fixed_step import fixed_step, run_in_steps
 
-CHARTED = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9)
 LIMIT = 2.0 * math.sqrt(2.0)  # largest stable omega dt
 
 
@@ -94,24 +93,6 @@ def run_rk4(motion, step):
 
 SMOOTH = (4, LIMIT, energy_factor)
 METHODS = (
-    fixed_step(
-        "rk4",
-        "RK4, every step",
-        run_rk4,
-        waits=False,
-        values=CHARTED[:5],
-        smooth=SMOOTH,
-        look=("#00573F", "p"),
-    ),
-    fixed_step(
-        "rk4_skip",
-        "RK4",
-        run_rk4,
-        values=CHARTED,
-        whole=(1e-6, 1e-7, 3e-8, 1e-8, 3e-9),
-        quick=(1e-6, 1e-7, 1e-8, 3e-9),
-        quick_whole=(1e-6, 1e-7),
-        smooth=SMOOTH,
-        look=("#009E73", "h"),
-    ),
+    fixed_step("rk4", run_rk4, waits=False, smooth=SMOOTH),
+    fixed_step("rk4_skip", run_rk4, smooth=SMOOTH),
 )

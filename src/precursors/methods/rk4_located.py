@@ -33,7 +33,6 @@ from precursors.methods.fixed_step import (
 )
 from precursors.methods.rk4 import room, step_from_rates
 
-CHARTED = (6e-6, 4e-6, 3e-6, 2e-6, 1e-6, 6e-7, 3e-7, 1e-7, 3e-8)
 # An event function below so many roundings of the forces is zero.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
 CORRECTIONS = 8
@@ -216,16 +215,4 @@ def run_located(motion, step):
                 break
 
 
-METHODS = (
-    fixed_step(
-        "rk4_located",
-        "RK4, transitions located",
-        run_located,
-        values=CHARTED,
-        whole=CHARTED,
-        quick=(3e-6, 1e-6, 6e-7, 3e-7, 1e-7),
-        quick_whole=(1e-6, 1e-7, 3e-8),
-        kind="located",
-        look=("#63C9A8", "d"),
-    ),
-)
+METHODS = (fixed_step("rk4_located", run_located, kind="located"),)

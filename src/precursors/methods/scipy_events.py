@@ -1,5 +1,4 @@
-"""SciPy's solve_ivp with terminal events, restarted at each transition: RK45, DOP853,
-LSODA and Radau.
+"""SciPy's solve_ivp with terminal events, restarted at each transition.
 
 Events are the velocities of the blocks that slide and the margins of the stuck blocks
 beside them; elsewhere no force changes. SciPy looks for an event where its function has
@@ -11,8 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from functools import partial
-from typing import Any, Literal
+from typing import Literal
 
 from scipy.integrate import solve_ivp
 
@@ -21,7 +19,6 @@ from precursors.methods.common import Method, Result
 from precursors.methods.events import NUDGE, EventMotion, march_restarting
 from precursors.model.chain import Chain, FloatArray
 
-Solver = Literal["RK45", "DOP853", "LSODA", "Radau"]
 FALLING = -1.0
 
 EventFunction = Callable[[float, FloatArray], float]
@@ -32,7 +29,7 @@ def solve_scipy(
     duration: float,
     tolerance: float,
     until: str | None = None,
-    solver: Solver = "DOP853",
+    solver: Literal["RK23", "RK45", "DOP853"] = "DOP853",
     max_step: float = math.inf,
     nudge: float = NUDGE,
     direction: float = FALLING,
@@ -40,9 +37,9 @@ def solve_scipy(
     """Run a chain by `scipy.integrate.solve_ivp`; rtol is the tolerance, atol the same
     in N and N/tau.
 
-    `max_step` is the longest step [s]; `nudge` is explained in `events.NUDGE`. SciPy's
-    `direction` of an event takes any root where it is 0, its default, also one that a
-    restart lies on.
+    `solver` is an explicit one of SciPy's. `max_step` is the longest step [s], and
+    `nudge` is explained in `events.NUDGE`. SciPy's `direction` of an event takes any
+    root where it is 0, its default, also one that a restart lies on.
 
     Raises
     ------
@@ -54,11 +51,6 @@ def solve_scipy(
 
     def next_transition(time: float) -> tuple[float, int]:
         numbers, events = zip(*watched(motion, direction), strict=True)
-        jacobian: dict[str, Any] = {}
-        if solver == "Radau":
-            jacobian["jac"] = motion.jacobian()
-        elif solver == "LSODA":
-            jacobian["jac"] = lambda _time, _y: motion.jacobian()
         solution = solve_ivp(
             motion.rates,
             (time, motion.remaining),
@@ -68,7 +60,6 @@ def solve_scipy(
             rtol=tolerance,
             atol=tolerance,
             max_step=max_step / motion.tau,
-            **jacobian,
         )
         motion.evaluations += solution.nfev
         if not solution.success:
@@ -114,25 +105,4 @@ def _margin(n_blocks: int, block: int, strength: float, way: float) -> EventFunc
     return lambda _time, y: strength - way * (y[block - 1] - y[block])
 
 
-def _method(solver: Solver, values: tuple[float, ...], **others: Any) -> Method:
-    label = f"SciPy {solver} with events"
-    solve = partial(solve_scipy, solver=solver)
-    return Method(
-        f"scipy_{solver.lower()}", label, "relative tolerance", solve, values, **others
-    )
-
-
-METHODS = (
-    _method("RK45", values=(1e-4, 1e-6, 1e-8), look=("#00436A", "v")),
-    _method(
-        "DOP853",
-        values=(1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13),
-        whole=(1e-13,),
-        quick=(1e-11,),
-        look=("#0072B2", "^"),
-    ),
-    _method(
-        "LSODA", values=(1e-4, 1e-6, 1e-8, 1e-10), whole=(1e-10,), look=("#4F9FD0", "<")
-    ),
-    _method("Radau", values=(1e-4, 1e-5), look=("#8FBFE0", ">")),
-)
+METHODS = (Method("scipy_dop853", "relative tolerance", solve_scipy),)

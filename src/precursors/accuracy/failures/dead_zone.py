@@ -18,7 +18,7 @@ from precursors.accuracy.failures.common import (
     Threshold,
 )
 from precursors.accuracy.failures.stability import margin
-from precursors.methods import METHODS, karnopp
+from precursors.methods import ROWS, karnopp
 from precursors.methods.stability import bisect
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Run
@@ -207,4 +207,4 @@ def predicted_excess(chain: Chain, dead_zone: float) -> float:
 
 
 def _threshold(chain: Chain, **values: Any) -> Threshold:
-    return Threshold("karnopp", METHODS["karnopp"].label, chain.n_blocks, **values)
+    return Threshold("karnopp", ROWS["karnopp"]["label"], chain.n_blocks, **values)

@@ -10,7 +10,7 @@ import numpy as np
 from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import Curve, Failure, Number
 from precursors.analysis.slips import apparent_friction, slip_table
-from precursors.methods import METHODS, DivergedError
+from precursors.methods import METHODS, ROWS, DivergedError
 from precursors.methods.rk4 import LIMIT as RK4_LIMIT
 from precursors.methods.stability import (
     energy_left,
@@ -44,7 +44,7 @@ def unstable() -> Failure:
     for name, n_steps in UNSTABLE_STEPS.items():
         method = METHODS[name]
         smooth = method.smooth
-        label = method.label.removesuffix(", every step")
+        label = ROWS[name]["label"].removesuffix(", every step")
         assert smooth
         z = smooth.limit * np.linspace(0.9, 1.1, POINTS)
         fine = smooth.limit * np.linspace(0.9, 1.1, 201)
@@ -130,7 +130,7 @@ def numerical_damping() -> Failure:
         factor = method.smooth.energy_factor(omega * step)
         numbers.append(
             Number(
-                method=method.label,
+                method=ROWS[name]["label"],
                 setting=setting,
                 quantity="energy_left",
                 unit="1",

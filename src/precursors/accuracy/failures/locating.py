@@ -14,7 +14,7 @@ from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import Curve, Failure, Number, Threshold
 from precursors.analysis.slips import find_slips
-from precursors.methods import METHODS
+from precursors.methods import ROWS
 from precursors.methods.dop853 import solve_dop853
 from precursors.methods.events import NUDGE, EventMotion
 from precursors.methods.scipy_events import solve_scipy
@@ -99,7 +99,7 @@ def missed_roots() -> Failure:
     # before it.
     limit = Threshold(
         method="scipy_dop853",
-        label=METHODS["scipy_dop853"].label,
+        label=ROWS["scipy_dop853"]["label"],
         n_blocks=chain.n_blocks,
         fails=ROOTS_MISSED,
         unit="s",

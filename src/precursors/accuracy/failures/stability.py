@@ -23,7 +23,7 @@ from scipy.optimize import brentq
 from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import FIVE_SLIPS, Threshold
-from precursors.methods import METHODS, DivergedError
+from precursors.methods import METHODS, ROWS, DivergedError
 from precursors.methods.common import Smooth
 from precursors.methods.stability import (
     bisect,
@@ -61,7 +61,6 @@ GROWING = {
 CHANGING = {
     "forward_euler": "factor 1 + (omega dt)^2 a step",
     "moreau_jean_one": "factor 1 / (1 + (omega dt)^2) a step",
-    "hht": "largest eigenvalue of a step",
 }
 # Limits of omega dt from stop to stop. Where a method locates its stops, or friction
 # acts within a step, it is the limit without friction.
@@ -230,7 +229,7 @@ def _threshold(
 ) -> Threshold:
     return Threshold(
         method=name,
-        label=METHODS[name].label,
+        label=ROWS[name]["label"],
         n_blocks=chain.n_blocks,
         fails=fails,
         unit="s",
