@@ -27,10 +27,10 @@ TIME_ERROR = 1e-6  # s
 THEORY_TOLERANCE = 0.02
 EXACT_NUMBERS = ("restart_on_root", "forward_only")
 # Factors between a measured threshold and its theory, from the side of safety and
-# beyond, by what fails. Without friction a bisection leaves 1e-3. With it, fast modes are tried by what a run happens to do,
-# at steps 2 % apart. Where a stop falls within a step is chance: a zone is jumped over
-# or met, a step ends in a dip. Creep adds up from slip to slip. Late transitions change
-# the loads of those after them.
+# beyond, by what fails. Without friction a bisection leaves 1e-3. With it, fast modes
+# are tried by what a run happens to do, at steps 2 % apart. Where a stop falls within a
+# step is chance: a zone is jumped over or met, a step ends in a dip. Creep adds up from
+# slip to slip. Late transitions change the loads of those after them.
 FACTORS = {
     "energy_unbounded": (0.999, 1.001),
     "energy_changed": (0.99, 1.01),
