@@ -14,14 +14,13 @@ from matplotlib import image
 
 from precursors.figures import (
     chain_schematic,
-    definitions,
     event_law,
     failure_gallery,
     friction_map,
+    hero,
     horizon,
     larger,
     model_comparison,
-    noise,
     precursor_lengths,
     resolution,
     scene,
@@ -111,10 +110,7 @@ def partial_scene():
 
 
 def paper_lengths():
-    mu_sapp = read(GOLDEN / "mu_sapp.csv")
-    return precursor_lengths.draw(
-        list(map(slips, SCENES)), mu_sapp, SCENES, printed=[6, None, 14]
-    )
+    return precursor_lengths.draw(list(map(slips, SCENES)))
 
 
 def other_lengths():
@@ -136,10 +132,7 @@ def other_lengths():
 
 
 def one_length():
-    mu_sapp = read(GOLDEN / "mu_sapp.csv")
-    return precursor_lengths.draw(
-        [slips()], mu_sapp, ["fig10"], data=np.array([[50.0, 0.3]])
-    )
+    return precursor_lengths.draw([slips()], data=np.array([[50.0, 0.3]]))
 
 
 def charted_methods(work: str, theta: float, extents: list[str]):
@@ -229,17 +222,19 @@ def predicted_errors():
     )
 
 
-def noisy_runs():
-    runs = pd.DataFrame(
-        {
-            "scene": "s",
-            "theta": 0.5,
-            "draw": range(5),
-            "events_counted": [14, 14, 15, 15, 15],
-        }
-    )
-    runs = runs.assign(mu_sapp=[0.5, 0.48, 0.5, 0.52, np.nan])
-    return noise.draw(runs, runs.assign(theta=-0.5, events_counted=9))
+def alike_sliders():
+    """Three loadings; of one a slider has no global slip."""
+    members = pd.DataFrame({"draw": range(30)})
+    members["mu_sapp"] = np.linspace(0.46, 0.53, 30) ** 2 * 2
+    members.loc[0, "mu_sapp"] = 0.485
+    sliders = [
+        members.assign(scene=scene, theta=theta)
+        for scene, theta in zip(SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
+    ]
+    sliders[0].loc[3, "mu_sapp"] = np.nan
+    shares = pd.DataFrame({"scene": SCENES, "share": [0.1, 0.25, 0.3], "n": 29})
+    shares = shares.assign(quantity="mu_sapp", question="as printed")
+    return hero.draw(list(map(slips, SCENES)), pd.concat(sliders), shares)
 
 
 def window_of_theta():
@@ -291,7 +286,6 @@ PICTURES = {
     "precursor_lengths": paper_lengths,
     "precursor_lengths_others": other_lengths,
     "precursor_lengths_one": one_length,
-    "definitions": lambda: definitions.draw(read(SMALL / "definitions.csv")),
     "work_precision": partial(
         charted_methods, "seconds", 5 / 6, ["global slip", "end"]
     ),
@@ -305,7 +299,7 @@ PICTURES = {
     "step_sweep": swept_steps,
     "failure_gallery": gallery_of_failures,
     "horizon": predicted_errors,
-    "noise": noisy_runs,
+    "hero": alike_sliders,
     "theta_window": window_of_theta,
     "resolution": numbers_by_n,
     "event_law": lambda: event_law.draw(read(SMALL / "event_law.csv")),

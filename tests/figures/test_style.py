@@ -3,13 +3,20 @@ do."""
 
 from __future__ import annotations
 
+<<<<<<< HEAD
+=======
+from dataclasses import replace
+from itertools import combinations
+>>>>>>> 9df6caa (Open with the finding: six numbers beside 400 sliders; one colour, one meaning; SVG text is text)
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 import pytest
+from colorspacious import cspace_convert
 from figures.test_pictures import PICTURES, slips
 from matplotlib import image
+from matplotlib.colors import to_rgb
 
 from precursors.accuracy.failures import FAILURE_MODES
 from precursors.ensembles.event_law import THETAS
@@ -91,3 +98,28 @@ def test_every_method_has_a_colour_and_a_marker_of_its_own():
 def test_every_failure_mode_has_a_panel_and_every_theta_of_the_law_a_colour():
     assert list(PANELS) == list(FAILURE_MODES)
     assert tuple(THETA_COLORS) == THETAS
+
+
+# Told apart by all readers; a step of 2 can just be seen by eyes that are trained.
+DISTANCE_IN_CIELAB = 20.0
+MEANINGS = (
+    ["PUSHED_END", "EVEN", "FAR_END", "PARTIAL", "GLOBAL", "BACKWARD", "BLACK", "GREY"],
+    ["BLACK", "GREY", *range(len(style.OTHERS))],
+)
+
+
+@pytest.mark.parametrize("sight", [None, "protanomaly", "deuteranomaly"])
+@pytest.mark.parametrize("names", MEANINGS)
+def test_every_reader_tells_two_meanings_apart(sight, names):
+    colors = {
+        name: style.OTHERS[name] if isinstance(name, int) else getattr(style, name)
+        for name in names
+    }
+    seen = np.array([to_rgb(color) for color in colors.values()])
+    if sight:
+        space = {"name": "sRGB1+CVD", "cvd_type": sight, "severity": 100}
+        seen = np.clip(cspace_convert(seen, space, "sRGB1"), 0.0, 1.0)
+    places = dict(zip(colors, cspace_convert(seen, "sRGB1", "CIELab"), strict=True))
+    for one, other in combinations(places, 2):
+        distance = np.linalg.norm(places[one] - places[other])
+        assert distance >= DISTANCE_IN_CIELAB, (one, other)

@@ -21,7 +21,9 @@ TABLES = (
     "claims.csv",
     "open_points.csv",
 )
-FIGURES = tuple(f"{figure}.png" for figure in ("fig09", *PAPERS_SCENES, "fig13"))
+FIGURES = tuple(
+    f"{figure}.png" for figure in ("fig09", *PAPERS_SCENES, "fig13", "hero")
+)
 
 
 def main(results: Path, golden: Path = GOLDEN) -> None:

@@ -4,10 +4,8 @@ from dataclasses import replace
 
 import pandas as pd
 import pytest
-from matplotlib.figure import Figure
 
 from precursors import Chain, simulate
-from precursors.figures.definitions import draw
 from precursors.reproduction.definitions import OF_SCENES, definitions_table
 
 SLIDER = {"n_blocks": 10, "mu_s": 0.70, "mu_k": 0.45, "normal_load": 400.0}
@@ -77,4 +75,3 @@ def test_a_reading_without_a_global_slip_has_empty_numbers():
     few = tabulate(0.4, [], [{}, {}, {}])
     assert few["mu_sapp"].isna().all()
     assert not few["numbers_within_a_digit"].any()
-    assert isinstance(draw(few), Figure)

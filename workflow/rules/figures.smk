@@ -36,18 +36,8 @@ FIGURES = {
         "module": "precursor_lengths",
         "tables": {
             "slips": collect("results/tables/{scene}_slips.csv", scene=config["fig13"]),
-            "mu_sapp": "results/tables/mu_sapp.csv",
-        },
-        "options": {
-            "printed": [PAPER_PRINTS[scene].get("events_counted") for scene in config["fig13"]],
-            "scenes": config["fig13"],
         },
         "look": config["figure"],
-    },
-    "definitions": {
-        "section": "reproduction",
-        "shows": "what every reading gives",
-        "tables": {"table": "results/tables/definitions.csv"},
     },
     "work_precision": {
         "section": "accuracy",
@@ -92,12 +82,13 @@ FIGURES = {
         },
         "options": {"chains": CHAINS, "tolerance": config["accuracy"]["tolerance"]},
     },
-    "noise": {
-        "shows": "mu_sapp and counts over noise and printed digits",
+    "hero": {
+        "shows": "the paper's six numbers, and mu_sapp of the sliders that are printed alike",
         "section": "ensembles",
         "tables": {
-            "noise": "results/tables/noise_members.csv",
-            "digits": "results/tables/digits_members.csv",
+            "slips": collect("results/tables/{scene}_slips.csv", scene=config["fig13"]),
+            "members": "results/tables/digits_members.csv",
+            "shares": "results/tables/digits.csv",
         },
     },
     "theta_window": {

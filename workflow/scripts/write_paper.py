@@ -26,6 +26,7 @@ def main(
     ValueError
         In one line: what Typst says is wrong and where; its warnings too.
     """
+    import matplotlib
     import typst  # slow, and the tests of other scripts import this directory
 
     main_file = Path(main_file)
@@ -40,6 +41,7 @@ def main(
                 root / "paper" / main_file.name,
                 root=root,
                 ignore_system_fonts=True,
+                font_paths=[Path(matplotlib.get_data_path(), "fonts/ttf")],
                 timestamp=EPOCH,
             )
         except typst.TypstError as error:

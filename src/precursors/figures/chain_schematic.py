@@ -26,8 +26,8 @@ BLOCKS = {"1": TRAILING_EDGE, "2": 41.0, "N": LEADING_EDGE - BLOCK}
 SECTIONS = 10.5
 SMALL = 7.0
 
-FORCE = style.VERMILION
-MOTION = style.BLUE
+FORCE = style.BLACK
+MOTION = style.GREY
 CENTRED: dict[str, Any] = {"ha": "center", "va": "center"}
 BELOW: dict[str, Any] = {"ha": "center", "va": "top", "fontsize": SMALL}
 HEAD = {"arrowstyle": "-|>,head_width=0.16,head_length=0.32", "linewidth": 0.9}

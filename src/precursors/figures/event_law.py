@@ -14,16 +14,16 @@ from precursors.figures import style
 HEIGHT_MM = 66.0
 # Colour and marker of each theta, from light to heavy leading block.
 THETA_COLORS = {
-    -0.9: (style.VERMILION, "v"),
-    -5 / 6: (style.ORANGE, "D"),
-    0.0: (style.BLACK, "o"),
-    5 / 6: (style.BLUE, "s"),
-    0.95: (style.SKY, "^"),
+    -0.9: (style.PUSHED_END, "v"),
+    -5 / 6: (style.PUSHED_END, "D"),
+    0.0: (style.EVEN, "o"),
+    5 / 6: (style.FAR_END, "s"),
+    0.95: (style.FAR_END, "^"),
 }
 # What else is varied.
 OTHERS = {
-    "friction": (style.GREEN, "x", r"other $\mu_s$, $\mu_k$"),
-    "drive": (style.PURPLE, "+", "other $K$"),
+    "friction": (style.GREY, "x", r"other $\mu_s$, $\mu_k$"),
+    "drive": (style.GREY, "+", "other $K$"),
     "loading": (style.GREY, "*", "not linear"),
 }
 

@@ -47,7 +47,7 @@ DASHED: dict[str, Any] = {
 }
 
 # Curves that fail have these colours in turn, and their theory has the same.
-COLORS = 2 * (style.VERMILION, style.BLUE, style.GREEN)
+COLORS = 2 * style.OTHERS[:3]
 LOOKS: dict[str, dict[str, Any]] = {
     "exact": {"color": style.BLACK},
     "theory": {"color": style.GREY},

@@ -19,7 +19,7 @@ COLUMNS = 3
 ROW_MM = 36.0
 KEY_MM = 5.0
 ERROR_RANGE = (1e-18, 1e-2)
-PREDICTED = style.VERMILION
+PREDICTED = style.GREY
 ACTUAL = style.BLACK
 DASHED: dict[str, Any] = {"linewidth": 0.6, "linestyle": (0, (4, 2))}
 CROSS: dict[str, Any] = {
@@ -115,7 +115,7 @@ def _draw_exponents(axes: Axes, table: pd.DataFrame) -> None:
         fmt="o",
         markersize=3,
         capsize=2,
-        color=style.BLUE,
+        color=style.BLACK,
     )
     axes.axvline(0.0, **style.DOTTED)
     axes.set_xlim(min(0.0, (exponent - half_width).min()), None)

@@ -13,14 +13,7 @@ from matplotlib.figure import Figure
 from precursors.figures import style
 
 HEIGHT_MM = 72.0
-COLORS = (
-    style.BLUE,
-    style.GREEN,
-    style.VERMILION,
-    style.PURPLE,
-    style.ORANGE,
-    style.SKY,
-)
+COLORS = (*style.OTHERS, style.BLACK)
 MARKERS = "os^vPX"
 TIMES = {
     0.0: "o",

@@ -20,7 +20,7 @@ DIM = "#5A5A5A"
 ANSWERED = "#CDE7DC"
 MISSED = "#F6DDD0"
 SILENT = "#F2F2F2"
-SMALLEST: dict[str, Any] = {"fill": False, "edgecolor": style.GREEN, "linewidth": 1.4}
+SMALLEST: dict[str, Any] = {"fill": False, "edgecolor": style.BLACK, "linewidth": 1.4}
 QUESTIONS = {
     "first_load": "First precursor,\nload [N]",
     "events_counted": style.EVENTS_LABEL,

@@ -3,9 +3,9 @@ several loadings."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from functools import partial
-from itertools import repeat
 from textwrap import fill
 from typing import Any
 
@@ -13,135 +13,153 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.legend_handler import HandlerTuple
-from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from precursors.figures import style
 
 HEIGHT_MM = 76.0
-# A key with larger letters than these has no room among the marks and stands below
-# them, which takes so much.
-LETTERS_PT_PER_MM = 0.1
-KEY_MM = 16.0
-# The filling tells the sign of theta, as in the paper; a second scene of the same sign
-# has another outline.
+LEGEND_MM = 5.0  # of a row of the key, where one stands below the panel
+# A second scene of the same sign of theta has another outline.
 OUTLINES = "osD^vh"
-# All scenes meet at the global slip: circles of different size stay visible around each
-# other.
+# Sizes differ, so that marks stay visible around each other.
 SIZES = {-1: 4.2, 0: 5.2, 1: 6.6}
 SHORT: dict[str, Any] = {
     "linestyle": "none",
     "marker": "x",
-    "markersize": 2.5,
+    "markersize": 2.2,
+    "markeredgewidth": 0.5,
     "alpha": 0.5,
+    "zorder": 1.5,
 }
-SHORT |= {"markeredgewidth": 0.6}
 MEASURED: dict[str, Any] = {
     "linestyle": "none",
     "marker": "+",
     "markersize": 5.0,
-    "color": style.ORANGE,
+    "color": style.BLACK,
+    "label": "measured",
 }
+# What a curve is: at which of its events the name stands, from which side, and how far
+# away [pt].
+NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
+    -1: ("more load at the pushed end: {}", 0.0, "left", (2.0, -7.0)),
+    0: ("even load: {}", 0.0, "center", (-2.0, -7.0)),
+    1: ("more load at\nthe far end:\n{} events", 0.65, "right", (-8.0, 20.0)),
+}
+INSET = (0.05, 0.77, 0.26, 0.1)  # of the panel: above all curves
 
 
 def draw(
     slips: Sequence[pd.DataFrame],
-    mu_sapp: pd.DataFrame | None = None,
-    scenes: Sequence[str] = (),
     data: NDArray[np.float64] | None = None,
     title: str | None = None,
-    printed: Sequence[int | None] = (),
     look: style.Look | None = None,
 ) -> Figure:
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
 
-    Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta >
-    0. Small crosses are the short events, which Fig. 13 does not count. A scene without
-    a slip event is left out.
-
-    A line marks the mean of these `scenes` of mu_sapp.csv, if all have the same normal
-    load. `data`, shape (n, 2), are measured loads at the onset [N] and lengths L_p/L.
-    `printed` has the paper's number of events for each table of `slips`.
+    `data`, shape (n, 2), are measured loads at the onset [N] and lengths L_p/L. Scenes
+    without a slip event are left out.
 
     Raises
     ------
     ValueError
         If a measured length is not between 0 and 1.
     """
-    pairs = zip(slips, printed or [None] * len(slips), strict=True)
-    counts = [count for table, count in pairs if len(table)]
-    slips = [table for table in slips if len(table)]
     look = look or style.Look()
     if data is not None and not ((data[:, 1] >= 0) & (data[:, 1] <= 1)).all():
         raise ValueError("measured lengths must be L_p/L, between 0 and 1")
-    is_crowded = look.font_size > LETTERS_PT_PER_MM * (look.width_mm or style.COLUMN_MM)
-    with style.page(
-        style.COLUMN_MM, HEIGHT_MM + KEY_MM * is_crowded, look=look
-    ) as figure:
+    has_key = data is not None or not _are_named_in_place(slips)
+    height_mm = HEIGHT_MM + LEGEND_MM * has_key * (1 + len(slips))
+    with style.page(style.COLUMN_MM, height_mm, look=look) as figure:
         axes = figure.subplots()
         axes.set_title(fill(style.plain(title or ""), 48), loc="left")
-        signs = [int(np.sign(table["theta"].fillna(0).iloc[0])) for table in slips]
-        outlines = [
-            OUTLINES[signs[:i].count(sign) % len(OUTLINES)]
-            for i, sign in enumerate(signs)
-        ]
-        entries: list[Any] = list(
-            map(_draw_events, repeat(axes), slips, signs, outlines)
-        )
-        labels = [
-            _label(table, slips, count)
-            for table, count in zip(slips, counts, strict=True)
-        ]
-        if any(len(_short_events(table)) for table in slips):
-            entries.append((Line2D([], [], **SHORT, color=style.GREY),))
-            labels.append("short events, not counted")
+        draw_lengths(axes, slips, look.small)
+        _add_coefficient(axes, slips)
         if data is not None:
-            entries.append(tuple(axes.plot(*data.T, **MEASURED)))
-            labels.append("measured")
-        axes.set(xlim=(0, None), ylim=(0, 1.06))
-        axes.set_xlabel("Tangential load $F_X$ [N]")
-        axes.set_ylabel("Propagation length $L_p/L$ [-]")
-        normal_loads = [table["normal_load_N"].iloc[0] for table in slips]
-        if len(set(normal_loads)) == 1:
-            _draw_friction_coefficient(
-                axes, normal_loads[0], mu_sapp, scenes, look.small
-            )
-        how: dict[str, Any] = {
-            "loc": "outside lower center" if is_crowded else "best",
-            "handlelength": 1,
-        }
-        how["handler_map"] = {tuple: HandlerTuple(ndivide=1)}
-        (figure if is_crowded else axes).legend(entries, labels, **how)
+            axes.plot(*data.T, **MEASURED)
+        if has_key:
+            style.draw_key(figure, axes.get_legend_handles_labels()[0], ncols=1)
     return figure
 
 
+def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame], letters: float) -> None:
+    """Draw the events of Fig. 13 into a panel, with names along the curves.
+
+    Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta >
+    0. Small crosses are the short events, which Fig. 13 does not count. `letters` is
+    the size of the names [pt].
+    """
+    slips = [table for table in slips if len(table)]
+    in_place = _are_named_in_place(slips)
+    signs: list[int] = []
+    for table in slips:
+        sign = _sign(table)
+        outline = OUTLINES[signs.count(sign) % len(OUTLINES)]
+        signs.append(sign)
+        points = _draw_events(axes, table, outline, _label(table, slips))
+        if in_place:
+            _name(axes, points, sign, letters)
+    axes.set(xlim=(0, None), ylim=(0, 1.06))
+    axes.set_xlabel("Tangential load $F_X$ [N]")
+    axes.set_ylabel("Propagation length $L_p/L$ [-]")
+    if in_place and len(slips) > 1:
+        _draw_last(axes, slips, letters)
+    elif not in_place:
+        axes.plot([], [], **SHORT, color=style.GREY, label="short events, not counted")
+
+
+def _add_coefficient(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
+    """Write F_X/F_Z at the top, where all scenes have one F_Z."""
+    normal_loads = {table["normal_load_N"].iloc[0] for table in slips if len(table)}
+    if len(normal_loads) == 1:
+        normal_load = normal_loads.pop()
+        scale = partial(np.multiply, 1 / normal_load), partial(np.multiply, normal_load)
+        axes.secondary_xaxis("top", functions=scale).set_xlabel("$F_X/F_Z$ [-]")
+
+
+def _sign(table: pd.DataFrame) -> int:
+    return int(np.sign(table["theta"].fillna(0).iloc[0]))
+
+
+def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
+    """Whether each scene is the only one of its sign and has a curve and a global
+    slip."""
+    signs = Counter(_sign(table) for table in slips if len(table))
+    is_whole = (
+        table["counted"].sum() > 3 and table["is_global"].any() for table in slips
+    )
+    return max(signs.values(), default=0) == 1 and all(is_whole)
+
+
 def _draw_events(
-    axes: Axes, slips: pd.DataFrame, sign: int, outline: str
-) -> tuple[Line2D, ...]:
-    """Draw the events of a scene, whose theta has a sign; return the marks for the
-    key."""
+    axes: Axes, slips: pd.DataFrame, outline: str, label: str | None = None
+) -> NDArray[np.float64]:
+    """Draw the events of a scene; return those that Fig. 13 counts."""
+    sign = _sign(slips)
     color = style.theta_color(sign)
-    short = _short_events(slips)
+    short = slips[~slips["is_global"].cummax() & ~slips["counted"]]
     axes.plot(
-        short["load_before_N"],
-        short["front"] / short["n_blocks"],
-        **SHORT,
-        color=color,
-        zorder=1.5,
+        short["load_before_N"], short["front"] / short["n_blocks"], **SHORT, color=color
     )
     counted = slips[slips["counted"]]
-    points = counted["load_before_N"], counted["front"] / counted["n_blocks"]
-    look: dict[str, Any] = {"linestyle": "none", "color": color, "markeredgewidth": 0.8}
-    fill = color if sign < 0 else "none"
-    drawn = axes.plot(
-        *points, marker=outline, markersize=SIZES[sign], markerfacecolor=fill, **look
+    points = np.column_stack(
+        [counted["load_before_N"], counted["front"] / counted["n_blocks"]]
+    )
+    look: dict[str, Any] = {"color": color, "linewidth": 0.5, "markeredgewidth": 0.8}
+    fill = color if sign < 0 else "white"
+    axes.plot(
+        *points.T,
+        marker=outline,
+        markersize=SIZES[sign],
+        markerfacecolor=fill,
+        **look,
+        label=label,
     )
     if sign == 0:
-        drawn += axes.plot(*points, marker=".", markersize=0.5 * SIZES[sign], **look)
-    return tuple(drawn)
+        axes.plot(*points.T, linestyle="none", marker=".", markersize=2.6, color=color)
+    return points
 
 
+<<<<<<< HEAD
 def _short_events(slips: pd.DataFrame) -> pd.DataFrame:
     """Events before the first global slip that Fig. 13 does not count."""
     return slips[~slips["is_global"].cummax() & ~slips["counted"]]
@@ -155,7 +173,39 @@ def _label(
         style.theta_text(first["theta"])
         if pd.notna(first["theta"])
         else "loads as measured"
+=======
+def _name(axes: Axes, points: NDArray[np.float64], sign: int, letters: float) -> None:
+    words, part, side, offset = NAMES[sign]
+    axes.annotate(
+        words.format(len(points)),
+        points[int(part * len(points))],
+        offset,
+        textcoords="offset points",
+        ha=side,
+        va="top",
+        color=style.theta_color(sign),
+        fontsize=letters,
+        fontweight="bold",
+>>>>>>> 9df6caa (Open with the finding: six numbers beside 400 sliders; one colour, one meaning; SVG text is text)
     )
+
+
+def _draw_last(axes: Axes, slips: Sequence[pd.DataFrame], letters: float) -> None:
+    """Magnify the first global slips, whose marks cover each other."""
+    inset = axes.inset_axes(INSET)
+    for table in slips:
+        _draw_events(inset, table, OUTLINES[0])
+    loads = [table.loc[table["is_global"], "load_before_N"].iloc[0] for table in slips]
+    inset.set(xlim=(min(loads) - 1, max(loads) + 1), ylim=(0.9, 1.1), yticks=[])
+    inset.tick_params(labelsize=letters)
+    inset.set_title("first global slip [N]", fontsize=letters, pad=3)
+
+
+def _label(slips: pd.DataFrame, others: Sequence[pd.DataFrame]) -> str:
+    """theta, what else is not the same in all scenes, and the number of events."""
+    first = slips.iloc[0]
+    theta = first["theta"]
+    name = style.theta_text(theta) if pd.notna(theta) else r"$\theta$ unknown"
     for column, text in (
         ("n_blocks", ", $N = {:g}$"),
         ("normal_load_N", ", $F_Z = {:g}$ N"),
@@ -164,40 +214,4 @@ def _label(
             name += text.format(first[column])
     n = int(slips["counted"].sum())
     note = "" if slips["is_global"].any() else ", no global slip"
-    paper = "" if printed is None else f" (paper: {printed})"
-    return f"{name}: {n} event{'' if n == 1 else 's'}{paper}{note}"
-
-
-def _draw_friction_coefficient(
-    axes: Axes,
-    normal_load: float,
-    mu_sapp: pd.DataFrame | None,
-    scenes: Sequence[str],
-    font_size: float,
-) -> None:
-    """Draw F_X/F_Z as upper axis, and the mean apparent static friction coefficient
-    (Eq. 1) as a line."""
-    scale = partial(np.multiply, 1 / normal_load), partial(np.multiply, normal_load)
-    axes.secondary_xaxis("top", functions=scale).set_xlabel(
-        "Friction coefficient $F_X/F_Z$ [-]"
-    )
-    if mu_sapp is None:
-        return
-    values = mu_sapp.loc[
-        mu_sapp["is_papers"] & mu_sapp["scene"].isin(scenes), "mu_sapp"
-    ]
-    if values.empty:
-        return
-    load = values.mean() * normal_load
-    axes.axvline(load, **style.DOTTED)
-    axes.annotate(
-        ("mean " if len(values) > 1 else "")
-        + rf"$\mu_\mathrm{{sapp}} = {values.mean():.3f}$",
-        xy=(load, 0.6),
-        xytext=(2, 0),
-        textcoords="offset points",
-        rotation=90,
-        va="center",
-        fontsize=font_size,
-        color=style.GREY,
-    )
+    return f"{name}: {n} event{'' if n == 1 else 's'}{note}"

@@ -68,14 +68,14 @@ def draw(
             )
         speed = limits["wave_speed_m_per_s"].iloc[0] * SCALES["front_speed_m_per_s"]
         axes[1, 1].axhline(
-            speed, color=style.GREEN, linestyle="--", label=r"$c=\sqrt{ESL/M}$"
+            speed, color=style.GREY, linestyle="--", label=r"$c=\sqrt{ESL/M}$"
         )
         for sign, count in printed.EVENTS_OF_EXPERIMENT.items():
             axes[0, 0].plot(beyond, count, **EXPERIMENT, color=style.theta_color(sign))
         label = f"experiment, {printed.MU_SAPP:g}"
         axes[0, 1].axhline(
             printed.MU_SAPP,
-            color=style.ORANGE,
+            color=style.GREY,
             linestyle=":",
             linewidth=1.2,
             label=label,

@@ -20,8 +20,8 @@ from precursors.figures import style
 
 HEIGHT_MM = 80.0
 NARROW_MM = 120.0  # below this width the magnified view stands below, not beside
-PARTIAL = style.BLUE
-GLOBAL = style.VERMILION
+PARTIAL = style.PARTIAL
+GLOBAL = style.GLOBAL
 # Black on the colour of the slip that it marks, and above it.
 FIRST_GLOBAL: dict[str, Any] = {
     "color": style.BLACK,
@@ -39,7 +39,7 @@ TO_THE_EDGE: dict[str, Any] = {
 }
 TO_THE_EDGE |= {"markerfacecolor": "white", "markeredgewidth": 0.9, "clip_on": False}
 MEASURED: dict[str, Any] = {
-    "color": style.ORANGE,
+    "color": style.GREY,
     "linewidth": 0.8,
     "zorder": 1.8,
     "label": "measured",

@@ -15,12 +15,12 @@ SHOWN_TIME_S = 2.7  # doubles near the first global slip are np.spacing of this 
 # and alignment.
 CURVES = {
     "exact": ("exact solver", style.BLACK, (6, -10), "left"),
-    "heyoka": ("heyoka", style.VERMILION, (5, -3), "left"),
-    "dop853": ("DOP853, compiled", style.BLUE, (5, -3), "left"),
-    "scipy_dop853": ("DOP853, SciPy", style.SKY, (-6, -17), "center"),
-    "cvode_adams": ("CVODE", style.ORANGE, (-6, -3), "right"),
-    "rk4_located": ("Runge-Kutta 4,\nlocated", style.GREEN, (5, 0), "left"),
-    "rk4_skip": ("Runge-Kutta 4,\nfixed steps", "#00573F", (-33, -5), "right"),
+    "heyoka": ("heyoka", style.OTHERS[0], (5, -3), "left"),
+    "dop853": ("DOP853, compiled", style.OTHERS[1], (5, -3), "left"),
+    "scipy_dop853": ("DOP853, SciPy", style.OTHERS[1], (-6, -17), "center"),
+    "cvode_adams": ("CVODE", style.OTHERS[2], (-6, -3), "right"),
+    "rk4_located": ("Runge-Kutta 4,\nlocated", style.OTHERS[3], (5, 0), "left"),
+    "rk4_skip": ("Runge-Kutta 4,\nfixed steps", style.OTHERS[4], (-33, -5), "right"),
 }
 
 

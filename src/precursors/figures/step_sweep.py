@@ -17,12 +17,12 @@ EVERY_STEP: dict[str, Any] = {
     "marker": "+",
     "markersize": 6,
     "markeredgewidth": 0.8,
-    "color": style.BLUE,
+    "color": style.GREY,
 }
-RIGHT: dict[str, Any] = {"marker": "o", "markersize": 3, "color": style.GREEN}
+RIGHT: dict[str, Any] = {"marker": "o", "markersize": 3, "color": style.GREY}
 WRONG = RIGHT | {
     "markeredgewidth": 0.8,
-    "color": style.VERMILION,
+    "color": style.GREY,
     "markerfacecolor": "white",
 }
 

@@ -27,15 +27,23 @@ from matplotlib.ticker import NullLocator
 
 from precursors.support.files import write_whole
 
-# Okabe and Ito (2008): colour-blind readers can tell these colours apart, too.
-BLACK = "#000000"
-BLUE = "#0072B2"
-GREEN = "#009E73"
-ORANGE = "#E69F00"
-PURPLE = "#CC79A7"
-SKY = "#56B4E9"
-VERMILION = "#D55E00"
-GREY = "#8C8C8C"
+# One colour, one meaning, in all figures and the page. Every two differ by more than 20
+# in CIELAB, for readers with protanopia or deuteranopia as well.
+PUSHED_END = "#C27400"  # the three loadings: more load at the pushed end,
+EVEN = "#158243"  # even load,
+FAR_END = "#374DC2"  # more load at the far end
+PARTIAL = "#45BBFF"  # the kinds of slip
+GLOBAL = "#A7000E"
+BACKWARD = "#BB5EB5"
+BLACK = "#000000"  # the exact solution
+GREY = "#8C8C8C"  # everything else
+# Solvers of others, in the charts that compare solvers; each has its name beside it.
+OTHERS = ("#4B1FA8", "#36B3D6", "#6B5200", "#BFA800", "#84294F")
+LOADINGS = {
+    -1: "more load at the pushed end",
+    0: "even load",
+    1: "more load at the far end",
+}
 PALE = "0.9"
 
 MM_PER_M = 1e3
@@ -77,7 +85,7 @@ _SETTINGS: dict[str, Any] = {
     "grid.color": PALE,
     # Element ids of an SVG come from this salt instead of a random number.
     "svg.hashsalt": "precursors",
-    "svg.fonttype": "path",
+    "svg.fonttype": "none",  # text stays text
     # TrueType, which programs that draw can edit; journals refuse the Type 3 that is
     # the default.
     "pdf.fonttype": 42,
@@ -227,8 +235,8 @@ def theta_text(theta: float) -> str:
 
 
 def theta_color(theta: float) -> str:
-    """Colour of a scene: by the edge that carries the larger load."""
-    return VERMILION if theta < 0 else BLUE if theta > 0 else BLACK
+    """Colour of a scene: by the end that carries the larger load."""
+    return PUSHED_END if theta < 0 else FAR_END if theta > 0 else EVEN
 
 
 def plain(text: str) -> str:

@@ -14,13 +14,12 @@ from precursors.figures import style
 HEIGHT_MM = 78.0
 BINS = {"mu_sapp": 0.005, "events_counted": 1.0}  # their widths
 RUN: dict[str, Any] = {
-    "color": style.BLUE,
     "marker": ".",
     "markersize": 1.5,
     "linestyle": "none",
 }
 ALONE: dict[str, Any] = {
-    "color": style.VERMILION,
+    "color": style.BLACK,
     "marker": "o",
     "markersize": 3.5,
     "linestyle": "none",
@@ -50,9 +49,14 @@ def draw(members: pd.DataFrame) -> Figure:
                 bars = axes[row, 2 * i + 1]
                 values = runs[quantity].dropna()
                 bins = np.arange(values.min() - width / 2, values.max() + width, width)
-                dots.plot(change, runs[quantity], **RUN)
+                dots.plot(
+                    change,
+                    runs[quantity],
+                    **RUN,
+                    color=style.theta_color(alone["theta"]),
+                )
                 dots.plot(0.0, alone[quantity], **ALONE)
-                bars.hist(values, bins=bins, orientation="horizontal", color=style.SKY)
+                bars.hist(values, bins=bins, orientation="horizontal", color=style.GREY)
                 bars.set_xticks([])
                 bars.tick_params(axis="y", length=0)
                 dots.set_xlim(change.min(), change.max())

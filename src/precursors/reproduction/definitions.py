@@ -99,7 +99,6 @@ def definitions_table(
                 "theta": theta,
                 "events_counted": counted,
                 "mu_sapp": friction,
-                **agree,
             }
             rows.append(row | {"numbers_within_a_digit": sum(agree.values())})
     table = pd.DataFrame(rows)

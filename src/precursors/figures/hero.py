@@ -1,0 +1,120 @@
+"""The finding in one picture: the paper's six numbers come out, and they are one draw of
+many."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MultipleLocator
+
+from precursors.figures import style
+from precursors.figures.precursor_lengths import draw_lengths
+from precursors.model import printed
+
+HEIGHT_MM = 82.0
+DIGIT = 0.01  # a unit of the last digit that the paper prints of mu_sapp
+NINE_TENTHS = (0.05, 0.5, 0.95)
+# Dots closer than this stand in rows on each other.
+BIN = 0.005
+ACROSS = 4
+ROW = 0.032  # of the distance of two strips
+DOT: dict[str, Any] = {
+    "marker": ".",
+    "markersize": 3,
+    "markeredgewidth": 0,
+    "linestyle": "none",
+}
+TITLE: dict[str, Any] = {"fontsize": 10, "fontweight": "bold", "loc": "left", "pad": 7}
+STAR: dict[str, Any] = {
+    "marker": "*",
+    "markersize": 11,
+    "color": style.BLACK,
+    "markeredgecolor": "white",
+    "markeredgewidth": 0.6,
+    "zorder": 4,
+    "linestyle": "none",
+}
+
+
+def draw(
+    slips: Sequence[pd.DataFrame], members: pd.DataFrame, shares: pd.DataFrame
+) -> Figure:
+    """Draw Fig. 13, and beside it mu_sapp of all sliders that are printed alike.
+
+    `members` is digits_members.csv, whose draw 0 of a scene is the slider with the
+    printed digits, and `shares` is digits.csv.
+    """
+    letters = style.Look.font_size
+    is_mu_sapp = shares["quantity"].eq("mu_sapp") & shares["question"].eq("as printed")
+    within = shares[is_mu_sapp].set_index("scene")
+    scenes = members.groupby("scene", sort=False)
+    with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
+        left, right = figure.subplots(1, 2)
+        draw_lengths(left, [table[table["counted"]] for table in slips], letters)
+        left.set_title(
+            "The paper's six numbers come out \N{HORIZONTAL ELLIPSIS}", **TITLE
+        )
+        right.axvspan(
+            printed.MU_SAPP - DIGIT,
+            printed.MU_SAPP + DIGIT,
+            color=style.PALE,
+            zorder=0,
+            linewidth=0,
+        )
+        for place, (scene, own) in enumerate(scenes):
+            _draw_strip(right, place, own)
+            share = f"{100 * within['share'][scene]:.0f} %"
+            right.annotate(share, (printed.MU_SAPP, place - 0.29), ha="center")
+        n = int(within["n"].max())
+        right.set_title(
+            f"\N{HORIZONTAL ELLIPSIS} but they are one draw of {n}", **TITLE
+        )
+        right.set(
+            xlabel=style.MU_SAPP_LABEL, yticks=[], ylim=(-0.42, len(scenes) - 0.31)
+        )
+        right.xaxis.set_major_locator(MultipleLocator(0.05))
+        for axes in (left, right):
+            axes.tick_params(labelsize=letters)
+        _draw_key(figure, letters)
+    return figure
+
+
+def _draw_strip(axes: Axes, place: int, own: pd.DataFrame) -> None:
+    """Draw the sliders of a loading as stacked dots, above their median and nine
+    tenths."""
+    alone = own[own["draw"] == 0].iloc[0]
+    values = own.loc[own["draw"] > 0, "mu_sapp"].dropna().sort_values()
+    color = style.theta_color(alone["theta"])
+    column = values // BIN
+    before = values.groupby(column).cumcount()
+    x = (column + (before % ACROSS + 0.5) / ACROSS) * BIN
+    axes.plot(x, place + ROW * (before // ACROSS), **DOT, color=color)
+    low, median, high = values.quantile(NINE_TENTHS)
+    axes.plot([low, high], [place - 0.1] * 2, color=color, linewidth=2)
+    axes.plot(median, place - 0.1, "|", color=color, markersize=9, markeredgewidth=2.5)
+    axes.plot(alone["mu_sapp"], place - 0.1, **STAR)
+    axes.annotate(
+        style.LOADINGS[int(np.sign(alone["theta"]))],
+        (0.98, place + 0.5),
+        xycoords=("axes fraction", "data"),
+        ha="right",
+        color=color,
+        fontweight="bold",
+    )
+
+
+def _draw_key(figure: Figure, letters: float) -> None:
+    alike = style.mark("a slider whose inputs are printed alike", **DOT)
+    band = f"{printed.MU_SAPP:g} $\\pm$ {DIGIT:g}, and the share inside"
+    entries = [
+        alike,
+        style.mark("median and nine tenths", marker="|", linewidth=2),
+        style.mark("the slider with the printed digits", **STAR),
+        style.mark(band, color=style.PALE, linewidth=6),
+    ]
+    style.draw_key(figure, entries, ncols=2, fontsize=letters)
