@@ -3,11 +3,7 @@ do."""
 
 from __future__ import annotations
 
-<<<<<<< HEAD
-=======
-from dataclasses import replace
 from itertools import combinations
->>>>>>> 9df6caa (Open with the finding: six numbers beside 400 sliders; one colour, one meaning; SVG text is text)
 from pathlib import Path
 
 import matplotlib

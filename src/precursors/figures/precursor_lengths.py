@@ -159,21 +159,6 @@ def _draw_events(
     return points
 
 
-<<<<<<< HEAD
-def _short_events(slips: pd.DataFrame) -> pd.DataFrame:
-    """Events before the first global slip that Fig. 13 does not count."""
-    return slips[~slips["is_global"].cummax() & ~slips["counted"]]
-
-
-def _label(
-    slips: pd.DataFrame, others: Sequence[pd.DataFrame], printed: int | None
-) -> str:
-    first = slips.iloc[0]
-    name = (
-        style.theta_text(first["theta"])
-        if pd.notna(first["theta"])
-        else "loads as measured"
-=======
 def _name(axes: Axes, points: NDArray[np.float64], sign: int, letters: float) -> None:
     words, part, side, offset = NAMES[sign]
     axes.annotate(
@@ -186,7 +171,6 @@ def _name(axes: Axes, points: NDArray[np.float64], sign: int, letters: float) ->
         color=style.theta_color(sign),
         fontsize=letters,
         fontweight="bold",
->>>>>>> 9df6caa (Open with the finding: six numbers beside 400 sliders; one colour, one meaning; SVG text is text)
     )
 
 
@@ -205,7 +189,7 @@ def _label(slips: pd.DataFrame, others: Sequence[pd.DataFrame]) -> str:
     """theta, what else is not the same in all scenes, and the number of events."""
     first = slips.iloc[0]
     theta = first["theta"]
-    name = style.theta_text(theta) if pd.notna(theta) else r"$\theta$ unknown"
+    name = style.theta_text(theta) if pd.notna(theta) else "loads as measured"
     for column, text in (
         ("n_blocks", ", $N = {:g}$"),
         ("normal_load_N", ", $F_Z = {:g}$ N"),
