@@ -38,7 +38,7 @@ from unittest.mock import patch
 
 import pandas as pd
 
-from precursors import Chain, Run, simulate, simulate_many
+from precursors import Chain, Record, simulate, simulate_many
 from precursors.accuracy.compare import Truth, compare
 from precursors.accuracy.work_precision import (
     ROUNDS,
@@ -192,7 +192,7 @@ def compared(
     """How many times faster the exact solver is than another, and the errors of
     both."""
     chain, until = Chain.from_slider(theta=theta), ENDS[end]
-    tasks: dict[str, Callable[[], Run]] = {
+    tasks: dict[str, Callable[[], Record]] = {
         "exact": partial(simulate, chain, DURATION, until),
         other: lambda: solve().run,
     }

@@ -12,11 +12,12 @@ if TYPE_CHECKING:
     from precursors.analysis.slips import find_precursors, find_slips
     from precursors.model.chain import Chain
     from precursors.proof import certify
-    from precursors.solver.run import Run, RunFileError
+    from precursors.solver.run import Record, Run, RunFileError
     from precursors.solver.simulate import TransitionLimitError, simulate, simulate_many
 
 __all__ = [
     "Chain",
+    "Record",
     "Run",
     "RunFileError",
     "TransitionLimitError",
@@ -32,6 +33,7 @@ __all__ = [
 # waits for no compiler.
 _MODULES = {
     "Chain": "model.chain",
+    "Record": "solver.run",
     "Run": "solver.run",
     "RunFileError": "solver.run",
     "TransitionLimitError": "solver.simulate",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from precursors import Chain, Run
+from precursors import Chain, Record
 from precursors.accuracy.compare import Comparison
 from precursors.proof import Certificate, ExactChain, certify
 from precursors.proof.tube import Proof
@@ -33,9 +33,9 @@ TRUE = [
 SYMMETRIC_START = ["0", "0", "0", "1e-5", "0", "0", "0"]
 
 
-def made_up(rows) -> Run:
+def made_up(rows) -> Record:
     time, block, mode, load = zip(*rows, strict=True) if rows else ((), (), (), ())
-    return Run.from_transitions(CHAIN, DURATION, time, block, mode, load)
+    return Record.from_columns(CHAIN, DURATION, time, block, mode, load)
 
 
 def has_all_transitions(found: Comparison) -> bool:

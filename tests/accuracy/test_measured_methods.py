@@ -15,7 +15,7 @@ from accuracy.made_up import (
     tied_certificate,
 )
 
-from precursors import Run, TransitionLimitError, simulate
+from precursors import Record, TransitionLimitError, simulate
 from precursors.accuracy.compare import Truth, compare
 from precursors.accuracy.work_precision import (
     COUNTS,
@@ -82,7 +82,7 @@ class Fake:
     ) -> Result:
         self.clock.now += value if self.calls else value + self.compiling
         self.calls.append(value)
-        if isinstance(self.run, Run):
+        if isinstance(self.run, Record):
             return Result(self.run, 7)
         raise self.run
 

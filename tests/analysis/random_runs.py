@@ -1,8 +1,10 @@
 """Runs at random, for tests of what is made of a run."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from precursors import Chain, Run
+from precursors import Chain, Record
 
 
 def random_chain(rng: np.random.Generator) -> Chain:
@@ -12,15 +14,10 @@ def random_chain(rng: np.random.Generator) -> Chain:
         mu_k=rng.uniform(0.2, 0.65),
         drive_stiffness=10 ** rng.uniform(4.5, 7.5),
     )
-    return Chain(
-        **{
-            **vars(chain),
-            "weights": chain.weights * rng.uniform(0.5, 1.5, chain.n_blocks),
-        }
-    )
+    return replace(chain, weights=chain.weights * rng.uniform(0.5, 1.5, chain.n_blocks))
 
 
-def random_transitions(rng: np.random.Generator) -> Run:
+def random_transitions(rng: np.random.Generator) -> Record:
     """A list of transitions that obeys no mechanics: rests without duration, turns, an
     unfinished event."""
     n_blocks, n = int(rng.integers(1, 5)), int(rng.integers(1, 40))
@@ -32,6 +29,6 @@ def random_transitions(rng: np.random.Generator) -> Run:
         mode[block] = rng.choice([m for m in (-1, 0, 1) if m != mode[block]])
         rows.append((time, block, mode[block], rng.uniform(0, 300)))
     chain = Chain.from_slider(n_blocks)
-    return Run.from_transitions(
+    return Record.from_columns(
         chain, intervals.sum(), *zip(*rows, strict=True), intervals
     )

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 from analysis.random_runs import random_chain, random_transitions
 
-from precursors import Chain, Run, find_precursors, find_slips, simulate
+from precursors import Chain, Record, find_precursors, find_slips, simulate
 from precursors.analysis.slips import (
     DEFINITIONS,
     Definition,
@@ -22,7 +22,7 @@ def run_of(n_blocks, transitions, duration):
     """A run with the given (time, block, mode, load), at rest at the start, without
     stored states."""
     columns = zip(*transitions, strict=True) if transitions else [[]] * 4
-    return Run.from_transitions(Chain.from_slider(n_blocks), duration, *columns)
+    return Record.from_columns(Chain.from_slider(n_blocks), duration, *columns)
 
 
 def events_one_by_one(run):
@@ -85,7 +85,9 @@ def test_any_list_of_transitions_has_the_events_of_a_plain_loop():
 
 
 def test_something_else_than_a_run_or_its_slips_is_named():
-    with pytest.raises(TypeError, match="slips are found in a Run, but this is Chain"):
+    with pytest.raises(
+        TypeError, match="slips are found in a Run or Record, but this is Chain"
+    ):
         find_slips(Chain.from_slider())
     with pytest.raises(
         TypeError,

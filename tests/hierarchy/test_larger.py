@@ -9,7 +9,15 @@ from golden.small_tables import assert_kept, larger_runs, small_larger_tables
 from reference import read_viscous
 from scipy.integrate import solve_ivp
 
-from precursors import Run, TransitionLimitError, audit, find_slips, simulate
+from precursors import (
+    Record,
+    Run,
+    RunFileError,
+    TransitionLimitError,
+    audit,
+    find_slips,
+    simulate,
+)
 from precursors.analysis.load_curve import load_curve
 from precursors.hierarchy.larger import (
     SLOW,
@@ -28,7 +36,7 @@ PAIR = {"weakening_velocity": 0.01, "relaxation_time": 5e-6}  # l_c = 0.089 L
 SLIP = "global slip"
 
 
-def order(run: Run) -> list[tuple[int, int]]:
+def order(run: Record) -> list[tuple[int, int]]:
     return list(
         zip(
             run.transitions["block"].tolist(),
@@ -248,14 +256,13 @@ def test_runs_balance_energy_and_they_and_the_tables_of_the_study_are_those_that
 def test_a_run_survives_its_file_and_knows_its_transitions_only(tmp_path):
     run = simulate_larger(LargerChain(SLIDER(3), **PAIR), 0.5)
     run.save(tmp_path / "run.h5")
-    again = Run.load(tmp_path / "run.h5")
+    again = Record.load(tmp_path / "run.h5")
     assert again.larger == run.larger
     np.testing.assert_array_equal(np.transpose(load_curve(again)), run.load_points)
-    with pytest.raises(ValueError, match="run of a larger chain knows its transitions"):
-        run.at([0.1])
-    assert audit(run).problems == (
-        "it is a larger chain's, and the audit checks Coulomb's law",
-    )
+    with pytest.raises(RunFileError, match="holds a LargerRun and not a Run: Record"):
+        Run.load(tmp_path / "run.h5")
+    with pytest.raises(TypeError, match="must be a Run, but is LargerRun"):
+        audit(run)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ import copy
 import math
 import pickle
 import re
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -196,6 +197,26 @@ def test_every_number_may_be_at_its_limit_and_not_beyond(name, at_the_limit, bey
     np.testing.assert_array_equal(getattr(chain, name), at_the_limit)
     with pytest.raises(ValueError, match=r"\A[^\n]+\Z"):
         Chain(**numbers | {name: beyond})
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "right"),
+    [("n_blocks", 5, 4), ("theta", 0.5, math.nan), ("normal_load", 11.0, 10.0)],
+)
+def test_what_weights_replace_is_refused_beside_them_unless_it_says_the_same(
+    name, wrong, right
+):
+    weights = [1.0, 2.0, 3.0, 4.0]
+    assert Chain.from_slider(weights=weights, **{name: right}).n_blocks == 4
+    with pytest.raises(ValueError, match=f"^{name} must not be given beside weights"):
+        Chain.from_slider(weights=weights, **{name: wrong})
+
+
+def test_a_chain_knows_theta_until_its_weights_may_be_others():
+    chain = Chain.from_slider(theta="5/6")
+    assert chain.theta == pickle.loads(pickle.dumps(chain)).theta == 5 / 6
+    assert math.isnan(replace(chain, weights=chain.weights[::-1]).theta)
+    assert math.isnan(Chain.from_slider(weights=chain.weights).theta)
 
 
 def test_whole_numbers_are_taken_as_floats():

@@ -1,16 +1,14 @@
 """A run knows the motion at every time, and its file gives back every bit or is
 refused."""
 
-from dataclasses import replace
-
 import h5py
 import numpy as np
 import pytest
 from chains import SLIDER, first_transitions
 
-from precursors import Run, RunFileError, simulate
+from precursors import Record, Run, RunFileError, simulate
 from precursors.model.statics import maximal_strain_positions
-from precursors.solver.run import States
+from precursors.solver.run import LargerRun
 
 # A transition's own time is known to 4e-16 s only, and F_X changes by up to 1e6 N/s
 # [N].
@@ -70,13 +68,6 @@ def test_times_outside_the_run_or_that_are_no_numbers_are_refused(run, times, wo
         run.at(times)
 
 
-def test_a_run_without_stored_states_says_that_it_cannot_be_evaluated(run):
-    bare = replace(run, states=States(*(column[:0] for column in run.states)))
-    for evaluate in (bare.at, bare.tangential_load, bare.spring_forces):
-        with pytest.raises(ValueError, match=r"^the run has no stored states: [^\n]*$"):
-            evaluate([1.0])
-
-
 def test_at_time_0_a_run_is_where_it_began():
     chain, start, velocities = SLIDER(3), [1e-6, -2e-6, 3e-6], [1e-3, 0.0, -1e-3]
     run = simulate(chain, 0.01, start_positions=start, start_velocities=velocities)
@@ -86,18 +77,19 @@ def test_at_time_0_a_run_is_where_it_began():
     )
 
 
-def test_a_run_made_from_transitions_has_them_and_knows_no_states(run, tmp_path):
+def test_a_record_has_its_transitions_and_is_read_as_a_record_only(run, tmp_path):
     columns = [
         run.transitions[name] for name in ("time", "block", "mode", "tangential_load")
     ]
-    made = Run.from_transitions(run.chain, run.duration, *columns, run.intervals)
+    made = Record.from_columns(run.chain, run.duration, *columns, run.intervals)
     made.save(tmp_path / "made.h5")
-    for same in (made, Run.load(tmp_path / "made.h5")):
+    for same in (made, Record.load(tmp_path / "made.h5")):
+        assert (type(same), same.chain.theta) == (Record, -5 / 6)
         np.testing.assert_array_equal(same.transitions, run.transitions)
         np.testing.assert_array_equal(same.intervals, run.intervals)
-        with pytest.raises(ValueError, match="no stored states"):
-            same.at([0.0])
-    by_difference = Run.from_transitions(run.chain, run.duration, *columns).intervals
+    with pytest.raises(RunFileError, match="a Record and not a Run: "):
+        Run.load(tmp_path / "made.h5")
+    by_difference = Record.from_columns(run.chain, run.duration, *columns).intervals
     np.testing.assert_allclose(by_difference, run.intervals, atol=1e-14)
 
 
@@ -105,11 +97,10 @@ def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(
     run, tmp_path
 ):
     path = tmp_path / "new" / "run.h5"
-    slider = {"theta": -5 / 6, "n_blocks": 10, "normal_load": 400.0}
-    run.save(path, slider)
+    run.save(path)
     back, times = Run.load(path), np.linspace(0, 3, 77)
-    assert (back.slider, back.evaluations) == (slider, run.evaluations)
-    assert (back.chain, back.duration) == (run.chain, run.duration)
+    assert (back.chain, back.chain.theta) == (run.chain, -5 / 6)
+    assert (back.duration, back.evaluations) == (run.duration, run.evaluations)
     np.testing.assert_array_equal(back.transitions, run.transitions)
     np.testing.assert_array_equal(back.intervals, run.intervals)
     np.testing.assert_array_equal(back.at(times), run.at(times))
@@ -126,9 +117,9 @@ def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(
             "mu_s",
             "drive_velocity",
             "duration",
-            "slider",
+            "theta",
         } <= set(file.attrs)
-    run.save(tmp_path / "again.h5", dict(reversed(slider.items())))
+    run.save(tmp_path / "again.h5")
     assert path.read_bytes() == (tmp_path / "again.h5").read_bytes()
 
 
@@ -168,7 +159,7 @@ def refused(path, words="") -> None:
         lambda whole: b"time,load\n1,2\n",
         lambda whole: whole[: len(whole) // 2],
         lambda whole: whole[:-100],
-        lambda whole: whole.replace(b"precursors run 5", b"precursors run 9", 1),
+        lambda whole: whole.replace(b"precursors run 6", b"precursors run 9", 1),
     ],
     ids=["empty", "text", "half", "cut at the end", "another version"],
 )
@@ -194,18 +185,36 @@ def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, p
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda file: file.attrs.update(slider=np.bytes_(b"[" * 30_000)), "recursion"),
-        (
-            lambda file: file.attrs.update(larger=np.bytes_(b"[]")),
-            "larger is not a table",
-        ),
-        (lambda file: file.attrs.update(format="precursors run 5"), "its format"),
+        ({"format": "precursors run 6"}, "its format"),  # of any length
+        ({"duration": np.inf}, "duration must be a finite number"),
+        ({"duration": "3"}, "duration is not a number"),
+        ({"duration": 3 + 0j}, "duration is not a number"),
+        ({"duration": [3.0]}, "duration is not a number"),
+        ({"evaluations": np.nan}, "evaluations must be a finite number"),
+        ({"mass": np.nan}, "mass must be a finite number"),
+        ({"theta": 1.1}, "theta must be"),
     ],
 )
-def test_a_file_whose_texts_are_not_those_of_a_run_is_refused(path, change, words):
+def test_a_file_whose_texts_or_numbers_are_not_those_of_a_run_is_refused(
+    path, change, words
+):
     with h5py.File(path, "r+") as file:
-        change(file)
+        file.attrs.update(change)
     refused(path, words)
+
+
+@pytest.mark.parametrize("text", [b"[" * 30_000, b"[]", b'{"step": "1"}', b"{"])
+def test_a_larger_run_whose_numbers_are_no_table_of_numbers_is_refused(run, path, text):
+    columns = [run.transitions[name] for name in run.transitions.dtype.names]
+    points = np.zeros((2, 2))
+    larger = LargerRun.from_columns(
+        run.chain, run.duration, *columns, larger={"step": 1.0}, load_points=points
+    )
+    larger.save(path)
+    assert Record.load(path).larger == {"step": 1.0}
+    with h5py.File(path, "r+") as file:
+        file.attrs["larger"] = np.bytes_(text)
+    refused(path, "not a run file")
 
 
 @pytest.mark.parametrize(
@@ -214,48 +223,59 @@ def test_a_file_whose_texts_are_not_those_of_a_run_is_refused(path, change, word
         (
             "transitions/block",
             lambda block: block * 0 - 1_000_000_000,
-            "a block is not one of 1 to 10",
+            "transitions/block is not between 1 and 10",
+        ),
+        (
+            "transitions/block",
+            lambda block: block + np.int64(2**32),
+            "transitions/block is not between 1 and 10",
+        ),
+        (
+            "transitions/block",
+            lambda block: block + 0.5,
+            "transitions/block is of type float64",
         ),
         ("transitions/block", lambda block: block[:-1], "transitions/block has shape"),
-        ("transitions/mode", lambda mode: mode * 0 + 3, "a mode is unknown"),
-        ("intervals", lambda intervals: intervals[1:], "intervals do not fit"),
         (
-            "intervals",
-            lambda intervals: intervals * np.nan,
-            "an interval is not between 0 and",
+            "transitions/mode",
+            lambda mode: mode + np.int64(256),
+            "transitions/mode is not between -1 and 1",
         ),
+        (
+            "transitions/tangential_load",
+            lambda load: load.astype("S8"),
+            r"tangential_load is of type \|S8",
+        ),
+        ("intervals", lambda intervals: intervals[1:], "intervals has shape"),
+        ("intervals", lambda intervals: intervals * np.nan, "intervals is not finite"),
         (
             "intervals",
             lambda intervals: intervals * 1e300,
-            "an interval is not between 0 and",
+            "intervals is not between 0.0 and 3.0",
         ),
         (
             "intervals",
             lambda intervals: intervals[::-1],
             "intervals do not add up to its times",
         ),
-        ("transitions/time", lambda time: time[::-1], "times are not in order"),
-        ("transitions/time", lambda time: time * 2, "times are not in order"),
-        ("states/after", lambda after: after[::-1], "states are not in order"),
+        ("transitions/time", lambda time: time[::-1], "time is not in order"),
+        ("transitions/time", lambda time: time * 2, "time is not between 0.0 and 3.0"),
+        ("states/after", lambda after: after[::-1], "after is not in order"),
         (
             "states/offset",
             lambda offset: offset + 1e300,
-            "an offset is not between 0 and",
+            "states/offset is not between",
         ),
-        (
-            "start_positions",
-            lambda positions: positions[1:],
-            "start_positions do not fit to 10 blocks",
-        ),
-        ("weights", lambda weights: weights[1:], "do not fit to 9 blocks"),
-        (
-            "states/after",
-            lambda after: after - 1_000_000_000,
-            "a state comes after a transition",
-        ),
+        ("start_positions", lambda start: start[1:], "start_positions has shape"),
+        ("weights", lambda weights: weights[1:], "block is not between 1 and 9"),
+        ("states/after", lambda after: after - 10**9, "states/after is not between"),
+        ("states/after", lambda after: after + 1, "no state of the start"),
         ("states/after", lambda after: after[1:], "states/force has shape"),
+        ("states/after", lambda after: after[:0], "states/force has shape"),
         ("states/force", lambda force: force[:, 1:], "states/force has shape"),
-        ("states/offset", lambda offset: offset[1:], "states/offset does not fit"),
+        ("states/force", lambda force: force * np.nan, "states/force is not finite"),
+        ("states/force", lambda force: force + 0j, "force is of type complex128"),
+        ("states/offset", lambda offset: offset[1:], "states/offset has shape"),
         ("states/velocity", None, "velocity"),
     ],
 )
@@ -268,6 +288,15 @@ def test_a_file_whose_contents_do_not_fit_together_is_refused(
         if change is not None:
             file[name] = change(values)
     refused(path, words)
+
+
+def test_a_file_whose_numbers_are_in_another_file_is_refused(path):
+    other = path.with_name("other.h5")
+    other.write_bytes(path.read_bytes())
+    with h5py.File(path, "r+") as file:
+        del file["intervals"]
+        file["intervals"] = h5py.ExternalLink(str(other), "/intervals")
+    refused(path, "intervals is stored in another file")
 
 
 def test_states_of_other_types_are_taken_as_numbers(run, path):

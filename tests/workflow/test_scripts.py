@@ -23,7 +23,7 @@ from conftest import ROOT
 from matplotlib import image
 from matplotlib.figure import Figure
 
-from precursors import Run, simulate
+from precursors import Record, Run, simulate
 from precursors.accuracy import failures, work_precision
 from precursors.accuracy.failures.common import Threshold
 from precursors.accuracy.failures.locating import SMALLEST
@@ -34,6 +34,7 @@ from precursors.analysis.slips import slip_table
 from precursors.ensembles.studies import MAP
 from precursors.figures import style
 from precursors.proof import Certificate, ExactChain, certify
+from precursors.solver.run import LargerRun
 from precursors.support.files import read_table
 
 READERS = {".csv": "support.files:read_table"}
@@ -186,12 +187,9 @@ def simulate_scene(directory, slider, duration, **additions):
 @pytest.mark.parametrize("additions", [{}, {"viscosity": 50.0}])
 def test_a_scene_has_its_run_its_slips_and_its_trace(tmp_path, additions):
     simulate_scene(tmp_path, {"theta": 0.0, "normal_load": 400.0}, 1.0, **additions)
-    run = Run.load(tmp_path / "run.h5")
-    assert (run.duration, run.slider["theta"], run.larger is None) == (
-        1.0,
-        0.0,
-        not additions,
-    )
+    run = Record.load(tmp_path / "run.h5")
+    assert (run.duration, run.chain.theta) == (1.0, 0.0)
+    assert isinstance(run, LargerRun if additions else Run)
     for name, table in (("slips", slip_table(run)), ("trace", load_trace(run))):
         pd.testing.assert_frame_equal(
             read_table(tmp_path / f"{name}.csv"), table, check_exact=True

@@ -12,7 +12,7 @@ from job import job
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
 from precursors.model.chain import Chain
-from precursors.solver.run import Run
+from precursors.solver.run import LargerRun, Run
 from precursors.solver.simulate import TransitionLimitError, simulate
 from precursors.support.files import write_table
 
@@ -20,6 +20,7 @@ with job() as snakemake:
     params = snakemake.params
     output = snakemake.output
     chain = Chain.from_slider(**params.slider)
+    run: Run | LargerRun
     try:
         if any(params.additions.values()):
             from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
@@ -30,9 +31,8 @@ with job() as snakemake:
         else:
             run = simulate(chain, duration=params.duration)
     except TransitionLimitError as error:
-        error.run.save(Path(output.run).with_suffix(".unfinished.h5"), params.slider)
+        error.run.save(Path(output.run).with_suffix(".unfinished.h5"))
         raise
-    run.save(output.run, params.slider)
-    run = Run.load(output.run)  # which has theta and F_Z as they are given
+    run.save(output.run)
     write_table(slip_table(run), output.slips)
     write_table(load_trace(run), output.trace)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from precursors.analysis.slips import find_slips, first_global
 from precursors.model.chain import Chain, FloatArray
-from precursors.solver.run import Run
+from precursors.solver.run import Record
 
 if TYPE_CHECKING:
     from precursors.proof import Certificate
@@ -37,12 +37,12 @@ class Truth:
     rounded ones.
     """
 
-    run: Run
+    run: Record
     time_rest: FloatArray
     load_rest: FloatArray
 
     @classmethod
-    def of_run(cls, run: Run) -> Truth:
+    def of_run(cls, run: Record) -> Truth:
         """Take a run, of the exact solver say, as it is."""
         return cls(run, np.zeros(len(run.transitions)), np.zeros(len(run.transitions)))
 
@@ -56,7 +56,7 @@ class Truth:
         )
         (time, time_rest), (load, load_rest) = _rounded(times), _rounded(loads)
         return cls(
-            Run.from_transitions(chain, duration, time, blocks, modes, load),
+            Record.from_columns(chain, duration, time, blocks, modes, load),
             time_rest,
             load_rest,
         )
@@ -96,7 +96,7 @@ class Truth:
             transitions[name][:n]
             for name in ("time", "block", "mode", "tangential_load")
         ]
-        run = Run.from_transitions(self.run.chain, end, *columns)
+        run = Record.from_columns(self.run.chain, end, *columns)
         return Truth(run, self.time_rest[:n], self.load_rest[:n])
 
 
@@ -129,7 +129,7 @@ class Comparison:
         return _largest(self.time_errors)
 
 
-def compare(run: Run, truth: Truth) -> Comparison:
+def compare(run: Record, truth: Truth) -> Comparison:
     """Compare a run with the truth over the same time, both to the end or both to the
     first global slip.
 
@@ -175,7 +175,7 @@ def compare(run: Run, truth: Truth) -> Comparison:
     )
 
 
-def transitions_right(run: Run, true: Run) -> int:
+def transitions_right(run: Record, true: Record) -> int:
     """Number of transitions before the first that is missing or whose block or mode is
     wrong."""
     return _agreeing(

@@ -14,7 +14,7 @@ from precursors.accuracy.compare import Truth, transitions_right
 from precursors.analysis.slips import apparent_friction, slip_table
 from precursors.methods import METHODS
 from precursors.model.chain import FloatArray
-from precursors.solver.run import Run
+from precursors.solver.run import Record, Run
 
 # Steps [s] from the coarsest to the finest. RK4 that also makes every step while
 # nothing slides ends earlier.
@@ -65,7 +65,7 @@ def sweep(
             yield row(method, step, result.run, truth)
 
 
-def row(method: str, step: float, run: Run, truth: Run) -> dict[str, object]:
+def row(method: str, step: float, run: Record, truth: Record) -> dict[str, object]:
     """What a run that stopped after its first global slip gives.
 
     Returns

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.solver.run import TRANSITION, Run
+from precursors.solver.record import TRANSITION
+from precursors.solver.run import Record
 
 EVENT = np.dtype(
     [
@@ -27,7 +28,7 @@ EVENT = np.dtype(
 )
 
 
-def slip_events(runs: Sequence[Run]) -> NDArray[np.void]:
+def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     """Slip events of some runs: maximal time intervals in which at least one block
     slides.
 
@@ -90,7 +91,7 @@ def slip_events(runs: Sequence[Run]) -> NDArray[np.void]:
     return events
 
 
-def _joined(runs: Sequence[Run], name: str) -> NDArray:
+def _joined(runs: Sequence[Record], name: str) -> NDArray:
     """One column of the transitions of all runs."""
     return np.concatenate(
         [np.empty(0, TRANSITION[name]), *(run.transitions[name] for run in runs)]

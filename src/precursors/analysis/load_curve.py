@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from precursors.model.chain import FloatArray
-from precursors.solver.run import Run
+from precursors.solver.run import LargerRun, Record, Run
 
 # A fiftieth of a pixel where a slip of 1 N fills 200 pixels.
 TOLERANCE_N = 1e-4
@@ -17,7 +17,7 @@ MOST_HALVINGS = 30
 
 
 def load_curve(
-    run: Run, tolerance: float = TOLERANCE_N
+    run: Record, tolerance: float = TOLERANCE_N
 ) -> tuple[FloatArray, FloatArray]:
     """Times [s] and loads [N] between which F_X(t) is a straight line to within a
     tolerance [N].
@@ -28,8 +28,10 @@ def load_curve(
     than a quarter of the interval times the larger difference between the chord's slope
     and another. A larger chain's run has its points already.
     """
-    if run.load_points is not None:
+    if isinstance(run, LargerRun):
         return run.load_points[:, 0], run.load_points[:, 1]
+    if not isinstance(run, Run):
+        raise TypeError(f"a load curve needs a Run, but this is {type(run).__name__}")
     slides = _slides_of_block_1(run)
     step = PHASE_PER_STEP / run.chain.fastest_frequency_bound
     coarse = [
@@ -63,7 +65,7 @@ def load_curve(
     return times, loads
 
 
-def load_trace(run: Run) -> pd.DataFrame:
+def load_trace(run: Record) -> pd.DataFrame:
     """Points of the exact F_X: straight lines between them draw it, see
     `load_curve`."""
     times, loads = load_curve(run)

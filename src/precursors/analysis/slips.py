@@ -6,12 +6,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from precursors.analysis.events import slip_events
 from precursors.analysis.slip_rows import first_global, up_to_first_global
-from precursors.solver.run import Run
+from precursors.solver.run import Record
 
 COLUMNS = [
     *("onset", "end", "load_before", "load_after", "largest_load"),
@@ -41,7 +40,7 @@ FRONTS = {
 }
 
 
-def find_slips(run: Run) -> pd.DataFrame:
+def find_slips(run: Record) -> pd.DataFrame:
     """Slip events of a run: maximal time intervals in which at least one block slides.
 
     Returns
@@ -53,27 +52,27 @@ def find_slips(run: Run) -> pd.DataFrame:
         slid at the same instant), is_global (all N at the same instant). The event that
         the end of the run cuts off has end and load_after NaN.
     """
-    if not isinstance(run, Run):
-        raise TypeError(f"slips are found in a Run, but this is {type(run).__name__}")
+    if not isinstance(run, Record):
+        raise TypeError(
+            f"slips are found in a Run or Record, but this is {type(run).__name__}"
+        )
     events = slip_events([run])
     return pd.DataFrame({name: events[name] for name in COLUMNS})
 
 
-def slip_table(run: Run) -> pd.DataFrame:
+def slip_table(run: Record) -> pd.DataFrame:
     """Every slip event of a run, with units in the names of the columns.
 
     `counted` marks the rows of Fig. 13. theta, n_blocks, normal_load_N (F_Z) and
-    length_m (L) say which slider it was, the same in every row; theta is NaN where the
-    run does not know its slider.
+    length_m (L) say which slider it was, the same in every row; theta is NaN where it
+    is not known.
     """
     slips = find_slips(run)
     return slips.rename(columns=WITH_UNITS).assign(
         counted=slips.index.isin(find_precursors(slips).index),
-        theta=run.slider["theta"] if run.slider else np.nan,
+        theta=run.chain.theta,
         n_blocks=run.chain.n_blocks,
-        normal_load_N=run.slider["normal_load"]
-        if run.slider
-        else run.chain.normal_load,
+        normal_load_N=run.chain.normal_load,
         length_m=run.chain.length,
     )
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from precursors.analysis.events import slip_events
 from precursors.analysis.slips import mu_sapp
 from precursors.model.checks import MOST_BLOCKS
-from precursors.solver.run import Run
+from precursors.solver.run import Record
 
 SUMMARY = np.dtype(
     [
@@ -34,7 +34,7 @@ SUMMARY_UNITS = {"load": "N", "time": "s", "end": "s", "crossing_time": "s"}
 KINK = 0.7
 
 
-def summarise(runs: Iterable[Run]) -> NDArray[np.void]:
+def summarise(runs: Iterable[Record]) -> NDArray[np.void]:
     """Counts, mu_sapp and the first global slip of each run.
 
     The numbers are those of `find_slips`, `find_precursors` and `apparent_friction`,
@@ -134,7 +134,7 @@ def _speedup(
     return np.divide(rise[1] * span[0], before, out=undefined, where=before > 0)
 
 
-def _crossing_time(run: Run, slip: np.void) -> float:
+def _crossing_time(run: Record, slip: np.void) -> float:
     """Time from the onset of a slip until block N first slides [s]."""
     of_slip = run.transitions[slip["first"] : slip["last"] + 1]
     arrival = np.argmax(

@@ -69,8 +69,6 @@ def audit_run(run: Run, roundings: float) -> Audit:
 
 def _malformed(run: Run) -> str:
     """Say why the arrays of a run cannot be audited at all, or nothing."""
-    if run.larger is not None:
-        return "it is a larger chain's, and the audit checks Coulomb's law"
     n = run.chain.n_blocks
     n_transitions = len(run.transitions)
     intervals = np.asarray(run.intervals)

@@ -18,7 +18,7 @@ from precursors.support.files import write_table
 
 if TYPE_CHECKING:
     from precursors.analysis.slips import ApparentFriction
-    from precursors.solver.run import Run
+    from precursors.solver.run import Record
 
 FOUND = "{events_counted} events counted in Fig. 13, of {events} "
 FIRST_SLIP = """\
@@ -109,11 +109,16 @@ def plot(arguments: Namespace) -> None:
 def audit(arguments: Namespace) -> None:
     """Check that each run file is whole and its run a motion of the model."""
     from precursors.audit import audit
+    from precursors.solver.run import Run
 
     wrong: list[str] = []
     for path in arguments.files:
         try:
             run = load(path)
+            if not isinstance(run, Run):
+                raise Refused(
+                    f"{path}: not applicable: the audit checks runs of the paper's chain"
+                )
             if problems := audit(run).problems:
                 raise Refused(f"{path}: not a motion of the model: {problems[0]}")
             print(
@@ -138,17 +143,17 @@ def version(_: Namespace) -> None:
         print(state["swh_revision"], state["swh_directory"], sep="\n")
 
 
-def load(path: Path) -> Run:
+def load(path: Path) -> Record:
     """Read a run file."""
-    from precursors.solver.run import Run, RunFileError
+    from precursors.solver.run import Record, RunFileError
 
     try:
-        return Run.load(path)
+        return Record.load(path)
     except RunFileError as error:
         raise Refused(str(error)) from error
 
 
-def run_of(arguments: Namespace) -> Run:
+def run_of(arguments: Namespace) -> Record:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
         return run_of_options(arguments)
@@ -159,27 +164,20 @@ def run_of(arguments: Namespace) -> Run:
     return load(arguments.file)
 
 
-def run_of_options(arguments: Namespace) -> Run:
+def run_of_options(arguments: Namespace) -> Record:
     """Run the chain of the options."""
-    from precursors.model.chain import Chain, parse_theta
-    from precursors.model.scenes import SLIDER, measured
+    from precursors.model.chain import Chain
+    from precursors.model.scenes import read_weights
     from precursors.solver.simulate import TransitionLimitError, simulate
 
     announce_compiling()
     slider = given(arguments, ("theta", "n_blocks", *CHAIN))
-    if arguments.weights is None:
-        slider = {
-            name: slider.get(name, default)
-            for name, default in SLIDER.items()
-            if name != "weights"
-        }
-        slider["theta"] = parse_theta(slider["theta"])
-    elif slider.keys() & {"theta", "n_blocks", "normal_load"}:
-        raise ValueError(
-            "--weights cannot be combined with --theta, --blocks or --normal-load"
-        )
-    else:
-        slider = measured(SLIDER | slider, arguments.weights)
+    if arguments.weights is not None:
+        if slider.keys() & {"theta", "n_blocks", "normal_load"}:
+            raise ValueError(
+                "--weights cannot be combined with --theta, --blocks or --normal-load"
+            )
+        slider["weights"] = read_weights(arguments.weights)
     chain = Chain.from_slider(**slider)
     if arguments.weights is not None:
         loads = chain.weights
@@ -188,6 +186,7 @@ def run_of_options(arguments: Namespace) -> Run:
             f"{loads.max():g} N, F_Z = {chain.normal_load:g} N"
         )
     added = given(arguments, LARGER)
+    run: Record
     how = {"duration": DURATION, **given(arguments, RUN)}
     try:
         if any(added.values()):
@@ -199,9 +198,9 @@ def run_of_options(arguments: Namespace) -> Run:
     except TransitionLimitError as error:
         if arguments.command != "simulate" or not arguments.output:
             raise Refused(str(error)) from error
-        replace(error.run, slider=slider).save(arguments.output)
+        error.run.save(arguments.output)
         raise Refused(f"{error}; the run so far is in {arguments.output}") from error
-    return replace(run, slider=slider)
+    return run
 
 
 def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:
@@ -225,11 +224,12 @@ def tell(line: str) -> None:
     print(line, file=sys.stderr)
 
 
-def tell_predictability(run: Run, first: ApparentFriction | None) -> None:
+def tell_predictability(run: Record, first: ApparentFriction | None) -> None:
     """Say if roundings decide the first global slip."""
     from precursors.analysis.horizon import predicted_errors
+    from precursors.solver.run import Run
 
-    if first is None or run.larger is not None:
+    if first is None or not isinstance(run, Run):
         return
     until = run.transitions[run.transitions["time"] <= first.time]
     if len(until) > MOST_REPEATED:

@@ -13,7 +13,7 @@ import pandas as pd
 from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until
-from precursors.solver.run import Run
+from precursors.solver.run import Record
 from precursors.solver.simulate import TransitionLimitError, simulate_many
 
 ARGUMENTS = tuple(inspect.signature(Chain.from_slider).parameters)
@@ -137,7 +137,7 @@ def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
     return together.drop(columns=["member", *constant])
 
 
-def _runs(chains: Sequence[Chain], duration: float, until: Until) -> list[Run]:
+def _runs(chains: Sequence[Chain], duration: float, until: Until) -> Sequence[Record]:
     """Run a batch; a run that meets the limit of transitions is kept as far as it
     came."""
     try:

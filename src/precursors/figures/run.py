@@ -17,7 +17,7 @@ from precursors.analysis.slips import slip_table
 from precursors.figures import precursor_lengths, scene
 from precursors.figures.style import Look
 from precursors.model.spreadsheet import LENGTH, LOAD, TIME
-from precursors.solver.run import Run
+from precursors.solver.run import Record
 
 # The axes of each figure, which are the columns of measured data.
 AXES = {"load": (TIME, LOAD), "lengths": (LOAD, LENGTH)}
@@ -25,7 +25,7 @@ LEAST_SHARED = 0.1  # of the range of measured and computed values
 
 
 def plot(
-    run: Run,
+    run: Record,
     figure: str = "load",
     data: NDArray[np.float64] | None = None,
     title: str | None = None,
@@ -37,7 +37,7 @@ def plot(
 
     Parameters
     ----------
-    run : Run
+    run : Run or LargerRun
         The run, also of a larger chain.
     figure : "load" or "lengths"
         As Figs. 10-12, or as Fig. 13.

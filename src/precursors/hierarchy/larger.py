@@ -29,7 +29,7 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until, checked_span, not_negative
 from precursors.model.scenes import ADDITIONS
 from precursors.solver.kernel.compiled import entry
-from precursors.solver.run import Run
+from precursors.solver.run import LargerRun
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 from precursors.support.waiting import in_thread
 
@@ -392,7 +392,7 @@ def simulate_larger(
     step: float | None = None,
     max_transitions: int = MAX_TRANSITIONS,
     leap: float = LEAP,
-) -> Run:
+) -> LargerRun:
     """Run a larger chain from rest with springs at natural length; other arguments are
     those of `simulate`.
 
@@ -450,9 +450,6 @@ def simulate_larger(
             f"push_height = {larger.push_height:g} m lifts block {lifting.argmin() + 1} "
             f"at F_X = {lifting.min():.4g} N"
         )
-    run = Run.from_transitions(
-        chain, time, *rows[np.argsort(rows[:, 0], kind="stable")].T
-    )
     force = force[:-1]
     velocity = velocity[:-1]
     stored = (force**2 / chain.springs).sum() / 2.0 + chain.mass * (
@@ -460,7 +457,10 @@ def simulate_larger(
     ).sum() / 2.0
     numbers = {name: getattr(larger, name) for name in ADDITIONS}
     numbers |= {"step": step, "energy_error": (work - heat - stored) / work}
-    run = replace(run, larger=numbers, load_points=points)
+    columns = rows[np.argsort(rows[:, 0], kind="stable")].T
+    run = LargerRun.from_columns(
+        chain, time, *columns, larger=numbers, load_points=points
+    )
     if why == LIMIT:
         raise TransitionLimitError(
             f"the larger chain met its limit of work at t = {time:.9g} s", run
@@ -470,7 +470,7 @@ def simulate_larger(
 
 def simulate_with_accuracy(
     larger: LargerChain, duration: float, until: Until = None, **limits: int
-) -> Run:
+) -> LargerRun:
     """The same, with what half the step changes in `larger`: halved_load_N and
     halved_events.
 
@@ -478,8 +478,8 @@ def simulate_with_accuracy(
     as many events as both runs have, and the change of their number.
     """
     run = simulate_larger(larger, duration, until, **limits)
-    numbers = run.larger or {}
-    finer = simulate_larger(larger, duration, until, numbers["step"] / 2.0, **limits)
+    half = run.larger["step"] / 2.0
+    finer = simulate_larger(larger, duration, until, half, **limits)
     a, b = (
         find_precursors(find_slips(r))["load_before"].to_numpy() for r in (run, finer)
     )
@@ -488,4 +488,4 @@ def simulate_with_accuracy(
         "halved_load_N": float(abs(a[:n] - b[:n]).max(initial=0.0)),
         "halved_events": len(b) - len(a),
     }
-    return replace(run, larger=numbers | found)
+    return replace(run, larger=run.larger | found)

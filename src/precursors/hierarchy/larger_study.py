@@ -20,7 +20,7 @@ from precursors.analysis.slips import find_precursors, find_slips
 from precursors.hierarchy.larger import LargerChain, critical_length, simulate_larger
 from precursors.hierarchy.models import longest_run
 from precursors.model.chain import Chain, parse_theta
-from precursors.solver.run import Run
+from precursors.solver.run import Record
 from precursors.solver.simulate import simulate
 
 # fall of F_X, over F_X, that ends smooth growth: creep that trembles lets it fall by
@@ -117,7 +117,7 @@ def run_study(
     return pd.DataFrame(rows)
 
 
-def run_to_slip(larger: LargerChain) -> Run:
+def run_to_slip(larger: LargerChain) -> Record:
     """Run to the end of the first global slip; the paper's chain by its own solver,
     which is faster."""
     limit = longest_run(larger.chain) / 4.0
@@ -129,7 +129,7 @@ def run_to_slip(larger: LargerChain) -> Run:
     return simulate(larger.chain, limit, "global slip")
 
 
-def numbers(run: Run, smallest_drops: Iterable[float]) -> dict[str, float]:
+def numbers(run: Record, smallest_drops: Iterable[float]) -> dict[str, float]:
     """What is kept of a run that ends with its first global slip.
 
     events_counted is that of Fig. 13, mu_sapp Eq. 1, and events_over_x the number of

@@ -24,7 +24,7 @@ from precursors.hierarchy.quasistatic import (
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.scenes import PAPERS_MODEL
 from precursors.model.statics import load_bound
-from precursors.solver.run import Run
+from precursors.solver.run import LargerRun, Run
 from precursors.solver.simulate import simulate
 
 # Longest run, in units of the time in which the drive reaches mu_s F_Z against all
@@ -85,21 +85,24 @@ def run_to_global_slip(chain: Chain) -> Run:
     return simulate(chain, longest_run(chain), until="global slip")
 
 
-def run_larger(chain: Chain) -> Run:
+def run_larger(chain: Chain) -> LargerRun:
     """Run the larger chain of `LARGER` to the end of its first global slip."""
     return simulate_larger(
         LargerChain(chain, **LARGER), longest_run(chain), "global slip", LARGER_STEP
     )
 
 
-def move(chain: Chain, solve: Callable[[Chain], Run] = run_to_global_slip) -> Motion:
+def move(
+    chain: Chain, solve: Callable[[Chain], Run | LargerRun] = run_to_global_slip
+) -> Motion:
     """Follow a chain through time to the end of its first global slip."""
     run = solve(chain)
+    if isinstance(run, LargerRun):
+        return Motion(chain, slip_events([run]), run.load_points)
     times = run.transitions["time"]
     loads = run.transitions["tangential_load"]
     waveform = np.column_stack([np.append(0.0, times), np.append(0.0, loads)])
-    points = waveform if run.load_points is None else run.load_points
-    return Motion(chain, slip_events([run]), points)
+    return Motion(chain, slip_events([run]), waveform)
 
 
 def longest_run(chain: Chain) -> float:

@@ -7,19 +7,18 @@ from dataclasses import dataclass
 from typing import Literal
 
 from precursors.model.chain import Chain
-from precursors.solver.run import Run
+from precursors.solver.run import Record
 
 
 @dataclass(frozen=True)
 class Result:
-    """What a method returns: a run without states, so that `run.at` is refused, and
-    what it cost.
+    """The transitions that a method found, and its cost.
 
     `evaluations` is how often the forces of the whole chain were evaluated, whatever
     the machine.
     """
 
-    run: Run
+    run: Record
     evaluations: int
 
 
@@ -64,6 +63,6 @@ class Method:
 class DivergedError(RuntimeError):
     """The numbers overflowed; `run` holds what was computed before."""
 
-    def __init__(self, message: str, run: Run) -> None:
+    def __init__(self, message: str, run: Record) -> None:
         super().__init__(message)
         self.run = run

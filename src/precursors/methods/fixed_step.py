@@ -35,7 +35,8 @@ from precursors.methods.equations import (
 from precursors.methods.switching import COULOMB
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span, positive
-from precursors.solver.run import TRANSITION, Run
+from precursors.solver.record import TRANSITION
+from precursors.solver.run import Record
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 
 FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, LOST, MOVING = range(6)
@@ -380,7 +381,7 @@ def with_room(motion: Motion) -> Motion:
     )
 
 
-def run_of(motion: Motion, chain: Chain, status: int) -> Run:
+def run_of(motion: Motion, chain: Chain, status: int) -> Record:
     """The run so far; of a diverged one what is finite."""
     progress = motion.progress[0]
     rows = motion.record[: progress["transitions"]]
@@ -395,7 +396,7 @@ def run_of(motion: Motion, chain: Chain, status: int) -> Run:
         else progress["onset"] + progress["elapsed"] * unit
     )
     time, block, mode, load = (rows[name][:n] for name in TRANSITION.names or ())
-    return Run.from_transitions(
+    return Record.from_columns(
         chain, float(reached), time, block, mode, load, intervals
     )
 

@@ -26,7 +26,7 @@ from precursors.methods.common import Method, Result
 from precursors.methods.events import jacobian_of
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span, positive
-from precursors.solver.run import Run
+from precursors.solver.run import Record
 
 # The drop begins where tanh has all but reached 1, so that friction at its largest is
 # mu_s to 1e-3.
@@ -159,7 +159,7 @@ def solve_regularised(
             duration = rows[-1][0]
             break
     columns = zip(*rows, strict=True) if rows else ((),) * 4
-    return Result(Run.from_transitions(chain, duration, *columns), stepper.nfev)
+    return Result(Record.from_columns(chain, duration, *columns), stepper.nfev)
 
 
 def _crossing(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from fractions import Fraction
 from typing import Any
 
@@ -27,6 +27,10 @@ FloatArray = NDArray[np.float64]
 # is lost in rounding.
 STIFFEST = 1e12
 FASTEST = 1e20
+# The paper's loading, by default.
+N_BLOCKS = 10
+THETA = 0.0
+NORMAL_LOAD = 400.0
 _POSITIVE = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "length")
 
 
@@ -51,6 +55,9 @@ class Chain:
         Coefficients of static and kinetic friction, 0 <= mu_k <= mu_s.
     length : float
         Length L of the contact [m], positive.
+
+    A chain of `from_slider` knows the theta that it was made with, and so do its runs;
+    of other weights `theta` is NaN.
     """
 
     weights: FloatArray
@@ -61,6 +68,7 @@ class Chain:
     mu_s: float
     mu_k: float
     length: float = 0.1
+    theta: float = field(default=math.nan, init=False)
 
     def __post_init__(self) -> None:
         weights = _weights(self.weights)
@@ -95,9 +103,9 @@ class Chain:
     @classmethod
     def from_slider(
         cls,
-        n_blocks: int = 10,
-        theta: float | str = 0.0,
-        normal_load: float = 400.0,
+        n_blocks: int = N_BLOCKS,
+        theta: float | str = THETA,
+        normal_load: float = NORMAL_LOAD,
         mu_s: float = 0.70,
         mu_k: float = 0.45,
         drive_stiffness: float = 0.8e6,
@@ -127,22 +135,24 @@ class Chain:
         slider_mass, youngs_modulus, cross_section, length : float
             M [kg], E [Pa], S [m^2] and L [m] of the slider.
         weights : array_like, shape (N,), optional
-            Normal load of each block [N], from the trailing edge on. The loading is
-            then as measured: n_blocks, theta and normal_load do not count.
+            Normal load of each block [N], from the trailing edge on, as measured;
+            n_blocks, theta and normal_load must then be left out.
 
         A ValueError says in one line which parameter is wrong, what it must be, and
         what it is.
         """
-        loads = (
-            linear_weights(n_blocks, normal_load, theta)
-            if weights is None
-            else _weights(weights)
-        )
+        if weights is None:
+            loads = linear_weights(n_blocks, normal_load, theta)
+        else:
+            loads = _weights(weights)
+            _must_agree("n_blocks", n_blocks, N_BLOCKS, len(loads))
+            _must_agree("theta", theta, THETA)
+            _must_agree("normal_load", normal_load, NORMAL_LOAD, math.fsum(loads))
         n = len(loads)
         youngs_modulus = positive("youngs_modulus", youngs_modulus, "Pa")
         cross_section = positive("cross_section", cross_section, "m^2")
         length = positive("length", length, "m")
-        return cls(
+        chain = cls(
             weights=loads,
             mass=positive("slider_mass", slider_mass, "kg") / n,
             stiffness=n * youngs_modulus * cross_section / length,
@@ -152,6 +162,7 @@ class Chain:
             mu_k=mu_k,
             length=length,
         )
+        return chain if weights is not None else remember_theta(chain, theta)
 
     @property
     def n_blocks(self) -> int:
@@ -199,20 +210,30 @@ class Chain:
             f"V = {self.drive_velocity:g} m/s, L = {self.length:g} m"
         )
 
-    def __reduce__(self) -> tuple[type[Chain], tuple[Any, ...]]:
+    def __reduce__(self) -> tuple[Any, ...]:
         # A copy is checked and read-only, as the chain itself.
-        return type(self), tuple(getattr(self, field.name) for field in fields(self))
+        given = tuple(getattr(self, name) for name in ARGUMENTS)
+        return type(self), given, {"theta": self.theta}
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Chain):
             return NotImplemented
         return all(
-            np.array_equal(getattr(self, f.name), getattr(other, f.name))
-            for f in fields(self)
+            np.array_equal(getattr(self, name), getattr(other, name))
+            for name in ARGUMENTS
         )
 
     def __hash__(self) -> int:
         return hash(self.weights.tobytes())
+
+
+ARGUMENTS = [field.name for field in fields(Chain) if field.init]
+
+
+def remember_theta(chain: Chain, theta: float | str) -> Chain:
+    """Let a chain that was just made know its theta."""
+    object.__setattr__(chain, "theta", parse_theta(theta))
+    return chain
 
 
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:
@@ -279,6 +300,13 @@ def theta_from_load_cells(
             f"{float(theta):.4g}: the slider would be lifted at one end"
         )
     return theta
+
+
+def _must_agree(name: str, given: object, *allowed: object) -> None:
+    """Refuse an argument that weights replace, unless it is left out, says the same or
+    is NaN."""
+    if given == given and given not in allowed:
+        raise ValueError(f"{name} must not be given beside weights, but is {given!r}")
 
 
 def _weights(values: ArrayLike) -> FloatArray:

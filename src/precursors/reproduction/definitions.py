@@ -22,7 +22,7 @@ from precursors.methods.fixed_step import march
 from precursors.methods.rk4_located import run_located
 from precursors.methods.switching import COULOMB
 from precursors.model.chain import Chain, parse_theta
-from precursors.solver.run import Run
+from precursors.solver.run import Record, Run
 from precursors.solver.simulate import simulate
 
 # The paper says that mu_sapp "appears to have" its value, which it prints with two
@@ -75,8 +75,8 @@ def definitions_table(
             "front": FRONTS[definition.front],
         }
         for sign, of_scene, printed in zip(SIGNS, runs, paper, strict=True):
-            run = of_scene
-            theta = of_scene.slider["theta"] if of_scene.slider else math.nan
+            run: Record = of_scene
+            theta = of_scene.chain.theta
             if degree != OF_SCENES:
                 theta = sign * parse_theta(degree)
                 run = simulate(

@@ -1,25 +1,23 @@
-"""A run: the transitions of a chain, the states between them, and its file."""
+"""A record of a chain's transitions, and a run, which has exact states as well."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from os import PathLike
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import number_array
-from precursors.solver.record import TRANSITION, States, room_for_states
-from precursors.solver.run_file import RunFileError, read_run, write_run
-
-__all__ = ["TRANSITION", "Run", "RunFileError", "States"]
+from precursors.solver.record import TRANSITION, States
+from precursors.solver.run_file import RunFileError, read_record, write_record
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
-    """The motion of a chain from time 0 to `duration`, known exactly at every time.
+class Record:
+    """Transitions of a chain from time 0 to `duration`, by any method.
 
     Attributes
     ----------
@@ -34,41 +32,21 @@ class Run:
         Time [s] from the start to the first transition, between transitions, and from
         the last one to the end; it resolves what a difference of two absolute times
         cannot.
-    start_positions, start_velocities : array, shape (N,)
-        State at time 0 [m], [m/s].
-    states : States
-        Stored states from which `at` starts.
-    evaluations : float
-        Evaluations of the forces of the whole chain that the solver made, each
-        derivative counted as one; 0 where it is not known.
-    slider : dict or None
-        Arguments of `Chain.from_slider` that the chain was made from, theta as a float;
-        None if not known.
-    larger : dict or None
-        Of a larger chain, its numbers and its accuracy (see `hierarchy.larger`); None
-        of the paper's chain.
-    load_points : array, shape (n, 2), or None
-        Of a larger chain, times [s] and F_X [N] between which straight lines draw the
-        load.
     """
 
     chain: Chain
     duration: float
     transitions: NDArray[np.void]
     intervals: FloatArray
-    start_positions: FloatArray
-    start_velocities: FloatArray
-    states: States
-    evaluations: float = 0.0
-    slider: dict[str, Any] | None = None
-    larger: dict[str, float] | None = None
-    load_points: FloatArray | None = None
 
     def __repr__(self) -> str:
-        return f"Run of {self.duration:g} s with {len(self.transitions)} transitions\n{self.chain!r}"
+        return (
+            f"{type(self).__name__} of {self.duration:g} s with "
+            f"{len(self.transitions)} transitions\n{self.chain!r}"
+        )
 
     @classmethod
-    def from_transitions(
+    def from_columns(
         cls,
         chain: Chain,
         duration: float,
@@ -77,12 +55,12 @@ class Run:
         mode: ArrayLike,
         tangential_load: ArrayLike,
         intervals: ArrayLike | None = None,
-    ) -> Run:
-        """Make a run, from rest with springs at natural length, from columns of its
-        transitions.
+        **others: Any,
+    ) -> Self:
+        """Make a record from columns of its transitions.
 
-        It knows no states between them, so that `at` refuses. `intervals` are by
-        default differences of `time`, whose rounding grows with the time.
+        `intervals` are by default differences of `time`, whose rounding grows with the
+        time; `others` are further attributes of the class.
         """
         transitions = np.empty(len(np.atleast_1d(np.asarray(time))), dtype=TRANSITION)
         transitions["time"] = time
@@ -90,19 +68,80 @@ class Run:
         transitions["mode"] = mode
         transitions["tangential_load"] = tangential_load
         if intervals is None:
-            intervals = np.diff(
-                np.concatenate([[0.0], transitions["time"], [duration]])
-            )
-        at_rest = np.zeros(chain.n_blocks)
+            instants = np.concatenate([[0.0], transitions["time"], [duration]])
+            intervals = np.diff(instants)
         return cls(
             chain=chain,
             duration=float(duration),
             transitions=transitions,
             intervals=np.array(intervals, dtype=np.float64),
-            start_positions=at_rest,
-            start_velocities=at_rest,
-            states=States.from_rows(room_for_states(0, chain.n_blocks)),
+            **others,
         )
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write an HDF5 file, whole or not at all; a missing directory is made."""
+        write_record(self, path)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Self:
+        """Read a file that `save` wrote; any other file is a `RunFileError`.
+
+        `Record.load` reads every kind of record; `Run.load` refuses one that has no
+        states.
+        """
+        content = read_record(path)
+        found: Record
+        if "states" in content:
+            found = Run(**content)
+        elif "load_points" in content:
+            found = LargerRun(**content)
+        else:
+            found = Record(**content)
+        if not isinstance(found, cls):
+            raise RunFileError(
+                f"{path} holds a {type(found).__name__} and not a {cls.__name__}: "
+                "Record.load reads it"
+            )
+        return found
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LargerRun(Record):
+    """The record of a larger chain, with its load between transitions.
+
+    Attributes
+    ----------
+    larger : dict
+        Numbers of the chain, and the accuracy of the run (see `hierarchy.larger`).
+    load_points : array, shape (n, 2)
+        Times [s] and F_X [N] between which straight lines draw the load.
+    """
+
+    larger: dict[str, float]
+    load_points: FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Run(Record):
+    """The motion of a chain from time 0 to `duration`, known exactly at every time.
+
+    Beside the attributes of a `Record` it has
+
+    Attributes
+    ----------
+    start_positions, start_velocities : array, shape (N,)
+        State at time 0 [m], [m/s].
+    states : States
+        Stored states from which `at` starts.
+    evaluations : float
+        Evaluations of the forces of the whole chain that the solver made, each
+        derivative counted as one.
+    """
+
+    start_positions: FloatArray
+    start_velocities: FloatArray
+    states: States
+    evaluations: float
 
     def at(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Positions [m] and velocities [m/s], each (len(times), N), exact to
@@ -125,18 +164,10 @@ class Run:
     def forces_and_velocities(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Spring forces [N] and velocities [m/s], each (len(times), N): the state,
         apart from the drive's."""
-        when = self._times(times)
-        if self.larger is not None:
-            raise ValueError(
-                "the run of a larger chain knows its transitions and load_points only"
-            )
-        if len(self.states.after) == 0:
-            raise ValueError(
-                "the run has no stored states: only a run that simulate made can be evaluated"
-            )
-        # Who only reads a run waits for no compiler.
+        # Imported here: reading a run must not load Numba.
         from precursors.solver import kernel
 
+        when = self._times(times)
         order = np.argsort(when, kind="stable")
         force, velocity = kernel.evaluate(
             self.chain, when[order], self.transitions, self.intervals, self.states
@@ -156,20 +187,3 @@ class Run:
                 f"times must be between 0 and {self.duration:g} s, but one is {when[outside][0]} s"
             )
         return when
-
-    def save(
-        self, path: str | PathLike[str], slider: dict[str, Any] | None = None
-    ) -> None:
-        """Write the run to an HDF5 file, whole or not at all; its directory is made if
-        it is missing.
-
-        `slider` are arguments of `Chain.from_slider` to keep in the file, by default
-        those of the run.
-        """
-        write_run(self if slider is None else replace(self, slider=slider), path)
-
-    @classmethod
-    def load(cls, path: str | PathLike[str]) -> Run:
-        """Read a run from a file that `save` wrote; any other file is a
-        `RunFileError`."""
-        return cls(**read_run(path))

@@ -1,8 +1,11 @@
-"""The HDF5 file of a run: what is written, and what is checked when it is read."""
+"""The HDF5 file of a record or run: what is written, and what is checked when it is
+read."""
 
 from __future__ import annotations
 
 import json
+import math
+from collections.abc import Mapping
 from dataclasses import fields
 from importlib.metadata import version
 from io import BytesIO
@@ -11,17 +14,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from precursors.model.chain import Chain
+from precursors.model.chain import ARGUMENTS, Chain, remember_theta
+from precursors.model.checks import not_negative
 from precursors.solver.record import TRANSITION, States
 from precursors.support.files import write_whole
 
 if TYPE_CHECKING:
     import h5py
 
-    from precursors.solver.run import Run
+    from precursors.solver.run import Record
 
-FORMAT = "precursors run 5"
+FORMAT = "precursors run 6"
 UNITS = {
     "time": "s",
     "block": "1",
@@ -37,16 +42,8 @@ UNITS = {
     "weights": "N",
     "load_points": "s, N",
 }
-PLAIN = ("start_positions", "start_velocities", "intervals")
-SCALARS = [field.name for field in fields(Chain)[1:]]
-# Compiled code takes these types only.
-KINDS = {
-    "force": float,
-    "velocity": float,
-    "mode": np.int64,
-    "after": np.int64,
-    "offset": float,
-}
+COUNTS = ("block", "mode", "after")
+SCALARS = ARGUMENTS[1:]
 INTERVALS_APART = 1e-9  # of the duration; roundings of 1e7 intervals add up to less
 
 
@@ -54,40 +51,44 @@ class RunFileError(ValueError):
     """A file that is not a whole run of this format."""
 
 
-def write_run(run: Run, path: str | PathLike[str]) -> None:
-    """Write a run to an HDF5 file, whole or not at all."""
-    import h5py  # here, as a run needs no file
+def write_record(record: Record, path: str | PathLike[str]) -> None:
+    """Write a record or run to an HDF5 file, whole or not at all."""
+    import h5py  # slow, and needed for files only
+
+    chain = record.chain
+    texts = {
+        "format": FORMAT,
+        "precursors": version("precursors"),
+        "numpy": np.__version__,
+        "duration_unit": "s",
+    }
+    scalars = {name: getattr(chain, name) for name in [*SCALARS, "theta"]}
+    datasets = {"weights": chain.weights}
+    for field in fields(record):
+        value = getattr(record, field.name)
+        if field.name == "transitions":
+            datasets |= {
+                f"transitions/{name}": value[name] for name in value.dtype.names
+            }
+        elif field.name == "states":
+            datasets |= {f"states/{name}": of for name, of in value._asdict().items()}
+        elif field.name == "larger":
+            texts["larger"] = json.dumps(value)
+        elif isinstance(value, np.ndarray):
+            datasets[field.name] = value
+        elif field.name != "chain":
+            scalars[field.name] = value
 
     # HDF5 may end the interpreter when the disk is full, so the file is made in memory
     # first.
     memory = BytesIO()
-    extra = {} if run.load_points is None else {"load_points": run.load_points}
-    datasets = {
-        **extra,
-        "weights": run.chain.weights,
-        **{name: getattr(run, name) for name in PLAIN},
-        **{
-            f"transitions/{name}": run.transitions[name]
-            for name in TRANSITION.names or ()
-        },
-        **{f"states/{name}": values for name, values in run.states._asdict().items()},
-    }
     with h5py.File(memory, "w", libver="v110") as file:
-        texts = {
-            "format": FORMAT,
-            "precursors": version("precursors"),
-            "numpy": np.__version__,
-            "slider": json.dumps(run.slider, sort_keys=True),
-            "larger": json.dumps(run.larger),
-            "duration_unit": "s",
-        }
         # Of a fixed length: HDF5 has checksums for all but the texts that have none,
         # and may hang in these.
         file.attrs.update(
             {name: np.bytes_(text.encode()) for name, text in texts.items()}
         )
-        file.attrs.update({name: getattr(run.chain, name) for name in SCALARS})
-        file.attrs.update(duration=run.duration, evaluations=run.evaluations)
+        file.attrs.update(scalars)
         for name, values in datasets.items():
             data = file.create_dataset(
                 name, data=values, compression="gzip", shuffle=True, fletcher32=True
@@ -96,8 +97,8 @@ def write_run(run: Run, path: str | PathLike[str]) -> None:
     write_whole(path, memory.getvalue())
 
 
-def read_run(path: str | PathLike[str]) -> dict[str, Any]:
-    """Read the fields of a `Run` from a file; `RunFileError` says in one line why it is
+def read_record(path: str | PathLike[str]) -> dict[str, Any]:
+    """Read the attributes of a record or run; `RunFileError` says why a file has
     none."""
     import h5py
 
@@ -111,14 +112,54 @@ def read_run(path: str | PathLike[str]) -> dict[str, Any]:
                 _text(file, "format") == FORMAT,
                 f"its format is not {FORMAT!r}, which is read here",
             )
-            content = _content(file)
-        _check(content)
+            return _content(file)
     except Exception as error:  # nearly any, as the file may hold anything
         reason = " ".join(str(error).split()).strip("'\"")
         raise RunFileError(
             f"{path} is not a run file, or is damaged: {reason}"
         ) from error
-    return content
+
+
+def _content(file: h5py.File) -> dict[str, Any]:
+    """Attributes of the record in a file, all checked."""
+    names = ["weights", "intervals"]
+    names += [f"transitions/{name}" for name in TRANSITION.names or ()]
+    if "load_points" in file:
+        names.append("load_points")
+    elif "states" in file:
+        names += ["start_positions", "start_velocities"]
+        names += [f"states/{name}" for name in States._fields]
+    found = {name: _numbers(file, name) for name in names}
+    scalars = {name: _scalar(file, name) for name in SCALARS}
+    duration = not_negative("duration", _scalar(file, "duration"), "s")
+    chain = Chain(weights=found.pop("weights"), **scalars)
+    theta = _scalar(file, "theta")
+    if not math.isnan(theta):
+        remember_theta(chain, theta)
+    _check(found, duration, chain.n_blocks)
+    transitions = np.empty(len(found["transitions/time"]), dtype=TRANSITION)
+    for name in TRANSITION.names or ():
+        transitions[name] = found.pop(f"transitions/{name}")
+    content: dict[str, Any] = {
+        "chain": chain,
+        "duration": duration,
+        "transitions": transitions,
+    }
+    if "states/after" in found:
+        states = {name: found.pop(f"states/{name}") for name in States._fields}
+        # Compiled code takes counts of this type only.
+        counts = {name: states[name].astype(np.int64) for name in ("mode", "after")}
+        content["states"] = States(**states | counts)
+        evaluations = _scalar(file, "evaluations")
+        content["evaluations"] = not_negative("evaluations", evaluations, "1")
+    if "load_points" in found:
+        larger = json.loads(_text(file, "larger"))
+        _require(
+            all(isinstance(value, int | float) for value in larger.values()),
+            "larger is not a table of numbers",
+        )
+        content["larger"] = larger
+    return content | found
 
 
 def _text(file: h5py.File, name: str) -> str:
@@ -127,99 +168,76 @@ def _text(file: h5py.File, name: str) -> str:
     return bytes(file.attrs[name]).decode() if is_fixed else ""
 
 
-def _content(file: h5py.File) -> dict[str, Any]:
-    columns = {name: file[f"transitions/{name}"][()] for name in TRANSITION.names or ()}
-    transitions = np.empty(len(columns["time"]), dtype=TRANSITION)
-    for name, values in columns.items():
-        _require(
-            values.shape == transitions.shape,
-            f"transitions/{name} has shape {values.shape}",
-        )
-        transitions[name] = values
-    scalars = {name: float(file.attrs[name]) for name in SCALARS}
-    return {
-        "chain": Chain(weights=file["weights"][()], **scalars),
-        "duration": float(file.attrs["duration"]),
-        "transitions": transitions,
-        **{name: file[name][()].astype(float) for name in PLAIN},
-        "states": States._make(
-            file[f"states/{name}"][()].astype(KINDS[name]) for name in States._fields
-        ),
-        "evaluations": float(file.attrs["evaluations"]),
-        "slider": json.loads(_text(file, "slider")),
-        "larger": json.loads(_text(file, "larger")),
-        "load_points": file["load_points"][()].astype(float)
-        if "load_points" in file
-        else None,
+def _scalar(file: h5py.File, name: str) -> float:
+    """A real number."""
+    value = np.asarray(file.attrs[name])
+    _require(value.dtype.kind in "iuf" and value.shape == (), f"{name} is not a number")
+    return float(value)
+
+
+def _numbers(file: h5py.File, name: str) -> NDArray:
+    """An array of finite numbers, which are whole where they count something."""
+    data = file[name]
+    is_here = data.file.filename == file.filename
+    _require(
+        is_here and not data.is_virtual and not data.external,
+        f"{name} is stored in another file",
+    )
+    values = np.asarray(data[()])
+    counts = name.split("/")[-1] in COUNTS
+    _require(
+        values.dtype.kind in ("iu" if counts else "iuf"),
+        f"{name} is of type {values.dtype}",
+    )
+    _require(np.isfinite(values).all(), f"{name} is not finite")
+    return values if counts else values.astype(float)
+
+
+def _check(found: Mapping[str, NDArray], duration: float, n_blocks: int) -> None:
+    """Refuse arrays that do not fit together, and values out of range."""
+    time = found["transitions/time"]
+    n = time.size
+    after = found.get("states/after", np.zeros(1))
+    n_states = after.size
+    shapes: dict[str, tuple[int, ...]] = {
+        "intervals": (n + 1,),
+        "start_positions": (n_blocks,),
+        "start_velocities": (n_blocks,),
+        "states/force": (n_states, n_blocks),
+        "states/velocity": (n_states, n_blocks),
+        "states/mode": (n_states, n_blocks),
+        "states/after": (n_states,),
+        "states/offset": (n_states,),
+        "load_points": (len(found.get("load_points", ())), 2),
     }
-
-
-def _check(content: dict[str, Any]) -> None:
-    """Refuse what the compiled code could not run on: wrong shapes, and indices out of
-    range."""
-    for name in ("slider", "larger"):
+    # Over a longer span than the run's the motion would be summed for ever.
+    span = (0.0, duration)
+    limits = {
+        "transitions/time": span,
+        "transitions/block": (1, n_blocks),
+        "transitions/mode": (-1, 1),
+        "intervals": span,
+        "states/mode": (-1, 1),
+        "states/after": (0, n),
+        "states/offset": span,
+    }
+    for name, values in found.items():
+        shape = shapes.get(name, (n,))
         _require(
-            content[name] is None or isinstance(content[name], dict),
-            f"{name} is not a table",
+            values.shape == shape, f"{name} has shape {values.shape} and not {shape}"
         )
-    transitions = content["transitions"]
-    states = content["states"]
-    n_blocks = content["chain"].n_blocks
-    n = len(transitions)
-    _require(
-        content["intervals"].shape == (n + 1,),
-        f"intervals do not fit to {n} transitions",
-    )
-    for name in ("start_positions", "start_velocities"):
+        low, high = limits.get(name, (-math.inf, math.inf))
         _require(
-            content[name].shape == (n_blocks,),
-            f"{name} do not fit to {n_blocks} blocks",
+            ((values >= low) & (values <= high)).all(),
+            f"{name} is not between {low} and {high}",
         )
-    block = transitions["block"]
-    mode = transitions["mode"]
-    after = states.after
+    _require((np.diff(time) >= 0).all(), "transitions/time is not in order")
+    _require((np.diff(after) >= 0).all(), "states/after is not in order")
+    _require(n_states > 0 and after[0] == 0, "it has no state of the start")
+    instants = np.cumsum(found["intervals"])
+    apart = abs(instants - np.append(time, duration)).max()
     _require(
-        ((block >= 1) & (block <= n_blocks)).all(),
-        f"a block is not one of 1 to {n_blocks}",
-    )
-    _require(
-        np.isin(mode, (-1, 0, 1)).all() and np.isin(states.mode, (-1, 0, 1)).all(),
-        "a mode is unknown",
-    )
-    # Every span is part of the run: the motion over a longer one would be summed for
-    # ever.
-    duration = content["duration"]
-    ends = np.append(transitions["time"], content["duration"])
-    intervals = content["intervals"]
-    spread = INTERVALS_APART * duration
-    _require(
-        ((ends >= 0) & (np.diff(ends, prepend=0.0) >= 0)).all(),
-        "its times are not in order",
-    )
-    _require(
-        ((intervals >= 0) & (intervals <= duration)).all(),
-        "an interval is not between 0 and the duration",
-    )
-    _require(
-        (abs(np.cumsum(intervals) - ends) <= spread).all(),
-        "its intervals do not add up to its times",
-    )
-    offset = states.offset
-    _require(
-        ((offset >= 0) & (offset <= duration)).all(),
-        "an offset is not between 0 and the duration",
-    )
-    _require((np.diff(after) >= 0).all(), "its states are not in order")
-    _require(
-        ((after >= 0) & (after <= n)).all(),
-        "a state comes after a transition that is not there",
-    )
-    shape = (len(after), n_blocks)
-    for name in ("force", "velocity", "mode"):
-        found = getattr(states, name).shape
-        _require(found == shape, f"states/{name} has shape {found} and not {shape}")
-    _require(
-        states.offset.shape == after.shape, "states/offset does not fit to states/after"
+        apart <= INTERVALS_APART * duration, "its intervals do not add up to its times"
     )
 
 

@@ -24,7 +24,7 @@ from precursors.solver import kernel
 from precursors.solver.kernel.arrays import Progress
 from precursors.solver.kernel.compiled import untyped
 from precursors.solver.record import TRANSITION, IntArray, States, room_for_states
-from precursors.solver.run import Run
+from precursors.solver.run import Record, Run
 from precursors.support.waiting import tell
 
 MAX_TRANSITIONS = 10_000_000
@@ -60,7 +60,7 @@ class TransitionLimitError(RuntimeError):
     """A run met its cap on transitions or on work; `run` holds what was computed up to
     there."""
 
-    def __init__(self, message: str, run: Run) -> None:
+    def __init__(self, message: str, run: Record) -> None:
         super().__init__(message)
         self.run = run
 

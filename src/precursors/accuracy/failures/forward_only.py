@@ -15,14 +15,16 @@ from precursors.methods.fixed_step import march
 from precursors.methods.rk4_located import run_located
 from precursors.methods.switching import FORWARD_ONLY
 from precursors.model.chain import Chain
-from precursors.solver.run import Run
+from precursors.solver.run import Record
 from precursors.solver.simulate import simulate
 
 THETAS = ("-5/6", "5/6")
 STEP = 1e-8  # [s]: mu_sapp is right to 1e-9
 
 
-def solve_forward_only(chain: Chain, duration: float, until: str | None = None) -> Run:
+def solve_forward_only(
+    chain: Chain, duration: float, until: str | None = None
+) -> Record:
     """Run a chain whose blocks slide forward only: RK4, transitions located."""
     return march(run_located, (), chain, duration, STEP, until, rule=FORWARD_ONLY).run
 
@@ -63,7 +65,7 @@ def forward_only() -> Failure:
     )
 
 
-def _loads(name: str, run: Run, role: Literal["exact", "failing"]) -> Curve:
+def _loads(name: str, run: Record, role: Literal["exact", "failing"]) -> Curve:
     return Curve(
         name, run.transitions["time"], run.transitions["tangential_load"], role
     )

@@ -20,7 +20,7 @@ from precursors.methods.events import NUDGE, EventMotion
 from precursors.methods.scipy_events import solve_scipy
 from precursors.methods.stability import bisect
 from precursors.model.chain import Chain, FloatArray
-from precursors.solver.run import Run
+from precursors.solver.run import Record, Run
 from precursors.solver.simulate import simulate
 
 METHOD = "DOP853 with events"
@@ -46,7 +46,7 @@ SMALLEST = math.nextafter(0.0, 1.0)
 
 def solve_merging(
     chain: Chain, duration: float, window: float, until: str | None = None
-) -> Run:
+) -> Record:
     """Run a chain whose transitions are made at once where they lie closer than a
     window [s]."""
     return solve_dop853(chain, duration, TIGHT, until, window).run
