@@ -11,7 +11,8 @@ from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import FIVE_SLIPS
 from precursors.accuracy.failures.literal_friction import load_after_limit
 from precursors.methods import METHODS, DivergedError, rk4_located
-from precursors.methods.fixed_step import FIRST_ROOM, march
+from precursors.methods.fixed_step import FIRST_ROOM
+from precursors.methods.march import march
 from precursors.methods.rk4 import run_rk4
 from precursors.methods.stability import highest_frequency
 

@@ -13,7 +13,7 @@ from precursors import Chain, simulate
 from precursors.accuracy.failures.regularised_friction import measured_creep
 from precursors.methods import METHODS, karnopp, moreau_jean
 from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
-from precursors.methods.fixed_step import slide
+from precursors.methods.march import slide
 from precursors.methods.regularised import STRIBECK, creep_velocity
 from precursors.methods.stability import (
     bisect,

@@ -21,7 +21,8 @@ from precursors.methods.common import Method, Result
 from precursors.methods.compiled import apart, inner, outer, template
 from precursors.methods.equations import by_mode, copy, event_function, rates
 from precursors.methods.events import NUDGE, nudge_starting
-from precursors.methods.fixed_step import begin_leg, feels, march, switch
+from precursors.methods.fixed_step import begin_leg, feels, switch
+from precursors.methods.march import march
 from precursors.model.chain import Chain
 
 STAGES = 12

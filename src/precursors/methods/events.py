@@ -44,10 +44,9 @@ from precursors.methods.fixed_step import (
     begin_leg,
     motion_from_rest,
     obstacle,
-    run_of,
     switch,
-    with_room,
 )
+from precursors.methods.march import run_of, with_room
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import TransitionLimitError
 

@@ -28,10 +28,10 @@ from precursors.methods.fixed_step import (
     STEPS_IN_LEG,
     all_keep_their_modes,
     begin_leg,
-    march,
     record_transition,
     step_length,
 )
+from precursors.methods.march import march
 from precursors.methods.rk4 import room, step_of_law
 from precursors.model.chain import Chain
 from precursors.model.checks import not_negative, positive

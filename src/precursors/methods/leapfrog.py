@@ -14,7 +14,8 @@ import numpy as np
 
 from precursors.methods.compiled import inner, outer
 from precursors.methods.equations import accelerate, by_mode, rates, stretch
-from precursors.methods.fixed_step import fixed_step, run_in_steps
+from precursors.methods.fixed_step import run_in_steps
+from precursors.methods.march import fixed_step
 
 LIMIT = 2.0  # largest stable omega dt, of both symplectic methods
 # Share of a step of the forces that is made before the step of the motion.

@@ -39,9 +39,9 @@ from precursors.methods.fixed_step import (
     STEPS_IN_LEG,
     begin_leg,
     change_mode,
-    fixed_step,
     step_length,
 )
+from precursors.methods.march import fixed_step
 
 # theta: of order 2 while nothing switches, without damping; of order 1, damping what is
 # faster than a step.

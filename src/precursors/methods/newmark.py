@@ -18,7 +18,8 @@ import numpy as np
 from precursors.methods.columns import FORCE, FRICTION, MOBILITY, SPRING, VELOCITY
 from precursors.methods.compiled import inner, outer
 from precursors.methods.equations import solve_springs
-from precursors.methods.fixed_step import fixed_step, run_in_steps
+from precursors.methods.fixed_step import run_in_steps
+from precursors.methods.march import fixed_step
 
 ACCELERATION, NEW, FACTOR, MOVED = range(4)  # rows to work in
 

@@ -10,7 +10,8 @@ import numpy as np
 from precursors.methods.columns import FORCE, SPRING, VELOCITY
 from precursors.methods.compiled import inner, outer, template
 from precursors.methods.equations import by_mode, rates
-from precursors.methods.fixed_step import fixed_step, run_in_steps
+from precursors.methods.fixed_step import run_in_steps
+from precursors.methods.march import fixed_step
 
 LIMIT = 2.0 * math.sqrt(2.0)  # largest stable omega dt
 

@@ -28,9 +28,9 @@ from precursors.methods.fixed_step import (
     begin_leg,
     change_state,
     feels,
-    fixed_step,
     step_length,
 )
+from precursors.methods.march import fixed_step
 from precursors.methods.rk4 import room, step_from_rates
 
 # An event function below so many roundings of the forces is zero.

@@ -18,7 +18,7 @@ from precursors.analysis.slips import (
     slip_table,
 )
 from precursors.methods.columns import SWITCHING_RULES
-from precursors.methods.fixed_step import march
+from precursors.methods.march import march
 from precursors.methods.rk4_located import run_located
 from precursors.methods.switching import COULOMB
 from precursors.model.chain import Chain, parse_theta

@@ -11,7 +11,7 @@ import numpy as np
 from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import Curve, Failure, Number
 from precursors.analysis.slips import apparent_friction, slip_table
-from precursors.methods.fixed_step import march
+from precursors.methods.march import march
 from precursors.methods.rk4_located import run_located
 from precursors.methods.switching import FORWARD_ONLY
 from precursors.model.chain import Chain

@@ -1,0 +1,152 @@
+"""Runs of compiled methods from rest, and the row that a fixed-step method needs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from precursors.methods.columns import BACKWARD, MODE, STRENGTH
+from precursors.methods.common import DivergedError, Kind, Method, Result, Smooth
+from precursors.methods.fixed_step import (
+    DIVERGED,
+    FINISHED,
+    FIRST_ROOM,
+    PAUSED,
+    PROGRESS,
+    RECORD,
+    Motion,
+    motion_from_rest,
+)
+from precursors.methods.switching import COULOMB
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.checks import positive
+from precursors.solver.record import TRANSITION
+from precursors.solver.run import Record
+from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
+
+
+def march(
+    method: Callable[..., None],
+    parameters: tuple[Any, ...],
+    chain: Chain,
+    duration: float,
+    setting: float,
+    until: str | None = None,
+    max_transitions: int = MAX_TRANSITIONS,
+    rule: str = COULOMB,
+    scaled: bool = False,
+    waits: bool = True,
+) -> Result:
+    """Run a compiled method from rest: `method` is (motion, setting, *parameters).
+
+    `setting` is a step [s] or, where the method meets the numbers of solvers with a
+    tolerance (`scaled`, see `columns`), a tolerance. `rule` is a key of
+    `SWITCHING_RULES`. A method `waits` in closed form while all blocks stick, or makes
+    each step then as well. The others are those of `precursors.simulate`.
+
+    Raises
+    ------
+    ValueError, DivergedError, TransitionLimitError
+        If an argument is out of range, the numbers overflow, or there are more than
+        `max_transitions`.
+    """
+    positive("tolerance" if scaled else "step", setting, "1" if scaled else "s")
+    motion = motion_from_rest(chain, duration, until, rule, scaled, waits)
+    status = PAUSED
+    while status == PAUSED and motion.progress["transitions"][0] < max_transitions:
+        motion = with_room(motion)
+        method(motion, setting, *parameters)
+        status = int(motion.progress["status"][0])
+    run = run_of(motion, chain, status)
+    if status == DIVERGED:
+        raise DivergedError(
+            f"the numbers overflow at t = {run.duration:.9g} s: shorten the step", run
+        )
+    if status == PAUSED:
+        raise TransitionLimitError(
+            f"max_transitions = {max_transitions} reached at t = {run.duration:.9g} s",
+            run,
+        )
+    return Result(run, int(motion.progress["evaluations"][0]))
+
+
+def slide(
+    method: Callable[..., None],
+    parameters: tuple[Any, ...],
+    system: FloatArray,
+    state: FloatArray,
+    step: float,
+    n_steps: int,
+) -> None:
+    """Make n steps [s] of all blocks as they slide in a state, without switching, by
+    the code of `march`.
+
+    Blocks that count as stuck, that nothing holds and that nothing releases keep their
+    motion and their mode.
+    """
+    free = system.copy()
+    free[[STRENGTH, BACKWARD]] = np.inf
+    progress = np.zeros(1, PROGRESS)
+    progress["sliding"] = progress["last"] = state.shape[1] - 2
+    progress["remaining"] = n_steps * step
+    modes = state[MODE].copy()
+    state[MODE] = 0.0
+    motion = Motion(free, state, progress, np.empty(FIRST_ROOM, RECORD))
+    progress["status"] = PAUSED
+    while progress["status"] == PAUSED:
+        method(motion, step, *parameters)
+    state[MODE] = modes
+
+
+def with_room(motion: Motion) -> Motion:
+    """The motion with a longer record where its own is full."""
+    if motion.progress["transitions"][0] + motion.state.shape[1] <= len(motion.record):
+        return motion
+    return motion._replace(
+        record=np.resize(motion.record, 2 * len(motion.record) + motion.state.shape[1])
+    )
+
+
+def run_of(motion: Motion, chain: Chain, status: int) -> Record:
+    """The run so far; of a diverged one what is finite."""
+    progress = motion.progress[0]
+    rows = motion.record[: progress["transitions"]]
+    unit = progress["unit"]
+    n = int(np.isfinite(rows["tangential_load"]).sum())
+    since = progress["waited"] + (progress["elapsed"] - progress["noted"]) * unit
+    # The last interval includes those of the transitions that are left out.
+    intervals = np.add.reduceat(np.append(rows["interval"], since), np.arange(n + 1))
+    reached = (
+        progress["duration"]
+        if status == FINISHED
+        else progress["onset"] + progress["elapsed"] * unit
+    )
+    time, block, mode, load = (rows[name][:n] for name in TRANSITION.names or ())
+    return Record.from_columns(
+        chain, float(reached), time, block, mode, load, intervals
+    )
+
+
+def fixed_step(
+    name: str,
+    method: Callable[..., None],
+    *parameters: Any,
+    smooth: tuple[int, float, Callable[[float], float]] | None = None,
+    kind: Kind = "once a step",
+    waits: bool = True,
+) -> Method:
+    """Make a compiled fixed-step method.
+
+    `method`, its parameters and `waits` are those of `march`; `smooth` is the rest of
+    `Smooth`.
+    """
+    return Method(
+        name,
+        "step [s]",
+        partial(march, method, parameters, waits=waits),
+        smooth=Smooth(partial(slide, method, parameters), *smooth) if smooth else None,
+        kind=kind,
+    )
