@@ -63,6 +63,18 @@ def test_words_format_and_touch_run_nothing_again(finished):
     assert finished.results() == before
 
 
+@pytest.mark.parametrize(
+    "kind", ["runs/*", "tables/*", "ensembles/*/*", "certificates/*/*"]
+)
+def test_results_that_were_deleted_are_made_again(finished, kind):
+    files = list(finished.path.glob(f"results/{kind}"))
+    for file in files:
+        file.unlink()
+    made = finished.run("-n", "all").made
+    assert files
+    assert {str(file.relative_to(finished.path)) for file in files} <= made
+
+
 def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(
     finished, tmp_path
 ):
