@@ -50,7 +50,7 @@ def draw(
     printed digits, and `shares` is digits.csv.
     """
     letters = style.Look.font_size
-    is_mu_sapp = shares["quantity"].eq("mu_sapp") & shares["question"].eq("as printed")
+    is_mu_sapp = shares["quantity"].eq("mu_sapp") & shares["question"].eq("as_printed")
     within = shares[is_mu_sapp].set_index("scene")
     scenes = members.groupby("scene", sort=False)
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
