@@ -30,6 +30,7 @@ from precursors.figures import (
     theta_window,
     work_precision,
 )
+from precursors.model.scenes import SLIDER
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 SMALL = GOLDEN / "small"
@@ -56,7 +57,8 @@ def trace(events: pd.DataFrame, duration: float = 10.0) -> pd.DataFrame:
     over = events.dropna(subset="end_s")
     times = [0.0, *over[["onset_s", "end_s"]].to_numpy().ravel(), duration]
     loads = [0.0, *over[["load_before_N", "load_after_N"]].to_numpy().ravel(), 150.0]
-    return pd.DataFrame({"time_s": times, "tangential_load_N": loads})
+    table = pd.DataFrame({"time_s": times, "tangential_load_N": loads})
+    return table.assign(K_x1_N=80.0 * table["time_s"] - table["tangential_load_N"])
 
 
 def draw_scene(events: pd.DataFrame, duration: float = 10.0, **how: object):
@@ -98,7 +100,7 @@ def endless_scene():
         "is_global": True,
         "length_m": 0.25,
     }
-    flat = pd.DataFrame({"time_s": [0.0, 1.0], "tangential_load_N": 0.0})
+    flat = pd.DataFrame({"time_s": [0.0, 1.0], "tangential_load_N": 0.0, "K_x1_N": 0.0})
     return scene.draw(slips().iloc[[0]].assign(**event), flat)
 
 
@@ -275,7 +277,7 @@ def compared_models():
 # By the names of the modules.
 PICTURES = {
     "chain_schematic": chain_schematic.draw,
-    "scene": lambda: draw_scene(slips(), title="uniform"),
+    "scene": lambda: draw_scene(slips(), title="uniform", slider=SLIDER, key=False),
     "scene_crowded": crowded_scene,
     "scene_endless": endless_scene,
     "scene_partial": partial_scene,

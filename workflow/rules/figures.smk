@@ -20,7 +20,12 @@ FIGURES = {
                     if scene in config["fig13"]
                 ],
             },
-            "options": {"title": config["scenes"][scene]["title"]},
+            "options": {
+                "title": f"{scene.replace('fig', 'Fig. ')}: {config['scenes'][scene]['title']}",
+                "slider": scene_slider(config, scene),
+                # one key below the last of those of Fig. 13
+                "key": scene not in sorted(config["fig13"])[:-1],
+            },
             "look": config["figure"],
         }
         for scene in SCENES

@@ -66,10 +66,16 @@ def load_curve(
 
 
 def load_trace(run: Record) -> pd.DataFrame:
-    """Points of the exact F_X: straight lines between them draw it, see
-    `load_curve`."""
+    """Points of the exact F_X and of K x_1 = K V t - F_X.
+
+    Straight lines between them draw both, see `load_curve`. Each precursor is a step of
+    K x_1.
+    """
     times, loads = load_curve(run)
-    return pd.DataFrame({"time_s": times, "tangential_load_N": loads})
+    pushed = run.chain.drive_stiffness * run.chain.drive_velocity * times
+    return pd.DataFrame(
+        {"time_s": times, "tangential_load_N": loads, "K_x1_N": pushed - loads}
+    )
 
 
 def _slides_of_block_1(run: Run) -> FloatArray:

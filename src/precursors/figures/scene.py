@@ -1,9 +1,9 @@
-"""Figs. 10-12, and any other scene: the tangential load over time, and when and where
-blocks slipped."""
+"""Figs. 10-12, and any other scene: the tangential load over time, the staircase that it
+loses, and when and where blocks slipped."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from textwrap import fill
 from typing import Any
 
@@ -18,49 +18,37 @@ from numpy.typing import NDArray
 
 from precursors.figures import style
 
-HEIGHT_MM = 80.0
+HEIGHT_MM = 74.0
+KEY_MM = 8.0
 NARROW_MM = 120.0  # below this width the magnified view stands below, not beside
-PARTIAL = style.PARTIAL
-GLOBAL = style.GLOBAL
-# Black on the colour of the slip that it marks, and above it.
+ZOOM_END = 1.04  # of the magnified view, in times of the first global slip
+ZOOMED = 1.1  # nothing that ends later is magnified
+CHARACTERS_PER_MM = 0.56  # of a title of 8 pt
+
+# What an event is to the reader: its look, from those behind to those in front.
+KINDS: dict[str, dict[str, Any]] = {
+    "partial slip": {"color": style.GREY, "linewidth": 0.6},
+    "partial slip, counted in Fig. 13": {"color": style.PARTIAL, "linewidth": 1.8},
+    "global slip": {"color": style.GLOBAL, "linewidth": 1.2},
+}
 FIRST_GLOBAL: dict[str, Any] = {
     "color": style.BLACK,
-    "linewidth": 0.9,
+    "linewidth": 0.7,
     "linestyle": (0, (5, 4)),
-    "zorder": 3,
+    "zorder": 1.5,
 }
-# A partial slip that ends at the leading edge: its blocks did not all slide at the same
-# instant.
 TO_THE_EDGE: dict[str, Any] = {
-    "color": PARTIAL,
+    "color": style.BLACK,
     "linestyle": "none",
     "marker": "o",
-    "markersize": 3.6,
+    "markersize": 3.2,
+    "markerfacecolor": "white",
+    "markeredgewidth": 0.7,
+    "clip_on": False,
 }
-TO_THE_EDGE |= {"markerfacecolor": "white", "markeredgewidth": 0.9, "clip_on": False}
-MEASURED: dict[str, Any] = {
-    "color": style.GREY,
-    "linewidth": 0.8,
-    "zorder": 1.8,
-    "label": "measured",
-}
+STAIRCASE = "$K x_1 = K V t - F_X$: a step for each slip"
+MEASURED: dict[str, Any] = {"color": style.GREY, "zorder": 1.8, "label": "measured"}
 UNFINISHED: dict[str, Any] = {"alpha": 0.2, "linewidth": 0}
-
-# The magnified view is the last stretch before the first global slip, as fractions of
-# the time of that slip.
-ZOOM_START = 0.68
-ZOOM_END = 1.05
-# The paper marks some of the drops with arrows; more than this many run into each
-# other.
-MOST_ARROWS = 24
-ARROW = {
-    "arrowstyle": "-|>,head_width=0.14,head_length=0.28",
-    "color": PARTIAL,
-    "linewidth": 0.8,
-}
-# Lines of the lower panel are thinner if there are more events than this.
-THIN_OUT_FROM = 200
-CHARACTERS_PER_MM = 0.56  # of a title of 8 pt
 
 
 def draw(
@@ -70,96 +58,132 @@ def draw(
     others: Sequence[pd.DataFrame] = (),
     data: NDArray[np.float64] | None = None,
     inset: bool = True,
+    slider: Mapping[str, Any] | None = None,
+    key: bool = True,
     look: style.Look | None = None,
 ) -> Figure:
-    """Draw F_X(t), below it all slip events, and with `inset` both magnified before the
-    first global slip.
+    """Draw F_X(t), K x_1 = K V t - F_X and all slip events; with `inset`, all of it
+    magnified up to the first global slip.
 
     An event extends from the trailing edge (0) to L_p = front L / N. An event that goes
     on when the run ends is a band from its onset to the end of the run.
 
     The slip table may be empty; the trace is straight between its rows. The load axis
     holds the traces of `others` as well. `data`, shape (n, 2), are measured times [s]
-    and loads [N].
+    and loads [N]. The parameters of `slider` stand below the title.
     """
     look = look or style.Look()
     width_mm = look.width_mm or style.PAGE_MM
-    slips = slips.astype({"is_global": bool})
-    loads = [table["tangential_load_N"] for table in (trace, *others)]
-    if data is not None:
-        loads.append(pd.Series(data[:, 1]))
+    slips = _with_kinds(slips)
     first_s = slips.loc[slips["is_global"], "onset_s"].min()
     end = trace["time_s"].iloc[-1]
     spans = [(0.0, float(np.nanmax([end, ZOOM_END * first_s])))]
     if inset and first_s > 0:
-        spans.append((ZOOM_START * first_s, ZOOM_END * first_s))
-    is_narrow = width_mm < NARROW_MM
-    stacked = len(spans) > 1 and is_narrow
-    height_mm = HEIGHT_MM * (0.4 + 0.75 * len(spans) if is_narrow else 1.0)
+        spans.append((0.0, ZOOM_END * first_s))
+    stacked = len(spans) > 1 and width_mm < NARROW_MM
+    height_mm = HEIGHT_MM * (1 + stacked) + KEY_MM * key * (1 + 2 * stacked)
+    loads = [table["tangential_load_N"] for table in (trace, *others)]
+    if data is not None:
+        loads.append(pd.Series(data[:, 1]))
     with style.page(width_mm, height_mm, look=look) as figure:
-        panels = _panels(figure, len(spans), stacked)
-        for column, axes in enumerate(panels):
-            upper, lower = axes
-            start, stop = spans[column]
-            upper.plot(
-                trace["time_s"],
-                trace["tangential_load_N"],
-                color=style.BLACK,
-                linewidth=0.6,
-            )
-            _draw_events(lower, slips[slips["onset_s"].between(start, stop)], end)
-            lower.set(xlim=(start, stop), xlabel="Time $t$ [s]")
-            if first_s >= 0:
-                for panel in axes:
+        columns = _panels(figure, len(spans), stacked)
+        for axes, span in zip(columns, spans, strict=True):
+            _draw_loads(axes, slips, trace, span)
+            _draw_events(axes[2], slips[slips["onset_s"].between(*span)], end)
+            axes[2].set(xlim=span, xlabel="Time $t$ [s]")
+            for panel in axes:
+                if first_s >= 0:
                     panel.axvline(first_s, **FIRST_GLOBAL)
+                if len(spans) > 1 and axes is columns[0]:
+                    panel.axvspan(*spans[1], color=style.PALE, linewidth=0, zorder=0)
             if data is not None:
-                upper.plot(*data.T, **MEASURED)
-            if column == 0:
-                _set_load_axis(upper, pd.concat(loads))
-                upper.set_title(
-                    _title(slips, title, width_mm, look.font_size), loc="left", pad=3
-                )
-            else:
-                _magnify(upper, slips, trace, spans[1])
-            if column == 0 or stacked:
-                upper.set_ylabel(
-                    "Load $F_X$ [N]" if is_narrow else "Tangential load $F_X$ [N]"
-                )
-                lower.set_ylabel("$L_p$ [mm]")
-                figure.align_ylabels([upper, lower])
-        if len(spans) > 1:
-            for panel in panels[0]:
-                panel.axvspan(*spans[1], color=style.PALE, linewidth=0, zorder=0)
-            panels[1][0].set_title("the grey stretch, magnified", loc="left", pad=3)
-        _draw_key(figure, slips, data is not None, width_mm, look)
+                axes[0].plot(*data.T, **MEASURED)
+            if axes is columns[0] or stacked:
+                axes[0].set_ylabel("$F_X$ [N]")
+                axes[1].set_ylabel("$K x_1$ [N]")
+                axes[2].set_ylabel("$L_p$ [mm]")
+                figure.align_ylabels(axes)
+        _set_load_axis(columns[0][0], pd.concat(loads))
+        _number_blocks(columns[-1][2], slips)
+        staircase = columns[-1][1]
+        staircase.text(0.02, 0.82, STAIRCASE, transform=staircase.transAxes)
+        _write_title(columns[0][0], slips, title, slider, width_mm / look.font_size)
+        if key:
+            _draw_key(figure, slips, data is not None, width_mm / look.font_size)
     return figure
 
 
-def _panels(figure: Figure, n: int, stacked: bool) -> list[tuple[Axes, Axes]]:
-    """Load and events over the same time, n times beside or below each other."""
-    rows, columns = (2 * n, 1) if stacked else (2, n)
-    ratios = {"height_ratios": [2.2, 1] * (rows // 2), "width_ratios": [5, 3][:columns]}
-    grid = figure.add_gridspec(rows, columns, **ratios)
-    pairs = []
-    for j in range(n):
-        upper = figure.add_subplot(grid[2 * j, 0] if stacked else grid[0, j])
-        lower = figure.add_subplot(
-            grid[2 * j + 1, 0] if stacked else grid[1, j], sharex=upper
-        )
-        upper.tick_params(labelbottom=False)
-        pairs.append((upper, lower))
-    return pairs
-
-
-def _title(slips: pd.DataFrame, title: str, width_mm: float, font_size: float) -> str:
-    parts = (
-        [style.theta_text(slips["theta"].iloc[0])]
-        if slips["theta"].notna().any()
-        else ["loads as measured"] * (len(slips) > 0)
+def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:
+    """Add what is drawn: the kind of each event, and the length that it reached."""
+    slips = slips.astype({"is_global": bool, "counted": bool})
+    partial, counted, whole = KINDS
+    kinds = np.where(slips["counted"], counted, partial)
+    return slips.assign(
+        kind=np.where(slips["is_global"], whole, kinds),
+        reached_mm=style.MM_PER_M
+        * slips["length_m"]
+        * slips["front"]
+        / slips["n_blocks"],
+        is_at_the_edge=~slips["is_global"] & (slips["front"] == slips["n_blocks"]),
     )
-    note = " (no global slip)" if len(slips) and not slips["is_global"].any() else ""
-    text = ": ".join([*parts, style.plain(title)]).removesuffix(": ") + note
-    return fill(text, max(20, int(CHARACTERS_PER_MM * width_mm * 8 / font_size)))
+
+
+def _panels(figure: Figure, n: int, stacked: bool) -> list[tuple[Axes, ...]]:
+    """Three panels over the same time, n times beside or below each other."""
+    rows, columns = (3 * n, 1) if stacked else (3, n)
+    grid = figure.add_gridspec(rows, columns, height_ratios=[1.3, 1.3, 1] * (rows // 3))
+    found = []
+    for i in range(n):
+        cells = [grid[3 * i + k, 0] if stacked else grid[k, i] for k in range(3)]
+        lower = figure.add_subplot(cells[2])
+        upper = [figure.add_subplot(cell, sharex=lower) for cell in cells[:2]]
+        for axes in upper:
+            axes.tick_params(labelbottom=False)
+        found.append((*upper, lower))
+    return found
+
+
+def _draw_loads(
+    axes: Sequence[Axes],
+    slips: pd.DataFrame,
+    trace: pd.DataFrame,
+    span: tuple[float, float],
+) -> None:
+    """Draw F_X, and the staircase K x_1 with its risers in the colours of the events."""
+    seen = trace[trace["time_s"] <= span[1]]
+    for panel, column in zip(axes, ("tangential_load_N", "K_x1_N"), strict=False):
+        panel.plot(seen["time_s"], seen[column], color=style.BLACK, linewidth=0.6)
+    for kind, look in KINDS.items():
+        events = slips[(slips["kind"] == kind) & slips["onset_s"].between(*span)]
+        ends = events["end_s"].fillna(span[1])
+        low, high = (
+            np.interp(times, trace["time_s"], trace["K_x1_N"])
+            for times in (events["onset_s"], ends)
+        )
+        axes[1].vlines(events["onset_s"], low, high, **look)
+    before = slips.loc[slips["is_global"], "onset_s"].min()
+    if span[0] < before < span[1] < ZOOMED * before:
+        top = np.interp(before, trace["time_s"], trace["K_x1_N"])
+        axes[1].set_ylim(-0.08 * top, 1.3 * top)  # the global slip goes far beyond
+
+
+def _draw_events(axes: Axes, slips: pd.DataFrame, end_s: float) -> None:
+    if slips.empty:
+        note = {"transform": axes.transAxes, "ha": "center", "color": style.GREY}
+        axes.text(0.5, 0.5, "no slip event", **note)
+        axes.set_yticks([])
+        return
+    for kind, look in KINDS.items():
+        events = slips[slips["kind"] == kind]
+        axes.vlines(events["onset_s"], 0, events["reached_mm"], **look)
+        for _, event in events[events["end_s"].isna()].iterrows():
+            band = [event["onset_s"], end_s]
+            color = look["color"]
+            axes.fill_between(band, 0, event["reached_mm"], color=color, **UNFINISHED)
+    edge = slips[slips["is_at_the_edge"]]
+    if len(edge):  # an empty line that is not clipped upsets the layout
+        axes.plot(edge["onset_s"], edge["reached_mm"], **TO_THE_EDGE)
+    axes.set_ylim(0, 1.08 * style.MM_PER_M * slips["length_m"].iloc[0])
 
 
 def _set_load_axis(axes: Axes, loads: pd.Series) -> None:
@@ -167,101 +191,69 @@ def _set_load_axis(axes: Axes, loads: pd.Series) -> None:
     locator = MaxNLocator(6, steps=[1, 2, 5, 10])
     lowest = min(0.0, loads.min())
     axes.yaxis.set_major_locator(locator)
-    axes.set_ylim(
-        lowest, locator.tick_values(lowest, max(loads.max(), lowest + 1e-9))[-1]
-    )
+    highest = locator.tick_values(lowest, max(loads.max(), lowest + 1e-9))[-1]
+    axes.set_ylim(lowest, highest)
 
 
-def _draw_events(axes: Axes, slips: pd.DataFrame, end_s: float) -> None:
+def _number_blocks(axes: Axes, slips: pd.DataFrame) -> None:
+    """Number the blocks on an axis beside that of L_p."""
     if slips.empty:
-        axes.text(
-            0.5,
-            0.5,
-            "no slip event",
-            transform=axes.transAxes,
-            ha="center",
-            color=style.GREY,
-        )
-        axes.set_yticks([])
         return
-    length_mm = slips["length_m"].iloc[0] * style.MM_PER_M
-    events = slips.assign(reached_mm=slips["front"] * length_mm / slips["n_blocks"])
-    width = 0.9 * np.clip(THIN_OUT_FROM / len(slips), 0.4, 1.0)
-    for is_global, color in ((False, PARTIAL), (True, GLOBAL)):
-        chosen = events[events["is_global"] == is_global]
-        axes.vlines(
-            chosen["onset_s"], 0, chosen["reached_mm"], color=color, linewidth=width
-        )
-        for _, event in chosen[chosen["end_s"].isna()].iterrows():
-            axes.fill_between(
-                [event["onset_s"], end_s],
-                0,
-                event["reached_mm"],
-                color=color,
-                **UNFINISHED,
-            )
-    to_the_edge = events[~events["is_global"] & (events["front"] == events["n_blocks"])]
-    if len(
-        to_the_edge
-    ):  # an empty line that is not clipped has no place, and upsets the layout
-        axes.plot(to_the_edge["onset_s"], to_the_edge["reached_mm"], **TO_THE_EDGE)
-    axes.set_ylim(0, 1.08 * length_mm)
+    block_mm = style.MM_PER_M * slips["length_m"].iloc[0] / slips["n_blocks"].iloc[0]
+    scale = (lambda mm: mm / block_mm, lambda block: block * block_mm)
+    blocks = axes.secondary_yaxis("right", functions=scale)
+    n = int(slips["n_blocks"].iloc[0])
+    style.set_ticks(blocks.yaxis, sorted({1, (n + 1) // 2, n}))
+    blocks.set_ylabel("Block")
 
 
-def _magnify(
-    axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, span: tuple[float, float]
+def _write_title(
+    axes: Axes,
+    slips: pd.DataFrame,
+    title: str,
+    slider: Mapping[str, Any] | None,
+    width: float,
 ) -> None:
-    """Fit the load axis to a stretch of time, and mark the largest drops in it."""
-    start = span[0]
-    first_s = span[1] / ZOOM_END
-    axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
-    seen = trace["time_s"].between(start, first_s)
-    at_start = np.interp(start, trace["time_s"], trace["tangential_load_N"])
-    load = np.append(trace.loc[seen, "tangential_load_N"], at_start)
-    room = np.ptp(load) or 1.0
-    axes.set_ylim(load.min() - 0.08 * room, load.max() + 0.22 * room)
-    for _, event in _largest_drops(slips, start, first_s).iterrows():
-        axes.annotate(
-            "",
-            xy=(event["onset_s"], event["load_before_N"]),
-            xytext=(0, 13),
-            textcoords="offset points",
-            arrowprops={**ARROW, "shrinkA": 0, "shrinkB": 2},
-        )
+    """Write the title, with theta, and the parameters; `width` is in mm per pt."""
+    parts = [style.plain(title)] if title else []
+    if slips["theta"].notna().any():
+        parts.append(style.theta_text(slips["theta"].iloc[0]))
+    note = " (no global slip)" if len(slips) and not slips["is_global"].any() else ""
+    text = fill(", ".join(parts) + note, max(20, int(8 * CHARACTERS_PER_MM * width)))
+    lines = [text, *parameters(slider, 8 if width > 15 else 3)] if slider else [text]
+    axes.set_title("\n".join(lines), loc="left", pad=4)
 
 
-def _largest_drops(slips: pd.DataFrame, start: float, first_s: float) -> pd.DataFrame:
-    inside = slips[(slips["onset_s"] > start) & (slips["onset_s"] < first_s)]
-    drop = (inside["load_before_N"] - inside["load_after_N"]).fillna(np.inf)
-    return inside.loc[
-        drop.sort_values(ascending=False, kind="stable").index[:MOST_ARROWS]
-    ].sort_index()
+def parameters(slider: Mapping[str, Any], in_a_line: int) -> list[str]:
+    """The parameters in the caption of Fig. 10 of the paper, from those of a slider."""
+    n = slider["n_blocks"]
+    spring = n * slider["youngs_modulus"] * slider["cross_section"] / slider["length"]
+    values = {
+        "N": f"{n}",
+        r"\mu_s": f"{slider['mu_s']:g}",
+        r"\mu_k": f"{slider['mu_k']:g}",
+        "F_Z": f"{slider['normal_load']:g} N",
+        "K": f"{slider['drive_stiffness'] / 1e6:g} MN/m",
+        "V": f"{slider['drive_velocity'] * style.MM_PER_M:g} mm/s",
+        "m": f"{slider['slider_mass'] / n * 1e3:g} g",
+        "k": f"{spring / 1e6:g} MN/m",
+    }
+    texts = [f"${name}$ = {value}" for name, value in values.items()]
+    return [
+        ", ".join(texts[i : i + in_a_line]) for i in range(0, len(texts), in_a_line)
+    ]
 
 
 def _draw_key(
-    figure: Figure,
-    slips: pd.DataFrame,
-    has_data: bool,
-    width_mm: float,
-    look: style.Look,
+    figure: Figure, slips: pd.DataFrame, has_data: bool, width: float
 ) -> None:
-    is_global = slips["is_global"]
     entries: list[Line2D | Patch] = [Line2D([], [], **MEASURED)] if has_data else []
-    if (~is_global).any():
-        entries.append(
-            Line2D([], [], color=PARTIAL, linewidth=1.2, label="partial slip")
-        )
-    if (~is_global & (slips["front"] == slips["n_blocks"])).any():
-        entries.append(
-            Line2D([], [], **TO_THE_EDGE, label="partial, to the leading edge")
-        )
-    if is_global.any():
-        entries.append(Line2D([], [], color=GLOBAL, linewidth=1.2, label="global slip"))
-        entries.append(Line2D([], [], **FIRST_GLOBAL, label="first global slip"))
-    for one in is_global[slips["end_s"].isna()][:1]:
-        color = GLOBAL if one else PARTIAL
-        entries.append(
-            Patch(color=color, **UNFINISHED, label="not over when the run ends")
-        )
-    columns = max(1, min(len(entries), int(width_mm / 38 * 8 / look.font_size)))
+    entries += [style.mark(kind, **look) for kind, look in KINDS.items()]
+    text = "reaches the far end, but not all at once"
+    entries.append(style.mark(text, **TO_THE_EDGE))
+    entries.append(style.mark("first global slip", **FIRST_GLOBAL))
+    for kind in slips.loc[slips["end_s"].isna(), "kind"][:1]:
+        look = {**UNFINISHED, "color": KINDS[kind]["color"]}
+        entries.append(Patch(**look, label="not over when the run ends"))
+    columns = max(1, min(len(entries), int(8 * width / 58)))
     style.draw_key(figure, entries, ncols=columns)
