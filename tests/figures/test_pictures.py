@@ -235,6 +235,7 @@ def alike_sliders():
     ]
     sliders[0].loc[3, "mu_sapp"] = np.nan
     shares = pd.DataFrame({"scene": SCENES, "share": [0.1, 0.25, 0.3], "n": 29})
+    shares = shares.assign(q05=0.45, q50=0.48, q95=0.54)
     shares = shares.assign(quantity="mu_sapp", question="as_printed")
     return hero.draw(list(map(slips, SCENES)), pd.concat(sliders), shares)
 

@@ -3,7 +3,7 @@ many."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,6 @@ from precursors.model import printed
 
 HEIGHT_MM = 82.0
 DIGIT = 0.01  # a unit of the last digit that the paper prints of mu_sapp
-NINE_TENTHS = (0.05, 0.5, 0.95)
 # Dots closer than this stand in rows on each other.
 BIN = 0.005
 ACROSS = 4
@@ -51,7 +50,7 @@ def draw(
     """
     letters = style.Look.font_size
     is_mu_sapp = shares["quantity"].eq("mu_sapp") & shares["question"].eq("as_printed")
-    within = shares[is_mu_sapp].set_index("scene")
+    within = shares[is_mu_sapp].set_index("scene").to_dict("index")
     scenes = members.groupby("scene", sort=False)
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         left, right = figure.subplots(1, 2)
@@ -67,10 +66,8 @@ def draw(
             linewidth=0,
         )
         for place, (scene, own) in enumerate(scenes):
-            _draw_strip(right, place, own)
-            share = f"{100 * within['share'][scene]:.0f} %"
-            right.annotate(share, (printed.MU_SAPP, place - 0.29), ha="center")
-        n = int(within["n"].max())
+            _draw_strip(right, place, own, within[scene])
+        n = max(int(row["n"]) for row in within.values())
         right.set_title(
             f"\N{HORIZONTAL ELLIPSIS} but they are one draw of {n}", **TITLE
         )
@@ -84,7 +81,9 @@ def draw(
     return figure
 
 
-def _draw_strip(axes: Axes, place: int, own: pd.DataFrame) -> None:
+def _draw_strip(
+    axes: Axes, place: int, own: pd.DataFrame, summary: Mapping[Any, Any]
+) -> None:
     """Draw the sliders of a loading as stacked dots, above their median and nine
     tenths."""
     alone = own[own["draw"] == 0].iloc[0]
@@ -94,9 +93,13 @@ def _draw_strip(axes: Axes, place: int, own: pd.DataFrame) -> None:
     before = values.groupby(column).cumcount()
     x = (column + (before % ACROSS + 0.5) / ACROSS) * BIN
     axes.plot(x, place + ROW * (before // ACROSS), **DOT, color=color)
-    low, median, high = values.quantile(NINE_TENTHS)
-    axes.plot([low, high], [place - 0.1] * 2, color=color, linewidth=2)
-    axes.plot(median, place - 0.1, "|", color=color, markersize=9, markeredgewidth=2.5)
+    nine_tenths = [summary["q05"], summary["q95"]]
+    axes.plot(nine_tenths, [place - 0.1] * 2, color=color, linewidth=2)
+    share = f"{100 * summary['share']:.0f} %"
+    axes.annotate(share, (printed.MU_SAPP, place - 0.29), ha="center")
+    axes.plot(
+        summary["q50"], place - 0.1, "|", color=color, markersize=9, markeredgewidth=2.5
+    )
     axes.plot(alone["mu_sapp"], place - 0.1, **STAR)
     axes.annotate(
         style.LOADINGS[int(np.sign(alone["theta"]))],

@@ -169,7 +169,11 @@ def _draw_loads(
 
 def _draw_events(axes: Axes, slips: pd.DataFrame, end_s: float) -> None:
     if slips.empty:
-        note = {"transform": axes.transAxes, "ha": "center", "color": style.GREY}
+        note: dict[str, Any] = {
+            "transform": axes.transAxes,
+            "ha": "center",
+            "color": style.GREY,
+        }
         axes.text(0.5, 0.5, "no slip event", **note)
         axes.set_yticks([])
         return
