@@ -1,11 +1,11 @@
 """The exact solver compared with heyoka.py and DOP853 in time, each with its error
 against 40 digits.
 
-    make bench                                            everything, in a minute or two
-    make speed                                            nine times, for
-    paper/tables/beside_heyoka.csv make bench METHOD=name
-    one method, in seconds .venv/bin/python benchmarks/bench.py --quick          a
-    reduced size, to see that it runs
+    make bench                 everything, in a minute or two
+    make speed                 nine times, for paper/tables/beside_heyoka.csv
+    make bench METHOD=name     one method, in seconds
+
+With --quick it has a reduced size, to see that it runs.
 
 Ratios are what counts: all that is compared runs in turn in one process on one thread
 (see `precursors.support.timing`).

@@ -5,8 +5,8 @@ It may have viscosity between neighbours. Time is counted in T = 2^-s sqrt(m/k) 
 displacement in newtons (u = k x), both as integers with `bits` binary places (see
 `polynomials`). In these units
 
-    u_i'' = 4^-s (g_i + h_i - f_i),   h_i = c (u'_{i-1} - u'_i) - c (u'_i - u'_{i+1}),
-    c = eta / (k T),
+    u_i'' = 4^-s (g_i + h_i - f_i),
+    h_i = c (u'_{i-1} - u'_i) - c (u'_i - u'_{i+1}),    c = eta / (k T),
 
 with the net force g_i of the springs, no viscosity between the drive point and block 1,
 and the friction f_i = mode_i mu_k w_i of a block that slides. A block that sticks does

@@ -1,10 +1,10 @@
 """Golden transitions of the paper's three scenes and of held-out chains, as decimal
 text.
 
-reference_{scene}.csv      time_s, block, mode, tangential_load_N with 40 significant
-digits, 0 to 10 s reference_heldout.csv      the same with 25 digits and the chain's
-name in the first column reference_viscous.csv      as reference_heldout.csv, of chains
-with viscosity between neighbours
+- reference_{scene}.csv: time_s, block, mode, tangential_load_N with 40 significant
+  digits, 0 to 10 s
+- reference_heldout.csv: the same with 25 digits and the chain's name in the first column
+- reference_viscous.csv: as reference_heldout.csv, of chains with viscosity
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """One larger chain: friction that falls with velocity, viscosity, and the height of the
 push.
 
-    m dv_i/dt = G_i - sign(v_i) mu(|v_i|) w_i,     mu(v) = mu_s - (mu_s - mu_k)
-    min(v/v_c, 1), G_i = T_i + D_i - T_{i+1} - D_{i+1},           D_i = eta (v_{i-1} -
-    v_i),     w_i = w_i0 + c_i F_X
+    m dv_i/dt = G_i - sign(v_i) mu(|v_i|) w_i,
+    G_i = T_i + D_i - T_{i+1} - D_{i+1},    D_i = eta (v_{i-1} - v_i),
+    mu(v) = mu_s - (mu_s - mu_k) min(v/v_c, 1),    w_i = w_i0 + c_i F_X
 
 while block i slides. It sticks while |G_i| <= mu_s w_i. docs/models.md has the
 equations, and what is found.

@@ -1,10 +1,10 @@
-"""The equations of motion while nothing switches (Eqs. 2-6), and stick and slip (Eq.
-5).
+"""Equations of motion while nothing switches (Eqs. 2-6), and stick and slip (Eq. 5).
 
-    dT_i/dt = c_i (v_{i-1} - v_i),    m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i
-    where block i slides,
+    dT_i/dt = c_i (v_{i-1} - v_i),
+    m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i    where block i slides,
 
-with c = K, k, k, ... and v_0 = V, in the arrays of `columns`."""
+with c = K, k, k, ... and v_0 = V, in the arrays of `columns`.
+"""
 
 from __future__ import annotations
 

@@ -5,8 +5,8 @@ Between two transitions the chain is linear: friction is constant, and the load 
 linearly in time. With the force T_i in the spring behind each block, its stiffness c_i
 = K, k, k, ... and v_0 = V (Eqs. 2-6),
 
-    dT_i/dt = c_i (v_{i-1} - v_i),    m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i
-    where block i slides.
+    dT_i/dt = c_i (v_{i-1} - v_i),
+    m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i    where block i slides.
 
 1. In a short window, Taylor series of `ORDER` terms have all digits. Blocks far ahead
   of the front need none.

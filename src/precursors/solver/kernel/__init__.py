@@ -20,8 +20,8 @@ micrometre after a millimetre of drive keep all their digits. Forces are carried
 doubles, as their rounding from window to window would be the largest error. In these
 units the motion is
 
-    dT_i/dt = c_i (v_{i-1} - v_i),    dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where
-    block i slides.
+    dT_i/dt = c_i (v_{i-1} - v_i),
+    dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i    where block i slides.
 
 Column 0 of every array is the drive, columns 1..N are the blocks. Beyond them is room
 for a group of four.

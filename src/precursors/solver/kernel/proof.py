@@ -17,8 +17,8 @@ The Bernstein coefficients of Q of degree 6 are b_k = sum_j C(k, j) a_j / C(6, j
 / 7, and u^6 (1 - u) has one coefficient, 1/7 at k = 6. On [0, 1] a polynomial lies
 between its smallest and largest coefficients, so g lies between
 
-    min(b_0, ..., b_5, g(1), (6 b_5 + g(1) - R) / 7)  and  max(b_0, ..., b_5, g(1), (6
-    b_5 + g(1) + R) / 7).
+    min(b_0, ..., b_5, g(1), (6 b_5 + g(1) - R) / 7)  and
+    max(b_0, ..., b_5, g(1), (6 b_5 + g(1) + R) / 7).
 
 If the lower one is not negative then g > 0 on (0, 1), or its lower bound is zero
 everywhere: each Bernstein polynomial is positive there.
