@@ -31,6 +31,7 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
     for kind, names in (("tables", TABLES), ("figures", FIGURES)):
         for name in names:
             shutil.copyfile(results / kind / name, golden / name)
+    shutil.copyfile(results / "figures/wave.svg", golden / "wave.svg")
     claims = read_table(golden / "claims.csv")
     write_text(
         golden / "check.txt",

@@ -139,6 +139,8 @@ FIGURES = {
         "tables": {"table": "results/tables/model_comparison.csv"},
     },
 }
+# The scene whose first global slip is shown in slow motion: that in the middle.
+EVEN = config["fig13"][len(config["fig13"]) // 2]
 # Their headings in the report; another section has its own name.
 SECTIONS = {
     "reproduction": "Reproduction",
@@ -157,6 +159,7 @@ rule fig13:
 rule paper_figures:
     input:
         collect("results/figures/{figure}.{kind}", figure=["fig09", *SCENES, "fig13"], kind=FORMATS),
+        "results/figures/wave.svg",
     localrule: True
 
 
@@ -195,6 +198,26 @@ for section in dict.fromkeys(figure["section"] for figure in FIGURES.values()):
             code=digest("draw", *sorted(modules)),
         script:
             "../scripts/draw.py"
+
+
+rule write_wave:
+    input:
+        run=RUNS[EVEN],
+        slips=f"results/tables/{EVEN}_slips.csv",
+    output:
+        report(
+            "results/figures/wave.svg",
+            caption="../report/wave.rst",
+            category=SECTIONS["reproduction"],
+            labels={"figure": "wave: the first global slip, in slow motion"},
+        ),
+    log:
+        "results/logs/write_wave.log",
+    localrule: True
+    params:
+        code=digest("write_wave"),
+    script:
+        "../scripts/write_wave.py"
 
 
 rule write_explorer:

@@ -44,7 +44,7 @@ LOADINGS = {
     0: "even load",
     1: "more load at the far end",
 }
-PALE = "0.9"
+PALE = "#E6E6E6"
 
 MM_PER_M = 1e3
 MM_PER_INCH = 25.4

@@ -1,0 +1,79 @@
+"""The looping picture shows what the run does."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from precursors.figures import style, wave
+
+ROOT = Path(__file__).parents[2]
+SVG = f"{{{wave.XMLNS}}}"
+# Coordinates are written with one digit.
+PIXELS = 0.06
+
+
+class TwoBlocks:
+    """From 1 to 3 s: block 1 slides 1 m forward at once and stops at 2 s; block 2
+    slides back between."""
+
+    transitions = np.array(
+        [(0.5, 2, 1), (0.9, 2, 0), (1.0, 1, 1), (1.5, 2, -1), (2.0, 1, 0), (2.5, 2, 0)],
+        dtype=[("time", float), ("block", int), ("mode", int)],
+    )
+
+    def at(self, times):
+        positions = np.column_stack([times - times[0], 0.0 * times]) / 2.0
+        return positions, positions
+
+
+def drawn(**columns) -> ElementTree.Element:
+    event = {"onset_s": 1.0, "end_s": 3.0, "front": 2, "is_global": True}
+    slips = pd.DataFrame([{**event, "length_m": 0.1, **columns}])
+    return ElementTree.fromstring(wave.draw(TwoBlocks(), slips))
+
+
+def test_the_kept_picture_is_that_of_the_run():
+    kept, made = ROOT / "tests/golden/wave.svg", ROOT / "results/figures/wave.svg"
+    assert kept.read_text("utf-8") == made.read_text("utf-8")
+    assert kept.stat().st_size < 400_000
+
+
+def test_bars_stand_where_blocks_slide_and_tell_the_direction():
+    bars = drawn().findall(f"{SVG}rect[@stroke='none']")
+    width = wave.RIGHT - wave.LEFT
+    found = [
+        (bar.get("fill"), float(bar.get("x")), float(bar.get("width"))) for bar in bars
+    ]
+    (ahead, x1, width1), (back, x2, width2) = found
+    assert (ahead, back) == (style.GLOBAL, style.BACKWARD)
+    assert [x1, x2] == pytest.approx([wave.LEFT, wave.LEFT + 0.25 * width], abs=PIXELS)
+    assert [width1, width2] == pytest.approx([0.5 * width] * 2, abs=PIXELS)
+    assert float(bars[1].get("height")) < float(bars[0].get("height"))
+
+
+def test_blocks_move_as_in_the_run_and_rest_at_the_end():
+    first, second = drawn().findall(f"{SVG}g/{SVG}animateTransform")
+    moved = [float(value) for value in first.get("values").split(";")]
+    assert len(moved) == wave.MOVING + wave.RESTING
+    assert np.diff(moved[: wave.MOVING]) == pytest.approx(
+        wave.FARTHEST / (wave.MOVING - 1), abs=2 * PIXELS
+    )
+    assert set(moved[wave.MOVING - 1 :]) == {wave.FARTHEST}
+    assert set(second.get("values").split(";")) == {"0.0"}
+
+
+def test_the_colour_of_a_block_changes_when_it_slides():
+    fill = drawn().findall(f"{SVG}g/{SVG}rect/{SVG}animate")[1]
+    assert fill.get("values").split(";") == [style.PALE, style.BACKWARD, style.PALE]
+    share = wave.MOVING / (wave.MOVING + wave.RESTING)
+    times = [float(time) for time in fill.get("keyTimes").split(";")]
+    assert times == pytest.approx([0.0, 0.25 * share, 0.75 * share], abs=1e-4)
+
+
+def test_a_run_without_a_slip_says_so():
+    assert "no slip event" in "".join(drawn(end_s=np.nan).itertext())
