@@ -7,10 +7,20 @@ from pathlib import Path
 
 from precursors.support.files import read_table
 
+QUANTITIES = {
+    "events_counted": "events counted in Fig. 13, the first global slip included",
+    "mu_sapp": "apparent static friction coefficient mu_sapp",
+    "time_s": "time of the first global slip",
+    "load_N": "load at the first global slip",
+    "events": "all events up to the first global slip",
+    "records": "events longer than all before",
+}
+
 
 def main(table: str | Path, figures: str | Path) -> None:
     """Print the table of the reproduction for reading, four digits a number."""
     found = read_table(table).rename_axis(index=None).set_index("scene")
+    found["quantity"] = found["quantity"].map(QUANTITIES)
     print(
         found.to_string(
             float_format="{:.4g}".format, na_rep="-", justify="left", index_names=False

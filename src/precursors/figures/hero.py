@@ -17,7 +17,6 @@ from precursors.figures.precursor_lengths import draw_lengths
 from precursors.model import printed
 
 HEIGHT_MM = 82.0
-DIGIT = 0.01  # a unit of the last digit that the paper prints of mu_sapp
 # Dots closer than this stand in rows on each other.
 BIN = 0.005
 ACROSS = 4
@@ -59,8 +58,8 @@ def draw(
             "The paper's six numbers come out \N{HORIZONTAL ELLIPSIS}", **TITLE
         )
         right.axvspan(
-            printed.MU_SAPP - DIGIT,
-            printed.MU_SAPP + DIGIT,
+            printed.MU_SAPP - printed.LAST_DIGIT,
+            printed.MU_SAPP + printed.LAST_DIGIT,
             color=style.PALE,
             zorder=0,
             linewidth=0,
@@ -113,7 +112,7 @@ def _draw_strip(
 
 def _draw_key(figure: Figure, letters: float) -> None:
     alike = style.mark("a slider whose inputs are printed alike", **DOT)
-    band = f"{printed.MU_SAPP:g} $\\pm$ {DIGIT:g}, and the share inside"
+    band = f"{printed.MU_SAPP:g} $\\pm$ {printed.LAST_DIGIT:g}, and the share inside"
     entries = [
         alike,
         style.mark("median and nine tenths", marker="|", linewidth=2),

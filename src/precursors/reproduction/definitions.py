@@ -1,10 +1,10 @@
-"""What other readings of the paper's words give: one change at a time."""
+"""Other readings of the paper's words, one change at a time, and what they give."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import pandas as pd
@@ -20,19 +20,80 @@ from precursors.analysis.slips import (
 from precursors.methods.columns import SWITCHING_RULES
 from precursors.methods.march import march
 from precursors.methods.rk4_located import run_located
-from precursors.methods.switching import COULOMB
+from precursors.methods.switching import COULOMB, FORWARD_ONLY, KINETIC
+from precursors.model import printed
 from precursors.model.chain import Chain, parse_theta
 from precursors.solver.run import Record, Run
 from precursors.solver.simulate import simulate
 
-# The paper says that mu_sapp "appears to have" its value, which it prints with two
-# digits.
-LAST_DIGIT = 0.01
 # The size of theta where it is that of the scenes.
-OF_SCENES = "as in the scenes"
+OF_SCENES = "scenes"
 # Of the method for other rules of switching [s]; mu_sapp is right to 1e-5.
 STEP = 1e-7
 SIGNS = (-1, 0, 1)
+OURS = Definition()
+SWITCHING = {
+    COULOMB: "sticks if |F| <= mu_s w",
+    KINETIC: "sticks if |F| <= mu_k w",
+    FORWARD_ONLY: "slides forward only",
+}
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A reading of the paper's words, by default ours.
+
+    `changed` names the one column of the table that is not as in ours.
+    """
+
+    changed: str = "nothing"
+    degree: float | str = OF_SCENES
+    switching: str = COULOMB
+    definition: Definition = OURS
+
+    @property
+    def text(self) -> str:
+        """The change, in words."""
+        texts = {
+            "nothing": "our reading",
+            "global_slip": f"global slip: {self.definition.global_slip_text}",
+            "short": f"short event: {SHORT_EVENTS[self.definition.short]}",
+            "front": f"length: {FRONTS[self.definition.front]}",
+            "degree": f"size of theta: {self.degree}",
+            "switching": f"switching: {SWITCHING[self.switching]}",
+        }
+        return texts[self.changed]
+
+    def row(self) -> dict[str, Any]:
+        """The columns of the table that say which reading it is."""
+        return {
+            "changed": self.changed,
+            "reading": self.text,
+            "degree": self.degree,
+            "switching": self.switching,
+            "global_slip": self.definition.global_slip,
+            "short": self.definition.short,
+            "front": self.definition.front,
+        }
+
+
+def readings(
+    degrees: Iterable[float | str], load_drops: Iterable[float]
+) -> Iterator[Reading]:
+    """Our reading and those with one change."""
+    yield Reading()
+    slips: list[str | float] = [*list(GLOBAL_SLIPS)[1:], *load_drops]
+    for global_slip in slips:
+        definition = replace(OURS, global_slip=global_slip)
+        yield Reading("global_slip", definition=definition)
+    for short in list(SHORT_EVENTS)[1:]:
+        yield Reading("short", definition=replace(OURS, short=short))
+    for front in list(FRONTS)[1:]:
+        yield Reading("front", definition=replace(OURS, front=front))
+    for degree in degrees:
+        yield Reading("degree", degree=degree)
+    for rule in list(SWITCHING_RULES)[1:]:
+        yield Reading("switching", switching=rule)
 
 
 def definitions_table(
@@ -65,64 +126,38 @@ def definitions_table(
         has them.
     """
     rows = []
-    for changed, degree, rule, definition in readings(degrees, load_drops):
-        reading = {
-            "changed": changed,
-            "degree": degree,
-            "switching": rule,
-            "global_slip": definition.global_slip_text,
-            "short": SHORT_EVENTS[definition.short],
-            "front": FRONTS[definition.front],
-        }
-        for sign, of_scene, printed in zip(SIGNS, runs, paper, strict=True):
+    for reading in readings(degrees, load_drops):
+        for sign, of_scene, of_paper in zip(SIGNS, runs, paper, strict=True):
+            chain = of_scene.chain
+            if reading.degree != OF_SCENES:
+                theta = sign * parse_theta(reading.degree)
+                chain = Chain.from_slider(**{**slider, "theta": theta})
             run: Record = of_scene
-            theta = of_scene.chain.theta
-            if degree != OF_SCENES:
-                theta = sign * parse_theta(degree)
-                run = simulate(
-                    Chain.from_slider(**{**slider, "theta": theta}), duration
-                )
-            if rule != COULOMB:
-                run = march(run_located, (), run.chain, duration, STEP, rule=rule).run
-            found = apparent_friction(slip_table(run), definition)
-            counted, friction = (
-                (found.events_counted, found.mu_sapp) if found else (math.nan, math.nan)
-            )
-            agree = {
-                "events_counted_is_papers": counted == printed.get("events_counted"),
-                "mu_sapp_is_papers_within_a_digit": (
-                    abs(friction - printed.get("mu_sapp", math.nan)) <= LAST_DIGIT
-                ),
-            }
-            row = {
-                **reading,
-                "theta": theta,
-                "events_counted": counted,
-                "mu_sapp": friction,
-            }
-            rows.append(row | {"numbers_within_a_digit": sum(agree.values())})
+            if reading.switching != COULOMB:
+                rule = reading.switching
+                run = march(run_located, (), chain, duration, STEP, rule=rule).run
+            elif chain is not of_scene.chain:
+                run = simulate(chain, duration)
+            row = {**reading.row(), "theta": chain.theta}
+            rows.append(row | numbers(run, reading.definition, of_paper))
     table = pd.DataFrame(rows)
     of_reading = table.groupby(table.index // len(SIGNS))
-    return table.assign(
-        numbers_within_a_digit=of_reading["numbers_within_a_digit"].transform("sum")
-    )
+    within = of_reading["numbers_within_a_digit"].transform("sum")
+    return table.assign(numbers_within_a_digit=within)
 
 
-def readings(
-    degrees: Iterable[float | str], load_drops: Iterable[float]
-) -> Iterator[tuple[str, float | str, str, Definition]]:
-    """Our reading and those with one change: what is changed, size of theta, switching,
-    definition."""
-    ours = Definition()
-    drops: list[str | float] = [*list(GLOBAL_SLIPS)[1:], *load_drops]
-    yield "nothing", OF_SCENES, COULOMB, ours
-    for definition in (replace(ours, global_slip=global_slip) for global_slip in drops):
-        yield "global slip", OF_SCENES, COULOMB, definition
-    for short in list(SHORT_EVENTS)[1:]:
-        yield "short event", OF_SCENES, COULOMB, replace(ours, short=short)
-    for front in list(FRONTS)[1:]:
-        yield "length", OF_SCENES, COULOMB, replace(ours, front=front)
-    for degree in degrees:
-        yield "size of theta", degree, COULOMB, ours
-    for rule in list(SWITCHING_RULES)[1:]:
-        yield "switching", OF_SCENES, rule, ours
+def numbers(
+    run: Record, definition: Definition, of_paper: Mapping[str, float]
+) -> dict[str, Any]:
+    """Both numbers of a run, and how many of them are the paper's: mu_sapp to a unit of
+    its last digit."""
+    found = apparent_friction(slip_table(run), definition)
+    counted = found.events_counted if found else math.nan
+    friction = found.mu_sapp if found else math.nan
+    off = abs(friction - of_paper.get("mu_sapp", math.nan))
+    agree = [counted == of_paper.get("events_counted"), off <= printed.LAST_DIGIT]
+    return {
+        "events_counted": counted,
+        "mu_sapp": friction,
+        "numbers_within_a_digit": sum(agree),
+    }

@@ -44,20 +44,33 @@ ADVANCES = 3
 LP_TOLERANCE = 1e-9
 ROUNDING = 1e-12
 
-AT_LIMIT = "F_X = mu_s F_Z with all blocks at their limit"
-AS_PRINTED = "Eq. 12 as printed gives mu_s F_Z + (k/K - 1) mu_s w_N"
-AT_REST = "largest F_X of all states of rest is mu_s F_Z"
-FULL_STRAIN = "mu_sapp = mu_s, pushed from maximal residual strain"
-LESS_STRAIN = (
-    f"mu_sapp < mu_s, pushed from {SLIGHTLY_BELOW:g} of maximal residual strain"
-)
-RIGID = "mu_sapp = mu_s for a rigid slider, N = 1"
-FAST = "F_X passes mu_s F_Z in motion from (mu_s - mu_k) F_Z / sqrt(K M) on, to 25 %"
-BELOW = "some block at rest is below its limit (least part at slip onsets, above 0)"
+AT_LIMIT = "at_limit"
+AS_PRINTED = "as_printed"
+AT_REST = "at_rest"
+FULL_STRAIN = "full_strain"
+LESS_STRAIN = "less_strain"
+RIGID = "rigid"
+FAST = "fast"
+BELOW = "below"
+STATEMENTS = {
+    AT_LIMIT: "F_X = mu_s F_Z with all blocks at their limit",
+    AS_PRINTED: "Eq. 12 as printed gives mu_s F_Z + (k/K - 1) mu_s w_N",
+    AT_REST: "largest F_X of all states of rest is mu_s F_Z",
+    FULL_STRAIN: "mu_sapp = mu_s, pushed from maximal residual strain",
+    LESS_STRAIN: "mu_sapp < mu_s, pushed from "
+    f"{SLIGHTLY_BELOW:g} of maximal residual strain",
+    RIGID: "mu_sapp = mu_s for a rigid slider, N = 1",
+    FAST: "F_X passes mu_s F_Z in motion from (mu_s - mu_k) F_Z / sqrt(K M) on,"
+    f" to {100 * RIGID_TOLERANCE:g} %",
+    BELOW: "some block at rest is below its limit (least part at slip onsets, above 0)",
+}
 
 
 class Check(NamedTuple):
-    """What a check expects and finds; the case is a scene or a number of blocks."""
+    """A check by its key in STATEMENTS, with the value it expects and the one it finds.
+
+    The case is a scene or a number of blocks.
+    """
 
     check: str
     case: str
@@ -82,7 +95,8 @@ def eq15_table(runs: Mapping[str, Run], duration: float) -> pd.DataFrame:
     for scene, run in runs.items():
         rows += [fast_drive(scene, run.chain), below_limit(scene, run)]
     first = next(iter(scenes.values()))
-    return pd.DataFrame([*rows, rigid(first, duration)])
+    table = pd.DataFrame([*rows, rigid(first, duration)])
+    return table.assign(statement=table["check"].map(STATEMENTS))
 
 
 def in_symbols(n: int) -> Iterator[Check]:

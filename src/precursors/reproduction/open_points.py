@@ -93,24 +93,24 @@ def end_to_end(t: Tables) -> Pair:
 NUMBERS: dict[str, Callable[[Tables], Pair]] = {
     "eq12": eq12,
     "fig8": lambda t: (0, slider(t, "theta", LEADING)),
-    "short events": short_events,
-    "residual strain": residual_strain,
+    "short_events": short_events,
+    "residual_strain": residual_strain,
     "counts": lambda t: (list(printed.EVENTS_OF_EXPERIMENT.values()), counts(t)),
     "precursors": lambda t: (np.subtract(counts(t), 1), counts(t)),
-    "ratio at the cells": ratio_at_cells,
+    "ratio_at_the_cells": ratio_at_cells,
     "moments": theta_by_moments,
-    "one block": lambda t: (np.nan, linear_weights(1, slider(t, "normal_load_N"), 0.0)),
-    "end to end": end_to_end,
+    "one_block": lambda t: (np.nan, linear_weights(1, slider(t, "normal_load_N"), 0.0)),
+    "end_to_end": end_to_end,
 }
 
 
 def open_points_table(tables: Tables) -> pd.DataFrame:
-    """One row per point: section, kind, as_printed, taken, unit, number_as_printed,
-    number_taken."""
+    """One row per point: point, section, kind, as_printed, taken, unit,
+    number_as_printed, number_taken."""
     table = read_table(Path(__file__).with_name("open_points.csv"), dtype=str)
     pairs = [
         NUMBERS[point](tables) if point in NUMBERS else ((), ())
-        for point in table.pop("point")
+        for point in table["point"]
     ]
     numbers = [[shown(values) for values in pair] for pair in pairs]
     return table.join(

@@ -4,7 +4,7 @@ has."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict
 
 import pandas as pd
@@ -15,20 +15,27 @@ from precursors.model.statics import maximal_compressions
 from precursors.solver.run import Run
 
 MU_SAPP_COLUMNS = [
-    *(
-        "scene",
-        "definition",
-        "mu_sapp",
-        "load_N",
-        "time_s",
-        "event",
-        "events_counted",
-        "is_papers",
-    )
+    "scene",
+    "global_slip",
+    "largest",
+    "mu_sapp",
+    "load_N",
+    "time_s",
+    "event",
+    "events_counted",
+    "is_papers",
 ]
-COLUMNS = ["scene", "theta", "quantity", "unit", "paper", "reproduced"]
-COUNTED = "events counted in Fig. 13, the first global slip included"
-FRICTION = "apparent static friction coefficient mu_sapp"
+# Quantities of the table of the paper's numbers: the events counted in Fig. 13 and
+# mu_sapp; of the first global slip time, load and number among all events; and the
+# events that are longer than all before, without those as long.
+UNITS = {
+    "events_counted": "1",
+    "mu_sapp": "1",
+    "time_s": "s",
+    "load_N": "N",
+    "events": "1",
+    "records": "1",
+}
 
 
 def measures_table(runs: Mapping[str, Run]) -> pd.DataFrame:
@@ -80,11 +87,15 @@ def reproduction_tables(
 
 def mu_sapp_table(slips: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
     """mu_sapp (Eq. 1) of each scene under each definition, none where it has no global
-    slip in that sense."""
+    slip in that sense.
+
+    `global_slip` and `largest` are those of the `Definition`.
+    """
     rows = [
         {
             "scene": scene,
-            "definition": definition.text,
+            "global_slip": definition.global_slip,
+            "largest": definition.largest,
             "is_papers": definition is DEFINITIONS[0],
         }
         | asdict(friction)
@@ -108,39 +119,31 @@ def reproduction_table(
     nothing.
     """
     papers = mu_sapp[mu_sapp["is_papers"].astype(bool)].set_index("scene")["mu_sapp"]
-    rows = [
-        (
-            scene,
-            next(iter(table["theta"]), None),
-            quantity,
-            unit,
-            paper[scene].get(key),
-            value,
-        )
-        for scene, table in slips.items()
-        for quantity, unit, key, value in quantities(table, papers.get(scene))
-    ]
-    return pd.DataFrame(rows, columns=COLUMNS)
+    rows = []
+    for scene, table in slips.items():
+        found = quantities(table) | {"mu_sapp": papers.get(scene)}
+        theta = next(iter(table["theta"]), None)
+        for quantity, unit in UNITS.items():
+            row = {"scene": scene, "theta": theta, "quantity": quantity, "unit": unit}
+            numbers = {
+                "paper": paper[scene].get(quantity),
+                "reproduced": found.get(quantity),
+            }
+            rows.append(row | numbers)
+    return pd.DataFrame(rows)
 
 
-def quantities(
-    slips: pd.DataFrame, mu_sapp: float | None
-) -> Iterator[tuple[str, str, str, float | None]]:
-    """Quantity, unit, key in `paper` (empty: none), and value (None without a global
-    slip)."""
-    yield COUNTED, "1", "events_counted", float(slips["counted"].sum())
-    yield FRICTION, "1", "mu_sapp", mu_sapp
-    number = first_global(slips)
-    time, load = (
-        (None, None)
-        if number is None
-        else slips[["onset_s", "load_before_N"]].iloc[number]
-    )
-    yield "time of the first global slip", "s", "", time
-    yield "load at the first global slip", "N", "", load
-    yield (
-        "all events up to the first global slip",
-        "1",
-        "",
-        None if number is None else number + 1,
-    )
+def quantities(slips: pd.DataFrame) -> dict[str, float | None]:
+    """Numbers of a scene by quantity, without mu_sapp; only the counts without a global
+    slip."""
+    counted = slips.loc[slips["counted"].astype(bool), "front"]
+    found: dict[str, float | None] = {
+        "events_counted": len(counted),
+        "records": counted.nunique(),
+    }
+    first = first_global(slips)
+    if first is not None:
+        found["time_s"] = slips["onset_s"].iloc[first]
+        found["load_N"] = slips["load_before_N"].iloc[first]
+        found["events"] = first + 1
+    return found

@@ -1,4 +1,4 @@
-"""What a document of paper/ shows."""
+"""Tables and figures that a document of paper/ shows."""
 
 from __future__ import annotations
 
