@@ -7,7 +7,7 @@ from pathlib import Path
 
 import check_claims
 from figures import explorer_sessions, test_pictures
-from golden import small_tables
+from golden import benchmark_page, small_tables
 
 from precursors.support.files import read_table, write_text
 
@@ -37,6 +37,7 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
         golden / "check.txt",
         f"{check_claims.printed(claims)}\n",
     )
+    benchmark_page.write(read_table(results / "tables/benchmark.csv"))
     for name, make in {**small_tables.TABLES, **small_tables.ELSEWHERE}.items():
         small_tables.write(make(), golden / f"small/{name}.csv")
     for name in test_pictures.PICTURES:

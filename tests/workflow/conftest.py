@@ -144,12 +144,11 @@ def _run_snakemake(directory: Path, output: Path, arguments: tuple[str, ...]) ->
 
 def copy_workflow(path: Path) -> Workspace:
     path.mkdir()
-    for name in ("Snakefile", "config.yaml"):
+    for name in ("Snakefile", "config.yaml", "LICENSE-text"):
         shutil.copy2(ROOT / name, path)
-    for name in ("workflow", "src", "paper", "profiles"):
-        shutil.copytree(
-            ROOT / name, path / name, ignore=shutil.ignore_patterns("__pycache__")
-        )
+    unneeded = shutil.ignore_patterns("__pycache__", "*.png", "results")
+    for name in ("workflow", "src", "paper", "profiles", "benchmarks", "docs"):
+        shutil.copytree(ROOT / name, path / name, ignore=unneeded)
     return Workspace(path)
 
 

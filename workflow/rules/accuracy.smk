@@ -6,6 +6,7 @@ from precursors.model.chain import parse_theta
 CHAINS = config["accuracy"]["proved"]
 COMPARED = config["accuracy"]["compared"]
 COMMITTED = ROOT / "workflow/certificates"
+BENCHMARKS = ROOT / "benchmarks"
 
 CERTIFICATES = {chain: f"results/certificates/chains/{chain}.json.gz" for chain in CHAINS}
 TABLES |= {
@@ -29,6 +30,13 @@ TABLES |= {
             "full": config["full"],
         },
         "seconds": 300 if config["full"] else 10,
+    },
+    "benchmark": {
+        "function": "accuracy.score:score_table",
+        "inputs": {"solvers": str(BENCHMARKS / "solvers.csv")},
+        "options": {"folder": str(BENCHMARKS / "results")},
+        "also": sorted([*COMMITTED.glob("*.json.gz"), *(BENCHMARKS / "results").glob("*.csv")]),
+        "seconds": 5,
     },
     "step_sweep": {
         "function": "accuracy.step_sweep:step_sweep_table",
@@ -66,7 +74,9 @@ rule accuracy:
             ],
             kind=FORMATS,
         ),
-        collect("results/tables/{table}.csv", table=["certificates", "solver_vs_proof", "lyapunov"]),
+        collect(
+            "results/tables/{table}.csv", table=["certificates", "solver_vs_proof", "lyapunov", "benchmark"]
+        ),
     localrule: True
 
 
@@ -84,6 +94,24 @@ rule take_certificates:
         code=digest("take_certificates"),
     script:
         "../scripts/take_certificates.py"
+
+
+# On demand: the reference problems of docs/benchmark.md as plain files, and in one archive.
+rule benchmark:
+    input:
+        certificates=sorted(COMMITTED.glob("*.json.gz")),
+        page=ROOT / "docs/benchmark.md",
+        licence=ROOT / "LICENSE-text",
+    output:
+        folder=directory("results/benchmark"),
+        archive="results/benchmark.zip",
+    log:
+        "results/logs/benchmark.log",
+    localrule: True
+    params:
+        code=digest("write_benchmark"),
+    script:
+        "../scripts/write_benchmark.py"
 
 
 # On demand: `prove_scenes` makes every proof again.

@@ -1,0 +1,55 @@
+"""Solve the problems of docs/benchmark.md by the project's own methods.
+
+.venv/bin/python benchmarks/own_results.py [METHOD ...]
+
+Writes benchmarks/results/METHOD-PROBLEM.csv. A file ends with the first global slip
+where a method takes so short a step that all of the problem would take minutes.
+"""
+
+import sys
+from pathlib import Path
+from time import perf_counter
+
+import pandas as pd
+
+from precursors.accuracy.attempt import attempt
+from precursors.accuracy.score import problems
+from precursors.methods import METHODS
+from precursors.proof import Certificate
+from precursors.support.files import write_table
+
+RESULTS = Path(__file__).parent / "results"
+# The best setting of each method, by name.
+BEST = {
+    "exact": 0.0,
+    "dop853": 1e-13,
+    "rk4_located": 3e-8,
+    "rk4_skip": 1e-9,
+    "leapfrog": 1e-9,
+    "moreau_jean_half": 1e-9,
+}
+WARM_UP = 0.01  # s
+
+
+def main(names: list[str]) -> None:
+    for problem, path in problems().items():
+        certificate = Certificate.load(path)
+        chain = certificate.chain.to_chain()
+        duration = float(certificate.duration)
+        for name in names or BEST:
+            solve = METHODS[name].solve
+            attempt(solve, chain, WARM_UP, BEST[name], None)
+            began = perf_counter()
+            result = attempt(solve, chain, duration, BEST[name], None)
+            seconds = perf_counter() - began
+            table = pd.DataFrame(result.run.transitions)
+            table.columns = ["time_s", "block", "mode", "tangential_load_N"]
+            last = table.index[-1:]
+            table.loc[last, "evaluations"] = result.evaluations or None
+            table.loc[last, "seconds"] = round(seconds, 4)
+            write_table(table, RESULTS / f"{name}-{problem}.csv")
+            print(f"{name}, {problem}: {len(table)} transitions, {seconds:.2f} s")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,165 @@
+"""Scores of result files on the reference problems of docs/benchmark.md."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import cache
+from itertools import takewhile
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from precursors.accuracy.compare import Truth, compare
+from precursors.analysis.slips import apparent_friction, slip_table
+from precursors.proof import Certificate
+from precursors.proof.exact_chain import exact
+
+# In a wheel the certificates lie in the package, in a checkout beside the workflow.
+PACKAGE = Path(__file__).parents[1]
+PLACES = (PACKAGE / "certificates", PACKAGE.parents[1] / "workflow" / "certificates")
+NEEDED = ("time_s", "block", "mode", "tangential_load_N")
+COSTS = ("evaluations", "seconds")
+LINE = (
+    "{problem}: {transitions_right} of {transitions_true} transitions right, times "
+    "within {time_error_s:.1e} s; events counted {events_counted} (true: "
+    "{events_counted_true}), mu_sapp {mu_sapp:.4f} (true: {mu_sapp_true:.4f}); "
+    "{evaluations:g} evaluations, {seconds:g} s"
+)
+# Transitions: time [s], block, mode, load [N].
+Rows = Sequence[tuple[Any, ...]]
+
+
+def problems() -> dict[str, Path]:
+    """Names of the problems, with the certificates of their solutions."""
+    files = [path for place in PLACES for path in sorted(place.glob("*.json.gz"))]
+    return {path.name.removesuffix(".json.gz"): path for path in files}
+
+
+@cache
+def solution(problem: str) -> Truth:
+    """The proved transitions of a problem."""
+    known = problems()
+    require(problem in known, f"problem must be one of {', '.join(known)}: {problem!r}")
+    return Truth.proved(Certificate.load(known[problem]))
+
+
+def score_table(solvers: pd.DataFrame, folder: str) -> pd.DataFrame:
+    """Score the files SOLVER-PROBLEM.csv of a folder: a row for each of them."""
+    rows = [
+        solver | score(path, problem, solver["ties_s"])
+        for solver in solvers.to_dict("records")
+        for problem in problems()
+        if (path := Path(folder) / f"{solver['solver']}-{problem}.csv").is_file()
+    ]
+    return pd.DataFrame(rows)
+
+
+def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
+    """Compare a result file with the proved solution of a problem.
+
+    Rows whose times differ by at most `ties` [s] may stand in any order. Errors are the
+    largest before the first wrong transition; NaN is what the file does not tell. A
+    file that is no result of the problem is a ValueError in one line.
+    """
+    truth = solution(problem)
+    chain = truth.run.chain
+    end = truth.run.duration
+    rows = [row for row in read_result(path, chain.n_blocks) if row["time_s"] <= end]
+    given = [tuple(row[name] for name in NEEDED) for row in rows]
+    true = [row.item() for row in truth.run.transitions]
+    ordered = in_true_order(given, true, exact("ties", ties))
+    found = Truth.exact(chain, end, ordered)
+    whole = compare(found.run, truth)
+    start = compare(found.until_global_slip().run, truth.until_global_slip())
+    values = {
+        "problem": problem,
+        "transitions_right": whole.transitions_right,
+        "transitions_true": whole.transitions_true,
+        "first_wrong": in_words(ordered[whole.transitions_right :]),
+        "should_be": in_words(true[whole.transitions_right :]),
+        "time_error_s": whole.time_error,
+        "load_error_N": whole.load_error,
+        "time_error_to_global_slip_s": start.time_error,
+        "load_error_to_global_slip_N": start.load_error,
+    }
+    for which, run in (("", found.run), ("_true", truth.run)):
+        first = apparent_friction(slip_table(run))
+        values[f"events_counted{which}"] = first.events_counted if first else math.nan
+        values[f"mu_sapp{which}"] = first.mu_sapp if first else math.nan
+    last = rows[-1] if rows else {}
+    return values | {name: float(last.get(name, math.nan)) for name in COSTS}
+
+
+def in_words(transitions: Rows) -> str:
+    """The first of some transitions."""
+    for time, block, mode, _ in transitions[:1]:
+        return f"block {block} to mode {mode} at {float(time):.12g} s"
+    return "none"
+
+
+def in_true_order(found: Rows, true: Rows, ties: Fraction) -> Rows:
+    """Order transitions no farther apart than `ties` [s] as the truth does."""
+    ordered = list(found)
+    for k, (_, block, mode, _) in enumerate(true[: len(found)]):
+        end = ordered[k][0] + ties
+        tied = takewhile(end.__ge__, (time for time, *_ in ordered[k:]))
+        blocks = [row[1] for row in ordered[k : k + len(list(tied))]]
+        place = k + blocks.index(block) if block in blocks else k
+        if ordered[place][1:3] != (block, mode):
+            break
+        ordered.insert(k, ordered.pop(place))
+    return ordered
+
+
+def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
+    """Read the rows of a result file, with blocks from 1."""
+    text = Path(path).read_text(encoding="utf-8-sig", errors="replace")
+    separator = ";" if re.search("(?m)^[^#\n]*;", text) else ","
+    table = csv.reader(text.splitlines(), delimiter=separator)
+    lines = [(table.line_num, row) for row in table if row and row[0][:1] != "#"]
+    names = [name.strip() for name in lines[0][1]] if lines else []
+    first = 0 if "block_from_0" in names else 1
+    names = [name.removesuffix("_from_0") for name in names]
+    for name in NEEDED:
+        times = names.count(name)
+        require(
+            times == 1, f"{path}: the header must name {name} once, not {times} times"
+        )
+    modes = dict.fromkeys(range(1, n_blocks + 1), 0)
+    rows: list[dict[str, Any]] = [{"time_s": 0}]
+    for line, cells in lines[1:]:
+        at = f"{path}, line {line}"
+        require(
+            len(cells) == len(names),
+            f"{at}: cells must be {len(names)}, as in the header",
+        )
+        row: dict[str, Any] = {
+            name: exact(f"{at}: {name}", cell.strip().replace(",", "."))
+            for name, cell in zip(names, cells, strict=True)
+            if name in NEEDED or (name in COSTS and cell)
+        }
+        mode = row["mode"]
+        block = row["block"] + 1 - first
+        require(
+            block in modes, f"{at}: block must be {first} to {n_blocks - 1 + first}"
+        )
+        require(mode in (-1, 0, 1), f"{at}: mode must be -1, 0 or 1, but is {mode}")
+        require(mode != modes[block], f"{at}: the block has this mode already")
+        require(
+            row["time_s"] >= rows[-1]["time_s"],
+            f"{at}: time_s must not be less than in the row before",
+        )
+        modes[block] = mode
+        rows.append(row | {"block": block})
+    return rows[1:]
+
+
+def require(holds: bool, otherwise: str) -> None:
+    """Raise a ValueError unless something holds."""
+    if not holds:
+        raise ValueError(otherwise)

@@ -1,0 +1,163 @@
+"""The reference problems: page, lists and table of results say the same as the
+proofs."""
+
+import csv
+import hashlib
+import io
+import json
+import subprocess
+import sys
+import zipfile
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pandas as pd
+import pytest
+from conftest import ROOT
+from golden.benchmark_page import PAGE, PROBLEMS, results_table
+
+from precursors.accuracy.score import problems, score, solution
+from precursors.proof import Certificate, ExactChain
+
+TEXT = PAGE.read_text(encoding="utf-8")
+SOLVERS = pd.read_csv(ROOT / "benchmarks/solvers.csv")
+SCRIPTS = sorted((ROOT / "benchmarks/solvers").glob("[!c]*.py"))
+LARGEST_ARCHIVE = 3_000_000  # bytes
+LARGEST_FILE = 1_000_000
+# The scripts solve a problem up to here [s], its fourth slip event, in a second.
+SHORT = "3/200"
+
+
+def cells(line: str) -> list[str]:
+    return [cell.strip() for cell in line.strip("|").split("|")]
+
+
+def certificate(problem: str) -> Certificate:
+    return Certificate.load(problems()[problem])
+
+
+@pytest.fixture(scope="module")
+def archive(tmp_path_factory):
+    """The archive that the rule writes, by name of the file."""
+    from conftest import copy_workflow
+
+    workspace = copy_workflow(tmp_path_factory.mktemp("benchmark") / "copy")
+    outcome = workspace.run("-c1", "results/benchmark.zip")
+    assert outcome.code == 0, outcome.text
+    path = workspace.path / "results/benchmark.zip"
+    assert path.stat().st_size < LARGEST_ARCHIVE
+    with zipfile.ZipFile(path) as file:
+        found = {name: file.read(name) for name in file.namelist()}
+    for name, content in found.items():
+        assert (workspace.path / "results" / name).read_bytes() == content
+    return {name.removeprefix("benchmark/"): text for name, text in found.items()}
+
+
+@pytest.mark.parametrize("problem", PROBLEMS)
+def test_a_list_is_its_certificate_digit_for_digit(archive, problem):
+    text = archive[f"{problem}/transitions.csv"].decode()
+    proved = certificate(problem).transitions
+    rows = list(csv.DictReader(io.StringIO(text)))
+    assert len(rows) == len(proved)
+    for row, true in zip(rows, proved, strict=True):
+        assert Fraction(row["time_s"]) == true.time.midpoint
+        assert Fraction(row["time_radius_s"]) == true.time.radius
+        assert (int(row["block"]), int(row["mode"])) == (true.block, true.mode)
+        load = true.tangential_load
+        assert Fraction(row["tangential_load_N"]) == load.midpoint
+        assert Fraction(row["tangential_load_radius_N"]) == load.radius
+
+
+@pytest.mark.parametrize("problem", PROBLEMS)
+def test_the_parameters_are_those_of_the_certificate(archive, problem):
+    given = json.loads(archive[f"{problem}/problem.json"])
+    proved = certificate(problem)
+    assert given.pop("problem") == problem
+    assert Fraction(given.pop("duration")) == proved.duration
+    assert ExactChain(**given, length=proved.chain.length) == proved.chain
+
+
+def test_the_data_package_has_every_file_with_its_checksum_and_columns(archive):
+    package = json.loads(archive["datapackage.json"])
+    found = {resource["path"]: resource for resource in package["resources"]}
+    texts = {"datapackage.json", "README.md", "LICENSE-text"}
+    assert found.keys() == archive.keys() - texts
+    for path, resource in found.items():
+        digest = hashlib.sha256(archive[path]).hexdigest()
+        assert resource["hash"] == f"sha256:{digest}"
+        assert resource["bytes"] == len(archive[path])
+        if path.endswith(".csv"):
+            header = archive[path].decode().splitlines()[0].split(",")
+            fields = resource["schema"]["fields"]
+            assert [field["name"] for field in fields] == header
+
+
+def test_the_page_states_the_problems_that_are_proved():
+    table = TEXT[TEXT.index("| problem | N |") :].split("\n\n")[0].splitlines()[2:]
+    assert [cells(line)[0] for line in table] == list(PROBLEMS)
+    assert set(PROBLEMS) == set(problems())
+    for name, n, theta, mu_k, drive, speed, duration, *told in map(cells, table):
+        proved = certificate(name)
+        chain = ExactChain.from_slider(
+            int(n),
+            theta=theta,
+            mu_k=mu_k,
+            drive_stiffness=drive,
+            drive_velocity=speed,
+        )
+        assert chain == proved.chain
+        assert Fraction(duration) == proved.duration
+        times = [t.time.midpoint for t in proved.transitions]
+        closest = min(b - a for a, b in pairwise(times))
+        shown = [len(times), len(solution(name).slips), f"{float(f"{float(closest) * 1e9:.2g}"):g}"]
+        assert told == list(map(str, shown))
+
+
+def test_the_page_shows_the_first_rows_of_a_result():
+    given = TEXT[TEXT.index("    time_s,block") :].split("\n\n")[0].splitlines()[1:]
+    for row, true in zip(given, solution("uniform").run.transitions, strict=False):
+        assert tuple(map(float, row.split(","))) == pytest.approx(
+            true.item(), rel=1e-15
+        )
+
+
+def test_the_page_shows_the_scores_of_all_results():
+    scores = pd.read_csv(ROOT / "results/tables/benchmark.csv")
+    assert results_table(scores) in TEXT
+    files = {path.stem for path in (ROOT / "benchmarks/results").iterdir()}
+    scored = scores["solver"] + "-" + scores["problem"]
+    assert files == set(scored)
+    assert set(SOLVERS["solver"]) == set(scores["solver"])
+
+
+@pytest.mark.parametrize(
+    "path", sorted((ROOT / "benchmarks/results").iterdir()), ids=lambda path: path.stem
+)
+def test_result_files_are_small(path):
+    assert path.stat().st_size < LARGEST_FILE
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
+def test_a_solver_of_others_solves_the_beginning_without_this_library(
+    archive, tmp_path, script
+):
+    if script.stem.startswith("heyoka"):
+        pytest.importorskip("heyoka")
+    if script.stem.startswith("sundials"):
+        pytest.importorskip("sksundae")
+    problem = json.loads(archive["three_blocks/problem.json"]) | {"duration": SHORT}
+    (tmp_path / "problem.json").write_text(json.dumps(problem), encoding="utf-8")
+    program = (
+        "import runpy, sys; sys.modules['precursors'] = None; sys.argv = sys.argv[1:]; "
+        "sys.path.insert(0, sys.argv[0].rpartition('/')[0]); "
+        "runpy.run_path(sys.argv[0], run_name='__main__')"
+    )
+    command = [sys.executable, "-c", program, script, "problem.json", "mine.csv"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    found = score(tmp_path / "mine.csv", "three_blocks")
+    times = solution("three_blocks").run.transitions["time"]
+    assert found["transitions_right"] == np.sum(times < float(Fraction(SHORT)))
+    assert found["transitions_right"] > 20
+    assert found["first_wrong"] == "none"
+    assert found["time_error_s"] < 1e-12
