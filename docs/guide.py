@@ -5,6 +5,7 @@
 .. include:: adding.md
 .. include:: models.md
 .. include:: field.md
+.. include:: benchmark.md
 .. include:: performance.md
 .. include:: reliability.md
 .. include:: troubleshooting.md

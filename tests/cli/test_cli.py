@@ -422,7 +422,7 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
         (
             "",
             2,
-            "needed is one of simulate, slips, plot, audit (see precursors --help)",
+            "needed is one of simulate, slips, plot, audit, score (see precursors --help)",
         ),
         ("fly", 2, "'fly'"),
         ("simulat", 2, "did you mean simulate? (see precursors --help)"),

@@ -110,7 +110,11 @@ def test_the_page_states_the_problems_that_are_proved():
         assert Fraction(duration) == proved.duration
         times = [t.time.midpoint for t in proved.transitions]
         closest = min(b - a for a, b in pairwise(times))
-        shown = [len(times), len(solution(name).slips), f"{float(f"{float(closest) * 1e9:.2g}"):g}"]
+        shown = [
+            len(times),
+            len(solution(name).slips),
+            f"{float(f'{float(closest) * 1e9:.2g}'):g}",
+        ]
         assert told == list(map(str, shown))
 
 

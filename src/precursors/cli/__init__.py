@@ -1,4 +1,4 @@
-"""The command `precursors`: simulate, slips, plot, audit.
+"""The command `precursors`: simulate, slips, plot, audit, score.
 
 What a command needs is imported when it runs, so that `precursors --help` answers at
 once.

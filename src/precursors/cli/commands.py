@@ -130,6 +130,21 @@ def audit(arguments: Namespace) -> None:
         raise Refused(*wrong)
 
 
+def score(arguments: Namespace) -> None:
+    """Score a result file on a reference problem, or list the problems."""
+    from precursors.accuracy.score import LINE, problems, score
+
+    if arguments.list:
+        print(*problems(), sep="\n")
+    elif not arguments.file or not arguments.problem:
+        raise ValueError("a file and --problem are needed, or --list")
+    else:
+        values = score(arguments.file, arguments.problem, arguments.ties)
+        if not arguments.json:
+            print(LINE.format(**values), end="\n\n")
+        show_values(values, arguments.json)
+
+
 def version(_: Namespace) -> None:
     """Print the version, and in a checkout the commit and its software hash
     identifiers."""

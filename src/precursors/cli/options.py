@@ -17,6 +17,7 @@ examples:
   precursors slips run.h5 --counted                   the events counted in Fig. 13
   precursors plot --weights loads.csv --width 85 --font-size 9 --output fig.pdf
   precursors audit results/runs/*.h5                  is each run a motion of the model?
+  precursors score mine.csv --problem uniform         how many of its transitions are right?
 
 exit codes:
   0    done
@@ -31,6 +32,7 @@ COMMANDS = {
     "slips": "list the slip events of a run",
     "plot": "draw a run",
     "audit": "check that runs are motions of the model, without the solver's code",
+    "score": "score a result file on a problem of docs/benchmark.md",
 }
 # Arguments of `Chain.from_slider` that are numbers.
 CHAIN = {
@@ -108,6 +110,15 @@ def add_options(command: Parser, name: str) -> Parser:
     output: dict[str, Any] = {"type": Path, "metavar": "FILE"}
     if name == "audit":
         add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
+        return command
+    if name == "score":
+        text = "transitions as docs/benchmark.md asks for them"
+        add("file", nargs="?", type=Path, metavar="MINE.csv", help=text)
+        add("--problem", metavar="NAME", help="the problem that they solve")
+        text = "rows no farther apart may stand in any order [s] (0)"
+        add("--ties", type=_number, default=0.0, metavar="S", help=text)
+        add("--list", action="store_true", help="list the problems")
+        add("--json", action="store_true", help="print one JSON value")
         return command
     if name == "simulate":
         add("--output", help="save the run (HDF5)", **output)
