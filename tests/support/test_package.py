@@ -98,8 +98,20 @@ def test_the_wheel_has_every_file_of_the_package_and_nothing_else(tmp_path):
     assert done.returncode == 0, done.stderr
     with zipfile.ZipFile(tmp_path / done.stdout.split()[-1]) as wheel:
         found = {name for name in wheel.namelist() if ".dist-info/" not in name}
-    wanted = {path for path in (ROOT / "src/precursors").rglob("*") if path.is_file()}
-    assert found == {
-        str(path.relative_to(ROOT / "src")) for path in wanted if path.suffix != ".pyc"
+        wheel.extractall(tmp_path)
+    paths = {path for path in (ROOT / "src/precursors").rglob("*") if path.is_file()}
+    wanted = {
+        str(path.relative_to(ROOT / "src")) for path in paths if path.suffix != ".pyc"
     }
+    proofs = {path.name for path in (ROOT / "workflow/certificates").iterdir()}
+    assert found == wanted | {f"precursors/certificates/{name}" for name in proofs}
     assert "precursors/py.typed" in found
+    program = (
+        f"import sys; sys.path.insert(0, {str(tmp_path)!r}); "
+        "from precursors.accuracy.score import problems; print(*problems().values())"
+    )
+    listed = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    ).stdout.split()
+    assert {Path(path).name for path in listed} == proofs - {"effort.csv"}
+    assert all(path.startswith(str(tmp_path)) for path in listed)

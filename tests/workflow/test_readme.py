@@ -19,6 +19,7 @@ RESULTS = (ROOT / "results/README.md").read_text(encoding="utf-8")
 ON_DEMAND = (
     "prove_scenes",
     "results/certificates/fig10.json.gz",
+    "results/benchmark.zip",
 )
 OF_MAKE = ("tables/bench.csv", "report.html")
 SCENES = "(fig10|fig11|fig12|quick)"
