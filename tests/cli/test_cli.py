@@ -551,3 +551,30 @@ def test_theta_may_be_negative_and_a_fraction(cli, fraction, tmp_path):
     assert code == 0
     expected = Chain.from_slider(theta=float(Fraction(fraction)))
     assert Run.load(tmp_path / "run.h5").chain == expected
+
+
+# score
+
+
+def test_score_prints_a_line_to_paste_and_every_number(cli, tmp_path):
+    lines = ["time_s;block;mode;tangential_load_N;seconds", "0,35;1;1;28,0;0,5", ""]
+    (tmp_path / "mine.csv").write_text("\n".join(lines))
+    command = ("score", tmp_path / "mine.csv", "--problem", "uniform")
+    code, out, err = cli(*command)
+    assert (code, err) == (0, "")
+    assert out.splitlines()[0] == (
+        "uniform: 1 of 1428 transitions right, times within 0.0e+00 s; events counted "
+        "nan (true: 9), mu_sapp nan (true: 0.4858); nan evaluations, 0.5 s"
+    )
+    assert "should_be                    block 1 to mode 0 at 0.350021426228 s" in out
+    values = json.loads(cli(*command, "--json")[1])
+    assert (values["transitions_right"], values["evaluations"]) == (1, None)
+
+
+def test_score_lists_the_problems_and_asks_for_what_is_missing(cli):
+    code, out, _ = cli("score", "--list")
+    assert (code, len(out.split()), "uniform" in out) == (0, 8, True)
+    told = "precursors score: a file and --problem are needed, or --list\n"
+    assert cli("score", "mine.csv") == (2, "", told)
+    told = "precursors score: none.csv: No such file or directory\n"
+    assert cli("score", "none.csv", "--problem=uniform") == (3, "", told)

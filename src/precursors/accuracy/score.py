@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import re
-from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
 from itertools import takewhile
@@ -24,14 +22,8 @@ PACKAGE = Path(__file__).parents[1]
 PLACES = (PACKAGE / "certificates", PACKAGE.parents[1] / "workflow" / "certificates")
 NEEDED = ("time_s", "block", "mode", "tangential_load_N")
 COSTS = ("evaluations", "seconds")
-LINE = (
-    "{problem}: {transitions_right} of {transitions_true} transitions right, times "
-    "within {time_error_s:.1e} s; events counted {events_counted} (true: "
-    "{events_counted_true}), mu_sapp {mu_sapp:.4f} (true: {mu_sapp_true:.4f}); "
-    "{evaluations:g} evaluations, {seconds:g} s"
-)
 # Transitions: time [s], block, mode, load [N].
-Rows = Sequence[tuple[Any, ...]]
+Rows = list[Any]
 
 
 def problems() -> dict[str, Path]:
@@ -44,17 +36,16 @@ def problems() -> dict[str, Path]:
 def solution(problem: str) -> Truth:
     """The proved transitions of a problem."""
     known = problems()
-    require(problem in known, f"problem must be one of {', '.join(known)}: {problem!r}")
+    require(problem in known, problem, f"the problems are {', '.join(known)}")
     return Truth.proved(Certificate.load(known[problem]))
 
 
 def score_table(solvers: pd.DataFrame, folder: str) -> pd.DataFrame:
     """Score the files SOLVER-PROBLEM.csv of a folder: a row for each of them."""
     rows = [
-        solver | score(path, problem, solver["ties_s"])
+        solver | score(path, path.stem.rpartition("-")[2], solver["ties_s"])
         for solver in solvers.to_dict("records")
-        for problem in problems()
-        if (path := Path(folder) / f"{solver['solver']}-{problem}.csv").is_file()
+        for path in sorted(Path(folder).glob(f"{solver['solver']}-*.csv"))
     ]
     return pd.DataFrame(rows)
 
@@ -97,9 +88,10 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
 
 def in_words(transitions: Rows) -> str:
     """The first of some transitions."""
-    for time, block, mode, _ in transitions[:1]:
-        return f"block {block} to mode {mode} at {float(time):.12g} s"
-    return "none"
+    words = (
+        f"block {i} to mode {m} at {float(t):.12g} s" for t, i, m, _ in transitions
+    )
+    return next(words, "none")
 
 
 def in_true_order(found: Rows, true: Rows, ties: Fraction) -> Rows:
@@ -120,46 +112,44 @@ def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
     """Read the rows of a result file, with blocks from 1."""
     text = Path(path).read_text(encoding="utf-8-sig", errors="replace")
     separator = ";" if re.search("(?m)^[^#\n]*;", text) else ","
-    table = csv.reader(text.splitlines(), delimiter=separator)
-    lines = [(table.line_num, row) for row in table if row and row[0][:1] != "#"]
-    names = [name.strip() for name in lines[0][1]] if lines else []
-    first = 0 if "block_from_0" in names else 1
-    names = [name.removesuffix("_from_0") for name in names]
+    lines = {
+        number: [cell.strip('" ') for cell in line.split(separator)]
+        for number, line in enumerate(text.splitlines(), 1)
+        if line.strip() and line[0] != "#"
+    }
+    header = lines.pop(min(lines)) if lines else []
+    first = 0 if "block_from_0" in header else 1
+    last = first + n_blocks - 1
+    names = [name.removesuffix("_from_0") for name in header]
     for name in NEEDED:
         times = names.count(name)
         require(
-            times == 1, f"{path}: the header must name {name} once, not {times} times"
+            times == 1, path, f"{name} must be once in the header, not {times} times"
         )
-    modes = dict.fromkeys(range(1, n_blocks + 1), 0)
-    rows: list[dict[str, Any]] = [{"time_s": 0}]
-    for line, cells in lines[1:]:
-        at = f"{path}, line {line}"
-        require(
-            len(cells) == len(names),
-            f"{at}: cells must be {len(names)}, as in the header",
-        )
-        row: dict[str, Any] = {
-            name: exact(f"{at}: {name}", cell.strip().replace(",", "."))
+    modes: dict[Any, Any] = dict.fromkeys(range(first, last + 1), 0)
+    rows: list[dict[str, Any]] = []
+    time = Fraction(0)
+    for number, cells in lines.items():
+        at = f"{path}, line {number}"
+        require(len(cells) == len(names), at, f"it must have {len(names)} cells")
+        row = {
+            name: exact(f"{at}: {name}", cell.replace(",", "."))
             for name, cell in zip(names, cells, strict=True)
             if name in NEEDED or (name in COSTS and cell)
         }
+        block = row["block"]
         mode = row["mode"]
-        block = row["block"] + 1 - first
-        require(
-            block in modes, f"{at}: block must be {first} to {n_blocks - 1 + first}"
-        )
-        require(mode in (-1, 0, 1), f"{at}: mode must be -1, 0 or 1, but is {mode}")
-        require(mode != modes[block], f"{at}: the block has this mode already")
-        require(
-            row["time_s"] >= rows[-1]["time_s"],
-            f"{at}: time_s must not be less than in the row before",
-        )
+        require(block in modes, at, f"block must be {first} to {last}, but is {block}")
+        require(mode in (-1, 0, 1), at, f"mode must be -1, 0 or 1, but is {mode}")
+        require(mode != modes[block], at, f"block {block} is in mode {mode} already")
+        require(row["time_s"] >= time, at, "time_s must not fall from row to row")
+        time = row["time_s"]
         modes[block] = mode
-        rows.append(row | {"block": block})
-    return rows[1:]
+        rows.append(row | {"block": block + 1 - first})
+    return rows
 
 
-def require(holds: bool, otherwise: str) -> None:
+def require(holds: bool, where: object, otherwise: str) -> None:
     """Raise a ValueError unless something holds."""
     if not holds:
-        raise ValueError(otherwise)
+        raise ValueError(f"{where}: {otherwise}")

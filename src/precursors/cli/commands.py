@@ -26,6 +26,12 @@ up to the first global slip and {events_in_all} in {duration_s:g} s.
 mu_sapp = {mu_sapp:.3f} = {largest_load_N:.1f} N / {F_Z:g} N; first global slip at {global_slip_s:.3f} s.
 """
 NO_SLIP = "in {duration_s:g} s; no global slip.\n"
+SCORE = (
+    "{problem}: {transitions_right} of {transitions_true} transitions right, times "
+    "within {time_error_s:.1e} s; events counted {events_counted} (true: "
+    "{events_counted_true}), mu_sapp {mu_sapp:.4f} (true: {mu_sapp_true:.4f}); "
+    "{evaluations:g} evaluations, {seconds:g} s"
+)
 # A run with more transitions up to the first global slip takes seconds to repeat.
 MOST_REPEATED = 50_000
 
@@ -132,7 +138,7 @@ def audit(arguments: Namespace) -> None:
 
 def score(arguments: Namespace) -> None:
     """Score a result file on a reference problem, or list the problems."""
-    from precursors.accuracy.score import LINE, problems, score
+    from precursors.accuracy.score import problems, score
 
     if arguments.list:
         print(*problems(), sep="\n")
@@ -141,7 +147,7 @@ def score(arguments: Namespace) -> None:
     else:
         values = score(arguments.file, arguments.problem, arguments.ties)
         if not arguments.json:
-            print(LINE.format(**values), end="\n\n")
+            print(SCORE.format(**values), end="\n\n")
         show_values(values, arguments.json)
 
 
