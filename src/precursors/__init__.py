@@ -9,7 +9,11 @@ from typing import TYPE_CHECKING
 from precursors.audit import audit  # at once, or the room would take its name
 
 if TYPE_CHECKING:
-    from precursors.analysis.slips import find_precursors, find_slips
+    from precursors.analysis.slips import (
+        apparent_friction,
+        find_precursors,
+        find_slips,
+    )
     from precursors.model.chain import Chain
     from precursors.proof import certify
     from precursors.solver.run import Record, Run, RunFileError
@@ -21,6 +25,7 @@ __all__ = [
     "Run",
     "RunFileError",
     "TransitionLimitError",
+    "apparent_friction",
     "audit",
     "certify",
     "find_precursors",
@@ -37,6 +42,7 @@ _MODULES = {
     "Run": "solver.run",
     "RunFileError": "solver.run",
     "TransitionLimitError": "solver.simulate",
+    "apparent_friction": "analysis.slips",
     "certify": "proof",
     "find_precursors": "analysis.slips",
     "find_slips": "analysis.slips",

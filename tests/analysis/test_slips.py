@@ -8,12 +8,19 @@ import pandas as pd
 import pytest
 from analysis.random_runs import random_chain, random_transitions
 
-from precursors import Chain, Record, find_precursors, find_slips, simulate
+from precursors import (
+    Chain,
+    Record,
+    apparent_friction,
+    find_precursors,
+    find_slips,
+    simulate,
+)
 from precursors.analysis.slips import (
     DEFINITIONS,
     Definition,
-    apparent_friction,
     first_global,
+    first_global_slip,
     slip_table,
 )
 
@@ -94,6 +101,16 @@ def test_something_else_than_a_run_or_its_slips_is_named():
         match="precursors are found in the table of find_slips, but this is int",
     ):
         find_precursors(5)
+    with pytest.raises(
+        TypeError, match="mu_sapp is that of a Run or Record, but this is DataFrame"
+    ):
+        apparent_friction(find_slips(random_transitions(np.random.default_rng(1))))
+
+
+def test_a_rule_that_is_not_known_is_named_beside_those_that_are():
+    slips = find_slips(random_transitions(np.random.default_rng(1)))
+    with pytest.raises(ValueError, match=r"short must be one of 'shorter', .* is 'x'"):
+        find_precursors(slips, "x")
 
 
 def test_short_events_are_dropped_equal_ones_kept_and_nothing_after_the_global_slip():
@@ -108,7 +125,7 @@ def test_short_events_are_dropped_equal_ones_kept_and_nothing_after_the_global_s
 def test_mu_sapp_under_every_definition_is_that_of_the_stated_event():
     run = simulate(Chain.from_slider(theta="-5/6"), duration=3.0)
     found = [
-        apparent_friction(slip_table(run), definition) for definition in DEFINITIONS
+        first_global_slip(slip_table(run), definition) for definition in DEFINITIONS
     ]
     assert [(f.event, f.events_counted) for f in found] == [
         (7, 6),
@@ -118,7 +135,10 @@ def test_mu_sapp_under_every_definition_is_that_of_the_stated_event():
     ]
     assert [round(f.mu_sapp, 4) for f in found] == [0.4845, 0.4845, 0.4336, 0.4336]
     assert found[0].load == pytest.approx(found[0].mu_sapp * 400.0, rel=1e-15)
-    assert apparent_friction(slip_table(simulate(run.chain, duration=1.0))) is None
+    assert apparent_friction(run) == found[0].mu_sapp
+    early = simulate(run.chain, duration=1.0)
+    assert first_global_slip(slip_table(early)) is None
+    assert math.isnan(apparent_friction(early))
 
 
 def test_mu_sapp_is_the_largest_load_before_the_global_slip_though_an_earlier_event_reached_it():
@@ -127,8 +147,8 @@ def test_mu_sapp_is_the_largest_load_before_the_global_slip_though_an_earlier_ev
     both = [(3, 1, 1, 100.0), (4, 2, 1, 130.0), (5, 1, 0, 80.0), (6, 2, 0, 70.0)]
     table = slip_table(run_of(2, back + both, 9.0))
     assert table["largest_load_N"].tolist() == [90.0, 120.0]
-    assert apparent_friction(table).mu_sapp == pytest.approx(120.0 / 400.0, rel=1e-15)
-    assert apparent_friction(table, Definition(largest=False)).mu_sapp == pytest.approx(
+    assert first_global_slip(table).mu_sapp == pytest.approx(120.0 / 400.0, rel=1e-15)
+    assert first_global_slip(table, Definition(largest=False)).mu_sapp == pytest.approx(
         0.25, rel=1e-15
     )
 

@@ -6,14 +6,14 @@ import pytest
 from analysis.random_runs import random_chain, random_transitions
 
 from precursors import Chain, Run, find_precursors, find_slips, simulate
-from precursors.analysis.slips import apparent_friction, first_global, slip_table
+from precursors.analysis.slips import first_global, first_global_slip, slip_table
 from precursors.analysis.summary import KINK, summarise
 
 
 def table_path(run: Run) -> dict[str, float]:
     """The summary by way of the slip table."""
     slips, table = find_slips(run), slip_table(run)
-    friction = apparent_friction(table)
+    friction = first_global_slip(table)
     reached = friction is not None
     up_to = slips.iloc[: first_global(slips) + 1] if reached else slips
     start, end = (

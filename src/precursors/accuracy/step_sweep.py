@@ -11,7 +11,7 @@ import pandas as pd
 
 from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import Truth, transitions_right
-from precursors.analysis.slips import apparent_friction, slip_table
+from precursors.analysis.slips import first_global_slip, slip_table
 from precursors.methods import METHODS
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Record, Run
@@ -76,7 +76,7 @@ def row(method: str, step: float, run: Record, truth: Record) -> dict[str, objec
         before the first wrong one, and transitions_true, all there are.
     """
     slips = slip_table(run)
-    friction = apparent_friction(slips)
+    friction = first_global_slip(slips)
     return {
         "method": method,
         "step_s": step,

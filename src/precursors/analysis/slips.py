@@ -3,13 +3,18 @@ reading of these words."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
 import pandas as pd
 
 from precursors.analysis.events import slip_events
-from precursors.analysis.slip_rows import first_global, up_to_first_global
+from precursors.analysis.slip_rows import (
+    counted,
+    first_global,
+    up_to_first_global,
+)
 from precursors.solver.run import Record
 
 COLUMNS = [
@@ -24,11 +29,6 @@ WITH_UNITS = {
     "largest_load": "largest_load_N",
 }
 
-SHORT_EVENTS = {
-    "shorter": "shorter than one before it",
-    "not longer": "not longer than all before it",
-    "shorter than the last": "shorter than the one just before it",
-}
 GLOBAL_SLIPS = {
     "at once": "in which all blocks slide at the same instant",
     "each": "in which every block slides at some time",
@@ -93,14 +93,7 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
             f"precursors are found in the table of find_slips, but this is {given}"
         )
     until_global = up_to_first_global(slips)
-    front = until_global["front"]
-    farthest_before = front.cummax().shift(fill_value=0)
-    counted = {
-        "shorter": front >= farthest_before,
-        "not longer": front > farthest_before,
-        "shorter than the last": front >= front.shift(fill_value=0),
-    }
-    return until_global[counted[short]]
+    return until_global[counted(until_global["front"], short)]
 
 
 @dataclass(frozen=True)
@@ -161,9 +154,22 @@ DEFINITIONS = tuple(
 )
 
 
+def apparent_friction(run: Record) -> float:
+    """mu_sapp (Eq. 1): the largest F_X up to the first global slip over F_Z [1].
+
+    NaN without a global slip.
+    """
+    if not isinstance(run, Record):
+        raise TypeError(
+            f"mu_sapp is that of a Run or Record, but this is {type(run).__name__}"
+        )
+    slip = first_global_slip(slip_table(run))
+    return slip.mu_sapp if slip else math.nan
+
+
 @dataclass(frozen=True)
-class ApparentFriction:
-    """mu_sapp and the first global slip, which ends the loading.
+class FirstGlobalSlip:
+    """The first global slip, which ends the loading, and its mu_sapp.
 
     Attributes
     ----------
@@ -183,18 +189,18 @@ class ApparentFriction:
     events_counted: int
 
 
-def apparent_friction(
+def first_global_slip(
     slips: pd.DataFrame, definition: Definition = DEFINITIONS[0]
-) -> ApparentFriction | None:
-    """Apparent static friction coefficient (Eq. 1) of a slip table; None without a
-    global slip."""
+) -> FirstGlobalSlip | None:
+    """The first global slip in a table of `slip_table`, by a definition; None without
+    one."""
     slips = definition.read(slips)
     first = first_global(slips)
     if first is None:
         return None
     slip = slips.iloc[first]
     load = slip["largest_load_N" if definition.largest else "load_before_N"]
-    return ApparentFriction(
+    return FirstGlobalSlip(
         mu_sapp=float(mu_sapp(load, slip["normal_load_N"])),
         load=float(load),
         time=float(slip["onset_s"]),

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from precursors.analysis.events import slip_events
+from precursors.analysis.slip_rows import counted
 from precursors.analysis.slips import mu_sapp
 from precursors.model.checks import MOST_BLOCKS
 from precursors.solver.run import Record
@@ -78,14 +79,14 @@ def summarise(runs: Iterable[Record]) -> NDArray[np.void]:
     # Fronts of later runs are raised above all earlier ones, so that the running
     # maximum begins anew.
     front = events["front"] + events["run"] * MOST_BLOCKS
-    farthest = np.maximum.accumulate(front)
-    counts = {
-        "events_counted": front == farthest,
-        "records": np.diff(farthest, prepend=0) > 0,
-    }
-    for name, is_counted in counts.items():
+    is_counted = until_global & counted(front)
+    is_record = until_global & counted(front, "not longer")
+    for name, events_of_name in (
+        ("events_counted", is_counted),
+        ("records", is_record),
+    ):
         summaries[name] = np.bincount(
-            events["run"], until_global & is_counted, minlength=len(runs)
+            events["run"], events_of_name, minlength=len(runs)
         )
 
     slips = events[last_counted[reached]]
@@ -101,7 +102,7 @@ def summarise(runs: Iterable[Record]) -> NDArray[np.void]:
         "crossing_time": crossing_time,
         "transitions": slips["last"] + 1,
         "speedup": _speedup(
-            events[until_global & (front == farthest)],
+            events[is_counted],
             reached,
             np.array([runs[i].chain.n_blocks for i in reached]),
         ),

@@ -17,7 +17,7 @@ from precursors.cli.options import CHAIN, DURATION, LARGER, RUN
 from precursors.support.files import write_table
 
 if TYPE_CHECKING:
-    from precursors.analysis.slips import ApparentFriction
+    from precursors.analysis.slips import FirstGlobalSlip
     from precursors.solver.run import Record
 
 FOUND = "{events_counted} events counted in Fig. 13, of {events} "
@@ -38,11 +38,11 @@ MOST_REPEATED = 50_000
 
 def simulate(arguments: Namespace) -> None:
     """Run a chain, and print a sentence and a summary."""
-    from precursors.analysis.slips import apparent_friction, slip_table
+    from precursors.analysis.slips import first_global_slip, slip_table
 
     run = run_of_options(arguments)
     table = slip_table(run)
-    first = apparent_friction(table)
+    first = first_global_slip(table)
     values: dict[str, Any] = {
         "blocks": run.chain.n_blocks,
         "duration_s": run.duration,
@@ -67,11 +67,11 @@ def simulate(arguments: Namespace) -> None:
 
 def slips(arguments: Namespace) -> None:
     """List the slip events of a run file, or of a chain that is run."""
-    from precursors.analysis.slips import apparent_friction, slip_table
+    from precursors.analysis.slips import first_global_slip, slip_table
 
     run = run_of(arguments)
     table = slip_table(run)
-    first = apparent_friction(table)
+    first = first_global_slip(table)
     if arguments.counted:
         table = table[table["counted"]]
     if arguments.output:
@@ -245,7 +245,7 @@ def tell(line: str) -> None:
     print(line, file=sys.stderr)
 
 
-def tell_predictability(run: Record, first: ApparentFriction | None) -> None:
+def tell_predictability(run: Record, first: FirstGlobalSlip | None) -> None:
     """Say if roundings decide the first global slip."""
     from precursors.analysis.horizon import predicted_errors
     from precursors.solver.run import Run

@@ -16,7 +16,7 @@ from precursors.analysis.run_statistics import (
     median_difference,
     median_interval,
 )
-from precursors.analysis.slips import find_precursors, find_slips
+from precursors.analysis.slips import find_precursors, find_slips, mu_sapp
 from precursors.hierarchy.larger import LargerChain, critical_length, simulate_larger
 from precursors.hierarchy.models import longest_run
 from precursors.model.chain import Chain, parse_theta
@@ -148,7 +148,7 @@ def numbers(run: Record, smallest_drops: Iterable[float]) -> dict[str, float]:
     return {
         "events_counted": len(find_precursors(slips)),
         **{f"events_over_{x:g}N": int((drop >= x).sum()) for x in smallest_drops},
-        "mu_sapp": last["largest_load"] / run.chain.normal_load,
+        "mu_sapp": mu_sapp(last["largest_load"], run.chain.normal_load),
         "growth": (1.0 - KINK) / KINK * passed / rest if rest > 0.0 else np.nan,
     }
 

@@ -13,6 +13,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from precursors.analysis.events import slip_events
+from precursors.analysis.slip_rows import counted
 from precursors.analysis.slips import mu_sapp
 from precursors.hierarchy import rigid, statics
 from precursors.hierarchy.larger import LargerChain, simulate_larger
@@ -138,9 +139,8 @@ def slip_duration(motion: Motion) -> float:
 
 def events_counted(motion: Motion) -> float:
     """Number of events counted in Fig. 13; NaN without a global slip."""
-    front = motion.slips["front"]
-    counted = np.count_nonzero(front == np.maximum.accumulate(front))
-    return float(counted) if len(motion.global_slip) else np.nan
+    n_counted = np.count_nonzero(counted(motion.slips["front"]))
+    return float(n_counted) if len(motion.global_slip) else np.nan
 
 
 _EVENTS: dict[str, Callable[[Motion], Any]] = {

@@ -14,7 +14,7 @@ from precursors.analysis.slips import (
     GLOBAL_SLIPS,
     SHORT_EVENTS,
     Definition,
-    apparent_friction,
+    first_global_slip,
     slip_table,
 )
 from precursors.methods.columns import SWITCHING_RULES
@@ -151,7 +151,7 @@ def numbers(
 ) -> dict[str, Any]:
     """Both numbers of a run, and how many of them are the paper's: mu_sapp to a unit of
     its last digit."""
-    found = apparent_friction(slip_table(run), definition)
+    found = first_global_slip(slip_table(run), definition)
     counted = found.events_counted if found else math.nan
     friction = found.mu_sapp if found else math.nan
     off = abs(friction - of_paper.get("mu_sapp", math.nan))

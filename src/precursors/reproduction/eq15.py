@@ -16,7 +16,7 @@ import pandas as pd
 import scipy
 
 from precursors.analysis.load_curve import load_curve
-from precursors.analysis.slips import apparent_friction, find_slips, slip_table
+from precursors.analysis.slips import find_slips, first_global_slip, slip_table
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import (
     compressions_as_printed,
@@ -241,7 +241,7 @@ def rigid(chain: Chain, duration: float) -> Check:
 def pushed(chain: Chain, start: FloatArray | None, duration: float) -> float:
     """mu_sapp (Eq. 1) of a chain pushed from rest at some positions [m]; NaN without a
     global slip."""
-    found = apparent_friction(
+    found = first_global_slip(
         slip_table(simulate(chain, duration, "global slip", start_positions=start))
     )
     return found.mu_sapp if found else math.nan

@@ -10,7 +10,7 @@ from dataclasses import asdict
 import pandas as pd
 
 from precursors.analysis.slip_rows import first_global
-from precursors.analysis.slips import DEFINITIONS, apparent_friction, find_slips
+from precursors.analysis.slips import DEFINITIONS, find_slips, first_global_slip
 from precursors.model.statics import maximal_compressions
 from precursors.solver.run import Run
 
@@ -101,7 +101,7 @@ def mu_sapp_table(slips: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
         | asdict(friction)
         for scene, table in slips.items()
         for definition in DEFINITIONS
-        if (friction := apparent_friction(table, definition))
+        if (friction := first_global_slip(table, definition))
     ]
     named = pd.DataFrame(rows).rename(columns={"load": "load_N", "time": "time_s"})
     return named.reindex(columns=MU_SAPP_COLUMNS)

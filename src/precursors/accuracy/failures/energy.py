@@ -9,7 +9,7 @@ import numpy as np
 
 from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import Curve, Failure, Number
-from precursors.analysis.slips import apparent_friction, slip_table
+from precursors.analysis.slips import first_global_slip, slip_table
 from precursors.methods import METHODS, ROWS, DivergedError
 from precursors.methods.rk4 import LIMIT as RK4_LIMIT
 from precursors.methods.stability import (
@@ -75,7 +75,7 @@ def silent_instability() -> Failure:
     chain = Chain.from_slider()
     omega = highest_frequency(chain)
     exact = simulate(chain, END, "global slip")
-    true = apparent_friction(slip_table(exact))
+    true = first_global_slip(slip_table(exact))
     assert true
     finished = []
     mu_sapp = []
@@ -85,7 +85,7 @@ def silent_instability() -> Failure:
             run = METHODS["rk4_skip"].solve(chain, END, z / omega, "global slip").run
         except DivergedError:
             break
-        if (friction := apparent_friction(slip_table(run))) is None:
+        if (friction := first_global_slip(slip_table(run))) is None:
             break
         finished.append(z)
         mu_sapp.append(friction.mu_sapp)

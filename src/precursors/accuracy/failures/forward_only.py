@@ -10,7 +10,7 @@ import numpy as np
 
 from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import Curve, Failure, Number
-from precursors.analysis.slips import apparent_friction, slip_table
+from precursors.analysis.slips import first_global_slip, slip_table
 from precursors.methods.march import march
 from precursors.methods.rk4_located import run_located
 from precursors.methods.switching import FORWARD_ONLY
@@ -36,7 +36,7 @@ def forward_only() -> Failure:
         chain = Chain.from_slider(theta=theta)
         exact = simulate(chain, 10.0, "global slip")
         run = solve_forward_only(chain, 10.0, "global slip")
-        true, found = (apparent_friction(slip_table(r)) for r in (exact, run))
+        true, found = (first_global_slip(slip_table(r)) for r in (exact, run))
         assert true
         assert found
         number = partial(Number, "v < 0 forbidden", f"theta = {theta}")
