@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import dataclasses
 import gzip
+import json
 import sys
 from collections.abc import Callable
 from fractions import Fraction
@@ -107,7 +108,7 @@ def test_a_foreign_or_damaged_file_is_refused_in_one_line(small, tmp_path) -> No
         gzip.compress(b"[" * 100_000): "maximum recursion depth exceeded",
         gzip.compress(
             b'{"format": "else"}'
-        ): "its format must be 'precursors certificate 1', but is 'else'",
+        ): "its format must be 'precursors certificate 2', but is 'else'",
         whole[: len(whole) // 2]: "Compressed file ended",
         whole[:-1]: "Compressed file ended",
         whole[:500] + bytes([whole[500] ^ 1]) + whole[501:]: "",
@@ -119,6 +120,23 @@ def test_a_foreign_or_damaged_file_is_refused_in_one_line(small, tmp_path) -> No
         ) as e:
             Certificate.load(path)
         assert "\n" not in str(e.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("claim", "Every run of the model has some transitions."),
+        ("sha256", "0" * 64),
+        ("width_s", "0.10"),
+    ],
+)
+def test_a_file_that_says_something_else_is_refused(small, tmp_path, name, value):
+    path = tmp_path / "other.json.gz"
+    small.save(path)
+    content = json.loads(gzip.decompress(path.read_bytes()))
+    path.write_bytes(gzip.compress(json.dumps(content | {name: value}).encode()))
+    with pytest.raises(CertificateError, match=f"its {name} is not what a certificate"):
+        verify(path)
 
 
 def moved(enclosure: Enclosure, shift: Fraction, shrink: int = 1) -> Enclosure:

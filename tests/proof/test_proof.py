@@ -330,6 +330,50 @@ def test_a_block_that_only_touches_standstill_is_a_tie() -> None:
     assert certificate.tie.question == "whether block 1 stops"
 
 
+def lone_block(excess: str) -> Certificate:
+    """One block without friction that starts at 2 V (1 + excess), until before it is
+    back.
+
+    Its speed is V + (1 + 2 excess) V cos(omega t): at excess = 0 it only touches zero.
+    """
+    chain = ExactChain.from_slider(n_blocks=1, mu_s=0, mu_k=0)
+    start = 2 * chain.drive_velocity * (1 + Fraction(excess))
+    return certify(chain, 6 * time_unit(chain), start_velocities=[start], max_bits=512)
+
+
+def test_a_motion_that_only_grazes_its_limit_is_not_proved() -> None:
+    grazing = lone_block("0")
+    assert [t.mode for t in grazing.transitions] == [1]
+    assert grazing.tie is not None
+    assert grazing.tie.question == "whether block 1 stops"
+
+
+@pytest.mark.parametrize("excess", ["1", "1e-6", "1e-12"])
+def test_the_least_slope_of_a_turn_is_that_of_the_motion(excess: str) -> None:
+    turned = lone_block(excess)
+    chain = turned.chain
+    assert [t.mode for t in turned.transitions[:2]] == [1, -1]
+    # sqrt((1 + 2 excess)^2 - 1) without a difference of nearly equal numbers
+    sine = 2 * math.sqrt(float(excess) * (1 + float(excess)))
+    omega = math.sqrt(chain.drive_stiffness / chain.mass)
+    expected = float(chain.drive_velocity) * omega * sine
+    slope = float(turned.transitions[1].slope)
+    assert 0.9989 * expected < slope < expected
+
+
+def test_a_slope_that_is_steeper_than_the_proved_one_is_refused() -> None:
+    turned = lone_block("1")
+    first, second, *others = turned.transitions
+    steeper = second._replace(slope=second.slope * Fraction(102, 100))
+    with pytest.raises(CertificateError, match=r"a slope of .* is not proved"):
+        verify(dataclasses.replace(turned, transitions=(first, steeper, *others)))
+
+
+def test_block_1_is_released_at_the_rate_of_the_drive() -> None:
+    (release,) = certify(ExactChain.from_slider(), "0.36").transitions[:1]
+    assert 0.999 * 80 < release.slope < 80  # K V [N/s], from rest
+
+
 def test_a_turn_at_the_very_end_of_a_window_is_proved() -> None:
     """v = V + (v_0 - V) cos(omega t) of one block without friction is zero after one
     T."""

@@ -18,11 +18,15 @@ from precursors.model.checks import Until, checked_until
 from precursors.proof.exact_chain import ExactChain, exact_start
 from precursors.support.files import write_whole
 
-FORMAT = "precursors certificate 1"
+FORMAT = "precursors certificate 2"
 CLAIM = (
-    "Every run of the model with these exact parameters has exactly the transitions listed, in this order, "
-    "up to duration_s or, if there is a tie, up to the tie. Each time and each tangential load lies within "
-    "its radius of its midpoint. A row is time_s, radius, block, mode (+1, 0, -1), tangential_load_N, radius."
+    "Every run of the model with these exact parameters has exactly the transitions "
+    "listed, in this order, up to duration_s or, if there is a tie, up to the tie. "
+    "Each time and each tangential load lies within its radius of its midpoint. A row"
+    " is time_s, radius, block, mode (+1, 0, -1), tangential_load_N, radius, slope: "
+    "there the margin of a block that is released falls at least at this rate [N/s], "
+    "and the speed of one that stops or turns [m/s^2]; 0 for a block that moves from "
+    "the start."
 )
 EXACT = Context(prec=1000, traps=[Inexact])
 
@@ -54,12 +58,18 @@ class Enclosure(NamedTuple):
 
 class CertifiedTransition(NamedTuple):
     """A change of one block's state: time [s], block 1..N, mode +1 | 0 | -1, tangential
-    load F_X [N]."""
+    load F_X [N].
+
+    `slope` is the least rate at which its event function falls through zero: the margin
+    of a block that is released [N/s], the speed of one that stops or turns [m/s^2]. It
+    is 0 for a block that moves from the start, and above 0 else: none only grazes.
+    """
 
     time: Enclosure
     block: int
     mode: int
     tangential_load: Enclosure
+    slope: Fraction
 
 
 class Tie(NamedTuple):
@@ -124,7 +134,12 @@ class Certificate:
                 raise ValueError(
                     f"its format must be {FORMAT!r}, but is {content['format']!r}"
                 )
-            return _certificate(content)
+            certificate = _certificate(content)
+            again = json.loads(json.dumps(_content(certificate)))
+            for name in sorted(content.keys() | again.keys()):
+                if content.get(name) != again.get(name):
+                    raise ValueError(f"its {name} is not what a certificate says")
+            return certificate
         except Exception as error:  # nearly any, as the file may hold anything
             why = str(error) or type(error).__name__
             raise CertificateError(
@@ -158,6 +173,7 @@ def _content(certificate: Certificate) -> dict[str, Any]:
                 t.block,
                 t.mode,
                 *_enclosure_text(t.tangential_load),
+                _text(t.slope),
             ]
             for t in certificate.transitions
         ],
@@ -176,12 +192,16 @@ def _certificate(content: Mapping[str, Any]) -> Certificate:
             "start_positions", chain, content["start_positions_m"], "m"
         ),
         start_velocities=exact_start(
-            "start_velocities", chain, content.get("start_velocities_m_per_s"), "m/s"
+            "start_velocities", chain, content["start_velocities_m_per_s"], "m/s"
         ),
         width=written_fraction(content["width_s"]),
         transitions=tuple(
             CertifiedTransition(
-                _enclosure(*row[:2]), int(row[2]), int(row[3]), _enclosure(*row[4:])
+                _enclosure(*row[:2]),
+                int(row[2]),
+                int(row[3]),
+                _enclosure(*row[4:6]),
+                written_fraction(row[6]),
             )
             for row in content["transitions"]
         ),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
@@ -81,5 +82,22 @@ def certificate_row(certificate: Certificate) -> dict[str, float]:
         "largest_time_width_s": float(
             max(t.time.upper - t.time.lower for t in certificate.transitions)
         ),
+        **least_slopes(certificate),
         "bits": certificate.bits,
+    }
+
+
+def least_slopes(certificate: Certificate) -> dict[str, float]:
+    """Least proved slopes of all releases and of all stops and turns; NaN of none."""
+    releases: list[float] = []
+    stops: list[float] = []
+    mode: dict[int, int] = {}
+    for t in certificate.transitions:
+        was_sliding = mode.get(t.block, 0) != 0
+        mode[t.block] = t.mode
+        if t.slope:
+            (stops if was_sliding else releases).append(float(t.slope))
+    return {
+        "least_release_slope_N_per_s": min(releases, default=math.nan),
+        "least_stop_slope_m_per_s2": min(stops, default=math.nan),
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from decimal import ROUND_CEILING, Context, Decimal
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -37,6 +37,10 @@ DECIMALS = 45
 SPARE = Fraction(101, 100)
 # Radii are rounded up to three digits, and to a few more decimals than midpoints have.
 ROUND_UP = Context(prec=3, Emin=-DECIMALS, rounding=ROUND_CEILING)
+# A slope is written so much smaller for the same reason, and rounded down to four
+# digits.
+SPARE_OF_SLOPE = 1 - Fraction(1, 10**6)
+ROUND_DOWN = Context(prec=4, rounding=ROUND_FLOOR)
 
 
 def certify(
@@ -115,6 +119,7 @@ def certify(
             t.block,
             t.mode,
             _rounded(_enclosure_of(t.tangential_load)),
+            _rounded_down(_enclosure_of(t.slope).lower),
         )
         for t in proof.transitions
     )
@@ -188,6 +193,8 @@ def _differences(certificate: Certificate) -> Iterator[str]:
             yield f"{where}: its time is not proved within {float(said.time.radius):.3g} s"
         if not said.tangential_load.contains(_enclosure_of(proved.tangential_load)):
             yield f"{where}: its load is not proved within {float(said.tangential_load.radius):.3g} N"
+        if said.slope > _enclosure_of(proved.slope).lower:
+            yield f"{where}: a slope of {float(said.slope):.3g} is not proved"
     if len(certificate.transitions) != len(proof.transitions):
         yield f"{len(certificate.transitions)} transitions instead of {len(proof.transitions)}"
     blocks = certificate.tie.blocks if certificate.tie else "none"
@@ -224,3 +231,10 @@ def _rounded(enclosure: Enclosure) -> Enclosure:
 def _round_up(x: Fraction) -> Decimal:
     """Round a number up to a decimal one of three digits."""
     return ROUND_UP.divide(Decimal(x.numerator), Decimal(x.denominator))
+
+
+def _rounded_down(x: Fraction) -> Fraction:
+    """Round a slope down to a decimal number of four digits."""
+    spared = x * SPARE_OF_SLOPE
+    least = ROUND_DOWN.divide(Decimal(spared.numerator), Decimal(spared.denominator))
+    return Fraction(least)

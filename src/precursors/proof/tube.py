@@ -63,13 +63,13 @@ VALID = 1.125
 
 
 class Proved(NamedTuple):
-    """A transition: ball of its time [s], block, mode, ball of the tangential load
-    [N]."""
+    """A transition in balls; units and `slope` are those of `CertifiedTransition`."""
 
     time: arb
     block: int
     mode: int
     tangential_load: arb
+    slope: arb
 
 
 class Proof:
@@ -137,7 +137,7 @@ class Proof:
             if push:
                 state.mode[i] = 1 if push > 0 else -1
                 self.transitions.append(
-                    Proved(arb(0), i, state.mode[i], ball(exact[1]))
+                    Proved(arb(0), i, state.mode[i], ball(exact[1]), arb(0))
                 )
         return state
 
@@ -194,9 +194,10 @@ class Proof:
             state.absorb(constants, force, state.rate)
             self.clock += self.unit * step
             self.gap = arb(0)
+            slope = loading_rate / self.unit
         state.mode[1] = 1
         self.fresh = {1}
-        return self.record(1)
+        return self.record(1, slope)
 
     def slide(self) -> bool:
         """Advance to the first transition, but by one window at most."""
@@ -208,8 +209,10 @@ class Proof:
             # The others are proved up to the end of the window only: stop short of the
             # root, which is there.
             return self.advance_window(WINDOW / 2)
-        self.change(event, root)
-        return self.record(event.block)
+        steepness = self.change(event, root)
+        # u = m v / T, so that the rate of a velocity is that of u [N/T] over the mass.
+        unit = self.unit if event.direction else ball(self.chain.mass)
+        return self.record(event.block, steepness / unit)
 
     def first_transition(self) -> tuple[EventFunction, arb] | None:
         """Find the first root of all event functions, at a low precision that is raised
@@ -239,9 +242,11 @@ class Proof:
             self.fresh = set()
             return not self.clock > self.duration
 
-    def change(self, event: EventFunction, root: arb) -> None:
-        """Advance to the root of an event function and let its block change its
-        state."""
+    def change(self, event: EventFunction, root: arb) -> arb:
+        """Advance to the root of an event function and let its block change its state.
+
+        Return the least slope of the function, downwards [N/T], in every run.
+        """
         state = self.state
         i = event.block
         before = state.distance
@@ -284,6 +289,7 @@ class Proof:
                 self.release(i, event.direction)
             else:
                 self.stop(event, root)
+        return steepness
 
     def release(self, i: int, way: int) -> None:
         """Let the stuck block i slide: the only transition that drives runs apart."""
@@ -319,7 +325,7 @@ class Proof:
         else:
             raise Undecided(f"whether block {i} sticks or turns round", (i,), root)
 
-    def record(self, i: int) -> bool:
+    def record(self, i: int, slope: arb) -> bool:
         """Note the transition of block i, just made; return whether it lies within the
         duration."""
         state = self.state
@@ -338,9 +344,8 @@ class Proof:
                 )
             change = state.largest_force_change(self.bounds, self.gap)
             reach = state.distance * self.bounds.coupling[1].sqrt() + change
-            self.transitions.append(
-                Proved(time, i, state.mode[i], state.force[1] + arb(0, reach))
-            )
+            load = state.force[1] + arb(0, reach)
+            self.transitions.append(Proved(time, i, state.mode[i], load, slope))
         return True
 
     def precision(self) -> int:
