@@ -9,10 +9,10 @@ from typing import Any
 
 import pandas as pd
 
+from precursors.analysis.slip_rows import SHORT_EVENTS
 from precursors.analysis.slips import (
     FRONTS,
     GLOBAL_SLIPS,
-    SHORT_EVENTS,
     Definition,
     first_global_slip,
     slip_table,
