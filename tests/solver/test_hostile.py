@@ -1,13 +1,12 @@
 """Hostile chains whose runs once looked wrong, and random ones."""
 
 import math
-from fractions import Fraction
 
 import numpy as np
 import pytest
 import random_chains
 from chains import first_transitions, in_groups, positions_under
-from reference import ReferenceChain, reference
+from reference import hostile
 
 from precursors import Chain
 from precursors.audit import ROUNDINGS
@@ -17,26 +16,6 @@ from precursors.audit.checks import Auditor
 # stiff as the chain, and 2e-10 elsewhere. A force at its limit is known to a rounding,
 # its instant to less where it hardly grows.
 RADIANS = 1e-8
-# Deviations that were beyond 1e-10 of the largest strength, the worst first; 12621 is
-# what was never judged.
-ONCE_SUSPECTED = (
-    12621,
-    14434,
-    12209,
-    12177,
-    19552,
-    12626,
-    15083,
-    17283,
-    19995,
-    18644,
-    17322,
-    327,
-    1462,
-)
-# Friction is a rounding of the forces for all blocks but one, or for all: 1e24 N beside
-# 1e-3 N.
-BELOW_ROUNDING = {1668: [3], 3798: []}
 
 
 def fastest(chain: Chain) -> float:
@@ -44,60 +23,18 @@ def fastest(chain: Chain) -> float:
     return 2 * math.sqrt(max(chain.stiffness, chain.drive_stiffness) / chain.mass)
 
 
-def exact_transitions(
-    case: random_chains.Trial, most: int
-) -> list[tuple[float, int, int]]:
-    """Time [s], block and mode of the first transitions, in units in which forces and
-    times are about one.
-
-    The units are powers of two: no number is rounded.
-    """
-    chain = case.chain
-    second = Fraction(2) ** round(math.log2(math.sqrt(chain.mass / chain.stiffness)))
-    largest = max(
-        chain.strength.sum(),
-        chain.drive_velocity * math.sqrt(chain.drive_stiffness * chain.mass),
-    )
-    newton = Fraction(2) ** round(
-        math.log2(largest * max(1.0, chain.stiffness / chain.drive_stiffness))
-    )
-    exact = ReferenceChain(
-        weights=tuple(Fraction(w) / newton for w in chain.weights.tolist()),
-        mass=Fraction(chain.mass) / second**2,
-        stiffness=Fraction(chain.stiffness),
-        drive_stiffness=Fraction(chain.drive_stiffness),
-        drive_velocity=Fraction(chain.drive_velocity) * second / newton,
-        mu_s=Fraction(chain.mu_s),
-        mu_k=Fraction(chain.mu_k),
-    )
-    at_rest = np.zeros(chain.n_blocks)
-    transitions = reference(
-        exact,
-        Fraction(case.duration) / second,
-        start_positions=[
-            Fraction(x) / newton
-            for x in case.start.get("start_positions", at_rest).tolist()
-        ],
-        start_velocities=[
-            Fraction(v) * second / newton
-            for v in case.start.get("start_velocities", at_rest).tolist()
-        ],
-        max_transitions=most,
-        bits=512,
-    )
-    return [(float(t.time * second), t.block, t.mode) for t in transitions]
-
-
 def run_and_exact(number: int):
     """The chain of a trial, its transitions, and as many of the reference, as (time,
     block, mode)."""
-    case = random_chains.trial(number)[1]
-    run = case.run()
-    exact = exact_transitions(case, len(run.transitions) + 1)
-    return run, run.transitions[["time", "block", "mode"]].tolist(), exact
+    run = random_chains.trial(number)[1].run()
+    return (
+        run,
+        run.transitions[["time", "block", "mode"]].tolist(),
+        hostile.read()[number],
+    )
 
 
-@pytest.mark.parametrize("number", ONCE_SUSPECTED)
+@pytest.mark.parametrize("number", hostile.ONCE_SUSPECTED)
 def test_a_run_that_once_looked_wrong_is_that_of_the_reference(number):
     run, mine, exact = run_and_exact(number)
     assert run.duration < random_chains.trial(number)[1].duration or len(exact) <= len(
@@ -110,7 +47,7 @@ def test_a_run_that_once_looked_wrong_is_that_of_the_reference(number):
     assert wrong < apart
 
 
-@pytest.mark.parametrize(("number", "blocks"), BELOW_ROUNDING.items())
+@pytest.mark.parametrize(("number", "blocks"), hostile.BELOW_ROUNDING.items())
 def test_blocks_that_are_stronger_than_a_rounding_let_go_in_time_beside_others_that_are_not(
     number, blocks
 ):

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from conftest import ROOT, Workspace, copy_workflow
 
-KILLS = int(os.environ.get("FAULT_KILLS", "2"))
+KILLS = int(os.environ.get("FAULT_KILLS", "1"))
 SEED = 1964
 # A run and its table, the chunks of a study, a figure.
 TARGETS = [
