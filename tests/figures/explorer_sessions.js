@@ -3,32 +3,14 @@
 // Canvases have one size, whatever the fonts are.
 document.head.append(Object.assign(document.createElement("style"), { textContent:
   "canvas { width: 600px !important; height: 240px !important; }" }));
-var isMotionThere = () => runs[0].events.every(({ onset, end }, i) => state.time < onset || state.time >= end || motions.has(i));
+// A study of some sliders; the page draws many.
+STUDIES.digits.count = 30, STUDIES.blocks.count = 60;
+var isMotionThere = () => run.events.every(({ onset, end }, i) => state.time < onset || state.time >= end || motions.has(i));
 var press = (query) => document.querySelector(query).click();
 var at = (id, x, y) => { const box = element(id).getBoundingClientRect(); return { bubbles: true, cancelable: true, clientX: box.left + x, clientY: box.top + y }; };
 var tap = (id, x, y = 100) => element(id).dispatchEvent(new MouseEvent("click", at(id, x, y)));
-var wheel = (id, x, more) => element(id).dispatchEvent(new WheelEvent("wheel", { ...at(id, x, 100), ...more }));
 var key = (name, more = {}, query = "body") => document.querySelector(query).dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true, cancelable: true, ...more }));
 var set = (query, value) => { const e = document.querySelector(query); e.value = value; for (const kind of ["input", "change"]) e.dispatchEvent(new Event(kind, { bubbles: true })); };
-// A file that the reader chooses; what the page then says.
-function give(text) {
-  const files = new DataTransfer(), told = element("told");
-  files.items.add(new File([text], "own.csv"));
-  element("own").files = files.files;
-  element("own").dispatchEvent(new Event("change"));
-  return new Promise((done) => new MutationObserver(() => done()).observe(told, { childList: true }));
-}
-// The size of the picture that is saved.
-function save() {
-  const { click } = HTMLAnchorElement.prototype;
-  return new Promise((done) => {
-    HTMLAnchorElement.prototype.click = function () {
-      const picture = Object.assign(new Image(), { onload: () => done(`${picture.width} ${picture.height}`), src: this.href });
-    };
-    press("#picture");
-    HTMLAnchorElement.prototype.click = click;
-  });
-}
 // Frames of a film at 20 a second: times, events and clocks that are shown.
 function watch(count, isCalm = false) {
   const kept = { requestAnimationFrame, cancelAnimationFrame, matchMedia }, now = performance.now, seen = [];
@@ -46,7 +28,7 @@ function watch(count, isCalm = false) {
     const due = frames;
     frames = [];
     due.forEach((frame) => frame(clock));
-    if (i % 5 === 0) seen.push(`${(1e3 * state.time).toFixed(3)} ${state.event} ${element("moment").textContent.split(" N")[1]} ${(1e6 * frameAt(state.time).shifts[0]).toFixed(2)}`);
+    if (i % 5 === 0) seen.push(`${(1e3 * state.time).toFixed(3)} ${state.event} ${element("moment").textContent.split("N")[1]} ${(1e6 * frameAt(state.time).shifts[0]).toFixed(2)}`);
   }
   seen.push(clock);
   stop();
@@ -55,24 +37,25 @@ function watch(count, isCalm = false) {
   Object.assign(window, kept);
   return seen.join(" | ");
 }
-// What the worker tells when it is asked for runs of 5 blocks [id, thetas, all] and events { id, event } and works so
-// many slices in between, by a clock on which each look at it takes a millisecond.
+// What a worker tells when it is asked for runs of 5 blocks [id, theta, all], the twin's with another true, and for
+// motions { event, onset, end }, and works so many slices in between, by a clock on which each look takes a millisecond.
 function work(...asked) {
   const told = [], port1 = {};
   let now = 0, due = 0;
   const channel = () => ({ port1, port2: { postMessage: () => (due += 1) } });
   const round = (values) => Array.from(values, (value) => Number(value.toPrecision(9))).join(" ");
-  const tell = ({ kind, id, slot, share, event, ...data }) => told.push({
-    run: () => `run ${id} ${slot} ${data.isFinal} ${data.stopped} ${data.transitions} ${round([data.end, ...data.events.map((one) => one.after)])}`,
+  const tell = ({ kind, id, share, event, ...data }) => told.push({
+    run: () => `run ${id} ${data.isFinal} ${data.stopped} ${data.arrays.time.length} ${round([data.end, ...data.events.map((one) => one.after)])}`,
     progress: () => `progress ${id} ${share.toFixed(6)}`,
     motion: () => `motion ${id} ${event} ${data.time.length} ${round([data.time[0], data.time.at(-1), ...data.forces.slice(-7)])} ${data.modes.slice(-7)}`,
   }[kind]());
-  const made = new Function("postMessage", "performance", "MessageChannel", "onmessage", `${SCRIPT}; return onmessage;`);
+  const made = new Function("postMessage", "performance", "MessageChannel", "onmessage", `${element("worker").textContent}; return onmessage;`);
   const hear = made(tell, { now: () => (now += 1) }, function () { return channel(); });
-  const chain = (theta, nudge) => ({ ...uniform.slider, n_blocks: 5, theta, nudge });
+  const slider = (theta) => ({ ...UNIFORM.slider, n_blocks: 5, theta });
   for (const one of asked) {
-    if (Array.isArray(one)) hear({ data: { id: one[0], chains: one[1].map((theta, i) => chain(theta, i / 10)), duration: 4, all: one[2] } });
-    else if (one.id) hear({ data: one });
+    const [id, theta, all, isTwin = false] = Array.isArray(one) ? one : [];
+    if (id) hear({ data: { id, slider: slider(theta), duration: 4, all, isTwin } });
+    else if (one.event) hear({ data: { id: 9, slider: slider(0), duration: 4, force: Float64Array.from([0, 56, 0, 0, 0, 0, 0]), ...one } });
     else for (let i = 0; i < one && due; i++) (due -= 1), port1.onmessage();
   }
   return told.join(" | ");
@@ -112,19 +95,18 @@ function drawn(name) {
 function shownNow() {
   const words = (id) => element(id).innerText.replace(/\n/g, "").replace(/\s+/g, " ");
   const all = (query, what) => [...document.querySelectorAll(query)].map(what).join(" | ");
-  const [answers, readout] = ["answers", "readout"].map(words);
+  const [answers, trust, readout] = ["answers", "trust", "readout"].map(words);
   return {
     ...Object.fromEntries(Object.keys(DRAW).map((name) => [name, drawn(name)])),
-    answers, readout, step: `${words("step")} | ${all("[data-scene]", (e) => e.title)}`,
-    told: words("told"), command: command(), address: location.hash,
+    answers: `${answers}${element("answers").className && " (grey)"}`, trust, readout, step: words("step"), told: words("told"), command: command(),
     moment: `${words("moment")} | ${[view().start, view().end, state.time].map((time) => (1e3 * time).toFixed(5)).join(" ")}`
       + ` | ${element("cursor").style.transform.replace(/\.\d+/, "")}`,
     controls: [
-      all("input[type=range]", (e) => `${e.value} ${e.getAttribute("aria-valuetext") ?? ""}`), all("output", (e) => e.textContent), words("ghost-name"),
-      ...["[aria-pressed=true]", ":disabled", "[id][hidden]"].map((query) => all(query, (e) => e.id || e.textContent)),
+      all("input[type=range]", (e) => `${e.value} ${e.getAttribute("aria-valuetext") ?? ""}`), all("output", (e) => e.textContent), words("lengths-key"),
+      ...["[aria-pressed=true]", ":disabled", "[id][hidden]"].map((query) => all(query, (e) => (e.checkVisibility({ visibilityProperty: true }) ? e.id || e.textContent : ""))),
       all(".tip", (e) => (e.checkVisibility() ? e.id : "")).replaceAll(" | ", ""),
     ].join(" || "),
     ranges: all("input[type=range]", (e) => `${e.min} ${e.max} ${e.step}`),
-    names: all("canvas", (e) => e.getAttribute("aria-label")?.replace(element("answers").textContent, "").replace(readout, "")),
+    names: all("canvas", (e) => e.getAttribute("aria-label")?.replace(readout, "")),
   };
 }

@@ -224,7 +224,17 @@ rule write_explorer:
     input:
         page=collect(
             f"{LIBRARY}/figures/explorer/{{file}}",
-            file=["drawing.js", "explorer.css", "explorer.js", "page.html", "solver.js", "worker.js"],
+            file=[
+                "drawing.js",
+                "explorer.css",
+                "explorer.js",
+                "figures.js",
+                "page.html",
+                "solver.js",
+                "story.js",
+                "studies.js",
+                "worker.js",
+            ],
         ),
         slips=collect("results/tables/{scene}_slips.csv", scene=scenes_with_theta(config)),
     output:
@@ -233,10 +243,9 @@ rule write_explorer:
         "results/logs/write_explorer.log",
     localrule: True
     params:
-        titles=[config["scenes"][scene]["title"] for scene in scenes_with_theta(config)],
         sliders=[scene_slider(config, scene) for scene in scenes_with_theta(config)],
         proved=config["accuracy"]["proved"],
-        duration=config["duration"],
+        numbers={"duration": config["duration"], "tolerance": config["accuracy"]["tolerance"]},
         code=digest("write_explorer"),
     script:
         "../scripts/write_explorer.py"

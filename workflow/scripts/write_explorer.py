@@ -3,21 +3,21 @@
 import pandas as pd
 from job import job
 
-from precursors.figures.explorer.page import (
-    Proved,
-    Scene,
-    counted_events,
-    proved_slider,
-    write_explorer,
-)
+from precursors.analysis.slips import apparent_friction
+from precursors.ensembles.printed_digits import HALF_A_DIGIT
+from precursors.figures.explorer.page import proved_slider, write_explorer
 from precursors.proof.chains import chain_duration
 
 with job() as snakemake:
     params = snakemake.params
-    slips = map(pd.read_csv, snakemake.input.slips)
-    scenes = map(Scene, params.titles, params.sliders, map(counted_events, slips))
+    found = [apparent_friction(pd.read_csv(slips)) for slips in snakemake.input.slips]
+    scenes = [
+        {"slider": slider, "mu_sapp": friction.mu_sapp if friction else None}
+        for slider, friction in zip(params.sliders, found, strict=True)
+    ]
     proved = [
-        Proved(proved_slider(values), chain_duration(values))
+        {"slider": proved_slider(values), "duration": chain_duration(values)}
         for values in params.proved.values()
     ]
-    write_explorer([*scenes], proved, params.duration, snakemake.output.page)
+    data = {"scenes": scenes, "proved": proved, "half_a_digit": HALF_A_DIGIT}
+    write_explorer(data | params.numbers, snakemake.output.page)

@@ -2,13 +2,14 @@
 // Draws on canvases: axes, curves and marks of the figures, and the row of blocks. Nothing here knows the page's state.
 
 const FONT = "12px system-ui, 'DejaVu Sans', sans-serif";
-const KINDS = ["partial", "global", "backward"];
+const KINDS = ["partial", "global", "backward", "unsure"];
+const TILT_COLOURS = ["less", "even", "more"];
 let palette = {};
 
 // Colours come from the style sheet, which knows light and dark.
 function readPalette() {
   const style = getComputedStyle(document.documentElement);
-  const names = ["paper", "ink", "soft", "line", "grid", "raised", "stuck", "second", "own", "ghost", "on", "strong", ...KINDS];
+  const names = ["paper", "ink", "soft", "line", "grid", "band", "raised", "stuck", "on", "strong", ...KINDS, ...TILT_COLOURS];
   palette = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }
 
@@ -116,18 +117,29 @@ function curve(context, figure, time, value, start, end) {
 }
 
 // Slides of the blocks as a picture with one pixel for each block and column, which is as fast for any number of slides.
-function slideBars(context, figure, bars, n, start, end) {
-  const { box } = figure, columns = Math.max(Math.round(box.right - box.left), 1);
+// Those that are not predictable are grey.
+function slideBars(context, { box }, { n, events, arrays, known }, start, end) {
+  const columns = Math.max(Math.round(box.right - box.left), 1), scale = columns / (end - start);
   const picture = new ImageData(columns, n), pixels = new Uint32Array(picture.data.buffer);
   const colours = KINDS.map((kind) => {
     const [r, g, b] = [1, 3, 5].map((at) => parseInt(palette[kind].slice(at, at + 2), 16));
     return (255 << 24) | (b << 16) | (g << 8) | r;
   });
-  const scale = columns / (end - start);
-  for (let i = 0; i < bars.start.length; i++) {
-    if (bars.end[i] < start || bars.start[i] > end) continue;
-    const from = Math.max(Math.floor((bars.start[i] - start) * scale), 0), to = Math.max(Math.ceil((bars.end[i] - start) * scale), from + 2);
-    pixels.fill(colours[bars.kind[i]], (n - bars.block[i]) * columns + from, (n - bars.block[i]) * columns + Math.min(to, columns));
+  for (const { first, last, onset, end: stop, isGlobal } of events) {
+    if (stop < start || onset > end) continue;
+    const since = []; // the transition with which each block began to slide
+    const fill = (block, time) => {
+      const j = since[block], from = Math.max(Math.floor((arrays.time[j] - start) * scale), 0), to = Math.max(Math.ceil((time - start) * scale), from + 2);
+      const kind = onset >= known ? 3 : arrays.mode[j] < 0 ? 2 : Number(isGlobal);
+      pixels.fill(colours[kind], (n - block) * columns + from, (n - block) * columns + Math.min(to, columns));
+    };
+    for (let j = first + 1; j <= last; j++) {
+      const block = arrays.block[j];
+      if (block in since) fill(block, arrays.time[j]);
+      if (arrays.mode[j]) since[block] = j;
+      else delete since[block];
+    }
+    for (const block in since) fill(block, stop);
   }
   const buffer = new OffscreenCanvas(columns, n);
   buffer.getContext("2d").putImageData(picture, 0, 0);
@@ -139,13 +151,12 @@ function slideBars(context, figure, bars, n, start, end) {
   stroke(context, ...borders.map((y) => [[box.left, y], [box.right, y]]));
 }
 
-// A mark at a point in pixels: dot, ring, cross or diamond.
+// A mark at a point in pixels: dot, ring or cross.
 function mark(context, shape, x, y, size, colour) {
   context.strokeStyle = context.fillStyle = colour;
   context.lineWidth = 2;
   const [left, right, top, bottom] = [x - size, x + size, y - size, y + size];
   if (shape === "cross") return stroke(context, [[left, top], [right, bottom]], [[left, bottom], [right, top]]);
-  if (shape === "diamond") return stroke(context, [[x, top], [right, y], [x, bottom], [left, y], [x, top]]);
   context.beginPath();
   context.arc(x, y, size, 0, 2 * Math.PI);
   if (shape === "dot") context.fill();
