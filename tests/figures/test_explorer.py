@@ -4,11 +4,13 @@ serves every reader."""
 import json
 import re
 import shlex
+from itertools import chain, combinations
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
+from colorspacious import cspace_convert
 from figures.explorer_sessions import (
     KEPT,
     SESSIONS,
@@ -18,10 +20,12 @@ from figures.explorer_sessions import (
     record,
     states,
 )
+from matplotlib.colors import to_rgb
 
 from precursors import Chain, cli, find_slips, simulate
 from precursors.analysis.horizon import horizon
 from precursors.analysis.slips import apparent_friction, slip_table
+from precursors.figures.explorer.page import PAPERS, palette
 
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src/precursors/figures/explorer"
@@ -30,6 +34,7 @@ MOST_BYTES = 120e3
 # Predictability times of the page, which has one twin, and of the library, which has
 # sixteen, agree within a factor.
 OF_PREDICTABILITY = 2.0
+DISTANCE_IN_CIELAB = 20.0  # told apart by all readers
 PHONE = (390, 844)  # px
 LAPTOP = (1280, 800)  # px
 ZOOMED = (640, 400)  # px, the laptop at 200 %
@@ -304,9 +309,10 @@ CONTRASTS = """(() => {
     .map((e) => [ratio(getComputedStyle(e).color, behind(e)), e.outerHTML.slice(0, 90)]);
   const against = (other) => (name) => [ratio(palette[name], palette[other]), name];
   const kinds = ["stuck", "partial", "global", "backward"];
+  const numbers = kinds.map((kind) => [ratio(palette[kind], inkOn(palette[kind])), kind]);
   return [
-    [...texts, ...kinds.map(against("on")), against("paper")("soft")],
-    [...kinds, "unsure", "less", "even", "more", "line", "ink", "strong"].map(against("paper")),
+    [...texts, ...numbers, against("paper")("soft")],
+    [...kinds, "unsure", "pushed", "even", "far", "line", "ink", "strong"].map(against("paper")),
   ];
 })()"""
 
@@ -329,3 +335,21 @@ def test_the_contrast_is_that_of_wcag_aa_and_every_control_has_a_name(
         ".map(e => e.outerHTML)"
     )
     assert nameless == []
+
+
+# Marks that stand side by side in a figure. A backward slip is half as high besides.
+TOLD_APART = [("partial", "global", "unsure"), ("pushed", "even", "far", "unsure")]
+
+
+@pytest.mark.parametrize("sight", [None, "protanomaly", "deuteranomaly"])
+@pytest.mark.parametrize("paper", PAPERS.values())
+def test_marks_side_by_side_are_told_apart_by_all_readers(paper, sight):
+    colors = dict(re.findall(r"--(\w+): (#\w+);", palette(paper)))
+    seen = np.array([to_rgb(color) for color in colors.values()])
+    if sight:
+        space = {"name": "sRGB1+CVD", "cvd_type": sight, "severity": 100}
+        seen = np.clip(cspace_convert(seen, space, "sRGB1"), 0.0, 1.0)
+    places = dict(zip(colors, cspace_convert(seen, "sRGB1", "CIELab"), strict=True))
+    for one, other in chain.from_iterable(combinations(of, 2) for of in TOLD_APART):
+        distance = np.linalg.norm(places[one] - places[other])
+        assert distance >= DISTANCE_IN_CIELAB, (one, other)

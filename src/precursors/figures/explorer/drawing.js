@@ -3,7 +3,7 @@
 
 const FONT = "12px system-ui, 'DejaVu Sans', sans-serif";
 const KINDS = ["partial", "global", "backward", "unsure"];
-const TILT_COLOURS = ["less", "even", "more"];
+const TILT_COLOURS = ["pushed", "even", "far"];
 let palette = {};
 
 // Colours come from the style sheet, which knows light and dark.
@@ -11,6 +11,13 @@ function readPalette() {
   const style = getComputedStyle(document.documentElement);
   const names = ["paper", "ink", "soft", "line", "grid", "band", "raised", "stuck", "on", "strong", ...KINDS, ...TILT_COLOURS];
   palette = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+}
+
+const channels = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+// Black or white, whichever is seen better on a colour.
+function inkOn(colour) {
+  const [r, g, b] = channels(colour).map((value) => (value / 255) ** 2.2);
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.18 ? "#000000" : "#ffffff";
 }
 
 // Clear a canvas, which has as many pixels as the screen gives it: [context, width, height].
@@ -116,13 +123,13 @@ function curve(context, figure, time, value, start, end) {
   context.restore();
 }
 
-// Slides of the blocks as a picture with one pixel for each block and column, which is as fast for any number of slides.
-// Those that are not predictable are grey.
+// Slides of the blocks as a picture with two pixels for each block and column, which is as fast for any number of slides.
+// A backward slip has the lower one alone. Slips that are not predictable are grey.
 function slideBars(context, { box }, { n, events, arrays, known }, start, end) {
   const columns = Math.max(Math.round(box.right - box.left), 1), scale = columns / (end - start);
-  const picture = new ImageData(columns, n), pixels = new Uint32Array(picture.data.buffer);
+  const picture = new ImageData(columns, 2 * n), pixels = new Uint32Array(picture.data.buffer);
   const colours = KINDS.map((kind) => {
-    const [r, g, b] = [1, 3, 5].map((at) => parseInt(palette[kind].slice(at, at + 2), 16));
+    const [r, g, b] = channels(palette[kind]);
     return (255 << 24) | (b << 16) | (g << 8) | r;
   });
   for (const { first, last, onset, end: stop, isGlobal } of events) {
@@ -130,8 +137,11 @@ function slideBars(context, { box }, { n, events, arrays, known }, start, end) {
     const since = []; // the transition with which each block began to slide
     const fill = (block, time) => {
       const j = since[block], from = Math.max(Math.floor((arrays.time[j] - start) * scale), 0), to = Math.max(Math.ceil((time - start) * scale), from + 2);
-      const kind = onset >= known ? 3 : arrays.mode[j] < 0 ? 2 : Number(isGlobal);
-      pixels.fill(colours[kind], (n - block) * columns + from, (n - block) * columns + Math.min(to, columns));
+      const isBackward = arrays.mode[j] < 0, colour = colours[onset >= known ? 3 : isBackward ? 2 : Number(isGlobal)];
+      for (const half of isBackward ? [1] : [0, 1]) {
+        const row = (2 * (n - block) + half) * columns;
+        pixels.fill(colour, row + from, row + Math.min(to, columns));
+      }
     };
     for (let j = first + 1; j <= last; j++) {
       const block = arrays.block[j];
@@ -141,7 +151,7 @@ function slideBars(context, { box }, { n, events, arrays, known }, start, end) {
     }
     for (const block in since) fill(block, stop);
   }
-  const buffer = new OffscreenCanvas(columns, n);
+  const buffer = new OffscreenCanvas(columns, 2 * n);
   buffer.getContext("2d").putImageData(picture, 0, 0);
   context.imageSmoothingEnabled = false;
   context.drawImage(buffer, box.left, box.top, box.right - box.left, box.bottom - box.top);
@@ -212,7 +222,7 @@ function drawRow(canvas, { weights, strength, net, modes, shifts, magnified, len
     context.moveTo(x - size / 2, floor), context.lineTo(x + size / 2, floor);
     context.lineTo(x + size / 2 + lean, floor - size), context.lineTo(x - size / 2 + lean, floor - size);
     context.fill();
-    context.fillStyle = palette.on;
+    context.fillStyle = inkOn(colour);
     if (size >= 18) context.fillText(i + 1, x + lean / 2, y);
 
     const limit = (half * strength[i]) / strongest, share = (half * net[i]) / strongest, bar = Math.min(0.5 * pitch, 26), foot = left + (i + 0.5) * pitch;

@@ -29,7 +29,8 @@ const STUDIES = {
         return `θ = ${fraction(scene.slider.theta)}: ${Math.round((100 * inside.length) / (of.length || 1))} % of ${of.length} in the band`;
       });
       context.textAlign = "left";
-      texts.forEach((text, t) => ((context.fillStyle = palette[TILT_COLOURS[t]]), context.fillText(text, figure.box.left + 4, figure.y(rows[t] + 0.4))));
+      context.fillStyle = palette.ink;
+      texts.forEach((text, t) => context.fillText(text, figure.box.left + 4, figure.y(rows[t] + 0.4)));
       return texts.join("; ");
     },
     key: `<span><i class="ring ink"></i> the paper’s slider as it is</span> <span><i class="box band"></i> as printed, 0.49 ± 0.01</span>`,
