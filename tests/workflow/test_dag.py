@@ -132,7 +132,7 @@ def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
             "config.yaml",
             "title: uniform normal loading",
             "title: the same",
-            {"draw_reproduction", "write_explorer"},
+            {"draw_reproduction"},
         ),
         (
             "config.yaml",
