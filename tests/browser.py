@@ -3,6 +3,7 @@ them."""
 
 from __future__ import annotations
 
+import base64
 import fcntl
 import json
 import os
@@ -124,6 +125,11 @@ class Page:
         self.evaluate(
             "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
         )
+
+    def picture(self) -> bytes:
+        """What the window shows, as a PNG."""
+        data: str = self.call("Page.captureScreenshot", format="png")["data"]
+        return base64.b64decode(data)
 
     def prefer(self, **features: str) -> None:
         """Set preferences of the user: prefers_color_scheme="dark"."""

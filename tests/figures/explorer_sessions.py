@@ -6,6 +6,8 @@ from __future__ import annotations
 import json
 import re
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +23,8 @@ GOLDEN = Path(__file__).parents[1] / "golden"
 KEPT = GOLDEN / "small/explorer.csv"
 THETAS = {"fig10": 0.0, "fig11": -5 / 6, "fig12": 5 / 6}
 TOLERANCE = 1e-9  # s, of the times of a run that is called predictable
+LAPTOP = (1280, 800)  # px
+IN_THE_WAVE = 250e-6  # s, since the onset of the global slip
 FAST = SLIDER | {"theta": 5 / 6, "drive_velocity": 0.01}
 # Places [pixels] stand behind an @, rounded to a hundredth.
 PLACE = re.compile(r"@(-?[\d.]+)")
@@ -163,11 +167,30 @@ def record(page: Page, address: str, session: str) -> pd.DataFrame:
 
 def recorded() -> pd.DataFrame:
     """All sessions, in a browser of their own."""
+    with _example() as (page, address):
+        return pd.concat([record(page, address, session) for session in SESSIONS])
+
+
+def picture() -> bytes:
+    """The page's fifth step in the middle of a global slip, as a PNG."""
+    with _example() as (page, address):
+        page.open(address, *LAPTOP)
+        page.evaluate("goToStep(5)")
+        for share in range(1, 9):  # the page draws for longer than a test waits
+            page.wait_for(f"found.digits.length >= {share / 8} * STUDIES.digits.count")
+        page.evaluate(f"state.time = event().onset + {IN_THE_WAVE}, redraw('row')")
+        page.wait_for(f"motions.has(state.event) && {SETTLED}")
+        page.evaluate("redraw('row')")
+        page.settle()
+        return page.picture()
+
+
+@contextmanager
+def _example() -> Iterator[tuple[Page, str]]:
     path = find_browser()
     if path is None:
         raise FileNotFoundError("no Chromium or Chrome here")
     with tempfile.TemporaryDirectory() as directory, browser(path) as new_page:
         file = Path(directory, "explorer.html")
         write_example(file)
-        page = new_page()
-        return pd.concat([record(page, file.as_uri(), session) for session in SESSIONS])
+        yield new_page(), file.as_uri()

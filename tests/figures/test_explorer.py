@@ -13,6 +13,7 @@ import pytest
 from colorspacious import cspace_convert
 from figures.explorer_sessions import (
     KEPT,
+    LAPTOP,
     SESSIONS,
     SETTLED,
     TOLERANCE,
@@ -36,7 +37,6 @@ MOST_BYTES = 120e3
 OF_PREDICTABILITY = 2.0
 DISTANCE_IN_CIELAB = 20.0  # told apart by all readers
 PHONE = (390, 844)  # px
-LAPTOP = (1280, 800)  # px
 ZOOMED = (640, 400)  # px, the laptop at 200 %
 SHIFT = 0.02  # of the layout, largest sum over the steps and over a drag
 TARGET = 44  # px, smallest width and height of what a finger meets
@@ -171,6 +171,8 @@ def test_a_study_finds_what_the_library_finds(page, file, name):
         f"found.{name}.map(({{ value }}, i) => [value, STUDIES.{name}.sliderOf(i)])"
     )
     assert len(found) == 12
+    told = page.evaluate("element('lengths').ariaLabel")
+    assert {"digits": "of 4 in the band", "blocks": "0 of 12 values"}[name] in told
     for value, slider in found:
         run = simulate(Chain.from_slider(**slider), 20.0, until="global slip")
         assert value == pytest.approx(apparent_friction(slip_table(run)).mu_sapp, 1e-9)

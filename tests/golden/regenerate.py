@@ -9,9 +9,10 @@ import check_claims
 from figures import explorer_sessions, test_pictures
 from golden import benchmark_page, small_tables
 
-from precursors.support.files import read_table, write_text
+from precursors.support.files import read_table, write_text, write_whole
 
 GOLDEN = Path(__file__).parent
+ROOT = GOLDEN.parents[1]
 PAPERS_SCENES = ("fig10", "fig11", "fig12")
 TABLES = (
     *(f"{scene}_slips.csv" for scene in PAPERS_SCENES),
@@ -43,6 +44,7 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
     for name in test_pictures.PICTURES:
         test_pictures.save_small(name, golden / f"small/{name}.png")
     explorer_sessions.recorded().to_csv(golden / "small/explorer.csv", index=False)
+    write_whole(ROOT / "docs/explorer.png", explorer_sessions.picture())
 
 
 if __name__ == "__main__":

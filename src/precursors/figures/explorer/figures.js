@@ -165,7 +165,8 @@ function showSlips() {
 let marks = []; // of the figure of front lengths: [x, y, number of the event]
 function showLengths() {
   marks = [];
-  if (study()) return study().draw(...clear(element("lengths")), found[study().name]);
+  const setName = (text) => element("lengths").setAttribute("aria-label", text);
+  if (study()) return setName(study().draw(...clear(element("lengths")), found[study().name]));
   const [context, width, height] = clear(element("lengths")), last = firstGlobal();
   const events = last ? run.events.slice(0, run.events.indexOf(last) + 1) : run.events;
   const highest = Math.max(1e-9, ...events.map((e) => e.before));
@@ -176,5 +177,5 @@ function showLengths() {
     if (i === state.event) mark(context, "ring", x, y, 10, palette.ink);
     return [x, y, i];
   });
-  element("lengths").setAttribute("aria-label", `Front length against load: ${run.counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`).join(", ").slice(0, 900)}`);
+  setName(`Front length against load: ${run.counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`).join(", ").slice(0, 900)}`);
 }

@@ -31,7 +31,7 @@ const STUDIES = {
       context.textAlign = "left";
       context.fillStyle = palette.ink;
       texts.forEach((text, t) => context.fillText(text, figure.box.left + 4, figure.y(rows[t] + 0.4)));
-      return texts.join("; ");
+      return `μsapp of sliders printed alike. ${texts.join("; ")}`;
     },
     key: `<span><i class="ring ink"></i> the paper’s slider as it is</span> <span><i class="box band"></i> as printed, 0.49 ± 0.01</span>`,
   },
@@ -49,7 +49,7 @@ const STUDIES = {
         const x = figure.x(5 + Math.floor(i / TILTS.length) + 0.2 * ((i % TILTS.length) - 1));
         if (value) mark(context, isKnown ? "dot" : "ring", x, figure.y(value), 3, palette[isKnown ? TILT_COLOURS[i % TILTS.length] : "unsure"]);
       });
-      return `${points.filter(({ isKnown }) => !isKnown).length} of ${points.length} are not predictable`;
+      return `μsapp falls towards μk as the number of blocks grows. ${points.filter(({ isKnown }) => !isKnown).length} of ${points.length} values are not predictable`;
     },
     key: `${TILTS.map((scene, t) => `<span><i class="dot ${TILT_COLOURS[t]}"></i> θ = ${fraction(scene.slider.theta)}</span>`).join(" ")} <span><i class="ring unsure"></i> not predictable</span>`,
   },
