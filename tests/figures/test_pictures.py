@@ -3,7 +3,6 @@ replaces the pictures."""
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from unittest import mock
 
@@ -28,7 +27,6 @@ from precursors.figures import (
     step_sweep,
     style,
     theta_window,
-    work_precision,
 )
 from precursors.model.scenes import SLIDER
 
@@ -135,12 +133,6 @@ def other_lengths():
 
 def one_length():
     return precursor_lengths.draw([slips()], data=np.array([[50.0, 0.3]]))
-
-
-def charted_methods(work: str, theta: float, extents: list[str]):
-    table = read(PUBLISHED / "work_precision_full.csv")
-    rows = table[(table["theta"] - theta).abs().lt(0.01) & table["until"].isin(extents)]
-    return work_precision.draw(rows, work)
 
 
 def swept_steps():
@@ -289,11 +281,10 @@ PICTURES = {
     "precursor_lengths": paper_lengths,
     "precursor_lengths_others": other_lengths,
     "precursor_lengths_one": one_length,
-    "work_precision": partial(
-        charted_methods, "seconds", 5 / 6, ["global slip", "end"]
-    ),
-    "work_precision_evaluations": partial(
-        charted_methods, "evaluations", 0.0, ["global slip"]
+    "work_precision": lambda: speed.draw(
+        read(PUBLISHED / "work_precision_full.csv"),
+        works=["seconds", "evaluations"],
+        theta=5 / 6,
     ),
     "speed": lambda: speed.draw(
         read(PUBLISHED / "work_precision_full.csv"),

@@ -84,11 +84,13 @@ def test_measured_lengths_are_shares_of_the_whole():
         precursor_lengths.draw([slips()], data=np.array([[50.0, 30.0]]))
 
 
-def test_every_method_has_a_colour_and_a_marker_of_its_own():
-    for column in ("color", "marker"):
-        looks = [row[column] for row in ROWS.values()]
-        assert all(looks)
-        assert len(set(looks)) == len(looks)
+def test_every_method_has_a_marker_of_its_own_and_the_colour_of_its_kind():
+    markers = [row["marker"] for row in ROWS.values()]
+    assert all(markers)
+    assert len(set(markers)) == len(markers)
+    colors = {name: row["color"] for name, row in ROWS.items()}
+    assert colors.pop("exact") == style.BLACK
+    assert set(colors.values()) == {style.GREY, *style.OTHERS}
 
 
 def test_every_failure_mode_has_a_panel_and_every_theta_of_the_law_a_colour():

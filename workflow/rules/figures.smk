@@ -46,15 +46,10 @@ FIGURES = {
     },
     "work_precision": {
         "section": "accuracy",
-        "shows": "errors against time",
+        "shows": "errors against time and evaluations",
+        "module": "speed",
         "tables": {"table": "results/tables/work_precision.csv"},
-    },
-    "work_precision_evaluations": {
-        "section": "accuracy",
-        "shows": "errors against evaluations",
-        "module": "work_precision",
-        "tables": {"table": "results/tables/work_precision.csv"},
-        "options": {"work": "evaluations"},
+        "options": {"works": ["seconds", "evaluations"]},
     },
     "speed": {
         "shows": "error against time, as published",

@@ -1,116 +1,147 @@
-"""The chart of README: how accurate a method is in how much time."""
+"""Speed against accuracy: how wrong the times of transitions are, and what they cost."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 
 from precursors.figures import style
 
-HEIGHT_MM = 70.0
-SHOWN_TIME_S = 2.7  # doubles near the first global slip are np.spacing of this apart
-# Name, colour, and where the name stands beside the most accurate point: offset [pt]
-# and alignment.
-CURVES = {
-    "exact": ("exact solver", style.BLACK, (6, -10), "left"),
-    "heyoka": ("heyoka", style.OTHERS[0], (5, -3), "left"),
-    "dop853": ("DOP853, compiled", style.OTHERS[1], (5, -3), "left"),
-    "scipy_dop853": ("DOP853, SciPy", style.OTHERS[1], (-6, -17), "center"),
-    "cvode_adams": ("CVODE", style.OTHERS[2], (-6, -3), "right"),
-    "rk4_located": ("Runge-Kutta 4,\nlocated", style.OTHERS[3], (5, 0), "left"),
-    "rk4_skip": ("Runge-Kutta 4,\nfixed steps", style.OTHERS[4], (-33, -5), "right"),
+HEIGHT_MM = 74.0
+# Columns of work: the factor to what is drawn, and the words.
+WORKS = {
+    "seconds": (1e3, "Time to the first global slip [ms]"),
+    "evaluations": (1.0, "Evaluations of the forces [-]"),
 }
+# Short names, and where they stand beside the most accurate point of their curve:
+# offset [pt], side. Another method has its label.
+NAMES: dict[str, tuple[str, tuple[float, float], str]] = {
+    "exact": ("exact solver", (7, -10), "left"),
+    "heyoka": ("heyoka", (6, -4), "left"),
+    "dop853": ("DOP853,\ncompiled", (5, -12), "left"),
+    "scipy_dop853": ("DOP853,\nSciPy", (0, -19), "center"),
+    "cvode_adams": ("CVODE", (-5, -5), "right"),
+    "rk4_located": ("RK4,\nlocated", (5, -6), "left"),
+    "rk4_skip": ("RK4", (8, -8), "left"),
+}
+SHOWN_TIME_S = 2.7  # doubles near the first global slip are np.spacing of this apart
+SMALL = 7.0
 
 
-def draw(table: pd.DataFrame, sessions: pd.DataFrame, theta: float = 0.0) -> Figure:
-    """Draw the largest error of a transition's time against the computing time, up to
-    the first global slip.
+def draw(
+    table: pd.DataFrame,
+    sessions: pd.DataFrame | None = None,
+    works: Sequence[str] = ("seconds",),
+    theta: float = 0.0,
+) -> Figure:
+    """Draw the largest error of a transition's time against work, up to the first
+    global slip.
 
-    `table` is work_precision.csv. Settings that give a wrong sequence of transitions
-    are ticks in a grey strip. beside_heyoka.csv has the factor in time to heyoka, a
-    median of `sessions`.
+    `table` is work_precision.csv, and `works` its columns of work. Methods of one
+    colour of their own have their names beside them, the others are grey points. A tick
+    in the strip is a setting that gives a wrong sequence of transitions. An arrow shows
+    how many times as long as the exact solver heyoka takes in `sessions`
+    (beside_heyoka.csv).
     """
-    rows = table[(table["theta"] == theta) & (table["until"] == "global slip")].dropna(
-        subset="seconds"
-    )
-    is_right = rows["transitions_right"].eq(rows["transitions_true"])
-    is_right &= rows["transitions_found"].eq(rows["transitions_true"])
-    rows = rows.assign(milliseconds=1e3 * rows["seconds"])
-    with style.page(style.COLUMN_MM, HEIGHT_MM) as figure:
-        strip, axes = figure.subplots(2, 1, sharex=True, height_ratios=(0.09, 1))
-        strip.set(yticks=[], facecolor=style.PALE, xscale="log")
-        strip.vlines(
-            rows.loc[~is_right, "milliseconds"], 0, 1, color=style.GREY, linewidth=0.6
+    rows = table[np.isclose(table["theta"], theta) & table["until"].eq("global slip")]
+    true = rows["transitions_true"]
+    is_right = rows["transitions_right"].eq(true) & rows["transitions_found"].eq(true)
+    rows = rows.assign(is_right=is_right)
+    width_mm = style.COLUMN_MM if len(works) == 1 else style.PAGE_MM
+    with style.page(width_mm, HEIGHT_MM) as figure:
+        panels = figure.subplots(
+            2,
+            len(works),
+            sharex="col",
+            sharey="row",
+            squeeze=False,
+            height_ratios=(1, 14),
         )
-        strip.set_title(
-            "settings with a wrong sequence of transitions",
-            fontsize=7,
-            color=style.GREY,
-            pad=2,
-        )
-        for method, (name, color, offset, side) in CURVES.items():
-            own = rows[is_right & (rows["method"] == method)].sort_values(
-                "error_time_s"
-            )
-            marker = "*" if method == "exact" else "."
-            points = own["milliseconds"], own["error_time_s"]
-            axes.plot(
-                *points,
-                color=color,
-                marker=marker,
-                markersize=8 if method == "exact" else 5,
-            )
-            look = {
-                "color": color,
-                "fontsize": 7,
-                "ha": side,
-                "textcoords": "offset points",
-            }
-            for best in own.head(1).itertuples():
-                axes.annotate(
-                    name, (best.milliseconds, best.error_time_s), offset, **look
-                )
-        axes.set(
-            yscale="log",
-            ylim=(6e-18, 9e-4),
-            xlim=(0.07, 700),
-            xlabel="Time to the first global slip [ms]",
-        )
-        axes.set_ylabel("Largest error of a transition's time [s]")
-        axes.axhline(np.spacing(SHOWN_TIME_S), **style.DOTTED)
-        axes.annotate(
-            "spacing of doubles", (0.99, np.spacing(SHOWN_TIME_S)), xycoords=("axes fraction", "data"),
-            xytext=(0, -2), textcoords="offset points", ha="right", va="top", fontsize=7, color=style.GREY,
-        )  # fmt: skip
-        case = sessions["case"].eq("theta = 0, to the first global slip")
-        case &= sessions["quantity"].eq("processor time of heyoka / exact")
-        _draw_factor(
-            axes, rows[is_right].set_index("method"), sessions.loc[case, "value"].item()
-        )
+        for (strip, axes), work in zip(panels.T, works, strict=True):
+            factor, words = WORKS[work]
+            right = _draw_panel(strip, axes, rows.assign(work=factor * rows[work]))
+            if axes is panels[1, 0]:
+                _name(axes, right)
+            axes.set_xlabel(words)
+        panels[1, 0].set_ylabel("Largest error of a transition's time [s]")
+        panels[0, 0].set_title("wrong sequence of transitions", fontsize=SMALL, pad=2)
+        if sessions is not None:
+            _draw_factor(panels[1, 0], rows, sessions)
     return figure
 
 
-def _draw_factor(axes: Axes, right: pd.DataFrame, factor: float) -> None:
-    """Draw an arrow from the exact solver to heyoka's most accurate setting, with the
-    factor in time."""
-    exact, other = (
-        right.loc[[name]].sort_values("error_time_s").iloc[0]
-        for name in ("exact", "heyoka")
-    )
-    height = 4.0 * max(exact["error_time_s"], other["error_time_s"])
-    ends = [(row["milliseconds"], height) for row in (exact, other)]
+def _draw_panel(strip: Axes, axes: Axes, rows: pd.DataFrame) -> pd.DataFrame:
+    """Draw the settings; return those that are right, the most accurate ones first."""
+    strip.set(yticks=[], facecolor=style.PALE, xscale="log")
+    wrong = rows.loc[~rows["is_right"], "work"]
+    strip.vlines(wrong, 0, 1, color=style.GREY, linewidth=0.6)
+    right = rows[rows["is_right"] & (rows["error_time_s"] > 0)]
+    right = right.sort_values("error_time_s")
+    for method, own in right.groupby("method", sort=False):
+        first = own.iloc[0]
+        is_named = first["color"] != style.GREY
+        axes.plot(
+            own["work"],
+            own["error_time_s"],
+            color=first["color"],
+            marker=style.marker(first["marker"]),
+            markersize=9 if method == "exact" else 4,
+            linestyle="-" if is_named else "none",
+            markeredgewidth=0,
+            zorder=2 + is_named,
+        )
+    axes.set(yscale="log")
+    axes.margins(x=0.14, y=0.1)
+    spacing = np.spacing(SHOWN_TIME_S)
+    axes.axhline(spacing, **style.DOTTED)
+    axes.text(
+        0.99, spacing, "spacing of doubles", transform=axes.get_yaxis_transform(),
+        ha="right", va="top", color=style.GREY, fontsize=SMALL,
+    )  # fmt: skip
+    for axis in (strip.xaxis, axes.xaxis, axes.yaxis):
+        axis.set_minor_locator(NullLocator())
+    return right
+
+
+def _name(axes: Axes, right: pd.DataFrame) -> None:
+    for method, first in right.groupby("method", sort=False).first().iterrows():
+        if first["color"] == style.GREY:
+            continue
+        default = (style.plain(first["label"]), (5, 0), "left")
+        name, offset, side = NAMES.get(str(method), default)
+        axes.annotate(
+            name,
+            (first["work"], first["error_time_s"]),
+            offset,
+            textcoords="offset points",
+            ha=side,
+            color=first["color"],
+            fontsize=SMALL,
+        )
+
+
+def _draw_factor(axes: Axes, rows: pd.DataFrame, sessions: pd.DataFrame) -> None:
+    """Draw an arrow as long as the factor in processor time between heyoka and the
+    exact solver, both in one process."""
+    case = sessions["case"].eq("theta = 0, to the first global slip")
+    case &= sessions["quantity"].eq("processor time of heyoka / exact")
+    factor = sessions[case].iloc[0]
+    exact = rows[rows["method"] == "exact"].iloc[0]
+    start = 1e3 * exact["seconds"]
+    height = 6.0 * exact["error_time_s"]
+    ends = (start, height), (start * factor["value"], height)
+    arrow = {"arrowstyle": "->", "linewidth": 0.7, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", ends[1], ends[0], arrowprops=arrow)
     axes.annotate(
-        "", ends[1], ends[0], arrowprops={"arrowstyle": "->", "linewidth": 0.7}
-    )
-    middle = float(np.sqrt(ends[0][0] * ends[1][0]))
-    text = f"{factor:.2g} times"
-    axes.annotate(
-        text,
-        (middle, height),
+        f"{factor['value']:.0f} times",
+        (start * np.sqrt(factor["value"]), height),
         (0, 3),
         textcoords="offset points",
         ha="center",
-        fontsize=7,
+        fontsize=SMALL,
     )

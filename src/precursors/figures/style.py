@@ -239,6 +239,11 @@ def theta_color(theta: float) -> str:
     return PUSHED_END if theta < 0 else FAR_END if theta > 0 else EVEN
 
 
+def marker(name: str) -> str | tuple[int, ...]:
+    """A marker of Matplotlib by its name in a table ("3,1,180" is a tuple)."""
+    return tuple(map(int, name.split(","))) if "," in name else name
+
+
 def plain(text: str) -> str:
     """Keep Matplotlib from reading a dollar sign in a user's text as mathematics."""
     return text.replace("$", r"\$")
