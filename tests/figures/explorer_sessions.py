@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 from browser import Page, browser, find_browser
 
-from precursors.analysis.slips import apparent_friction
+from precursors.analysis.slips import first_global_slip
 from precursors.ensembles.printed_digits import HALF_A_DIGIT
 from precursors.figures.explorer.page import write_explorer
 from precursors.model.scenes import SLIDER
@@ -99,7 +99,7 @@ def write_example(path: Path) -> None:
     """Write a page with the paper's three scenes."""
     scenes = []
     for name, theta in THETAS.items():
-        friction = apparent_friction(pd.read_csv(GOLDEN / f"{name}_slips.csv"))
+        friction = first_global_slip(pd.read_csv(GOLDEN / f"{name}_slips.csv"))
         assert friction is not None
         slider = SLIDER | {"theta": theta}
         scenes.append({"slider": slider, "mu_sapp": friction.mu_sapp})

@@ -25,7 +25,7 @@ from matplotlib.colors import to_rgb
 
 from precursors import Chain, cli, find_slips, simulate
 from precursors.analysis.horizon import horizon
-from precursors.analysis.slips import apparent_friction, slip_table
+from precursors.analysis.slips import first_global_slip, slip_table
 from precursors.figures.explorer.page import PAPERS, palette
 
 ROOT = Path(__file__).parents[2]
@@ -150,7 +150,7 @@ def test_from_where_the_library_calls_a_run_unpredictable_the_page_is_grey(page,
         run = simulate(Chain.from_slider(**setting), 10.0)
         ratio = known / horizon(run, TOLERANCE)
         assert 1 / OF_PREDICTABILITY < ratio < OF_PREDICTABILITY, setting
-        friction = apparent_friction(slip_table(run))
+        friction = first_global_slip(slip_table(run))
         is_grey = answer == "lost"
         assert is_grey == ("one draw" in trust)
         assert is_grey == (known < (friction.time if friction else run.duration))
@@ -175,7 +175,7 @@ def test_a_study_finds_what_the_library_finds(page, file, name):
     assert {"digits": "of 4 in the band", "blocks": "0 of 12 values"}[name] in told
     for value, slider in found:
         run = simulate(Chain.from_slider(**slider), 20.0, until="global slip")
-        assert value == pytest.approx(apparent_friction(slip_table(run)).mu_sapp, 1e-9)
+        assert value == pytest.approx(first_global_slip(slip_table(run)).mu_sapp, 1e-9)
 
 
 # Everybody

@@ -3,17 +3,17 @@
 import pandas as pd
 from job import job
 
-from precursors.analysis.slips import apparent_friction
+from precursors.analysis.slips import first_global_slip
 from precursors.ensembles.printed_digits import HALF_A_DIGIT
 from precursors.figures.explorer.page import proved_slider, write_explorer
 from precursors.proof.chains import chain_duration
 
 with job() as snakemake:
     params = snakemake.params
-    found = [apparent_friction(pd.read_csv(slips)) for slips in snakemake.input.slips]
+    found = [first_global_slip(pd.read_csv(slips)) for slips in snakemake.input.slips]
     scenes = [
-        {"slider": slider, "mu_sapp": friction.mu_sapp if friction else None}
-        for slider, friction in zip(params.sliders, found, strict=True)
+        {"slider": slider, "mu_sapp": slip.mu_sapp if slip else None}
+        for slider, slip in zip(params.sliders, found, strict=True)
     ]
     proved = [
         {"slider": proved_slider(values), "duration": chain_duration(values)}
