@@ -13,7 +13,7 @@ from typing import Any
 import pandas as pd
 
 from precursors.accuracy.compare import Truth, compare
-from precursors.analysis.slips import apparent_friction, slip_table
+from precursors.analysis.slips import first_global_slip, slip_table
 from precursors.proof import Certificate
 from precursors.proof.exact_chain import exact
 
@@ -79,7 +79,7 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
         "load_error_to_global_slip_N": start.load_error,
     }
     for which, run in (("", found.run), ("_true", truth.run)):
-        first = apparent_friction(slip_table(run))
+        first = first_global_slip(slip_table(run))
         values[f"events_counted{which}"] = first.events_counted if first else math.nan
         values[f"mu_sapp{which}"] = first.mu_sapp if first else math.nan
     last = rows[-1] if rows else {}
