@@ -1,9 +1,19 @@
 """Stick-slip chains solved exactly: precursors of global slip after Maegawa, Suzuki and
-Nakano (2010)."""
+Nakano (2010).
+
+    >>> from precursors import Chain, apparent_friction, find_slips, plot, simulate
+    >>> run = simulate(Chain.from_slider(theta="-5/6"))  # else as in the paper
+    >>> f"{apparent_friction(run).mu_sapp:.4f}"
+    '0.4845'
+    >>> len(find_slips(run))
+    41
+    >>> plot(run).savefig("run.png")
+"""
 
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.metadata import version
 from typing import TYPE_CHECKING
 
 from precursors.audit import audit  # at once, or the room would take its name
@@ -13,31 +23,23 @@ if TYPE_CHECKING:
         apparent_friction,
         find_precursors,
         find_slips,
+        slip_table,
     )
+    from precursors.analysis.summary import summarise
+    from precursors.figures.run import plot
+    from precursors.hierarchy.larger import LargerChain
     from precursors.model.chain import Chain
     from precursors.proof import certify
-    from precursors.solver.run import Record, Run, RunFileError
-    from precursors.solver.simulate import TransitionLimitError, simulate, simulate_many
-
-__all__ = [
-    "Chain",
-    "Record",
-    "Run",
-    "RunFileError",
-    "TransitionLimitError",
-    "apparent_friction",
-    "audit",
-    "certify",
-    "find_precursors",
-    "find_slips",
-    "simulate",
-    "simulate_many",
-]
+    from precursors.solver.many import simulate_many
+    from precursors.solver.run import LargerRun, Record, Run, RunFileError
+    from precursors.solver.simulate import TransitionLimitError, simulate
 
 # Imported when first asked for (PEP 562): who checks a configuration or draws a table
 # waits for no compiler.
 _MODULES = {
     "Chain": "model.chain",
+    "LargerChain": "hierarchy.larger",
+    "LargerRun": "solver.run",
     "Record": "solver.run",
     "Run": "solver.run",
     "RunFileError": "solver.run",
@@ -46,15 +48,21 @@ _MODULES = {
     "certify": "proof",
     "find_precursors": "analysis.slips",
     "find_slips": "analysis.slips",
+    "plot": "figures.run",
     "simulate": "solver.simulate",
-    "simulate_many": "solver.simulate",
+    "simulate_many": "solver.many",
+    "slip_table": "analysis.slips",
+    "summarise": "analysis.summary",
 }
+__all__ = ["audit", *_MODULES]
 
 if (
     not TYPE_CHECKING
 ):  # a type checker that saw it would take every name for one of this package
 
     def __getattr__(name: str) -> object:
+        if name == "__version__":
+            return version("precursors")
         if name not in _MODULES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         value = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)

@@ -80,9 +80,8 @@ def test_the_papers_run_is_predictable_and_thirty_blocks_with_a_heavy_trailing_e
 
 
 def test_the_front_of_the_papers_global_slip_is_slower_than_long_waves():
-    row = pd.DataFrame(
-        summarise([simulate(Chain.from_slider(), until="global slip")])
-    ).assign(n_blocks=10)
+    run = simulate(Chain.from_slider(), until="global slip")
+    row = summarise([run]).assign(n_blocks=10)
     [speed] = resolution.with_front_speed(row.rename(columns=WITH_UNITS), 0.1)[
         "front_speed_m_per_s"
     ]

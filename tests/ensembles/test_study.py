@@ -38,7 +38,7 @@ def chunks_of(study: Study, n: int, directory) -> list:
     return [read_table(path) for path in paths]
 
 
-def one_by_one(study: Study) -> np.ndarray:
+def one_by_one(study: Study) -> pd.DataFrame:
     """Summaries of the members of a study, each run alone."""
     runs = []
     for member in study.members.to_dict("records"):

@@ -2,6 +2,7 @@
 
 import io
 import time
+from functools import partial
 
 import pytest
 
@@ -54,12 +55,26 @@ def test_a_terminal_has_one_line_each_second_that_ends_empty(
     assert told(True, steps=0) == told(False) == ""
 
 
-def test_work_in_a_thread_is_told_as_well_and_its_result_or_error_handed_back(
+def test_work_in_threads_is_told_as_well_and_its_results_or_error_handed_back(
     monkeypatch,
 ):
     monkeypatch.setattr("sys.stderr", Stream(True))
     monkeypatch.setattr(waiting, "SECOND", 0.01)
-    assert waiting.in_thread("running", lambda: time.sleep(0.1) or 7, lambda: 0.5) == 7
+    begun = []
+
+    def task(number):
+        begun.append(number)
+        time.sleep(0.05)
+        return 1 // number
+
+    def tasks(*numbers):
+        return [partial(task, number) for number in numbers]
+
+    assert waiting.in_threads("running", tasks(1), done=lambda: 0.5) == [1]
     assert waiting.sys.stderr.getvalue().startswith("\rrunning: 50% 0 s left")
+    assert waiting.in_threads("running", tasks(*range(1, 9)), 3) == [1] + 7 * [0]
+    assert waiting.in_threads("running", []) == []
+    begun.clear()
     with pytest.raises(ZeroDivisionError):
-        waiting.in_thread("running", lambda: 1 // 0, lambda: 0.5)
+        waiting.in_threads("running", tasks(1, 0, *range(2, 99)), 2)
+    assert len(begun) < 9

@@ -14,8 +14,8 @@ import numpy as np
 
 from precursors.model.chain import FloatArray
 from precursors.model.checks import positive
+from precursors.solver.many import simulate_many
 from precursors.solver.run import Run
-from precursors.solver.simulate import simulate_many
 
 EPS = float(np.finfo(float).eps)
 # The spread of so many neighbours is within 40 % of that of very many, nineteen times

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from precursors.analysis.events import slip_events
@@ -35,7 +36,7 @@ SUMMARY_UNITS = {"load": "N", "time": "s", "end": "s", "crossing_time": "s"}
 KINK = 0.7
 
 
-def summarise(runs: Iterable[Record]) -> NDArray[np.void]:
+def summarise(runs: Iterable[Record]) -> pd.DataFrame:
     """Counts, mu_sapp and the first global slip of each run.
 
     The numbers are those of `find_slips`, `find_precursors` and `apparent_friction`,
@@ -43,7 +44,7 @@ def summarise(runs: Iterable[Record]) -> NDArray[np.void]:
 
     Returns
     -------
-    structured array, one row per run
+    DataFrame, one row per run
         Up to and including the first global slip: events_to_global_slip (all slip
         events), events_counted (those of Fig. 13), records (those of them that are
         longer than all before), speedup (see `_speedup`), transitions; mu_sapp [1]
@@ -109,7 +110,7 @@ def summarise(runs: Iterable[Record]) -> NDArray[np.void]:
     }
     for name, values in first_global.items():
         summaries[name][reached] = values
-    return summaries
+    return pd.DataFrame(summaries)
 
 
 def _speedup(

@@ -13,8 +13,9 @@ import pandas as pd
 from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until
+from precursors.solver.many import simulate_many
 from precursors.solver.run import Record
-from precursors.solver.simulate import TransitionLimitError, simulate_many
+from precursors.solver.simulate import TransitionLimitError
 
 ARGUMENTS = tuple(inspect.signature(Chain.from_slider).parameters)
 # Columns that the table of a study does not have where they are the same for all
@@ -113,7 +114,7 @@ def run_members(study: Study) -> pd.DataFrame:
             summary = summarise(
                 _runs(chains, float(batch["duration"].iloc[0]), study.until)
             )
-            results.append(pd.DataFrame(summary, index=batch.index))
+            results.append(summary.set_index(batch.index))
     return study.members.join(pd.concat(results).rename(columns=WITH_UNITS))
 
 

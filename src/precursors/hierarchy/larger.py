@@ -31,7 +31,7 @@ from precursors.model.scenes import ADDITIONS
 from precursors.solver.kernel.compiled import entry
 from precursors.solver.run import LargerRun
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
-from precursors.support.waiting import in_thread
+from precursors.support.waiting import in_threads
 
 # Of the shorter of sqrt(m/k) and the time in which falling friction multiplies a
 # velocity by e. With friction that jumps, this gives all transitions of the paper's
@@ -72,6 +72,12 @@ class LargerChain:
             raise ValueError(
                 "viscosity must not be given beside relaxation_time, which is viscosity / k"
             )
+
+    def simulate(
+        self, duration: float, until: Until = None, **limits: int
+    ) -> LargerRun:
+        """Run it with its accuracy, for `precursors.simulate`."""
+        return simulate_with_accuracy(self, duration, until, **limits)
 
 
 class Model(NamedTuple):
@@ -440,11 +446,11 @@ def simulate_larger(
     force, velocity = np.zeros((2, n + 1))
     limits = duration, until is not None, seconds, lifting.min(), max_transitions
     now = np.zeros(1)
-    rows, points, why, time, work, heat = in_thread(
+    rows, points, why, time, work, heat = in_threads(
         "running",
-        partial(march, m, force, velocity, *limits, now),
-        lambda: now[0] / duration,
-    )
+        [partial(march, m, force, velocity, *limits, now)],
+        done=lambda: now[0] / duration,
+    )[0]
     if why == LIFTED:
         raise ValueError(
             f"push_height = {larger.push_height:g} m lifts block {lifting.argmin() + 1} "

@@ -26,8 +26,7 @@ def number(name: str, value: object, unit: str) -> float:
         with suppress(OverflowError):
             if math.isfinite(result := float(value)):
                 return result
-    hint = " (YAML reads 2.5e9 as text: write 2.5e+9)" if isinstance(value, str) else ""
-    raise ValueError(f"{name} must be a finite number [{unit}], but is {value!r}{hint}")
+    raise ValueError(f"{name} must be a finite number [{unit}], but is {value!r}")
 
 
 def number_array(name: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple, Protocol, TypeVar, overload, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,7 +21,6 @@ from precursors.model.checks import (
 )
 from precursors.solver import kernel
 from precursors.solver.kernel.arrays import Progress
-from precursors.solver.kernel.compiled import untyped
 from precursors.solver.record import TRANSITION, IntArray, States, room_for_states
 from precursors.solver.run import Record, Run
 from precursors.support.waiting import tell
@@ -40,10 +38,9 @@ MAX_WINDOWS = 1_000_000_000
 # thread's record has room for.
 FIRST_ROOM = 2048
 SHARED_ROOM = 16384
-# Chains of a batch: many for little work between batches, few for all threads to end
-# together.
-LARGEST_BATCH = 64
-BATCHES_PER_THREAD = 8
+
+
+Own = TypeVar("Own", covariant=True)  # what a chain with its own solver gives
 
 
 class _End(NamedTuple):
@@ -65,22 +62,34 @@ class TransitionLimitError(RuntimeError):
         self.run = run
 
 
+@runtime_checkable
+class OwnSolver(Protocol[Own]):
+    """A chain that is not solved here, such as `LargerChain`."""
+
+    def simulate(self, duration: float, until: Until, **limits: int) -> Own:
+        """Run it from rest."""
+
+
+@overload
+def simulate(chain: Chain, *how: Any, **more: Any) -> Run: ...
+@overload
+def simulate(chain: OwnSolver[Own], *how: Any, **more: Any) -> Own: ...
 def simulate(
-    chain: Chain,
+    chain: Chain | OwnSolver[Any],
     duration: float = 10.0,
     until: Until = None,
     start_positions: ArrayLike | None = None,
     start_velocities: ArrayLike | None = None,
     max_transitions: int = MAX_TRANSITIONS,
     longest_slip: float | None = None,
-) -> Run:
+) -> Any:
     """Run a chain from rest, or from a given start, through all its transitions (Eqs.
     2-6).
 
     Parameters
     ----------
-    chain : Chain
-        The chain.
+    chain : Chain or LargerChain
+        The chain, which says how it is solved: exactly, or with steps.
     duration : float
         Time to run [s]; with `until`, the limit.
     until : "global slip", optional
@@ -97,8 +106,9 @@ def simulate(
 
     Returns
     -------
-    Run
-        The transitions and the states between them.
+    Run or LargerRun
+        The transitions and the states between them; of a larger chain, its load and
+        what half the step changes.
 
     Raises
     ------
@@ -106,71 +116,22 @@ def simulate(
         If the cap, or one on the work of chains that hardly ever rest, is met; its
         attribute `run` holds what was computed.
     """
-    end = _end([chain], duration, until, max_transitions, longest_slip)
-    positions = _start("start_positions", start_positions, "m", chain)
-    velocities = _start("start_velocities", start_velocities, "m/s", chain)
-    return _run_batch([chain], positions[None], velocities[None], end)[0]
+    if isinstance(chain, OwnSolver):
+        refuse_for_own(start_positions, start_velocities, longest_slip)
+        return chain.simulate(duration, until, max_transitions=max_transitions)
+    end = checked_end([chain], duration, until, max_transitions, longest_slip)
+    positions = checked_start("start_positions", start_positions, "m", chain)
+    velocities = checked_start("start_velocities", start_velocities, "m/s", chain)
+    return run_batch([chain], positions[None], velocities[None], end)[0]
 
 
-def simulate_many(
-    chains: Iterable[Chain],
-    duration: float = 10.0,
-    until: Until = None,
-    threads: int | None = None,
-    start_positions: Sequence[ArrayLike] | None = None,
-    start_velocities: Sequence[ArrayLike] | None = None,
-    longest_slip: float | None = None,
-) -> list[Run]:
-    """Run an ensemble on all cores; every run equals that of `simulate`, bit for bit.
-
-    Parameters
-    ----------
-    chains : iterable of Chain
-        The chains, of any lengths.
-    duration, until, longest_slip
-        As in `simulate`, for all of them.
-    threads : int, optional
-        Threads to use; by default as many as Numba takes, one for each core of this
-        process.
-    start_positions, start_velocities : sequence of array_like, optional
-        One start for each chain, as in `simulate`.
-
-    Returns
-    -------
-    list of Run
-        In the order of `chains`; `TransitionLimitError` if one of them meets the cap of
-        `simulate`.
-    """
-    if isinstance(chains, Chain):
-        raise TypeError(
-            "what simulate_many runs must be a list of chains, but is a Chain"
-        )
-    chains = list(chains)
-    end = _end(chains, duration, until, MAX_TRANSITIONS, longest_slip)
-    threads = (
-        untyped.config.NUMBA_NUM_THREADS
-        if threads is None
-        else whole("threads", threads, at_least=1)
-    )
-    positions = _starts("start_positions", start_positions, "m", chains)
-    velocities = _starts("start_velocities", start_velocities, "m/s", chains)
-
-    def run(batch: list[int]) -> list[Run]:
-        start = (
-            np.array([positions[j] for j in batch]),
-            np.array([velocities[j] for j in batch]),
-        )
-        return _run_batch([chains[j] for j in batch], *start, end)
-
-    runs: dict[int, Run] = {}
-    batches = list(_batches(chains, threads))
-    with ThreadPoolExecutor(threads, "simulate") as pool:
-        for batch, of_batch in zip(batches, pool.map(run, batches), strict=True):
-            runs.update(zip(batch, of_batch, strict=True))
-    return [runs[j] for j in range(len(chains))]
+def refuse_for_own(*given: object) -> None:
+    """Refuse what is known of exact runs only."""
+    if any(value is not None for value in given):
+        raise ValueError("a start and longest_slip can only be given for a Chain")
 
 
-def _end(
+def checked_end(
     chains: Sequence[Chain],
     duration: float,
     until: Until,
@@ -192,7 +153,10 @@ def _end(
     return _End(checked_span(duration, until), until is not None, longest, most)
 
 
-def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> FloatArray:
+def checked_start(
+    name: str, values: ArrayLike | None, unit: str, chain: Chain
+) -> FloatArray:
+    """Check positions or velocities at the start; zero by default."""
     if values is None:
         return np.zeros(chain.n_blocks)
     start = number_array(name, values, unit)
@@ -205,33 +169,6 @@ def _start(name: str, values: ArrayLike | None, unit: str, chain: Chain) -> Floa
             f"{name} must be finite, and not beyond {LARGEST:g} {unit}, but are {start}"
         )
     return start
-
-
-def _starts(
-    name: str, values: Sequence[ArrayLike] | None, unit: str, chains: Sequence[Chain]
-) -> list[FloatArray]:
-    if values is None:
-        return [np.zeros(chain.n_blocks) for chain in chains]
-    if len(values) != len(chains):
-        raise ValueError(
-            f"{name} must be one for each of the {len(chains)} chains, but are {len(values)}"
-        )
-    return [
-        _start(f"{name}[{j}]", value, unit, chain)
-        for j, (value, chain) in enumerate(zip(values, chains, strict=True))
-    ]
-
-
-def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
-    """Numbers of chains of equal length, so many at a time as one call of the kernel
-    takes."""
-    most = min(LARGEST_BATCH, max(1, len(chains) // (threads * BATCHES_PER_THREAD)))
-    alike: dict[int, list[int]] = {}
-    for j, chain in enumerate(chains):
-        alike.setdefault(chain.n_blocks, []).append(j)
-    for _, members in sorted(alike.items(), reverse=True):
-        for first in range(0, len(members), most):
-            yield members[first : first + most]
 
 
 class _Workspace(NamedTuple):
@@ -269,7 +206,7 @@ def _workspace_for(n_blocks: int) -> _Workspace:
 _Part = tuple[NDArray[np.void], FloatArray, States]
 
 
-def _run_batch(
+def run_batch(
     chains: Sequence[Chain], positions: FloatArray, velocities: FloatArray, end: _End
 ) -> list[Run]:
     """Run chains of equal length one after the other, in as few calls of the kernel as

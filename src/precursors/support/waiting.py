@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, wait
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_EXCEPTION, Future, wait
+from contextlib import suppress
 from threading import Thread, current_thread, main_thread
 from typing import TypeVar
 
@@ -35,25 +37,42 @@ def tell(work: str, steps: Iterable[Step], done: Callable[[], float]) -> Iterato
             print("\r\x1b[K", end="", file=sys.stderr)
 
 
-def in_thread(
-    work: str, function: Callable[[], Result], done: Callable[[], float]
-) -> Result:
-    """Result of a compiled function that holds no lock of Python; how much is done is
-    told as by `tell`.
+def in_threads(
+    work: str,
+    tasks: Sequence[Callable[[], Result]],
+    threads: int = 1,
+    done: Callable[[], float] | None = None,
+) -> list[Result]:
+    """Results of compiled functions that hold no lock of Python; how much is done, by
+    default the part of the tasks, is told as by `tell`.
 
-    Ctrl-C does not wait for the function.
+    Ctrl-C and errors do not wait for what is at work, and nothing begins after them.
     """
-    found = Future[Result]()
+    found: list[Future[Result]] = [Future() for _ in tasks]
+    left = deque(zip(tasks, found, strict=True))
 
     def run() -> None:
-        try:
-            found.set_result(function())
-        except BaseException as error:
-            found.set_exception(error)
+        with suppress(IndexError):  # nothing is left
+            while True:
+                task, future = left.popleft()
+                try:
+                    future.set_result(task())
+                except BaseException as error:
+                    future.set_exception(error)
 
-    Thread(target=run, daemon=True).start()
-    for _ in tell(
-        work, iter(lambda: bool(wait([found], SECOND).not_done), False), done
-    ):
-        pass
-    return found.result()
+    def goes_on() -> bool:
+        finished, pending = wait(found, SECOND, FIRST_EXCEPTION)
+        return bool(pending) and not any(future.exception() for future in finished)
+
+    def part() -> float:
+        return sum(future.done() for future in found) / len(found)
+
+    for _ in range(min(threads, len(tasks))):
+        Thread(target=run, daemon=True).start()
+    try:
+        for _ in tell(work, iter(goes_on, False), done or part):
+            pass
+    finally:
+        left.clear()
+    failed = [future for future in found if future.done() and future.exception()]
+    return [future.result() for future in failed or found]
