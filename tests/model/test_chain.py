@@ -108,7 +108,7 @@ def test_a_chain_cannot_be_changed():
             math.inf,
             "drive_stiffness must be a finite number [N/m], but is inf",
         ),
-        ("drive_stiffness", "0.8e6", "write 2.5e+9"),
+        ("drive_stiffness", "0.8e6", "a finite number [N/m], but is '0.8e6'"),
         (
             "youngs_modulus",
             None,

@@ -121,11 +121,13 @@ def _sign(table: pd.DataFrame) -> int:
 
 
 def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
-    """Whether each scene is the only one of its sign and has a curve and a global
-    slip."""
+    """Whether each scene has a theta, alone of its sign, a curve and a global slip."""
     signs = Counter(_sign(table) for table in slips if len(table))
     is_whole = (
-        table["counted"].sum() > 3 and table["is_global"].any() for table in slips
+        table["counted"].sum() > 3
+        and table["is_global"].any()
+        and table["theta"].notna().any()
+        for table in slips
     )
     return max(signs.values(), default=0) == 1 and all(is_whole)
 

@@ -222,6 +222,8 @@ def _write_title(
     parts = [style.plain(title)] if title else []
     if slips["theta"].notna().any():
         parts.append(style.theta_text(slips["theta"].iloc[0]))
+    elif len(slips):
+        parts.append("loads as measured")
     note = " (no global slip)" if len(slips) and not slips["is_global"].any() else ""
     text = fill(", ".join(parts) + note, max(20, int(8 * CHARACTERS_PER_MM * width)))
     lines = [text, *parameters(slider, 8 if width > 15 else 3)] if slider else [text]
