@@ -3,6 +3,7 @@ start at once."""
 
 import inspect
 import json
+import os
 import re
 import shlex
 import signal
@@ -453,6 +454,8 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
         ("plot --duration 1e9 --font-size 90", 2, "between 4 and 24 pt, but is 90"),
         ("plot --duration 1e9 --font Helvetia", 2, "'Helvetia' is not installed"),
         ("plot --duration 1e9 --data missing.csv", 2, "missing.csv: no such file"),
+        ("plot --duration 0.1 --title 'a\x01b'", 2, "must have no control characters"),
+        ("plot --output .png", 2, ".png must end in .png, .svg, .pdf or .eps"),
         ("simulate --theta 2", 2, "theta must be a number between -1 and 1"),
         ("simulate --theta x", 2, "theta must be a number between -1 and 1"),
         ("simulate --blocks 2.5", 2, "invalid int value: '2.5'"),
@@ -509,6 +512,19 @@ def test_what_goes_wrong_in_a_command_is_one_line_and_an_exit_code(
     error = RuntimeError("of a library, which nobody expects")
     with pytest.raises(RuntimeError, match="nobody expects"):
         cli("audit", "run.h5")
+
+
+def test_without_a_compiler_one_line_says_so():
+    told = subprocess.run(
+        [*COMMAND, "simulate"],
+        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+    )
+    assert (told.returncode, told.stderr) == (
+        4,
+        "precursors simulate: the solver must be compiled: unset NUMBA_DISABLE_JIT\n",
+    )
 
 
 def test_an_interrupt_stops_compiled_code():

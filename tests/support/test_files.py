@@ -106,3 +106,13 @@ def test_a_table_keeps_every_digit_and_what_is_no_table_is_refused_by_name(tmp_p
     path.write_bytes(b"")
     with pytest.raises(ValueError, match=r"table\.csv: No columns to parse"):
         read_table(path)
+
+
+def test_a_link_to_itself_is_replaced_and_an_ending_is_no_name(tmp_path):
+    loop = tmp_path / "loop.h5"
+    loop.symlink_to(loop)
+    check_writable(loop)
+    write_whole(loop, b"a")
+    assert loop.read_bytes() == b"a"
+    with pytest.raises(ValueError, match=r"/\.png must end in \.svg or \.png"):
+        check_writable(tmp_path / ".png", (".svg", ".png"))

@@ -54,9 +54,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     except Refused as error:
         code = REFUSED
         lines = list(error.args)
-    except ModuleNotFoundError as error:
+    except ImportError as error:
         code = NOT_INSTALLED
-        lines = [f"{error}: install it to use this"]
+        is_missing = isinstance(error, ModuleNotFoundError)
+        lines = [f"{error}: install it to use this" if is_missing else str(error)]
     except (ValueError, MemoryError) as error:
         code = WRONG_USE
         lines = [str(error) or "not enough memory for so many blocks or runs"]

@@ -245,7 +245,15 @@ def marker(name: str) -> str | tuple[int, ...]:
 
 
 def plain(text: str) -> str:
-    """Keep Matplotlib from reading a dollar sign in a user's text as mathematics."""
+    """Keep Matplotlib from reading a dollar sign in a user's text as mathematics.
+
+    Raises
+    ------
+    ValueError
+        If the text has characters that no SVG may have.
+    """
+    if re.search(r"[\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]", text):
+        raise ValueError(f"the title must have no control characters, but is {text!r}")
     return text.replace("$", r"\$")
 
 

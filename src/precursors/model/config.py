@@ -19,6 +19,11 @@ from precursors.model.scenes import (
     scenes_with_theta,
 )
 
+# Beyond these, a file takes minutes to read, or ends the interpreter.
+LARGEST_FILE = 1_000_000  # bytes
+DEEPEST = 20
+MOST_VALUES = 20_000
+
 
 def check_file(path: str | os.PathLike[str]) -> None:
     """Refuse a YAML file that cannot be read, has a key twice, or a number that YAML
@@ -29,7 +34,30 @@ def check_file(path: str | os.PathLike[str]) -> None:
     import yaml
 
     class Loader(yaml.SafeLoader):
-        """Reads plain values, and each key once."""
+        """Reads plain values, and each key once; what could grow without end is
+        refused."""
+
+        depth = 0
+        values = 0
+
+        def compose_node(
+            self, parent: yaml.Node | None, index: int
+        ) -> yaml.Node | None:
+            event = self.peek_event()
+            self.depth += 1
+            self.values += 1
+            for is_too_much, problem in (
+                (isinstance(event, yaml.AliasEvent), "write out what * stands for"),
+                (self.depth > DEEPEST, f"more than {DEEPEST} tables in each other"),
+                (self.values > MOST_VALUES, f"more than {MOST_VALUES} values"),
+            ):
+                if is_too_much:
+                    raise yaml.MarkedYAMLError(
+                        problem=problem, problem_mark=event.start_mark
+                    )
+            node = super().compose_node(parent, index)
+            self.depth -= 1
+            return node
 
         def construct_mapping(
             self, node: yaml.MappingNode, deep: bool = False
@@ -61,13 +89,17 @@ def check_file(path: str | os.PathLike[str]) -> None:
         Loader.add_constructor(f"tag:yaml.org,2002:{tag}", Loader.plain_number)
 
     try:
+        if Path(path).stat().st_size > LARGEST_FILE:
+            raise ValueError(f"a configuration may have {LARGEST_FILE:,} bytes")
         config = yaml.load(Path(path).read_text(encoding="utf-8"), Loader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f" in line {mark.line + 1}, column {mark.column + 1}" if mark else ""
-        raise ValueError(f"{path}: {error.problem or error.context}{place}") from None
+        raise ValueError(
+            _short(f"{path}: {error.problem or error.context}{place}")
+        ) from None
     except (yaml.YAMLError, ValueError, OSError) as error:
-        raise ValueError(f"{path}: {' '.join(str(error).split())}") from None
+        raise ValueError(_short(f"{path}: {error}")) from None
     if not isinstance(config, dict):
         raise ValueError(f"{path} must be a table of keys and values")
 
@@ -109,12 +141,18 @@ def check_config(config: Config, schema_path: str | os.PathLike[str]) -> None:
         with suppress(TypeError, ValueError):
             if isinstance(error.instance, str) and math.isfinite(float(error.instance)):
                 hint = ": this is text; write a number without quotes, as 2.5e+9 and not as 2.5e9"
-        raise ValueError(f"configuration: {where}: {message}{hint}")
+        raise ValueError(_short(f"configuration: {where}: {message}{hint}"))
     try:
         _check_chains(config)
         _check_names_and_lengths(config)
     except (ValueError, OverflowError) as error:
-        raise ValueError(f"configuration: {error}") from None
+        raise ValueError(_short(f"configuration: {error}")) from None
+
+
+def _short(message: str) -> str:
+    """A message in one line, without the middle of long words and numbers."""
+    cut = re.sub(r"(\S{80})\S{20,}", r"\1...", message)
+    return " ".join(cut.split())
 
 
 def _check_chains(config: Config) -> None:

@@ -27,7 +27,7 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
     OSError
         In one line that names `path`, if it cannot be written.
     """
-    target = Path(path).resolve()  # a link is followed, and stays a link
+    target = Path(os.path.realpath(path))  # a link is followed, and stays a link
     temporary = target.with_name(f".partial.{target.name}")
     try:
         if target.exists() and not target.is_file():
@@ -53,8 +53,8 @@ def check_writable(path: str | os.PathLike[str], endings: Sequence[str] = ()) ->
         If it is a directory, or its directory cannot be made or written to, or has no
         room.
     """
-    target = Path(path).resolve()
-    if endings and not target.name.lower().endswith(tuple(endings)):
+    target = Path(os.path.realpath(path))
+    if endings and target.suffix.lower() not in endings:
         raise ValueError(
             f"{path} must end in {', '.join(endings[:-1])} or {endings[-1]}"
         )

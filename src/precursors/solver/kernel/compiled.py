@@ -17,9 +17,13 @@ from numba import int64
 from numba.core import event
 from numba.core.caching import UserWideCacheLocator
 
+from precursors.support.files import LEAST_ROOM
+
 Function = Callable[..., Any]
 # `forceinline` and `config` are missing in Numba's type hints.
 untyped: Any = numba
+if untyped.config.DISABLE_JIT:
+    raise ImportError("the solver must be compiled: unset NUMBA_DISABLE_JIT")
 
 KEPT = 20  # states of the sources whose machine code is kept
 
@@ -137,7 +141,8 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
                 )
             for old in places[:-KEPT]:
                 shutil.rmtree(old, ignore_errors=True)
-            return place
+            if shutil.disk_usage(place).free > LEAST_ROOM:
+                return place
         except (OSError, RuntimeError):  # it cannot be written, or there is no home
             continue
     warnings.warn(
