@@ -92,9 +92,6 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
         raise TypeError(
             f"precursors are found in the table of find_slips, but this is {given}"
         )
-    if short not in SHORT_EVENTS:
-        readings = '", "'.join(SHORT_EVENTS)
-        raise ValueError(f'short must be one of "{readings}", but is {short!r}')
     until_global = up_to_first_global(slips)
     return until_global[counted(until_global["front"], short)]
 
