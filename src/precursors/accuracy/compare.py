@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -190,7 +190,7 @@ def _rounded(numbers: Sequence[Fraction]) -> tuple[FloatArray, FloatArray]:
     return np.array(nearest, dtype=np.float64), np.array(rest, dtype=np.float64)
 
 
-def _agreeing(found: NDArray, true: NDArray) -> int:
+def _agreeing(found: NDArray[Any], true: NDArray[Any]) -> int:
     """How many rows agree before the first that does not, or the end of one of them."""
     n = min(len(found), len(true))
     differs = found[:n] != true[:n]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,7 +92,7 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     return events
 
 
-def _joined(runs: Sequence[Record], name: str) -> NDArray:
+def _joined(runs: Sequence[Record], name: str) -> NDArray[Any]:
     """One column of the transitions of all runs."""
     return np.concatenate(
         [np.empty(0, TRANSITION[name]), *(run.transitions[name] for run in runs)]

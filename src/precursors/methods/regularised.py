@@ -132,8 +132,7 @@ def solve_regularised(
     rows: list[tuple[float, int, int, float]] = []
     was_global = False
     while stepper.status == "running":
-        message = stepper.step()
-        if stepper.status == "failed":
+        if message := stepper.step():
             raise RuntimeError(f"Radau at t = {stepper.t * tau:.9g} s: {message}")
         velocity = stepper.y[n:]
         new = np.where(np.abs(velocity) > threshold, np.sign(velocity), 0.0).astype(
@@ -163,7 +162,7 @@ def solve_regularised(
 
 
 def _crossing(
-    dense, column: int, way: int, threshold: float, start: float, end: float
+    dense: Any, column: int, way: int, threshold: float, start: float, end: float
 ) -> float:
     """When the velocity in a column, in the direction of a mode, crosses the threshold
     in a step."""

@@ -175,7 +175,7 @@ def _scalar(file: h5py.File, name: str) -> float:
     return float(value)
 
 
-def _numbers(file: h5py.File, name: str) -> NDArray:
+def _numbers(file: h5py.File, name: str) -> NDArray[Any]:
     """An array of finite numbers, which are whole where they count something."""
     data = file[name]
     is_here = data.file.filename == file.filename
@@ -193,7 +193,7 @@ def _numbers(file: h5py.File, name: str) -> NDArray:
     return values if counts else values.astype(float)
 
 
-def _check(found: Mapping[str, NDArray], duration: float, n_blocks: int) -> None:
+def _check(found: Mapping[str, NDArray[Any]], duration: float, n_blocks: int) -> None:
     """Refuse arrays that do not fit together, and values out of range."""
     time = found["transitions/time"]
     n = time.size

@@ -38,7 +38,7 @@ inner_unfused: Any = untyped.njit(**_options, forceinline=True)
 unfused: Any = untyped.njit(**_options)
 
 
-class UserCache(UserWideCacheLocator):  # type: ignore[misc]
+class UserCache(UserWideCacheLocator):
     """Tells Numba to keep machine code in `place`, which all clones with these sources
     share.
 
@@ -84,7 +84,7 @@ def entry(directory: Path, modules: Iterable[str] = (), **options: Any) -> Any:
     return compile
 
 
-class Announcement(event.Listener):  # type: ignore[misc]
+class Announcement(event.Listener):
     """Says on stderr, once, that code is compiled: for
     `event.install_listener("numba:compile", ...)`."""
 
