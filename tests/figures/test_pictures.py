@@ -184,36 +184,12 @@ def gallery_of_failures():
 
 
 def predicted_errors():
-    chains = {
-        "trailing": {"theta": "-5/6"},
-        "fast": {"theta": "5/6", "drive_velocity": 0.01},
-    }
     errors = {"time_s": [0.05, 0.1, 0.15], "predicted_error_s": [1e-16, 1e-12, np.nan]}
     errors |= {"actual_error_s": [1e-17, 1e-13, 1e-10]}
-    lost = {
-        "duration_s": 0.2,
-        "order_lost_s": 0.16,
-        "horizon_s": 0.12,
-        "right_until_s": 0.14,
-    }
-    kept = {
-        "duration_s": 0.2,
-        "order_lost_s": 0.2,
-        "horizon_s": 0.2,
-        "right_until_s": 0.2,
-    }
-    exponents = {
-        "theta": [-5 / 6, 0.0],
-        "exponent_per_s": [1.5, 0.7],
-        "uncertainty_per_s": [0.3, 0.9],
-    }
-    return horizon.draw(
-        pd.concat([pd.DataFrame(errors).assign(chain=name) for name in chains]),
-        pd.DataFrame([{"chain": "fast", **lost}, {"chain": "trailing", **kept}]),
-        pd.DataFrame(exponents),
-        chains,
-        1e-9,
-    )
+    thetas = {"trailing": -5 / 6, "steep": 0.9}
+    tables = [pd.DataFrame(errors).assign(chain=name) for name in thetas]
+    exponents = pd.DataFrame({"theta": [-5 / 6, 0.0], "exponent_per_s": [50.0, 0.7]})
+    return horizon.draw(pd.concat(tables), exponents, thetas, 1e-9)
 
 
 def alike_sliders():

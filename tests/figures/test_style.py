@@ -17,7 +17,7 @@ from matplotlib.colors import to_rgb
 from precursors.accuracy.failures import FAILURE_MODES
 from precursors.ensembles.event_law import THETAS
 from precursors.figures import precursor_lengths, style
-from precursors.figures.event_law import THETA_COLORS
+from precursors.figures.event_law import MARKERS
 from precursors.figures.failure_gallery import PANELS
 from precursors.methods import ROWS
 
@@ -93,9 +93,9 @@ def test_every_method_has_a_marker_of_its_own_and_the_colour_of_its_kind():
     assert set(colors.values()) == {style.GREY, *style.OTHERS}
 
 
-def test_every_failure_mode_has_a_panel_and_every_theta_of_the_law_a_colour():
+def test_every_failure_mode_has_a_panel_and_every_theta_of_the_law_a_marker():
     assert list(PANELS) == list(FAILURE_MODES)
-    assert tuple(THETA_COLORS) == THETAS
+    assert tuple(MARKERS) == THETAS
 
 
 # Told apart by all readers; a step of 2 can just be seen by eyes that are trained.

@@ -66,7 +66,6 @@ rule accuracy:
             "results/figures/{figure}.{kind}",
             figure=[
                 "work_precision",
-                "work_precision_evaluations",
                 "speed",
                 "step_sweep",
                 "failure_gallery",

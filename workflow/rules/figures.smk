@@ -74,13 +74,15 @@ FIGURES = {
     },
     "horizon": {
         "section": "accuracy",
-        "shows": "predicted and actual error",
+        "shows": "how errors grow, predicted and actual",
         "tables": {
             "errors": "results/tables/horizon.csv",
-            "overview": "results/tables/solver_vs_proof.csv",
             "exponents": "results/tables/lyapunov.csv",
         },
-        "options": {"chains": CHAINS, "tolerance": config["accuracy"]["tolerance"]},
+        "options": {
+            "thetas": {chain: parse_theta(CHAINS[chain].get("theta", 0)) for chain in COMPARED},
+            "tolerance": config["accuracy"]["tolerance"],
+        },
     },
     "hero": {
         "shows": "the paper's six numbers, and mu_sapp of the sliders that are printed alike",

@@ -1,85 +1,56 @@
-"""The map: events counted, mu_sapp and the share of global slips over theta and
-mu_k/mu_s."""
+"""The map: mu_sapp over theta and mu_k/mu_s."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 
 from precursors.figures import style
+from precursors.model import printed
 
-HEIGHT_MM = 47.0
-EVENTS = "events_counted"
-PANELS = {
-    EVENTS: style.EVENTS_LABEL,
-    "mu_sapp": style.MU_SAPP_LABEL,
-    "share_global": "Share of global slips [%]",
-}
-TICKS_OF_EVENTS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
+WIDTH_MM = 120.0
+HEIGHT_MM = 96.0
 
 
 def draw(table: pd.DataFrame, scenes: Sequence[tuple[float, float]] = ()) -> Figure:
-    """Draw the three panels of map_theta_friction_ratio.csv, white where a run has no
-    global slip.
+    """Draw mu_sapp of map_theta_friction_ratio.csv, with contours at the paper's 0.49.
 
-    Crosses mark `scenes`, pairs of theta and mu_k/mu_s.
+    It is white where a run has no global slip. Crosses mark `scenes`, pairs of theta
+    and mu_k/mu_s. The colours end at the 1st and 99th percentile.
     """
-    share = 100.0 * table["n_global"] / table["n_all_events"]
-    table = table.assign(
-        share_global=share, **{EVENTS: table[EVENTS].where(table["reached"])}
-    )
-    with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        panels = figure.subplots(1, len(PANELS), sharey=True)
-        for panel, quantity in zip(panels, PANELS, strict=True):
-            _draw_cells(panel, table, quantity)
-            for place in scenes:
-                panel.plot(
-                    *place, "+", color="white", markersize=7, markeredgewidth=2.2
-                )
-                panel.plot(*place, "+", color=style.BLACK, markersize=6)
-        panels[0].set_ylabel(r"$\mu_k/\mu_s$ [-]")
-        cross = style.mark(
-            "scenes of Fig. 13", marker="+", markersize=6, linestyle="none"
-        )
-        white = Patch(
-            facecolor="white",
-            edgecolor=style.GREY,
-            linewidth=0.6,
-            label="no global slip",
-        )
-        style.draw_key(
-            figure, [cross] * bool(scenes) + [white] * (not table["reached"].all())
-        )
-    return figure
-
-
-def _draw_cells(axes: Axes, table: pd.DataFrame, quantity: str) -> None:
-    values = table.pivot_table(quantity, "friction_ratio", "theta", dropna=False)
+    values = table.pivot_table("mu_sapp", "friction_ratio", "theta", dropna=False)
     known = values.to_numpy()[np.isfinite(values)]
-    norm: Normalize = Normalize(*np.quantile(known, [0.01, 0.99]))
-    if quantity == EVENTS:
-        norm = LogNorm(max(1.0, known.min()), known.max())
-    look: dict[str, Any] = {
-        "norm": norm,
-        "cmap": "viridis",
-        "shading": "nearest",
-        "rasterized": True,
-    }
-    image = axes.pcolormesh(values.columns, values.index, values, **look)
-    axes.set_xlabel(r"$\theta$ [-]")
-    bar = axes.figure.colorbar(
-        image, ax=axes, location="top", aspect=25, use_gridspec=False
-    )
-    bar.set_label(PANELS[quantity], fontsize=8)
-    if quantity == EVENTS:
-        style.set_ticks(
-            bar.ax.xaxis,
-            [n for n in TICKS_OF_EVENTS if known.min() <= n <= known.max()],
+    with style.page(WIDTH_MM, HEIGHT_MM) as figure:
+        axes = figure.subplots()
+        image = axes.pcolormesh(
+            values.columns,
+            values.index,
+            values,
+            norm=Normalize(*np.quantile(known, [0.01, 0.99])),
+            cmap="viridis",
+            shading="nearest",
+            rasterized=True,
         )
+        figure.colorbar(image, ax=axes, label=style.MU_SAPP_LABEL, use_gridspec=False)
+        levels = [printed.MU_SAPP]
+        axes.contour(
+            values.columns, values.index, values, levels, colors="white", linewidths=0.6
+        )
+        for place in scenes:
+            axes.plot(*place, "+", color="white", markersize=8, markeredgewidth=2.6)
+            axes.plot(*place, "+", color=style.BLACK, markersize=7)
+        axes.set(xlabel=r"$\theta$ [-]", ylabel=r"$\mu_k/\mu_s$ [-]")
+        text = rf"white line: $\mu_\mathrm{{sapp}} = {printed.MU_SAPP:g}$"
+        entries = [style.mark(text, linestyle="none")]
+        if scenes:
+            cross = {"marker": "+", "markersize": 6, "linestyle": "none"}
+            entries.append(style.mark("scenes of Fig. 13", **cross))
+        if not table["reached"].all():
+            look = {"marker": "s", "markerfacecolor": "white", "linestyle": "none"}
+            entries.append(style.mark("no global slip", **look, color=style.GREY))
+        style.draw_key(figure, entries)
+    return figure
