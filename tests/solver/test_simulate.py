@@ -13,7 +13,7 @@ from reference.goldens import SCENES
 from precursors import TransitionLimitError, find_slips, simulate
 from precursors.analysis.slips import first_global
 from precursors.model.statics import maximal_strain_positions
-from precursors.solver import simulate as exact
+from precursors.solver import batch as exact
 
 # What the project promises [s].
 PROMISED_TO_GLOBAL_SLIP, PROMISED_TO_THE_END = 1e-9, 1e-6

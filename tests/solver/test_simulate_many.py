@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from precursors import Chain, Run, simulate, simulate_many
-from precursors.solver import simulate as solver
+from precursors.solver import batch as solver
 
 SLIDER = Chain.from_slider
 # Transitions that the record of a thread has room for, and bytes for stored states that
