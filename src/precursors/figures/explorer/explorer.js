@@ -40,7 +40,7 @@ function hear(isTwin, data) {
     return redraw("row", "load", "stairs");
   }
   if (data.id !== current.id) return;
-  if (data.kind === "progress") return isTwin || showProgress(data.share);
+  if (data.kind === "progress") return isTwin || (element("progress").value = data.share);
   told[Number(isTwin)] = data;
   const [next, other] = told;
   if (!next || (!other && (current.all || current.study))) return;
@@ -55,7 +55,7 @@ function hear(isTwin, data) {
   if (!other) return;
   current.isShown = true;
   if (waiting) ask(waiting);
-  else if (next.isFinal && other.isFinal) showProgress(0), goOnWithStudy();
+  else if (next.isFinal && other.isFinal) (element("progress").value = 0), goOnWithStudy();
 }
 
 // Until when a run and its twin have the same transitions, which come at the same time [s] to the tolerance.
@@ -163,9 +163,6 @@ function showAnswers() {
 const shown = {};
 function setHtml(id, html) {
   if (shown[id] !== html) element(id).innerHTML = shown[id] = html;
-}
-function showProgress(share) {
-  element("progress").value = share;
 }
 
 function showParameters() {

@@ -14,24 +14,15 @@ clock.port1.onmessage = work;
 
 onmessage = ({ data }) => {
   if (data.force) motion = follow(data);
-  else if (job && job.key === keyOf(data)) goOn(data);
   else begin(data);
   if (idle) clock.port2.postMessage(0);
   idle = false;
 };
 
-const keyOf = ({ slider, duration }) => JSON.stringify([slider, duration]);
-
 function begin(request) {
   const run = newRun(request.isTwin ? twinOf(request.slider) : chainOf(request.slider), request.duration);
-  job = { ...request, key: keyOf(request), run, steps: solve(run), started: performance.now(), isFirst: false, isShown: false, isDone: false };
+  job = { ...request, run, steps: solve(run), started: performance.now(), isFirst: false, isShown: false, isDone: false };
   if (!request.study) motion = null;
-}
-
-// The same chain once more, for example because a slider is let go.
-function goOn({ id, all }) {
-  Object.assign(job, { id, all });
-  if (job.isShown) send();
 }
 
 // A slider whose numbers differ by roundings from those of another: its run shows how far rounding errors grow.
