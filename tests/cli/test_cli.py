@@ -265,12 +265,12 @@ def test_slips_of_a_chain_may_be_those_of_fig_13_only_and_go_to_a_file(cli, tmp_
 
 @pytest.mark.parametrize("arguments", [["slips", "--theta", "5/6"], ["--version"]])
 def test_a_reader_that_has_enough_is_no_error(arguments):
-    command = subprocess.Popen(
+    with subprocess.Popen(
         [*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    )
-    command.stdout.close()
-    assert command.stderr.read() == b""
-    assert command.wait() == 0
+    ) as command:
+        command.stdout.close()
+        assert command.stderr.read() == b""
+    assert command.returncode == 0
 
 
 def test_slips_of_measured_normal_loads_are_those_of_the_same_linear_ones_without_theta(
