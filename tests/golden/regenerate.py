@@ -16,7 +16,6 @@ ROOT = GOLDEN.parents[1]
 PAPERS_SCENES = ("fig10", "fig11", "fig12")
 TABLES = (
     *(f"{scene}_slips.csv" for scene in PAPERS_SCENES),
-    "mu_sapp.csv",
     "reproduction.csv",
     "eq15.csv",
     "claims.csv",

@@ -74,13 +74,6 @@ def test_slips_are_the_golden_ones(scene):
     assert len(found) == len(golden)
 
 
-def test_mu_sapp_is_the_golden_one_under_every_definition():
-    assert_golden(
-        *tables("mu_sapp.csv"),
-        {"mu_sapp": SUMMARY["1"], "load_N": SUMMARY["N"], "time_s": SUMMARY["s"]},
-    )
-
-
 def test_the_reproduction_is_the_golden_one_and_has_the_numbers_of_the_paper():
     """6, 9 and 14 events; mu_sapp 0.49 for all, as the paper rounds 0.4845, 0.4858 and
     0.4883 up or down."""

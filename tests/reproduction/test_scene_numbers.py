@@ -10,7 +10,7 @@ from precursors import Chain, find_slips, simulate
 from precursors.analysis.slips import slip_table
 from precursors.model import printed
 from precursors.model.statics import maximal_strain_positions
-from precursors.reproduction.scene_numbers import reproduction_tables, residual_strain
+from precursors.reproduction.scene_numbers import reproduction_table, residual_strain
 from precursors.support.files import read_table
 
 # Sums and quotients of ten numbers in double precision.
@@ -25,19 +25,17 @@ def test_the_residual_strain_of_eq_12_is_the_largest():
 
 def test_a_run_without_a_slip_has_no_numbers():
     run = simulate(Chain.from_slider(), 0.1)
-    tables = reproduction_tables({"calm": slip_table(run)}, {"calm": {}})
+    table = reproduction_table({"calm": slip_table(run)}, {"calm": {}})
     assert find_slips(run).empty
     assert math.isnan(residual_strain(run))
-    assert tables["mu_sapp"].empty
-    assert tables["reproduction"]["reproduced"].isna().sum() == 4
+    assert table["reproduced"].isna().sum() == 4
 
 
-@pytest.mark.parametrize("name", ["mu_sapp", "reproduction"])
-def test_the_papers_numbers_follow_from_the_slip_tables_that_are_kept(name):
+def test_the_papers_numbers_follow_from_the_slip_tables_that_are_kept():
     golden = SMALL.parent
     slips = {
         scene: read_table(golden / f"{scene}_slips.csv") for scene in printed.SCENES
     }
-    found = reproduction_tables(slips, printed.SCENES)[name]
-    kept = read_table(golden / f"{name}.csv")
+    found = reproduction_table(slips, printed.SCENES)
+    kept = read_table(golden / "reproduction.csv")
     pd.testing.assert_frame_equal(found.astype(kept.dtypes), kept, rtol=ROUNDING)

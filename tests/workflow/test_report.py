@@ -27,7 +27,7 @@ def test_every_figure_has_a_caption_and_a_label_of_its_own_and_the_main_tables_a
     )
     assert outcome.code == 0, outcome.text
     results = results_in(finished.path / "report.html")
-    assert {"results/tables/mu_sapp.csv", "results/tables/fig10_slips.csv"} <= set(
+    assert {"results/tables/reproduction.csv", "results/tables/fig10_slips.csv"} <= set(
         results
     )
     results = {

@@ -110,21 +110,11 @@ class Definition:
         The column of the slip table that is the length of an event, a key of FRONTS.
     short : str
         Which events Fig. 13 leaves out, a key of SHORT_EVENTS.
-    largest : bool
-        Whether mu_sapp (Eq. 1) is the largest load up to the first global slip, or that
-        at its onset.
     """
 
     global_slip: str | float = "at once"
     front: str = "front"
     short: str = "shorter"
-    largest: bool = True
-
-    @property
-    def text(self) -> str:
-        """What mu_sapp is, in words."""
-        load = "largest F_X up to" if self.largest else "F_X at the onset of"
-        return f"{load} the first event {self.global_slip_text}"
 
     @property
     def global_slip_text(self) -> str:
@@ -146,12 +136,7 @@ class Definition:
         return slips.assign(front=slips[self.front], is_global=is_global)
 
 
-# The readings of mu_sapp (Eq. 1). The first is the one that gives the paper's numbers.
-DEFINITIONS = tuple(
-    Definition(global_slip, largest=largest)
-    for global_slip in GLOBAL_SLIPS
-    for largest in (True, False)
-)
+OURS = Definition()
 
 
 def apparent_friction(run: Record) -> float:
@@ -190,7 +175,7 @@ class FirstGlobalSlip:
 
 
 def first_global_slip(
-    slips: pd.DataFrame, definition: Definition = DEFINITIONS[0]
+    slips: pd.DataFrame, definition: Definition = OURS
 ) -> FirstGlobalSlip | None:
     """The first global slip in a table of `slip_table`, by a definition; None without
     one."""
@@ -199,7 +184,7 @@ def first_global_slip(
     if first is None:
         return None
     slip = slips.iloc[first]
-    load = slip["largest_load_N" if definition.largest else "load_before_N"]
+    load = slip["largest_load_N"]
     return FirstGlobalSlip(
         mu_sapp=float(mu_sapp(load, slip["normal_load_N"])),
         load=float(load),

@@ -34,6 +34,12 @@ AMPLITUDES = (1e-4, 1e-2, 3e-2)
 FEWER = 5
 
 
+def draws(runs: int) -> dict[str, Any]:
+    """Columns of an ensemble: as many runs with noise, after draw 0 without it."""
+    draw = np.arange(runs + 1)
+    return {"draw": draw, "load_noise": np.where(draw == 0, 0.0, NOISE)}
+
+
 def noise_study(
     sliders: Mapping[str, Mapping[str, Any]],
     duration: float,
@@ -43,11 +49,8 @@ def noise_study(
 
     Noise of another amplitude comes after them: the same draws, made smaller or larger.
     """
-    draw = np.arange(settings["runs"] + 1)
-    few = draw[1 : 1 + settings["runs"] // FEWER]
-    noises: list[dict[str, Any]] = [
-        {"draw": draw, "load_noise": np.where(draw == 0, 0.0, NOISE)}
-    ]
+    few = np.arange(1, 1 + settings["runs"] // FEWER)
+    noises = [draws(settings["runs"])]
     noises += [{"draw": few, "load_noise": amplitude} for amplitude in AMPLITUDES]
     blocks = [
         {**slider, **noise, "duration": duration, "scene": scene, "group": group}

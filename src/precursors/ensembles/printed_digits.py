@@ -26,11 +26,7 @@ HALF_A_DIGIT = {
     "theta": 0.0005,
 }
 THETA_DIGITS = 3
-# A number is robust if this share of the sliders has it, and fragile if fewer have.
-ENOUGH = 0.95
 ALL = "all"
-# Times are those of the drive, whose speed is printed with one digit.
-QUANTITIES = ("mu_sapp", "events_counted", "events_to_global_slip")
 ENDS = ("q05", "q50", "q95")
 
 
@@ -83,59 +79,44 @@ def digits_table(
     Returns
     -------
     DataFrame
-        One row per scene, quantity and question. as_in_run: is the number that of the
-        scene as it is? as_printed: is it the paper's? k of n sliders, their share with
-        its interval low to high, the class by `ENOUGH`: robust, fragile or undecided,
+        One row per scene, quantity and question. as_printed: is the number of a slider
+        the paper's value? k of n sliders, their share with its interval low to high,
         and q05, q50, q95, the 5, 50 and 95 % of the numbers drawn. Scene all: are the
-        three mu_sapp of a slider the same to a unit of the last digit (same_mu_sapp),
-        and are all six numbers the paper's (all_six)?
+        three mu_sapp of a slider the same to a unit of the last digit (same_mu_sapp; its
+        numbers are their differences), and are all six numbers the paper's (all_six)?
     """
-    draws = members[members["draw"] > 0]
-    found: list[tuple[Any, str, str, float, pd.Series]] = []
-    for scene, runs in draws.groupby("scene", sort=False):
-        alone = members[(members["scene"] == scene) & (members["draw"] == 0)].iloc[0]
-        for quantity in QUANTITIES:
-            drawn = runs.set_index("draw")[quantity]
-            values = {
-                "as_in_run": alone[quantity],
-                "as_printed": paper[str(scene)].get(quantity),
-            }
-            for question, value in values.items():
-                if value is not None:
-                    agree = agrees(drawn, value, TOLERANCES[quantity])
-                    found.append((scene, quantity, question, value, agree))
-    six = [agree for _, _, question, _, agree in found if question == "as_printed"]
-    friction = draws.pivot_table(
-        index="draw", columns="scene", values="mu_sapp", dropna=False
+    draws = members[members["draw"] > 0].pivot_table(
+        index="draw", columns="scene", dropna=False
     )
+    rows = []
+    six = []
+    for scene, values in paper.items():
+        for quantity, value in values.items():
+            drawn = draws[quantity, scene]
+            agree = (drawn - value).abs() <= TOLERANCES[quantity]
+            six.append(agree)
+            names = {"scene": scene, "quantity": quantity, "question": "as_printed"}
+            rows.append(names | {"value": value} | share_row(agree) | ends(drawn))
+    friction: Any = draws["mu_sapp"]
     span = friction.max(axis=1, skipna=False) - friction.min(axis=1, skipna=False)
-    same = agrees(span, 0.0, TOLERANCES["mu_sapp"])
-    found.append((ALL, "mu_sapp", "same_mu_sapp", span.median(), same))
+    same = span <= TOLERANCES["mu_sapp"]
+    names = {"scene": ALL, "quantity": "mu_sapp", "question": "same_mu_sapp"}
+    rows.append(names | {"value": span.median()} | share_row(same) | ends(span))
     if six:
-        found.append(
-            (ALL, ALL, "all_six", len(six), pd.concat(six, axis=1).all(axis=1))
-        )
-    table = pd.DataFrame(
-        {"scene": scene, "quantity": quantity, "question": question, "value": value}
-        | share_row(agree)
-        for scene, quantity, question, value, agree in found
-    )
-    numbers = draws.melt("scene", QUANTITIES, "quantity").groupby(["scene", "quantity"])
-    ends = {name: numbers["value"].quantile(QUANTILES[name]) for name in ENDS}
-    return table.join(pd.DataFrame(ends), on=["scene", "quantity"])
-
-
-def agrees(values: pd.Series, value: float, tolerance: float) -> pd.Series:
-    """Where values are a value to a tolerance; NaN, a run without a global slip, is
-    not."""
-    return (values - value).abs() <= tolerance
+        names = {"scene": ALL, "quantity": ALL, "question": "all_six"}
+        together = pd.concat(six, axis=1).all(axis=1)
+        rows.append(names | {"value": len(six)} | share_row(together))
+    return pd.DataFrame(rows)
 
 
 def share_row(hits: pd.Series) -> dict[str, Any]:
-    """How many sliders have a number, their share with its interval, and the class of
-    the number."""
+    """How many sliders have a number, and their share with its interval."""
     k = int(hits.sum())
     n = len(hits)
     low, high = share_interval(k, n)
-    name = "robust" if low >= ENOUGH else "fragile" if high < ENOUGH else "undecided"
-    return {"k": k, "n": n, "share": k / n, "low": low, "high": high, "class": name}
+    return {"k": k, "n": n, "share": k / n, "low": low, "high": high}
+
+
+def ends(drawn: pd.Series) -> dict[str, Any]:
+    """Ends and middle of nine tenths of the numbers."""
+    return {name: drawn.quantile(QUANTILES[name]) for name in ENDS}

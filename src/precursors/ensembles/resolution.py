@@ -12,8 +12,7 @@ import pandas as pd
 from scipy.stats import mannwhitneyu
 
 from precursors.analysis.horizon import horizon
-from precursors.analysis.run_statistics import NOISE
-from precursors.ensembles.noise import noise_table, with_noise
+from precursors.ensembles.noise import draws, noise_table, with_noise
 from precursors.ensembles.study import Study, gather, stack
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import simulate
@@ -21,9 +20,8 @@ from precursors.solver.simulate import simulate
 # All slip events up to the first global slip; those of Fig. 13, which are never shorter
 # than one before; and those that are longer than all before.
 COUNTS = ("events_to_global_slip", "events_counted", "records")
-# Numbers that are extrapolated to infinite N as a + b/N, and the value of the slider
-# that is their limit a, where there is one.
-EXTRAPOLATED = {"mu_sapp": "mu_k", "time_s": None, "front_speed_m_per_s": None}
+# Numbers that are extrapolated to infinite N as a + b/N.
+EXTRAPOLATED = ("mu_sapp", "time_s", "front_speed_m_per_s")
 QUANTITIES = (*COUNTS, *EXTRAPOLATED)
 # Samples of a bootstrap, and the ends of its 95 % interval.
 SAMPLES = 1000
@@ -42,23 +40,13 @@ def resolution_study(
     Chains with as many blocks as the scene are those of `noise_study`.
     """
     blocks: list[dict[str, Any]] = []
+    sizes = list(zip(settings["n_blocks"], settings["runs"], strict=True))
     for scene, slider in sliders.items():
-        for n_blocks, n_runs in zip(
-            settings["n_blocks"], settings["runs"], strict=True
-        ):
-            if n_blocks == slider["n_blocks"]:
-                continue
-            draw = np.arange(n_runs + 1)
-            noise = np.where(draw == 0, 0.0, NOISE)
-            block = {
-                **slider,
-                "n_blocks": n_blocks,
-                "duration": duration,
-                "scene": scene,
-            }
-            blocks.append(
-                block | {"load_noise": noise, "draw": draw, "group": len(blocks)}
-            )
+        for n_blocks, runs in sizes:
+            if n_blocks != slider["n_blocks"]:
+                block = {**slider, "n_blocks": n_blocks, "duration": duration}
+                block |= {"scene": scene, **draws(runs), "group": len(blocks)}
+                blocks.append(block)
     return Study(stack(blocks), seed=settings["seed"])
 
 
@@ -74,7 +62,7 @@ def resolution_tables(
     gathered = gather(chunks)
     runs = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
     members = with_front_speed(runs, slider["length"])
-    given = {name: slider[key] for name, key in EXTRAPOLATED.items() if key}
+    given = {"mu_sapp": slider["mu_k"]}
     limits = extrapolation_table(members, extrapolate_from, given)
     return {
         "resolution_members": gathered,
@@ -189,16 +177,14 @@ def extrapolation_table(
             ]
             limit = given.get(quantity)
             inverse = 1.0 / medians.index.to_numpy(float)
-            a, b = _line(inverse, medians.to_numpy(), limit)
-            row = {"scene": scene, "quantity": quantity, "a": a}
-            ends = [
-                np.quantile(drawn, ENDS)
-                for drawn in _line(inverse, np.array(samples), limit)
-            ]
-            row |= {"a_low": ends[0][0], "a_high": ends[0][1], "b": b}
-            row |= {"b_low": ends[1][0], "b_high": ends[1][1]}
+            fit = _line(inverse, medians.to_numpy(), limit)
+            fits = _line(inverse, np.array(samples), limit)
+            row = {"scene": scene, "quantity": quantity}
+            for name, value, drawn in zip("ab", fit, fits, strict=True):
+                low, high = np.quantile(drawn, ENDS)
+                row |= {name: value, f"{name}_low": low, f"{name}_high": high}
             row |= {"n_points": len(medians), "given": limit is not None}
-            misfit = np.abs(medians - a - b * inverse).max()
+            misfit = np.abs(medians - fit[0] - fit[1] * inverse).max()
             rows.append(row | {"misfit": misfit})
     return pd.DataFrame(rows)
 

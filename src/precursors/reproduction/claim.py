@@ -86,13 +86,9 @@ SAID = ("section", "kind", "statement", "rule", "unit")
 def in_words(kind: str, verdict: str) -> str:
     """The verdict on a claim of some kind, in words."""
     holds, fails = IN_WORDS.get(kind, ("holds", "does not hold"))
-    words = {
-        HOLDS: holds,
-        EXACT: f"{holds} only for exactly these inputs",
-        FAILS: fails,
-        UNDECIDED: "cannot be decided",
-    }
-    return words[verdict]
+    exact = f"{holds} only for exactly these inputs"
+    words = (holds, exact, fails, "cannot be decided")
+    return words[VERDICTS.index(verdict)]
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import pandas as pd
@@ -13,6 +13,7 @@ from precursors.analysis.slip_rows import SHORT_EVENTS
 from precursors.analysis.slips import (
     FRONTS,
     GLOBAL_SLIPS,
+    OURS,
     Definition,
     first_global_slip,
     slip_table,
@@ -31,7 +32,6 @@ OF_SCENES = "scenes"
 # Of the method for other rules of switching [s]; mu_sapp is right to 1e-5.
 STEP = 1e-7
 SIGNS = (-1, 0, 1)
-OURS = Definition()
 SWITCHING = {
     COULOMB: "sticks if |F| <= mu_s w",
     KINETIC: "sticks if |F| <= mu_k w",
@@ -71,9 +71,7 @@ class Reading:
             "reading": self.text,
             "degree": self.degree,
             "switching": self.switching,
-            "global_slip": self.definition.global_slip,
-            "short": self.definition.short,
-            "front": self.definition.front,
+            **asdict(self.definition),
         }
 
 

@@ -44,25 +44,17 @@ ADVANCES = 3
 LP_TOLERANCE = 1e-9
 ROUNDING = 1e-12
 
-AT_LIMIT = "at_limit"
-AS_PRINTED = "as_printed"
-AT_REST = "at_rest"
-FULL_STRAIN = "full_strain"
-LESS_STRAIN = "less_strain"
-RIGID = "rigid"
-FAST = "fast"
-BELOW = "below"
 STATEMENTS = {
-    AT_LIMIT: "F_X = mu_s F_Z with all blocks at their limit",
-    AS_PRINTED: "Eq. 12 as printed gives mu_s F_Z + (k/K - 1) mu_s w_N",
-    AT_REST: "largest F_X of all states of rest is mu_s F_Z",
-    FULL_STRAIN: "mu_sapp = mu_s, pushed from maximal residual strain",
-    LESS_STRAIN: "mu_sapp < mu_s, pushed from "
+    "at_limit": "F_X = mu_s F_Z with all blocks at their limit",
+    "as_printed": "Eq. 12 as printed gives mu_s F_Z + (k/K - 1) mu_s w_N",
+    "at_rest": "largest F_X of all states of rest is mu_s F_Z",
+    "full_strain": "mu_sapp = mu_s, pushed from maximal residual strain",
+    "less_strain": "mu_sapp < mu_s, pushed from "
     f"{SLIGHTLY_BELOW:g} of maximal residual strain",
-    RIGID: "mu_sapp = mu_s for a rigid slider, N = 1",
-    FAST: "F_X passes mu_s F_Z in motion from (mu_s - mu_k) F_Z / sqrt(K M) on,"
+    "rigid": "mu_sapp = mu_s for a rigid slider, N = 1",
+    "fast": "F_X passes mu_s F_Z in motion from (mu_s - mu_k) F_Z / sqrt(K M) on,"
     f" to {100 * RIGID_TOLERANCE:g} %",
-    BELOW: "some block at rest is below its limit (least part at slip onsets, above 0)",
+    "below": "some block at rest is below its limit (least part at slip onsets, above 0)",
 }
 
 
@@ -110,8 +102,8 @@ def in_symbols(n: int) -> Iterator[Check]:
     bound = derivation.bound(n)
     excess = (derivation.k / derivation.K - 1) * derivation.mu_s * w[-1]
     for check, equations, expected in (
-        (AT_LIMIT, derivation.balances(n), bound),
-        (AS_PRINTED, derivation.balances_as_printed(n), bound + excess),
+        ("at_limit", derivation.balances(n), bound),
+        ("as_printed", derivation.balances_as_printed(n), bound + excess),
     ):
         found = derivation.load(equations)
         wanted = sympy.expand(expected)
@@ -127,7 +119,7 @@ def as_printed(scene: str, chain: Chain) -> Check:
     expected = load_bound(chain) + stiffer * float(chain.strength[-1])
     found = float(chain.drive_stiffness * compressions_as_printed(chain)[0])
     return Check(
-        AS_PRINTED,
+        "as_printed",
         scene,
         "N",
         expected,
@@ -144,7 +136,7 @@ def at_rest(case: str, chain: Chain) -> Check:
     holds = math.isclose(found, expected, rel_tol=LP_TOLERANCE) and np.allclose(
         compressions, maximal_compressions(chain), rtol=LP_TOLERANCE, atol=0
     )
-    return Check(AT_REST, case, "N", expected, found, holds)
+    return Check("at_rest", case, "N", expected, found, holds)
 
 
 def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[Check]:
@@ -157,7 +149,7 @@ def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[Check]:
     """
     full = maximal_strain_positions(chain)
     share = float(chain.weights[0]) / chain.normal_load
-    for check, a in ((FULL_STRAIN, 1.0), (LESS_STRAIN, SLIGHTLY_BELOW)):
+    for check, a in (("full_strain", 1.0), ("less_strain", SLIGHTLY_BELOW)):
         expected = chain.mu_s * (a + (1 - a) * share)
         found = pushed(chain, a * full, duration)
         holds = math.isclose(found, expected, rel_tol=ROUNDING)
@@ -199,7 +191,7 @@ def fast_drive(scene: str, chain: Chain) -> Check:
         else math.nan
     )
     return Check(
-        FAST,
+        "fast",
         scene,
         "m/s",
         expected,
@@ -218,7 +210,7 @@ def below_limit(scene: str, run: Run) -> Check:
     forces = run.spring_forces(find_slips(run)["onset"])
     below = 1.0 + np.diff(forces, append=0.0) / run.chain.strength
     found = round(float(below.max(axis=1).min(initial=math.inf)), DIGITS)
-    return Check(BELOW, scene, "1", 0.0, found, found > 0.0)
+    return Check("below", scene, "1", 0.0, found, found > 0.0)
 
 
 def rigid(chain: Chain, duration: float) -> Check:
@@ -229,7 +221,7 @@ def rigid(chain: Chain, duration: float) -> Check:
     )
     found = pushed(block, None, duration)
     return Check(
-        RIGID,
+        "rigid",
         "N = 1",
         "1",
         chain.mu_s,

@@ -17,4 +17,4 @@ CLAIM_TABLES = (
     "model_comparison",
     "map_theta_friction_ratio",
 )
-POINT_TABLES = (*SLIPS, "eq15", "measures", "mu_sapp")
+POINT_TABLES = (*SLIPS, "eq15", "measures", "reproduction")

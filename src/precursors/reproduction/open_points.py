@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 
 from precursors.model import printed
 from precursors.model.chain import linear_weights
-from precursors.reproduction import eq15
 from precursors.reproduction.claim import shown
 from precursors.reproduction.inputs import LEADING, SCENES, UNIFORM
 from precursors.reproduction.tables import Tables, before_global, one, rows
@@ -24,7 +23,7 @@ Pair = tuple[ArrayLike, ArrayLike]
 
 def eq12(t: Tables) -> Pair:
     """F_X of the state of Eq. 12."""
-    checks = (eq15.AS_PRINTED, eq15.AT_REST)
+    checks = ("as_printed", "at_rest")
     as_printed, right = (
         [float(one(t["eq15"], "found", check=c, case=s)) for s in SCENES]
         for c in checks
@@ -40,11 +39,12 @@ def counts(t: Tables) -> list[int]:
 def residual_strain(t: Tables) -> Pair:
     """mu_sapp from the largest residual strain, and from natural length."""
     most = [
-        float(one(t["eq15"], "found", check=eq15.FULL_STRAIN, case=scene))
+        float(one(t["eq15"], "found", check="full_strain", case=scene))
         for scene in SCENES
     ]
     return most, [
-        one(t["mu_sapp"], "mu_sapp", scene=scene, is_papers=True) for scene in SCENES
+        one(t["reproduction"], "reproduced", scene=scene, quantity="mu_sapp")
+        for scene in SCENES
     ]
 
 

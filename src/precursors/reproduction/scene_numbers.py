@@ -5,26 +5,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict
 
 import pandas as pd
 
 from precursors.analysis.slip_rows import first_global
-from precursors.analysis.slips import DEFINITIONS, find_slips, first_global_slip
+from precursors.analysis.slips import find_slips, first_global_slip
 from precursors.model.statics import maximal_compressions
 from precursors.solver.run import Run
 
-MU_SAPP_COLUMNS = [
-    "scene",
-    "global_slip",
-    "largest",
-    "mu_sapp",
-    "load_N",
-    "time_s",
-    "event",
-    "events_counted",
-    "is_papers",
-]
 # Quantities of the table of the paper's numbers: the events counted in Fig. 13 and
 # mu_sapp; of the first global slip time, load and number among all events; and the
 # events that are longer than all before, without those as long.
@@ -74,54 +62,17 @@ def residual_strain(run: Run) -> float:
     return float(compressions[1:].sum() / maximal_compressions(run.chain)[1:].sum())
 
 
-def reproduction_tables(
-    slips: Mapping[str, pd.DataFrame], paper: Mapping[str, Mapping[str, float]]
-) -> dict[str, pd.DataFrame]:
-    """Both tables of the paper's numbers, by file name."""
-    mu_sapp = mu_sapp_table(slips)
-    return {
-        "mu_sapp": mu_sapp,
-        "reproduction": reproduction_table(slips, mu_sapp, paper),
-    }
-
-
-def mu_sapp_table(slips: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
-    """mu_sapp (Eq. 1) of each scene under each definition, none where it has no global
-    slip in that sense.
-
-    `global_slip` and `largest` are those of the `Definition`.
-    """
-    rows = [
-        {
-            "scene": scene,
-            "global_slip": definition.global_slip,
-            "largest": definition.largest,
-            "is_papers": definition is DEFINITIONS[0],
-        }
-        | asdict(friction)
-        for scene, table in slips.items()
-        for definition in DEFINITIONS
-        if (friction := first_global_slip(table, definition))
-    ]
-    named = pd.DataFrame(rows).rename(columns={"load": "load_N", "time": "time_s"})
-    return named.reindex(columns=MU_SAPP_COLUMNS)
-
-
 def reproduction_table(
-    slips: Mapping[str, pd.DataFrame],
-    mu_sapp: pd.DataFrame,
-    paper: Mapping[str, Mapping[str, float]],
+    slips: Mapping[str, pd.DataFrame], paper: Mapping[str, Mapping[str, float]]
 ) -> pd.DataFrame:
-    """One row per scene and quantity, from the slip table of each scene and
-    tables/mu_sapp.csv.
+    """One row per scene and quantity, from the slip table of each scene.
 
     `paper` has what the paper prints of each scene: events_counted and mu_sapp, or
     nothing.
     """
-    papers = mu_sapp[mu_sapp["is_papers"].astype(bool)].set_index("scene")["mu_sapp"]
     rows = []
     for scene, table in slips.items():
-        found = quantities(table) | {"mu_sapp": papers.get(scene)}
+        found = quantities(table)
         theta = next(iter(table["theta"]), None)
         for quantity, unit in UNITS.items():
             row = {"scene": scene, "theta": theta, "quantity": quantity, "unit": unit}
@@ -133,17 +84,20 @@ def reproduction_table(
     return pd.DataFrame(rows)
 
 
-def quantities(slips: pd.DataFrame) -> dict[str, float | None]:
-    """Numbers of a scene by quantity, without mu_sapp; only the counts without a global
-    slip."""
+def quantities(slips: pd.DataFrame) -> dict[str, float]:
+    """Numbers of a scene by quantity; only the counts without a global slip."""
     counted = slips.loc[slips["counted"].astype(bool), "front"]
-    found: dict[str, float | None] = {
+    found: dict[str, float] = {
         "events_counted": len(counted),
         "records": counted.nunique(),
     }
-    first = first_global(slips)
-    if first is not None:
-        found["time_s"] = slips["onset_s"].iloc[first]
-        found["load_N"] = slips["load_before_N"].iloc[first]
-        found["events"] = first + 1
-    return found
+    slip = first_global_slip(slips)
+    if slip is None:
+        return found
+    at_onset = slips["load_before_N"].iloc[slip.event - 1]
+    return found | {
+        "mu_sapp": slip.mu_sapp,
+        "time_s": slip.time,
+        "load_N": at_onset,
+        "events": slip.event,
+    }
