@@ -191,9 +191,9 @@ def test_differences_are_claims_that_are_new_gone_or_of_another_verdict():
 
     found, expected = table(a=HOLDS, b=HOLDS, c=EXACT), table(a=HOLDS, b=EXACT, d=EXACT)
     assert differences(found, expected) == [
-        "c: is not among the expected claims",
-        "d: is missing",
-        "b: is 'holds', expected 'exact'",
+        "b: is holds, expected exact",
+        "c: is exact, expected none",
+        "d: is missing, expected exact",
     ]
 
 

@@ -122,16 +122,19 @@ def differences_table(members: pd.DataFrame) -> pd.DataFrame:
         )
         for (other, other_theta), (scene, theta) in pairs:
             low, high = median_difference(values[scene], values[other])
-            pair = {"quantity": quantity, "scene": scene, "theta": theta}
-            pair |= {"other": other, "other_theta": other_theta}
-            difference = values[scene].median() - values[other].median()
-            found = {
-                "difference": difference,
+            row = {
+                "quantity": quantity,
+                "scene": scene,
+                "theta": theta,
+                "other": other,
+                "other_theta": other_theta,
+                "difference": values[scene].median() - values[other].median(),
                 "low": low,
                 "high": high,
                 "tolerance": tolerance,
+                "verdict": compared(low, high, tolerance),
             }
-            rows.append(pair | found | {"verdict": compared(low, high, tolerance)})
+            rows.append(row)
     return pd.DataFrame(rows)
 
 

@@ -14,18 +14,13 @@ from scipy.stats import mannwhitneyu
 from precursors.analysis.horizon import horizon
 from precursors.ensembles.noise import draws, noise_table, with_noise
 from precursors.ensembles.study import Study, gather, stack
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
 
 # All slip events up to the first global slip; those of Fig. 13, which are never shorter
 # than one before; and those that are longer than all before.
 COUNTS = ("events_to_global_slip", "events_counted", "records")
-# Numbers that are extrapolated to infinite N as a + b/N.
-EXTRAPOLATED = ("mu_sapp", "time_s", "front_speed_m_per_s")
-QUANTITIES = (*COUNTS, *EXTRAPOLATED)
-# Samples of a bootstrap, and the ends of its 95 % interval.
-SAMPLES = 1000
-ENDS = (0.025, 0.975)
+QUANTITIES = (*COUNTS, "mu_sapp", "time_s", "front_speed_m_per_s")
 POINT = ["scene", "theta", "n_blocks"]
 
 
@@ -62,13 +57,14 @@ def resolution_tables(
     gathered = gather(chunks)
     runs = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
     members = with_front_speed(runs, slider["length"])
-    given = {"mu_sapp": slider["mu_k"]}
-    limits = extrapolation_table(members, extrapolate_from, given)
+    limits = limits_table(members, extrapolate_from, slider["mu_k"])
     return {
         "resolution_members": gathered,
         "resolution": noise_table(members, POINT, QUANTITIES),
         "counts_by_n": counts_table(members, uniform),
-        "resolution_limits": limits.assign(wave_speed_m_per_s=wave_speed(slider)),
+        "resolution_limits": limits.assign(
+            from_n_blocks=extrapolate_from, wave_speed_m_per_s=wave_speed(slider)
+        ),
     }
 
 
@@ -149,51 +145,21 @@ def predictability_table(
     return pd.DataFrame(rows)
 
 
-def extrapolation_table(
-    members: pd.DataFrame, from_n_blocks: int, given: Mapping[str, float]
+def limits_table(
+    members: pd.DataFrame, from_n_blocks: int, mu_k: float
 ) -> pd.DataFrame:
-    """Extrapolate numbers to an infinite number of blocks as a + b/N, by least squares
-    over the medians.
+    """mu_sapp of many blocks as mu_k + b/N, by least squares over the medians.
 
-    Chains with fewer than `from_n_blocks` blocks are left out. The limit a is fitted,
-    or `given` by the quantity. One row per scene and quantity has a, b, the ends of
-    their bootstrap intervals, whether a is given, misfit, the largest distance of a
-    median from the law, and how many N took part.
+    Chains with fewer than `from_n_blocks` blocks are left out. One row per scene has b,
+    misfit, the largest distance of a median from the law, and how many N took part.
     """
-    rows = []
     large = with_noise(members[members["n_blocks"] >= from_n_blocks])
-    for scene, of_scene in large.groupby("scene", sort=False):
-        for quantity in EXTRAPOLATED:
-            numbers = of_scene.dropna(subset=quantity).groupby("n_blocks")[quantity]
-            medians = numbers.median()
-            random = np.random.default_rng(0)
-            # Medians of as many resamplings, a row for each N.
-            samples = [
-                np.median(
-                    random.choice(values.to_numpy(float), (SAMPLES, len(values))),
-                    axis=1,
-                )
-                for _, values in numbers
-            ]
-            limit = given.get(quantity)
-            inverse = 1.0 / medians.index.to_numpy(float)
-            fit = _line(inverse, medians.to_numpy(), limit)
-            fits = _line(inverse, np.array(samples), limit)
-            row = {"scene": scene, "quantity": quantity}
-            for name, value, drawn in zip("ab", fit, fits, strict=True):
-                low, high = np.quantile(drawn, ENDS)
-                row |= {name: value, f"{name}_low": low, f"{name}_high": high}
-            row |= {"n_points": len(medians), "given": limit is not None}
-            misfit = np.abs(medians - fit[0] - fit[1] * inverse).max()
-            rows.append(row | {"misfit": misfit})
+    rows = []
+    for scene, own in large.groupby("scene", sort=False):
+        above = own.groupby("n_blocks")["mu_sapp"].median() - mu_k
+        inverse = 1.0 / above.index.to_numpy(float)
+        b = inverse @ above / (inverse @ inverse)
+        row = {"scene": scene, "quantity": "mu_sapp", "limit": mu_k, "b": b}
+        misfit = np.abs(above - b * inverse).max()
+        rows.append(row | {"misfit": misfit, "n_points": len(above)})
     return pd.DataFrame(rows)
-
-
-def _line(x: FloatArray, y: FloatArray, given: float | None) -> tuple[Any, Any]:
-    """Offset a and slope b of the line a + b x through y, shape (len(x), ...), with any
-    offset or a `given` one."""
-    if given is None:
-        b, a = np.polyfit(x, y, 1)
-        return a, b
-    b = x @ (y - given) / (x @ x)
-    return np.full_like(b, given), b

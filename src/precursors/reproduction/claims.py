@@ -7,6 +7,7 @@ function for each claim, with its name, that compares it with the tables.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
@@ -48,11 +49,16 @@ def of_claim(find: Find) -> Find:
     return FINDINGS.setdefault(find.__name__.replace("_", "-"), find)
 
 
+def drawn(number: str, *scenes: str) -> Callable[[Any], Any]:
+    """A number of runs in some scenes, or in all three, a row for each draw."""
+    return lambda runs: runs[number][list(scenes or SCENES)]
+
+
 def printed_count(scene: str, count: float, t: Tables) -> Finding:
     """Events of Fig. 13."""
     return in_draws(
         t,
-        lambda runs: runs["events_counted"][[scene]],
+        drawn("events_counted", scene),
         lambda counts: counts == count,
         count,
     )
@@ -62,7 +68,7 @@ def printed_friction(scene: str, t: Tables) -> Finding:
     """mu_sapp."""
     return in_draws(
         t,
-        lambda runs: runs["mu_sapp"][[scene]],
+        drawn("mu_sapp", scene),
         lambda friction: (friction - printed.MU_SAPP).abs() <= printed.LAST_DIGIT,
         printed.MU_SAPP,
     )
@@ -165,7 +171,7 @@ def count_grows_with_theta(t: Tables) -> Finding:
     noise ensemble."""
     by_draw = in_draws(
         t,
-        lambda runs: runs["events_counted"][list(SCENES)],
+        drawn("events_counted"),
         lambda counts: counts.diff(axis=1).iloc[:, 1:] > 0,
     )
     pairs = [(UNIFORM, TRAILING), (LEADING, UNIFORM)]
@@ -193,7 +199,7 @@ def friction_independent_of_loading(t: Tables) -> Finding:
     of its interval; the note and the shares are of the three mu_sapp of one draw."""
     by_draw = in_draws(
         t,
-        lambda runs: spread(runs["mu_sapp"][list(SCENES)]),
+        lambda runs: spread(drawn("mu_sapp")(runs)),
         lambda span: span <= printed.LAST_DIGIT,
         printed.LAST_DIGIT,
     )
@@ -221,7 +227,7 @@ def friction_underestimated(t: Tables) -> Finding:
     """mu_sapp against the smallest mu_s that is printed alike."""
     return in_draws(
         t,
-        lambda runs: runs["mu_sapp"][list(SCENES)],
+        drawn("mu_sapp"),
         lambda friction: friction < MU_S,
         MU_S,
     )
@@ -302,7 +308,7 @@ def no_rapid_growth(t: Tables) -> Finding:
     all three loadings."""
     by_draw = in_draws(
         t,
-        lambda runs: runs["speedup"][list(SCENES)],
+        drawn("speedup"),
         lambda speedup: (speedup <= 1.0).any(axis=1).to_frame(),
     )
     alike = t["digits_members"].query("draw > 0").groupby("scene")["speedup"]
@@ -315,7 +321,7 @@ def load_of_the_experiment(t: Tables) -> Finding:
     """F_X at the first global slip."""
     return in_draws(
         t,
-        lambda runs: runs["load_N"][[UNIFORM]],
+        drawn("load_N", UNIFORM),
         lambda load: (load / printed.FIRST_GLOBAL_SLIP_N - 1).abs() <= NEAR_LOAD,
         printed.FIRST_GLOBAL_SLIP_N,
     )
@@ -347,19 +353,13 @@ def evaluate(tables: Tables) -> pd.DataFrame:
 
 
 def differences(found: pd.DataFrame, expected: pd.DataFrame) -> list[str]:
-    """Say in a line each which claims are new, missing, or of another verdict than
-    expected."""
-    new, old = (table.set_index("claim")["verdict"] for table in (found, expected))
-    both = [name for name in new.index if name in old.index]
+    """Say in a line each which claims have another verdict than expected, or none."""
+    new, old = (
+        dict(zip(table["claim"], table["verdict"], strict=True))
+        for table in (found, expected)
+    )
     return [
-        *(
-            f"{name}: is not among the expected claims"
-            for name in new.index.difference(old.index)
-        ),
-        *(f"{name}: is missing" for name in old.index.difference(new.index)),
-        *(
-            f"{name}: is {new[name]!r}, expected {old[name]!r}"
-            for name in both
-            if new[name] != old[name]
-        ),
+        f"{name}: is {new.get(name, 'missing')}, expected {old.get(name, 'none')}"
+        for name in {**new, **old}
+        if new.get(name) != old.get(name)
     ]
