@@ -24,14 +24,13 @@ SUMMARY = np.dtype(
         ("load", "f8"),
         ("time", "f8"),
         ("end", "f8"),
-        ("crossing_time", "f8"),
         ("transitions", "i8"),
         ("reached", "?"),
         ("n_global", "i8"),
         ("n_all_events", "i8"),
     ]
 )
-SUMMARY_UNITS = {"load": "N", "time": "s", "end": "s", "crossing_time": "s"}
+SUMMARY_UNITS = {"load": "N", "time": "s", "end": "s"}
 # L_p/L from which the length of the experiment's precursors grows faster (Sect. 6.1).
 KINK = 0.7
 
@@ -48,12 +47,11 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
         Up to and including the first global slip: events_to_global_slip (all slip
         events), events_counted (those of Fig. 13), records (those of them that are
         longer than all before), speedup (see `_speedup`), transitions; mu_sapp [1]
-        (Eq. 1) and the load F_X [N] that it stands for. Of the first global slip: time (its onset),
-        end and crossing_time (from its onset until block N first slides) [s]. Where
-        reached is False there was no global slip: these are NaN, and the counts are
-        those of the whole run. A global slip that the end of the run cuts off has end
-        NaN. n_global and n_all_events count the global slips and the events of the
-        whole run.
+        (Eq. 1) and the load F_X [N] that it stands for. Of the first global slip: time
+        (its onset) and end [s]. Where reached is False there was no global slip: these
+        are NaN, and the counts are those of the whole run. A global slip that the end
+        of the run cuts off has end NaN. n_global and n_all_events count the global
+        slips and the events of the whole run.
     """
     runs = list(runs)
     events = slip_events(runs)
@@ -91,16 +89,12 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
         )
 
     slips = events[last_counted[reached]]
-    crossing_time = [
-        _crossing_time(runs[i], slip) for i, slip in zip(reached, slips, strict=True)
-    ]
     normal_load = np.array([run.chain.normal_load for run in runs])
     first_global = {
         "load": slips["largest_load"],
         "mu_sapp": mu_sapp(slips["largest_load"], normal_load[reached]),
         "time": slips["onset"],
         "end": slips["end"],
-        "crossing_time": crossing_time,
         "transitions": slips["last"] + 1,
         "speedup": _speedup(
             events[is_counted],
@@ -134,12 +128,3 @@ def _speedup(
     before = rise[0] * span[1]
     undefined = np.full(len(runs), np.nan)
     return np.divide(rise[1] * span[0], before, out=undefined, where=before > 0)
-
-
-def _crossing_time(run: Record, slip: np.void) -> float:
-    """Time from the onset of a slip until block N first slides [s]."""
-    of_slip = run.transitions[slip["first"] : slip["last"] + 1]
-    arrival = np.argmax(
-        (of_slip["block"] == run.chain.n_blocks) & (of_slip["mode"] != 0)
-    )
-    return float(run.intervals[slip["first"] + 1 : slip["first"] + arrival + 1].sum())

@@ -3,7 +3,6 @@ into blocks."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -20,7 +19,7 @@ from precursors.solver.simulate import simulate
 # All slip events up to the first global slip; those of Fig. 13, which are never shorter
 # than one before; and those that are longer than all before.
 COUNTS = ("events_to_global_slip", "events_counted", "records")
-QUANTITIES = (*COUNTS, "mu_sapp", "time_s", "front_speed_m_per_s")
+QUANTITIES = (*COUNTS, "mu_sapp", "time_s")
 POINT = ["scene", "theta", "n_blocks"]
 
 
@@ -55,34 +54,14 @@ def resolution_tables(
     """The tables of the study, by file name; `noise` has the members with the scenes'
     own N."""
     gathered = gather(chunks)
-    runs = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
-    members = with_front_speed(runs, slider["length"])
+    members = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
     limits = limits_table(members, extrapolate_from, slider["mu_k"])
     return {
         "resolution_members": gathered,
         "resolution": noise_table(members, POINT, QUANTITIES),
         "counts_by_n": counts_table(members, uniform),
-        "resolution_limits": limits.assign(
-            from_n_blocks=extrapolate_from, wave_speed_m_per_s=wave_speed(slider)
-        ),
+        "resolution_limits": limits,
     }
-
-
-def with_front_speed(members: pd.DataFrame, length: float) -> pd.DataFrame:
-    """Add the mean speed of the front of the first global slip from block 1 to block N
-    [m/s].
-
-    It is NaN without such a front. `length` is that of the contact, L [m].
-    """
-    distance = length * (members["n_blocks"] - 1) / members["n_blocks"]
-    speed = distance / members["crossing_time_s"].where(members["crossing_time_s"] > 0)
-    return members.assign(front_speed_m_per_s=speed)
-
-
-def wave_speed(slider: Mapping[str, float]) -> float:
-    """Speed of long waves in a slider, sqrt(E S L/M) [m/s]."""
-    stiffness = slider["youngs_modulus"] * slider["cross_section"]
-    return math.sqrt(stiffness * slider["length"] / slider["slider_mass"])
 
 
 def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
@@ -148,7 +127,8 @@ def predictability_table(
 def limits_table(
     members: pd.DataFrame, from_n_blocks: int, mu_k: float
 ) -> pd.DataFrame:
-    """mu_sapp of many blocks as mu_k + b/N, by least squares over the medians.
+    """mu_sapp of many blocks as a + b/N with a = mu_k, by least squares over the
+    medians.
 
     Chains with fewer than `from_n_blocks` blocks are left out. One row per scene has b,
     misfit, the largest distance of a median from the law, and how many N took part.
@@ -159,7 +139,7 @@ def limits_table(
         above = own.groupby("n_blocks")["mu_sapp"].median() - mu_k
         inverse = 1.0 / above.index.to_numpy(float)
         b = inverse @ above / (inverse @ inverse)
-        row = {"scene": scene, "quantity": "mu_sapp", "limit": mu_k, "b": b}
+        row = {"scene": scene, "quantity": "mu_sapp", "a": mu_k, "b": b}
         misfit = np.abs(above - b * inverse).max()
         rows.append(row | {"misfit": misfit, "n_points": len(above)})
     return pd.DataFrame(rows)
