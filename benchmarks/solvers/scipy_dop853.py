@@ -6,6 +6,8 @@ from scipy.integrate import solve_ivp
 
 # SciPy sees an event if its function changes sign over a step: [microseconds].
 LONGEST_STEP = 0.05
+# Three blocks slide the longest, and no two of their transitions are close.
+LONGEST_STEP_OF_THREE = 0.2
 
 
 def dop853(chain):
@@ -27,7 +29,7 @@ def dop853(chain):
             state,
             "DOP853",
             events=events,
-            max_step=LONGEST_STEP,
+            max_step=LONGEST_STEP_OF_THREE if chain.n == 3 else LONGEST_STEP,
             **accuracy,
         )
         fired = [block for block, times in enumerate(found.t_events) if len(times)]
