@@ -38,7 +38,7 @@ PACKAGE = {
 def files_of(name: str, certificate: bytes) -> dict[str, str]:
     """Texts of the two files of a problem."""
     content = json.loads(gzip.decompress(certificate))
-    rows = [",".join(map(str, row)) for row in content["transitions"]]
+    rows = [",".join(map(str, row[: len(COLUMNS)])) for row in content["transitions"]]
     chain = {
         key: x for key, x in content["chain"].items() if key not in NOT_IN_THE_MODEL
     }
