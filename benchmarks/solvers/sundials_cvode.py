@@ -1,4 +1,4 @@
-"""SUNDIALS CVODE (scikit-sundae), BDF or Adams, restarted at each transition."""
+"""SUNDIALS CVODE (scikit-sundae), Adams, restarted at each transition."""
 
 import numpy as np
 from chain import solve
