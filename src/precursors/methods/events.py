@@ -73,10 +73,14 @@ class EventMotion:
     def __init__(
         self, chain: Chain, duration: float, until: str | None, nudge: float = NUDGE
     ) -> None:
-        self.chain, self.nudge, self.tau = chain, nudge, time_unit(chain)
+        self.chain = chain
+        self.nudge = nudge
+        self.tau = time_unit(chain)
         self.motion = motion_from_rest(chain, duration, until, scaled=True)
-        self.system, self.state = self.motion.system, self.motion.state
-        self.y, self.settings = np.zeros(2 * chain.n_blocks), np.zeros_like(self.state)
+        self.system = self.motion.system
+        self.state = self.motion.state
+        self.y = np.zeros(2 * chain.n_blocks)
+        self.settings = np.zeros_like(self.state)
         self.slides = False
         self.evaluations = 0
 

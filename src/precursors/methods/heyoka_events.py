@@ -99,7 +99,8 @@ def solve_heyoka(
     """
     solver, present = _integrator(chain, float(tolerance))
     motion = EventMotion(chain, duration, until, nudge)
-    motion.y, motion.settings = solver.state, solver.pars.reshape(4, -1)
+    motion.y = solver.state
+    motion.settings = solver.pars.reshape(4, -1)
     present[:] = [motion]
     while motion.begin():
         solver.time = 0.0
