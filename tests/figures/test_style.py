@@ -48,6 +48,14 @@ def test_every_format_has_the_same_bytes_whichever_file_is_first_and_settings_of
     assert image.imread(tmp_path / "first.png").shape[1] == int(300 * 85 / 25.4)
 
 
+def test_an_svg_has_its_words_as_text_and_a_title(tmp_path):
+    figure = PICTURES["precursor_lengths"]()
+    style.save(figure, tmp_path / "figure.svg", title="Fig. 13")
+    svg = (tmp_path / "figure.svg").read_text("utf-8")
+    assert "<title>Fig. 13</title>" in svg
+    assert "even load: 9</text>" in svg
+
+
 def test_transparent_colours_look_the_same_when_they_are_opaque(tmp_path):
     with style.page(40.0, 40.0, lay_out=False) as figure:
         axes = figure.add_axes((0, 0, 1, 1))

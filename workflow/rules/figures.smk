@@ -32,12 +32,12 @@ FIGURES = {
     },
     "fig09": {
         "section": "reproduction",
-        "shows": "the chain",
+        "shows": "the model: blocks on springs, pushed through a spring",
         "module": "chain_schematic",
     },
     "fig13": {
         "section": "reproduction",
-        "shows": "propagation length against load",
+        "shows": "lengths of precursors against the load: 6, 9 and 14 are counted",
         "module": "precursor_lengths",
         "tables": {
             "slips": collect("results/tables/{scene}_slips.csv", scene=config["fig13"]),
@@ -46,13 +46,13 @@ FIGURES = {
     },
     "work_precision": {
         "section": "accuracy",
-        "shows": "errors against time and evaluations",
+        "shows": "what accuracy costs, in time and in evaluations",
         "module": "speed",
         "tables": {"table": "results/tables/work_precision.csv"},
         "options": {"works": ["seconds", "evaluations"]},
     },
     "speed": {
-        "shows": "error against time, as published",
+        "shows": "what accuracy costs, as published",
         "section": "accuracy",
         "tables": {
             "table": str(ROOT / "paper/tables/work_precision_full.csv"),
@@ -61,12 +61,12 @@ FIGURES = {
     },
     "step_sweep": {
         "section": "accuracy",
-        "shows": "the paper's numbers against the step",
+        "shows": "the paper's numbers against the step of a Runge-Kutta method",
         "tables": {"table": "results/tables/step_sweep.csv"},
     },
     "failure_gallery": {
         "section": "accuracy",
-        "shows": "how methods fail",
+        "shows": "twelve ways in which methods fail",
         "tables": {
             "thresholds": "results/tables/thresholds.csv",
             "curves": "results/tables/failure_curves.csv",
@@ -94,13 +94,13 @@ FIGURES = {
         },
     },
     "theta_window": {
-        "shows": "a window of theta",
+        "shows": "small changes of theta change the numbers",
         "section": "ensembles",
         "tables": {"members": "results/tables/theta_window_members.csv"},
     },
     "resolution": {
         "section": "ensembles",
-        "shows": "what the number of blocks does",
+        "shows": "mu_sapp approaches mu_k as the number of blocks grows",
         "tables": {
             "table": "results/tables/resolution.csv",
             "limits": "results/tables/resolution_limits.csv",
@@ -110,11 +110,11 @@ FIGURES = {
     },
     "event_law": {
         "section": "ensembles",
-        "shows": "the number of events by theory",
+        "shows": "the number of events compared with the law",
         "tables": {"table": "results/tables/event_law.csv"},
     },
     "map_theta_friction_ratio": {
-        "shows": "theta and mu_k/mu_s",
+        "shows": "mu_sapp over theta and mu_k/mu_s",
         "section": "ensembles",
         "module": "friction_map",
         "tables": {"table": "results/tables/map_theta_friction_ratio.csv"},

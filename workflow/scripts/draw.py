@@ -18,4 +18,4 @@ with job() as snakemake:
         drawn = draw(**tables, **figure.get("options", {}), **asked)
         for output in snakemake.output:
             if Path(output).stem == name:
-                style.save(drawn, output, **asked)
+                style.save(drawn, output, **asked, title=figure["shows"])

@@ -175,20 +175,24 @@ def page(
             ConstrainedLayoutEngine().execute(figure)
 
 
-def save(figure: Figure, path: str | Path, look: Look | None = None) -> None:
+def save(
+    figure: Figure, path: str | Path, look: Look | None = None, title: str | None = None
+) -> None:
     """Write a figure as PNG (300 dpi), SVG, PDF or EPS, complete or not at all, always
     the same bytes.
 
-    `look` is that of its page. EPS knows no transparency: it has the colours on white.
+    `look` is that of its page, and `title` what a reader of an SVG hears. EPS knows no
+    transparency: it has the colours on white.
     """
     ending = Path(path).suffix.lower()
     settings = (look or Look()).settings
     buffer = BytesIO()
     with matplotlib.style.context(settings, after_reset=True):
         figure = opaque(figure) if ending == ".eps" else figure
-        figure.savefig(
-            buffer, format=ending[1:], dpi=PNG_DPI, metadata=_METADATA[ending]
+        metadata = _METADATA[ending] | (
+            {"Title": title} if title and ending == ".svg" else {}
         )
+        figure.savefig(buffer, format=ending[1:], dpi=PNG_DPI, metadata=metadata)
     write_whole(path, re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
 
 
