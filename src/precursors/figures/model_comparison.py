@@ -16,10 +16,12 @@ from precursors.figures import style
 WIDTH_MM = 178.0
 ROW_MM = 14.0
 HEAD_MM = 31.0
-DIM = "#5A5A5A"
-ANSWERED = "#CDE7DC"
-MISSED = "#F6DDD0"
-SILENT = "#F2F2F2"
+ANSWERED: dict[str, Any] = {"facecolor": "#C4C4C4"}
+MISSED: dict[str, Any] = {
+    "facecolor": "white",
+    "edgecolor": style.GREY,
+    "linewidth": 0.5,
+}
 SMALLEST: dict[str, Any] = {"fill": False, "edgecolor": style.BLACK, "linewidth": 1.4}
 QUESTIONS = {
     "first_load": "First precursor,\nload [N]",
@@ -72,7 +74,6 @@ def draw(table: pd.DataFrame) -> Figure:
                         SCALES.get(question, 1.0),
                     )
                 else:
-                    axes.add_patch(_box(x, y, facecolor=SILENT))
                     axes.text(
                         x, y, "\N{EN DASH}", ha="center", va="center", color=style.GREY
                     )
@@ -86,10 +87,9 @@ def draw(table: pd.DataFrame) -> Figure:
         axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False)
         axes.spines[:].set_visible(False)
         entries = [
-            Patch(color=ANSWERED, label="within the tolerance in every scene"),
+            Patch(**ANSWERED, label="within the tolerance in every scene"),
             Patch(**SMALLEST, label="smallest such model"),
-            Patch(color=MISSED, label="not within it"),
-            Patch(color=SILENT, label="no answer"),
+            Patch(**MISSED, label="not within it"),
         ]
         lines = "In each cell: values of the scenes, $\\bf{largest\\ error}$, median time of all answers"
         style.draw_key(figure, entries, title=lines, title_fontsize=7)
@@ -97,7 +97,7 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def _draw_cell(axes: Axes, x: float, y: int, cell: pd.Series, scale: float) -> None:
-    axes.add_patch(_box(x, y, facecolor=ANSWERED if cell["is_answer"] else MISSED))
+    axes.add_patch(_box(x, y, **(ANSWERED if cell["is_answer"] else MISSED)))
     if cell["is_smallest"]:
         axes.add_patch(_box(x, y, **SMALLEST))
     low = f"{cell['low'] * scale:.3g}"
@@ -112,7 +112,7 @@ def _draw_cell(axes: Axes, x: float, y: int, cell: pd.Series, scale: float) -> N
     )
     error = _error_text(cell["error"], cell["error_unit"])
     axes.text(x, y + 0.02, error, fontsize=7, fontweight="bold", **centred)
-    axes.text(x, y + 0.3, _time_text(cell["cost_s"]), fontsize=7, color=DIM, **centred)
+    axes.text(x, y + 0.3, _time_text(cell["cost_s"]), fontsize=7, **centred)
 
 
 def _box(x: float, y: int, **look: Any) -> Rectangle:
