@@ -51,7 +51,7 @@ NAN = float("nan")
 def test_the_run_decides_whether_a_claim_holds_and_the_ensembles_for_which_inputs(
     holds, noise, digits, verdict
 ):
-    shares = (("noise", Share(noise, 1000)), ("digits", Share(digits, 400)))
+    shares = {"noise": Share(noise, 1000), "digits": Share(digits, 400)}
     assert Finding(1.0, holds, shares=shares).verdict == verdict
     assert (
         Finding(1.0, holds).verdict
@@ -70,7 +70,7 @@ def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_doe
 
     finding = found([0.4, 0.4, 0.6], [0.4, 0.4, 0.4, NAN])
     assert finding.holds
-    assert finding.shares == (("noise", Share(1, 2)), ("digits", Share(2, 3)))
+    assert finding.shares == {"noise": Share(1, 2), "digits": Share(2, 3)}
     assert not found([NAN, 0.4], [NAN, 0.4]).holds
 
 
@@ -91,7 +91,7 @@ def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(
     )
     tables = {"noise_differences": found, **members_of(mu_sapp=0.5)}
     finding = friction_independent_of_loading(tables)
-    assert replace(finding, shares=()).verdict == verdict
+    assert replace(finding, shares={}).verdict == verdict
     assert finding.note == "The values of the three runs agree: they differ by 0."
 
 
@@ -106,7 +106,7 @@ def test_the_values_of_three_runs_agree_to_a_unit_of_the_last_digit():
     tables = {"noise_differences": pairs, "noise_members": members}
     finding = friction_independent_of_loading({**tables, "digits_members": members})
     assert finding.note.endswith("do not agree: they differ by 0.011.")
-    assert [share for _, share in finding.shares] == [Share(1, 1)] * 2
+    assert [*finding.shares.values()] == [Share(1, 1)] * 2
 
 
 @pytest.mark.parametrize(

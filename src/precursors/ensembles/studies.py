@@ -34,7 +34,7 @@ def make_study(name: str, arguments: dict[str, Any]) -> Study:
 
 
 def study_arguments(config: Config, name: str) -> dict[str, Any]:
-    """What decides the members of a study: the arguments of its function."""
+    """Arguments of the function of a study, which decide its members."""
     settings = config["ensembles"]
     if name == MAP:
         return {"slider": config["chain"], "points": settings["map"]["points"]}

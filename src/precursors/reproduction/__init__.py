@@ -1,1 +1,1 @@
-"""What the paper says, and what became of it."""
+"""The paper's claims and whether they hold."""

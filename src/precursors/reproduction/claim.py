@@ -3,8 +3,8 @@ agrees."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -27,7 +27,6 @@ READINGS = "readings"
 RESULT = "result"
 EXPERIMENT = "experiment"
 CHECK = "check"
-KINDS = (READINGS, RESULT, EXPERIMENT, CHECK)
 # A claim that holds and one that fails, in words.
 IN_WORDS = {EXPERIMENT: ("agrees", "differs"), CHECK: ("passes", "fails")}
 # A claim that holds in the run must hold in this share of an ensemble, too.
@@ -62,7 +61,7 @@ class Finding:
     ours: ArrayLike
     holds: bool | None
     expected: ArrayLike = ()
-    shares: tuple[tuple[str, Share], ...] = ()
+    shares: Mapping[str, Share] = field(default_factory=dict)
     note: str = ""
 
     @property
@@ -73,7 +72,7 @@ class Finding:
             return UNDECIDED
         if not self.holds:
             return FAILS
-        intervals = [share.interval for _, share in self.shares]
+        intervals = [share.interval for share in self.shares.values()]
         if any(high < ENOUGH for _, high in intervals):
             return EXACT
         return UNDECIDED if any(low < ENOUGH for low, _ in intervals) else HOLDS
@@ -95,7 +94,7 @@ def in_words(kind: str, verdict: str) -> str:
 class Claim:
     """A statement of the paper that a run could contradict.
 
-    `section` says where the paper states it, `kind` is one of KINDS, `rule` says when
+    `section` says where the paper states it, `kind` is one of those above, `rule` says when
     it holds, `unit` is the unit of its numbers, and `find` compares it with the tables.
     """
 
@@ -128,7 +127,7 @@ class Claim:
         row |= {name: getattr(self, name) for name in SAID}
         row |= {"expected": shown(finding.expected), "ours": shown(finding.ours)}
         for name in ENSEMBLES:
-            share = dict(finding.shares).get(name)
+            share = finding.shares.get(name)
             low, high = share.interval if share else (None, None)
             row |= {f"{name}_share": share.k / share.n if share else None}
             row |= {f"{name}_low": low, f"{name}_high": high}
@@ -149,14 +148,14 @@ def in_draws(
     of the claim, one row per draw; `holds` says of each number whether it agrees, which
     NaN, no global slip, does not.
     """
-    shares = []
+    shares = {}
     for name, members in ENSEMBLES.items():
         runs = tables[members].pivot_table(index="draw", columns="scene", dropna=False)
         numbers = ours(runs)
         agree = holds(numbers).all(axis=1)
         drawn = agree[agree.index > 0]
-        shares.append((name, Share(int(drawn.sum()), len(drawn))))
-    return Finding(numbers.loc[0], bool(agree.loc[0]), expected, tuple(shares))
+        shares[name] = Share(int(drawn.sum()), len(drawn))
+    return Finding(numbers.loc[0], bool(agree.loc[0]), expected, shares)
 
 
 def shown(values: ArrayLike) -> str:

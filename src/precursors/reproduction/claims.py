@@ -54,8 +54,9 @@ def drawn(number: str, *scenes: str) -> Callable[[Any], Any]:
     return lambda runs: runs[number][list(scenes or SCENES)]
 
 
-def printed_count(scene: str, count: float, t: Tables) -> Finding:
+def printed_count(scene: str, t: Tables) -> Finding:
     """Events of Fig. 13."""
+    count = printed.SCENES[scene]["events_counted"]
     return in_draws(
         t,
         drawn("events_counted", scene),
@@ -79,9 +80,7 @@ for scene, side in {
     UNIFORM: "uniform",
     LEADING: "leading",
 }.items():
-    FINDINGS[f"count-{side}"] = partial(
-        printed_count, scene, printed.SCENES[scene]["events_counted"]
-    )
+    FINDINGS[f"count-{side}"] = partial(printed_count, scene)
     FINDINGS[f"friction-{side}"] = partial(printed_friction, scene)
 
 
@@ -102,26 +101,23 @@ def line_of_lengths(slips: pd.DataFrame, along: str) -> FloatArray:
     return np.polyfit(slips[along], slips["front"], 1)
 
 
-def variation_of_steps(times: pd.Series) -> float:
+def not_periodic(times: pd.Series) -> Finding:
     """Standard deviation of the steps between times over their mean: 0 for a period."""
     steps = np.diff(times)
-    return float(np.std(steps) / np.mean(steps))
+    variation = float(np.std(steps) / np.mean(steps))
+    return Finding(variation, variation > PERIODIC)
 
 
 @of_claim
 def stick_slip_is_not_periodic(t: Tables) -> Finding:
     """Intervals between the global slips."""
-    variation = variation_of_steps(
-        rows(t[f"{UNIFORM}_slips"], is_global=True)["onset_s"]
-    )
-    return Finding(variation, variation > PERIODIC)
+    return not_periodic(rows(t[f"{UNIFORM}_slips"], is_global=True)["onset_s"])
 
 
 @of_claim
 def precursors_are_not_periodic(t: Tables) -> Finding:
     """Intervals between the precursors."""
-    variation = variation_of_steps(before_global(t, UNIFORM)["onset_s"])
-    return Finding(variation, variation > PERIODIC)
+    return not_periodic(before_global(t, UNIFORM)["onset_s"])
 
 
 @of_claim
@@ -174,10 +170,9 @@ def count_grows_with_theta(t: Tables) -> Finding:
         drawn("events_counted"),
         lambda counts: counts.diff(axis=1).iloc[:, 1:] > 0,
     )
-    pairs = [(UNIFORM, TRAILING), (LEADING, UNIFORM)]
     medians = [
         rows(t["noise_differences"], quantity="events_counted", scene=a, other=b)
-        for a, b in pairs
+        for b, a in pairwise(SCENES)
     ]
     low, high = (pd.concat(medians)[name] for name in ("low", "high"))
     if (low <= 0).any() and by_draw.holds:
@@ -225,12 +220,7 @@ def spread(runs: Any) -> Any:
 @of_claim
 def friction_underestimated(t: Tables) -> Finding:
     """mu_sapp against the smallest mu_s that is printed alike."""
-    return in_draws(
-        t,
-        drawn("mu_sapp"),
-        lambda friction: friction < MU_S,
-        MU_S,
-    )
+    return in_draws(t, drawn("mu_sapp"), lambda friction: friction < MU_S, MU_S)
 
 
 @of_claim
@@ -271,13 +261,9 @@ def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
 @of_claim
 def short_events(t: Tables) -> Finding:
     """Events before the first global slip that Fig. 13 leaves out."""
-    return in_draws(
-        t,
-        lambda runs: (runs["events_to_global_slip"] - runs["events_counted"])[
-            list(SCENES)
-        ],
-        lambda short: short > 0,
-    )
+    every = drawn("events_to_global_slip")
+    counted = drawn("events_counted")
+    return in_draws(t, lambda runs: every(runs) - counted(runs), lambda n: n > 0)
 
 
 @of_claim
@@ -285,20 +271,16 @@ def static_and_kinetic_friction(t: Tables) -> Finding:
     """Median of the events counted over theta, where mu_k/mu_s is largest and
     smallest."""
     counts = t["map_theta_friction_ratio"].dropna(subset=["events_counted"])
-    medians = (
-        counts.groupby("friction_ratio")["events_counted"]
-        .median()
-        .sort_index(ascending=False)
-    )
-    return Finding(medians.iloc[[0, -1]], bool(medians.iloc[0] > medians.iloc[-1]))
+    medians = counts.groupby("friction_ratio")["events_counted"].median()
+    largest, smallest = medians.iloc[[-1, 0]]
+    return Finding([largest, smallest], largest > smallest)
 
 
 @of_claim
 def precursors_in_later_periods(t: Tables) -> Finding:
     """Share of the stick phases between global slips that have a partial slip."""
-    share = float(
-        np.mean(np.diff(np.flatnonzero(t[f"{UNIFORM}_slips"]["is_global"])) > 1)
-    )
+    is_global = t[f"{UNIFORM}_slips"]["is_global"]
+    share = float(np.mean(np.diff(np.flatnonzero(is_global)) > 1))
     return Finding(share, share > 0.5)
 
 

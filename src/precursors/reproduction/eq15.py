@@ -16,7 +16,7 @@ import pandas as pd
 import scipy
 
 from precursors.analysis.load_curve import load_curve
-from precursors.analysis.slips import find_slips, first_global_slip, slip_table
+from precursors.analysis.slips import apparent_friction, find_slips
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import (
     compressions_as_printed,
@@ -72,6 +72,19 @@ class Check(NamedTuple):
     holds: bool
 
 
+def close(
+    check: str,
+    case: str,
+    unit: str,
+    expected: float,
+    found: float,
+    tolerance: float = ROUNDING,
+) -> Check:
+    """A check that both values are the same to a relative tolerance."""
+    holds = math.isclose(found, expected, rel_tol=tolerance)
+    return Check(check, case, unit, expected, found, holds)
+
+
 def eq15_table(runs: Mapping[str, Run], duration: float) -> pd.DataFrame:
     """One row per `Check` of the runs of the scenes; a global slip is awaited for
     `duration` [s]."""
@@ -118,14 +131,7 @@ def as_printed(scene: str, chain: Chain) -> Check:
     stiffer = chain.stiffness / chain.drive_stiffness - 1
     expected = load_bound(chain) + stiffer * float(chain.strength[-1])
     found = float(chain.drive_stiffness * compressions_as_printed(chain)[0])
-    return Check(
-        "as_printed",
-        scene,
-        "N",
-        expected,
-        found,
-        math.isclose(found, expected, rel_tol=ROUNDING),
-    )
+    return close("as_printed", scene, "N", expected, found)
 
 
 def at_rest(case: str, chain: Chain) -> Check:
@@ -152,8 +158,7 @@ def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[Check]:
     for check, a in (("full_strain", 1.0), ("less_strain", SLIGHTLY_BELOW)):
         expected = chain.mu_s * (a + (1 - a) * share)
         found = pushed(chain, a * full, duration)
-        holds = math.isclose(found, expected, rel_tol=ROUNDING)
-        yield Check(check, scene, "1", expected, found, holds)
+        yield close(check, scene, "1", expected, found)
 
 
 def largest_load(chain: Chain, speed: float) -> float:
@@ -190,14 +195,7 @@ def fast_drive(scene: str, chain: Chain) -> Check:
         if passes
         else math.nan
     )
-    return Check(
-        "fast",
-        scene,
-        "m/s",
-        expected,
-        found,
-        math.isclose(found, expected, rel_tol=RIGID_TOLERANCE),
-    )
+    return close("fast", scene, "m/s", expected, found, RIGID_TOLERANCE)
 
 
 def below_limit(scene: str, run: Run) -> Check:
@@ -220,20 +218,11 @@ def rigid(chain: Chain, duration: float) -> Check:
         chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass
     )
     found = pushed(block, None, duration)
-    return Check(
-        "rigid",
-        "N = 1",
-        "1",
-        chain.mu_s,
-        found,
-        math.isclose(found, chain.mu_s, rel_tol=ROUNDING),
-    )
+    return close("rigid", "N = 1", "1", chain.mu_s, found)
 
 
 def pushed(chain: Chain, start: FloatArray | None, duration: float) -> float:
     """mu_sapp (Eq. 1) of a chain pushed from rest at some positions [m]; NaN without a
     global slip."""
-    found = first_global_slip(
-        slip_table(simulate(chain, duration, "global slip", start_positions=start))
-    )
-    return found.mu_sapp if found else math.nan
+    run = simulate(chain, duration, "global slip", start_positions=start)
+    return apparent_friction(run)
