@@ -579,8 +579,9 @@ def test_score_prints_a_line_to_paste_and_every_number(cli, tmp_path):
     code, out, err = cli(*command)
     assert (code, err) == (0, "")
     assert out.splitlines()[0] == (
-        "uniform: 1 of 1428 transitions right, times within 2.2e-17 s; events counted "
-        "nan (true: 9), mu_sapp nan (true: 0.4858); nan evaluations, 0.5 s"
+        "uniform: 1 of 1428 transitions right, times within 2.2e-17 s (2.2e-17 s to the "
+        "first global slip); events counted nan (true: 9), mu_sapp nan (true: 0.4858); "
+        "0.5 s"
     )
     assert "should_be                    block 1 to mode 0 at 0.350021426228 s" in out
     values = json.loads(cli(*command, "--json")[1])

@@ -3,6 +3,7 @@
 import gzip
 import hashlib
 import json
+import re
 import zipfile
 from io import BytesIO
 from pathlib import Path
@@ -73,7 +74,9 @@ with job() as snakemake:
     resources = [resource(path, content) for path, content in files.items()]
     package = json.dumps(PACKAGE | {"resources": resources}, indent=1)
     files["datapackage.json"] = f"{package}\n".encode()
-    files["README.md"] = Path(snakemake.input.page).read_bytes()
+    page = Path(snakemake.input.page).read_text(encoding="utf-8")
+    # In the archive there is nothing that it could link to.
+    files["README.md"] = re.sub(r"\[(.+?)\]\(\.\./.+?\)", r"\1", page).encode()
     files["LICENSE-text"] = Path(snakemake.input.licence).read_bytes()
     archive = BytesIO()
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:

@@ -139,9 +139,12 @@ def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
         }
         block = row["block"]
         mode = row["mode"]
-        require(block in modes, at, f"block must be {first} to {last}, but is {block}")
+        from_0 = " (is the column block_from_0?)" if block == 0 else ""
+        allowed = f"block must be {first} to {last}, but is {block}{from_0}"
+        require(block in modes, at, allowed)
         require(mode in (-1, 0, 1), at, f"mode must be -1, 0 or 1, but is {mode}")
-        require(mode != modes[block], at, f"block {block} is in mode {mode} already")
+        repeated = f"block {block} is in mode {mode} already: is a row missing?"
+        require(mode != modes[block], at, repeated)
         require(row["time_s"] >= time, at, "time_s must not fall from row to row")
         time = row["time_s"]
         modes[block] = mode

@@ -28,9 +28,9 @@ mu_sapp = {mu_sapp:.3f} = {largest_load_N:.1f} N / {F_Z:g} N; first global slip 
 NO_SLIP = "in {duration_s:g} s; no global slip.\n"
 SCORE = (
     "{problem}: {transitions_right} of {transitions_true} transitions right, times "
-    "within {time_error_s:.1e} s; events counted {events_counted} (true: "
-    "{events_counted_true}), mu_sapp {mu_sapp:.4f} (true: {mu_sapp_true:.4f}); "
-    "{evaluations:g} evaluations, {seconds:g} s"
+    "within {time_error_s:.1e} s ({time_error_to_global_slip_s:.1e} s to the first "
+    "global slip); events counted {events_counted} (true: {events_counted_true}), "
+    "mu_sapp {mu_sapp:.4f} (true: {mu_sapp_true:.4f})"
 )
 # A run with more transitions up to the first global slip takes seconds to repeat.
 MOST_REPEATED = 50_000
@@ -147,7 +147,9 @@ def score(arguments: Namespace) -> None:
     else:
         values = score(arguments.file, arguments.problem, arguments.ties)
         if not arguments.json:
-            print(SCORE.format(**values), end="\n\n")
+            costs = {"evaluations": "evaluations", "seconds": "s"}
+            told = [f"{values[k]:g} {u}" for k, u in costs.items() if values[k] > 0]
+            print("; ".join([SCORE.format(**values), *told]), end="\n\n")
         show_values(values, arguments.json)
 
 
