@@ -22,6 +22,7 @@ from random_chains import trial_kind
 
 from precursors import Chain, Run, simulate
 from precursors.audit import ROUNDINGS, audit
+from precursors.audit.carried import CarriedState
 from precursors.audit.checks import MAX_PROBLEMS, Auditor
 from precursors.audit.conditions import Conditions, lower_bound
 
@@ -108,7 +109,7 @@ def test_the_bound_on_fourth_derivatives_holds():
     step = 0.02 / math.sqrt(4 * chain.stiffness / chain.mass)
     seconds = step * np.arange(20_000)
     for _ in range(20):
-        state = Auditor(run, ROUNDINGS)
+        state = CarriedState(run)
         state.mode[:] = generator.integers(-1, 2, 7)
         state.velocity[:] = np.where(state.mode, generator.normal(size=7), 0.0)
         state.spring_force[:-1] = 100 * generator.normal(size=7)
@@ -145,10 +146,20 @@ def test_no_function_is_below_its_bound_in_a_cell_and_one_with_a_constant_fourth
     assert bound[0, 0] == pytest.approx(least[0], rel=1e-12)
 
 
+def test_an_audit_that_takes_too_much_work_ends_and_says_where(uniform, monkeypatch):
+    """A slide of a soft drive is long against the fastest mode, and takes many cells."""
+    monkeypatch.setattr("precursors.audit.checks.MAX_VALUES", 20_000)
+    audit(simulate(uniform.chain, 0.35 + 1e-3)).raise_if_failed()
+    report = audit(simulate(replace(uniform.chain, drive_stiffness=1.0), 5e6))
+    (problem,) = report.problems
+    assert "the audit ends here: it cannot look at " in problem
+    assert report.n_intervals < 10
+
+
 def test_energy_that_goes_astray_is_found(uniform):
     stopped = Auditor(uniform, ROUNDINGS)
     stopped.walk()
-    stopped.heat += 1e-9 * stopped.turnover
+    stopped.state.heat += 1e-9 * stopped.state.turnover
     stopped.check_energy(0.0)
     assert "out of balance" in stopped.problems[0]
 

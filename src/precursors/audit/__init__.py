@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from precursors.solver.run import Run
 
 ROUNDINGS = 16.0
-"""What may be off, in roundings of a step (see `checks.Auditor`): so many are the 8 eps
+"""What may be off, in roundings of a step (see `carried.CarriedState`): so many are the 8 eps
 that the solver counts as zero. Deviations come to 2 in the paper's runs, and to 12 in
 20,000 random chains."""
 

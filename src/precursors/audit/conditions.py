@@ -17,13 +17,18 @@ _NUMBERS_AT_ONCE = (
 )
 
 
+class TooLongError(Exception):
+    """An interval that would take more work than is left."""
+
+
 class Conditions:
     """What must not be negative in an interval, as functions of the time s since its
     start.
 
     One column for each sliding block (its velocity [m/s] in the direction of its mode),
     then two for each stuck block whose force can change (mu_s w - force and mu_s w +
-    force [N]). `fourth` bounds the fourth derivative of each column.
+    force [N]). `fourth` bounds the fourth derivative of each column; `computed` is the
+    number of values so far.
     """
 
     def __init__(
@@ -35,6 +40,8 @@ class Conditions:
         loading_rate: float,
     ) -> None:
         self.motion = motion
+        self.mode = mode.copy()
+        self.computed = 0
         moves = mode != 0
         near = moves.copy()
         near[0] = True
@@ -65,8 +72,19 @@ class Conditions:
         slopes = [acceleration @ self.to_speed, -rate, rate]
         return np.concatenate(values, axis=1), np.concatenate(slopes, axis=1)
 
+    def broken(self, column: int) -> tuple[str, str]:
+        """What is wrong where a column is negative, and its unit."""
+        n = len(self.sliding)
+        if column < n:
+            i = self.sliding[column]
+            return f"block {i + 1} slides against its mode {self.mode[i]:+d} at", "m/s"
+        way, k = divmod(column - n, len(self.stuck))
+        direction = "backward" if way else "forward"
+        block = self.stuck[k] + 1
+        return f"block {block} is stuck, pushed {direction} beyond mu_s w by", "N"
+
     def lowest(
-        self, duration: float, tolerance: FloatArray
+        self, duration: float, tolerance: FloatArray, most: int
     ) -> tuple[FloatArray, FloatArray]:
         """Lowest values that were found and their times, each of shape (number of
         columns,).
@@ -76,7 +94,7 @@ class Conditions:
         M d^4/384 on a cell of width d from the cubic that has its values and slopes at
         both ends, and a cubic is above the least of its Bernstein coefficients. A cell
         for which that does not suffice is cut. The search ends where something is below
-        -tolerance.
+        -tolerance, or in a `TooLongError` at so many values computed.
         """
         columns = len(self.fourth)
         fastest = self.motion.modes.frequencies.max(initial=0.0)
@@ -93,6 +111,12 @@ class Conditions:
                 * np.arange(k, min(k + at_once, n_cells) + 1, dtype=float)[:, None]
             )
             while edges.size and not np.any(lowest < -tolerance):
+                self.computed += edges.size * columns
+                if self.computed > most:
+                    raise TooLongError(
+                        f"the audit ends here: it cannot look at {duration:.3g} s of "
+                        f"sliding, {duration * fastest:.3g} radians of the fastest mode"
+                    )
                 values, slopes = self(edges.ravel())
                 _note(values, edges.ravel(), lowest, when)
                 shape = (*edges.shape, columns)

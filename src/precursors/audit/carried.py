@@ -1,0 +1,128 @@
+"""The state that the audit carries through a run, and how far rounding has moved it."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from precursors.audit.motion import Motion, modes_of_all, normal_modes
+from precursors.model.chain import FloatArray
+from precursors.solver.run import Run
+
+_UNIT = 2.0**-53  # a rounding, relative
+_START_ROUNDINGS = 8
+_MEMORY = 2e8  # bytes for normal modes
+
+
+class CarriedState:
+    """Modes, velocities and spring forces (not positions) of a chain, and its energies.
+
+    Solver and audit carry spring forces f and velocities v in doubles. Each step rounds
+    them by some units of 2^-53 of the largest they can be, in the norm sum f_i^2/k_i +
+    m v_i^2, twice the energy. A step is a transition or a radian of the fastest motion,
+    and the drive counts as a mass that moves. In this norm the difference of two
+    motions with the same transitions does not grow: springs and masses keep it, and
+    what stops loses it. So roundings add up: those of an interval one by one, as they
+    may all go the same way, those of different intervals as squares. One rounding a
+    step comes to `one` [sqrt(J)], which is `one_velocity` [m/s] of a velocity and
+    `one_force` [N] of the net force on each block.
+    """
+
+    def __init__(self, run: Run) -> None:
+        chain = run.chain
+        positions = np.asarray(run.start_positions, dtype=float)
+        self.chain = chain
+        self.springs = chain.springs
+        self.friction = chain.kinetic_friction
+        self.mode = np.zeros(chain.n_blocks, dtype=np.int64)
+        self.velocity = np.array(run.start_velocities, dtype=float)
+        # the force of the spring behind each block, and a zero ahead of block N
+        stretch = -np.diff(positions, prepend=0.0)
+        self.spring_force = np.append(self.springs * stretch, 0.0)
+        self.work = 0.0
+        self.heat = 0.0
+        self.turnover = 0.0
+        self.energy_rounding = 0.0
+        # Forces at the start are differences of positions, which are known to their
+        # rounding.
+        ends = positions**2 + np.append(0.0, positions[:-1]) ** 2
+        at_start = _START_ROUNDINGS * math.sqrt(float(self.springs @ ends))
+        self.drive_momentum = math.sqrt(chain.mass) * chain.drive_velocity
+        self.one = _UNIT * math.hypot(at_start, self.drive_momentum)
+        self.per_force = np.sqrt(self.springs)
+        self.per_load = float(self.per_force[0])
+        self.per_force[:-1] += np.sqrt(self.springs[1:])
+        self.fastest = 2 * math.sqrt(self.springs.max() / chain.mass)
+        room = max(32, int(_MEMORY // (16 * chain.n_blocks**2)))
+        self.modes_of_row = lru_cache(maxsize=room)(
+            lambda first, last: normal_modes(chain, first, last)
+        )
+
+    @property
+    def one_force(self) -> FloatArray:
+        """One rounding of the net force on each block [N], shape (N,)."""
+        return self.one * self.per_force
+
+    @property
+    def one_velocity(self) -> float:
+        """One rounding of a velocity [m/s]."""
+        return self.one / math.sqrt(self.chain.mass)
+
+    def net_force(self) -> FloatArray:
+        """Force of the springs and the drive on each block [N], shape (N,) (Eqs.
+        2-4)."""
+        return self.spring_force[:-1] - self.spring_force[1:]
+
+    def energy(self) -> float:
+        """Kinetic energy of the blocks and elastic energy of the springs [J]."""
+        kinetic = 0.5 * self.chain.mass * float(self.velocity @ self.velocity)
+        return kinetic + 0.5 * float(self.spring_force[:-1] ** 2 @ (1 / self.springs))
+
+    def motion(self) -> Motion:
+        """Motion of the blocks that slide."""
+        modes = modes_of_all(self.mode, self.modes_of_row)
+        slides = self.mode != 0
+        force = (self.net_force() - self.mode * self.friction)[slides]
+        # The drive loads block 1 only.
+        loads_first = modes.shapes[0] if slides[0] else np.zeros(len(force))
+        return Motion(
+            modes=modes,
+            speed=self.velocity[slides] @ modes.shapes,
+            push=force @ modes.shapes / self.chain.mass,
+            ramp=self.chain.loading_rate / self.chain.mass * loads_first,
+        )
+
+    def advance(self, motion: Motion, duration: float) -> None:
+        """Move to the end of an interval; add up work, heat and roundings."""
+        before = self.energy()
+        terms = self._move(motion, duration)
+        energy = max(before, self.energy())
+        steps = 1 + self.fastest * duration if motion.speed.size else 1
+        momentum = math.sqrt(self.chain.mass) * motion.largest_speed()
+        size = math.sqrt(2 * energy) + momentum + self.drive_momentum
+        self.one = math.hypot(self.one, _UNIT * steps * size)
+        self.turnover = max(self.turnover, energy) + terms
+        self.energy_rounding += _UNIT * steps * (energy + terms)
+
+    def _move(self, motion: Motion, duration: float) -> float:
+        """Move by the motion; return the sum of the terms of work and heat [J]."""
+        chain = self.chain
+        shapes = motion.modes.shapes
+        slides = self.mode != 0
+        loading_rate = chain.loading_rate
+        impulses = (
+            self.spring_force[0] * duration,
+            0.5 * loading_rate * duration**2,
+            -float(motion.modes.spring_shapes[0] @ motion.integral(duration)),
+        )
+        (displacement,), (velocity,), _ = motion.at(np.array([duration]))
+        heat = (self.mode * self.friction)[slides] * (shapes @ displacement)
+        self.work += chain.drive_velocity * sum(impulses)
+        self.heat += float(heat.sum())
+        self.velocity[slides] = shapes @ velocity
+        self.spring_force[0] += loading_rate * duration
+        self.spring_force -= motion.modes.spring_shapes @ displacement
+        terms = np.append(heat, chain.drive_velocity * np.array(impulses))
+        return float(abs(terms).sum())
