@@ -1,4 +1,4 @@
-"""What a study keeps of a run: counts, mu_sapp and the first global slip."""
+"""Summary of a run: counts, mu_sapp and the first global slip."""
 
 from __future__ import annotations
 

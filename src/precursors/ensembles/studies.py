@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from precursors.ensembles.study import Study
 
 MAP = "map_theta_friction_ratio"
-# Module and function of each study, imported when it is made: who reads the rules waits
-# for no compiler.
+# Module and function of each study, imported when the study is made: reading the rules
+# must not load Numba.
 STUDIES = {
     "noise_members": "noise.noise_study",
     "digits_members": "printed_digits.digits_study",

@@ -1,4 +1,4 @@
-"""A study: a table of members, each of them one run, and what is kept of the runs."""
+"""A study: a table of members, each of them one run, and the summaries of the runs."""
 
 from __future__ import annotations
 

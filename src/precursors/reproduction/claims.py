@@ -1,7 +1,7 @@
 """All claims of the paper that a run could contradict. Numbers are in the order of
 SCENES.
 
-`claims.csv` has what the paper states, in our words, and when it holds. Here is a
+`claims.csv` has each statement of the paper, in our words, and when it holds. Here is a
 function for each claim, with its name, that compares it with the tables.
 """
 

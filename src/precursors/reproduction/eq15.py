@@ -202,7 +202,7 @@ def below_limit(scene: str, run: Run) -> Check:
     """How near a run comes to the state of Eq. 12, in which all blocks are at their
     limits at once.
 
-    At the onset of each slip: what the block farthest from its limit mu_s w_i is below
+    At the onset of each slip: how far the block farthest from its limit mu_s w_i is below
     it, over mu_s w_i.
     """
     forces = run.spring_forces(find_slips(run)["onset"])

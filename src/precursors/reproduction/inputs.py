@@ -1,5 +1,6 @@
-"""The paper's scenes, and the tables that the ledger is made from: who reads the rules
-imports no more."""
+"""The paper's scenes, and the tables that the ledger is made from.
+
+The rules import this module, so that it imports no other."""
 
 # By theta: -5/6, 0 and 5/6.
 TRAILING = "fig11"

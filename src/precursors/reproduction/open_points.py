@@ -88,8 +88,7 @@ def end_to_end(t: Tables) -> Pair:
     return k / (n - 1), k / n
 
 
-# By the point of open_points.csv, which says in words what the paper prints and what is
-# taken instead.
+# By the point of open_points.csv, which has in words the text of the paper and ours.
 NUMBERS: dict[str, Callable[[Tables], Pair]] = {
     "eq12": eq12,
     "fig8": lambda t: (0, slider(t, "theta", LEADING)),
