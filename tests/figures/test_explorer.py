@@ -161,6 +161,14 @@ def test_from_where_the_library_calls_a_run_unpredictable_the_page_is_grey(page,
     assert 5 <= grey <= 15
 
 
+def test_the_answer_turns_grey_while_the_slider_is_held(page, file):
+    open_explorer(page, file)
+    assert page.evaluate("element('answers').className") == ""
+    page.evaluate("setSlider('theta', 0.83), setSlider('n_blocks', 40), solve(true)")
+    page.wait_for("element('answers').className === 'lost'")
+    assert page.evaluate("[run.slider.n_blocks, run.isFinal]") == [40, False]
+
+
 @pytest.mark.parametrize("name", ["digits", "blocks"])
 def test_a_study_finds_what_the_library_finds(page, file, name):
     open_explorer(page, file)

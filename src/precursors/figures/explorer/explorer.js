@@ -5,12 +5,13 @@ const element = (id) => document.getElementById(id);
 const PACE = 4000; // s of film for a second of slip: 1 ms takes 4 s
 const LONGEST = 20; // s of film for one event
 const GAP = [0.4, 1.2]; // s of film for the time between two events, shortest and longest
+const STALE = 300; // ms for which a slider may move on before the twin has been heard again
 const TWIN = 10; // how much further apart a run and its twin are than rounding errors: see ROUNDINGS
 
 const state = { slider: { ...UNIFORM.slider }, wish: {}, step: 1, pick: "partial", view: "first", event: null, time: 0 };
 let run = null, twin = null, film = null, motions = new Map(), playing = null, isToPlay = false, shares = null, dirty = new Set(), wanted = null;
 // What is asked of the workers: the request that they work on, the one that waits for it, and what they have told.
-let asked = 0, current = null, waiting = null, told = [];
+let asked = 0, current = null, waiting = null, told = [], heardTwin = 0;
 const workers = [];
 
 const same = (slider) => !state.slider.weights && Object.keys(slider).every((name) => slider[name] === state.slider[name]);
@@ -31,7 +32,12 @@ function ask(request) {
   if (current && !current.study && !current.isShown) return (waiting = request);
   current = { ...request, id: ++asked };
   told = [];
-  workers.forEach((worker, isTwin) => worker.postMessage({ ...current, isTwin: Boolean(isTwin) }));
+  post(false);
+  if (current.all || current.study) post(true);
+}
+function post(isTwin) {
+  current.isTwinAsked = isTwin;
+  workers[Number(isTwin)].postMessage({ ...current, isTwin });
 }
 
 function hear(isTwin, data) {
@@ -44,18 +50,15 @@ function hear(isTwin, data) {
   told[Number(isTwin)] = data;
   const [next, other] = told;
   if (!next || (!other && (current.all || current.study))) return;
+  if (other) heardTwin = performance.now();
+  else if (!current.isTwinAsked) post(true);
   // While a slider is held, the picture does not wait for the twin, and has the predictability of the one before.
   Object.assign(next, { counted: countedOf(next.events), known: other ? agreement(next, other) : run.known });
-  if (current.study) {
-    current.isShown = true;
-    noteInStudy(current.study, next);
-    return goOnWithStudy();
-  }
-  show(next, other);
-  if (!other) return;
-  current.isShown = true;
-  if (waiting) ask(waiting);
-  else if (next.isFinal && other.isFinal) (element("progress").value = 0), goOnWithStudy();
+  current.isShown = Boolean(other) || performance.now() - heardTwin < STALE;
+  if (current.study) noteInStudy(current.study, next), goOnWithStudy();
+  else show(next, other);
+  if (waiting && current.isShown) ask(waiting);
+  else if (next.isFinal && other?.isFinal && !current.study) (element("progress").value = 0), goOnWithStudy();
 }
 
 // Until when a run and its twin have the same transitions, which come at the same time [s] to the tolerance.
@@ -109,12 +112,13 @@ function along(from, to, x) {
 
 // Where a new run is looked at: the event that the step shows, or the same event and time as before.
 function placeTime() {
-  const { events, counted, end } = run;
+  const { events, counted, end, isFinal } = run;
   const partial = counted.filter((event) => !event.isGlobal), middle = Math.max(Math.ceil(partial.length / 2) - 1, 0);
   const picked = { partial: partial[middle], longer: partial[Math.min(middle + 1, partial.length - 1)], global: firstGlobal() ?? counted.at(-1) }[state.pick];
   if (picked && !playing) [state.event, state.time] = [events.indexOf(picked), picked.onset];
   else if (state.event !== null && !playing) {
-    state.event = events.length ? Math.min(state.event, events.length - 1) : null;
+    // A run that is shown before it is solved may lack the event as yet.
+    if (isFinal || firstGlobal()) state.event = events.length ? Math.min(state.event, events.length - 1) : null;
     state.time = event()?.onset ?? 0;
   }
   state.time = Math.min(state.time, end);
@@ -150,7 +154,7 @@ function drawDirty() {
 
 function showAnswers() {
   const slip = firstGlobal(), word = (name) => explained("answers", name), isLost = slip ? slip.onset >= run.known : run.known <= run.end;
-  const stopped = run.stopped ? `Stopped after ${run.arrays.time.length > 200000 ? "200,000 transitions" : "2,000,000 steps"} at ${quantity(run.end, "s")}. ` : "";
+  const stopped = run.stopped ? `Stopped at ${quantity(run.end, "s")}, after very many transitions. ` : "";
   const result = slip
     ? `${counts(run.counted.length, "event")} counted in ${word("fig13")} · ${word("apparent")} = ${ratio()} · first global slip at ${quantity(slip.onset, "s")}`
     : `No global slip ${run.stopped ? "until then" : run.end < DURATION ? "so far" : `in ${DURATION} s`} · largest load ${ratio()} F<sub>Z</sub>`;

@@ -78,7 +78,12 @@ function showReadout() {
     : "Press Play, click an event in a figure, or press →.";
   if (element("readout").textContent === text) return;
   element("readout").textContent = text;
-  element("row").setAttribute("aria-label", `A row of ${counts(n, "block")}, pushed from the left by a spring. ${text}`);
+  setName("row", `A row of ${counts(n, "block")}, pushed from the left by a spring. ${text}`);
+}
+
+// What is heard of a figure.
+function setName(id, text) {
+  element(id).setAttribute("aria-label", text);
 }
 
 const isWide = (start, end) => end - start > 0.02; // s: the time of the run, not that of an event
@@ -136,7 +141,7 @@ function showLoad() {
   const seen = run.events.filter((one) => one.onset >= start && one.onset <= end), size = seen.length > 60 ? 2 : 3;
   for (const one of seen) if (size > 2 || one.isGlobal) mark(context, "dot", figure.x(one.onset), figure.y(one.before), size, palette[kindOf(one)]);
   shares = figure;
-  element("load").setAttribute("aria-label", `Load against time: ${plain(shown.answers)}. ${plain(shown.trust)}`);
+  setName("load", `Load against time: ${plain(shown.answers)}. ${plain(shown.trust)}`);
 }
 
 // K x_1: the load without its trend, which climbs one step in each slip.
@@ -149,7 +154,7 @@ function showStairs() {
     context.strokeStyle = palette[kindOf(one)];
     stroke(context, [[figure.x(one.onset), figure.y(rate * one.onset - one.before)], [figure.x(one.end), figure.y(rate * one.end - one.after)]]);
   }
-  element("stairs").setAttribute("aria-label", `The load that slips have released, K x1, against time: a step up in each of ${counts(run.events.length, "event")}`);
+  setName("stairs", `The load that slips have released, K x1, against time: a step up in each of ${counts(run.events.length, "event")}`);
 }
 
 function showSlips() {
@@ -159,14 +164,13 @@ function showSlips() {
   const figure = axes(context, width, height, [start, end], [0.5, n + 0.5], [label, "Block"], along, { values, decimals: 0 });
   slideBars(context, figure, run, start, end);
   showLimit(context, figure);
-  element("slips").setAttribute("aria-label", "Slips over time: one line for each block, coloured while it slides");
+  setName("slips", "Slips over time: one line for each block, coloured while it slides");
 }
 
 let marks = []; // of the figure of front lengths: [x, y, number of the event]
 function showLengths() {
   marks = [];
-  const setName = (text) => element("lengths").setAttribute("aria-label", text);
-  if (study()) return setName(study().draw(...clear(element("lengths")), found[study().name]));
+  if (study()) return setName("lengths", study().draw(...clear(element("lengths")), found[study().name]));
   const [context, width, height] = clear(element("lengths")), last = firstGlobal();
   const events = last ? run.events.slice(0, run.events.indexOf(last) + 1) : run.events;
   const highest = Math.max(1e-9, ...events.map((e) => e.before));
@@ -177,5 +181,5 @@ function showLengths() {
     if (i === state.event) mark(context, "ring", x, y, 10, palette.ink);
     return [x, y, i];
   });
-  setName(`Front length against load: ${run.counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`).join(", ").slice(0, 900)}`);
+  setName("lengths", `Front length against load: ${run.counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`).join(", ").slice(0, 900)}`);
 }
