@@ -1,6 +1,7 @@
 """The pages of docs/ beside the interface, for `make docs`.
 
 .. include:: customise.md
+.. include:: example.md
 .. include:: numbers.md
 .. include:: adding.md
 .. include:: models.md

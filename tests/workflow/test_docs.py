@@ -157,6 +157,25 @@ def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
     assert re.fullmatch(r"median mu_sapp = 0\.\d{3}\n", capsys.readouterr().out)
 
 
+def test_the_example_gives_what_it_shows(tmp_path, monkeypatch, capsys):
+    found = BLOCK.findall((DOCS / "example.md").read_text(encoding="utf-8"))
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    for language, code in found:
+        if language == "python":
+            exec(code, names)
+    shown = "".join(code for language, code in found if language == "text")
+    assert capsys.readouterr().out == shown
+    assert {
+        path.name for path in tmp_path.iterdir() if path.stat().st_size > 10_000
+    } == {
+        "study.png",
+        "run.png",
+        "lengths.pdf",
+        "larger.png",
+    }
+
+
 def test_every_page_is_rendered_with_links_that_the_makefile_can_follow(tmp_path):
     command = [
         sys.executable,

@@ -34,6 +34,9 @@ SCORE = (
 )
 # A run with more transitions up to the first global slip takes seconds to repeat.
 MOST_REPEATED = 50_000
+# Of an accurate run of a larger chain: changes by half the step, the energy that lacks
+# over the work of the drive.
+MOST_WRONG = {"halved_load_N": 0.5, "halved_events": 0, "energy_error": 1e-6}
 
 
 def simulate(arguments: Namespace) -> None:
@@ -55,6 +58,7 @@ def simulate(arguments: Namespace) -> None:
         "global_slip_s": first and first.time,
         "global_slip_end_s": first and table["end_s"].iloc[first.event - 1],
     }
+    values |= accuracy(run)
     if arguments.output:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
@@ -62,7 +66,7 @@ def simulate(arguments: Namespace) -> None:
         found = FOUND + (FIRST_SLIP if first else NO_SLIP)
         print(found.format(**values, F_Z=run.chain.normal_load))
     show_values(values, arguments.json)
-    tell_predictability(run, first)
+    tell_accuracy(run, first)
 
 
 def slips(arguments: Namespace) -> None:
@@ -87,7 +91,7 @@ def slips(arguments: Namespace) -> None:
         shown = table.drop(columns=["theta", "n_blocks", "normal_load_N", "length_m"])
         shown.columns = shown.columns.str.replace("load_|is_|n_", "", regex=True)
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
-    tell_predictability(run, first)
+    tell_accuracy(run, first)
 
 
 def plot(arguments: Namespace) -> None:
@@ -247,11 +251,25 @@ def tell(line: str) -> None:
     print(line, file=sys.stderr)
 
 
-def tell_predictability(run: Record, first: FirstGlobalSlip | None) -> None:
-    """Say if roundings decide the first global slip."""
+def accuracy(run: Record) -> dict[str, float]:
+    """Of a larger chain, what half the step changes, and the energy that is lacking."""
+    larger = getattr(run, "larger", {})
+    return {name: larger[name] for name in MOST_WRONG if name in larger}
+
+
+def tell_accuracy(run: Record, first: FirstGlobalSlip | None) -> None:
+    """Say if steps are too long, or if roundings decide the first global slip."""
     from precursors.analysis.horizon import predicted_errors
     from precursors.solver.run import Run
 
+    found = accuracy(run)
+    wrong = [
+        f"{name} = {found[name]:.3g}"
+        for name, most in MOST_WRONG.items()
+        if not abs(found.get(name, 0)) <= most
+    ]
+    if wrong:
+        tell(f"this run is not accurate: {', '.join(wrong)}")
     if first is None or not isinstance(run, Run):
         return
     until = run.transitions[run.transitions["time"] <= first.time]

@@ -4,6 +4,7 @@ loses, and when and where blocks slipped."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from textwrap import fill
 from typing import Any
 
@@ -204,7 +205,8 @@ def _number_blocks(axes: Axes, slips: pd.DataFrame) -> None:
     if slips.empty:
         return
     block_mm = style.MM_PER_M * slips["length_m"].iloc[0] / slips["n_blocks"].iloc[0]
-    scale = (lambda mm: mm / block_mm, lambda block: block * block_mm)
+    # An EPS is drawn from a copy, and lambdas cannot be copied.
+    scale = partial(np.multiply, 1 / block_mm), partial(np.multiply, block_mm)
     blocks = axes.secondary_yaxis("right", functions=scale)
     n = int(slips["n_blocks"].iloc[0])
     style.set_ticks(blocks.yaxis, sorted({1, (n + 1) // 2, n}))

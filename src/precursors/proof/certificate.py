@@ -104,6 +104,12 @@ class Certificate:
     tie: Tie | None
     bits: int
 
+    def __repr__(self) -> str:
+        return (
+            f"Certificate of {len(self.transitions)} transitions in "
+            f"{float(self.proved_until):g} s, each within {float(self.width):g} s"
+        )
+
     @property
     def proved_until(self) -> Fraction:
         """Time [s] up to which the transitions listed are proved to be all."""
