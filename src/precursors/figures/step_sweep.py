@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import MaxNLocator, NullLocator
 
 from precursors.figures import style
 
@@ -62,6 +62,7 @@ def draw(table: pd.DataFrame) -> Figure:
             column[0].set_title(style.theta_text(rows["theta"].iloc[0]), pad=3)
             column[-1].set_xlabel(r"Step $\Delta t$ [s]")
         grid[0, 0].set(ylabel=style.EVENTS_LABEL, xscale="log")
+        grid[0, 0].xaxis.set_minor_locator(NullLocator())
         grid[0, 0].yaxis.set_major_locator(MaxNLocator(integer=True))
         grid[1, 0].set_ylabel(style.MU_SAPP_LABEL)
         grid[2, 0].set(ylabel="Transitions right [%]", ylim=(0, 108))
