@@ -1,6 +1,9 @@
 """Stick-slip chains solved exactly: precursors of global slip after Maegawa, Suzuki and
 Nakano (2010).
 
+The library is `model`, `solver`, `audit`, `proof` and `analysis`, for any chain; the
+other rooms reproduce the paper with it.
+
     >>> from precursors import Chain, apparent_friction, find_slips, plot, simulate
     >>> run = simulate(Chain.from_slider(theta="-5/6"))  # else as in the paper
     >>> round(apparent_friction(run), 4)
@@ -34,8 +37,8 @@ if TYPE_CHECKING:
     from precursors.solver.run import LargerRun, Record, Run, RunFileError
     from precursors.solver.simulate import TransitionLimitError, simulate
 
-# Imported when first asked for (PEP 562): who checks a configuration or draws a table
-# waits for no compiler.
+# Imported when first asked for (PEP 562): checking a configuration or drawing a table
+# must not load the compiler.
 _MODULES = {
     "Chain": "model.chain",
     "LargerChain": "hierarchy.larger",

@@ -18,7 +18,7 @@ from precursors.hierarchy.compare_models import (
     TOLERANCES,
     compare_models,
 )
-from precursors.hierarchy.models import MODELS, UNITS, Motion, move, scene_answers
+from precursors.hierarchy.models import MODELS, UNITS, FirstLoading, move, scene_answers
 from precursors.hierarchy.quasistatic import (
     ENERGY_CONSERVED,
     OVERDAMPED,
@@ -261,7 +261,7 @@ def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(
     calls, warm, rounds = [], 0.0005, 3
     motion = move(SCENES["even"])
 
-    def prepare(chain: Chain) -> Motion:
+    def prepare(chain: Chain) -> FirstLoading:
         clock.now += warm if len(calls) > 1 + DRAWS else 10.0
         calls.append(chain)
         return motion

@@ -40,7 +40,7 @@ CHAINS = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text())
 # A committed certificate is smaller [bytes].
 LARGEST_FILE = 300_000
 COMMITTED = Path(__file__).parents[2] / "workflow" / "certificates"
-# The chains of the three scenes in horizon.chains of the configuration.
+# The chains of the three scenes in accuracy.proved of the configuration.
 PROVED_SCENES = {"fig10": "uniform", "fig11": "trailing", "fig12": "leading"}
 SLIDER = ExactChain.from_slider
 

@@ -20,7 +20,7 @@ from precursors.proof.event_roots import (
     newton,
 )
 from precursors.proof.exact_chain import ExactChain
-from precursors.proof.motion import Constants, State, time_unit
+from precursors.proof.motion import Constants, EnclosedState, time_unit
 from precursors.proof.tube import Proof
 
 BITS, END, VALID = 64, 1.0, 1.125
@@ -204,7 +204,7 @@ def equations(of: Constants, mode: list[int]) -> np.ndarray:
     return matrix
 
 
-def vector(state: State) -> np.ndarray:
+def vector(state: EnclosedState) -> np.ndarray:
     return np.array([float(x) for x in (*state.force[1:-1], *state.rate[1:-1], 1.0)])
 
 
@@ -324,7 +324,7 @@ def test_no_net_force_changes_by_more_than_its_bound(
     """Beside the matrix exponential; a run may have the velocity, or be as far as that
     from the state."""
     chain, gap = ExactChain.from_slider(**slider), 0.5
-    state = State(
+    state = EnclosedState(
         [*map(arb, (0, *force, 0))],
         [*map(arb, (0, *rate, 0))],
         [0, *mode, 0],

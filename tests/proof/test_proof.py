@@ -27,7 +27,7 @@ from precursors.proof import (
     certify,
     verify,
 )
-from precursors.proof.motion import State, order_for, size, tail, time_unit
+from precursors.proof.motion import EnclosedState, order_for, size, tail, time_unit
 from precursors.proof.tube import Proof
 
 # Half a unit of the last of the golden digits, relative.
@@ -206,7 +206,7 @@ def fraction(x: arb) -> Fraction:
 def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy() -> None:
     """sum T_i^2 / c_i + u_i^2, for two blocks."""
     constants: Any = SimpleNamespace(coupling=[arb(c) for c in (0, 0.25, 4, 0)])
-    state = State([], [], [0] * 4, arb(1))
+    state = EnclosedState([], [], [0] * 4, arb(1))
     state.absorb(
         constants,
         [arb(0), arb(5, 3), arb(6, 4), arb(0)],

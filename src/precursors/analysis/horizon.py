@@ -25,14 +25,14 @@ N_NEIGHBOURS = 16
 # EPS / 2: more than the solver takes for zero, so that neighbours disagree on a
 # transition that rounding decides.
 ROUNDINGS = 64.0
-# An error is taken for so many times the spread by one rounding. This is for the
-# roundings on the way, too, which are not drawn.
+# The error is estimated as so many times the spread by one rounding, a factor that also
+# covers rounding during the run.
 SIGMAS = 6.0
 # Neighbours run a little longer than the run, so that none lacks a transition that
 # comes just before the end.
 LONGER = 1.0 + 1e-6
 SEED = 2010
-# What neighbours differ in, beside their weights and starts.
+# Parameters that neighbours change, beside their weights and starts.
 NUMBERS = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k")
 
 
@@ -138,7 +138,7 @@ def neighbours(run: Run) -> list[Run]:
 
 
 def _agreeing(run: Run, other: Run) -> int:
-    """How many transitions of two runs are the same, in the same order."""
+    """Number of transitions before the first that differs."""
     n = min(len(run.transitions), len(other.transitions))
     same = [
         run.transitions[name][:n] == other.transitions[name][:n]

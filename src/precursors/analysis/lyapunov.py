@@ -1,4 +1,4 @@
-"""The largest Lyapunov exponent of a chain: how fast two runs that all but agree come
+"""The largest Lyapunov exponent of a chain: how fast two nearly equal runs come
 apart.
 
 A difference is measured at the onset of each slip event, when all blocks rest: there it

@@ -118,7 +118,7 @@ class Definition:
 
     @property
     def global_slip_text(self) -> str:
-        """What makes an event a global slip, in words."""
+        """Which event is a global slip, in words."""
         if isinstance(self.global_slip, str):
             return GLOBAL_SLIPS[self.global_slip]
         return f"in which F_X drops by more than {self.global_slip:g} N"

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from precursors.solver.run import Run
 
 ROUNDINGS = 16.0
-"""What may be off, in roundings of a step (see `carried.CarriedState`): so many are the 8 eps
+"""Tolerance in roundings of a step (see `carried.CarriedState`), which are the 8 eps
 that the solver counts as zero. Deviations come to 2 in the paper's runs, and to 12 in
 20,000 random chains."""
 
@@ -32,10 +32,10 @@ def audit(run: Run, roundings: float = ROUNDINGS) -> Audit:
     Parameters
     ----------
     run : Run
-        Of any method: only chain, start state, transitions, intervals and duration are
-        read.
+        Its chain, start, transitions, intervals and duration are checked; its stored
+        states, from which `at` starts, are not read.
     roundings : float
-        What forces, velocities and the energy may be off by, in roundings; the default
+        Tolerance of forces, velocities and the energy, in roundings; the default
         is for an exact run.
 
     Raises

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from precursors.audit.motion import Motion, modes_of_all, normal_modes
+from precursors.audit.motion import ModalMotion, modes_of_all, normal_modes
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Run
 
@@ -80,21 +80,21 @@ class CarriedState:
         kinetic = 0.5 * self.chain.mass * float(self.velocity @ self.velocity)
         return kinetic + 0.5 * float(self.spring_force[:-1] ** 2 @ (1 / self.springs))
 
-    def motion(self) -> Motion:
+    def motion(self) -> ModalMotion:
         """Motion of the blocks that slide."""
         modes = modes_of_all(self.mode, self.modes_of_row)
         slides = self.mode != 0
         force = (self.net_force() - self.mode * self.friction)[slides]
         # The drive loads block 1 only.
         loads_first = modes.shapes[0] if slides[0] else np.zeros(len(force))
-        return Motion(
+        return ModalMotion(
             modes=modes,
             speed=self.velocity[slides] @ modes.shapes,
             push=force @ modes.shapes / self.chain.mass,
             ramp=self.chain.loading_rate / self.chain.mass * loads_first,
         )
 
-    def advance(self, motion: Motion, duration: float) -> None:
+    def advance(self, motion: ModalMotion, duration: float) -> None:
         """Move to the end of an interval; add up work, heat and roundings."""
         before = self.energy()
         terms = self._move(motion, duration)
@@ -106,7 +106,7 @@ class CarriedState:
         self.turnover = max(self.turnover, energy) + terms
         self.energy_rounding += _UNIT * steps * (energy + terms)
 
-    def _move(self, motion: Motion, duration: float) -> float:
+    def _move(self, motion: ModalMotion, duration: float) -> float:
         """Move by the motion; return the sum of the terms of work and heat [J]."""
         chain = self.chain
         shapes = motion.modes.shapes

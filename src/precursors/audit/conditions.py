@@ -1,5 +1,4 @@
-"""What must hold inside an interval between two transitions, and the proof that it
-does."""
+"""Conditions inside an interval between two transitions, and a proof of them."""
 
 from __future__ import annotations
 
@@ -7,7 +6,7 @@ import math
 
 import numpy as np
 
-from precursors.audit.motion import Motion
+from precursors.audit.motion import ModalMotion
 from precursors.model.chain import FloatArray
 
 _FEWEST_CELLS = 2
@@ -22,8 +21,8 @@ class TooLongError(Exception):
 
 
 class Conditions:
-    """What must not be negative in an interval, as functions of the time s since its
-    start.
+    """Functions of the time s since an interval's start that must not be negative in
+    it.
 
     One column for each sliding block (its velocity [m/s] in the direction of its mode),
     then two for each stuck block whose force can change (mu_s w - force and mu_s w +
@@ -33,7 +32,7 @@ class Conditions:
 
     def __init__(
         self,
-        motion: Motion,
+        motion: ModalMotion,
         mode: np.ndarray,
         force: FloatArray,
         strength: FloatArray,
@@ -73,7 +72,7 @@ class Conditions:
         return np.concatenate(values, axis=1), np.concatenate(slopes, axis=1)
 
     def broken(self, column: int) -> tuple[str, str]:
-        """What is wrong where a column is negative, and its unit."""
+        """Sentence and unit for a column that is negative."""
         n = len(self.sliding)
         if column < n:
             i = self.sliding[column]

@@ -77,7 +77,7 @@ def modes_of_all(mode: np.ndarray, modes_of_row: Callable[[int, int], Modes]) ->
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class ModalMotion:
     """Motion mode by mode: q'' + omega^2 q = push + ramp s, q = 0 and q' = speed at s =
     0."""
 

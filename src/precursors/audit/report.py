@@ -1,5 +1,4 @@
-"""What an audit found: a run is a motion of the model within tolerances, or what
-exceeds them."""
+"""The outcome of an audit: a motion of the model, or what exceeds its tolerance."""
 
 from __future__ import annotations
 

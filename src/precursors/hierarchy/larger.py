@@ -80,7 +80,7 @@ class LargerChain:
         return simulate_with_accuracy(self, duration, until, **limits)
 
 
-class Model(NamedTuple):
+class CompiledChain(NamedTuple):
     """What the compiled functions need of a chain; `leap` is that of `simulate_larger`.
 
     Springs and dashpots, like forces and velocities, end with a 0: nothing is ahead of
@@ -431,7 +431,9 @@ def simulate_larger(
     tilts = tilt(chain, larger.push_height)
     loads = chain.weights.copy()
     friction = chain.mass, chain.mu_s, chain.mu_k, v_c
-    m = Model(springs, dashpots, loads, tilts, *friction, chain.drive_velocity, leap)
+    m = CompiledChain(
+        springs, dashpots, loads, tilts, *friction, chain.drive_velocity, leap
+    )
     seconds = np.full(n, 2.0 / chain.fastest_frequency_bound * step)
     if v_c and chain.mu_k < chain.mu_s:
         fall = (chain.mu_s - chain.mu_k) * (

@@ -64,7 +64,7 @@ class Model:
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class FirstLoading:
     """A chain up to the end of its first global slip, or to where it is given up.
 
     `slips` have the columns of `find_slips`. `waveform` is time [s] and load [N] at the
@@ -95,15 +95,15 @@ def run_larger(chain: Chain) -> LargerRun:
 
 def move(
     chain: Chain, solve: Callable[[Chain], Run | LargerRun] = run_to_global_slip
-) -> Motion:
+) -> FirstLoading:
     """Follow a chain through time to the end of its first global slip."""
     run = solve(chain)
     if isinstance(run, LargerRun):
-        return Motion(chain, slip_events([run]), run.load_points)
+        return FirstLoading(chain, slip_events([run]), run.load_points)
     times = run.transitions["time"]
     loads = run.transitions["tangential_load"]
     waveform = np.column_stack([np.append(0.0, times), np.append(0.0, loads)])
-    return Motion(chain, slip_events([run]), waveform)
+    return FirstLoading(chain, slip_events([run]), waveform)
 
 
 def longest_run(chain: Chain) -> float:
@@ -112,12 +112,14 @@ def longest_run(chain: Chain) -> float:
     return LIMIT * chain.mu_s * chain.normal_load * compliance / chain.drive_velocity
 
 
-def move_without_inertia(chain: Chain, overshoot: float = ENERGY_CONSERVED) -> Motion:
+def move_without_inertia(
+    chain: Chain, overshoot: float = ENERGY_CONSERVED
+) -> FirstLoading:
     """Follow a quasi-static chain to its first global slip."""
-    return Motion(chain, quasistatic_slips(chain, overshoot))
+    return FirstLoading(chain, quasistatic_slips(chain, overshoot))
 
 
-def front_loads(motion: Motion) -> FloatArray:
+def front_loads(motion: FirstLoading) -> FloatArray:
     """F_X at the onset of the first event whose front reaches block 1..N or beyond [N];
     NaN if none."""
     farthest = np.maximum.accumulate(motion.slips["front"])
@@ -125,25 +127,25 @@ def front_loads(motion: Motion) -> FloatArray:
     return np.append(motion.slips["load_before"], np.nan)[event]
 
 
-def apparent_friction(motion: Motion) -> float:
+def apparent_friction(motion: FirstLoading) -> float:
     """mu_sapp (Eq. 1); NaN without a global slip."""
     loads = motion.global_slip["largest_load"]
     return float(mu_sapp(loads[0], motion.chain.normal_load)) if len(loads) else np.nan
 
 
-def slip_duration(motion: Motion) -> float:
+def slip_duration(motion: FirstLoading) -> float:
     """Duration of the first global slip [s]; NaN without one."""
     slip = motion.global_slip
     return float(slip["end"][0] - slip["onset"][0]) if len(slip) else np.nan
 
 
-def events_counted(motion: Motion) -> float:
+def events_counted(motion: FirstLoading) -> float:
     """Number of events counted in Fig. 13; NaN without a global slip."""
     n_counted = np.count_nonzero(counted(motion.slips["front"]))
     return float(n_counted) if len(motion.global_slip) else np.nan
 
 
-_EVENTS: dict[str, Callable[[Motion], Any]] = {
+_EVENTS: dict[str, Callable[[FirstLoading], Any]] = {
     "first_load": lambda motion: float(motion.slips["load_before"][0]),
     "events_counted": events_counted,
     "mu_sapp": apparent_friction,

@@ -40,7 +40,7 @@ from precursors.methods.fixed_step import (
     LOST,
     MOVING,
     PAUSED,
-    Motion,
+    SteppedMotion,
     begin_leg,
     motion_from_rest,
     obstacle,
@@ -234,7 +234,7 @@ def go_on(system, state, progress, record, y, settings, nudge, event, elapsed):
     Returns MOVING where a block slides, PAUSED where the record is full, and LOST where
     transitions repeat without time going on.
     """
-    motion = Motion(system, state, progress, record)
+    motion = SteppedMotion(system, state, progress, record)
     n = state.shape[1] - 2
     if event < 0:
         progress[0].legs = 0

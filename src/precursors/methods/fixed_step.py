@@ -74,7 +74,7 @@ RECORD = np.dtype(
 )
 
 
-class Motion(NamedTuple):
+class SteppedMotion(NamedTuple):
     """A chain in motion: what stays, what changes, how far it is (one row), and its
     transitions so far."""
 
@@ -91,7 +91,7 @@ def motion_from_rest(
     rule: str = COULOMB,
     scaled: bool = False,
     waits: bool = True,
-) -> Motion:
+) -> SteppedMotion:
     """A chain at the start of its run, see `march`."""
     progress = np.zeros(1, PROGRESS)
     progress["duration"] = checked_span(duration, until)
@@ -100,7 +100,7 @@ def motion_from_rest(
     progress["loading_rate"] = chain.loading_rate
     progress["remaining"] = progress["duration"] / progress["unit"]
     progress["waits"] = waits
-    return Motion(
+    return SteppedMotion(
         *at_rest(chain, rule, scaled),
         progress,
         np.empty(FIRST_ROOM + chain.n_blocks, RECORD),

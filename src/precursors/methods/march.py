@@ -17,7 +17,7 @@ from precursors.methods.fixed_step import (
     PAUSED,
     PROGRESS,
     RECORD,
-    Motion,
+    SteppedMotion,
     motion_from_rest,
 )
 from precursors.methods.switching import COULOMB
@@ -94,14 +94,14 @@ def slide(
     progress["remaining"] = n_steps * step
     modes = state[MODE].copy()
     state[MODE] = 0.0
-    motion = Motion(free, state, progress, np.empty(FIRST_ROOM, RECORD))
+    motion = SteppedMotion(free, state, progress, np.empty(FIRST_ROOM, RECORD))
     progress["status"] = PAUSED
     while progress["status"] == PAUSED:
         method(motion, step, *parameters)
     state[MODE] = modes
 
 
-def with_room(motion: Motion) -> Motion:
+def with_room(motion: SteppedMotion) -> SteppedMotion:
     """The motion with a longer record where its own is full."""
     if motion.progress["transitions"][0] + motion.state.shape[1] <= len(motion.record):
         return motion
@@ -110,7 +110,7 @@ def with_room(motion: Motion) -> Motion:
     )
 
 
-def run_of(motion: Motion, chain: Chain, status: int) -> Record:
+def run_of(motion: SteppedMotion, chain: Chain, status: int) -> Record:
     """The run so far; of a diverged one what is finite."""
     progress = motion.progress[0]
     rows = motion.record[: progress["transitions"]]

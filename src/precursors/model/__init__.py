@@ -1,1 +1,1 @@
-"""What is simulated: the chain, its scenes and its statics (Eqs. 2-14)."""
+"""The chain that is simulated, its scenes and its statics (Eqs. 2-14)."""

@@ -1,4 +1,4 @@
-"""What a configuration must hold: the first thing wrong with it, in one line."""
+"""Checks of a configuration: the first thing wrong with it, in one line."""
 
 from __future__ import annotations
 

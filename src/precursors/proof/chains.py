@@ -18,15 +18,14 @@ PROVED_FOR = 10.0
 
 
 def exact_chain(values: Mapping[str, Any]) -> ExactChain:
-    """The chain of the configuration's `horizon.chains` that has some values of its
-    own."""
+    """A chain of the configuration's `accuracy.proved`, from the values it states."""
     return ExactChain.from_slider(
         **{name: x for name, x in values.items() if name != "duration"}
     )
 
 
 def chain_duration(values: Mapping[str, Any]) -> float:
-    """How long a chain of `horizon.chains` is run [s]."""
+    """Duration of the proof of a chain of the configuration's `accuracy.proved` [s]."""
     return float(values.get("duration", PROVED_FOR))
 
 
@@ -75,7 +74,7 @@ def certificates_table(
 
 
 def certificate_row(certificate: Certificate) -> dict[str, float]:
-    """What is proved, in one row of certificates.csv."""
+    """Row of certificates.csv: numbers of a proof."""
     return {
         "proved_until_s": float(certificate.proved_until),
         "transitions": len(certificate.transitions),

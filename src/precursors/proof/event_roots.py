@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from flint import arb, arb_poly, ctx
 
-from precursors.proof.motion import Constants, State, expand, force_rate
+from precursors.proof.motion import Constants, EnclosedState, expand, force_rate
 
 
 class Undecided(Exception):
@@ -49,13 +49,13 @@ class EventFunction:
 
     @property
     def what(self) -> str:
-        """What happens at the root."""
+        """The change at the root, in words."""
         change = {0: "stops", 1: "is released forward", -1: "is released backward"}
         return f"block {self.block} {change[self.direction]}"
 
 
 def event_functions(
-    constants: Constants, state: State, fresh: set[int], valid: float, bits: int
+    constants: Constants, state: EnclosedState, fresh: set[int], valid: float, bits: int
 ) -> list[EventFunction]:
     """Velocities of the sliding blocks and margins of the stuck ones that feel a
     change, up to `valid` [T].

@@ -104,7 +104,7 @@ class Constants:
 
 
 @dataclass
-class State:
+class EnclosedState:
     """A centre, exact, and a bound of the distance [N] within which every run of the
     model is from it.
 
@@ -165,7 +165,7 @@ def size(constants: Constants, force: list[arb], rate: list[arb]) -> arb:
 
 
 def expand(
-    constants: Constants, state: State, span: float | arb, bits: int
+    constants: Constants, state: EnclosedState, span: float | arb, bits: int
 ) -> tuple[dict[int, arb_poly], list[arb]]:
     """Taylor polynomials of u_i of the sliding blocks, to about `bits` bits for times
     up to +-`span` [T].
@@ -179,7 +179,7 @@ def expand(
 
 
 def coefficients(
-    constants: Constants, state: State, order: int
+    constants: Constants, state: EnclosedState, order: int
 ) -> dict[int, list[arb]]:
     """Taylor coefficients 0..order of u_i of the sliding blocks, from the second-order
     form of Eq. 2,
@@ -258,7 +258,7 @@ def force_rate(
 
 def advance(
     constants: Constants,
-    state: State,
+    state: EnclosedState,
     polynomials: dict[int, arb_poly],
     rest: arb,
     step: arb,

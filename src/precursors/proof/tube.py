@@ -43,7 +43,7 @@ from precursors.proof.event_roots import (
 from precursors.proof.motion import (
     BOUND_BITS,
     Constants,
-    State,
+    EnclosedState,
     advance,
     ball,
     expand,
@@ -107,7 +107,7 @@ class Proof:
 
     def at_start(
         self, positions: tuple[Fraction, ...], velocities: tuple[Fraction, ...]
-    ) -> State:
+    ) -> EnclosedState:
         """Given positions and velocities; a block slides that moves, or is beyond its
         strength."""
         chain = self.chain
@@ -122,7 +122,7 @@ class Proof:
         least_distance = arb(2) ** (
             log2(max(constants.strength, key=float)) - self.bits
         )
-        state = State([], [], [0] * (n + 2), least_distance)
+        state = EnclosedState([], [], [0] * (n + 2), least_distance)
         rate = [
             Fraction(0),
             *(v * chain.mass / self.unit_seconds for v in velocities),

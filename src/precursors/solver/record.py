@@ -1,4 +1,4 @@
-"""What is recorded of a run: its transitions, and states between them."""
+"""Types of a record: transitions, and the states stored between them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a job computes: a digest of the syntax trees of its script and of all that this
+"""Digest of what a job computes: the syntax trees of its script and of all that this
 imports."""
 
 from __future__ import annotations

@@ -111,7 +111,7 @@ def git_state(root: Path) -> dict[str, str | bool] | None:
 
 
 def _git(root: Path, *command: str) -> str:
-    """What a git command prints, or nothing where it fails."""
+    """Output of a git command, or nothing where it fails."""
     try:
         answer = subprocess.run(
             ["git", "-C", root, *command], capture_output=True, text=True

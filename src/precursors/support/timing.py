@@ -45,7 +45,7 @@ class Timing:
         return statistics.median(self.wall)
 
     def times_faster_than(self, other: Timing) -> tuple[float, float]:
-        """How many times longer the other takes, on the clock and in processor time:
+        """Time of the other over this one, on the clock and in processor time:
         medians of rounds."""
         return (
             statistics.median(

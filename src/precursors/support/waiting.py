@@ -1,4 +1,4 @@
-"""What is told to those who wait for long work at a terminal."""
+"""Progress of long work, told at a terminal."""
 
 from __future__ import annotations
 

@@ -26,15 +26,18 @@ units the motion is
 Column 0 of every array is the drive, columns 1..N are the blocks. Beyond them is room
 for a group of four.
 
-| `plain` | kernel | |---|---| | `State` | `arrays.Motion`, with room to work in | |
-`at_start` | `events.take_start` | | `expand` | `series.expand`: velocities and net
-forces; spring forces follow from slips | | `powers` | `series.powers`, divided by n! |
-| `move` | `series.move`, which sums them group by group (`sum_series`) | | `safe_step`
-| `roots.safe_step` | | `first_root` | `roots.first_root`, for functions that
-`proof.prove` leaves open | | `next_transition` | `events.next_transition`: `guess`,
-`find_root`, `prove` and, where it fails, `search` | | its last lines |
-`friction.mode_at_rest` | | `find_transitions` | `events.find_transitions`: `rest` where
-all blocks stick, `slide` where some move |
+| `plain` | kernel |
+|---|---|
+| `State` | `arrays.MotionArrays`, with room to work in |
+| `at_start` | `events.take_start` |
+| `expand` | `series.expand`: velocities and net forces; spring forces follow from slips |
+| `powers` | `series.powers`, divided by n! |
+| `move` | `series.move`, which sums them group by group (`sum_series`) |
+| `safe_step` | `roots.safe_step` |
+| `first_root` | `roots.first_root`, for functions that `proof.prove` leaves open |
+| `next_transition` | `events.next_transition`: `guess`, `find_root`, `prove`, `search` |
+| its last lines | `friction.mode_at_rest` |
+| `find_transitions` | `events.find_transitions`: `rest` where all stick, else `slide` |
 """
 
 from precursors.solver.kernel.arrays import (

@@ -48,7 +48,7 @@ class System(NamedTuple):
     friction: Vector
 
 
-class Motion(NamedTuple):
+class MotionArrays(NamedTuple):
     """The state, and the motion within a window from it.
 
     State: `velocity`, `spring_force` in two doubles (the second in `force_rest`), the
@@ -202,7 +202,7 @@ def divide(memory, n_blocks):
         shifted(start, terms + TERMS),
         shifted(start, terms + 2 * TERMS),
     )
-    return (start, at(1), at(2)), Motion(
+    return (start, at(1), at(2)), MotionArrays(
         *(state + window + of_terms + (at(3 + BY_COLUMN), wide))
     )
 

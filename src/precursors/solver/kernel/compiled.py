@@ -1,4 +1,4 @@
-"""How functions are compiled, and where the machine code is kept."""
+"""Decorators of compiled functions, and the directory of their machine code."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class UserCache(UserWideCacheLocator):
         return os.fspath(self._place)
 
     def get_source_stamp(self) -> str:
-        """What changes with the sources."""
+        """Stamp that changes with the sources."""
         return self._place.name
 
 

@@ -51,7 +51,8 @@ def run_batch(batch, limits, progress, record, states, memory):
     Row j of `batch` is a chain with its start, row j of `progress` has the words of
     where it ended. Limits are those of each chain. Returns how many chains are finished
     and whether the one after them is paused: its state is in `memory`, and what it
-    recorded follows that of the others. It can go on where it is all there is.
+    recorded follows that of the others. A paused run can continue only if it is alone
+    in its batch.
     """
     n_blocks = batch.weights.shape[1]
     used = stored = windows = 0

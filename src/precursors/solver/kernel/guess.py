@@ -32,8 +32,8 @@ def watched(n, i, slides, motion):
 
     A root of g is a transition. Where a block slides, g is its velocity in the sense of
     its sliding: it stops. Where it sticks, g is the margin mu_s w - side F on the side
-    that is nearer at the start (Eq. 5): it lets go. `Motion.sign` is the sense of the
-    sliding, or -side; `Motion.hold` is mu_s w.
+    that is nearer at the start (Eq. 5): it lets go. `MotionArrays.sign` is the sense of the
+    sliding, or -side; `MotionArrays.hold` is mu_s w.
     """
     return lanes.choose(
         slides, lanes.load(row(n, motion), i), lanes.load(row(n + 1, motion), i)

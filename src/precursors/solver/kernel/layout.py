@@ -1,4 +1,4 @@
-"""What all parts of the kernel agree on: lanes, windows, orders, roundings, and how a
+"""Constants of all parts of the kernel: lanes, windows, orders, roundings, and how a
 run can end."""
 
 from __future__ import annotations
