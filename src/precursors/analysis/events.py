@@ -55,10 +55,7 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     # did before.
     block = of_block + np.repeat(np.cumsum(n_blocks) - n_blocks, lengths)
     order = np.argsort(block.astype(np.min_scalar_type(n_blocks.sum())), kind="stable")
-    same_block = block[order][1:] == block[order][:-1]
-    was_sliding = np.zeros(len(mode), dtype=bool)
-    was_sliding[order[1:]] = same_block & sliding[order][:-1]
-    total = np.append(0, np.cumsum(sliding.astype(int) - was_sliding))
+    total = np.append(0, np.cumsum(_changes(block, sliding, order)))
     n_sliding = total[1:] - np.repeat(total[starts], lengths)
 
     ends = (n_sliding == 0) & (pauses > 0.0)
@@ -66,18 +63,12 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     lasts = np.flatnonzero(ends)
     firsts = np.append(0, lasts + 1)[:-1]
     event = np.repeat(np.arange(len(lasts)), lasts - firsts + 1)
-    # Slides, block by block, and which of them are the first of their block in their
-    # event.
     slides = order[sliding[order]]
-    is_first = np.ones(len(slides), dtype=bool)
-    is_first[1:] = (np.diff(block[slides]) != 0) | (np.diff(event[slides]) != 0)
 
     events = np.empty(len(lasts), EVENT)
     events["run"] = run[firsts]
-    events["first"], events["last"] = (
-        firsts - starts[events["run"]],
-        lasts - starts[events["run"]],
-    )
+    events["first"] = firsts - starts[events["run"]]
+    events["last"] = lasts - starts[events["run"]]
     events["onset"] = time[firsts]
     events["load_before"] = load[firsts]
     so_far = [np.maximum.accumulate(run.transitions["tangential_load"]) for run in runs]
@@ -86,10 +77,30 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     events["end"] = np.where(finished, time[lasts], np.nan)
     events["load_after"] = np.where(finished, load[lasts], np.nan)
     events["front"] = np.maximum.reduceat(sliding * of_block, firsts)
-    events["n_slid"] = np.bincount(event[slides[is_first]], minlength=len(lasts))
+    events["n_slid"] = _different_blocks(block[slides], event[slides], len(lasts))
     events["n_simultaneous"] = np.maximum.reduceat(n_sliding, firsts)
     events["is_global"] = events["n_simultaneous"] == n_blocks[events["run"]]
     return events
+
+
+def _changes(
+    block: NDArray[np.int64], sliding: NDArray[np.bool_], order: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Change of the number of sliding blocks at each transition; `order` sorts them by
+    block."""
+    same_block = block[order][1:] == block[order][:-1]
+    was_sliding = np.zeros(len(block), dtype=bool)
+    was_sliding[order[1:]] = same_block & sliding[order][:-1]
+    return sliding.astype(int) - was_sliding
+
+
+def _different_blocks(
+    block: NDArray[np.int64], event: NDArray[np.int64], n_events: int
+) -> NDArray[np.int64]:
+    """Number of different blocks in each event, of slides sorted by block and time."""
+    is_first = np.ones(len(block), dtype=bool)
+    is_first[1:] = (np.diff(block) != 0) | (np.diff(event) != 0)
+    return np.bincount(event[is_first], minlength=n_events)
 
 
 def _joined(runs: Sequence[Record], name: str) -> NDArray[Any]:

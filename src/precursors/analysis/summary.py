@@ -59,10 +59,13 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
     for name in summaries.dtype.names or ():
         if SUMMARY[name].kind == "f":
             summaries[name] = np.nan
-    summaries["n_all_events"] = np.bincount(events["run"], minlength=len(runs))
-    summaries["n_global"] = np.bincount(
-        events["run"], events["is_global"], minlength=len(runs)
-    )
+
+    def number(which: NDArray[np.bool_]) -> NDArray[np.int64]:
+        """Number of such events in each run."""
+        return np.bincount(events["run"], which, minlength=len(runs))
+
+    summaries["n_all_events"] = number(np.ones(len(events), bool))
+    summaries["n_global"] = number(events["is_global"])
     summaries["reached"] = summaries["n_global"] > 0
     summaries["transitions"] = [len(run.transitions) for run in runs]
 
@@ -72,35 +75,25 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
     reached, first = np.unique(events["run"][global_slips], return_index=True)
     last_counted[reached] = global_slips[first]
     until_global = np.arange(len(events)) <= last_counted[events["run"]]
-    summaries["events_to_global_slip"] = np.bincount(
-        events["run"], until_global, minlength=len(runs)
-    )
     # Fronts of later runs are raised above all earlier ones, so that the running
     # maximum begins anew.
     front = events["front"] + events["run"] * MOST_BLOCKS
     is_counted = until_global & counted(front)
-    is_record = until_global & counted(front, "not longer")
-    for name, events_of_name in (
-        ("events_counted", is_counted),
-        ("records", is_record),
-    ):
-        summaries[name] = np.bincount(
-            events["run"], events_of_name, minlength=len(runs)
-        )
+    summaries["events_to_global_slip"] = number(until_global)
+    summaries["events_counted"] = number(is_counted)
+    summaries["records"] = number(until_global & counted(front, "not longer"))
 
     slips = events[last_counted[reached]]
-    normal_load = np.array([run.chain.normal_load for run in runs])
+    chains = [runs[i].chain for i in reached]
+    normal_load = np.array([chain.normal_load for chain in chains])
+    n_blocks = np.array([chain.n_blocks for chain in chains])
     first_global = {
         "load": slips["largest_load"],
-        "mu_sapp": mu_sapp(slips["largest_load"], normal_load[reached]),
+        "mu_sapp": mu_sapp(slips["largest_load"], normal_load),
         "time": slips["onset"],
         "end": slips["end"],
         "transitions": slips["last"] + 1,
-        "speedup": _speedup(
-            events[is_counted],
-            reached,
-            np.array([runs[i].chain.n_blocks for i in reached]),
-        ),
+        "speedup": _speedup(events[is_counted], reached, n_blocks),
     }
     for name, values in first_global.items():
         summaries[name][reached] = values
