@@ -3,6 +3,8 @@ changes them."""
 
 from __future__ import annotations
 
+import json
+import os
 import shutil
 from pathlib import Path
 
@@ -15,6 +17,7 @@ from precursors.reproduction.claim import HOLDS, READINGS
 from precursors.reproduction.claims import CLAIMS, claims_tables, evaluate
 from precursors.reproduction.inputs import CLAIM_TABLES, POINT_TABLES
 from precursors.support.files import read_table
+from precursors.support.provenance import checksums
 
 RESULTS = Path(__file__).parents[2] / "results/tables"
 # Lyapunov exponents differ from one processor to another: the verdict stays.
@@ -90,6 +93,21 @@ def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_a
     )
     with pytest.raises(SystemExit, match="check: chaos: is fails, expected holds"):
         check_claims.main(tmp_path)
+
+
+def test_the_check_names_a_result_that_changed_on_disk_with_its_time_kept(tmp_path):
+    (tmp_path / "tables").mkdir()
+    table = tmp_path / "tables/a.csv"
+    table.write_text("1\n")
+    made = {"outputs": checksums([table, tmp_path / "away"], tmp_path)}
+    (tmp_path / "provenance.json").write_text(json.dumps(made))
+    assert check_claims.changed(tmp_path) == []
+    times = table.stat().st_atime_ns, table.stat().st_mtime_ns
+    table.write_text("2\n")
+    os.utime(table, ns=times)
+    assert check_claims.changed(tmp_path) == [
+        f"{table} is not as it was made: delete it, and run make all"
+    ]
 
 
 def test_claims_that_hold_in_every_draw_hold(true):

@@ -4,6 +4,7 @@ verdict (`make check`).
 The exit code is 1 if a verdict is not the expected one.
 """
 
+import json
 import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -24,6 +25,7 @@ from precursors.reproduction.claim import (
 from precursors.reproduction.claims import differences, evaluate
 from precursors.reproduction.inputs import CLAIM_TABLES
 from precursors.support.files import read_table
+from precursors.support.provenance import NOT_RESULTS, checksums
 
 WIDTH = 110
 HEADINGS = {
@@ -49,8 +51,23 @@ def main(
         sys.exit(f"check: {error}")
     print(printed(found))
     unexpected = differences(found, read_table(expected))
+    unexpected += changed(Path(tables).parent)
     if unexpected:
         sys.exit("\n".join(f"check: {line}" for line in unexpected))
+
+
+def changed(results: Path) -> list[str]:
+    """Results that are not those of `provenance.json`, a line each."""
+    made = results / "provenance.json"
+    if not made.is_file():
+        return []
+    told = json.loads(made.read_text(encoding="utf-8"))["outputs"]
+    there = checksums(results.rglob("*"), results, leave_out=NOT_RESULTS)
+    return [
+        f"{results / name} is not as it was made: delete it, and run make all"
+        for name in told
+        if name in there and there[name] != told[name]
+    ]
 
 
 def printed(claims: pd.DataFrame) -> str:

@@ -50,9 +50,12 @@ def job() -> Iterator[Any]:
 
 def read(files: Any, readers: Mapping[str, str]) -> Any:
     """What a file holds, or each of a list or mapping; a reader is "room.module:name",
-    by the ending."""
+    by the ending. A file that is damaged can be deleted."""
     if isinstance(files, Mapping):
         return {name: read(file, readers) for name, file in files.items()}
     if isinstance(files, str):
-        return resolve_name(f"precursors.{readers[Path(files).suffix]}")(files)
+        try:
+            return resolve_name(f"precursors.{readers[Path(files).suffix]}")(files)
+        except ValueError as error:
+            raise ValueError(f"{error}: delete it, and it is made again") from error
     return [read(file, readers) for file in files]
