@@ -71,7 +71,7 @@ def draw(
             f"\N{HORIZONTAL ELLIPSIS} but they are one draw of {n}", **TITLE
         )
         right.set(
-            xlabel=style.MU_SAPP_LABEL, yticks=[], ylim=(-0.42, len(scenes) - 0.31)
+            xlabel=style.MU_SAPP_LABEL, yticks=[], ylim=(-0.45, len(scenes) - 0.31)
         )
         right.xaxis.set_major_locator(MultipleLocator(0.05))
         for axes in (left, right):
@@ -95,7 +95,7 @@ def _draw_strip(
     nine_tenths = [summary["q05"], summary["q95"]]
     axes.plot(nine_tenths, [place - 0.1] * 2, color=color, linewidth=2)
     share = f"{100 * summary['share']:.0f} %"
-    axes.annotate(share, (printed.MU_SAPP, place - 0.29), ha="center")
+    axes.annotate(share, (printed.MU_SAPP, place - 0.33), ha="center")
     axes.plot(
         summary["q50"], place - 0.1, "|", color=color, markersize=9, markeredgewidth=2.5
     )

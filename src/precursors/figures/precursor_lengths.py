@@ -43,7 +43,7 @@ MEASURED: dict[str, Any] = {
 NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
     -1: ("more load at the pushed end: {}", 0.0, "left", (2.0, -7.0)),
     0: ("even load: {}", 0.0, "center", (-2.0, -7.0)),
-    1: ("more load at\nthe far end:\n{} events", 0.65, "right", (-8.0, 20.0)),
+    1: ("more load at\nthe far end:\n{} events", 0.65, "right", (-11.0, 17.0)),
 }
 INSET = (0.05, 0.77, 0.26, 0.1)  # of the panel: above all curves
 
@@ -98,7 +98,7 @@ def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame], letters: float) -> N
         points = _draw_events(axes, table, outline, _label(table, slips))
         if in_place:
             _name(axes, points, sign, letters)
-    axes.set(xlim=(0, None), ylim=(0, 1.06))
+    axes.set(xlim=(0, None), ylim=(-0.03, 1.06))
     axes.set_xlabel("Tangential load $F_X$ [N]")
     axes.set_ylabel("Propagation length $L_p/L$ [-]")
     if in_place and len(slips) > 1:

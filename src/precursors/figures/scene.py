@@ -66,52 +66,50 @@ def draw(
     """Draw F_X(t), K x_1 = K V t - F_X and all slip events; with `inset`, all of it
     magnified up to the first global slip.
 
-    An event extends from the trailing edge (0) to L_p = front L / N. An event that goes
-    on when the run ends is a band from its onset to the end of the run.
-
-    The slip table may be empty; the trace is straight between its rows. The load axis
-    holds the traces of `others` as well. `data`, shape (n, 2), are measured times [s]
-    and loads [N]. The parameters of `slider` stand below the title.
+    An event that goes on when the run ends is a band. The slip table may be empty; the
+    trace is straight between its rows. The load axis holds the traces of `others` as
+    well. `data`, shape (n, 2), are measured times [s] and loads [N]. The parameters of
+    `slider` stand below the title.
     """
     look = look or style.Look()
     width_mm = look.width_mm or style.PAGE_MM
     slips = _with_kinds(slips)
     first_s = slips.loc[slips["is_global"], "onset_s"].min()
-    end = trace["time_s"].iloc[-1]
-    spans = [(0.0, float(np.nanmax([end, ZOOM_END * first_s])))]
+    end = float(trace["time_s"].iloc[-1])
+    spans = [(0.0, max(end, ZOOM_END * first_s))]
     if inset and first_s > 0:
         spans.append((0.0, ZOOM_END * first_s))
     stacked = len(spans) > 1 and width_mm < NARROW_MM
     height_mm = HEIGHT_MM * (1 + stacked) + KEY_MM * key * (1 + 2 * stacked)
-    loads = [table["tangential_load_N"] for table in (trace, *others)]
-    if data is not None:
-        loads.append(pd.Series(data[:, 1]))
     with style.page(width_mm, height_mm, look=look) as figure:
         columns = _panels(figure, len(spans), stacked)
         for axes, span in zip(columns, spans, strict=True):
             _draw_loads(axes, slips, trace, span)
             _draw_events(axes[2], slips[slips["onset_s"].between(*span)], end)
             axes[2].set(xlim=span, xlabel="Time $t$ [s]")
-            for panel in axes:
-                if first_s >= 0:
-                    panel.axvline(first_s, **FIRST_GLOBAL)
-                if len(spans) > 1 and axes is columns[0]:
-                    panel.axvspan(*spans[1], color=style.PALE, linewidth=0, zorder=0)
             if data is not None:
                 axes[0].plot(*data.T, **MEASURED)
-            if axes is columns[0] or stacked:
-                axes[0].set_ylabel("$F_X$ [N]")
-                axes[1].set_ylabel("$K x_1$ [N]")
-                axes[2].set_ylabel("$L_p$ [mm]")
-                figure.align_ylabels(axes)
-        _set_load_axis(columns[0][0], pd.concat(loads))
+            for panel in axes if first_s >= 0 else ():
+                panel.axvline(first_s, **FIRST_GLOBAL)
+        for axes in columns if stacked else columns[:1]:
+            _label(figure, axes)
+        for panel in columns[0] if len(spans) > 1 else ():
+            panel.axvspan(*spans[1], color=style.PALE, linewidth=0, zorder=0)
+        columns[-1][1].annotate(STAIRCASE, (0.02, 0.82), xycoords="axes fraction")
+        _set_load_axis(columns[0][0], (trace, *others), data)
         _number_blocks(columns[-1][2], slips)
-        staircase = columns[-1][1]
-        staircase.text(0.02, 0.82, STAIRCASE, transform=staircase.transAxes)
         _write_title(columns[0][0], slips, title, slider, width_mm / look.font_size)
         if key:
             _draw_key(figure, slips, data is not None, width_mm / look.font_size)
     return figure
+
+
+def _label(figure: Figure, axes: Sequence[Axes]) -> None:
+    for panel, words in zip(
+        axes, ("$F_X$ [N]", "$K x_1$ [N]", "$L_p$ [mm]"), strict=True
+    ):
+        panel.set_ylabel(words)
+    figure.align_ylabels(axes)
 
 
 def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:
@@ -170,12 +168,7 @@ def _draw_loads(
 
 def _draw_events(axes: Axes, slips: pd.DataFrame, end_s: float) -> None:
     if slips.empty:
-        note: dict[str, Any] = {
-            "transform": axes.transAxes,
-            "ha": "center",
-            "color": style.GREY,
-        }
-        axes.text(0.5, 0.5, "no slip event", **note)
+        axes.annotate("no slip event", (0.4, 0.5), xycoords="axes fraction")
         axes.set_yticks([])
         return
     for kind, look in KINDS.items():
@@ -191,8 +184,13 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, end_s: float) -> None:
     axes.set_ylim(0, 1.08 * style.MM_PER_M * slips["length_m"].iloc[0])
 
 
-def _set_load_axis(axes: Axes, loads: pd.Series) -> None:
+def _set_load_axis(
+    axes: Axes, traces: Sequence[pd.DataFrame], data: NDArray[np.float64] | None
+) -> None:
     """From zero, or below it if need be, to the next tick."""
+    loads = np.concatenate([table["tangential_load_N"] for table in traces])
+    if data is not None:
+        loads = np.append(loads, data[:, 1])
     locator = MaxNLocator(6, steps=[1, 2, 5, 10])
     lowest = min(0.0, loads.min())
     axes.yaxis.set_major_locator(locator)
