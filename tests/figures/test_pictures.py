@@ -276,8 +276,9 @@ PICTURES = {
     "friction_map": map_of_friction,
     "model_comparison": compared_models,
     "larger": lambda: larger.draw(
-        read(PUBLISHED / "larger_nucleation_full.csv"),
-        read(PUBLISHED / "larger_full.csv"),
+        read(SMALL / "larger_nucleation.csv"),
+        read(SMALL / "larger_peaks.csv"),
+        read(SMALL / "larger_cycles.csv"),
     ),
 }
 

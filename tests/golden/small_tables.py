@@ -30,6 +30,7 @@ from precursors.ensembles.studies import MAP
 from precursors.ensembles.study import gather, run_members
 from precursors.hierarchy.compare_models import compare_models
 from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
+from precursors.hierarchy.larger_cycles import cycle_tables
 from precursors.hierarchy.larger_study import larger_tables
 from precursors.methods import METHODS
 from precursors.proof import ExactChain
@@ -258,7 +259,7 @@ def larger_runs() -> pd.DataFrame:
                 "transitions": len(run.transitions),
                 **sums,
                 **points,
-                **(run.larger or {}),
+                **run.larger,
             }
         )
     return pd.DataFrame(rows)
@@ -267,11 +268,16 @@ def larger_runs() -> pd.DataFrame:
 def small_larger_tables() -> dict[str, pd.DataFrame]:
     """The tables of the larger chain for a few blocks."""
     settings = CONFIG["hierarchy"]["larger"] | {
-        "nucleation": {"n_blocks": [20], "pairs": [[0.02, 0], [0.003, 2e-4]]},
+        "nucleation": {
+            "n_blocks": [20],
+            "theta": ["-5/6", 0],
+            "pairs": [[0.1, 0], [0.2, 2e-4]],
+        },
         "studies": {
-            "loadings": {
-                "pairs": [[0, 0], [0.003, 2e-4]],
+            "counts": {
+                "pairs": [[0, 0], [0.2, 2e-4]],
                 "n_blocks": [10],
+                "normal_load": [300],
                 "theta": [0, "5/6"],
                 "runs": 7,
             },
@@ -284,7 +290,20 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
             },
         },
     }
-    return larger_tables(CONFIG["chain"], settings)
+    cycles = CONFIG["hierarchy"]["cycles"] | {
+        "map": {"pairs": [[0.3, 1e-4]], "n_blocks": [10], "theta": [0]},
+        "studies": {
+            "grid": {
+                "pairs": [[0.3, 1e-4], [0.3, 2e-4]],
+                "n_blocks": [10],
+                "theta": ["-5/6", 0],
+                "runs": 1,
+            },
+        },
+    }
+    return larger_tables(CONFIG["chain"], settings) | cycle_tables(
+        CONFIG["chain"], cycles
+    )
 
 
 def model_comparison() -> pd.DataFrame:
@@ -328,7 +347,10 @@ ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
     "larger_runs": larger_runs,
     **{
         name: partial(lambda name: small_larger_tables()[name], name)
-        for name in ("larger", "larger_differences", "larger_nucleation")
+        for name in (
+            *("larger", "larger_nucleation", "larger_cycles"),
+            *("larger_verdicts", "larger_peaks"),
+        )
     },
     "methods": lambda: pd.concat(map(kept_runs, METHODS)),
 }

@@ -10,7 +10,6 @@ from ensembles.studies import study_of
 
 from precursors.ensembles.event_law import event_law_table, predicted_events
 from precursors.ensembles.study import chain_of, run_members
-from precursors.hierarchy.larger_study import medians_table, run_study
 
 ROOT = Path(__file__).parents[2]
 CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
@@ -43,24 +42,3 @@ def test_the_runs_of_few_blocks_are_those_of_the_library():
     keys = ["varied", "loading", "theta", "n_blocks"]
     there = committed("event_law_full").merge(again[keys], on=keys)
     pd.testing.assert_frame_equal(there, again, rtol=1e-6)
-
-
-def test_the_larger_chains_of_few_blocks_are_those_of_the_library():
-    full = yaml.safe_load((ROOT / "workflow/full.yaml").read_text(encoding="utf-8"))[
-        "hierarchy"
-    ]["larger"]
-    study = {
-        **full["studies"]["resolution"],
-        "pairs": [[0.003, 2e-4]],
-        "n_blocks": [10, 20],
-    }
-    again = medians_table(
-        run_study(CONFIG["chain"], "resolution", study, CONFIG["hierarchy"]["larger"])
-    )
-    keys = ["study", "weakening_velocity", "relaxation_time", "n_blocks"]
-    there = again[keys].merge(committed("larger_full"), on=keys)
-    assert len(there) == len(again) == 2
-    assert there["events_counted"].tolist() == again["events_counted"].tolist()
-    assert there["mu_sapp"].tolist() == pytest.approx(
-        again["mu_sapp"].tolist(), rel=1e-4
-    )

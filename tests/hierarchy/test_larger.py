@@ -20,12 +20,13 @@ from precursors import (
 )
 from precursors.analysis.load_curve import load_curve
 from precursors.hierarchy.larger import (
-    SLOW,
     LargerChain,
     critical_length,
     simulate_larger,
     tilt,
+    weakening_velocity,
 )
+from precursors.hierarchy.larger_steps import SLOW
 
 # Tolerances beside the cases are two to three times what is measured at the default
 # step.
@@ -197,12 +198,15 @@ def test_a_tilt_keeps_the_sum_of_loads_and_balances_the_torque(n):
     assert change @ arms == pytest.approx(height, rel=1e-13)
 
 
+@pytest.mark.parametrize("theta", ["-5/6", 0, "5/6"])
 @pytest.mark.parametrize(
     ("v_c", "t_v"), [(0.02, 0.0), (0.03, 1e-6), (0.01, 5e-6), (0.02, 2e-5)]
 )
-def test_creep_longer_than_l_c_has_a_real_growing_mode(v_c, t_v):
+def test_creep_longer_than_l_c_has_a_real_growing_mode(v_c, t_v, theta):
     n = 400
-    chain = SLIDER(n, drive_stiffness=1.0)  # a soft drive is the free end of the theory
+    chain = SLIDER(
+        n, theta=theta, drive_stiffness=1.0
+    )  # a soft drive is the free end of the theory
     blocks = n * critical_length(LargerChain(chain, v_c, t_v)) / chain.length
 
     def fastest_is_real(p):
@@ -212,8 +216,8 @@ def test_creep_longer_than_l_c_has_a_real_growing_mode(v_c, t_v):
             - np.diag(np.ones(p - 1), -1)
         )
         links[0, 0] = 1.0
-        fall = (chain.mu_s - chain.mu_k) * chain.weights[0] / v_c
-        damping = (fall * np.eye(p) - t_v * chain.stiffness * links) / chain.mass
+        fall = (chain.mu_s - chain.mu_k) * chain.weights[:p] / v_c
+        damping = (np.diag(fall) - t_v * chain.stiffness * links) / chain.mass
         rates = np.linalg.eigvals(
             np.block(
                 [
@@ -231,6 +235,21 @@ def test_creep_longer_than_l_c_has_a_real_growing_mode(v_c, t_v):
 
     assert not fastest_is_real(int(0.95 * blocks))
     assert fastest_is_real(int(1.05 * blocks) + 1)
+
+
+@pytest.mark.parametrize("t_v", [0.0, 1e-5, 2e-4])
+@pytest.mark.parametrize("part", [0.05, 0.1, 0.3])
+def test_an_even_load_has_the_closed_form_of_l_c(part, t_v):
+    chain = SLIDER(100)
+    v_c = weakening_velocity(chain, part, t_v)
+    length = critical_length(LargerChain(chain, v_c, t_v))
+    # A step along the chain is 5e-4 L; growth rates are tried at steps of 4 %.
+    assert length / chain.length == pytest.approx(part, abs=6e-4)
+
+
+def test_creep_of_a_chain_that_hardly_weakens_does_not_run_away():
+    assert critical_length(LargerChain(SLIDER(), 10.0, 1e-4)) == np.inf
+    assert critical_length(LargerChain(SLIDER())) == 0.0
 
 
 def test_leaps_over_stable_creep_change_no_event():

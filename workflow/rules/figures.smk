@@ -127,7 +127,8 @@ FIGURES = {
         "section": "hierarchy",
         "tables": {
             "nucleation": "results/tables/larger_nucleation.csv",
-            "table": "results/tables/larger.csv",
+            "peaks": "results/tables/larger_peaks.csv",
+            "cycles": "results/tables/larger_cycles.csv",
         },
     },
     "model_comparison": {

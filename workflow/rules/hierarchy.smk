@@ -9,8 +9,16 @@ TABLES |= {
     "larger": {
         "function": "hierarchy.larger_study:larger_tables",
         "options": {"slider": config["chain"], "settings": config["hierarchy"]["larger"]},
-        "beside": ["larger_differences", "larger_nucleation"],
-        "seconds": 600 if config["full"] else 10,
+        "beside": ["larger_nucleation"],
+        "threads": 4,
+        "seconds": 600 if config["full"] else 5,
+    },
+    "larger_cycles": {
+        "function": "hierarchy.larger_cycles:cycle_tables",
+        "options": {"slider": config["chain"], "settings": config["hierarchy"]["cycles"]},
+        "beside": ["larger_peaks", "larger_verdicts"],
+        "threads": 4,
+        "seconds": 3600 if config["full"] else 5,
     },
     **{
         f"{scene}_answers": {
@@ -25,6 +33,6 @@ TABLES |= {
 rule hierarchy:
     input:
         collect("results/figures/{figure}.{kind}", figure=["model_comparison", "larger"], kind=FORMATS),
-        "results/tables/larger.csv",
+        collect("results/tables/{table}.csv", table=["larger", "larger_cycles"]),
         collect("results/tables/{scene}_answers.csv", scene=ASKED),
     localrule: True

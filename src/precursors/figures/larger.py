@@ -1,116 +1,93 @@
-"""A chain with a length of its own: where creep runs away, and what does not depend on
-N any longer."""
+"""A chain with a length of its own: where creep runs away, and how it settles."""
 
 from __future__ import annotations
 
-from itertools import cycle
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from precursors.figures import style
 
-HEIGHT_MM = 72.0
-COLORS = (*style.OTHERS, style.BLACK)
-MARKERS = "os^vPX"
-TIMES = {
-    0.0: "o",
-    1e-6: "s",
-    5e-6: "^",
-    2e-5: "D",
-    2e-4: "v",
-}  # relaxation time to marker
+HEIGHT_MM = 70.0
+WIDTHS = (1.0, 0.85, 1.9)
+MARKERS = {-1: "v", 0: "o", 1: "^"}  # by the sign of theta
+SIDE = 0.22  # from one loading to the next, in units of one pair
 
 
-def draw(nucleation: pd.DataFrame, table: pd.DataFrame) -> Figure:
-    """Draw l_c against its theory, and events and mu_sapp against N.
+def draw(nucleation: pd.DataFrame, peaks: pd.DataFrame, cycles: pd.DataFrame) -> Figure:
+    """Draw l_c against its theory, each peak against the one before, and all cycles.
 
-    The tables are larger_nucleation.csv and larger.csv, whose study "resolution" is
-    drawn.
+    The tables are larger_nucleation.csv, larger_peaks.csv and larger_cycles.csv, of
+    which the studies "grid..." are drawn.
     """
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        lengths, counts, frictions = figure.subplots(1, 3)
+        lengths, steps, settled = figure.subplots(1, 3, width_ratios=WIDTHS)
         _draw_lengths(lengths, nucleation)
-        runs = table[(table["study"] == "resolution") & (table["theta"] == 0)]
-        _draw_medians(counts, runs, "events_counted")
-        _draw_medians(frictions, runs, "mu_sapp")
-        counts.set(xscale="log", yscale="log", ylabel=style.EVENTS_LABEL)
-        frictions.set(xscale="log", ylabel=style.MU_SAPP_LABEL)
-        blocks = sorted(int(n) for n in runs["n_blocks"].unique())
-        for axes in (counts, frictions):
-            axes.set_xlabel(style.BLOCKS_LABEL)
-            axes.xaxis.minorticks_off()
-            axes.set_xticks(blocks, [str(n) for n in blocks])
-        counts.yaxis.minorticks_off()
-        counts.set_yticks([5, 10, 20, 50], ["5", "10", "20", "50"])
-        style.draw_key(figure, counts.get_legend_handles_labels()[0])
+        _draw_map(steps, peaks)
+        _draw_cycles(settled, cycles[cycles["study"].str.startswith("grid")])
+        look = {"linestyle": "none", "markersize": 4}
+        entries = [
+            style.mark(text, marker=MARKERS[s], color=style.theta_color(s), **look)
+            for s, text in style.LOADINGS.items()
+        ]
+        open_marks = {"marker": "o", "color": style.GREY, "markerfacecolor": "none"}
+        entries.append(style.mark("open: fewer blocks", **look, **open_marks))
+        style.draw_key(figure, entries)
     return figure
+
+
+def _look(rows: pd.DataFrame, finest: int) -> dict[str, Any]:
+    """Mark of rows with one theta and one number of blocks."""
+    first = rows.iloc[0]
+    color = style.theta_color(first["theta"])
+    return {
+        "linestyle": "none",
+        "marker": MARKERS[int(np.sign(first["theta"]))],
+        "color": color,
+        "markersize": 4,
+        "markerfacecolor": color if first["n_blocks"] == finest else "none",
+    }
 
 
 def _draw_lengths(axes: Axes, nucleation: pd.DataFrame) -> None:
     finest = nucleation["n_blocks"].max()
-    for time, marker in TIMES.items():
-        for n, rows in nucleation[nucleation["relaxation_time"] == time].groupby(
-            "n_blocks"
-        ):
-            filled = n == finest
-            look: dict[str, Any] = {
-                "linestyle": "none",
-                "marker": marker,
-                "markersize": 4,
-            }
-            look |= {
-                "color": style.BLACK,
-                "markerfacecolor": style.BLACK if filled else "none",
-            }
-            label = rf"$t_v = {time * 1e6:g}$ µs" if filled else None
-            axes.plot(rows["theory"], rows["measured"], **look, label=label)
-    ends = [0.0, 1.1 * nucleation["theory"].max()]
+    for _, rows in nucleation.groupby(["theta", "n_blocks"]):
+        look = _look(rows, finest)
+        axes.plot(rows["critical_length"], rows["measured"], **look)
+    ends = [0.0, 1.1 * nucleation["critical_length"].max()]
     axes.plot(ends, ends, color=style.GREY, linewidth=0.8)
-    axes.fill_between(
-        ends,
-        [0.0, 0.9 * ends[1]],
-        [0.0, 1.1 * ends[1]],
-        color=style.GREY,
-        alpha=0.2,
-        lw=0,
-    )
-    axes.set(
-        xlim=ends,
-        ylim=ends,
-        xlabel=r"$l_c/L$, theory",
-        ylabel="length that crept, over $L$",
-    )
-    axes.legend(loc="upper left", handlelength=1.0, borderaxespad=0.2)
+    low = [0.0, 0.9 * ends[1]]
+    high = [0.0, 1.1 * ends[1]]
+    axes.fill_between(ends, low, high, color=style.GREY, alpha=0.2, lw=0)
+    axes.set(xlim=ends, ylim=ends)
+    axes.set(xlabel=r"$l_c/L$, theory", ylabel="length that crept, over $L$")
 
 
-def _draw_medians(axes: Axes, runs: pd.DataFrame, quantity: str) -> None:
-    looks = cycle(zip(COLORS, MARKERS, strict=True))
-    for (v_c, _), rows in runs.groupby(
-        ["weakening_velocity", "relaxation_time"], sort=False
-    ):
-        color, marker = (style.GREY, "D") if v_c == 0 else next(looks)
-        low, high = (
-            abs(rows[quantity] - rows[f"{quantity}_{end}"]) for end in ("low", "high")
-        )
-        look: dict[str, Any] = {
-            "color": color,
-            "marker": marker,
-            "markersize": 3.5,
-            "linewidth": 1.0,
-        }
-        label = (
-            "paper's chain"
-            if v_c == 0
-            else rf"$l_c = {rows['critical_length'].iloc[0]:.2f} L$"
-        )
-        axes.errorbar(
-            rows["n_blocks"],
-            rows[quantity],
-            [low, high],
-            **look,
-            elinewidth=0.8,
-            label=label,
-        )
+def _draw_map(axes: Axes, peaks: pd.DataFrame) -> None:
+    for _, run in peaks.groupby("past"):
+        before = run["peak"].to_numpy()
+        axes.plot(before[:-1], before[1:], ".", color=style.BLACK, markersize=3)
+    ends = [peaks["peak"].min(), peaks["peak"].max()]
+    axes.plot(ends, ends, color=style.GREY, linewidth=0.8)
+    axes.set(xlabel=r"peak of $F_X/F_Z$", ylabel="next peak")
+
+
+def _draw_cycles(axes: Axes, cycles: pd.DataFrame) -> None:
+    names = ["length", "relaxation_time"]
+    pairs = sorted({tuple(pair) for pair in cycles[names].to_numpy()})
+    finest = cycles["n_blocks"].max()
+    for pair, of_pair in cycles.groupby(names):
+        for _, rows in of_pair.groupby(["theta", "n_blocks"]):
+            x = pairs.index(pair) + SIDE * np.sign(rows["theta"])
+            axes.plot(x, rows["coefficient"], **_look(rows, finest))
+    for i, (length, _) in enumerate(pairs):
+        theory = cycles.loc[
+            (cycles["length"] == length) & (cycles["theta"] == 0), "theory"
+        ]
+        axes.plot([i - 0.4, i + 0.4], [theory.iloc[0]] * 2, color=style.GREY, lw=0.8)
+    labels = [f"{length:g}\n{1e6 * time:g}" for length, time in pairs]
+    axes.set_xticks(range(len(pairs)), labels)
+    axes.set(xlabel=r"$l_c/L$ and $t_v$ [µs]", ylabel=r"settled peak of $F_X/F_Z$")

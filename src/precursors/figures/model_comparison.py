@@ -40,7 +40,6 @@ MODELS = {
     "overdamped chain": "over-\ndamped\nchain",
     "quasi-static chain": "quasi-\nstatic\nchain",
     "paper's chain": "paper's\nchain",
-    "larger chain": "larger\nchain",
 }
 
 

@@ -1,81 +1,126 @@
-"""What the larger chain answers: where creep runs away, what depends on N, on the
-loading and on the push."""
+"""What the larger chain answers before its first global slip: where creep runs away,
+and how many events it has."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import combinations, product
+from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.run_statistics import (
-    compared,
-    median_difference,
-    median_interval,
-)
+from precursors.analysis.run_statistics import median_interval
 from precursors.analysis.slips import find_precursors, find_slips, mu_sapp
-from precursors.hierarchy.larger import LargerChain, critical_length, simulate_larger
+from precursors.hierarchy.larger import (
+    LargerChain,
+    critical_length,
+    simulate_larger,
+    weakening_velocity,
+)
 from precursors.hierarchy.models import longest_run
 from precursors.model.chain import Chain, parse_theta
+from precursors.solver.kernel.compiled import untyped
 from precursors.solver.run import Record
 from precursors.solver.simulate import simulate
+from precursors.support.waiting import in_threads
 
-# fall of F_X, over F_X, that ends smooth growth: creep that trembles lets it fall by
-# less
+# Fall of F_X, over F_X, that ends smooth growth: creep that trembles lets it fall by
+# less.
 SEEN = 0.002
-KINK = 0.7  # of L: beyond it the experiment's precursors grow faster
-# two coefficients that are closer are the same: a unit of the last digit that the paper
-# prints
-SAME = 0.01
-# Steps of `simulate_larger` for v_c > 0 and v_c = 0: medians of noisy runs do not need
-# the defaults.
+SAMPLE = 1e-3  # s: a logger at 1 kHz takes two events with a shorter rest for one
+# Steps of `simulate_larger`. With 200 blocks and a relaxation time of 0.2 ms, 0.25
+# shifts mu_sapp by 0.006, and 0.1 by less than 0.001.
 STEP = 0.25
+FINE_STEP = 0.1
+FINE_FROM = 200  # blocks
 STEP_OF_COULOMB = 0.01
-PAIR = ["weakening_velocity", "relaxation_time"]
-POINT = ["study", *PAIR, "push_height", "theta", "n_blocks", "critical_length"]
+POINT = [
+    "study",
+    "length",
+    "relaxation_time",
+    "weakening_velocity",
+    "push_height",
+    "normal_load",
+    "theta",
+    "n_blocks",
+    "critical_length",
+]
+
+
+def points(
+    slider: Mapping[str, Any], name: str, study: Mapping[str, Any]
+) -> Iterator[tuple[dict[str, Any], LargerChain]]:
+    """Every point of a study: its columns `POINT`, and its chain.
+
+    `slider` has the arguments of `Chain.from_slider`. `study` has pairs of l_c/L (for
+    an even load; 0 is Coulomb friction) and t_v [s], theta, n_blocks, and optionally
+    push_height [m] and normal_load [N]. v_c is that of the pair at the slider's own
+    normal load. critical_length is l_c/L at the point itself.
+    """
+    axes = {"push_height": [0.0], "normal_load": [slider["normal_load"]], **study}
+    names = ["pairs", "push_height", "normal_load", "theta", "n_blocks"]
+    for pair, height, load, theta, n in product(*(axes[name] for name in names)):
+        v_c = weakening_velocity(Chain.from_slider(**slider), *pair)
+        own = {"normal_load": load, "theta": theta, "n_blocks": n}
+        chain = Chain.from_slider(**{**slider, **own})
+        larger = LargerChain(chain, v_c, pair[1], push_height=height)
+        l_c = critical_length(larger) / chain.length
+        values = (name, *pair, v_c, height, load, parse_theta(theta), n, l_c)
+        yield dict(zip(POINT, values, strict=True)), larger
+
+
+def step_of(larger: LargerChain) -> float:
+    """Step of `simulate_larger` that is fine enough for the tables."""
+    if not larger.weakening_velocity:
+        return STEP_OF_COULOMB
+    return STEP if larger.chain.n_blocks < FINE_FROM else FINE_STEP
 
 
 def nucleation_table(
     slider: Mapping[str, Any], study: Mapping[str, Any]
 ) -> pd.DataFrame:
-    """Length at which smooth growth ends, beside the theory: a row for each pair of v_c
-    and t_v.
+    """Length at which smooth growth ends, beside the theory: a row for each point.
 
-    Creep of length l behind the drive needs F_X = mu_s F_Z l/L. So the load at which
-    the first event begins gives the length that crept until then, if events in which
-    F_X falls by less than `SEEN` are left out. Columns: the pair, n_blocks, theory and
-    measured (l_c / L [1]), and ratio, measured over theory.
+    Creep of length l behind the drive needs F_X = mu_s W(l), W the cumulative normal
+    load. So the load at which the first event begins gives the length that crept until
+    then, if events in which F_X falls by less than `SEEN` are left out. Columns beside
+    `POINT`: measured [L], and ratio, measured over theory.
     """
     rows = []
-    for n, pair in product(study["n_blocks"], study["pairs"]):
-        chain = Chain.from_slider(**{**slider, "theta": 0.0, "n_blocks": n})
-        larger = LargerChain(chain, *pair)
-        theory = critical_length(larger) / chain.length
+    for point, larger in points(slider, "nucleation", study):
+        chain = larger.chain
         # The drive reaches mu_s F_Z in a tenth of the longest run.
-        run = simulate_larger(larger, 0.16 * theory * longest_run(chain), step=STEP)
+        part = min(1.0, 1.3 * load_part(chain, point["critical_length"]))
+        run = simulate_larger(
+            larger, 0.1 * part * longest_run(chain), step=step_of(larger)
+        )
         slips = find_slips(run)
-        first = (slips["load_after"] < (1.0 - SEEN) * slips["load_before"]).argmax()
-        measured = slips["load_before"].iloc[first] / (chain.mu_s * chain.normal_load)
-        rows.append((*pair, n, theory, measured, measured / theory))
-    return pd.DataFrame(
-        rows, columns=[*PAIR, "n_blocks", "theory", "measured", "ratio"]
-    )
+        falls = slips["load_after"] < (1.0 - SEEN) * slips["load_before"]
+        first = slips["load_before"].iloc[falls.argmax()]
+        ends = np.append(0.0, np.cumsum(chain.strength))
+        measured = np.interp(first, ends, np.linspace(0.0, 1.0, len(ends)))
+        ratio = measured / point["critical_length"]
+        rows.append(point | {"measured": measured, "ratio": ratio})
+    return pd.DataFrame(rows)
+
+
+def load_part(chain: Chain, length: float) -> float:
+    """Part of the normal load on the first part `length` of the contact [1]."""
+    ends = np.append(0.0, np.cumsum(chain.weights)) / chain.weights.sum()
+    return float(np.interp(length, np.linspace(0.0, 1.0, len(ends)), ends))
 
 
 def larger_tables(
     slider: Mapping[str, Any], settings: Mapping[str, Any]
 ) -> dict[str, pd.DataFrame]:
-    """Medians, differences of loadings, and where creep runs away, by file name."""
+    """First slips, and where creep runs away, by file name."""
     studies = settings["studies"].items()
-    runs = pd.concat(
-        [run_study(slider, name, study, settings) for name, study in studies]
-    )
+    runs = [run_study(slider, name, study, settings) for name, study in studies]
     return {
-        "larger": medians_table(runs),
-        "larger_differences": differences_table(runs),
+        "larger": medians_table(pd.concat(runs)),
         "larger_nucleation": nucleation_table(slider, settings["nucleation"]),
     }
 
@@ -86,112 +131,108 @@ def run_study(
     study: Mapping[str, Any],
     common: Mapping[str, Any],
 ) -> pd.DataFrame:
-    """Run every point of a study with noise in the normal loads: a row for each point
-    and draw.
+    """Run every point of a study to its first global slip: a row for each point and
+    draw.
 
-    The noise depends on the number of blocks and on the draw only. A run without a
-    global slip has NaN. `slider` has the arguments of `Chain.from_slider`; `study`
-    pairs (of v_c [m/s] and t_v [s]), n_blocks, theta, push_height [m] (optional) and
-    runs; `common` seed, noise (relative) and smallest_drops [N].
+    The normal loads have noise, which depends on the number of blocks and on the draw
+    only. A run without a global slip has NaN. `study` is that of `points`, with the
+    number of runs; `common` has seed, noise (relative) and smallest_drops [N]. The
+    first draw of a chain with a length says what half the step changes (halved_*).
     """
-    heights = study.get("push_height", [0.0])
-    rows = []
-    for pair, height, theta, n in product(
-        study["pairs"], heights, study["theta"], study["n_blocks"]
-    ):
-        chain = Chain.from_slider(**{**slider, "theta": theta, "n_blocks": n})
-        larger = LargerChain(chain, pair[0], pair[1], push_height=height)
-        theory = critical_length(larger) / chain.length
-        point = dict(
-            zip(
-                POINT, (name, *pair, height, parse_theta(theta), n, theory), strict=True
-            )
-        )
-        random = np.random.default_rng([common["seed"], n])
-        for draw in range(study["runs"]):
-            weights = chain.weights * (
-                1.0 + common["noise"] * random.uniform(-1.0, 1.0, n)
-            )
-            run = run_to_slip(replace(larger, chain=replace(chain, weights=weights)))
-            rows.append(point | {"draw": draw} | numbers(run, common["smallest_drops"]))
-    return pd.DataFrame(rows)
+    tasks = [
+        partial(run_draw, point, larger, draw, common)
+        for point, larger in points(slider, name, study)
+        for draw in range(study["runs"])
+    ]
+    return rows_of(tasks)
 
 
-def run_to_slip(larger: LargerChain) -> Record:
+def rows_of(tasks: Sequence[Callable[[], dict[str, Any]]]) -> pd.DataFrame:
+    """Table of the rows that some tasks return, which run on all threads."""
+    return pd.DataFrame(in_threads("running", tasks, untyped.config.NUMBA_NUM_THREADS))
+
+
+def run_draw(
+    point: dict[str, Any], larger: LargerChain, draw: int, common: Mapping[str, Any]
+) -> dict[str, Any]:
+    """A row of `run_study`."""
+    n = larger.chain.n_blocks
+    random = np.random.default_rng([common["seed"], n, draw])
+    noise = 1.0 + common["noise"] * random.uniform(-1.0, 1.0, n)
+    chain = replace(larger.chain, weights=larger.chain.weights * noise)
+    drawn = replace(larger, chain=chain)
+    step = step_of(larger)
+    found = numbers(run_to_slip(drawn, step), common["smallest_drops"])
+    if draw == 0 and larger.weakening_velocity and found:
+        finer = numbers(run_to_slip(drawn, step / 2.0), ())
+        for column in ("events_counted", "mu_sapp"):
+            found[f"halved_{column}"] = abs(finer[column] - found[column])
+    return point | {"draw": draw} | found
+
+
+def run_to_slip(larger: LargerChain, step: float) -> Record:
     """Run to the end of the first global slip; the paper's chain by its own solver,
     which is faster."""
     limit = longest_run(larger.chain) / 4.0
-    v_c = larger.weakening_velocity
-    if v_c or larger.relaxation_time or larger.push_height:
-        return simulate_larger(
-            larger, limit, "global slip", STEP if v_c else STEP_OF_COULOMB
-        )
+    if larger.weakening_velocity or larger.relaxation_time or larger.push_height:
+        return simulate_larger(larger, limit, "global slip", step)
     return simulate(larger.chain, limit, "global slip")
 
 
 def numbers(run: Record, smallest_drops: Iterable[float]) -> dict[str, float]:
-    """What is kept of a run that ends with its first global slip.
+    """What is noted of a run that ends with its first global slip.
 
-    events_counted is that of Fig. 13, mu_sapp Eq. 1, and events_over_x the number of
-    events in which F_X falls by x [N] or more. growth says how much faster L_p grows
-    with F_X beyond `KINK` L than before.
+    events_counted is that of Fig. 13, mu_sapp Eq. 1. Of the events in which F_X falls
+    by x [N] or more, events_over_x is the number, counted_over_x that of Fig. 13, and
+    logged_over_x that of Fig. 13 as a logger at 1 kHz sees them.
     """
     slips = find_slips(run)
     if not slips["is_global"].any():
         return {}
-    drop = slips["load_before"] - slips["load_after"]
-    last = slips.iloc[-1]
-    passed = slips["load_before"].to_numpy()[
-        (slips["front"] >= KINK * run.chain.n_blocks).argmax()
-    ]
-    rest = last["load_before"] - passed
-    return {
+    found = {
         "events_counted": len(find_precursors(slips)),
-        **{f"events_over_{x:g}N": int((drop >= x).sum()) for x in smallest_drops},
-        "mu_sapp": mu_sapp(last["largest_load"], run.chain.normal_load),
-        "growth": (1.0 - KINK) / KINK * passed / rest if rest > 0.0 else np.nan,
+        "mu_sapp": mu_sapp(slips["largest_load"].iloc[-1], run.chain.normal_load),
     }
+    for x in smallest_drops:
+        seen = {"counted": slips, "logged": as_logged(slips)}
+        for name, table in seen.items():
+            large = table[table["load_before"] - table["load_after"] >= x]
+            found[f"{name}_over_{x:g}N"] = len(find_precursors(large))
+        drop = slips["load_before"] - slips["load_after"]
+        found[f"events_over_{x:g}N"] = int((drop >= x).sum())
+    return found
+
+
+def as_logged(slips: pd.DataFrame) -> pd.DataFrame:
+    """Slips, with those joined between which F_X rises for less than `SAMPLE`."""
+    rest = slips["onset"] - slips["end"].shift(fill_value=-np.inf)
+    joined = slips.groupby((rest >= SAMPLE).cumsum())
+    return joined.agg(
+        {
+            "load_before": "first",
+            "load_after": "last",
+            "front": "max",
+            "is_global": "any",
+        }
+    )
 
 
 def medians_table(runs: pd.DataFrame) -> pd.DataFrame:
     """Medians over the runs of a point with their 95 % intervals (name_low, name_high):
     a row for each point.
 
-    runs is the number of runs, no_slip that of runs without a global slip;
-    critical_length is l_c/L by the theory, 0 for the paper's chain.
+    runs is the number of runs, no_slip that of runs without a global slip. halved_* are
+    numbers of one run.
     """
     rows = []
     for point, of_point in runs.groupby(POINT, sort=False):
         row = dict(zip(POINT, point, strict=True))
-        row |= {"runs": len(of_point), "no_slip": int(of_point["mu_sapp"].isna().sum())}
+        no_slip = int(of_point["mu_sapp"].isna().sum())
+        row |= {"runs": len(of_point), "no_slip": no_slip}
         for name in runs.columns.drop([*POINT, "draw"]):
-            low, high = median_interval(of_point[name].dropna())
-            row |= {
-                name: of_point[name].median(),
-                f"{name}_low": low,
-                f"{name}_high": high,
-            }
+            row[name] = of_point[name].median()
+            if not name.startswith("halved"):
+                low, high = median_interval(of_point[name].dropna())
+                row |= {f"{name}_low": low, f"{name}_high": high}
         rows.append(row)
-    return pd.DataFrame(rows)
-
-
-def differences_table(runs: pd.DataFrame) -> pd.DataFrame:
-    """Whether mu_sapp is the same for two loadings: a row for each pair of theta.
-
-    difference is that of the medians (theta_b less theta_a), low and high its 95 %
-    interval, and verdict what `compared` says of this interval and `SAME`.
-    """
-    rows = []
-    keys = [key for key in POINT if key != "theta"]
-    for point, of_point in runs.dropna(subset="mu_sapp").groupby(keys, sort=False):
-        samples = dict(iter(of_point.groupby("theta")["mu_sapp"]))
-        for a, b in combinations(samples, 2):
-            low, high = median_difference(samples[b], samples[a])
-            row = dict(zip(keys, point, strict=True)) | {"theta_a": a, "theta_b": b}
-            row |= {
-                "difference": samples[b].median() - samples[a].median(),
-                "low": low,
-                "high": high,
-            }
-            rows.append(row | {"verdict": compared(low, high, SAME)})
     return pd.DataFrame(rows)

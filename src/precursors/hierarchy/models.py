@@ -16,7 +16,6 @@ from precursors.analysis.events import slip_events
 from precursors.analysis.slip_rows import counted
 from precursors.analysis.slips import mu_sapp
 from precursors.hierarchy import rigid, statics
-from precursors.hierarchy.larger import LargerChain, simulate_larger
 from precursors.hierarchy.quasistatic import (
     ENERGY_CONSERVED,
     OVERDAMPED,
@@ -25,17 +24,11 @@ from precursors.hierarchy.quasistatic import (
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.scenes import PAPERS_MODEL
 from precursors.model.statics import load_bound
-from precursors.solver.run import LargerRun, Run
 from precursors.solver.simulate import simulate
 
 # Longest run, in units of the time in which the drive reaches mu_s F_Z against all
 # springs in a row.
 LIMIT = 10.0
-# The larger chain that stands for all: its creep runs away at 0.21 L, and it is smooth
-# enough for this step.
-LARGER = {"weakening_velocity": 0.006, "relaxation_time": 1e-4}
-LARGER_STEP = 0.5
-
 # What one may ask of a chain, up to and including its first global slip, and its unit.
 UNITS = {
     "load_bound": "N",  # largest load of any state of rest (Eq. 13)
@@ -68,7 +61,7 @@ class FirstLoading:
     """A chain up to the end of its first global slip, or to where it is given up.
 
     `slips` have the columns of `find_slips`. `waveform` is time [s] and load [N] at the
-    start and at each transition, or at the `load_points` of a larger chain.
+    start and at each transition.
     """
 
     chain: Chain
@@ -81,25 +74,9 @@ class FirstLoading:
         return self.slips[self.slips["is_global"]]
 
 
-def run_to_global_slip(chain: Chain) -> Run:
-    """Run the paper's chain to the end of its first global slip."""
-    return simulate(chain, longest_run(chain), until="global slip")
-
-
-def run_larger(chain: Chain) -> LargerRun:
-    """Run the larger chain of `LARGER` to the end of its first global slip."""
-    return simulate_larger(
-        LargerChain(chain, **LARGER), longest_run(chain), "global slip", LARGER_STEP
-    )
-
-
-def move(
-    chain: Chain, solve: Callable[[Chain], Run | LargerRun] = run_to_global_slip
-) -> FirstLoading:
+def move(chain: Chain) -> FirstLoading:
     """Follow a chain through time to the end of its first global slip."""
-    run = solve(chain)
-    if isinstance(run, LargerRun):
-        return FirstLoading(chain, slip_events([run]), run.load_points)
+    run = simulate(chain, longest_run(chain), until="global slip")
     times = run.transitions["time"]
     loads = run.transitions["tangential_load"]
     waveform = np.column_stack([np.append(0.0, times), np.append(0.0, loads)])
@@ -175,7 +152,6 @@ MODELS: dict[str, Model] = {
     ),
     "quasistatic": Model("quasi-static chain", _EVENTS, move_without_inertia),
     PAPERS_MODEL: Model("paper's chain", _MOTION, move),
-    "larger": Model("larger chain", _MOTION, partial(move, solve=run_larger)),
 }
 
 

@@ -1,0 +1,236 @@
+"""Stick-slip of the larger chain after its first slips: the cycles into which it
+settles, and whether they depend on the loading."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
+from itertools import combinations, pairwise
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from precursors.analysis.slips import find_slips
+from precursors.hierarchy.larger import LargerChain, simulate_larger
+from precursors.hierarchy.larger_steps import SETTLED, period_of
+from precursors.hierarchy.larger_study import (
+    POINT,
+    load_part,
+    points,
+    rows_of,
+    step_of,
+)
+from precursors.model.chain import FloatArray
+from precursors.solver.run import LargerRun, Record
+
+APART = 0.003  # two cycles whose mean peaks [F_Z] are closer are one
+SAME = 0.01  # a unit of the last digit that the paper prints
+NODES = (
+    8  # of the straight lines from which the net forces of a strained start are made
+)
+LOADINGS = [name for name in POINT if name not in ("theta", "critical_length")]
+AVERAGED = ["coefficient", "lowest", "highest", "period", "state_error"]
+AVERAGED += ["theory", "step"]
+Past = tuple[float, float]
+
+
+def cycle_tables(
+    slider: Mapping[str, Any], settings: Mapping[str, Any]
+) -> dict[str, pd.DataFrame]:
+    """Cycles of every point, what they say about the loadings, and the peaks of some
+    runs, by file name."""
+    studies = settings["studies"].items()
+    runs = [run_pasts(slider, name, study, settings) for name, study in studies]
+    cycles = cycles_table(pd.concat(runs))
+    return {
+        "larger_cycles": cycles,
+        "larger_verdicts": verdicts_table(cycles),
+        "larger_peaks": peaks_table(slider, settings),
+    }
+
+
+def run_pasts(
+    slider: Mapping[str, Any],
+    name: str,
+    study: Mapping[str, Any],
+    common: Mapping[str, Any],
+) -> pd.DataFrame:
+    """Run every point of a study from many pasts until it settles: a row for each.
+
+    `study` is that of `points`; `common` has the seed, the duration [s], and pasts:
+    pairs of noise in the normal loads and of strain at the start, with `runs` of each,
+    and `study` may have a step, which is otherwise `step_of`.
+    """
+    tasks = []
+    for point, larger in points(slider, name, study):
+        chain = larger.chain
+        share = load_part(chain, point["critical_length"])
+        point["theory"] = chain.mu_k + (chain.mu_s - chain.mu_k) * share
+        point["step"] = study.get("step", step_of(larger))
+        for past in range(len(common["pasts"]) * study["runs"]):
+            tasks.append(partial(settled_from, point, larger, common, past))
+    return rows_of(tasks)
+
+
+def settled_from(
+    point: dict[str, Any], larger: LargerChain, common: Mapping[str, Any], past: int
+) -> dict[str, Any]:
+    """A row of `run_pasts`."""
+    run = run_past(larger, common, point["step"], past)
+    return point | {"past": past} | settled(run)
+
+
+def run_past(
+    larger: LargerChain, common: Mapping[str, Any], step: float, index: int
+) -> LargerRun:
+    """Run a chain from one of its pasts until it settles."""
+    past = common["pasts"][index % len(common["pasts"])]
+    random = np.random.default_rng([common["seed"], index])
+    drawn, forces = with_past(larger, past, random)
+    duration = common["duration"]
+    return simulate_larger(drawn, duration, "settled", step, start_forces=forces)
+
+
+def with_past(
+    larger: LargerChain, past: Past, random: np.random.Generator
+) -> tuple[LargerChain, FloatArray]:
+    """A chain with noise in its normal loads, whose sum stays, and spring forces at
+    which it rests strained.
+
+    `past` is the noise, relative to each load, and the largest net force on a block,
+    relative to mu_s w. Net forces are straight lines between a few nodes, so that
+    chains of any number of blocks have the same.
+    """
+    noise, strain = past
+    weights = larger.chain.weights
+    places = np.linspace(0.0, 1.0, len(weights))
+    net = np.interp(places, np.linspace(0.0, 1.0, NODES), random.uniform(-1, 1, NODES))
+    net -= (net @ weights) / weights.sum()  # F_X is 0
+    net *= strain * larger.chain.strength / abs(net).max()
+    noisy = weights * (1.0 + noise * random.uniform(-1.0, 1.0, len(weights)))
+    noisy *= weights.sum() / noisy.sum()
+    forces = np.append(0.0, -np.cumsum(net)[:-1])
+    return replace(larger, chain=replace(larger.chain, weights=noisy)), forces
+
+
+def settled(run: Record) -> dict[str, float]:
+    """Stick-slip into which a run has settled.
+
+    period is the number of global slips after which the peaks F_X/F_Z at which they
+    begin come again; 0 if they do not, and then the later half of the run counts.
+    coefficient, lowest and highest are mean and ends of the peaks. state_error is the
+    largest difference [F_Z] of a load at which a block changed its state, from one
+    period to the next; NaN if different blocks did.
+    """
+    slips = peaks_of(run)
+    peaks = slips["peak"].to_numpy()
+    period = period_of(peaks, SETTLED)
+    late = peaks[-period:] if period else peaks[slips["onset"] > 0.5 * run.duration]
+    if not len(late):
+        return {"period": 0, "slips": 0, "coefficient": np.nan}
+    return {
+        "coefficient": late.mean(),
+        "lowest": late.min(),
+        "highest": late.max(),
+        "period": period,
+        "slips": len(peaks),
+        "state_error": state_error(run, slips["onset"].to_numpy(), period),
+    }
+
+
+def peaks_of(run: Record) -> pd.DataFrame:
+    """Onset [s] of each global slip, and F_X/F_Z there."""
+    slips = find_slips(run)
+    slips = slips[slips["is_global"]]
+    return slips.assign(peak=slips["load_before"] / run.chain.weights.sum())
+
+
+def state_error(run: Record, onsets: FloatArray, period: int) -> float:
+    """See `settled`."""
+    if not period:
+        return np.nan
+    ends = onsets[[-1 - 2 * period, -1 - period, -1]]
+    rows = run.transitions
+    loads = []
+    blocks = []
+    borders = np.searchsorted(rows["time"], ends)
+    for first, last in pairwise(borders):
+        order = np.argsort(rows["block"][first:last], kind="stable")
+        blocks.append(rows["block"][first:last][order])
+        loads.append(rows["tangential_load"][first:last][order])
+    if not np.array_equal(blocks[0], blocks[1]):
+        return np.nan
+    return float(abs(loads[1] - loads[0]).max() / run.chain.weights.sum())
+
+
+def cycles_table(runs: pd.DataFrame) -> pd.DataFrame:
+    """All cycles of each point with their shares: a row for each cycle.
+
+    Runs whose coefficients are a chain of values less than `APART` apart have one
+    cycle. Its coefficient, lowest and highest peak, period and state_error are medians
+    over its runs; spread is the range of their coefficients, share that of the point's
+    `pasts` runs, and periodic the share of its runs that settled. theory is mu_k +
+    (mu_s - mu_k) W(l_c)/F_Z, which for an even load is mu_k + (mu_s - mu_k) l_c/L.
+    """
+    rows = []
+    for point, of_point in runs.groupby(POINT, sort=False):
+        found = of_point.dropna(subset="coefficient").sort_values("coefficient")
+        number = (found["coefficient"].diff() > APART).cumsum()
+        for cycle, of_cycle in found.groupby(number):
+            values = of_cycle["coefficient"]
+            row = dict(zip(POINT, point, strict=True))
+            row |= {"pasts": len(of_point), "cycle": cycle + 1}
+            row |= {"share": len(of_cycle) / len(of_point)}
+            row |= {"spread": values.max() - values.min()}
+            row |= {"periodic": (of_cycle["period"] > 0).mean()}
+            rows.append(row | of_cycle[AVERAGED].median().to_dict())
+    return pd.DataFrame(rows)
+
+
+def verdicts_table(cycles: pd.DataFrame) -> pd.DataFrame:
+    """Whether the loadings differ by more than the cycles of one loading: a row for
+    each point with several, without its theta.
+
+    within is the largest difference of two cycles of one loading. apart is the largest
+    gap between two loadings: between the nearest cycles of the two. The loadings
+    "differ" if apart is above within and above `SAME`, and "do not" if all cycles of
+    all loadings are within `SAME`.
+    """
+    rows = []
+    for point, of_point in cycles.groupby(LOADINGS, sort=False):
+        values = [
+            group.to_numpy() for _, group in of_point.groupby("theta")["coefficient"]
+        ]
+        if len(values) < 2:
+            continue
+        within = max(np.ptp(each) for each in values)
+        apart = max(gap(a, b) for a, b in combinations(values, 2))
+        verdict = verdict_of(within, apart, np.ptp(np.concatenate(values)))
+        row = dict(zip(LOADINGS, point, strict=True))
+        rows.append(row | {"within": within, "apart": apart, "verdict": verdict})
+    return pd.DataFrame(rows)
+
+
+def gap(a: FloatArray, b: FloatArray) -> float:
+    """Least difference of a value of a and one of b."""
+    return float(abs(np.subtract.outer(a, b)).min())
+
+
+def verdict_of(within: float, apart: float, of_all: float) -> str:
+    """See `verdicts_table`."""
+    if apart > max(within, SAME):
+        return "differ"
+    return "do not" if of_all <= SAME else "undecided"
+
+
+def peaks_table(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> pd.DataFrame:
+    """Peaks of F_X/F_Z at the global slips of a chain, in order, from each past."""
+    tables = []
+    for point, larger in points(slider, "map", settings["map"]):
+        for index in range(len(settings["pasts"])):
+            run = run_past(larger, settings, step_of(larger), index)
+            peaks = peaks_of(run)["peak"]
+            tables.append(pd.DataFrame(point | {"past": index, "peak": peaks}))
+    return pd.concat(tables)
