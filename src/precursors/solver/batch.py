@@ -109,10 +109,9 @@ def run_batch(
     progress = np.zeros(len(chains), kernel.PROGRESS)
     runs: list[Run] = []
     while len(runs) < len(chains):
-        here = slice(len(runs), None)
-        reached = progress[here]
+        reached = progress[len(runs) :]
         n_finished, is_paused = kernel.run_batch(
-            _rows(batch, here),
+            _rows(batch, slice(len(runs), None)) if runs else batch,
             limits,
             kernel.words(reached),
             work.words,
@@ -184,6 +183,8 @@ def _parts(work: _Workspace, progress: Progress) -> list[_Part]:
     stored = progress["stored"].tolist()
     transitions, intervals = _columns(work.record[: sum(used) + len(used)])
     states = States.from_rows(work.states[: sum(stored)])
+    if len(used) == 1:  # the usual case, without slices
+        return [(transitions[:-1], intervals, states)]
     parts = []
     first = 0
     first_state = 0

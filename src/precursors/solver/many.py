@@ -64,7 +64,7 @@ def simulate_many(
             "what simulate_many runs must be a list of chains, but is a Chain"
         )
     chains = list(chains)
-    exact = [chain for chain in chains if not isinstance(chain, OwnSolver)]
+    exact = [c for c in chains if isinstance(c, Chain) or not isinstance(c, OwnSolver)]
     end = checked_end(exact, duration, until, MAX_TRANSITIONS, longest_slip)
     if len(exact) < len(chains):
         refuse_for_own(start_positions, start_velocities, longest_slip)
@@ -77,9 +77,8 @@ def simulate_many(
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)
 
     def run(batch: list[int]) -> list[Any]:
-        own = [chain for j in batch if isinstance(chain := chains[j], OwnSolver)]
-        if own:
-            return [chain.simulate(duration, until) for chain in own]
+        if not _length(chains[batch[0]]):
+            return [chains[j].simulate(duration, until) for j in batch]
         start = (
             np.array([positions[j] for j in batch]),
             np.array([velocities[j] for j in batch]),

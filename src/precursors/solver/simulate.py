@@ -83,7 +83,8 @@ def simulate(
         If the cap, or one on the work of chains that hardly ever rest, is met; its
         attribute `run` holds what was computed.
     """
-    if isinstance(chain, OwnSolver):
+    # The check of a protocol is slow, so that of the class comes first.
+    if not isinstance(chain, Chain) and isinstance(chain, OwnSolver):
         refuse_for_own(start_positions, start_velocities, longest_slip)
         return chain.simulate(duration, until, max_transitions=max_transitions)
     end = checked_end([chain], duration, until, max_transitions, longest_slip)
