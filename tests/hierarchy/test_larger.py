@@ -311,3 +311,30 @@ def test_a_limit_that_is_met_keeps_the_run_so_far():
     with pytest.raises(TransitionLimitError, match="met its limit of work") as met:
         simulate_larger(LargerChain(SLIDER(), **PAIR), 10.0, max_transitions=50)
     assert len(met.value.run.transitions) > 50
+
+
+WEIGHTLESS = {"theta": 1, "n_blocks": 5}
+# Out of reach: steps are below the rounding of the time, or there are too many.
+HARD = [
+    ({"drive_stiffness": 1e18}, {"weakening_velocity": 0.02}, 0.01),
+    ({"mu_s": 0.0, "mu_k": 0.0}, {"weakening_velocity": 0.02}, 1e9),
+    ({}, {"weakening_velocity": 0.02}, 1e9),
+]
+
+
+@pytest.mark.parametrize("added", [{"weakening_velocity": 0.02}, {"push_height": 1e-3}])
+@pytest.mark.parametrize(
+    "slider", [WEIGHTLESS, {"mu_s": 0.0, "mu_k": 0.0}], ids=["one block", "all blocks"]
+)
+def test_blocks_without_friction_move_with_the_drive(slider, added):
+    larger = LargerChain(SLIDER(**slider), **added)
+    run = simulate_larger(larger, 1e-3, max_steps=100_000)
+    assert run.transitions[0].tolist() == (0.0, 1, 1, 0.0)
+    assert abs(run.larger["energy_error"]) < ENERGY
+
+
+@pytest.mark.parametrize(("slider", "added", "duration"), HARD)
+def test_what_is_out_of_reach_ends_with_a_line(monkeypatch, slider, added, duration):
+    monkeypatch.setattr("precursors.hierarchy.larger.PATIENCE", 40_000_000)
+    with pytest.raises(TransitionLimitError, match=r"^the larger chain [^\n]+ at t = "):
+        simulate(LargerChain(SLIDER(**slider), **added), duration)

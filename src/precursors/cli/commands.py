@@ -213,21 +213,18 @@ def run_of_options(arguments: Namespace) -> Record:
             f"{loads.max():g} N, F_Z = {chain.normal_load:g} N"
         )
     added = given(arguments, LARGER)
-    run: Record
     how = {"duration": DURATION, **given(arguments, RUN)}
     try:
         if any(added.values()):
-            from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
+            from precursors.hierarchy.larger import LargerChain
 
-            run = simulate_with_accuracy(LargerChain(chain, **added), **how)
-        else:
-            run = simulate(chain, **how)
+            return simulate(LargerChain(chain, **added), **how)
+        return simulate(chain, **how)
     except TransitionLimitError as error:
         if arguments.command != "simulate" or not arguments.output:
             raise Refused(str(error)) from error
         error.run.save(arguments.output)
         raise Refused(f"{error}; the run so far is in {arguments.output}") from error
-    return run
 
 
 def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:

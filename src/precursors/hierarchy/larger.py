@@ -29,8 +29,10 @@ from precursors.hierarchy.larger_steps import (
     CYCLE,
     DURATION,
     GLOBAL,
+    IDLE,
     LIFTED,
     LIMIT,
+    MAX_STEPS,
     CompiledChain,
     End,
     State,
@@ -53,6 +55,9 @@ LEAP = 0.5  # of the excess of falling friction over viscosity at which creep ru
 # largest. With both doubled, l_c changes by less than 1e-3.
 LENGTH_STEPS = 2000
 GROWTH_RATES = 300
+# Steps times blocks, of which any step has so many: a minute's work.
+PATIENCE = 2_000_000_000
+BLOCKS_OF_A_STEP = 30
 LargerUntil = Literal["global slip", "settled"] | None
 ENDS = {None: DURATION, "global slip": GLOBAL, "settled": CYCLE}
 
@@ -82,8 +87,10 @@ class LargerChain:
     def simulate(
         self, duration: float, until: Until = None, **limits: int
     ) -> LargerRun:
-        """Run it with its accuracy, for `precursors.simulate`."""
-        return simulate_with_accuracy(self, duration, until, **limits)
+        """Run it with its accuracy, for `precursors.simulate`, which waits for no more
+        than `PATIENCE`."""
+        steps = PATIENCE // (BLOCKS_OF_A_STEP + self.chain.n_blocks)
+        return simulate_with_accuracy(self, duration, until, max_steps=steps, **limits)
 
 
 def critical_length(larger: LargerChain) -> float:
@@ -151,6 +158,7 @@ def simulate_larger(
     max_transitions: int = MAX_TRANSITIONS,
     leap: float = LEAP,
     start_forces: ArrayLike | None = None,
+    max_steps: int = MAX_STEPS,
 ) -> LargerRun:
     """Run a larger chain from rest; other arguments are those of `simulate`.
 
@@ -187,7 +195,7 @@ def simulate_larger(
     if start_forces is not None:
         state.force[:-1] = number_array("start_forces", start_forces, "N")
     before = stored_energy(chain, state)
-    end = End(duration, ENDS[until], lifting.min(), max_transitions)
+    end = End(duration, ENDS[until], lifting.min(), max_transitions, max_steps)
     now = np.zeros(1)
     rows, points, why, time = in_threads(
         "running",
@@ -203,13 +211,14 @@ def simulate_larger(
     work, heat = state.energy
     lacking = work - heat - (stored_energy(chain, state) - before)
     numbers = {name: getattr(larger, name) for name in ADDITIONS}
-    numbers |= {"step": step, "energy_error": lacking / work}
+    numbers |= {"step": step, "energy_error": lacking / work if work else 0.0}
     run = LargerRun.from_columns(
         chain, time, *rows.T, larger=numbers, load_points=points
     )
-    if why == LIMIT:
+    if why in (LIMIT, IDLE):
+        reason = "met its limit of work" if why == LIMIT else "has steps of no length"
         raise TransitionLimitError(
-            f"the larger chain met its limit of work at t = {time:.9g} s", run
+            f"the larger chain {reason} at t = {time:.9g} s of {duration:g} s", run
         )
     return run
 
@@ -240,7 +249,9 @@ def longest_steps(m: CompiledChain, chain: Chain, step: float) -> FloatArray:
     if m.weakening_velocity and m.mu_k < m.mu_s:
         largest = m.weights + abs(m.tilt) * m.mu_s * chain.normal_load
         fall = np.maximum.accumulate((m.mu_s - m.mu_k) * largest)
-        steps = np.minimum(steps, m.mass * m.weakening_velocity / fall * step)
+        with np.errstate(divide="ignore"):  # weightless blocks have no such time
+            growth = m.mass * m.weakening_velocity / fall
+        steps = np.minimum(steps, growth * step)
     return steps
 
 

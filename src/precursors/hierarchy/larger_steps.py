@@ -23,7 +23,8 @@ SETTLED = 1e-4
 REPEATS = 4
 LONGEST_PERIOD = 4
 MAX_STEPS = 1_000_000_000
-GOES_ON, DONE, LIFTED, LIMIT = range(4)  # why a run ends
+MOST_IDLE = 100_000  # steps in a row that do not move the time on
+GOES_ON, DONE, LIFTED, LIMIT, IDLE = range(5)  # why a run ends
 DURATION, GLOBAL, CYCLE = range(3)  # where it shall end
 BEGIN, N_FAST, IS_GLOBAL = range(3)  # of an event: first row, blocks, whether global
 
@@ -78,12 +79,13 @@ class Record(NamedTuple):
 
 class End(NamedTuple):
     """Where a run ends: at a time [s], after a slip, where a block is lifted [N], at so
-    many transitions."""
+    many transitions, at so many steps."""
 
     duration: float
     until: int
     lifting_load: float
     most: int
+    most_steps: int
 
 
 @compiled
@@ -240,14 +242,17 @@ def heat_of_step(m, s, load, last, h):
 
 
 @compiled
-def switch(m, s, i):
-    """Release block i if it sticks; let it stick or turn if it stops, and stick if it
-    does not start."""
+def switch(m, s, i, pull):
+    """Release block i, in the direction of `pull`, if it sticks; let it stick or turn
+    if it stops, and stick if it does not start."""
     was_still = s.velocity[i] == 0.0
     s.velocity[i] = 0.0
     net = net_force(m, s.force, s.velocity, i)
     holds = was_still or abs(net) <= strength(m, s.force[0], i)
-    s.mode[i] = 0 if s.mode[i] != 0 and holds else (1 if net > 0.0 else -1)
+    if s.mode[i] == 0:
+        s.mode[i] = 1 if pull > 0.0 else -1
+    else:
+        s.mode[i] = 0 if holds else (1 if net > 0.0 else -1)
 
 
 @compiled
@@ -256,7 +261,10 @@ def take_step(m, s, last, watched, h, leaps):
     moved."""
     copy(s.velocity_before, s.velocity)
     part, block = try_step(m, s, last, watched, h, leaps)
+    pull = 0.0
     if block >= 0:
+        # At its end: a block without weight is released by no force at all.
+        pull = net_force(m, s.new_force, s.new_velocity, block)
         h *= part
         if leaps:
             copy(s.velocity, s.new_velocity)
@@ -269,7 +277,7 @@ def take_step(m, s, last, watched, h, leaps):
         copy(s.force, s.new_force)
         copy(s.velocity, s.new_velocity)
     if block >= 0:
-        switch(m, s, block)
+        switch(m, s, block, pull)
     return h
 
 
@@ -347,6 +355,7 @@ def march(m, s, end, step, now):
     time = 0.0
     leaps = True
     steps = 0
+    idle = 0
     why = GOES_ON
     creeping = -1
     stable = False
@@ -364,6 +373,7 @@ def march(m, s, end, step, now):
         load_before = s.force[0]
         h = end.duration - time
         h = take_step(m, s, last, watched, h if leaps else min(step[last], h), leaps)
+        idle = idle + 1 if time + h == time else 0
         time += h
         now[0] = time
         if note(m, s, record, watched, load_before, time, h):
@@ -372,8 +382,10 @@ def march(m, s, end, step, now):
                 why = DONE
         if s.force[0] > end.lifting_load:
             why = LIFTED
-        elif len(record.rows) - 1 > end.most or steps > MAX_STEPS:
+        elif len(record.rows) - 1 > end.most or steps > end.most_steps:
             why = LIMIT
+        elif idle > MOST_IDLE:
+            why = IDLE
         elif time >= end.duration:
             why = DONE
     record.points.append((time, s.force[0]))
