@@ -184,8 +184,8 @@ def simulate_larger(
     """
     duration = checked_span(duration, None if until == "settled" else until)
     chain = larger.chain
-    step = step or (STEP if larger.weakening_velocity else STEP_OF_COULOMB)
     m = model_of(larger, leap)
+    step = step or (STEP if m.weakening_velocity else STEP_OF_COULOMB)
     lifts = m.tilt < 0.0
     lifting = np.full(chain.n_blocks, np.inf)
     lifting[lifts] = -m.weights[lifts] / m.tilt[lifts]
@@ -236,7 +236,7 @@ def model_of(larger: LargerChain, leap: float) -> CompiledChain:
         mass=chain.mass,
         mu_s=chain.mu_s,
         mu_k=chain.mu_k,
-        weakening_velocity=larger.weakening_velocity,
+        weakening_velocity=larger.weakening_velocity * (chain.mu_k < chain.mu_s),
         drive_velocity=chain.drive_velocity,
         leap=leap,
     )
@@ -246,7 +246,7 @@ def longest_steps(m: CompiledChain, chain: Chain, step: float) -> FloatArray:
     """Steps [s] while nothing slides ahead of block 1..N; `step` is that of
     `simulate_larger`."""
     steps = np.full(chain.n_blocks, 2.0 / chain.fastest_frequency_bound * step)
-    if m.weakening_velocity and m.mu_k < m.mu_s:
+    if m.weakening_velocity:
         largest = m.weights + abs(m.tilt) * m.mu_s * chain.normal_load
         fall = np.maximum.accumulate((m.mu_s - m.mu_k) * largest)
         with np.errstate(divide="ignore"):  # weightless blocks have no such time
