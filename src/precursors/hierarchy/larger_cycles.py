@@ -23,10 +23,10 @@ from precursors.hierarchy.larger_study import (
     step_of,
 )
 from precursors.model.chain import FloatArray
+from precursors.model.printed import LAST_DIGIT
 from precursors.solver.run import LargerRun, Record
 
 APART = 0.003  # two cycles whose mean peaks [F_Z] are closer are one
-SAME = 0.01  # a unit of the last digit that the paper prints
 NODES = (
     8  # of the straight lines from which the net forces of a strained start are made
 )
@@ -195,8 +195,8 @@ def verdicts_table(cycles: pd.DataFrame) -> pd.DataFrame:
 
     within is the largest difference of two cycles of one loading. apart is the largest
     gap between two loadings: between the nearest cycles of the two. The loadings
-    "differ" if apart is above within and above `SAME`, and "do not" if all cycles of
-    all loadings are within `SAME`.
+    "differ" if apart is above within and above a unit of the last printed digit, and
+    "do not" if all cycles of all loadings are within it.
     """
     rows = []
     for point, of_point in cycles.groupby(LOADINGS, sort=False):
@@ -220,9 +220,9 @@ def gap(a: FloatArray, b: FloatArray) -> float:
 
 def verdict_of(within: float, apart: float, of_all: float) -> str:
     """See `verdicts_table`."""
-    if apart > max(within, SAME):
+    if apart > max(within, LAST_DIGIT):
         return "differ"
-    return "do not" if of_all <= SAME else "undecided"
+    return "do not" if of_all <= LAST_DIGIT else "undecided"
 
 
 def peaks_table(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> pd.DataFrame:
