@@ -22,8 +22,8 @@ for name, table in TABLES.items():
             [f"results/tables/{each}.csv" for each in beside],
         log:
             f"results/logs/tabulate_{name}.log",
-        threads: table.get("threads", 1)
         localrule: "seconds" not in table
+        threads: table.get("threads", 1)
         resources:
             seconds=table.get("seconds", 0),
         params:
