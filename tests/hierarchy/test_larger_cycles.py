@@ -190,3 +190,59 @@ def test_counts_settle_for_every_loading():
     assert len(change) == 15
     assert (change <= 1).sum() == 14
     assert (change <= 0.1 * counts[100] + 1).all()
+
+
+def cycles_by_n(study):
+    """Peaks of each chain of some studies, sorted, by its pair and loading."""
+    table = committed("larger_cycles").query(f"study in {study} and length >= 0.2")
+    keys = ["length", "relaxation_time", "theta"]
+    return table.sort_values("coefficient").groupby(keys)["coefficient"].agg(list)
+
+
+def test_cycles_of_well_resolved_chains_do_not_depend_on_the_number_of_blocks():
+    coarse = cycles_by_n(["grid"])
+    fine = cycles_by_n(["grid_fine"])
+    assert len(coarse) == 18
+    assert coarse.str.len().tolist() == fine.str.len().tolist()
+    assert (coarse.str.len() > 1).sum() == 4
+    np.testing.assert_allclose(coarse.sum(), fine.sum(), rtol=0, atol=0.004)
+
+
+def test_half_the_step_leaves_the_cycles_where_they_are():
+    half = cycles_by_n(["half_step"])
+    default = cycles_by_n(["grid"])[half.index]
+    np.testing.assert_allclose(half.sum(), default.sum(), rtol=0, atol=0.001)
+
+
+def test_loadings_differ_in_some_chains_and_not_in_others_at_two_numbers_of_blocks():
+    table = committed("larger_verdicts")
+    grids = table[table["study"].isin(["grid", "grid_fine"])]
+    verdicts = grids.pivot_table(
+        index=["length", "relaxation_time"],
+        columns="n_blocks",
+        values="verdict",
+        aggfunc="first",
+    )
+    agreed = verdicts.loc[verdicts[COARSE] == verdicts[FINE], FINE]
+    assert agreed.value_counts().to_dict() == {"differ": 3, "undecided": 3, "do not": 1}
+
+
+def test_the_settled_peak_falls_with_the_normal_load():
+    table = committed("larger_cycles")
+    of_pair = table.query("length == 0.2 and relaxation_time == 2e-4")
+    main = of_pair[of_pair["share"] > 0.5]
+    for n in (COARSE, FINE):
+        for _, rows in main[main["n_blocks"] == n].groupby("theta"):
+            peaks = rows.sort_values("normal_load")["coefficient"]
+            assert len(peaks) == 4
+            assert (peaks.diff().dropna() < 0.0).all()
+
+
+def test_each_peak_lies_beyond_the_settled_one_and_nearer():
+    peaks = committed("larger_peaks")
+    changes = peaks.groupby("past")["peak"].diff()
+    large = abs(changes.groupby(peaks["past"]).shift()) > 5e-4
+    ratio = (changes / changes.groupby(peaks["past"]).shift())[large]
+    assert len(ratio) > 30
+    assert -0.75 < ratio.median() < -0.5
+    assert (abs(ratio) < 1.0).mean() > 0.9

@@ -126,9 +126,8 @@ FIGURES = {
         "shows": "a chain with a length",
         "section": "hierarchy",
         "tables": {
-            "nucleation": "results/tables/larger_nucleation.csv",
-            "peaks": "results/tables/larger_peaks.csv",
-            "cycles": "results/tables/larger_cycles.csv",
+            name: str(ROOT / f"paper/tables/larger_{name}_full.csv")
+            for name in ("nucleation", "peaks", "cycles")
         },
     },
     "model_comparison": {

@@ -21,13 +21,14 @@ def draw(nucleation: pd.DataFrame, peaks: pd.DataFrame, cycles: pd.DataFrame) ->
     """Draw l_c against its theory, each peak against the one before, and all cycles.
 
     The tables are larger_nucleation.csv, larger_peaks.csv and larger_cycles.csv, of
-    which the studies "grid..." are drawn.
+    which the studies "grid" and "grid_fine" are drawn.
     """
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         lengths, steps, settled = figure.subplots(1, 3, width_ratios=WIDTHS)
-        _draw_lengths(lengths, nucleation)
+        two_finest = sorted(nucleation["n_blocks"].unique())[-2:]
+        _draw_lengths(lengths, nucleation[nucleation["n_blocks"].isin(two_finest)])
         _draw_map(steps, peaks)
-        _draw_cycles(settled, cycles[cycles["study"].str.startswith("grid")])
+        _draw_cycles(settled, cycles[cycles["study"].isin(["grid", "grid_fine"])])
         look = {"linestyle": "none", "markersize": 4}
         entries = [
             style.mark(text, marker=MARKERS[s], color=style.theta_color(s), **look)
