@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import signal
+import subprocess
+import sys
+import time
+
 import numpy as np
 import pytest
 
-from precursors import Chain, Run, simulate, simulate_many
+from precursors import Chain, LargerChain, Run, simulate, simulate_many
 from precursors.solver import batch as solver
 
 SLIDER = Chain.from_slider
@@ -13,6 +18,8 @@ SLIDER = Chain.from_slider
 # a long run exceeds.
 SHARED_ROOM, ROOM = solver.SHARED_ROOM, 2**18
 ROUNDING = 1e-12  # of the largest position or velocity
+
+SOON = 5.0  # s; it takes a hundredth, and 17 if the chains at work are waited for
 
 
 def same(one: Run, other: Run) -> bool:
@@ -120,3 +127,44 @@ def test_chains_may_come_from_a_generator_and_what_is_no_chain_is_refused():
             TypeError, match=r"^what is simulated must be a Chain, but is int$"
         ):
             call()
+
+
+def test_larger_chains_run_beside_exact_ones_as_by_simulate():
+    larger = LargerChain(SLIDER(n_blocks=3), weakening_velocity=0.02)
+    runs = simulate_many([SLIDER(), larger, SLIDER(n_blocks=3)], 0.5)
+    assert [type(run).__name__ for run in runs] == ["Run", "LargerRun", "Run"]
+    alone = simulate(larger, 0.5)
+    assert runs[1].transitions.tolist() == alone.transitions.tolist()
+    assert runs[1].larger == alone.larger
+    for call in (
+        lambda: simulate(larger, 0.5, start_positions=[0, 0, 0]),
+        lambda: simulate_many([larger], 0.5, longest_slip=1.0),
+    ):
+        with pytest.raises(ValueError, match="can only be given for a Chain"):
+            call()
+
+
+INTERRUPTED = """
+import signal, time
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from precursors import Chain, simulate, simulate_many
+simulate(Chain.from_slider(), 0.1)
+chains = [Chain.from_slider(n_blocks=100, theta=i / 400) for i in range(200)]
+print("running", flush=True)
+try:
+    simulate_many(chains)
+except KeyboardInterrupt:
+    print("stopped", flush=True)
+"""
+
+
+def test_an_interrupt_does_not_wait_for_the_chains_at_work():
+    with subprocess.Popen(
+        [sys.executable, "-c", INTERRUPTED], stdout=subprocess.PIPE, text=True
+    ) as command:
+        assert command.stdout.readline() == "running\n"
+        time.sleep(1.0)
+        start = time.monotonic()
+        command.send_signal(signal.SIGINT)
+        assert command.stdout.readline() == "stopped\n"
+        assert time.monotonic() - start < SOON
