@@ -31,8 +31,9 @@ from precursors.support.waiting import in_threads
 # less.
 SEEN = 0.002
 SAMPLE = 1e-3  # s: a logger at 1 kHz takes two events with a shorter rest for one
-# Steps of `simulate_larger`. With 200 blocks and a relaxation time of 0.2 ms, 0.25
-# shifts mu_sapp by 0.006, and 0.1 by less than 0.001.
+# Steps of `simulate_larger`. With 200 blocks, 0.25 shifts mu_sapp by 0.006 at
+# t_v = 0.2 ms. The tables say what half the step changes: which event becomes the
+# global slip may depend on it.
 STEP = 0.25
 FINE_STEP = 0.1
 FINE_FROM = 200  # blocks
