@@ -56,7 +56,7 @@ LEAP = 0.5  # of the excess of falling friction over viscosity at which creep ru
 LENGTH_STEPS = 2000
 GROWTH_RATES = 300
 # Steps times blocks, of which any step has so many: a minute's work.
-PATIENCE = 2_000_000_000
+PATIENCE = 1_000_000_000
 BLOCKS_OF_A_STEP = 30
 LargerUntil = Literal["global slip", "settled"] | None
 ENDS = {None: DURATION, "global slip": GLOBAL, "settled": CYCLE}
@@ -216,7 +216,7 @@ def simulate_larger(
         chain, time, *rows.T, larger=numbers, load_points=points
     )
     if why in (LIMIT, IDLE):
-        reason = "met its limit of work" if why == LIMIT else "has steps of no length"
+        reason = "met its limit of work" if why == LIMIT else "has too short steps"
         raise TransitionLimitError(
             f"the larger chain {reason} at t = {time:.9g} s of {duration:g} s", run
         )

@@ -23,7 +23,9 @@ SETTLED = 1e-4
 REPEATS = 4
 LONGEST_PERIOD = 4
 MAX_STEPS = 1_000_000_000
-MOST_IDLE = 100_000  # steps in a row that do not move the time on
+# Steps after which the time must have moved on by this part of the duration.
+MOST_IDLE = 100_000
+LEAST_MOVED = 1e-9
 GOES_ON, DONE, LIFTED, LIMIT, IDLE = range(5)  # why a run ends
 DURATION, GLOBAL, CYCLE = range(3)  # where it shall end
 BEGIN, N_FAST, IS_GLOBAL = range(3)  # of an event: first row, blocks, whether global
@@ -355,7 +357,7 @@ def march(m, s, end, step, now):
     time = 0.0
     leaps = True
     steps = 0
-    idle = 0
+    mark = -math.inf
     why = GOES_ON
     creeping = -1
     stable = False
@@ -373,7 +375,6 @@ def march(m, s, end, step, now):
         load_before = s.force[0]
         h = end.duration - time
         h = take_step(m, s, last, watched, h if leaps else min(step[last], h), leaps)
-        idle = idle + 1 if time + h == time else 0
         time += h
         now[0] = time
         if note(m, s, record, watched, load_before, time, h):
@@ -384,9 +385,11 @@ def march(m, s, end, step, now):
             why = LIFTED
         elif len(record.rows) - 1 > end.most or steps > end.most_steps:
             why = LIMIT
-        elif idle > MOST_IDLE:
-            why = IDLE
         elif time >= end.duration:
             why = DONE
+        elif why == GOES_ON and steps % MOST_IDLE == 0:
+            if time - mark < LEAST_MOVED * end.duration:
+                why = IDLE
+            mark = time
     record.points.append((time, s.force[0]))
     return np.array(record.rows)[1:], np.array(record.points), why, time
