@@ -55,10 +55,8 @@ def test_blocks_that_are_stronger_than_a_rounding_let_go_in_time_beside_others_t
     auditor = Auditor(run, ROUNDINGS)
     auditor.walk()
     assert not auditor.problems
-    resolved = (
-        np.flatnonzero(auditor.strength > ROUNDINGS * auditor.one * auditor.per_force)
-        + 1
-    )
+    is_resolved = auditor.strength > ROUNDINGS * auditor.state.one_force
+    resolved = np.flatnonzero(is_resolved) + 1
     assert resolved.tolist() == blocks
     of_these = [
         [t for t in transitions if t[1] in blocks] for transitions in (mine, exact)
