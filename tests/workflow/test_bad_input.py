@@ -23,8 +23,8 @@ from precursors import Run
         ),
         (
             "scenes:",
-            "scenes:\n  noise: {title: a, theta: 0}",
-            "scenes.noise has the name of a target",
+            "scenes:\n  horizon: {title: a, theta: 0}",
+            "scenes.horizon has the name of a target",
         ),
         (
             "  mu_k: 0.45",

@@ -139,8 +139,14 @@ def test_each_figure_is_drawn_from_its_tables_into_its_own_files(tmp_path, monke
     (tmp_path / "a.csv").write_text("x\n1\n2\n")
     table, look = str(tmp_path / "a.csv"), style.Look(font_size=9.0)
     figures = {
-        "ours": {"tables": {"table": table}, "options": {"title": "one"}, "look": {}},
+        "ours": {
+            "shows": "one table",
+            "tables": {"table": table},
+            "options": {"title": "one"},
+            "look": {},
+        },
         "two": {
+            "shows": "a list of tables",
             "module": "ours",
             "tables": {"table": [table]},
             "options": {"title": "two"},
@@ -158,7 +164,8 @@ def test_each_figure_is_drawn_from_its_tables_into_its_own_files(tmp_path, monke
         figure, of_page = (
             (draw(x, "one"), None) if name == "ours" else (draw([x], "two", look), look)
         )
-        style.save(figure, expected := tmp_path / f"expected{path.suffix}", of_page)
+        expected = tmp_path / f"expected{path.suffix}"
+        style.save(figure, expected, of_page, title=figures[name]["shows"])
         assert path.read_bytes() == expected.read_bytes()
 
 
@@ -367,7 +374,7 @@ def test_methods_are_measured_to_the_first_slip_and_to_the_end(monkeypatch):
         None: {"exact": [0.0]},
     }
     monkeypatch.setattr(
-        work_precision, "charted_values", lambda case, _full: values[case.until]
+        work_precision, "charted_values", lambda until, _full: values[until]
     )
     certificate = certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), 6.0)
     table = work_precision.work_precision_table(
