@@ -291,6 +291,8 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
         },
     }
     cycles = CONFIG["hierarchy"]["cycles"] | {
+        "pasts": [[0.001, 0], [0.01, 0], [0.03, 0], [0.1, 0]]
+        + [[0, part / 4] for part in range(1, 5)],
         "map": {"pairs": [[0.3, 1e-4]], "n_blocks": [10], "theta": [0]},
         "studies": {
             "grid": {

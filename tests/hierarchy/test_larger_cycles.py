@@ -160,7 +160,7 @@ def test_the_committed_cycles_are_those_of_the_library():
     study = FULL["hierarchy"]["cycles"]["studies"]["grid"]
     study = {**study, "pairs": [[0.3, 2e-4]], "theta": [0], "runs": 1}
     common = CONFIG["hierarchy"]["cycles"]
-    common = {**common, "pasts": common["pasts"][4:6]}
+    common = {**common, "pasts": FULL["hierarchy"]["cycles"]["pasts"][4:6]}
     again = run_pasts(CONFIG["chain"], "grid", study, common)["coefficient"]
     there = committed("larger_cycles").query(
         "study == 'grid' and length == 0.3 and relaxation_time == 2e-4 and theta == 0"
