@@ -67,9 +67,8 @@ HEAVY = (
     "scipy.integrate", "scipy.linalg", "scipy.optimize", "scipy.stats", "snakemake.cli", "sympy", "yaml",
 )  # fmt: skip
 SHARE = 0.85
-SECONDS = (
-    20.0  # processor time of the tests that a fault meets, when they have no fault
-)
+# Processor time of the tests that a fault meets, when they have no fault.
+SECONDS = 20.0
 # Of one test [s]: beside so many times what it costs without a fault; more where it may
 # have to compile.
 TIMES, LIMIT, COMPILING = 5.0, 10.0, 60.0

@@ -59,9 +59,8 @@ _MODULES = {
 }
 __all__ = ["audit", *_MODULES]
 
-if (
-    not TYPE_CHECKING
-):  # a type checker that saw it would take every name for one of this package
+# A type checker that saw it would take every name for one of this package.
+if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
         if name == "__version__":

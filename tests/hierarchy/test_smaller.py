@@ -37,9 +37,8 @@ ROOT = Path(__file__).parents[2]
 SLIDER = Chain.from_slider
 THETAS = ["-5/6", 0.0, "5/6"]
 ROUNDING = 1e-12  # relative, of sums of a few terms
-CASCADE_ROUNDING = (
-    1e-8  # relative, grows from event to event; a wrong set of blocks is off by 1e-2
-)
+# Relative, grows from event to event; a wrong set of blocks is off by 1e-2.
+CASCADE_ROUNDING = 1e-8
 FORCE_ROUNDING = 1e-9  # of F_Z, in the dense cascade
 RUN_ROUNDING = 1e-11  # relative, of the exact solver's times and loads over ten slips
 

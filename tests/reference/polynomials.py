@@ -16,12 +16,10 @@ from collections.abc import Sequence
 from itertools import accumulate, pairwise
 from math import comb
 
-GUARD_BITS = (
-    48  # what is smaller than 2^GUARD_BITS units of the last place counts as zero
-)
-COARSE_DEGREE = (
-    20  # the coefficients fall like 2^n/n!, so the rest after degree 20 is below 1e-12
-)
+# What is smaller than 2^GUARD_BITS units of the last place counts as zero.
+GUARD_BITS = 48
+# The coefficients fall like 2^n/n!, so the rest after degree 20 is below 1e-12.
+COARSE_DEGREE = 20
 
 
 def first_zero(p: Sequence[int], bits: int) -> int | None:

@@ -9,9 +9,8 @@ from pathlib import Path
 from precursors.support.provenance import git_state, provenance
 
 ROOT = Path(__file__).parents[2]
-SHA256_OF_ABC = (
-    "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"  # FIPS 180-4
-)
+# FIPS 180-4.
+SHA256_OF_ABC = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
 
 
 def test_everything_that_computed_is_named_and_every_input_and_output_has_its_checksum(

@@ -11,9 +11,8 @@ from precursors.model.chain import FloatArray
 
 _FEWEST_CELLS = 2
 _PARTS = 8  # of a cell for which that does not suffice
-_NUMBERS_AT_ONCE = (
-    200_000  # in an array: bounds the memory on long intervals and long chains
-)
+# In an array: bounds the memory on long intervals and long chains.
+_NUMBERS_AT_ONCE = 200_000
 
 
 class TooLongError(Exception):

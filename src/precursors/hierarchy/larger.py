@@ -144,9 +144,8 @@ def tilt(chain: Chain, push_height: float) -> FloatArray:
     n = chain.n_blocks
     if n == 1:
         return np.zeros(1)
-    place = (
-        np.arange(1, n + 1) - (n + 1) / 2
-    ) / n  # from the middle of the contact, over its length
+    # From the middle of the contact, over its length.
+    place = (np.arange(1, n + 1) - (n + 1) / 2) / n
     return 12.0 * push_height / chain.length * place / (n * (1.0 - 1.0 / n**2))
 
 

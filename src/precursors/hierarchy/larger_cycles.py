@@ -27,9 +27,8 @@ from precursors.model.printed import LAST_DIGIT
 from precursors.solver.run import LargerRun, Record
 
 APART = 0.003  # two cycles whose mean peaks [F_Z] are closer are one
-NODES = (
-    8  # of the straight lines from which the net forces of a strained start are made
-)
+# Of the straight lines from which the net forces of a strained start are made.
+NODES = 8
 LOADINGS = [name for name in POINT if name not in ("theta", "critical_length")]
 AVERAGED = ["coefficient", "lowest", "highest", "period", "state_error"]
 AVERAGED += ["theory", "step"]
