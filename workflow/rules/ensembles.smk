@@ -74,7 +74,7 @@ rule ensembles:
     input:
         collect(
             "results/figures/{figure}.svg",
-            figure=["hero", "theta_window", "resolution", "event_law", "map_theta_friction_ratio"],
+            figure=["hero", "theta_window", "noise", "resolution", "event_law", "map_theta_friction_ratio"],
         ),
         "results/tables/digits.csv",
     localrule: True

@@ -108,6 +108,11 @@ FIGURES = {
         },
         "options": {"papers_n": config["chain"]["n_blocks"]},
     },
+    "noise": {
+        "section": "ensembles",
+        "shows": "mu_sapp is larger at +5/6, however small the noise",
+        "tables": {"table": "results/tables/noise_amplitudes.csv"},
+    },
     "event_law": {
         "section": "ensembles",
         "shows": "the number of events compared with the law",

@@ -15,7 +15,11 @@ from precursors.model import printed
 HEIGHT_MM = 84.0
 BEYOND = 1.35  # where marks stand beyond the last N, in units of it
 EXACT: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 4}
-ALL_EVENTS: dict[str, Any] = {"linestyle": "--"}
+# The other counts beside those of Fig. 13.
+COUNTS: dict[str, dict[str, Any]] = {
+    "events_to_global_slip": {"linestyle": "--", "label": "median, all events"},
+    "records": {"linewidth": 0.5, "label": "median, strict records"},
+}
 EXPERIMENT: dict[str, Any] = {"linestyle": "none", "marker": "<", "markersize": 5}
 BAND: dict[str, Any] = {"alpha": 0.18, "linewidth": 0}
 
@@ -40,9 +44,10 @@ def draw(
             for axes, quantity in ((counts, "events_counted"), (frictions, "mu_sapp")):
                 rows = of_scene[of_scene["quantity"] == quantity]
                 _draw_numbers(axes, rows, rows["n_blocks"].isin(known))
-            events = of_scene[of_scene["quantity"] == "events_to_global_slip"]
             color = style.theta_color(of_scene["theta"].iloc[0])
-            counts.plot(events["n_blocks"], events["q50"], color=color, **ALL_EVENTS)
+            for quantity, look in COUNTS.items():
+                rows = of_scene[of_scene["quantity"] == quantity]
+                counts.plot(rows["n_blocks"], rows["q50"], color=color, **look)
         beyond = BEYOND * table["n_blocks"].max()
         for sign, count in printed.EVENTS_OF_EXPERIMENT.items():
             counts.plot(beyond, count, **EXPERIMENT, color=style.theta_color(sign))
@@ -83,7 +88,7 @@ def _draw_key(figure: Figure, papers_n: int) -> None:
     ]
     entries += [
         style.mark("median, counted in Fig. 13", linewidth=1.2),
-        style.mark("median, all events", **ALL_EVENTS),
+        *(style.mark(**look) for look in COUNTS.values()),
         Patch(color=style.BLACK, **BAND, label="5 to 95 %"),
         style.mark("without noise, predictable", **EXACT),
         style.mark("experiment", **EXPERIMENT),

@@ -1,0 +1,47 @@
+"""By how much mu_sapp differs from that of uniform load, against the noise."""
+
+from __future__ import annotations
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from precursors.figures import style
+from precursors.model.printed import LAST_DIGIT
+
+HEIGHT_MM = 52.0
+
+
+def draw(table: pd.DataFrame) -> Figure:
+    """Draw differences of the medians of mu_sapp with their intervals.
+
+    The table is noise_amplitudes.csv. A dotted line marks a unit of the last printed
+    digit.
+    """
+    uniform = table["other_theta"].abs().min()
+    differences = table[
+        table["quantity"].eq("mu_sapp") & table["other_theta"].eq(uniform)
+    ]
+    with style.page(style.COLUMN_MM, HEIGHT_MM) as figure:
+        axes = figure.subplots()
+        for theta, rows in differences.groupby("theta"):
+            axes.errorbar(
+                100.0 * rows["load_noise"],
+                rows["difference"],
+                [rows["difference"] - rows["low"], rows["high"] - rows["difference"]],
+                color=style.theta_color(float(str(theta))),
+                marker="s",
+                markersize=3.5,
+                elinewidth=0.8,
+            )
+        axes.axhline(LAST_DIGIT, **style.DOTTED)
+        axes.annotate(
+            "unit of the last printed digit",
+            (0.98, LAST_DIGIT),
+            xycoords=("axes fraction", "data"),
+            ha="right",
+            va="top",
+            color=style.GREY,
+        )
+        axes.set(xscale="log", ylim=(0, None), xlabel="Noise in the normal loads [%]")
+        axes.set_ylabel(r"Difference of $\mu_\mathrm{sapp}$ [-]")
+    return figure
