@@ -38,7 +38,6 @@ SETTINGS = {
     "none": (0.0,),
     "step [s]": (5e-6, 1e-6, 1e-7),
     "relative tolerance": (1e-4, 1e-8),
-    "width [m/s]": (1e-4,),
     "forward_euler": (5e-7, 1e-7),
     "rk4_located": (5e-6, 1e-6),
     "literal": (1e-6,),
@@ -51,8 +50,6 @@ def kept_runs(method: str) -> pd.DataFrame:
     rows = []
     for name, (chain, duration, until) in RUNS.items():
         for value in SETTINGS.get(method) or SETTINGS[METHODS[method].setting]:
-            if chain.n_blocks > 1 and METHODS[method].setting == "width [m/s]":
-                continue  # rounding decides how many steps are made
             run, evaluations = vars(
                 METHODS[method].solve(chain, duration, value, until)
             ).values()

@@ -20,7 +20,7 @@ from precursors.methods.stability import highest_frequency
 ORDERS = {
     # A transition within a step is an error of its length.
     **dict.fromkeys(
-        ("rk4_skip", "leapfrog", "semi_implicit_euler", "newmark"),
+        ("rk4_skip", "leapfrog", "semi_implicit_euler"),
         (1.0, 5e-8, 5e-9),
     ),
     **dict.fromkeys(("moreau_jean_half", "moreau_jean_one"), (1.0, 5e-8, 5e-9)),

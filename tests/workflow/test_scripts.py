@@ -26,7 +26,6 @@ from matplotlib.figure import Figure
 from precursors import Record, Run, simulate
 from precursors.accuracy import failures, work_precision
 from precursors.accuracy.failures.common import Threshold
-from precursors.accuracy.failures.locating import SMALLEST
 from precursors.accuracy.solver_vs_proof import proof_tables
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.lyapunov import lyapunov_table
@@ -397,7 +396,8 @@ def test_methods_are_measured_to_the_first_slip_and_to_the_end(monkeypatch):
 
 def test_failure_modes_are_tabulated_with_their_curves_and_thresholds(monkeypatch):
     two = {
-        name: failures.FAILURE_MODES[name] for name in ("stiffness", "restart_on_root")
+        name: failures.FAILURE_MODES[name]
+        for name in ("stiffness", "dead_zone_too_large")
     }
     monkeypatch.setattr(failures, "FAILURE_MODES", two)
     monkeypatch.setattr(
@@ -408,9 +408,8 @@ def test_failure_modes_are_tabulated_with_their_curves_and_thresholds(monkeypatc
     tables = failures.failure_tables()
     assert (
         tables["failures"]["failure_mode"].tolist()
-        == ["stiffness"] + ["restart_on_root"] * 2
+        == ["stiffness"] + ["dead_zone_too_large"] * 2
     )
-    assert tables["failures"]["measured"].tolist()[1:] == [82, SMALLEST]
     assert tables["thresholds"]["n_blocks"].tolist() == [2, 10]
     assert tables["thresholds"]["ratio"].tolist() == [1.5, pytest.approx(1.0, rel=0.02)]
     curves = tables["failure_curves"]

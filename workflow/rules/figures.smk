@@ -66,7 +66,7 @@ FIGURES = {
     },
     "failure_gallery": {
         "section": "accuracy",
-        "shows": "twelve ways in which methods fail",
+        "shows": "nine ways in which methods fail",
         "tables": {
             "thresholds": "results/tables/thresholds.csv",
             "curves": "results/tables/failure_curves.csv",

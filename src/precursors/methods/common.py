@@ -48,7 +48,7 @@ class Method:
     """A method by its name, which is its row in methods.csv.
 
     `setting` is what sets the accuracy, with its unit: "step [s]", "relative
-    tolerance", "width [m/s]". `solve` is (chain, duration [s], value of the setting,
+    tolerance". `solve` is (chain, duration [s], value of the setting,
     until) -> Result; `until` is None or "global slip". `smooth` is the method without
     switching, where theory says something about it.
     """

@@ -19,7 +19,7 @@ template = njit(inline="always")
 # Python calls these; their code is kept until one of these files is edited.
 NAMES = (
     "columns compiled dop853 equations events fixed_step karnopp leapfrog moreau_jean "
-    "newmark rk4 rk4_located"
+    "rk4 rk4_located"
 )
 COMPILED = [f"{name}.py" for name in NAMES.split()]
 outer = entry(

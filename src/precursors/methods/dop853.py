@@ -16,11 +16,11 @@ import math
 import numpy as np
 from scipy.integrate import DOP853
 
-from precursors.methods.columns import RATES, time_unit
+from precursors.methods.columns import RATES
 from precursors.methods.common import Method, Result
 from precursors.methods.compiled import apart, inner, outer, template
 from precursors.methods.equations import by_mode, copy, event_function, rates
-from precursors.methods.events import NUDGE, nudge_starting
+from precursors.methods.events import nudge_starting
 from precursors.methods.fixed_step import begin_leg, feels, switch
 from precursors.methods.march import march
 from precursors.model.chain import Chain
@@ -150,9 +150,8 @@ def first_root(low, high, before, after, system, state, last, f, result, values)
 
 
 @template
-def advance(motion, tolerance, until, watches):
-    """Go on to the next event where it `watches` for one, or to a time [tau]: the
-    block, or 0."""
+def advance(motion, tolerance):
+    """Go on to the next event, or to the end of the run: the block, or 0."""
     system = motion.system
     state = motion.state
     progress = motion.progress[0]
@@ -169,8 +168,8 @@ def advance(motion, tolerance, until, watches):
         before[i] = event_function(system, state, state, i)
     progress.evaluations += 1
     longest = FIRST_STEP * tolerance**-EXPONENT
-    while progress.elapsed < until:
-        remaining = until - progress.elapsed
+    while progress.elapsed < progress.remaining:
+        remaining = progress.remaining - progress.elapsed
         h = min(longest, remaining)
         stages(system, state, last, h, k, end, trial)
         progress.evaluations += 15
@@ -181,69 +180,41 @@ def advance(motion, tolerance, until, watches):
             continue
         if h == longest:
             longest = h * min(change, LONGER)
-        if watches:
-            polynomial(state, last, end, h, k, f)
-            for probe in range(1, PROBES + 1):
-                high = probe / PROBES
-                if functions_at(high, system, state, last, f, trial, after) < 0.0:
-                    low = (probe - 1) / PROBES
-                    root, block = first_root(
-                        low, high, before, after, system, state, last, f, trial, end[0]
-                    )
-                    functions_at(root, system, state, last, f, trial, after)
-                    progress.elapsed += root * h
-                    copy(trial, last, state)
-                    return block
-                before, after = after, before
-        progress.elapsed = until if h == remaining else progress.elapsed + h
+        polynomial(state, last, end, h, k, f)
+        for probe in range(1, PROBES + 1):
+            high = probe / PROBES
+            if functions_at(high, system, state, last, f, trial, after) < 0.0:
+                low = (probe - 1) / PROBES
+                root, block = first_root(
+                    low, high, before, after, system, state, last, f, trial, end[0]
+                )
+                functions_at(root, system, state, last, f, trial, after)
+                progress.elapsed += root * h
+                copy(trial, last, state)
+                return block
+            before, after = after, before
+        progress.elapsed = (
+            progress.remaining if h == remaining else progress.elapsed + h
+        )
         copy(end, last, state)
         copy(k[STAGES], last, k[0])
     return 0
 
 
 @outer
-def run_dop853(motion, tolerance, window):
-    """Run from event to event.
-
-    Transitions that are due within a window [tau] after another are made together at
-    its end.
-    """
-    state = motion.state
-    progress = motion.progress[0]
+def run_dop853(motion, tolerance):
+    """Run from event to event."""
     while begin_leg(motion):
-        nudge_starting(state, NUDGE)
-        watches = window == 0.0 or progress.elapsed >= progress.noted + window
-        until = (
-            progress.remaining
-            if watches
-            else min(progress.noted + window, progress.remaining)
-        )
-        block = advance(motion, tolerance, until, watches)
-        switch(motion, block)
+        nudge_starting(motion.state)
+        switch(motion, advance(motion, tolerance))
 
 
 def solve_dop853(
-    chain: Chain,
-    duration: float,
-    tolerance: float,
-    until: str | None = None,
-    window: float = 0.0,
+    chain: Chain, duration: float, tolerance: float, until: str | None = None
 ) -> Result:
     """Run a chain by DOP853; rtol is the tolerance, atol the same number in N and N/tau
-    (see `columns`).
-
-    Transitions that are due within a window [s] after another are made together at its
-    end.
-    """
-    return march(
-        run_dop853,
-        (window / time_unit(chain),),
-        chain,
-        duration,
-        tolerance,
-        until,
-        scaled=True,
-    )
+    (see `columns`)."""
+    return march(run_dop853, (), chain, duration, tolerance, until, scaled=True)
 
 
 METHODS = (Method("dop853", "relative tolerance", solve_dop853),)

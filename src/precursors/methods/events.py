@@ -66,15 +66,11 @@ class EventMotion:
     """A chain in motion, with the numbers that a solver carries, or keeps itself.
 
     `y`, shape (2 N,), is the state; `settings` is what each block does, in the rows
-    SLIDES, FRICTIONS, MODES and STICKS. `nudge` is the velocity of a block that starts,
-    see `NUDGE`.
+    SLIDES, FRICTIONS, MODES and STICKS.
     """
 
-    def __init__(
-        self, chain: Chain, duration: float, until: str | None, nudge: float = NUDGE
-    ) -> None:
+    def __init__(self, chain: Chain, duration: float, until: str | None) -> None:
         self.chain = chain
-        self.nudge = nudge
         self.tau = time_unit(chain)
         self.motion = motion_from_rest(chain, duration, until, scaled=True)
         self.system = self.motion.system
@@ -131,7 +127,7 @@ class EventMotion:
         Returns whether a block still slides; if none does, the slip event has ended.
         Event -1 is the wait.
         """
-        status = go_on(*self.motion, self.y, self.settings, self.nudge, event, elapsed)
+        status = go_on(*self.motion, self.y, self.settings, event, elapsed)
         self.slides = status == MOVING
         if status == LOST:
             run = run_of(self.motion, self.chain, status)
@@ -219,15 +215,15 @@ def jacobian_of(system: FloatArray, state: FloatArray) -> FloatArray:
 
 
 @inner
-def nudge_starting(state, nudge):
+def nudge_starting(state):
     """Give blocks that slide, but are at rest, a velocity."""
     for i in range(1, state.shape[1] - 1):
         if state[MODE, i] != 0.0 and state[VELOCITY, i] == 0.0:
-            state[VELOCITY, i] = state[MODE, i] * nudge
+            state[VELOCITY, i] = state[MODE, i] * NUDGE
 
 
 @outer
-def go_on(system, state, progress, record, y, settings, nudge, event, elapsed):
+def go_on(system, state, progress, record, y, settings, event, elapsed):
     """Make the transition of an event and those overdue with it, or wait (-1) until
     block 1 slides.
 
@@ -249,7 +245,7 @@ def go_on(system, state, progress, record, y, settings, nudge, event, elapsed):
             status = LOST
         elif obstacle(motion) == PAUSED:
             status = PAUSED
-    nudge_starting(state, nudge)
+    nudge_starting(state)
     for i in range(n):
         y[i] = state[FORCE, i + 1]
         y[n + i] = state[VELOCITY, i + 1]

@@ -17,7 +17,7 @@ import numpy as np
 
 from precursors.methods.columns import SPRING, STRENGTH, VELOCITY, at_rest
 from precursors.methods.common import Method, Result
-from precursors.methods.events import NUDGE, EventMotion
+from precursors.methods.events import EventMotion
 from precursors.model.chain import Chain
 
 # The tightest is rounding, heyoka's own default.
@@ -89,16 +89,15 @@ def solve_heyoka(
     duration: float,
     tolerance: float,
     until: str | None = None,
-    nudge: float = NUDGE,
 ) -> Result:
     """Run a chain by heyoka.py; the tolerance sets the order of the series too, 0 is
     heyoka's own, rounding.
 
     A step of a series of order p counts as p evaluations: each derivative applies the
-    equations once. `nudge` is explained in `events.NUDGE`.
+    equations once.
     """
     solver, present = _integrator(chain, float(tolerance))
-    motion = EventMotion(chain, duration, until, nudge)
+    motion = EventMotion(chain, duration, until)
     motion.y = solver.state
     motion.settings = solver.pars.reshape(4, -1)
     present[:] = [motion]

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Literal
 
 from scipy.integrate import solve_ivp
 
 from precursors.methods.columns import MODE, STRENGTH
 from precursors.methods.common import Method, Result
-from precursors.methods.events import NUDGE, EventMotion, march_restarting
+from precursors.methods.events import EventMotion, march_restarting
 from precursors.model.chain import Chain, FloatArray
 
 FALLING = -1.0
@@ -29,17 +28,12 @@ def solve_scipy(
     duration: float,
     tolerance: float,
     until: str | None = None,
-    solver: Literal["RK23", "RK45", "DOP853"] = "DOP853",
     max_step: float = math.inf,
-    nudge: float = NUDGE,
-    direction: float = FALLING,
 ) -> Result:
-    """Run a chain by `scipy.integrate.solve_ivp`; rtol is the tolerance, atol the same
-    in N and N/tau.
+    """Run a chain by SciPy's DOP853; rtol is the tolerance, atol the same in N and
+    N/tau.
 
-    `solver` is an explicit one of SciPy's. `max_step` is the longest step [s], and
-    `nudge` is explained in `events.NUDGE`. SciPy's `direction` of an event takes any
-    root where it is 0, its default, also one that a restart lies on.
+    `max_step` is the longest step [s].
 
     Raises
     ------
@@ -47,15 +41,15 @@ def solve_scipy(
         If transition follows transition without time going on, or SciPy reports a
         failure.
     """
-    motion = EventMotion(chain, duration, until, nudge)
+    motion = EventMotion(chain, duration, until)
 
     def next_transition(time: float) -> tuple[float, int]:
-        numbers, events = zip(*watched(motion, direction), strict=True)
+        numbers, events = zip(*watched(motion), strict=True)
         solution = solve_ivp(
             motion.rates,
             (time, motion.remaining),
             motion.y,
-            method=solver,
+            method="DOP853",
             events=events,
             rtol=tolerance,
             atol=tolerance,
@@ -63,9 +57,7 @@ def solve_scipy(
         )
         motion.evaluations += solution.nfev
         if not solution.success:
-            raise RuntimeError(
-                f"{solver} at t = {motion.onset:.9g} s: {solution.message}"
-            )
+            raise RuntimeError(f"at t = {motion.onset:.9g} s: {solution.message}")
         motion.y[:] = solution.y[:, -1]
         fired = [
             number
@@ -77,9 +69,7 @@ def solve_scipy(
     return march_restarting(motion, next_transition)
 
 
-def watched(
-    motion: EventMotion, direction: float = FALLING
-) -> Iterator[tuple[int, EventFunction]]:
+def watched(motion: EventMotion) -> Iterator[tuple[int, EventFunction]]:
     """Numbers and functions of the events that can come next."""
     n = motion.chain.n_blocks
     mode = motion.state[MODE].tolist()
@@ -91,7 +81,7 @@ def watched(
         elif mode[block - 1] or mode[block + 1]:
             found = [_margin(n, block, strength[block], way) for way in (1.0, -1.0)]
         for side, function in enumerate(found):
-            vars(function).update(terminal=True, direction=direction)
+            vars(function).update(terminal=True, direction=FALLING)
             yield 2 * (block - 1) + side, function
 
 

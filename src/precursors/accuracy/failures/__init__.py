@@ -17,13 +17,8 @@ from precursors.accuracy.failures.energy import (
     silent_instability,
     unstable,
 )
-from precursors.accuracy.failures.forward_only import forward_only
 from precursors.accuracy.failures.literal_friction import literal_friction
-from precursors.accuracy.failures.locating import (
-    merged_transitions,
-    missed_roots,
-    restart_on_root,
-)
+from precursors.accuracy.failures.missed_roots import missed_roots
 from precursors.accuracy.failures.regularised_friction import creep, stiffness
 from precursors.accuracy.failures.stability import thresholds
 
@@ -40,9 +35,6 @@ FAILURE_MODES: dict[str, Callable[[], Failure]] = {
         creep,
         stiffness,
         missed_roots,
-        restart_on_root,
-        merged_transitions,
-        forward_only,
     )
 }
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from numpy.typing import ArrayLike
 
-from precursors.model.chain import FloatArray
+from precursors.methods import ROWS
+from precursors.model.chain import Chain, FloatArray
 
 # The first five slips of theta = 0, with 30 transitions [s].
 FIVE_SLIPS = 1.25
@@ -19,8 +20,7 @@ class Number:
     """A measured number that shows a failure of a method with a setting.
 
     `quantity` is a key; `exact` is the right value, or NaN. `predicted` is the value
-    that the method should give, NaN where nothing is known; `theory` says from what
-    that follows, if not from the method and the chain.
+    that the method should give by theory, NaN where nothing is known.
     """
 
     method: str
@@ -30,7 +30,6 @@ class Number:
     measured: float
     exact: float = float("nan")
     predicted: float = float("nan")
-    theory: str = ""
 
 
 @dataclass(frozen=True)
@@ -49,6 +48,11 @@ class Threshold:
     theory: str
     predicted: float
     measured: float
+
+
+def threshold(method: str, chain: Chain, *values: Any, **named: Any) -> Threshold:
+    """The threshold of a method of `METHODS` on a chain."""
+    return Threshold(method, ROWS[method]["label"], chain.n_blocks, *values, **named)
 
 
 @dataclass(frozen=True)

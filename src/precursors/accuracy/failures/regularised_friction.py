@@ -1,9 +1,20 @@
 """Regularised friction: blocks creep under less than mu_s w, and the narrower the law,
-the stiffer it is."""
+the stiffer it is.
+
+A steep tanh stands in place of the jump at zero velocity, with a Stribeck drop to mu_k:
+
+    mu(v) = tanh(v / width) (mu_k + (mu_s - mu_k) exp(-(v / (STRIBECK width))^2)).
+
+Nothing ever sticks: a block under a constant load F < mu_s w creeps at
+`creep_velocity`, and the equations are as stiff as mu_s w / (m width).
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -15,11 +26,14 @@ from precursors.accuracy.failures.common import (
     Threshold,
     runge_kutta_step,
 )
-from precursors.methods.columns import time_unit
-from precursors.methods.regularised import creep_velocity, equations
+from precursors.methods.columns import SPRING, VELOCITY, at_rest, set_modes, time_unit
+from precursors.methods.events import jacobian_of
 from precursors.methods.stability import bisect, highest_frequency
 from precursors.model.chain import Chain, FloatArray
 
+# The drop begins where tanh has all but reached 1, so that friction at its largest is
+# mu_s to 1e-3.
+STRIBECK = 100.0
 WIDTHS = (1e-5, 1e-6, 1e-7)  # m/s
 LOADS = np.array([0.3, 0.6, 0.9])  # parts of mu_s w
 STIFF_WIDTHS = np.geomspace(1e-9, 1e-4, 11)  # m/s
@@ -31,6 +45,63 @@ METHOD = "RK4, friction regularised to 1e-06 m/s"
 CREEP_GROWS = "creep_grows"  # it becomes a growing oscillation
 STEPS = 200
 BISECTIONS = 8
+
+
+def friction_coefficient(
+    velocity: FloatArray, width: float, mu_s: float, mu_k: float
+) -> FloatArray:
+    """mu(v) of velocities [m/s] for a width [m/s]."""
+    z = velocity / width
+    return np.tanh(z) * (mu_k + (mu_s - mu_k) * np.exp(-((z / STRIBECK) ** 2)))
+
+
+def friction_slope(velocity: Any, width: float, mu_s: float, mu_k: float) -> Any:
+    """d mu / dv [s/m]."""
+    z = velocity / width
+    tanh = np.tanh(z)
+    drop = (mu_s - mu_k) * np.exp(-((z / STRIBECK) ** 2))
+    return (
+        (1.0 - tanh**2) * (mu_k + drop) - tanh * drop * 2.0 * z / STRIBECK**2
+    ) / width
+
+
+def creep_velocity(load: float, weight: float, width: float, mu_s: float) -> float:
+    """Velocity [m/s] at which a block held by friction creeps under a load F [N]: width
+    atanh(F / mu_s w).
+
+    The Stribeck drop is left out: at the load r mu_s w it changes the velocity by a
+    part of about (1 - mu_k / mu_s) (atanh(r) / STRIBECK)^2 r / ((1 - r^2) atanh(r)).
+    """
+    return width * math.atanh(load / (mu_s * weight))
+
+
+def equations(
+    chain: Chain, width: float
+) -> tuple[
+    Callable[[float, FloatArray], FloatArray], Callable[[float, FloatArray], FloatArray]
+]:
+    """Right-hand side and Jacobian for the state y of `events`, friction being a
+    function of velocity."""
+    n = chain.n_blocks
+    law = (width * chain.mass / time_unit(chain), chain.mu_s, chain.mu_k)
+    system, state = at_rest(chain, scaled=True)
+    set_modes(system, state, 1.0)
+    linear = jacobian_of(system, state)
+    drive = np.zeros(2 * n)
+    drive[0] = system[SPRING, 1] * state[VELOCITY, 0]
+    i = np.arange(n, 2 * n)
+
+    def right_hand_side(_time: float, state: FloatArray) -> FloatArray:
+        result = linear @ state + drive
+        result[n:] -= chain.weights * friction_coefficient(state[n:], *law)
+        return result
+
+    def matrix(_time: float, state: FloatArray) -> FloatArray:
+        result = linear.copy()
+        result[i, i] = -chain.weights * friction_slope(state[n:], *law)
+        return result
+
+    return right_hand_side, matrix
 
 
 def measured_creep(ratio: float, width: float) -> float:

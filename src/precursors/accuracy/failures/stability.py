@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -22,8 +21,8 @@ from scipy.optimize import brentq
 
 from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import transitions_right
-from precursors.accuracy.failures.common import FIVE_SLIPS, Threshold
-from precursors.methods import METHODS, ROWS, DivergedError
+from precursors.accuracy.failures.common import FIVE_SLIPS, Threshold, threshold
+from precursors.methods import METHODS, DivergedError
 from precursors.methods.common import Smooth
 from precursors.methods.stability import (
     bisect,
@@ -55,7 +54,6 @@ GROWING = {
     "rk4_skip": RK4_THEORY,
     "leapfrog": TWO,
     "semi_implicit_euler": TWO,
-    "newmark": NONE,
     "moreau_jean_half": NONE,
 }
 CHANGING = {
@@ -84,7 +82,6 @@ LATER = 2.0
 MOST: Any = {"max_transitions": 20_000}
 # Steps [s] with which the first five slips are run, from coarse to fine.
 COARSE_STEPS = 1e-5 * 10.0 ** -np.arange(0.0, 4.0, 0.25)
-BISECTIONS = 10  # of the margin, to 1 %
 
 
 def thresholds() -> Iterator[Threshold]:
@@ -106,12 +103,12 @@ def without(free: Chain) -> Iterator[Threshold]:
         bounds = (1e-2 / omega, 1e2 / omega)
         grows = is_unstable(free, smooth.slide, bounds[1])
         found = largest_stable_step(free, smooth.slide, *bounds) if grows else math.inf
-        yield _threshold(
-            name, free, ENERGY_UNBOUNDED, theory, smooth.limit / omega, found
+        yield threshold(
+            name, free, ENERGY_UNBOUNDED, "s", theory, smooth.limit / omega, found
         )
     for name, theory in CHANGING.items():
-        yield _threshold(
-            name, free, ENERGY_CHANGED, theory, *changing_step(free, _smooth(name))
+        yield threshold(
+            name, free, ENERGY_CHANGED, "s", theory, *changing_step(free, _smooth(name))
         )
 
 
@@ -149,7 +146,7 @@ def with_friction(chain: Chain) -> Iterator[Threshold]:
             limit = 2.0 * math.sqrt(chain.mu_s / (chain.mu_s - chain.mu_k))
             theory = "2 sqrt(mu_s / (mu_s - mu_k)) / omega"
         found = first(partial(gets_lost, chain, name, end), PARTS * limit / omega)
-        yield _threshold(name, chain, NO_GLOBAL_SLIP, theory, limit / omega, found)
+        yield threshold(name, chain, NO_GLOBAL_SLIP, "s", theory, limit / omega, found)
 
 
 def gets_lost(chain: Chain, name: str, end: float, step: float) -> bool:
@@ -186,31 +183,13 @@ def five_slips(exact: Run) -> Iterator[Threshold]:
     )
     for name, (theory, predicted) in expected.items():
         found = first(partial(is_right, exact, name), COARSE_STEPS)
-        yield _threshold(name, chain, SEQUENCE_WRONG, theory, predicted, found)
+        yield threshold(name, chain, SEQUENCE_WRONG, "s", theory, predicted, found)
 
 
 def is_right(exact: Run, name: str, value: float) -> bool:
     """Whether a method with a value of its setting has all transitions right."""
     run = attempt(METHODS[name].solve, exact.chain, exact.duration, value, None).run
     return transitions_right(run, exact) == len(exact.transitions)
-
-
-def margin(exact: Run) -> float:
-    """Smallest relative change of mu_s or mu_k from which transitions of the exact run
-    change."""
-
-    def changes(part: float) -> bool:
-        chains = (
-            replace(exact.chain, **{name: factor * getattr(exact.chain, name)})
-            for name in ("mu_s", "mu_k")
-            for factor in (1.0 + part, 1.0 - part)
-        )
-        runs = (simulate(chain, until="global slip") for chain in chains)
-        return any(
-            transitions_right(run, exact) < len(exact.transitions) for run in runs
-        )
-
-    return bisect(changes, 1e-6, 0.1, BISECTIONS)
 
 
 def first(holds: Callable[[float], bool], values: Iterable[float]) -> float:
@@ -222,18 +201,3 @@ def _smooth(name: str) -> Smooth:
     smooth = METHODS[name].smooth
     assert smooth
     return smooth
-
-
-def _threshold(
-    name: str, chain: Chain, fails: str, theory: str, predicted: float, measured: float
-) -> Threshold:
-    return Threshold(
-        method=name,
-        label=ROWS[name]["label"],
-        n_blocks=chain.n_blocks,
-        fails=fails,
-        unit="s",
-        theory=theory,
-        predicted=predicted,
-        measured=measured,
-    )
