@@ -10,6 +10,7 @@ import pytest
 import yaml
 from chains import SLIDER
 
+from precursors import TransitionLimitError
 from precursors.hierarchy.larger import (
     LargerChain,
     simulate_larger,
@@ -90,6 +91,17 @@ def test_a_strained_chain_rests_and_loads_with_noise_keep_their_sum():
     weights = larger.chain.weights
     assert drawn.chain.weights.sum() == pytest.approx(weights.sum(), rel=1e-12)
     assert abs(drawn.chain.weights / weights - 1.0).max() > 0.05
+
+
+def test_a_block_exactly_at_its_limit_does_not_stop_the_clock():
+    """At 0.998 s it is released by a leap, and stops before it moves: in turn, without
+    end."""
+    v_c = weakening_velocity(SLIDER(), 0.3, 2e-5)
+    larger = LargerChain(SLIDER(n_blocks=100), v_c, 2e-5)
+    drawn, forces = with_past(larger, (0.01, 0.0), np.random.default_rng([2018, 1]))
+    with pytest.raises(TransitionLimitError, match="limit of work") as stopped:
+        simulate_larger(drawn, 20.0, step=0.25, max_transitions=30, start_forces=forces)
+    assert stopped.value.run.duration > 1.0
 
 
 def test_energy_of_a_strained_start_is_counted():

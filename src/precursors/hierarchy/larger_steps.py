@@ -23,6 +23,7 @@ SETTLED = 1e-4
 REPEATS = 4
 LONGEST_PERIOD = 4
 MAX_STEPS = 1_000_000_000
+MOST_STALLED = 4  # times the number of blocks: steps that end where they begin
 # Steps after which the time must have moved on by this part of the duration.
 MOST_IDLE = 100_000
 LEAST_MOVED = 1e-9
@@ -149,9 +150,9 @@ def find_mean_velocities(m, s, last, h, leaps):
 
 
 @compiled
-def try_step(m, s, last, watched, h, leaps):
+def try_step(m, s, last, watched, h, leaps, holds):
     """Find the state at the end of a step h; return the part of it at which a block
-    first stops or is released, and which."""
+    first stops or, unless the step `holds` those at rest, is released, and which."""
     find_mean_velocities(m, s, last, h, leaps)
     copy(s.new_force, s.force)
     copy(s.new_velocity, s.velocity)
@@ -164,6 +165,8 @@ def try_step(m, s, last, watched, h, leaps):
     part = 1.0
     block = -1
     for i in range(watched):
+        if holds and s.mode[i] == 0:
+            continue
         at = part_until_change(m, s, i)
         if at < part or (at == 1.0 and block < 0):
             part = at
@@ -258,11 +261,11 @@ def switch(m, s, i, pull):
 
 
 @compiled
-def take_step(m, s, last, watched, h, leaps):
+def take_step(m, s, last, watched, h, leaps, holds):
     """Move on by h [s], or to the first stop or release before; return the time
     moved."""
     copy(s.velocity_before, s.velocity)
-    part, block = try_step(m, s, last, watched, h, leaps)
+    part, block = try_step(m, s, last, watched, h, leaps, holds)
     pull = 0.0
     if block >= 0:
         # At its end: a block without weight is released by no force at all.
@@ -271,7 +274,7 @@ def take_step(m, s, last, watched, h, leaps):
         if leaps:
             copy(s.velocity, s.new_velocity)
         if h > 0.0:
-            try_step(m, s, last, watched, h, leaps)
+            try_step(m, s, last, watched, h, leaps, holds)
     if h > 0.0:
         load = 0.5 * (s.force[0] + s.new_force[0])
         s.energy[0] += h * load * m.drive_velocity
@@ -357,6 +360,7 @@ def march(m, s, end, step, now):
     time = 0.0
     leaps = True
     steps = 0
+    stalled = 0  # steps since the clock went on
     mark = -math.inf
     why = GOES_ON
     creeping = -1
@@ -370,11 +374,16 @@ def march(m, s, end, step, now):
         if last != creeping:
             creeping = last
             stable = last >= 0 and is_stable(m, s.force[0], last + 1)
-        creeps = stable and (s.mode[: last + 1] == 1).all()
+        # A block exactly at its limit may be released and stop at once, in turn, where
+        # the next step would leap if it stuck. It is held for a step that does not.
+        holds = stalled > MOST_STALLED * n
+        creeps = stable and not holds and (s.mode[: last + 1] == 1).all()
         leaps = last < 0 or (creeps and (leaps or is_calm(m, s, last)))
         load_before = s.force[0]
         h = end.duration - time
-        h = take_step(m, s, last, watched, h if leaps else min(step[last], h), leaps)
+        h = h if leaps else min(step[last], h)
+        h = take_step(m, s, last, watched, h, leaps, holds)
+        stalled = 0 if time + h > time else stalled + 1
         time += h
         now[0] = time
         if note(m, s, record, watched, load_before, time, h):
