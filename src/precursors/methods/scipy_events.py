@@ -29,8 +29,9 @@ def solve_scipy(
     tolerance: float,
     until: str | None = None,
     max_step: float = math.inf,
+    solver: str = "DOP853",
 ) -> Result:
-    """Run a chain by SciPy's DOP853; rtol is the tolerance, atol the same in N and
+    """Run a chain by a solver of SciPy; rtol is the tolerance, atol the same in N and
     N/tau.
 
     `max_step` is the longest step [s].
@@ -49,7 +50,7 @@ def solve_scipy(
             motion.rates,
             (time, motion.remaining),
             motion.y,
-            method="DOP853",
+            method=solver,
             events=events,
             rtol=tolerance,
             atol=tolerance,
