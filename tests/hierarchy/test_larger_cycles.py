@@ -169,16 +169,18 @@ def test_the_committed_runs_of_few_blocks_are_those_of_the_library():
 
 
 def test_the_committed_cycles_are_those_of_the_library():
-    study = FULL["hierarchy"]["cycles"]["studies"]["grid"]
-    study = {**study, "pairs": [[0.3, 2e-4]], "theta": [0], "runs": 1}
-    common = CONFIG["hierarchy"]["cycles"]
-    common = {**common, "pasts": FULL["hierarchy"]["cycles"]["pasts"][4:6]}
-    again = run_pasts(CONFIG["chain"], "grid", study, common)["coefficient"]
+    full = FULL["hierarchy"]["cycles"]
+    study = full["studies"]["grid"]
+    study = {**study, "pairs": [[0.3, 2e-4]], "n_blocks": [COARSE], "theta": [0]}
+    common = {**CONFIG["hierarchy"]["cycles"], **full, "pasts": full["pasts"][:2]}
+    runs = run_pasts(CONFIG["chain"], "grid", {**study, "runs": 1}, common)
     there = committed("larger_cycles").query(
-        "study == 'grid' and length == 0.3 and relaxation_time == 2e-4 and theta == 0"
-    )["coefficient"]
-    distance = abs(np.subtract.outer(again.to_numpy(), there.to_numpy())).min(axis=1)
-    assert distance.max() < MACHINE
+        "study == 'grid' and length == 0.3 and relaxation_time == 2e-4"
+        f" and theta == 0 and n_blocks == {COARSE}"
+    )
+    again = runs["coefficient"].to_numpy()
+    distance = np.subtract.outer(again, there["coefficient"].to_numpy())
+    assert abs(distance).min(axis=1).max() < MACHINE
 
 
 @pytest.mark.parametrize("n", [COARSE, FINE])
@@ -204,39 +206,50 @@ def test_counts_settle_for_every_loading():
     assert (change <= 0.1 * counts[100] + 1).all()
 
 
-def cycles_by_n(study):
-    """Peaks of each chain of some studies, sorted, by its pair and loading."""
-    table = committed("larger_cycles").query(f"study in {study} and length >= 0.2")
-    keys = ["length", "relaxation_time", "theta"]
-    return table.sort_values("coefficient").groupby(keys)["coefficient"].agg(list)
+def cycles_of(study, n):
+    """Peaks and shares of all cycles of a study at N, by pair and loading."""
+    table = committed("larger_cycles").query(f"study == '{study}' and n_blocks == {n}")
+    return table.set_index(["length", "relaxation_time", "theta"]).sort_index()
+
+
+def moved(cycles, others):
+    """Distance of each cycle to the nearest of the same chain in another table."""
+    return np.array(
+        [
+            abs(np.atleast_1d(others.loc[chain, "coefficient"]) - peak).min()
+            for chain, peak in cycles["coefficient"].items()
+        ]
+    )
 
 
 def test_cycles_of_well_resolved_chains_do_not_depend_on_the_number_of_blocks():
-    coarse = cycles_by_n(["grid"])
-    fine = cycles_by_n(["grid_fine"])
-    assert len(coarse) == 18
-    assert coarse.str.len().tolist() == fine.str.len().tolist()
-    assert (coarse.str.len() > 1).sum() == 4
-    np.testing.assert_allclose(coarse.sum(), fine.sum(), rtol=0, atol=0.004)
+    coarse = cycles_of("grid", COARSE)
+    fine = cycles_of("grid", FINE)
+    finest = cycles_of("grid_finest", 200)
+    for cycles, others in ((coarse, fine), (fine, coarse), (finest, fine)):
+        common = cycles.query(
+            "share > 0.05 and length >= 0.1 and relaxation_time > 4e-5"
+        )
+        assert len(common) > 8
+        assert moved(common, others).max() < 0.003
+    several = coarse.query("length >= 0.2").groupby(level=[0, 1, 2]).size() > 1
+    assert several.sum() > 4
 
 
 def test_half_the_step_leaves_the_cycles_where_they_are():
-    half = cycles_by_n(["half_step"])
-    default = cycles_by_n(["grid"])[half.index]
-    np.testing.assert_allclose(half.sum(), default.sum(), rtol=0, atol=0.001)
+    assert moved(cycles_of("half_step", COARSE), cycles_of("grid", COARSE)).max() < 1e-3
 
 
 def test_loadings_differ_in_some_chains_and_not_in_others_at_two_numbers_of_blocks():
     table = committed("larger_verdicts")
-    grids = table[table["study"].isin(["grid", "grid_fine"])]
-    verdicts = grids.pivot_table(
+    verdicts = table[table["study"] == "grid"].pivot_table(
         index=["length", "relaxation_time"],
         columns="n_blocks",
         values="verdict",
         aggfunc="first",
     )
     agreed = verdicts.loc[verdicts[COARSE] == verdicts[FINE], FINE]
-    assert agreed.value_counts().to_dict() == {"differ": 3, "undecided": 3, "do not": 1}
+    assert agreed.value_counts().to_dict() == {"undecided": 6, "differ": 3, "do not": 1}
 
 
 def test_the_settled_peak_falls_with_the_normal_load():
