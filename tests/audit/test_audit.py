@@ -154,6 +154,8 @@ def test_an_audit_that_takes_too_much_work_ends_and_says_where(uniform, monkeypa
     report = audit(simulate(replace(uniform.chain, drive_stiffness=1.0), 5e6))
     (problem,) = report.problems
     assert "the audit ends here: it cannot look at " in problem
+    assert report.is_undecided
+    assert str(report).startswith("It is undecided whether the run is a motion")
     assert report.n_intervals < 100
 
 

@@ -63,7 +63,6 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     lasts = np.flatnonzero(ends)
     firsts = np.append(0, lasts + 1)[:-1]
     event = np.repeat(np.arange(len(lasts)), lasts - firsts + 1)
-    slides = order[sliding[order]]
 
     events = np.empty(len(lasts), EVENT)
     events["run"] = run[firsts]
@@ -77,7 +76,9 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     events["end"] = np.where(finished, time[lasts], np.nan)
     events["load_after"] = np.where(finished, load[lasts], np.nan)
     events["front"] = np.maximum.reduceat(sliding * of_block, firsts)
-    events["n_slid"] = _different_blocks(block[slides], event[slides], len(lasts))
+    n_all = n_blocks.sum() + 1
+    slid = np.unique((event * n_all + block)[sliding]) // n_all
+    events["n_slid"] = np.bincount(slid, minlength=len(lasts))
     events["n_simultaneous"] = np.maximum.reduceat(n_sliding, firsts)
     events["is_global"] = events["n_simultaneous"] == n_blocks[events["run"]]
     return events
@@ -92,15 +93,6 @@ def _changes(
     was_sliding = np.zeros(len(block), dtype=bool)
     was_sliding[order[1:]] = same_block & sliding[order][:-1]
     return sliding.astype(int) - was_sliding
-
-
-def _different_blocks(
-    block: NDArray[np.int64], event: NDArray[np.int64], n_events: int
-) -> NDArray[np.int64]:
-    """Number of different blocks in each event, of slides sorted by block and time."""
-    is_first = np.ones(len(block), dtype=bool)
-    is_first[1:] = (np.diff(block) != 0) | (np.diff(event) != 0)
-    return np.bincount(event[is_first], minlength=n_events)
 
 
 def _joined(runs: Sequence[Record], name: str) -> NDArray[Any]:

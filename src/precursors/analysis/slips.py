@@ -56,8 +56,7 @@ def find_slips(run: Record) -> pd.DataFrame:
         raise TypeError(
             f"slips are found in a Run or Record, but this is {type(run).__name__}"
         )
-    events = slip_events([run])
-    return pd.DataFrame({name: events[name] for name in COLUMNS})
+    return pd.DataFrame(slip_events([run]))[COLUMNS]
 
 
 def slip_table(run: Record) -> pd.DataFrame:

@@ -39,6 +39,7 @@ class Auditor:
         self.energy_residual = math.nan
         self.n_audited = 0
         self.problems: list[str] = []
+        self.is_undecided = False
 
     def walk(self) -> None:
         """Walk through the run, interval by interval, up to `MAX_PROBLEMS` problems."""
@@ -46,9 +47,7 @@ class Auditor:
         start_energy = state.energy()
         intervals = np.asarray(self.run.intervals, dtype=float)
         instants = np.cumsum(intervals, dtype=np.longdouble).astype(float).tolist()
-        transitions = self.run.transitions[
-            ["time", "block", "mode", "tangential_load"]
-        ].tolist()
+        transitions = self.run.transitions.tolist()
         started = False
         steps = zip(intervals.tolist(), instants, [*transitions, None], strict=True)
         for duration, instant, transition in tell(
@@ -61,6 +60,7 @@ class Auditor:
                 try:
                     self.pass_interval(duration)
                 except TooLongError as error:
+                    self.is_undecided = not self.problems
                     self.report(str(error))
                     return
             self.time = instant

@@ -50,7 +50,8 @@ class Conditions:
         springs = motion.modes.spring_shapes
         self.to_speed = motion.modes.shapes.T * mode[self.sliding]
         self.to_force = (springs[self.stuck + 1] - springs[self.stuck]).T
-        self.force, self.strength = force[self.stuck], strength[self.stuck]
+        self.force = force[self.stuck]
+        self.strength = strength[self.stuck]
         self.rate = np.where(self.stuck == 0, loading_rate, 0.0)
         displacement, velocity = motion.fourth_derivatives()
         bend = displacement @ np.abs(self.to_force)

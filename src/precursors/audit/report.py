@@ -19,13 +19,15 @@ class Audit:
 
     `roundings` is the largest deviation of a force, a velocity or the energy, in
     roundings; `energy_residual` is the work of the drive minus change of energy minus
-    friction heat, relative to what was turned over.
+    friction heat, relative to what was turned over. `is_undecided` says that no more was
+    found than that the audit would take too much work: that is the one problem.
     """
 
     roundings: float = math.nan
     energy_residual: float = math.nan
     n_intervals: int = 0
     problems: tuple[str, ...] = ()
+    is_undecided: bool = False
 
     @property
     def ok(self) -> bool:
@@ -41,8 +43,11 @@ class Audit:
         verdict = (
             "a motion" if self.ok else f"no motion ({len(self.problems)} problems)"
         )
+        answer = f"The run is {verdict} of the model"
+        if self.is_undecided:
+            answer = "It is undecided whether the run is a motion of the model"
         summary = (
-            f"The run is {verdict} of the model: {self.n_intervals} intervals audited, "
+            f"{answer}: {self.n_intervals} intervals audited, "
             f"{self.roundings:.1f} roundings off at most, energy balanced to {self.energy_residual:.1e}."
         )
         return "\n".join([summary, *self.problems])
@@ -63,6 +68,7 @@ def audit_run(run: Run, roundings: float) -> Audit:
         auditor.energy_residual,
         auditor.n_audited,
         tuple(auditor.problems),
+        auditor.is_undecided,
     )
 
 

@@ -129,8 +129,12 @@ def audit(arguments: Namespace) -> None:
                 raise Refused(
                     f"{path}: not applicable: the audit checks runs of the paper's chain"
                 )
-            if problems := audit(run).problems:
-                raise Refused(f"{path}: not a motion of the model: {problems[0]}")
+            report = audit(run)
+            if report.problems:
+                verdict = (
+                    "undecided" if report.is_undecided else "not a motion of the model"
+                )
+                raise Refused(f"{path}: {verdict}: {report.problems[0]}")
             print(
                 f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s"
             )

@@ -1,4 +1,4 @@
-"""What a notebook shows of a record: its numbers, and the load over time."""
+"""The view of a record in a notebook: its numbers, and the load over time."""
 
 from __future__ import annotations
 

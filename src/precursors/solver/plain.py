@@ -207,11 +207,8 @@ def find_transitions(
         if not state.mode.any():
             if until_global and is_global:
                 break
-            wait = max(
-                (chain.strength[0] - state.force[1] + state.force[2])
-                / chain.loading_rate,
-                0.0,
-            )
+            margin = chain.strength[0] - state.force[1] + state.force[2]
+            wait = max(margin / chain.loading_rate, 0.0)
             onset = onset + elapsed + min(wait, left)
             elapsed = 0.0
             since = since + min(wait, left)

@@ -47,7 +47,7 @@ class Record:
         )
 
     def _repr_html_(self) -> str:
-        """What a notebook shows."""
+        """View in a notebook."""
         return html(self)
 
     @classmethod
@@ -177,7 +177,7 @@ class Run(Record):
         force, velocity = kernel.evaluate(
             self.chain, when[order], self.transitions, self.intervals, self.states
         )
-        back = np.argsort(order, kind="stable")
+        back = np.argsort(order)
         return force[back], velocity[back]
 
     def _times(self, times: ArrayLike) -> FloatArray:
