@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver import kernel
 from precursors.solver.kernel.arrays import Progress
-from precursors.solver.record import TRANSITION, States, room_for_states
+from precursors.solver.record import TRANSITION, IntArray, States, room_for_states
 from precursors.solver.run import Record, Run
 from precursors.support.waiting import tell
 
@@ -57,6 +57,7 @@ class _Workspace(NamedTuple):
     stride: int
     memory: FloatArray
     record: NDArray[np.void]
+    words: IntArray
     states: FloatArray
 
 
@@ -72,7 +73,10 @@ def _workspace_for(n_blocks: int) -> _Workspace:
         record = np.empty(max(SHARED_ROOM, 2 * n_blocks), kernel.ROW)
         states = room_for_states(max(SHARED_ROOM // stride, 2), n_blocks)
         memory = kernel.memory_for(n_blocks)
-        work = _own.workspace = _Workspace(n_blocks, stride, memory, record, states)
+        words = kernel.words(record)
+        work = _own.workspace = _Workspace(
+            n_blocks, stride, memory, record, words, states
+        )
     return work
 
 
@@ -107,10 +111,10 @@ def run_batch(
     while len(runs) < len(chains):
         reached = progress[len(runs) :]
         n_finished, is_paused = kernel.run_batch(
-            _rows(batch, slice(len(runs), None)),
+            _rows(batch, slice(len(runs), None)) if runs else batch,
             limits,
             kernel.words(reached),
-            kernel.words(work.record),
+            work.words,
             work.states,
             work.memory,
         )
@@ -179,6 +183,8 @@ def _parts(work: _Workspace, progress: Progress) -> list[_Part]:
     stored = progress["stored"].tolist()
     transitions, intervals = _columns(work.record[: sum(used) + len(used)])
     states = States.from_rows(work.states[: sum(stored)])
+    if len(used) == 1:  # the usual case, without slices
+        return [(transitions[:-1], intervals, states)]
     parts = []
     first = 0
     first_state = 0

@@ -33,14 +33,12 @@ class States(NamedTuple):
     def from_rows(cls, rows: FloatArray) -> States:
         """States from rows of `after`, `offset`, N forces, N velocities and N modes."""
         n = (rows.shape[1] - 2) // 3
-        after = rows[:, 0].astype(np.int64)
-        mode = rows[:, 2 + 2 * n :].astype(np.int64)
         return cls(
-            rows[:, 2 : 2 + n].copy(),
-            rows[:, 2 + n : 2 + 2 * n].copy(),
-            mode,
-            after,
-            rows[:, 1].copy(),
+            force=rows[:, 2 : 2 + n].copy(),
+            velocity=rows[:, 2 + n : 2 + 2 * n].copy(),
+            mode=rows[:, 2 + 2 * n :].astype(np.int64),
+            after=rows[:, 0].astype(np.int64),
+            offset=rows[:, 1].copy(),
         )
 
 

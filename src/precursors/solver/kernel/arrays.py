@@ -121,11 +121,12 @@ PROGRESS = np.dtype(
     [(name, "f8") for name in ("tau", "onset", "onset_error", "elapsed", "since")]
     + [
         (name, "i8")
-        for name in ("transitions", "sliding", "stored", "windows", "derivatives")
-    ]
-    + [
-        (name, "i8")
         for name in (
+            "transitions",
+            "sliding",
+            "stored",
+            "windows",
+            "derivatives",
             "searches",
             "root_steps",
             "all_slid",

@@ -90,14 +90,12 @@ def go_through(parameters, weights, times, found, record, states, memory):
         while since - offset > WINDOW * chain.tau and is_moving:
             propagate(WINDOW, chain, motion)
             offset += WINDOW * chain.tau
-        for i in range(state.shape[0]):
-            before[i] = state[i]
+        before[:] = state
         propagate(max(since - offset, 0.0) / chain.tau, chain, motion)
         for i in range(chain.n_blocks):
             found[0, q, i] = motion.spring_force[i + 1]
             found[1, q, i] = motion.velocity[i + 1] * chain.speed
-        for i in range(state.shape[0]):
-            state[i] = before[i]
+        state[:] = before
 
 
 @inner
