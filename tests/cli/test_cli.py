@@ -11,6 +11,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from fractions import Fraction
+from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 
@@ -409,6 +410,14 @@ def test_audit_refuses_a_damaged_file_and_a_transition_moved_by_a_nanosecond(
     assert err.startswith(
         f"precursors audit: {tmp_path / 'moved.h5'}: not a motion of the model: "
     )
+
+
+def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monkeypatch):
+    checks = import_module("precursors.audit.checks")
+    monkeypatch.setattr(checks, "MAX_VALUES", 1000)
+    code, out, err = cli("audit", run_file)
+    assert (code, out) == (1, "")
+    assert err.startswith(f"precursors audit: {run_file}: undecided: t = ")
 
 
 # Errors

@@ -82,7 +82,7 @@ def _malformed(run: Run) -> str:
             f"{n_transitions} transitions need {n_transitions + 1} intervals, "
             f"the run has {intervals.shape}"
         )
-    if not (np.all(np.isfinite(intervals)) and np.all(intervals >= 0)):
+    if not np.all((intervals >= 0) & np.isfinite(intervals)):
         return "an interval is negative or not finite"
     block = run.transitions["block"]
     mode = run.transitions["mode"]
