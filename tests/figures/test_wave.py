@@ -44,7 +44,7 @@ def test_the_kept_picture_is_that_of_the_run():
 
 
 def test_bars_stand_where_blocks_slide_and_tell_the_direction():
-    bars = drawn().findall(f"{SVG}rect[@stroke='none']")
+    bars = drawn().findall(f"{SVG}rect[@class='lane']")
     width = wave.RIGHT - wave.LEFT
     found = [
         (bar.get("fill"), float(bar.get("x")), float(bar.get("width"))) for bar in bars
