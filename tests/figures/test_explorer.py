@@ -26,7 +26,7 @@ from matplotlib.colors import to_rgb
 from precursors import Chain, cli, find_slips, simulate
 from precursors.analysis.horizon import horizon
 from precursors.analysis.slips import first_global_slip, slip_table
-from precursors.figures.explorer.page import PAPERS, palette
+from precursors.figures import style
 
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src/precursors/figures/explorer"
@@ -351,19 +351,50 @@ def test_the_contrast_is_that_of_wcag_aa_and_every_control_has_a_name(
     assert nameless == []
 
 
+FIGURES = {
+    "partial": style.PARTIAL,
+    "global": style.GLOBAL,
+    "backward": style.BACKWARD,
+    "pushed": style.PUSHED_END,
+    "even": style.EVEN,
+    "far": style.FAR_END,
+    "unsure": style.GREY,
+}
 # Marks that stand side by side in a figure. A backward slip is half as high besides.
 TOLD_APART = [("partial", "global", "unsure"), ("pushed", "even", "far", "unsure")]
 
 
-@pytest.mark.parametrize("sight", [None, "protanomaly", "deuteranomaly"])
-@pytest.mark.parametrize("paper", PAPERS.values())
-def test_marks_side_by_side_are_told_apart_by_all_readers(paper, sight):
-    colors = dict(re.findall(r"--(\w+): (#\w+);", palette(paper)))
+def places_in_cielab(colors, sight=None):
     seen = np.array([to_rgb(color) for color in colors.values()])
     if sight:
         space = {"name": "sRGB1+CVD", "cvd_type": sight, "severity": 100}
         seen = np.clip(cspace_convert(seen, space, "sRGB1"), 0.0, 1.0)
-    places = dict(zip(colors, cspace_convert(seen, "sRGB1", "CIELab"), strict=True))
+    return dict(zip(colors, cspace_convert(seen, "sRGB1", "CIELab"), strict=True))
+
+
+def palette(scheme):
+    """Colours of the style sheet."""
+    sheet = (SOURCE / "explorer.css").read_text(encoding="utf-8")
+    light, dark = (
+        dict(re.findall(r"--(\w+): (#\w+);", block))
+        for block in re.findall(r":root[^{]*{([^}]*)}", sheet)[:2]
+    )
+    return light if scheme == "light" else light | dark
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_colour_means_the_same_as_in_the_figures(scheme):
+    figures = places_in_cielab(FIGURES)
+    colors = palette(scheme)
+    places = places_in_cielab({name: colors[name] for name in FIGURES})
+    for name, place in places.items():
+        assert np.linalg.norm(place - figures[name]) < DISTANCE_IN_CIELAB, name
+
+
+@pytest.mark.parametrize("sight", [None, "protanomaly", "deuteranomaly"])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_marks_side_by_side_are_told_apart_by_all_readers(scheme, sight):
+    places = places_in_cielab(palette(scheme), sight)
     for one, other in chain.from_iterable(combinations(of, 2) for of in TOLD_APART):
         distance = np.linalg.norm(places[one] - places[other])
         assert distance >= DISTANCE_IN_CIELAB, (one, other)

@@ -16,26 +16,10 @@ from os import PathLike
 from string import Template
 from typing import Any
 
-import numpy as np
-from matplotlib.colors import to_hex, to_rgb
-
-from precursors.figures import style
 from precursors.model.chain import parse_theta
 from precursors.model.scenes import SLIDER
 from precursors.support.files import write_text
 
-# Colours of the figures, by their names in the style sheet.
-COLORS = {
-    "partial": style.PARTIAL,
-    "global": style.GLOBAL,
-    "backward": style.BACKWARD,
-    "pushed": style.PUSHED_END,
-    "even": style.EVEN,
-    "far": style.FAR_END,
-    "unsure": style.GREY,
-}
-PAPERS = {"light": "#ffffff", "dark": "#14171a"}
-CONTRAST = 3.0  # of a mark with the paper, at least (WCAG 2.2 AA)
 SCRIPTS = ("drawing.js", "story.js", "studies.js", "figures.js", "explorer.js")
 
 
@@ -48,30 +32,6 @@ def proved_slider(values: Mapping[str, Any]) -> dict[str, Any]:
         if name != "weights"
     }
     return slider | {"theta": parse_theta(values.get("theta", 0))}
-
-
-def palette(paper: str) -> str:
-    """Colours as variables of a style sheet, each as near to that of the figures as its
-    contrast with the paper allows."""
-    darker = luminance(paper) > luminance("#808080")
-    found = {"paper": paper}
-    for name, color in COLORS.items():
-        for share in np.linspace(0.0, 1.0, 101):
-            mixed = to_hex((1 - share) * np.array(to_rgb(color)) + share * (not darker))
-            ratio = luminance(mixed) / luminance(paper)
-            if max(ratio, 1 / ratio) >= CONTRAST:
-                break
-        found[name] = mixed
-    return " ".join(f"--{name}: {color};" for name, color in found.items())
-
-
-def luminance(color: str) -> float:
-    """Relative luminance of WCAG 2.2, with the light that a screen reflects."""
-    channels = np.array(to_rgb(color))
-    linear = np.where(
-        channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4
-    )
-    return float(linear @ (0.2126, 0.7152, 0.0722)) + 0.05
 
 
 def write_explorer(data: Mapping[str, Any], path: str | PathLike[str]) -> None:
@@ -97,7 +57,6 @@ def write_explorer(data: Mapping[str, Any], path: str | PathLike[str]) -> None:
         )
 
     page = Template(part("page.html")).substitute(
-        **{name: palette(paper) for name, paper in PAPERS.items()},
         style=part("explorer.css"),
         data=json.dumps(data, allow_nan=False, separators=(",", ":")),
         worker=part("solver.js", "worker.js"),
