@@ -326,7 +326,7 @@ def test_plot_draws_what_the_library_draws_as_it_is_told_to(
     ):
         told = f"output  {tmp_path / 'a.svg'}\n"
         assert cli("plot", run_file, *options, "--output=a.svg") == (0, told, err)
-        style.save(figure, "b.svg", look if options else None)
+        style.save(figure, "b.svg", look if options else style.LOOK)
         assert Path("a.svg").read_bytes() == Path("b.svg").read_bytes()
 
 

@@ -156,7 +156,7 @@ def gallery_of_failures():
     """The same curves in all panels; thresholds from 1.25, predicted ones from 3.75,
     for 10 blocks."""
     panels = failure_gallery.PANELS.values()
-    limits = [(*limit, panel.scale[0]) for panel in panels for limit in panel.limits]
+    limits = [(*limit, panel.scale) for panel in panels for limit in panel.limits]
     thresholds = pd.DataFrame(limits, columns=["fails", "method", "scale"]).assign(
         n_blocks=10
     )
@@ -173,7 +173,8 @@ def gallery_of_failures():
     }
     curves = []
     for mode, panel in failure_gallery.PANELS.items():
-        x, y = np.array([0.1, 0.2, 0.4]) / np.reshape(panel.scale, (2, 1))
+        y = np.array([0.1, 0.2, 0.4])
+        x = y / panel.scale
         curves += [
             pd.DataFrame({"curve": name, "role": role, "x": x, "y": n * y}).assign(
                 failure_mode=mode
@@ -261,7 +262,6 @@ PICTURES = {
     "work_precision": lambda: speed.draw(
         read(PUBLISHED / "work_precision_full.csv"),
         works=["seconds", "evaluations"],
-        theta=5 / 6,
     ),
     "speed": lambda: speed.draw(
         read(PUBLISHED / "work_precision_full.csv"),
@@ -288,7 +288,7 @@ PICTURES = {
 def save_small(name: str, path: Path) -> None:
     """Write a picture of few pixels."""
     with mock.patch.object(style, "PNG_DPI", 60):
-        style.save(PICTURES[name](), path, NARROW if name in OF_A_JOURNAL else None)
+        style.save(PICTURES[name](), path, NARROW if name in OF_A_JOURNAL else style.LOOK)
 
 
 @pytest.mark.parametrize("name", PICTURES)

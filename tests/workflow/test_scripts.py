@@ -161,7 +161,9 @@ def test_each_figure_is_drawn_from_its_tables_into_its_own_files(tmp_path, monke
     for path in output:
         name, x = path.stem, read_table(table)
         figure, of_page = (
-            (draw(x, "one"), None) if name == "ours" else (draw([x], "two", look), look)
+            (draw(x, "one"), style.LOOK)
+            if name == "ours"
+            else (draw([x], "two", look), look)
         )
         expected = tmp_path / f"expected{path.suffix}"
         style.save(figure, expected, of_page, title=figures[name]["shows"])

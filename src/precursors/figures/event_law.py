@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from precursors.figures import style
 
-HEIGHT_MM = 66.0
+HEIGHT_MM = 72.0
 # Marker of each theta, from light to heavy leading block.
 MARKERS = {-0.9: "v", -5 / 6: "D", 0.0: "o", 5 / 6: "s", 0.95: "^"}
 
@@ -31,19 +31,9 @@ def draw(table: pd.DataFrame) -> Figure:
                 [low, high],
                 color=style.theta_color(value),
                 marker=MARKERS[min(MARKERS, key=lambda other: abs(other - value))],
-                markersize=3.5,
-                elinewidth=0.8,
                 label=style.theta_text(value),
             )
-        axes.axhline(1.0, **style.DOTTED)
-        axes.annotate(
-            "the law",
-            (0.98, 1.0),
-            xycoords=("axes fraction", "data"),
-            ha="right",
-            va="bottom",
-            color=style.GREY,
-        )
+        style.draw_level(axes, 1.0, "the law")
         axes.margins(y=0.12)
         axes.set(xscale="log", ylim=(0, None), xlabel=style.BLOCKS_LABEL)
         axes.set_ylabel("Events in the runs / by the law [-]")

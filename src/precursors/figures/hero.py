@@ -14,6 +14,7 @@ from matplotlib.ticker import MultipleLocator
 
 from precursors.figures import style
 from precursors.figures.precursor_lengths import draw_lengths
+from precursors.figures.style import Options
 from precursors.model import printed
 
 HEIGHT_MM = 82.0
@@ -21,14 +22,14 @@ HEIGHT_MM = 82.0
 BIN = 0.005
 ACROSS = 4
 ROW = 0.032  # of the distance of two strips
-DOT: dict[str, Any] = {
+DOT: Options = {
     "marker": ".",
     "markersize": 3,
     "markeredgewidth": 0,
     "linestyle": "none",
 }
-TITLE: dict[str, Any] = {"fontsize": 10, "fontweight": "bold", "loc": "left", "pad": 7}
-STAR: dict[str, Any] = {
+TITLE: Options = {"fontsize": 10, "fontweight": "bold", "loc": "left", "pad": 7}
+STAR: Options = {
     "marker": "*",
     "markersize": 11,
     "color": style.BLACK,
@@ -47,13 +48,12 @@ def draw(
     `members` is digits_members.csv, whose draw 0 of a scene is the slider with the
     printed digits, and `shares` is digits.csv.
     """
-    letters = style.Look.font_size
     is_mu_sapp = shares["quantity"].eq("mu_sapp") & shares["question"].eq("as_printed")
     within = shares[is_mu_sapp].set_index("scene").to_dict("index")
     scenes = members.groupby("scene", sort=False)
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         left, right = figure.subplots(1, 2)
-        draw_lengths(left, [table[table["counted"]] for table in slips], letters)
+        draw_lengths(left, [table[table["counted"]] for table in slips])
         left.set_title(
             "The paper's six numbers come out \N{HORIZONTAL ELLIPSIS}", **TITLE
         )
@@ -74,9 +74,7 @@ def draw(
             xlabel=style.MU_SAPP_LABEL, yticks=[], ylim=(-0.45, len(scenes) - 0.31)
         )
         right.xaxis.set_major_locator(MultipleLocator(0.05))
-        for axes in (left, right):
-            axes.tick_params(labelsize=letters)
-        _draw_key(figure, letters)
+        _draw_key(figure)
     return figure
 
 
@@ -110,7 +108,7 @@ def _draw_strip(
     )
 
 
-def _draw_key(figure: Figure, letters: float) -> None:
+def _draw_key(figure: Figure) -> None:
     alike = style.mark("a slider whose inputs are printed alike", **DOT)
     band = f"{printed.MU_SAPP:g} $\\pm$ {printed.LAST_DIGIT:g}, and the share inside"
     entries = [
@@ -119,4 +117,4 @@ def _draw_key(figure: Figure, letters: float) -> None:
         style.mark("the slider with the printed digits", **STAR),
         style.mark(band, color=style.PALE, linewidth=6),
     ]
-    style.draw_key(figure, entries, ncols=2, fontsize=letters)
+    style.draw_key(figure, entries, ncols=2)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,13 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from precursors.figures import style
+from precursors.figures.style import Options
 
 HEIGHT_MM = 62.0
 ERROR_RANGE = (1e-18, 1e-7)
 SLOPE_AT = (1.0, 1e-12)  # where the line of the mean growth begins [s]
 DECADES = 4.0  # that it rises
 # Column of the errors, its look and its words.
-ERRORS: dict[str, dict[str, Any]] = {
+ERRORS: dict[str, Options] = {
     "predicted_error_s": {"color": style.GREY, "label": "predicted by the run"},
     "actual_error_s": {"color": style.BLACK, "label": "actual, against the proof"},
 }

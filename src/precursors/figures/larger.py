@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from precursors.figures import style
+from precursors.figures.style import Options
 
 HEIGHT_MM = 70.0
 WIDTHS = (1.0, 0.85, 1.9)
@@ -40,7 +39,7 @@ def draw(nucleation: pd.DataFrame, peaks: pd.DataFrame, cycles: pd.DataFrame) ->
     return figure
 
 
-def _look(rows: pd.DataFrame, finest: int) -> dict[str, Any]:
+def _look(rows: pd.DataFrame, finest: int) -> Options:
     """Mark of rows with one theta and one number of blocks."""
     first = rows.iloc[0]
     color = style.theta_color(first["theta"])
@@ -62,7 +61,7 @@ def _draw_lengths(axes: Axes, nucleation: pd.DataFrame) -> None:
     axes.plot(ends, ends, color=style.GREY, linewidth=0.8)
     low = [0.0, 0.9 * ends[1]]
     high = [0.0, 1.1 * ends[1]]
-    axes.fill_between(ends, low, high, color=style.GREY, alpha=0.2, lw=0)
+    axes.fill_between(ends, low, high, color=style.PALE)
     axes.set(xlim=ends, ylim=ends)
     axes.set(xlabel=r"$l_c/L$, theory", ylabel="length that crept, over $L$")
 

@@ -30,18 +30,8 @@ def draw(table: pd.DataFrame) -> Figure:
                 [rows["difference"] - rows["low"], rows["high"] - rows["difference"]],
                 color=style.theta_color(float(str(theta))),
                 marker="s",
-                markersize=3.5,
-                elinewidth=0.8,
             )
-        axes.axhline(LAST_DIGIT, **style.DOTTED)
-        axes.annotate(
-            "unit of the last printed digit",
-            (0.98, LAST_DIGIT),
-            xycoords=("axes fraction", "data"),
-            ha="right",
-            va="top",
-            color=style.GREY,
-        )
+        style.draw_level(axes, LAST_DIGIT, "unit of the last printed digit", "top")
         axes.set(xscale="log", ylim=(0, None), xlabel="Noise in the normal loads [%]")
         axes.set_ylabel(r"Difference of $\mu_\mathrm{sapp}$ [-]")
     return figure

@@ -3,11 +3,7 @@ several loadings."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
-from functools import partial
-from textwrap import fill
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -16,22 +12,22 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from precursors.figures import style
+from precursors.figures.style import Options
 
 HEIGHT_MM = 76.0
-LEGEND_MM = 5.0  # of a row of the key, where one stands below the panel
+LEGEND_MM = 8.0  # of an entry of the key, where one stands below the panel
 # A second scene of the same sign of theta has another outline.
 OUTLINES = "osD^vh"
 # Sizes differ, so that marks stay visible around each other.
 SIZES = {-1: 4.2, 0: 5.2, 1: 6.6}
-SHORT: dict[str, Any] = {
+SHORT: Options = {
     "linestyle": "none",
     "marker": "x",
     "markersize": 2.2,
     "markeredgewidth": 0.5,
-    "alpha": 0.5,
     "zorder": 1.5,
 }
-MEASURED: dict[str, Any] = {
+MEASURED: Options = {
     "linestyle": "none",
     "marker": "+",
     "markersize": 5.0,
@@ -50,9 +46,9 @@ INSET = (0.05, 0.77, 0.26, 0.1)  # of the panel: above all curves
 
 def draw(
     slips: Sequence[pd.DataFrame],
-    data: NDArray[np.float64] | None = None,
-    title: str | None = None,
-    look: style.Look | None = None,
+    data: NDArray[np.float64] = style.NO_DATA,
+    title: str = "",
+    look: style.Look = style.LOOK,
 ) -> Figure:
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
 
@@ -64,55 +60,51 @@ def draw(
     ValueError
         If a measured length is not between 0 and 1.
     """
-    look = look or style.Look()
-    if data is not None and not ((data[:, 1] >= 0) & (data[:, 1] <= 1)).all():
+    if not ((data[:, 1] >= 0) & (data[:, 1] <= 1)).all():
         raise ValueError("measured lengths must be L_p/L, between 0 and 1")
-    has_key = data is not None or not _are_named_in_place(slips)
+    has_key = len(data) > 0 or not _are_named_in_place(slips)
     height_mm = HEIGHT_MM + LEGEND_MM * has_key * (1 + len(slips))
-    with style.page(style.COLUMN_MM, height_mm, look=look) as figure:
+    with style.page(style.COLUMN_MM, height_mm, look) as figure:
         axes = figure.subplots()
-        axes.set_title(fill(style.plain(title or ""), 48), loc="left")
-        draw_lengths(axes, slips, look.small)
+        axes.set_title(style.plain(title), loc="left", wrap=True)
+        draw_lengths(axes, slips)
         _add_coefficient(axes, slips)
-        if data is not None:
+        if len(data):
             axes.plot(*data.T, **MEASURED)
         if has_key:
             style.draw_key(figure, axes.get_legend_handles_labels()[0], ncols=1)
     return figure
 
 
-def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame], letters: float) -> None:
+def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
     """Draw the events of Fig. 13 into a panel, with names along the curves.
 
     Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta >
-    0. Small crosses are the short events, which Fig. 13 does not count. `letters` is
-    the size of the names [pt].
+    0. Small crosses are the short events, which Fig. 13 does not count.
     """
     slips = [table for table in slips if len(table)]
     in_place = _are_named_in_place(slips)
-    signs: list[int] = []
-    for table in slips:
-        sign = _sign(table)
-        outline = OUTLINES[signs.count(sign) % len(OUTLINES)]
-        signs.append(sign)
-        points = _draw_events(axes, table, outline, _label(table, slips))
+    signs = [_sign(table) for table in slips]
+    for i, table in enumerate(slips):
+        outline = OUTLINES[signs[:i].count(signs[i]) % len(OUTLINES)]
+        points = _draw_events(axes, table, outline)
         if in_place:
-            _name(axes, points, sign, letters)
+            _name(axes, points, signs[i])
     axes.set(xlim=(0, None), ylim=(-0.03, 1.06))
     axes.set_xlabel("Tangential load $F_X$ [N]")
     axes.set_ylabel("Propagation length $L_p/L$ [-]")
     if in_place and len(slips) > 1:
-        _draw_last(axes, slips, letters)
+        _draw_last(axes, slips)
     elif not in_place:
         axes.plot([], [], **SHORT, color=style.GREY, label="short events, not counted")
 
 
 def _add_coefficient(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
     """Write F_X/F_Z at the top, where all scenes have one F_Z."""
-    normal_loads = {table["normal_load_N"].iloc[0] for table in slips if len(table)}
+    normal_loads = pd.concat(slips)["normal_load_N"].unique()
     if len(normal_loads) == 1:
-        normal_load = normal_loads.pop()
-        scale = partial(np.multiply, 1 / normal_load), partial(np.multiply, normal_load)
+        (load,) = normal_loads
+        scale = (lambda force: force / load, lambda coefficient: coefficient * load)
         axes.secondary_xaxis("top", functions=scale).set_xlabel("$F_X/F_Z$ [-]")
 
 
@@ -122,46 +114,41 @@ def _sign(table: pd.DataFrame) -> int:
 
 def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
     """Whether each scene has a theta, alone of its sign, a curve and a global slip."""
-    signs = Counter(_sign(table) for table in slips if len(table))
-    is_whole = (
+    signs = [_sign(table) for table in slips if len(table)]
+    return len(signs) == len(set(signs)) and all(
         table["counted"].sum() > 3
         and table["is_global"].any()
         and table["theta"].notna().any()
         for table in slips
     )
-    return max(signs.values(), default=0) == 1 and all(is_whole)
 
 
-def _draw_events(
-    axes: Axes, slips: pd.DataFrame, outline: str, label: str | None = None
-) -> NDArray[np.float64]:
+def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> NDArray[np.float64]:
     """Draw the events of a scene; return those that Fig. 13 counts."""
     sign = _sign(slips)
     color = style.theta_color(sign)
-    short = slips[~slips["is_global"].cummax() & ~slips["counted"]]
-    axes.plot(
-        short["load_before_N"], short["front"] / short["n_blocks"], **SHORT, color=color
-    )
-    counted = slips[slips["counted"]]
     points = np.column_stack(
-        [counted["load_before_N"], counted["front"] / counted["n_blocks"]]
+        [slips["load_before_N"], slips["front"] / slips["n_blocks"]]
     )
-    look: dict[str, Any] = {"color": color, "linewidth": 0.5, "markeredgewidth": 0.8}
-    fill = color if sign < 0 else "white"
+    short = points[~slips["is_global"].cummax() & ~slips["counted"]]
+    axes.plot(*short.T, **SHORT, color=style.pale(color, 0.5))
+    counted = points[slips["counted"]]
     axes.plot(
-        *points.T,
+        *counted.T,
+        color=color,
         marker=outline,
         markersize=SIZES[sign],
-        markerfacecolor=fill,
-        **look,
-        label=label,
+        markerfacecolor=color if sign < 0 else "white",
+        markeredgewidth=0.8,
+        linewidth=0.5,
+        label=_label(slips),
     )
     if sign == 0:
-        axes.plot(*points.T, linestyle="none", marker=".", markersize=2.6, color=color)
-    return points
+        axes.plot(*counted.T, linestyle="none", marker=".", markersize=2.6, color=color)
+    return counted
 
 
-def _name(axes: Axes, points: NDArray[np.float64], sign: int, letters: float) -> None:
+def _name(axes: Axes, points: NDArray[np.float64], sign: int) -> None:
     words, part, side, offset = NAMES[sign]
     axes.annotate(
         words.format(len(points)),
@@ -171,33 +158,27 @@ def _name(axes: Axes, points: NDArray[np.float64], sign: int, letters: float) ->
         ha=side,
         va="top",
         color=style.theta_color(sign),
-        fontsize=letters,
+        fontsize="small",
         fontweight="bold",
     )
 
 
-def _draw_last(axes: Axes, slips: Sequence[pd.DataFrame], letters: float) -> None:
+def _draw_last(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
     """Magnify the first global slips, whose marks cover each other."""
     inset = axes.inset_axes(INSET)
     for table in slips:
         _draw_events(inset, table, OUTLINES[0])
     loads = [table.loc[table["is_global"], "load_before_N"].iloc[0] for table in slips]
     inset.set(xlim=(min(loads) - 1, max(loads) + 1), ylim=(0.9, 1.1), yticks=[])
-    inset.tick_params(labelsize=letters)
-    inset.set_title("first global slip [N]", fontsize=letters, pad=3)
+    inset.set_title("first global slip [N]", fontsize="small", pad=3)
 
 
-def _label(slips: pd.DataFrame, others: Sequence[pd.DataFrame]) -> str:
-    """theta, what else is not the same in all scenes, and the number of events."""
+def _label(slips: pd.DataFrame) -> str:
+    """The scene, and the number of its events."""
     first = slips.iloc[0]
     theta = first["theta"]
     name = style.theta_text(theta) if pd.notna(theta) else "loads as measured"
-    for column, text in (
-        ("n_blocks", ", $N = {:g}$"),
-        ("normal_load_N", ", $F_Z = {:g}$ N"),
-    ):
-        if len({table[column].iloc[0] for table in others}) > 1:
-            name += text.format(first[column])
+    slider = f"$N = {first['n_blocks']}$, $F_Z = {first['normal_load_N']:g}$ N"
     n = int(slips["counted"].sum())
     note = "" if slips["is_global"].any() else ", no global slip"
-    return f"{name}: {n} event{'' if n == 1 else 's'}{note}"
+    return f"{name}, {slider}:\n{n} event{'' if n == 1 else 's'}{note}"

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pandas as pd
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from precursors.figures import style
+from precursors.figures.style import Options
 from precursors.model import printed
 
 HEIGHT_MM = 84.0
 BEYOND = 1.35  # where marks stand beyond the last N, in units of it
-EXACT: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 4}
+EXACT: Options = {"linestyle": "none", "marker": ".", "markersize": 4}
 # The other counts beside those of Fig. 13.
-COUNTS: dict[str, dict[str, Any]] = {
+COUNTS: dict[str, Options] = {
     "events_to_global_slip": {"linestyle": "--", "label": "median, all events"},
     "records": {"linewidth": 0.5, "label": "median, strict records"},
 }
-EXPERIMENT: dict[str, Any] = {"linestyle": "none", "marker": "<", "markersize": 5}
-BAND: dict[str, Any] = {"alpha": 0.18, "linewidth": 0}
+EXPERIMENT: Options = {"linestyle": "none", "marker": "<", "markersize": 5}
+BAND = 0.18  # share of a colour in a band, the rest is white
 
 
 def draw(
@@ -39,8 +39,8 @@ def draw(
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         counts, frictions = figure.subplots(1, 2)
         for scene, of_scene in table.groupby("scene", sort=False):
-            known = predictability[predictability["scene"].eq(scene)]
-            known = known.loc[known["predictable"], "n_blocks"]
+            is_known = predictability["scene"].eq(scene) & predictability["predictable"]
+            known = predictability.loc[is_known, "n_blocks"]
             for axes, quantity in ((counts, "events_counted"), (frictions, "mu_sapp")):
                 rows = of_scene[of_scene["quantity"] == quantity]
                 _draw_numbers(axes, rows, rows["n_blocks"].isin(known))
@@ -55,8 +55,11 @@ def draw(
         style.set_ticks(counts.yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000])
         frictions.set_ylabel(style.MU_SAPP_LABEL)
         is_limit = limits["quantity"].eq("mu_sapp")
-        _mark(frictions, printed.MU_SAPP, f"paper, experiment: {printed.MU_SAPP:g}")
-        _mark(frictions, limits.loc[is_limit, "a"].iloc[0], r"$\mu_k$", "top")
+        style.draw_level(
+            frictions, printed.MU_SAPP, f"paper, experiment: {printed.MU_SAPP:g}"
+        )
+        mu_k = limits.loc[is_limit, "a"].iloc[0]
+        style.draw_level(frictions, mu_k, r"$\mu_k$", "top")
         for axes in (counts, frictions):
             axes.set(xscale="log", xlabel=style.BLOCKS_LABEL)
             axes.axvline(papers_n, **style.DOTTED)
@@ -67,29 +70,30 @@ def draw(
 
 def _draw_numbers(axes: Axes, rows: pd.DataFrame, is_known: pd.Series) -> None:
     """Draw the median and nine tenths of the runs, and the runs without noise."""
-    color = style.theta_color(rows["theta"].iloc[0])
-    axes.fill_between(rows["n_blocks"], rows["q05"], rows["q95"], color=color, **BAND)
-    axes.plot(rows["n_blocks"], rows["q50"], color=color, linewidth=1.2)
+    theta = rows["theta"].iloc[0]
+    color = style.theta_color(theta)
+    n = rows["n_blocks"]
+    band = {
+        "color": style.pale(color, BAND),
+        "linewidth": 0,
+        "zorder": 0.5 - 0.1 * theta,
+    }
+    axes.fill_between(n, rows["q05"], rows["q95"], **band)
+    axes.plot(n, rows[["q05", "q95"]], color=style.pale(color, 0.5), linewidth=0.4)
+    axes.plot(n, rows["q50"], color=color, linewidth=1.2)
     exact = rows[is_known]
     axes.plot(exact["n_blocks"], exact["without_noise"], color=color, **EXACT)
 
 
-def _mark(axes: Axes, value: float, text: str, side: str = "bottom") -> None:
-    axes.axhline(value, color=style.BLACK, linewidth=0.7)
-    place = (0.98, value)
-    look: dict[str, Any] = {"ha": "right", "va": side}
-    axes.annotate(text, place, xycoords=("axes fraction", "data"), **look)
-
-
 def _draw_key(figure: Figure, papers_n: int) -> None:
-    entries: list[Any] = [
+    entries: list[Artist] = [
         style.mark(words, color=style.theta_color(sign), linewidth=2)
         for sign, words in style.LOADINGS.items()
     ]
     entries += [
         style.mark("median, counted in Fig. 13", linewidth=1.2),
         *(style.mark(**look) for look in COUNTS.values()),
-        Patch(color=style.BLACK, **BAND, label="5 to 95 %"),
+        Patch(color=style.pale(style.BLACK, BAND), label="5 to 95 %"),
         style.mark("without noise, predictable", **EXACT),
         style.mark("experiment", **EXPERIMENT),
         style.mark(f"$N = {papers_n}$", **style.DOTTED),

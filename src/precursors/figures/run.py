@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
 from precursors.figures import precursor_lengths, scene
-from precursors.figures.style import Look
+from precursors.figures.style import LOOK, NO_DATA, Look
 from precursors.model.spreadsheet import LENGTH, LOAD, TIME
 from precursors.solver.run import Record
 
@@ -27,10 +27,10 @@ LEAST_SHARED = 0.1  # of the range of measured and computed values
 def plot(
     run: Record,
     figure: str = "load",
-    data: NDArray[np.float64] | None = None,
+    data: NDArray[np.float64] = NO_DATA,
     title: str | None = None,
     inset: bool = True,
-    look: Look | Mapping[str, Any] | None = None,
+    look: Look | Mapping[str, Any] = LOOK,
 ) -> Figure:
     """Draw a run: its load and slips over time, or its propagation lengths against the
     load.
@@ -62,7 +62,7 @@ def plot(
     if figure == "lengths":
         lengths = slips["front"] / slips["n_blocks"]
         _warn_if_apart(AXES[figure], data, slips["load_before_N"], lengths)
-        return precursor_lengths.draw([slips], data=data, title=title, look=look)
+        return precursor_lengths.draw([slips], data, title or "", look)
     title = f"N = {run.chain.n_blocks}" if title is None else title
     trace = load_trace(run)
     _warn_if_apart(AXES[figure], data, trace["time_s"], trace["tangential_load_N"])
@@ -70,17 +70,17 @@ def plot(
 
 
 def _warn_if_apart(
-    axes: Sequence[str], data: NDArray[np.float64] | None, *computed: pd.Series
+    axes: Sequence[str], data: NDArray[np.float64], *computed: pd.Series
 ) -> None:
     """Warn of measured values in another unit than the computed ones."""
-    for j, (name, values) in enumerate(zip(axes, computed, strict=True)):
-        if data is None or not np.ptp(data[:, j]) or not len(values):
+    for name, measured, values in zip(axes, data.T, computed, strict=True):
+        if len(set(measured)) < 2 or not len(values):
             continue
-        both = np.append(data[:, j], values)
-        shared = np.ptp(data[:, j]) + np.ptp(values) - np.ptp(both)
+        both = np.append(measured, values)
+        shared = np.ptp(measured) + np.ptp(values) - np.ptp(both)
         if shared < LEAST_SHARED * np.ptp(both):
             warnings.warn(
-                f"{name} is measured from {min(data[:, j]):g} to {max(data[:, j]):g}, "
+                f"{name} is measured from {min(measured):g} to {max(measured):g}, "
                 f"and computed from {min(values):g} to {max(values):g}: is this the unit?",
                 stacklevel=3,
             )

@@ -30,17 +30,15 @@ NAMES: dict[str, tuple[str, tuple[float, float], str]] = {
     "rk4_skip": ("RK4", (8, -8), "left"),
 }
 SHOWN_TIME_S = 2.7  # doubles near the first global slip are np.spacing of this apart
-SMALL = 7.0
 
 
 def draw(
     table: pd.DataFrame,
     sessions: pd.DataFrame | None = None,
     works: Sequence[str] = ("seconds",),
-    theta: float = 0.0,
 ) -> Figure:
     """Draw the largest error of a transition's time against work, up to the first
-    global slip.
+    global slip at even load.
 
     `table` is work_precision.csv, and `works` its columns of work. Methods of one
     colour of their own have their names beside them, the others are grey points. A tick
@@ -48,7 +46,7 @@ def draw(
     how many times as long as the exact solver heyoka takes in `sessions`
     (beside_heyoka.csv).
     """
-    rows = table[np.isclose(table["theta"], theta) & table["until"].eq("global slip")]
+    rows = table[table["theta"].eq(0) & table["until"].eq("global slip")]
     true = rows["transitions_true"]
     is_right = rows["transitions_right"].eq(true) & rows["transitions_found"].eq(true)
     rows = rows.assign(is_right=is_right)
@@ -69,7 +67,7 @@ def draw(
                 _name(axes, right)
             axes.set_xlabel(words)
         panels[1, 0].set_ylabel("Largest error of a transition's time [s]")
-        panels[0, 0].set_title("wrong sequence of transitions", fontsize=SMALL, pad=2)
+        panels[0, 0].set_title("wrong sequence of transitions", fontsize="small", pad=2)
         if sessions is not None:
             _draw_factor(panels[1, 0], rows, sessions)
     return figure
@@ -89,7 +87,7 @@ def _draw_panel(strip: Axes, axes: Axes, rows: pd.DataFrame) -> pd.DataFrame:
             own["work"],
             own["error_time_s"],
             color=first["color"],
-            marker=style.marker(first["marker"]),
+            marker=first["marker"] if is_named else ".",
             markersize=9 if method == "exact" else 4,
             linestyle="-" if is_named else "none",
             markeredgewidth=0,
@@ -97,12 +95,7 @@ def _draw_panel(strip: Axes, axes: Axes, rows: pd.DataFrame) -> pd.DataFrame:
         )
     axes.set(yscale="log")
     axes.margins(x=0.14, y=0.1)
-    spacing = np.spacing(SHOWN_TIME_S)
-    axes.axhline(spacing, **style.DOTTED)
-    axes.text(
-        0.99, spacing, "spacing of doubles", transform=axes.get_yaxis_transform(),
-        ha="right", va="top", color=style.GREY, fontsize=SMALL,
-    )  # fmt: skip
+    style.draw_level(axes, np.spacing(SHOWN_TIME_S), "spacing of doubles", "top")
     for axis in (strip.xaxis, axes.xaxis, axes.yaxis):
         axis.set_minor_locator(NullLocator())
     return right
@@ -121,7 +114,7 @@ def _name(axes: Axes, right: pd.DataFrame) -> None:
             textcoords="offset points",
             ha=side,
             color=first["color"],
-            fontsize=SMALL,
+            fontsize="small",
         )
 
 
@@ -137,11 +130,4 @@ def _draw_factor(axes: Axes, rows: pd.DataFrame, sessions: pd.DataFrame) -> None
     ends = (start, height), (start * factor["value"], height)
     arrow = {"arrowstyle": "->", "linewidth": 0.7, "shrinkA": 0, "shrinkB": 0}
     axes.annotate("", ends[1], ends[0], arrowprops=arrow)
-    axes.annotate(
-        f"{factor['value']:.0f} times",
-        (start * np.sqrt(factor["value"]), height),
-        (0, 3),
-        textcoords="offset points",
-        ha="center",
-        fontsize=SMALL,
-    )
+    axes.text(start, 1.5 * height, f"  {factor['value']:.0f} times", fontsize="small")

@@ -3,23 +3,22 @@ transitions right."""
 
 from __future__ import annotations
 
-from typing import Any
-
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullLocator
 
 from precursors.figures import style
+from precursors.figures.style import Options
 
 HEIGHT_MM = 88.0
 EXACT = "exact"
-EVERY_STEP: dict[str, Any] = {
+EVERY_STEP: Options = {
     "marker": "+",
     "markersize": 6,
     "markeredgewidth": 0.8,
     "color": style.GREY,
 }
-RIGHT: dict[str, Any] = {"marker": "o", "markersize": 3, "color": style.GREY}
+RIGHT: Options = {"marker": "o", "markersize": 3, "color": style.GREY}
 WRONG = RIGHT | {
     "markeredgewidth": 0.8,
     "color": style.GREY,

@@ -3,7 +3,6 @@ files."""
 
 from __future__ import annotations
 
-import pickle
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -16,9 +15,9 @@ from typing import Any
 
 import matplotlib.style
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.collections import Collection
-from matplotlib.colors import to_rgba_array
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.font_manager import findfont
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -26,6 +25,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
 
 from precursors.support.files import write_whole
+
+# Keyword arguments of a method of Matplotlib that draws.
+Options = dict[str, Any]
 
 # One colour, one meaning, in all figures and the page. Every two differ by more than 20
 # in CIELAB, for readers with protanopia or deuteranopia as well.
@@ -45,6 +47,7 @@ LOADINGS = {
     1: "more load at the far end",
 }
 PALE = "#E6E6E6"
+NO_DATA = np.empty((0, 2))  # measured points that a scene is drawn without
 
 MM_PER_M = 1e3
 MM_PER_INCH = 25.4
@@ -55,34 +58,28 @@ PNG_DPI = 300
 BLOCKS_LABEL = "Number of blocks $N$ [-]"
 EVENTS_LABEL = "Events counted [-]"
 MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
-COLORS_OF_AN_ARTIST = (
-    "color",
-    "facecolor",
-    "edgecolor",
-    "markerfacecolor",
-    "markeredgecolor",
-)
-DOTTED: dict[str, Any] = {
-    "color": GREY,
-    "linewidth": 0.6,
-    "linestyle": (0, (1, 2)),
-    "zorder": 1,
-}
+DOTTED: Options = {"color": GREY, "linewidth": 0.6, "linestyle": ":", "zorder": 1}
 
-_SETTINGS: dict[str, Any] = {
+_SETTINGS: Options = {
     "axes.linewidth": 0.6,
     "axes.axisbelow": True,
+    "axes.titlesize": "medium",
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,
     "xtick.major.size": 3,
     "ytick.major.size": 3,
+    "xtick.labelsize": "small",
+    "ytick.labelsize": "small",
     "xtick.direction": "in",
     "ytick.direction": "in",
     "legend.frameon": False,
+    "legend.columnspacing": 1.4,
     "lines.linewidth": 0.8,
+    "lines.markersize": 4,
     "hatch.linewidth": 0.6,
-    "grid.linewidth": 0.3,
-    "grid.color": PALE,
+    # Mathematics in the font of the text.
+    "mathtext.fontset": "custom",
+    "mathtext.cal": "sans",
     # Element ids of an SVG come from this salt instead of a random number.
     "svg.hashsalt": "precursors",
     "svg.fonttype": "none",  # text stays text
@@ -131,92 +128,52 @@ class Look:
             raise ValueError(f"the font {self.font!r} is not installed") from None
 
     @property
-    def small(self) -> float:
-        """Size of ticks, keys and notes [pt]."""
-        return 7 / 8 * self.font_size
-
-    @property
-    def settings(self) -> dict[str, Any]:
+    def settings(self) -> Options:
         """The settings of Matplotlib that follow."""
-        sizes = dict.fromkeys(
-            ("font.size", "axes.labelsize", "axes.titlesize"), self.font_size
-        )
-        small = dict.fromkeys(
-            ("xtick.labelsize", "ytick.labelsize", "legend.fontsize"), self.small
-        )
-        settings = _SETTINGS | sizes | small | {"font.family": self.font}
-        if self.font != Look.font:  # symbols in it, too
-            settings |= dict.fromkeys(
-                (f"mathtext.{kind}" for kind in ("rm", "cal", "bf")), self.font
-            )
-            settings |= {
-                "mathtext.fontset": "custom",
-                "mathtext.it": f"{self.font}:italic",
-            }
-        return settings
+        return _SETTINGS | {"font.size": self.font_size, "font.sans-serif": self.font}
+
+
+LOOK = Look()
 
 
 @contextmanager
-def page(
-    width_mm: float, height_mm: float, lay_out: bool = True, look: Look | None = None
-) -> Iterator[Figure]:
+def page(width_mm: float, height_mm: float, look: Look = LOOK) -> Iterator[Figure]:
     """Make a figure of a given size on paper [mm], with room for its labels when the
     block ends.
 
     The settings of a user's matplotlibrc have no effect. The layout is done once,
     because a layout for each file would make the files differ slightly.
     """
-    look = look or Look()
     with matplotlib.style.context(look.settings, after_reset=True):
         size = ((look.width_mm or width_mm) / MM_PER_INCH, height_mm / MM_PER_INCH)
         figure = Figure(figsize=size, dpi=PNG_DPI, facecolor="white")
         yield figure
-        if lay_out:
-            ConstrainedLayoutEngine().execute(figure)
+        ConstrainedLayoutEngine().execute(figure)
 
 
 def save(
-    figure: Figure, path: str | Path, look: Look | None = None, title: str | None = None
+    figure: Figure, path: str | Path, look: Look = LOOK, title: str | None = None
 ) -> None:
     """Write a figure as PNG (300 dpi), SVG, PDF or EPS, complete or not at all, always
     the same bytes.
 
-    `look` is that of its page, and `title` what a reader of an SVG hears. EPS knows no
-    transparency: it has the colours on white.
+    `look` is that of its page, and `title` what a reader of an SVG hears.
     """
     ending = Path(path).suffix.lower()
-    settings = (look or Look()).settings
+    metadata = _METADATA[ending]
+    if title and ending == ".svg":
+        metadata = metadata | {"Title": title}
     buffer = BytesIO()
-    with matplotlib.style.context(settings, after_reset=True):
-        figure = opaque(figure) if ending == ".eps" else figure
-        metadata = _METADATA[ending] | (
-            {"Title": title} if title and ending == ".svg" else {}
-        )
+    with matplotlib.style.context(look.settings, after_reset=True):
         figure.savefig(buffer, format=ending[1:], dpi=PNG_DPI, metadata=metadata)
     write_whole(path, re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
 
 
-def opaque(figure: Figure) -> Figure:
-    """Copy a figure; transparent colours become what they are on white."""
-    copy: Figure = pickle.loads(pickle.dumps(figure))
-    for artist in copy.findobj():
-        alpha = artist.get_alpha()
-        if alpha is None:
-            continue
-        artist.set_alpha(None)
-        colors: list[tuple[str, Any]] = [
-            (part, getattr(artist, f"get_{part}", tuple)())
-            for part in COLORS_OF_AN_ARTIST
-        ]
-        for part, color in colors:
-            if len(color := to_rgba_array(color)):
-                strength = np.where(color[:, 3:] == 1, alpha, color[:, 3:])
-                color[:, :3] = 1 - strength * (1 - color[:, :3])
-                color[:, 3:] = strength > 0
-                getattr(artist, f"set_{part}")(
-                    color if isinstance(artist, Collection) else color[0]
-                )
-    return copy
+def pale(color: str, share: float) -> str:
+    """Mix a colour with white: EPS, which knows no transparency, shows it as the others
+    do."""
+    red, green, blue = 1 - share * (1 - np.array(to_rgb(color)))
+    return to_hex((red, green, blue))
 
 
 def set_ticks(axis: Axis, values: Sequence[float]) -> None:
@@ -226,26 +183,17 @@ def set_ticks(axis: Axis, values: Sequence[float]) -> None:
     axis.set_minor_locator(NullLocator())
 
 
-def fraction_text(value: float) -> str:
-    """Write a number as a fraction if it has a small denominator (-5/6), else as a
-    decimal number."""
-    fraction = Fraction(value).limit_denominator(12)
-    return str(fraction) if isclose(fraction, value) else f"{value:.4g}"
-
-
 def theta_text(theta: float) -> str:
-    """Write theta as mathematics."""
-    return rf"$\theta = {fraction_text(theta)}$"
+    """Write theta, as a fraction if it has a small denominator (-5/6), else as a
+    decimal number."""
+    fraction = Fraction(theta).limit_denominator(12)
+    text = str(fraction) if isclose(fraction, theta) else f"{theta:.4g}"
+    return rf"$\theta = {text}$"
 
 
 def theta_color(theta: float) -> str:
     """Colour of a scene: by the end that carries the larger load."""
     return PUSHED_END if theta < 0 else FAR_END if theta > 0 else EVEN
-
-
-def marker(name: str) -> str | tuple[int, ...]:
-    """A marker of Matplotlib by its name in a table ("3,1,180" is a tuple)."""
-    return tuple(map(int, name.split(","))) if "," in name else name
 
 
 def plain(text: str) -> str:
@@ -261,10 +209,17 @@ def plain(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def draw_key(figure: Figure, entries: Sequence[Any], **how: Any) -> None:
+def draw_level(axes: Axes, value: float, text: str, side: str = "bottom") -> None:
+    """Draw a dotted line at a value of the y axis, with its name at its right end."""
+    axes.axhline(value, **DOTTED)
+    where: Options = {"xycoords": ("axes fraction", "data"), "ha": "right", "va": side}
+    axes.annotate(text, (0.98, value), **where, fontsize="small")
+
+
+def draw_key(figure: Figure, entries: Sequence[Any], ncols: int = 0) -> None:
     """Draw a key below the panels, for marks that mean the same in all of them."""
-    look = {"loc": "outside lower center", "ncols": len(entries), "columnspacing": 1.4}
-    figure.legend(handles=entries, **{**look, **how})
+    columns = ncols or len(entries)
+    figure.legend(handles=entries, loc="outside lower center", ncols=columns)
 
 
 def mark(label: str, **look: Any) -> Line2D:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from precursors.figures import style
+from precursors.figures.style import Options
 
 HEIGHT_MM = 78.0
 QUANTITIES = {"mu_sapp": style.MU_SAPP_LABEL, "events_counted": style.EVENTS_LABEL}
-RUN: dict[str, Any] = {"marker": ".", "markersize": 2, "linestyle": "none"}
-ALONE: dict[str, Any] = {"marker": "*", "markersize": 8, "linestyle": "none"}
+RUN: Options = {"marker": ".", "markersize": 2, "linestyle": "none"}
+ALONE: Options = {"marker": "*", "markersize": 8, "linestyle": "none"}
 ALONE |= {"color": style.BLACK, "markeredgecolor": "white"}
 
 
