@@ -72,8 +72,6 @@ golden: results $(DEV)
 # Pages of the interface, from the docstrings, and of docs/, in results/docs.
 docs: $(DEV)
 	$(BIN)/pdoc -o results/docs -d numpy precursors precursors.analysis.horizon precursors.methods docs/guide.py
-	sed -i.md -e 's|href="[a-z]*\.md#|href="#|g' -e 's|href="\.\./|href="../../|g' results/docs/guide.html
-	rm results/docs/guide.html.md
 
 bench: $(READY)
 	$(BIN)/python benchmarks/bench.py $(if $(METHOD),--method $(METHOD))

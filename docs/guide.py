@@ -1,13 +1,24 @@
-"""The pages of docs/ beside the interface, for `make docs`.
+"""The pages of docs/ as one, for `make docs`."""
 
-.. include:: customise.md
-.. include:: example.md
-.. include:: numbers.md
-.. include:: adding.md
-.. include:: models.md
-.. include:: field.md
-.. include:: benchmark.md
-.. include:: performance.md
-.. include:: reliability.md
-.. include:: troubleshooting.md
-"""
+import re
+from pathlib import Path
+
+PAGES = (
+    "customise",
+    "example",
+    "numbers",
+    "adding",
+    "models",
+    "field",
+    "benchmark",
+    "performance",
+    "reliability",
+    "troubleshooting",
+)
+__all__: list[str] = []
+
+text = "\n\n".join(
+    Path(__file__).with_name(f"{page}.md").read_text(encoding="utf-8") for page in PAGES
+)
+# A link to another page stays in this one, and a link to a file begins in results/docs.
+__doc__ = re.sub(r"\]\(\w+\.md#", "](#", text).replace("](../", "](../../")

@@ -288,7 +288,9 @@ PICTURES = {
 def save_small(name: str, path: Path) -> None:
     """Write a picture of few pixels."""
     with mock.patch.object(style, "PNG_DPI", 60):
-        style.save(PICTURES[name](), path, NARROW if name in OF_A_JOURNAL else style.LOOK)
+        style.save(
+            PICTURES[name](), path, NARROW if name in OF_A_JOURNAL else style.LOOK
+        )
 
 
 @pytest.mark.parametrize("name", PICTURES)

@@ -176,7 +176,7 @@ def test_the_example_gives_what_it_shows(tmp_path, monkeypatch, capsys):
     }
 
 
-def test_every_page_is_rendered_with_links_that_the_makefile_can_follow(tmp_path):
+def test_every_page_is_rendered_with_its_title_and_links_that_work(tmp_path):
     command = [
         sys.executable,
         "-m",
@@ -194,8 +194,11 @@ def test_every_page_is_rendered_with_links_that_the_makefile_can_follow(tmp_path
         for page in DOCS.glob("*.md")
     ]
     assert [title for title in titles if f">{title}</h1>" not in guide] == []
-    linked = re.findall(r'href="[a-z]+\.md(.*?)"', guide)
-    assert [anchor for anchor in linked if f'id="{anchor[1:]}"' not in guide] == []
+    linked = re.findall(r'href="#([^"]+)"', guide)
+    assert [anchor for anchor in linked if f'id="{anchor}"' not in guide] == []
+    files = re.findall(r'href="../../([^"#]+)"', guide)
+    assert len(files) > 3
+    assert [file for file in files if not (ROOT / file).exists()] == []
 
 
 PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
