@@ -26,6 +26,7 @@ SECTIONS = 10.5
 
 BELOW: Options = {"ha": "center", "va": "top", "fontsize": "small"}
 ARROW: Options = {"shrinkA": 0, "shrinkB": 0, "color": style.BLACK}
+PUSH = ARROW | {"arrowstyle": "-|>"}
 THIN: Options = {"color": style.GREY, "linewidth": 0.6}
 
 
@@ -58,12 +59,12 @@ def _draw_plane(axes: Axes) -> None:
 def _draw_drive(axes: Axes) -> None:
     axes.plot(DRIVE, MIDDLE, "o", color=style.BLACK)
     axes.text(DRIVE, MIDDLE - 1.6, "P", ha="center", va="top")
-    _draw_motion(axes, DRIVE, MIDDLE + 6, "$V$")
+    _draw_arrow(axes, DRIVE, MIDDLE + 6, "$V$")
     _draw_position(axes, DRIVE, "$x_0 = V t$")
     height = MIDDLE - 3
-    push: Options = {"arrowprops": ARROW | {"arrowstyle": "-|>"}, "va": "center"}
-    start = (TRAILING_EDGE - 8, height)
-    axes.annotate("$F_X$", (TRAILING_EDGE - 0.3, height), start, ha="right", **push)
+    push: Options = {"arrowprops": PUSH, "ha": "right", "va": "center"}
+    block = (TRAILING_EDGE - 0.3, height)
+    axes.annotate("$F_X$", block, (TRAILING_EDGE - 8, height), **push)
 
 
 def _draw_block(axes: Axes, name: str, left: float) -> None:
@@ -71,30 +72,31 @@ def _draw_block(axes: Axes, name: str, left: float) -> None:
     look: Options = {"facecolor": style.PALE, "edgecolor": style.BLACK}
     axes.add_patch(Rectangle((left, PLANE), BLOCK, BLOCK, linewidth=0.8, **look))
     axes.text(middle, MIDDLE, f"${name}$\n$m$", ha="center", va="center")
-    press: Options = {"arrowprops": ARROW | {"arrowstyle": "-|>"}, "ha": "center"}
+    press: Options = {"arrowprops": PUSH, "ha": "center"}
     axes.annotate(f"$w_{name}$", (middle, TOP + 0.2), (middle, TOP + 6), **press)
     right = left + BLOCK + 0.4
-    _draw_arrow(axes, right, right + 3.8, PLANE + 1.4, f"$f_{name}$", style.BLACK)
+    _draw_arrow(axes, right, PLANE + 1.4, f"$f_{name}$", 3.8, style.BLACK)
     _draw_position(axes, middle, f"$x_{name}$")
 
 
 def _draw_position(axes: Axes, origin: float, text: str) -> None:
     height = TOP + 13
     axes.plot([origin, origin], [height - 1.6, height + 1.6], color=style.GREY)
-    _draw_motion(axes, origin, height, text)
-
-
-def _draw_motion(axes: Axes, x: float, height: float, text: str) -> None:
-    _draw_arrow(axes, x, x + 7, height, text, style.GREY)
+    _draw_arrow(axes, origin, height, text)
 
 
 def _draw_arrow(
-    axes: Axes, start: float, end: float, height: float, text: str, color: str
+    axes: Axes,
+    x: float,
+    y: float,
+    text: str,
+    length: float = 7.0,
+    color: str = style.GREY,
 ) -> None:
     """Draw an arrow to the right that points to its name."""
     look = ARROW | {"arrowstyle": "<|-", "color": color}
     axes.annotate(
-        text, (start, height), (end, height), va="center", color=color, arrowprops=look
+        text, (x, y), (x + length, y), va="center", color=color, arrowprops=look
     )
 
 

@@ -109,10 +109,9 @@ def _draw_strip(
 
 
 def _draw_key(figure: Figure) -> None:
-    alike = style.mark("a slider whose inputs are printed alike", **DOT)
     band = f"{printed.MU_SAPP:g} $\\pm$ {printed.LAST_DIGIT:g}, and the share inside"
     entries = [
-        alike,
+        style.mark("a slider whose inputs are printed alike", **DOT),
         style.mark("median and nine tenths", marker="|", linewidth=2),
         style.mark("the slider with the printed digits", **STAR),
         style.mark(band, color=style.PALE, linewidth=6),

@@ -44,9 +44,8 @@ def draw(
             for column, look in ERRORS.items():
                 axes.plot(own["time_s"], own[column], **look)
             axes.axhline(tolerance, **style.DOTTED)
-            for exponent in exponents.loc[
-                np.isclose(exponents["theta"], theta), "exponent_per_s"
-            ]:
+            is_chains = np.isclose(exponents["theta"], theta)
+            for exponent in exponents.loc[is_chains, "exponent_per_s"]:
                 _draw_slope(axes, exponent)
             axes.set(yscale="log", ylim=ERROR_RANGE, xlabel="Time [s]")
             axes.set_title(style.theta_text(theta))
@@ -66,4 +65,4 @@ def _draw_slope(axes: Axes, exponent: float) -> None:
     ends = [start, start + DECADES * tenfold]
     axes.plot(ends, [low, low * 10**DECADES], color=style.BLACK, linestyle="--")
     text = f"ten times in {tenfold:.1f} s"
-    axes.annotate(text, (start, low * 10**DECADES), fontsize=7, va="bottom")
+    axes.annotate(text, (start, low * 10**DECADES), fontsize="small", va="bottom")

@@ -28,7 +28,7 @@ def draw(nucleation: pd.DataFrame, peaks: pd.DataFrame, cycles: pd.DataFrame) ->
         _draw_lengths(lengths, nucleation[nucleation["n_blocks"].isin(two_finest)])
         _draw_map(steps, peaks)
         _draw_cycles(settled, cycles[cycles["study"].isin(["grid", "grid_fine"])])
-        look = {"linestyle": "none", "markersize": 4}
+        look = {"linestyle": "none"}
         entries = [
             style.mark(text, marker=MARKERS[s], color=style.theta_color(s), **look)
             for s, text in style.LOADINGS.items()
@@ -47,7 +47,6 @@ def _look(rows: pd.DataFrame, finest: int) -> Options:
         "linestyle": "none",
         "marker": MARKERS[int(np.sign(first["theta"]))],
         "color": color,
-        "markersize": 4,
         "markerfacecolor": color if first["n_blocks"] == finest else "none",
     }
 
@@ -58,9 +57,8 @@ def _draw_lengths(axes: Axes, nucleation: pd.DataFrame) -> None:
         look = _look(rows, finest)
         axes.plot(rows["critical_length"], rows["measured"], **look)
     ends = [0.0, 1.1 * nucleation["critical_length"].max()]
-    axes.plot(ends, ends, color=style.GREY, linewidth=0.8)
-    low = [0.0, 0.9 * ends[1]]
-    high = [0.0, 1.1 * ends[1]]
+    axes.axline((0, 0), slope=1, color=style.GREY)
+    low, high = np.outer([0.9, 1.1], ends)
     axes.fill_between(ends, low, high, color=style.PALE)
     axes.set(xlim=ends, ylim=ends)
     axes.set(xlabel=r"$l_c/L$, theory", ylabel="length that crept, over $L$")
@@ -70,8 +68,8 @@ def _draw_map(axes: Axes, peaks: pd.DataFrame) -> None:
     for _, run in peaks.groupby("past"):
         before = run["peak"].to_numpy()
         axes.plot(before[:-1], before[1:], ".", color=style.BLACK, markersize=3)
-    ends = [peaks["peak"].min(), peaks["peak"].max()]
-    axes.plot(ends, ends, color=style.GREY, linewidth=0.8)
+    middle = peaks["peak"].median()
+    axes.axline((middle, middle), slope=1, color=style.GREY)
     axes.set(xlabel=r"peak of $F_X/F_Z$", ylabel="next peak")
 
 
@@ -79,15 +77,12 @@ def _draw_cycles(axes: Axes, cycles: pd.DataFrame) -> None:
     names = ["length", "relaxation_time"]
     pairs = sorted({tuple(pair) for pair in cycles[names].to_numpy()})
     finest = cycles["n_blocks"].max()
-    for pair, of_pair in cycles.groupby(names):
-        for _, rows in of_pair.groupby(["theta", "n_blocks"]):
-            x = pairs.index(pair) + SIDE * np.sign(rows["theta"])
-            axes.plot(x, rows["coefficient"], **_look(rows, finest))
-    for i, (length, _) in enumerate(pairs):
-        theory = cycles.loc[
-            (cycles["length"] == length) & (cycles["theta"] == 0), "theory"
-        ]
-        axes.plot([i - 0.4, i + 0.4], [theory.iloc[0]] * 2, color=style.GREY, lw=0.8)
+    for (length, time, _, _), rows in cycles.groupby([*names, "theta", "n_blocks"]):
+        i = pairs.index((length, time))
+        x = i + SIDE * np.sign(rows["theta"])
+        axes.plot(x, rows["coefficient"], **_look(rows, finest))
+        if rows["theta"].iloc[0] == 0:
+            axes.hlines(rows["theory"].iloc[0], i - 0.4, i + 0.4, color=style.GREY)
     labels = [f"{length:g}\n{1e6 * time:g}" for length, time in pairs]
     axes.set_xticks(range(len(pairs)), labels)
     axes.set(xlabel=r"$l_c/L$ and $t_v$ [µs]", ylabel=r"settled peak of $F_X/F_Z$")

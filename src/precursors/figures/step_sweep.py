@@ -4,6 +4,7 @@ transitions right."""
 from __future__ import annotations
 
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullLocator
 
@@ -11,62 +12,53 @@ from precursors.figures import style
 from precursors.figures.style import Options
 
 HEIGHT_MM = 88.0
-EXACT = "exact"
-EVERY_STEP: Options = {
-    "marker": "+",
-    "markersize": 6,
-    "markeredgewidth": 0.8,
-    "color": style.GREY,
-}
+EVERY_STEP: Options = {"marker": "+", "markersize": 6, "color": style.GREY}
 RIGHT: Options = {"marker": "o", "markersize": 3, "color": style.GREY}
-WRONG = RIGHT | {
-    "markeredgewidth": 0.8,
-    "color": style.GREY,
-    "markerfacecolor": "white",
+WRONG = RIGHT | {"markeredgewidth": 0.8, "markerfacecolor": "white"}
+QUANTITIES = {
+    "events_counted": style.EVENTS_LABEL,
+    "mu_sapp": style.MU_SAPP_LABEL,
+    "percentage": "Transitions right [%]",
 }
 
 
 def draw(table: pd.DataFrame) -> Figure:
     """Draw a column of panels for each scene of step_sweep.csv, in the order of the
     table."""
-    right = table["transitions_right"] == table["transitions_true"]
-    every_step = table["method"] == "rk4"
-    waiting = table["method"] == "rk4_skip"
-    groups = (
-        ("RK4, every step", every_step, EVERY_STEP),
-        ("RK4, waits in closed form: some transition wrong", waiting & ~right, WRONG),
-        ("all transitions right", waiting & right, RIGHT),
-    )
-    percentage = 100 * table["transitions_right"] / table["transitions_true"]
-    values = (table["events_counted"], table["mu_sapp"], percentage)
-    scenes = table.groupby("scene", sort=False)
+    share = table["transitions_right"] / table["transitions_true"]
+    scenes = table.assign(percentage=100 * share).groupby("scene", sort=False)
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         grid = figure.subplots(
-            len(values), len(scenes), sharex=True, sharey="row", squeeze=False
+            len(QUANTITIES), len(scenes), sharex=True, sharey="row", squeeze=False
         )
         for column, (_, rows) in zip(grid.T, scenes, strict=True):
-            for axes, value in zip(column, values, strict=True):
-                of_scene = value[rows.index]
-                exact = of_scene[rows["method"] == EXACT].iloc[0]
-                axes.axhline(exact, color=style.BLACK, label=EXACT, zorder=1)
-                for label, chosen, look in groups:
-                    points = rows.index[chosen[rows.index]]
-                    axes.plot(
-                        rows["step_s"][points],
-                        value[points],
-                        linestyle="none",
-                        **look,
-                        label=label,
-                    )
+            for axes, quantity in zip(column, QUANTITIES, strict=True):
+                _draw_numbers(axes, rows, quantity)
             column[0].set_title(style.theta_text(rows["theta"].iloc[0]), pad=3)
             column[-1].set_xlabel(r"Step $\Delta t$ [s]")
-        grid[0, 0].set(ylabel=style.EVENTS_LABEL, xscale="log")
+        for axes, label in zip(grid[:, 0], QUANTITIES.values(), strict=True):
+            axes.set_ylabel(label)
+        grid[0, 0].set_xscale("log")
         grid[0, 0].xaxis.set_minor_locator(NullLocator())
         grid[0, 0].yaxis.set_major_locator(MaxNLocator(integer=True))
-        grid[1, 0].set_ylabel(style.MU_SAPP_LABEL)
-        grid[2, 0].set(ylabel="Transitions right [%]", ylim=(0, 108))
+        grid[2, 0].set_ylim(0, 108)
         figure.align_ylabels(grid[:, 0])
-        figure.legend(
-            *grid[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=4
-        )
+        style.draw_key(figure, grid[0, 0].get_legend_handles_labels()[0])
     return figure
+
+
+def _draw_numbers(axes: Axes, rows: pd.DataFrame, quantity: str) -> None:
+    method = rows["method"]
+    is_right = rows["percentage"] == 100
+    exact = rows.loc[method == "exact", quantity].iloc[0]
+    axes.axhline(exact, color=style.BLACK, label="exact", zorder=1)
+    waits = method == "rk4_skip"
+    for label, chosen, look in (
+        ("RK4, every step", method == "rk4", EVERY_STEP),
+        ("RK4, waits in closed form: some transition wrong", waits & ~is_right, WRONG),
+        ("all transitions right", waits & is_right, RIGHT),
+    ):
+        points = rows[chosen]
+        axes.plot(
+            points["step_s"], points[quantity], linestyle="none", label=label, **look
+        )

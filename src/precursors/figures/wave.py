@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -41,21 +41,11 @@ rect, path {{ stroke: {style.BLACK} }}
 Slides = list[tuple[int, float, float, int]]
 
 
-class Motion(Protocol):
-    """What is drawn of a run."""
-
-    @property
-    def transitions(self) -> NDArray[Any]:
-        """Rows in time order: time [s], block, mode."""
-
-    def at(self, times: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Positions [m] and velocities [m/s], each (len(times), N)."""
-
-
-def draw(run: Motion, slips: pd.DataFrame) -> str:
+def draw(run: Any, slips: pd.DataFrame) -> str:
     """Write the first global slip, or else the longest event, as a looping SVG.
 
-    A row of blocks moves and changes colour; lanes below it show who slides when.
+    A row of blocks moves and changes colour; lanes below it show who slides when. Of
+    `run`, a `Run`, the transitions and the positions are drawn.
     """
     over = slips.dropna(subset="end_s")
     if over.empty:
