@@ -104,10 +104,9 @@ def endless_scene():
 
 
 def partial_scene():
-    """No slip is global, though one reaches the leading edge; another scene has the
-    larger loads."""
+    """No slip is global, though one reaches the leading edge."""
     events = slips(is_global=False).iloc[:16]
-    return draw_scene(events, 3.0, title="partial", others=[trace(slips("fig12")) * 2])
+    return draw_scene(events, 3.0, title="partial")
 
 
 def paper_lengths():

@@ -13,12 +13,6 @@ FIGURES = {
             "tables": {
                 "slips": f"results/tables/{scene}_slips.csv",
                 "trace": f"results/tables/{scene}_trace.csv",
-                # The scenes of Fig. 13 have one load axis.
-                "others": [
-                    f"results/tables/{other}_trace.csv"
-                    for other in config["fig13"]
-                    if scene in config["fig13"]
-                ],
             },
             "options": {
                 "title": f"{scene.replace('fig', 'Fig. ')}: {config['scenes'][scene]['title']}",

@@ -8,8 +8,7 @@ from matplotlib.figure import Figure
 from precursors.figures import style
 
 HEIGHT_MM = 72.0
-# Marker of each theta, from light to heavy leading block.
-MARKERS = {-0.9: "v", -5 / 6: "D", 0.0: "o", 5 / 6: "s", 0.95: "^"}
+MARKERS = "vDos^"  # of each theta, from light to heavy leading block
 
 
 def draw(table: pd.DataFrame) -> Figure:
@@ -20,8 +19,8 @@ def draw(table: pd.DataFrame) -> Figure:
     linear = table[table["varied"] == "n_and_theta"]
     with style.page(style.COLUMN_MM, HEIGHT_MM) as figure:
         axes = figure.subplots()
-        for theta, rows in linear.groupby("theta"):
-            value = float(str(theta))
+        for (_, rows), marker in zip(linear.groupby("theta"), MARKERS, strict=True):
+            theta = rows["theta"].iloc[0]
             low, high = (
                 abs(rows[f"ratio_{end}"] - rows["ratio"]) for end in ("low", "high")
             )
@@ -29,9 +28,9 @@ def draw(table: pd.DataFrame) -> Figure:
                 rows["n_blocks"],
                 rows["ratio"],
                 [low, high],
-                color=style.theta_color(value),
-                marker=MARKERS[min(MARKERS, key=lambda other: abs(other - value))],
-                label=style.theta_text(value),
+                color=style.theta_color(theta),
+                marker=marker,
+                label=style.theta_text(theta),
             )
         style.draw_level(axes, 1.0, "the law")
         axes.margins(y=0.12)

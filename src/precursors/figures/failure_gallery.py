@@ -15,8 +15,6 @@ from precursors.figures import style
 from precursors.figures.style import Options
 
 HEIGHT_MM = 156.0
-ROWS = 3
-COLUMNS = 3
 MICRO = 1e6
 THEORY: Options = {"color": style.GREY, "linewidth": 0.6}
 PREDICTED: Options = {"color": style.GREY, "linewidth": 0.6, "linestyle": "--"}
@@ -48,9 +46,6 @@ class Panel:
 
 
 STEP = r"Step $\Delta t$ [$\mu$s]"
-F_X = "$F_X$ [N]"
-TIME = "Time [s]"
-RIGHT_ONES = "Transitions right [-]"
 
 PANELS = {
     "unstable": Panel(
@@ -65,10 +60,12 @@ PANELS = {
         "Implicit Moreau-Jean damps motion", r"Time [$\mu$s]", "Energy left [-]", scale=MICRO,
         log="y", key="lower left",
     ),
-    "literal_friction": Panel("Eq. 4 taken literally never sticks again", TIME, F_X, points="-"),
+    "literal_friction": Panel(
+        "Eq. 4 taken literally never sticks again", "Time [s]", "$F_X$ [N]", points="-",
+    ),
     "dead_zone_too_small": Panel(
         "Dead zone too small: jumped over",
-        r"Zone / safe width $(\mu_s+\mu_k)\,w\,\Delta t/2m$ [-]", RIGHT_ONES,
+        r"Zone / safe width $(\mu_s+\mu_k)\,w\,\Delta t/2m$ [-]", "Transitions right [-]",
         points="o-", key="lower right", ylim=(0.0, None),
     ),
     "dead_zone_too_large": Panel(
@@ -94,7 +91,7 @@ def draw(thresholds: pd.DataFrame, curves: pd.DataFrame) -> Figure:
         ["fails", "method"]
     )
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        grid = figure.subplots(ROWS, COLUMNS).flat
+        grid = figure.subplots(3, 3).flat
         for letter, axes, mode in zip("abcdefghi", grid, PANELS, strict=True):
             panel = PANELS[mode]
             _draw_curves(axes, panel, curves[curves["failure_mode"] == mode])
@@ -137,12 +134,6 @@ def _draw_curves(axes: Axes, panel: Panel, curves: pd.DataFrame) -> None:
 
 
 def pretty(text: str) -> str:
-    """Write 1e-07 as a power of ten and the names of variables as mathematics."""
-    text = text.replace("dt =", r"$\Delta t$ =").replace("theta =", r"$\theta$ =")
-    text = text.replace("= -", "= \N{MINUS SIGN}")
-    text = re.sub(r"\b1(?:\.0+)?e([-+]\d+)", lambda m: f"$10^{{{int(m[1])}}}$", text)
-    return re.sub(
-        r"(\d+(?:\.\d+)?)e([-+]\d+)",
-        lambda m: rf"${m[1]}\times10^{{{int(m[2])}}}$",
-        text,
-    )
+    """Write dt and 1e-07 as mathematics."""
+    text = text.replace("dt =", r"$\Delta t$ =")
+    return re.sub(r"([\d.]+)e-0?(\d+)", r"$\1\\times10^{-\2}$", text)

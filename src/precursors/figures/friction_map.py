@@ -16,7 +16,7 @@ WIDTH_MM = 120.0
 HEIGHT_MM = 96.0
 
 
-def draw(table: pd.DataFrame, scenes: Sequence[tuple[float, float]] = ()) -> Figure:
+def draw(table: pd.DataFrame, scenes: Sequence[tuple[float, float]]) -> Figure:
     """Draw mu_sapp of map_theta_friction_ratio.csv, with contours at the paper's 0.49.
 
     It is white where a run has no global slip. Crosses mark `scenes`, pairs of theta
@@ -45,10 +45,11 @@ def draw(table: pd.DataFrame, scenes: Sequence[tuple[float, float]] = ()) -> Fig
             axes.plot(*place, "+", color=style.BLACK, markersize=7)
         axes.set(xlabel=r"$\theta$ [-]", ylabel=r"$\mu_k/\mu_s$ [-]")
         text = rf"white line: $\mu_\mathrm{{sapp}} = {printed.MU_SAPP:g}$"
-        entries = [style.mark(text, linestyle="none")]
-        if scenes:
-            cross = {"marker": "+", "markersize": 6, "linestyle": "none"}
-            entries.append(style.mark("scenes of Fig. 13", **cross))
+        cross = {"marker": "+", "markersize": 6, "linestyle": "none"}
+        entries = [
+            style.mark(text, linestyle="none"),
+            style.mark("scenes of Fig. 13", **cross),
+        ]
         if not table["reached"].all():
             look = {"marker": "s", "markerfacecolor": "white", "linestyle": "none"}
             entries.append(style.mark("no global slip", **look, color=style.GREY))

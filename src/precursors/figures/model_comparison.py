@@ -14,7 +14,7 @@ from precursors.figures import style
 from precursors.figures.style import Options
 
 ROW_MM = 14.0
-HEAD_MM = 31.0
+HEAD_MM = 27.0
 ANSWERED: Options = {"facecolor": "#C4C4C4", "edgecolor": "none"}
 MISSED: Options = {"facecolor": "white", "edgecolor": style.GREY, "linewidth": 0.5}
 SMALLEST: Options = {"fill": False, "edgecolor": style.BLACK, "linewidth": 1.4}
@@ -29,14 +29,14 @@ QUESTIONS = {
     "waveform": "Waveform $F_X(t)$,\npeak [N]",
 }
 SCALES = {"slip_duration": 1e3}  # from the SI unit to what is shown
-MODELS = {
-    "statics": "statics",
-    "front law": "front\nlaw",
-    "rigid slider": "rigid\nslider",
-    "overdamped chain": "over-\ndamped\nchain",
-    "quasi-static chain": "quasi-\nstatic\nchain",
-    "paper's chain": "paper's\nchain",
-}
+MODELS = (
+    "statics",
+    "front law",
+    "rigid slider",
+    "overdamped chain",
+    "quasi-static chain",
+    "paper's chain",
+)
 
 
 def draw(table: pd.DataFrame) -> Figure:
@@ -55,7 +55,7 @@ def draw(table: pd.DataFrame) -> Figure:
         is_smallest=("is_smallest", "any"),
     )
     questions = table.drop_duplicates("question")
-    models = sorted(table["label"].unique(), key=list(MODELS).index)
+    models = sorted(table["label"].unique(), key=MODELS.index)
     with style.page(style.PAGE_MM, HEAD_MM + ROW_MM * len(questions)) as figure:
         axes = figure.subplots()
         for y, question in enumerate(questions["question"]):
@@ -66,7 +66,9 @@ def draw(table: pd.DataFrame) -> Figure:
                 else:
                     axes.text(x, y, "\N{EN DASH}", color=style.GREY, **CENTRED)
         axes.set(xlim=(-0.5, len(models) - 0.5), ylim=(len(questions) - 0.5, -0.5))
-        axes.set_xticks(range(len(models)), [MODELS[model] for model in models])
+        axes.set_xticks(
+            range(len(models)), [model.replace(" ", "\n") for model in models]
+        )
         labels = [_row_label(row) for _, row in questions.iterrows()]
         axes.set_yticks(range(len(labels)), labels)
         axes.tick_params(length=0, top=False, labeltop=True, labelbottom=False)

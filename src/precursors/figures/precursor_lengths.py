@@ -4,6 +4,7 @@ several loadings."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import cycle
 
 import numpy as np
 import pandas as pd
@@ -16,7 +17,7 @@ from precursors.figures.style import Options
 
 HEIGHT_MM = 76.0
 LEGEND_MM = 8.0  # of an entry of the key, where one stands below the panel
-# A second scene of the same sign of theta has another outline.
+# Scenes that have no names in place have different outlines.
 OUTLINES = "osD^vh"
 # Sizes differ, so that marks stay visible around each other.
 SIZES = {-1: 4.2, 0: 5.2, 1: 6.6}
@@ -26,13 +27,6 @@ SHORT: Options = {
     "markersize": 2.2,
     "markeredgewidth": 0.5,
     "zorder": 1.5,
-}
-MEASURED: Options = {
-    "linestyle": "none",
-    "marker": "+",
-    "markersize": 5.0,
-    "color": style.BLACK,
-    "label": "measured",
 }
 # What a curve is: at which of its events the name stands, from which side, and how far
 # away [pt].
@@ -70,7 +64,7 @@ def draw(
         draw_lengths(axes, slips)
         _add_coefficient(axes, slips)
         if len(data):
-            axes.plot(*data.T, **MEASURED)
+            axes.plot(*data.T, "+", color=style.BLACK, markersize=5, label="measured")
         if has_key:
             style.draw_key(figure, axes.get_legend_handles_labels()[0], ncols=1)
     return figure
@@ -84,12 +78,11 @@ def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
     """
     slips = [table for table in slips if len(table)]
     in_place = _are_named_in_place(slips)
-    signs = [_sign(table) for table in slips]
-    for i, table in enumerate(slips):
-        outline = OUTLINES[signs[:i].count(signs[i]) % len(OUTLINES)]
+    outlines = "o" * len(slips) if in_place else cycle(OUTLINES)
+    for table, outline in zip(slips, outlines, strict=False):
         points = _draw_events(axes, table, outline)
         if in_place:
-            _name(axes, points, signs[i])
+            _name(axes, points, _sign(table))
     axes.set(xlim=(0, None), ylim=(-0.03, 1.06))
     axes.set_xlabel("Tangential load $F_X$ [N]")
     axes.set_ylabel("Propagation length $L_p/L$ [-]")

@@ -3,7 +3,7 @@ loses, and when and where blocks slipped."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from precursors.figures.style import Options
 
 HEIGHT_MM = 74.0
 KEY_MM = 8.0
-NARROW_MM = 120.0  # below this width the magnified view stands below, not beside
+NARROW_MM = 150.0  # below this width the magnified view stands below, not beside
 ZOOM_END = 1.04  # of the magnified view, in times of the first global slip
 KEY_WIDTH = 7.25  # of a column of the key, in mm per pt of the letters
 
@@ -53,7 +53,6 @@ def draw(
     slips: pd.DataFrame,
     trace: pd.DataFrame,
     title: str = "",
-    others: Sequence[pd.DataFrame] = (),
     data: NDArray[np.float64] = style.NO_DATA,
     inset: bool = True,
     slider: Mapping[str, Any] | None = None,
@@ -64,9 +63,8 @@ def draw(
     magnified up to the first global slip.
 
     An event that goes on when the run ends is a band. The slip table may be empty; the
-    trace is straight between its rows. The load axis holds the traces of `others` as
-    well. `data`, shape (n, 2), are measured times [s] and loads [N]. The parameters of
-    `slider` stand below the title.
+    trace is straight between its rows. `data`, shape (n, 2), are measured times [s] and
+    loads [N]. The parameters of `slider` stand below the title.
     """
     width_mm = look.width_mm or style.PAGE_MM
     slips = _with_kinds(slips)
@@ -94,16 +92,16 @@ def draw(
                 panel.tick_params(labelbottom=panel is axes[2])
                 if first_s >= 0:
                     panel.axvline(first_s, **FIRST_GLOBAL)
-        for loads, stairs, lengths in columns if is_stacked else columns[:1]:
-            loads.set_ylabel("$F_X$ [N]")
+        for forces, stairs, lengths in columns if is_stacked else columns[:1]:
+            forces.set_ylabel("$F_X$ [N]")
             stairs.set_ylabel("$K x_1$ [N]")
             lengths.set_ylabel("$L_p$ [mm]")
         figure.align_ylabels()
         if n > 1:
             _magnify(columns, first_s, trace)
         columns[-1][1].annotate(STAIRCASE, (0.02, 0.82), xycoords="axes fraction")
-        computed = pd.concat([trace, *others])["tangential_load_N"]
-        _set_load_axis(columns[0][0], np.append(computed, data[:, 1]))
+        loads = np.append(trace["tangential_load_N"], data[:, 1])
+        _set_load_axis(columns[0][0], loads)
         _number_blocks(columns[-1][2], slips)
         _write_title(columns[0][0], slips, title, slider)
         if key:
@@ -220,7 +218,9 @@ def parameters(slider: Mapping[str, Any]) -> str:
         "m": f"{slider['slider_mass'] / n * 1e3:g} g",
         "k": f"{spring / 1e6:g} MN/m",
     }
-    return ", ".join(f"${name}$ = {value}" for name, value in values.items())
+    texts = [f"${name}$ = {value}" for name, value in values.items()]
+    # A line of the title ends between two of them.
+    return ", ".join(text.replace(" ", "\N{NO-BREAK SPACE}") for text in texts)
 
 
 def _draw_key(figure: Figure, slips: pd.DataFrame, has_data: bool, ncols: int) -> None:

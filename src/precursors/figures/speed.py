@@ -62,9 +62,8 @@ def draw(
         )
         for (strip, axes), work in zip(panels.T, works, strict=True):
             factor, words = WORKS[work]
-            right = _draw_panel(strip, axes, rows.assign(work=factor * rows[work]))
-            if axes is panels[1, 0]:
-                _name(axes, right)
+            of_work = rows.assign(work=factor * rows[work])
+            _draw_panel(strip, axes, of_work, axes is panels[1, 0])
             axes.set_xlabel(words)
         panels[1, 0].set_ylabel("Largest error of a transition's time [s]")
         panels[0, 0].set_title("wrong sequence of transitions", fontsize="small", pad=2)
@@ -73,49 +72,47 @@ def draw(
     return figure
 
 
-def _draw_panel(strip: Axes, axes: Axes, rows: pd.DataFrame) -> pd.DataFrame:
-    """Draw the settings; return those that are right, the most accurate ones first."""
+def _draw_panel(strip: Axes, axes: Axes, rows: pd.DataFrame, with_names: bool) -> None:
     strip.set(yticks=[], facecolor=style.PALE, xscale="log")
     wrong = rows.loc[~rows["is_right"], "work"]
     strip.vlines(wrong, 0, 1, color=style.GREY, linewidth=0.6)
     right = rows[rows["is_right"] & (rows["error_time_s"] > 0)]
     right = right.sort_values("error_time_s")
-    for method, own in right.groupby("method", sort=False):
+    is_grey = right["color"] == style.GREY
+    others = right[is_grey]
+    axes.scatter(others["work"], others["error_time_s"], 4, color=style.GREY)
+    for method, own in right[~is_grey].groupby("method", sort=False):
         first = own.iloc[0]
-        is_named = first["color"] != style.GREY
         axes.plot(
             own["work"],
             own["error_time_s"],
             color=first["color"],
-            marker=first["marker"] if is_named else ".",
+            marker=first["marker"],
             markersize=9 if method == "exact" else 4,
-            linestyle="-" if is_named else "none",
             markeredgewidth=0,
-            zorder=2 + is_named,
+            zorder=3,
         )
+        if with_names:
+            _name(axes, first)
     axes.set(yscale="log")
     axes.margins(x=0.14, y=0.1)
     style.draw_level(axes, np.spacing(SHOWN_TIME_S), "spacing of doubles", "top")
     for axis in (strip.xaxis, axes.xaxis, axes.yaxis):
         axis.set_minor_locator(NullLocator())
-    return right
 
 
-def _name(axes: Axes, right: pd.DataFrame) -> None:
-    for method, first in right.groupby("method", sort=False).first().iterrows():
-        if first["color"] == style.GREY:
-            continue
-        default = (style.plain(first["label"]), (5, 0), "left")
-        name, offset, side = NAMES.get(str(method), default)
-        axes.annotate(
-            name,
-            (first["work"], first["error_time_s"]),
-            offset,
-            textcoords="offset points",
-            ha=side,
-            color=first["color"],
-            fontsize="small",
-        )
+def _name(axes: Axes, first: pd.Series) -> None:
+    default = (style.plain(first["label"]), (5, 0), "left")
+    name, offset, side = NAMES.get(first["method"], default)
+    axes.annotate(
+        name,
+        (first["work"], first["error_time_s"]),
+        offset,
+        textcoords="offset points",
+        ha=side,
+        color=first["color"],
+        fontsize="small",
+    )
 
 
 def _draw_factor(axes: Axes, rows: pd.DataFrame, sessions: pd.DataFrame) -> None:
