@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from precursors.figures import style
 
-HEIGHT_MM = 72.0
+HEIGHT_MM = 66.0
 MARKERS = "vDos^"  # of each theta, from light to heavy leading block
 
 
@@ -35,7 +35,7 @@ def draw(table: pd.DataFrame) -> Figure:
         style.draw_level(axes, 1.0, "the law")
         axes.margins(y=0.12)
         axes.set(xscale="log", ylim=(0, None), xlabel=style.BLOCKS_LABEL)
-        axes.set_ylabel("Events in the runs / by the law [-]")
+        axes.set_ylabel("Events in runs / by the law [-]")
         style.set_ticks(axes.xaxis, sorted(linear["n_blocks"].unique()))
         style.draw_key(figure, axes.get_legend_handles_labels()[0], ncols=3)
     return figure

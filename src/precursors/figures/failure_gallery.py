@@ -14,7 +14,7 @@ from matplotlib.ticker import LogFormatterSciNotation
 from precursors.figures import style
 from precursors.figures.style import Options
 
-HEIGHT_MM = 156.0
+HEIGHT_MM = 148.0
 MICRO = 1e6
 THEORY: Options = {"color": style.GREY, "linewidth": 0.6}
 PREDICTED: Options = {"color": style.GREY, "linewidth": 0.6, "linestyle": "--"}
