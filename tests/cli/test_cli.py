@@ -28,7 +28,7 @@ from precursors.cli import Refused, commands, main
 from precursors.cli.options import CHAIN, EPILOG, LARGER, read_options
 from precursors.figures import precursor_lengths, scene, style
 from precursors.figures.run import plot
-from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
+from precursors.hierarchy.larger import LargerChain
 from precursors.support import provenance
 
 HEAVY = {"numpy", "numba", "pandas", "h5py", "matplotlib", "scipy"}
@@ -189,7 +189,7 @@ def test_a_run_may_end_with_the_first_global_slip_of_any_chain(cli, tmp_path):
 
 def test_the_slips_of_a_larger_chain_are_told(cli):
     larger = LargerChain(Chain.from_slider(), weakening_velocity=0.02)
-    slips = find_slips(simulate_with_accuracy(larger, 1.0))
+    slips = find_slips(simulate(larger, 1.0))
     code, out, _ = cli("slips", "--weakening-velocity", 0.02, "--duration", 1, "--json")
     assert (code, [row["onset_s"] for row in json.loads(out)]) == (
         0,

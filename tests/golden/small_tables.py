@@ -29,7 +29,7 @@ from precursors.ensembles.printed_digits import digits_tables
 from precursors.ensembles.studies import MAP
 from precursors.ensembles.study import gather, run_members
 from precursors.hierarchy.compare_models import compare_models
-from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
+from precursors.hierarchy.larger import LargerChain
 from precursors.hierarchy.larger_cycles import cycle_tables
 from precursors.hierarchy.larger_study import larger_tables
 from precursors.methods import METHODS
@@ -246,9 +246,8 @@ def larger_runs() -> pd.DataFrame:
     ]
     rows = []
     for n, theta, added, duration in cases:
-        run = simulate_with_accuracy(
-            LargerChain(Chain.from_slider(n_blocks=n, theta=theta), **added), duration
-        )
+        chain = Chain.from_slider(n_blocks=n, theta=theta)
+        run = simulate(LargerChain(chain, **added), duration)
         sums = {
             name: run.transitions[name].astype(float).sum()
             for name in run.transitions.dtype.names or ()

@@ -23,11 +23,10 @@ with job() as snakemake:
     run: Run | LargerRun
     try:
         if any(params.additions.values()):
-            from precursors.hierarchy.larger import LargerChain, simulate_with_accuracy
+            from precursors.hierarchy.larger import MAX_STEPS, LargerChain
 
-            run = simulate_with_accuracy(
-                LargerChain(chain, **params.additions), params.duration
-            )
+            larger = LargerChain(chain, **params.additions)
+            run = larger.simulate(params.duration, max_steps=MAX_STEPS)
         else:
             run = simulate(chain, duration=params.duration)
     except TransitionLimitError as error:

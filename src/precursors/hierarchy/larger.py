@@ -29,10 +29,6 @@ from precursors.hierarchy.larger_steps import (
     CYCLE,
     DURATION,
     GLOBAL,
-    IDLE,
-    LIFTED,
-    LIMIT,
-    MAX_STEPS,
     CompiledChain,
     End,
     State,
@@ -55,8 +51,9 @@ LEAP = 0.5  # of the excess of falling friction over viscosity at which creep ru
 # largest. With both doubled, l_c changes by less than 1e-3.
 LENGTH_STEPS = 2000
 GROWTH_RATES = 300
-# Steps times blocks, of which any step has so many: a minute's work.
-PATIENCE = 1_000_000_000
+MAX_STEPS = 100_000_000  # ten times those of the longest run of the studies
+# Steps times blocks, of which any step has so many: some 5 s of work.
+PATIENCE = 300_000_000
 BLOCKS_OF_A_STEP = 30
 LargerUntil = Literal["global slip", "settled"] | None
 ENDS = {None: DURATION, "global slip": GLOBAL, "settled": CYCLE}
@@ -87,10 +84,30 @@ class LargerChain:
     def simulate(
         self, duration: float, until: Until = None, **limits: int
     ) -> LargerRun:
-        """Run it with its accuracy, for `precursors.simulate`, which waits for no more
-        than `PATIENCE`."""
+        """Run it for `precursors.simulate`, with what half the step changes in
+        `larger`: halved_load_N and halved_events.
+
+        These are the largest change of a load at which an event of Fig. 13 begins [N],
+        of as many events as both runs have, and the change of their number. `limits`
+        are those of `simulate_larger`; max_steps is by default that of `PATIENCE`, and
+        half the step may take twice as many.
+        """
         steps = PATIENCE // (BLOCKS_OF_A_STEP + self.chain.n_blocks)
-        return simulate_with_accuracy(self, duration, until, max_steps=steps, **limits)
+        limits = {"max_steps": steps, **limits}
+        run = simulate_larger(self, duration, until, **limits)
+        half = run.larger["step"] / 2.0
+        limits["max_steps"] *= 2
+        finer = simulate_larger(self, duration, until, half, **limits)
+        a, b = (
+            find_precursors(find_slips(r))["load_before"].to_numpy()
+            for r in (run, finer)
+        )
+        n = min(len(a), len(b))
+        found = {
+            "halved_load_N": float(abs(a[:n] - b[:n]).max(initial=0.0)),
+            "halved_events": len(b) - len(a),
+        }
+        return replace(run, larger=run.larger | found)
 
 
 def critical_length(larger: LargerChain) -> float:
@@ -196,12 +213,12 @@ def simulate_larger(
     before = stored_energy(chain, state)
     end = End(duration, ENDS[until], lifting.min(), max_transitions, max_steps)
     now = np.zeros(1)
-    rows, points, why, time = in_threads(
+    rows, points, time, steps = in_threads(
         "running",
         [partial(march, m, state, end, longest_steps(m, chain, step), now)],
         done=lambda: now[0] / duration,
     )[0]
-    if why == LIFTED:
+    if state.force[0] > lifting.min():
         raise ValueError(
             f"push_height = {larger.push_height:g} m lifts block {lifting.argmin() + 1} "
             f"at F_X = {lifting.min():.4g} N"
@@ -214,10 +231,11 @@ def simulate_larger(
     run = LargerRun.from_columns(
         chain, time, *rows.T, larger=numbers, load_points=points
     )
-    if why in (LIMIT, IDLE):
-        reason = "met its limit of work" if why == LIMIT else "has too short steps"
+    if len(rows) > max_transitions or steps > max_steps:
         raise TransitionLimitError(
-            f"the larger chain {reason} at t = {time:.9g} s of {duration:g} s", run
+            "the larger chain met its limit of work at "
+            f"t = {time:.9g} s of {duration:g} s",
+            run,
         )
     return run
 
@@ -258,26 +276,3 @@ def stored_energy(chain: Chain, state: State) -> float:
     """Energy of springs and of motion [J]."""
     elastic = (state.force[:-1] ** 2 / chain.springs).sum() / 2.0
     return float(elastic + chain.mass * (state.velocity[:-1] ** 2).sum() / 2.0)
-
-
-def simulate_with_accuracy(
-    larger: LargerChain, duration: float, until: LargerUntil = None, **limits: int
-) -> LargerRun:
-    """The same, with what half the step changes in `larger`: halved_load_N and
-    halved_events.
-
-    These are the largest change of a load at which an event of Fig. 13 begins [N], of
-    as many events as both runs have, and the change of their number.
-    """
-    run = simulate_larger(larger, duration, until, **limits)
-    half = run.larger["step"] / 2.0
-    finer = simulate_larger(larger, duration, until, half, **limits)
-    a, b = (
-        find_precursors(find_slips(r))["load_before"].to_numpy() for r in (run, finer)
-    )
-    n = min(len(a), len(b))
-    found = {
-        "halved_load_N": float(abs(a[:n] - b[:n]).max(initial=0.0)),
-        "halved_events": len(b) - len(a),
-    }
-    return replace(run, larger=run.larger | found)

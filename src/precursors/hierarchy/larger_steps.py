@@ -22,13 +22,8 @@ POINTS = 1e-4  # of F_Z: change of F_X from one point of the curve to the next
 SETTLED = 1e-4
 REPEATS = 4
 LONGEST_PERIOD = 4
-MAX_STEPS = 1_000_000_000
 MOST_STALLED = 4  # times the number of blocks: steps that end where they begin
-# Steps after which the time must have moved on by this part of the duration.
-MOST_IDLE = 100_000
-LEAST_MOVED = 1e-9
-GOES_ON, DONE, LIFTED, LIMIT, IDLE = range(5)  # why a run ends
-DURATION, GLOBAL, CYCLE = range(3)  # where it shall end
+DURATION, GLOBAL, CYCLE = range(3)  # where a run shall end
 BEGIN, N_FAST, IS_GLOBAL = range(3)  # of an event: first row, blocks, whether global
 
 compiled = entry(
@@ -92,9 +87,21 @@ class End(NamedTuple):
 
 
 @compiled
+def weight(m, load, i):
+    """Normal load w_i [N] while F_X is `load`."""
+    return m.weights[i] + m.tilt[i] * load
+
+
+@compiled
 def strength(m, load, i):
-    """Largest static friction mu_s w_i [N] while F_X is `load`."""
-    return m.mu_s * (m.weights[i] + m.tilt[i] * load)
+    """Largest static friction mu_s w_i [N]."""
+    return m.mu_s * weight(m, load, i)
+
+
+@compiled
+def slope(m, w):
+    """Fall of the friction of a normal load w with the velocity [N s/m]."""
+    return (m.mu_s - m.mu_k) * w / m.weakening_velocity
 
 
 @compiled
@@ -129,11 +136,11 @@ def find_mean_velocities(m, s, last, h, leaps):
         if s.mode[i] == 0:
             s.mean[i] = s.ratio[i] = 0.0
         else:
-            w = m.weights[i] + m.tilt[i] * load
+            w = weight(m, load, i)
             pivot = inertia + behind + ahead - behind * r_behind
             push = inertia * s.velocity[i] + s.force[i] - s.force[i + 1]
             if abs(s.velocity[i]) < m.weakening_velocity:
-                fall = (m.mu_s - m.mu_k) * w / m.weakening_velocity
+                fall = slope(m, w)
                 push -= s.mode[i] * m.mu_s * w - (
                     fall * s.velocity[i] if leaps else 0.0
                 )
@@ -205,12 +212,12 @@ def is_stable(m, load, p):
         return False
     whole = p == m.weights.shape[0]
     angle = math.pi / (2 * p + 1)
-    weight = 0.0
+    mean_weight = 0.0
     for i in range(p):
         wave = math.cos((i + 0.5) * angle) ** 2 * 4.0 / (2 * p + 1)
         share = 1.0 / p if whole else wave
-        weight += share * (m.weights[i] + m.tilt[i] * load)
-    fall = (m.mu_s - m.mu_k) * weight / m.weakening_velocity
+        mean_weight += share * weight(m, load, i)
+    fall = slope(m, mean_weight)
     if whole:
         return fall < m.leap * 2.0 * math.sqrt(m.mass * m.springs[0] / p)
     shape = (2.0 * math.sin(0.5 * angle)) ** 2
@@ -240,8 +247,7 @@ def heat_of_step(m, s, load, last, h):
         if abs(s.velocity[i]) < m.weakening_velocity:
             mu = m.mu_s - (m.mu_s - m.mu_k) * abs(s.mean[i]) / m.weakening_velocity
         ahead = s.mean[i + 1] if i < last else 0.0
-        w = m.weights[i] + m.tilt[i] * load
-        heat += h * mu * w * s.mode[i] * s.mean[i]
+        heat += h * mu * weight(m, load, i) * s.mode[i] * s.mean[i]
         heat += h * m.dashpots[i + 1] * (s.mean[i] - ahead) ** 2
     return heat
 
@@ -346,8 +352,8 @@ def note(m, s, record, watched, load_before, time, h):
 
 @compiled
 def march(m, s, end, step, now):
-    """Run from rest: rows (time, block, mode, F_X), points (time, F_X), why and when it
-    ended.
+    """Run from rest: rows (time, block, mode, F_X), points (time, F_X), the time at the
+    end and the number of steps.
 
     `step` [s] is that while nothing slides ahead of each block. The time reached is in
     `now` for those who wait.
@@ -361,11 +367,10 @@ def march(m, s, end, step, now):
     leaps = True
     steps = 0
     stalled = 0  # steps since the clock went on
-    mark = -math.inf
-    why = GOES_ON
     creeping = -1
     stable = False
-    while why == GOES_ON:
+    ended = False
+    while not ended:
         last = n - 1
         steps += 1
         while last >= 0 and s.mode[last] == 0:
@@ -386,19 +391,10 @@ def march(m, s, end, step, now):
         stalled = 0 if time + h > time else stalled + 1
         time += h
         now[0] = time
+        ended = time >= end.duration or s.force[0] > end.lifting_load
         if note(m, s, record, watched, load_before, time, h):
             settled = period_of(record.peaks, tolerance) > 0
-            if end.until == GLOBAL or (end.until == CYCLE and settled):
-                why = DONE
-        if s.force[0] > end.lifting_load:
-            why = LIFTED
-        elif len(record.rows) - 1 > end.most or steps > end.most_steps:
-            why = LIMIT
-        elif time >= end.duration:
-            why = DONE
-        elif why == GOES_ON and steps % MOST_IDLE == 0:
-            if time - mark < LEAST_MOVED * end.duration:
-                why = IDLE
-            mark = time
+            ended |= end.until == GLOBAL or (end.until == CYCLE and settled)
+        ended |= len(record.rows) - 1 > end.most or steps > end.most_steps
     record.points.append((time, s.force[0]))
-    return np.array(record.rows)[1:], np.array(record.points), why, time
+    return np.array(record.rows)[1:], np.array(record.points), time, steps
