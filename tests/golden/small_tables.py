@@ -292,7 +292,12 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
     cycles = CONFIG["hierarchy"]["cycles"] | {
         "pasts": [[0.001, 0], [0.01, 0], [0.03, 0], [0.1, 0]]
         + [[0, part / 4] for part in range(1, 5)],
-        "map": {"pairs": [[0.3, 1e-4]], "n_blocks": [10], "theta": [0]},
+        "map": {
+            "length": 0.3,
+            "relaxation_time": 1e-4,
+            "theta": 0,
+            "n_blocks": 10,
+        },
         "studies": {
             "grid": {
                 "pairs": [[0.3, 1e-4], [0.3, 2e-4]],

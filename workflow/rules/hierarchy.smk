@@ -11,14 +11,14 @@ TABLES |= {
         "options": {"slider": config["chain"], "settings": config["hierarchy"]["larger"]},
         "beside": ["larger_nucleation"],
         "threads": 4,
-        "seconds": 600 if config["full"] else 5,
+        "seconds": 600 if config["full"] else 2,
     },
     "larger_cycles": {
         "function": "hierarchy.larger_cycles:cycle_tables",
         "options": {"slider": config["chain"], "settings": config["hierarchy"]["cycles"]},
         "beside": ["larger_peaks", "larger_verdicts"],
         "threads": 4,
-        "seconds": 3600 if config["full"] else 5,
+        "seconds": 3600 if config["full"] else 2,
     },
     **{
         f"{scene}_answers": {

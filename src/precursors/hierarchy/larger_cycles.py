@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from itertools import combinations, pairwise
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -24,14 +24,13 @@ from precursors.hierarchy.larger_study import (
 )
 from precursors.model.chain import FloatArray
 from precursors.model.printed import LAST_DIGIT
-from precursors.solver.run import LargerRun, Record
+from precursors.solver.run import Record
 
 APART = 0.003  # two cycles whose mean peaks [F_Z] are closer are one
 # Of the straight lines from which the net forces of a strained start are made.
 NODES = 8
 LOADINGS = [name for name in POINT if name not in ("theta", "critical_length")]
-AVERAGED = ["coefficient", "lowest", "highest", "period", "state_error"]
-AVERAGED += ["theory", "step"]
+MEDIANS = ["coefficient", "period", "state_error", "theory"]
 Past = tuple[float, float]
 
 
@@ -41,12 +40,14 @@ def cycle_tables(
     """Cycles of every point, what they say about the loadings, and the peaks of some
     runs, by file name."""
     studies = settings["studies"].items()
-    runs = [run_pasts(slider, name, study, settings) for name, study in studies]
-    cycles = cycles_table(pd.concat(runs))
+    runs = pd.concat(
+        [run_pasts(slider, name, study, settings) for name, study in studies]
+    )
+    cycles = cycles_table(runs)
     return {
         "larger_cycles": cycles,
         "larger_verdicts": verdicts_table(cycles),
-        "larger_peaks": peaks_table(slider, settings),
+        "larger_peaks": peaks_table(runs, settings),
     }
 
 
@@ -69,27 +70,21 @@ def run_pasts(
         point["theory"] = chain.mu_k + (chain.mu_s - chain.mu_k) * share
         point["step"] = study.get("step", step_of(larger))
         for past in range(len(common["pasts"]) * study["runs"]):
-            tasks.append(partial(settled_from, point, larger, common, past))
+            tasks.append(partial(run_past, point, larger, common, past))
     return rows_of(tasks)
 
 
-def settled_from(
-    point: dict[str, Any], larger: LargerChain, common: Mapping[str, Any], past: int
+def run_past(
+    point: dict[str, Any], larger: LargerChain, common: Mapping[str, Any], index: int
 ) -> dict[str, Any]:
     """A row of `run_pasts`."""
-    run = run_past(larger, common, point["step"], past)
-    return point | {"past": past} | settled(run)
-
-
-def run_past(
-    larger: LargerChain, common: Mapping[str, Any], step: float, index: int
-) -> LargerRun:
-    """Run a chain from one of its pasts until it settles."""
     past = common["pasts"][index % len(common["pasts"])]
     random = np.random.default_rng([common["seed"], index])
     drawn, forces = with_past(larger, past, random)
-    duration = common["duration"]
-    return simulate_larger(drawn, duration, "settled", step, start_forces=forces)
+    run = simulate_larger(
+        drawn, common["duration"], "settled", point["step"], start_forces=forces
+    )
+    return point | {"past": index} | settled(run)
 
 
 def with_past(
@@ -114,27 +109,23 @@ def with_past(
     return replace(larger, chain=replace(larger.chain, weights=noisy)), forces
 
 
-def settled(run: Record) -> dict[str, float]:
+def settled(run: Record) -> dict[str, Any]:
     """Stick-slip into which a run has settled.
 
-    period is the number of global slips after which the peaks F_X/F_Z at which they
-    begin come again; 0 if they do not, and then the later half of the run counts.
-    coefficient, lowest and highest are mean and ends of the peaks. state_error is the
-    largest difference [F_Z] of a load at which a block changed its state, from one
-    period to the next; NaN if different blocks did.
+    peaks are the F_X/F_Z at which global slips begin, and period is the number of slips
+    after which they come again; 0 if they do not, and then the later half of the run
+    counts. coefficient is their mean. state_error is the largest difference [F_Z] of a
+    load at which a block changed its state, from one period to the next; NaN if
+    different blocks did.
     """
     slips = peaks_of(run)
     peaks = slips["peak"].to_numpy()
     period = period_of(peaks, SETTLED)
     late = peaks[-period:] if period else peaks[slips["onset"] > 0.5 * run.duration]
-    if not len(late):
-        return {"period": 0, "slips": 0, "coefficient": np.nan}
     return {
-        "coefficient": late.mean(),
-        "lowest": late.min(),
-        "highest": late.max(),
+        "peaks": peaks,
         "period": period,
-        "slips": len(peaks),
+        "coefficient": late.mean() if len(late) else np.nan,
         "state_error": state_error(run, slips["onset"].to_numpy(), period),
     }
 
@@ -152,40 +143,45 @@ def state_error(run: Record, onsets: FloatArray, period: int) -> float:
         return np.nan
     ends = onsets[[-1 - 2 * period, -1 - period, -1]]
     rows = run.transitions
-    loads = []
-    blocks = []
-    borders = np.searchsorted(rows["time"], ends)
-    for first, last in pairwise(borders):
-        order = np.argsort(rows["block"][first:last], kind="stable")
-        blocks.append(rows["block"][first:last][order])
-        loads.append(rows["tangential_load"][first:last][order])
-    if not np.array_equal(blocks[0], blocks[1]):
+    before, after = (
+        of_period[np.argsort(of_period["block"], kind="stable")]
+        for of_period in np.split(rows, np.searchsorted(rows["time"], ends))[1:3]
+    )
+    if not np.array_equal(before["block"], after["block"]):
         return np.nan
-    return float(abs(loads[1] - loads[0]).max() / run.chain.weights.sum())
+    change = abs(after["tangential_load"] - before["tangential_load"])
+    return float(change.max() / run.chain.weights.sum())
 
 
 def cycles_table(runs: pd.DataFrame) -> pd.DataFrame:
     """All cycles of each point with their shares: a row for each cycle.
 
     Runs whose coefficients are a chain of values less than `APART` apart have one
-    cycle. Its coefficient, lowest and highest peak, period and state_error are medians
-    over its runs; spread is the range of their coefficients, share that of the point's
-    `pasts` runs, and periodic the share of its runs that settled. theory is mu_k +
-    (mu_s - mu_k) W(l_c)/F_Z, which for an even load is mu_k + (mu_s - mu_k) l_c/L.
+    cycle. Its coefficient, period and state_error are medians over its runs; share is
+    that of the point's `pasts` runs, and periodic the share of its runs that settled.
+    theory is mu_k + (mu_s - mu_k) W(l_c)/F_Z, which for an even load is mu_k + (mu_s -
+    mu_k) l_c/L.
     """
     rows = []
     for point, of_point in runs.groupby(POINT, sort=False):
         found = of_point.dropna(subset="coefficient").sort_values("coefficient")
         number = (found["coefficient"].diff() > APART).cumsum()
-        for cycle, of_cycle in found.groupby(number):
-            values = of_cycle["coefficient"]
+        for _, of_cycle in found.groupby(number):
             row = dict(zip(POINT, point, strict=True))
-            row |= {"pasts": len(of_point), "cycle": cycle + 1}
-            row |= {"share": len(of_cycle) / len(of_point)}
-            row |= {"spread": values.max() - values.min()}
+            row |= {"pasts": len(of_point), "share": len(of_cycle) / len(of_point)}
             row |= {"periodic": (of_cycle["period"] > 0).mean()}
-            rows.append(row | of_cycle[AVERAGED].median().to_dict())
+            rows.append(row | of_cycle[MEDIANS].median().to_dict())
     return pd.DataFrame(rows)
+
+
+def peaks_table(runs: pd.DataFrame, settings: Mapping[str, Any]) -> pd.DataFrame:
+    """Peaks of F_X/F_Z at the global slips of the chain `map`, in order, from one run
+    of each past, in the first study that has it."""
+    chain = pd.Series(settings["map"])
+    of_chain = runs[(runs[chain.index] == chain).all(axis=1)]
+    first = of_chain.drop_duplicates("past").head(len(settings["pasts"]))
+    table = first.rename(columns={"peaks": "peak"}).explode("peak")
+    return table[[*chain.index, "past", "peak"]].astype({"peak": float})
 
 
 def verdicts_table(cycles: pd.DataFrame) -> pd.DataFrame:
@@ -222,14 +218,3 @@ def verdict_of(within: float, apart: float, of_all: float) -> str:
     if apart > max(within, LAST_DIGIT):
         return "differ"
     return "do not" if of_all <= LAST_DIGIT else "undecided"
-
-
-def peaks_table(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> pd.DataFrame:
-    """Peaks of F_X/F_Z at the global slips of a chain, in order, from each past."""
-    tables = []
-    for point, larger in points(slider, "map", settings["map"]):
-        for index in range(len(settings["pasts"])):
-            run = run_past(larger, settings, step_of(larger), index)
-            peaks = peaks_of(run)["peak"]
-            tables.append(pd.DataFrame(point | {"past": index, "peak": peaks}))
-    return pd.concat(tables)

@@ -3,7 +3,8 @@ and how many events it has."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import product
@@ -12,7 +13,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.run_statistics import median_interval
 from precursors.analysis.slips import find_precursors, find_slips, mu_sapp
 from precursors.hierarchy.larger import (
     LargerChain,
@@ -30,6 +30,7 @@ from precursors.support.waiting import in_threads
 # Fall of F_X, over F_X, that ends smooth growth: creep that trembles lets it fall by
 # less.
 SEEN = 0.002
+DROPS = (0.1, 0.4, 2.0)  # of F_X [N], from which an event counts
 SAMPLE = 1e-3  # s: a logger at 1 kHz takes two events with a shorter rest for one
 # Steps of `simulate_larger`. With 200 blocks, 0.25 shifts mu_sapp by 0.006 at
 # t_v = 0.2 ms. The tables say what half the step changes: which event becomes the
@@ -137,8 +138,8 @@ def run_study(
 
     The normal loads have noise, which depends on the number of blocks and on the draw
     only. A run without a global slip has NaN. `study` is that of `points`, with the
-    number of runs; `common` has seed, noise (relative) and smallest_drops [N]. The
-    first draw of a chain with a length says what half the step changes (halved_*).
+    number of runs; `common` has the seed and the noise (relative). The first draw of a
+    chain with a length says what half the step changes (halved_mu_sapp).
     """
     tasks = [
         partial(run_draw, point, larger, draw, common)
@@ -163,11 +164,10 @@ def run_draw(
     chain = replace(larger.chain, weights=larger.chain.weights * noise)
     drawn = replace(larger, chain=chain)
     step = step_of(larger)
-    found = numbers(run_to_slip(drawn, step), common["smallest_drops"])
-    if draw == 0 and larger.weakening_velocity and found:
-        finer = numbers(run_to_slip(drawn, step / 2.0), ())
-        for column in ("events_counted", "mu_sapp"):
-            found[f"halved_{column}"] = abs(finer[column] - found[column])
+    found = numbers(run_to_slip(drawn, step))
+    if draw == 0 and larger.weakening_velocity:
+        finer = numbers(run_to_slip(drawn, step / 2.0))
+        found["halved_mu_sapp"] = abs(finer["mu_sapp"] - found["mu_sapp"])
     return point | {"draw": draw} | found
 
 
@@ -180,27 +180,24 @@ def run_to_slip(larger: LargerChain, step: float) -> Record:
     return simulate(larger.chain, limit, "global slip")
 
 
-def numbers(run: Record, smallest_drops: Iterable[float]) -> dict[str, float]:
-    """What is noted of a run that ends with its first global slip.
+def numbers(run: Record) -> dict[str, float]:
+    """What is noted of a run that ends with its first global slip; NaN without one.
 
     events_counted is that of Fig. 13, mu_sapp Eq. 1. Of the events in which F_X falls
-    by x [N] or more, events_over_x is the number, counted_over_x that of Fig. 13, and
-    logged_over_x that of Fig. 13 as a logger at 1 kHz sees them.
+    by x [N] or more, counted_over_x is the number in Fig. 13, and logged_over_x that in
+    Fig. 13 as a logger at 1 kHz sees them.
     """
     slips = find_slips(run)
     if not slips["is_global"].any():
-        return {}
+        return {"mu_sapp": math.nan}
     found = {
         "events_counted": len(find_precursors(slips)),
         "mu_sapp": mu_sapp(slips["largest_load"].iloc[-1], run.chain.normal_load),
     }
-    for x in smallest_drops:
-        seen = {"counted": slips, "logged": as_logged(slips)}
-        for name, table in seen.items():
+    for x in DROPS:
+        for name, table in {"counted": slips, "logged": as_logged(slips)}.items():
             large = table[table["load_before"] - table["load_after"] >= x]
             found[f"{name}_over_{x:g}N"] = len(find_precursors(large))
-        drop = slips["load_before"] - slips["load_after"]
-        found[f"events_over_{x:g}N"] = int((drop >= x).sum())
     return found
 
 
@@ -219,21 +216,9 @@ def as_logged(slips: pd.DataFrame) -> pd.DataFrame:
 
 
 def medians_table(runs: pd.DataFrame) -> pd.DataFrame:
-    """Medians over the runs of a point with their 95 % intervals (name_low, name_high):
-    a row for each point.
-
-    runs is the number of runs, no_slip that of runs without a global slip. halved_* are
-    numbers of one run.
-    """
-    rows = []
-    for point, of_point in runs.groupby(POINT, sort=False):
-        row = dict(zip(POINT, point, strict=True))
-        no_slip = int(of_point["mu_sapp"].isna().sum())
-        row |= {"runs": len(of_point), "no_slip": no_slip}
-        for name in runs.columns.drop([*POINT, "draw"]):
-            row[name] = of_point[name].median()
-            if not name.startswith("halved"):
-                low, high = median_interval(of_point[name].dropna())
-                row |= {f"{name}_low": low, f"{name}_high": high}
-        rows.append(row)
-    return pd.DataFrame(rows)
+    """Medians over the runs of a point that have a global slip, of which there are
+    `runs`: a row for each point."""
+    of_point = runs.drop(columns="draw").groupby(POINT, sort=False)
+    medians = of_point.median()
+    medians.insert(0, "runs", of_point["mu_sapp"].count())
+    return medians.reset_index()
