@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,11 +15,11 @@ from precursors import Chain, simulate
 from precursors.hierarchy import quasistatic
 from precursors.hierarchy.compare_models import (
     DRAWS,
+    QUESTIONS,
     SHORTEST,
-    TOLERANCES,
     compare_models,
 )
-from precursors.hierarchy.models import MODELS, UNITS, FirstLoading, move, scene_answers
+from precursors.hierarchy.models import MODELS, UNITS, scene_answers
 from precursors.hierarchy.quasistatic import (
     ENERGY_CONSERVED,
     OVERDAMPED,
@@ -30,7 +31,7 @@ from precursors.hierarchy.rigid import (
     rigid_slip_duration,
     slip_load,
 )
-from precursors.hierarchy.statics import front_load_law
+from precursors.hierarchy.statics import law_answers
 from precursors.model.statics import balance_matrix
 
 ROOT = Path(__file__).parents[2]
@@ -178,7 +179,8 @@ def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta) -
     for n_blocks in (10, 40):
         chain = SLIDER(n_blocks=n_blocks, theta=theta)
         exact = MODELS["chain"].ask(chain)["front_loads"]
-        errors.append(np.square(front_load_law(chain) - exact).mean())
+        law = law_answers(chain)["front_loads"]
+        errors.append(np.square(law - exact).mean())
     assert errors[1] < 0.36 * errors[0]
 
 
@@ -222,7 +224,7 @@ def test_the_schema_of_the_configuration_knows_the_names_of_the_models() -> None
     )
     scene = schema["properties"]["scenes"]["additionalProperties"]
     assert scene["properties"]["model"]["enum"] == list(MODELS)
-    assert all(set(model.answers) <= set(UNITS) for model in MODELS.values())
+    assert all(set(model.ask(SLIDER())) <= set(UNITS) for model in MODELS.values())
 
 
 def test_answers_are_a_table_with_a_row_for_each_number() -> None:
@@ -240,14 +242,13 @@ def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(
     monkeypatch,
 ) -> None:
     monkeypatch.setattr("precursors.hierarchy.models.LIMIT", 0.1)
-    motion = move(SLIDER())
-    answers = MODELS["chain"].answers
+    answers = MODELS["chain"].ask(SLIDER())
     assert all(
-        np.isnan(answers[name](motion))
+        np.isnan(answers[name])
         for name in ("events_counted", "mu_sapp", "slip_duration")
     )
-    assert np.isnan(answers["front_loads"](motion)[-1])
-    assert answers["first_load"](motion) == pytest.approx(28.0)
+    assert np.isnan(answers["front_loads"][-1])
+    assert answers["first_load"] == pytest.approx(28.0)
 
 
 def test_every_answer_is_the_one_that_is_kept() -> None:
@@ -258,15 +259,15 @@ def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(
     clock,
 ) -> None:
     calls, warm, rounds = [], 0.0005, 3
-    motion = move(SCENES["even"])
+    answers = MODELS["chain"].ask(SCENES["even"])
 
-    def prepare(chain: Chain) -> FirstLoading:
+    def ask(chain: Chain) -> dict[str, Any]:
         clock.now += warm if len(calls) > 1 + DRAWS else 10.0
         calls.append(chain)
-        return motion
+        return answers
 
-    models = {"chain": replace(MODELS["chain"], prepare=prepare)}
-    table = compare_models({"even": SCENES["even"]}, TOLERANCES, models, rounds)
-    assert table["cost_s"].tolist() == pytest.approx([warm] * len(TOLERANCES))
+    models = {"chain": replace(MODELS["chain"], ask=ask)}
+    table = compare_models({"even": SCENES["even"]}, models, rounds)
+    assert table["cost_s"].tolist() == pytest.approx([warm] * len(QUESTIONS))
     # One run answers all questions, and each draw is run once.
     assert len(calls) == 1 + DRAWS + 2 + rounds * round(SHORTEST / warm)

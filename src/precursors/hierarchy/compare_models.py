@@ -23,20 +23,6 @@ WAVEFORM_SAMPLES = 2001
 SEED = 2014
 DRAWS = 200
 RESAMPLES = 500
-
-
-# Largest error that counts as an answer, with its whole 95 % interval, in the unit of
-# the question's error.
-TOLERANCES = {
-    "first_load": 1e-6,  # a formula is right to rounding
-    "events_counted": 1,  # the paper counts whole events by eye
-    # a fifth of (mu_s - mu_k)/mu_k: it tells the models from mu_k and from mu_s
-    "mu_sapp": 0.05,
-    "mu_sapp_band": 0.05,  # as mu_sapp
-    "front_loads": 0.02,  # 8 N, less than a step from one block to the next of ten
-    "slip_duration": 0.1,  # the experiment's duration is printed with one digit
-    "waveform": 0.02,  # as front_loads
-}
 # how often a model is timed, and for how long at least [s]
 ROUNDS = 3
 SHORTEST = 0.003
@@ -46,16 +32,18 @@ SHORTEST = 0.003
 class Question:
     """One question to all models.
 
-    `shown` is one number that stands for the answer in the table, and `error` (answer,
-    answer of the paper's chain, chain) their distance, in units of `error_unit`. A
-    `statistic` (values, axis) is asked of runs with noise in the normal loads: one run
-    of the chain at theta = 5/6 is a draw of many, and no measure of a model. `quantity`
-    is that of the models, where it is not the name of the question.
+    `error` (answer, answer of the paper's chain, chain) is their distance, in units of
+    `error_unit`; up to the `tolerance`, with its whole 95 % interval, it counts as an
+    answer. `shown` is one number that stands for the answer in the table. A `statistic`
+    (values, axis) is asked of runs with noise in the normal loads: one run of the chain
+    at theta = 5/6 is a draw of many, and no measure of a model. `quantity` is that of
+    the models, where it is not the name of the question.
     """
 
-    shown: Callable[[Any], float]
-    error: Callable[[Any, Any, Chain], float]
+    tolerance: float
+    error: Callable[[Any, Any, Chain], Any]
     error_unit: str = "1"
+    shown: Callable[[Any], float] = float
     statistic: Callable[[FloatArray, int], FloatArray] | None = None
     quantity: str = ""
 
@@ -103,20 +91,30 @@ def root_mean_square(values: FloatArray) -> float:
 
 
 QUESTIONS = {
-    "first_load": Question(float, relative),
-    "events_counted": Question(float, difference, "events", np.median),
-    "mu_sapp": Question(float, relative, statistic=np.median),
-    # The upper end stands for both.
+    "first_load": Question(1e-6, relative),  # a formula is right to rounding
+    # The paper counts whole events by eye.
+    "events_counted": Question(1, difference, "events", statistic=np.median),
+    # A fifth of (mu_s - mu_k)/mu_k: it tells the models from mu_k and from mu_s.
+    "mu_sapp": Question(0.05, relative, statistic=np.median),
     "mu_sapp_band": Question(
-        lambda ends: float(ends[1]), ends_error, "1", ends_of_band, "mu_sapp"
+        0.05,
+        ends_error,
+        shown=lambda ends: float(ends[1]),  # the upper end stands for both
+        statistic=ends_of_band,
+        quantity="mu_sapp",
     ),
-    # The load at which the front reaches the middle stands for all.
     "front_loads": Question(
-        lambda loads: float(loads[(len(loads) - 1) // 2]), front_error
+        0.02,  # 8 N, less than a step from one block to the next of ten
+        front_error,
+        shown=lambda loads: float(loads[(len(loads) - 1) // 2]),  # at the middle
     ),
-    "slip_duration": Question(float, relative),
-    # The largest load stands for the waveform.
-    "waveform": Question(lambda wave: float(wave[:, 1].max()), waveform_error),
+    # The experiment's duration is printed with one digit.
+    "slip_duration": Question(0.1, relative),
+    "waveform": Question(
+        0.02,  # as front_loads
+        waveform_error,
+        shown=lambda wave: float(wave[:, 1].max()),
+    ),
 }
 
 
@@ -128,7 +126,6 @@ def model_comparison(sliders: Mapping[str, Mapping[str, Any]]) -> pd.DataFrame:
 
 def compare_models(
     chains: Mapping[str, Chain],
-    tolerances: Mapping[str, float] = TOLERANCES,
     models: Mapping[str, Model] = MODELS,
     rounds: int = ROUNDS,
 ) -> pd.DataFrame:
@@ -155,95 +152,78 @@ def compare_models(
         for s, chain in chains.items()
     }
     answers = {key: ask() for key, ask in tasks.items()}
-    noisy = {
-        (name, scene): noisy_answers(models[name], chains[scene])
-        for name, scene in tasks
-    }
+    noisy = {(n, s): noisy_answers(models[n], chains[s]) for n, s in tasks}
     costs = timing.measure(tasks, rounds, SHORTEST)
-    for name_of_question, question in QUESTIONS.items():
-        quantity = question.quantity or name_of_question
-        for (name, scene), answered in answers.items():
+    for name, question in QUESTIONS.items():
+        quantity = question.quantity or name
+        asked = noisy if question.statistic else answers
+        for (model, scene), answered in asked.items():
             if quantity not in answered:
                 continue
-            if question.statistic:
-                samples = (
-                    noisy[name, scene][quantity],
-                    noisy[PAPERS_MODEL, scene][quantity],
-                )
-                answer, error, low, high = noisy_error(
-                    question, *samples, chains[scene], name == PAPERS_MODEL
-                )
-            else:
-                answer = answered[quantity]
-                exact = answers[PAPERS_MODEL, scene][quantity]
-                error = low = high = question.error(answer, exact, chains[scene])
+            exact = asked[PAPERS_MODEL, scene][quantity]
+            answer, error, low, high = answer_and_error(
+                question, answered[quantity], exact, chains[scene]
+            )
             rows.append(
                 {
                     "scene": scene,
-                    "question": name_of_question,
-                    "model_number": list(models).index(name) + 1,
-                    "model": name,
-                    "label": models[name].label,
+                    "question": name,
+                    "model_number": list(models).index(model) + 1,
+                    "model": model,
+                    "label": models[model].label,
                     "value": question.shown(answer),
                     "unit": UNITS[quantity],
                     "error": error,
                     "error_low": low,
                     "error_high": high,
                     "error_unit": question.error_unit,
-                    "tolerance": tolerances[name_of_question],
-                    "is_answer": high <= tolerances[name_of_question],
-                    "cost_s": costs[name, scene].seconds,
+                    "tolerance": question.tolerance,
+                    "is_answer": high <= question.tolerance,
+                    "cost_s": costs[model, scene].seconds,
                 }
             )
     return with_smallest(pd.DataFrame(rows))
 
 
-def noisy_error(
-    question: Question,
-    values: FloatArray,
-    exact: FloatArray,
-    chain: Chain,
-    is_papers: bool,
-) -> tuple[Any, float, float, float]:
-    """Statistic of a model's runs, and its error against those of the chain with a 95 %
-    interval.
-
-    Both samples are drawn again and again. The chain has no error against itself.
-    """
-    assert question.statistic
-    answer = question.statistic(values, 0)
-    if is_papers:
-        return answer, 0.0, 0.0, 0.0
-    random = np.random.default_rng(SEED)
-    drawn, drawn_exact = (
-        question.statistic(random.choice(sample, (len(sample), RESAMPLES)), 0)
-        for sample in (values, exact)
-    )
-    low, high = np.quantile(question.error(drawn, drawn_exact, chain), [0.025, 0.975])
-    error = question.error(answer, question.statistic(exact, 0), chain)
-    return answer, float(error), float(low), float(high)
-
-
 def noisy_answers(model: Model, chain: Chain) -> dict[str, FloatArray]:
-    """Answers to the noisy questions for chains with noise in the normal loads, the
-    same for all models."""
+    """Answers to the questions that have a statistic for chains with noise in the
+    normal loads, the same for all models."""
     random = np.random.default_rng(SEED)
     noises = NOISE * random.uniform(-1.0, 1.0, (DRAWS, chain.n_blocks))
-    noisy = {
-        question.quantity or name
-        for name, question in QUESTIONS.items()
-        if question.statistic
-    }
-    asked = noisy & set(model.answers)
     drawn = [
         model.ask(replace(chain, weights=chain.weights * (1.0 + noise)))
         for noise in noises
-        if asked
     ]
     return {
-        quantity: np.array([answers[quantity] for answers in drawn])
-        for quantity in asked
+        name: np.array([answers[name] for answers in drawn])
+        for name, question in QUESTIONS.items()
+        if question.statistic and name in drawn[0]
     }
+
+
+def answer_and_error(
+    question: Question, answer: Any, exact: Any, chain: Chain
+) -> tuple[Any, float, float, float]:
+    """Answer of a model, and its error against that of the paper's chain with a 95 %
+    interval.
+
+    Where the question has a statistic, both are samples of runs, which are drawn again
+    and again. The chain has no error against itself.
+    """
+    if not question.statistic:
+        error = question.error(answer, exact, chain)
+        return answer, error, error, error
+    value = question.statistic(answer, 0)
+    if answer is exact:
+        return value, 0.0, 0.0, 0.0
+    random = np.random.default_rng(SEED)
+    drawn, drawn_exact = (
+        question.statistic(random.choice(sample, (len(sample), RESAMPLES)), 0)
+        for sample in (answer, exact)
+    )
+    low, high = np.quantile(question.error(drawn, drawn_exact, chain), [0.025, 0.975])
+    error = question.error(value, question.statistic(exact, 0), chain)
+    return value, float(error), float(low), float(high)
 
 
 def with_smallest(table: pd.DataFrame) -> pd.DataFrame:

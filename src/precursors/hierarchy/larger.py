@@ -52,8 +52,8 @@ LEAP = 0.5  # of the excess of falling friction over viscosity at which creep ru
 LENGTH_STEPS = 2000
 GROWTH_RATES = 300
 MAX_STEPS = 100_000_000  # ten times those of the longest run of the studies
-# Steps times blocks, of which any step has so many: some 5 s of work.
-PATIENCE = 300_000_000
+# Steps times blocks, of which any step has so many: some 7 s of work.
+PATIENCE = 500_000_000
 BLOCKS_OF_A_STEP = 30
 LargerUntil = Literal["global slip", "settled"] | None
 ENDS = {None: DURATION, "global slip": GLOBAL, "settled": CYCLE}

@@ -4,7 +4,7 @@ answers."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -21,9 +21,8 @@ from precursors.hierarchy.quasistatic import (
     OVERDAMPED,
     quasistatic_slips,
 )
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import Chain
 from precursors.model.scenes import PAPERS_MODEL
-from precursors.model.statics import load_bound
 from precursors.solver.simulate import simulate
 
 # Longest run, in units of the time in which the drive reaches mu_s F_Z against all
@@ -43,44 +42,24 @@ UNITS = {
 
 @dataclass(frozen=True)
 class Model:
-    """A model of the table: its name in figures, and its answers by quantity from what
-    `prepare` returns."""
+    """A model of the table: its name in figures, and all its answers about a chain, by
+    quantity."""
 
     label: str
-    answers: Mapping[str, Callable[[Any], Any]]
-    prepare: Callable[[Any], Any] = field(default=lambda chain: chain)
-
-    def ask(self, chain: Chain) -> dict[str, Any]:
-        """All answers about a chain, by quantity."""
-        prepared = self.prepare(chain)
-        return {quantity: answer(prepared) for quantity, answer in self.answers.items()}
+    ask: Callable[[Chain], dict[str, Any]]
 
 
-@dataclass(frozen=True, eq=False)
-class FirstLoading:
-    """A chain up to the end of its first global slip, or to where it is given up.
-
-    `slips` have the columns of `find_slips`. `waveform` is time [s] and load [N] at the
-    start and at each transition.
-    """
-
-    chain: Chain
-    slips: NDArray[np.void]
-    waveform: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
-
-    @property
-    def global_slip(self) -> NDArray[np.void]:
-        """The first global slip, in an array of one row, or of none."""
-        return self.slips[self.slips["is_global"]]
-
-
-def move(chain: Chain) -> FirstLoading:
-    """Follow a chain through time to the end of its first global slip."""
+def exact_answers(chain: Chain) -> dict[str, Any]:
+    """Follow the paper's chain through time to the end of its first global slip."""
     run = simulate(chain, longest_run(chain), until="global slip")
-    times = run.transitions["time"]
-    loads = run.transitions["tangential_load"]
-    waveform = np.column_stack([np.append(0.0, times), np.append(0.0, loads)])
-    return FirstLoading(chain, slip_events([run]), waveform)
+    slips = slip_events([run])
+    last = slips[-1]
+    times = np.append(0.0, run.transitions["time"])
+    loads = np.append(0.0, run.transitions["tangential_load"])
+    return loading_answers(chain, slips) | {
+        "slip_duration": last["end"] - last["onset"] if last["is_global"] else np.nan,
+        "waveform": np.column_stack([times, loads]),
+    }
 
 
 def longest_run(chain: Chain) -> float:
@@ -89,69 +68,40 @@ def longest_run(chain: Chain) -> float:
     return LIMIT * chain.mu_s * chain.normal_load * compliance / chain.drive_velocity
 
 
-def move_without_inertia(
-    chain: Chain, overshoot: float = ENERGY_CONSERVED
-) -> FirstLoading:
+def cascade_answers(chain: Chain, overshoot: float) -> dict[str, Any]:
     """Follow a quasi-static chain to its first global slip."""
-    return FirstLoading(chain, quasistatic_slips(chain, overshoot))
+    return loading_answers(chain, quasistatic_slips(chain, overshoot))
 
 
-def front_loads(motion: FirstLoading) -> FloatArray:
-    """F_X at the onset of the first event whose front reaches block 1..N or beyond [N];
-    NaN if none."""
-    farthest = np.maximum.accumulate(motion.slips["front"])
-    event = np.searchsorted(farthest, np.arange(1, motion.chain.n_blocks + 1))
-    return np.append(motion.slips["load_before"], np.nan)[event]
+def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
+    """What slip events say that end with the first global slip; NaN for what needs one
+    and has none."""
+    last = slips[-1]
+    blocks = np.arange(1, chain.n_blocks + 1)
+    reached = np.searchsorted(np.maximum.accumulate(slips["front"]), blocks)
+    answers = {
+        "first_load": slips["load_before"][0],
+        "events_counted": np.count_nonzero(counted(slips["front"])),
+        "mu_sapp": mu_sapp(last["largest_load"], chain.normal_load),
+        "front_loads": np.append(slips["load_before"], np.nan)[reached],
+    }
+    if not last["is_global"]:
+        answers |= {"events_counted": np.nan, "mu_sapp": np.nan}
+    return answers
 
-
-def apparent_friction(motion: FirstLoading) -> float:
-    """mu_sapp (Eq. 1); NaN without a global slip."""
-    loads = motion.global_slip["largest_load"]
-    return float(mu_sapp(loads[0], motion.chain.normal_load)) if len(loads) else np.nan
-
-
-def slip_duration(motion: FirstLoading) -> float:
-    """Duration of the first global slip [s]; NaN without one."""
-    slip = motion.global_slip
-    return float(slip["end"][0] - slip["onset"][0]) if len(slip) else np.nan
-
-
-def events_counted(motion: FirstLoading) -> float:
-    """Number of events counted in Fig. 13; NaN without a global slip."""
-    n_counted = np.count_nonzero(counted(motion.slips["front"]))
-    return float(n_counted) if len(motion.global_slip) else np.nan
-
-
-_EVENTS: dict[str, Callable[[FirstLoading], Any]] = {
-    "first_load": lambda motion: float(motion.slips["load_before"][0]),
-    "events_counted": events_counted,
-    "mu_sapp": apparent_friction,
-    "front_loads": front_loads,
-}
-_MOTION = _EVENTS | {
-    "slip_duration": slip_duration,
-    "waveform": lambda motion: motion.waveform,
-}
 
 # From the smallest to the largest; the key is the word after `model:` in a scene.
-MODELS: dict[str, Model] = {
-    "statics": Model(
-        "statics",
-        {"load_bound": load_bound, "first_load": statics.first_precursor_load},
-    ),
-    "law": Model(
-        "front law",
-        {
-            "front_loads": statics.front_load_law,
-            "mu_sapp": statics.apparent_friction_law,
-        },
-    ),
-    "rigid": Model("rigid slider", rigid.ANSWERS),
+MODELS = {
+    "statics": Model("statics", statics.answers),
+    "law": Model("front law", statics.law_answers),
+    "rigid": Model("rigid slider", rigid.answers),
     "overdamped": Model(
-        "overdamped chain", _EVENTS, partial(move_without_inertia, overshoot=OVERDAMPED)
+        "overdamped chain", partial(cascade_answers, overshoot=OVERDAMPED)
     ),
-    "quasistatic": Model("quasi-static chain", _EVENTS, move_without_inertia),
-    PAPERS_MODEL: Model("paper's chain", _MOTION, move),
+    "quasistatic": Model(
+        "quasi-static chain", partial(cascade_answers, overshoot=ENERGY_CONSERVED)
+    ),
+    PAPERS_MODEL: Model("paper's chain", exact_answers),
 }
 
 

@@ -4,7 +4,6 @@ form."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -65,11 +64,13 @@ def waveform(chain: Chain) -> FloatArray:
     )
 
 
-ANSWERS: dict[str, Callable[[Chain], Any]] = {
-    "first_load": onset_load,
-    "events_counted": lambda chain: 1.0,
-    "mu_sapp": lambda chain: chain.mu_s,
-    "front_loads": lambda chain: np.full(chain.n_blocks, onset_load(chain)),
-    "slip_duration": rigid_slip_duration,
-    "waveform": waveform,
-}
+def answers(chain: Chain) -> dict[str, Any]:
+    """All answers of the model."""
+    return {
+        "first_load": onset_load(chain),
+        "events_counted": 1,
+        "mu_sapp": chain.mu_s,
+        "front_loads": np.full(chain.n_blocks, onset_load(chain)),
+        "slip_duration": rigid_slip_duration(chain),
+        "waveform": waveform(chain),
+    }

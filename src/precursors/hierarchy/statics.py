@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import Chain
+from precursors.model.statics import load_bound
 
 
-def first_precursor_load(chain: Chain) -> float:
-    """Load at which block 1 is released from rest with springs at natural length, mu_s
-    w_1 [N] (Eq. 5)."""
-    return float(chain.strength[0])
+def answers(chain: Chain) -> dict[str, Any]:
+    """Bound of the load (Eq. 14), and mu_s w_1, at which block 1 is released from rest
+    with springs at natural length (Eq. 5)."""
+    return {"load_bound": load_bound(chain), "first_load": chain.strength[0]}
 
 
-def front_load_law(chain: Chain) -> FloatArray:
-    """Load mu_k W(L_p) at which the front reaches each block [N], shape (N,), W the
-    cumulative normal load.
+def law_answers(chain: Chain) -> dict[str, Any]:
+    """Load mu_k W(L_p) at which the front reaches each block, W the cumulative normal
+    load.
 
     After a slip up to block n every block behind the front is pushed with about mu_k
     w_i and nothing is beyond it, so that F_X = mu_k (w_1 + ... + w_n). This is the
     leading order of the quasi-static chain as N grows (Amundsen et al., Tribol. Lett.
-    45 (2012) 357, derive the length of precursors in this way).
+    45 (2012) 357, derive the length of precursors in this way). When the front reaches
+    the leading edge, F_X/F_Z is mu_k for any normal loading.
     """
-    return chain.mu_k * np.cumsum(chain.weights)
-
-
-def apparent_friction_law(chain: Chain) -> float:
-    """mu_sapp when the front of the law reaches the leading edge [1]: mu_k for any
-    normal loading."""
-    return chain.mu_k
+    return {
+        "front_loads": chain.mu_k * np.cumsum(chain.weights),
+        "mu_sapp": chain.mu_k,
+    }
