@@ -178,7 +178,7 @@ def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta) -
     errors = []
     for n_blocks in (10, 40):
         chain = SLIDER(n_blocks=n_blocks, theta=theta)
-        exact = MODELS["chain"].ask(chain)["front_loads"]
+        exact = MODELS["chain"](chain)["front_loads"]
         law = law_answers(chain)["front_loads"]
         errors.append(np.square(law - exact).mean())
     assert errors[1] < 0.36 * errors[0]
@@ -224,7 +224,7 @@ def test_the_schema_of_the_configuration_knows_the_names_of_the_models() -> None
     )
     scene = schema["properties"]["scenes"]["additionalProperties"]
     assert scene["properties"]["model"]["enum"] == list(MODELS)
-    assert all(set(model.ask(SLIDER())) <= set(UNITS) for model in MODELS.values())
+    assert all(set(model(SLIDER())) <= set(UNITS) for model in MODELS.values())
 
 
 def test_answers_are_a_table_with_a_row_for_each_number() -> None:
@@ -242,7 +242,7 @@ def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(
     monkeypatch,
 ) -> None:
     monkeypatch.setattr("precursors.hierarchy.models.LIMIT", 0.1)
-    answers = MODELS["chain"].ask(SLIDER())
+    answers = MODELS["chain"](SLIDER())
     assert all(
         np.isnan(answers[name])
         for name in ("events_counted", "mu_sapp", "slip_duration")
@@ -259,15 +259,14 @@ def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(
     clock,
 ) -> None:
     calls, warm, rounds = [], 0.0005, 3
-    answers = MODELS["chain"].ask(SCENES["even"])
+    answers = MODELS["chain"](SCENES["even"])
 
     def ask(chain: Chain) -> dict[str, Any]:
         clock.now += warm if len(calls) > 1 + DRAWS else 10.0
         calls.append(chain)
         return answers
 
-    models = {"chain": replace(MODELS["chain"], ask=ask)}
-    table = compare_models({"even": SCENES["even"]}, models, rounds)
+    table = compare_models({"even": SCENES["even"]}, {"chain": ask}, rounds)
     assert table["cost_s"].tolist() == pytest.approx([warm] * len(QUESTIONS))
     # One run answers all questions, and each draw is run once.
     assert len(calls) == 1 + DRAWS + 2 + rounds * round(SHORTEST / warm)

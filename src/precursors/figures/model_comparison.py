@@ -29,14 +29,14 @@ QUESTIONS = {
     "waveform": "Waveform $F_X(t)$,\npeak [N]",
 }
 SCALES = {"slip_duration": 1e3}  # from the SI unit to what is shown
-MODELS = (
-    "statics",
-    "front law",
-    "rigid slider",
-    "overdamped chain",
-    "quasi-static chain",
-    "paper's chain",
-)
+MODELS = {
+    "statics": "statics",
+    "law": "front law",
+    "rigid": "rigid slider",
+    "overdamped": "overdamped chain",
+    "quasistatic": "quasi-static chain",
+    "chain": "paper's chain",
+}
 
 
 def draw(table: pd.DataFrame) -> Figure:
@@ -45,7 +45,7 @@ def draw(table: pd.DataFrame) -> Figure:
 
     The table is model_comparison.csv.
     """
-    cells = table.groupby(["question", "label"]).agg(
+    cells = table.groupby(["question", "model"]).agg(
         low=("value", "min"),
         high=("value", "max"),
         error=("error", "max"),
@@ -55,7 +55,7 @@ def draw(table: pd.DataFrame) -> Figure:
         is_smallest=("is_smallest", "any"),
     )
     questions = table.drop_duplicates("question")
-    models = sorted(table["label"].unique(), key=MODELS.index)
+    models = sorted(table["model"].unique(), key=list(MODELS).index)
     with style.page(style.PAGE_MM, HEAD_MM + ROW_MM * len(questions)) as figure:
         axes = figure.subplots()
         for y, question in enumerate(questions["question"]):
@@ -67,7 +67,7 @@ def draw(table: pd.DataFrame) -> Figure:
                     axes.text(x, y, "\N{EN DASH}", color=style.GREY, **CENTRED)
         axes.set(xlim=(-0.5, len(models) - 0.5), ylim=(len(questions) - 0.5, -0.5))
         axes.set_xticks(
-            range(len(models)), [model.replace(" ", "\n") for model in models]
+            range(len(models)), [MODELS[model].replace(" ", "\n") for model in models]
         )
         labels = [_row_label(row) for _, row in questions.iterrows()]
         axes.set_yticks(range(len(labels)), labels)

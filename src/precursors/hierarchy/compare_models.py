@@ -138,8 +138,8 @@ def compare_models(
     -------
     DataFrame
         One row for each scene, question and model that answers it: model_number (1, 2,
-        ...), name and label of the model, value and its unit (a statistic of runs with
-        noise where the question has one), error against the paper's chain with its 95 %
+        ...) and name of the model, value and its unit (a statistic of runs with noise
+        where the question has one), error against the paper's chain with its 95 %
         interval (error_low, error_high, which are the error where there is no noise),
         tolerance, is_answer (the whole interval is within it), is_smallest (the first
         model that answers in every scene), and cost_s (median time of all the model's
@@ -147,17 +147,17 @@ def compare_models(
     """
     rows = []
     tasks = {
-        (n, s): partial(m.ask, chain)
-        for n, m in models.items()
+        (n, s): partial(model, chain)
+        for n, model in models.items()
         for s, chain in chains.items()
     }
     answers = {key: ask() for key, ask in tasks.items()}
     noisy = {(n, s): noisy_answers(models[n], chains[s]) for n, s in tasks}
     costs = timing.measure(tasks, rounds, SHORTEST)
-    for name, question in QUESTIONS.items():
-        quantity = question.quantity or name
+    for asked_for, question in QUESTIONS.items():
+        quantity = question.quantity or asked_for
         asked = noisy if question.statistic else answers
-        for (model, scene), answered in asked.items():
+        for (name, scene), answered in asked.items():
             if quantity not in answered:
                 continue
             exact = asked[PAPERS_MODEL, scene][quantity]
@@ -167,10 +167,9 @@ def compare_models(
             rows.append(
                 {
                     "scene": scene,
-                    "question": name,
-                    "model_number": list(models).index(model) + 1,
-                    "model": model,
-                    "label": models[model].label,
+                    "question": asked_for,
+                    "model_number": list(models).index(name) + 1,
+                    "model": name,
                     "value": question.shown(answer),
                     "unit": UNITS[quantity],
                     "error": error,
@@ -179,7 +178,7 @@ def compare_models(
                     "error_unit": question.error_unit,
                     "tolerance": question.tolerance,
                     "is_answer": high <= question.tolerance,
-                    "cost_s": costs[model, scene].seconds,
+                    "cost_s": costs[name, scene].seconds,
                 }
             )
     return with_smallest(pd.DataFrame(rows))
@@ -191,8 +190,7 @@ def noisy_answers(model: Model, chain: Chain) -> dict[str, FloatArray]:
     random = np.random.default_rng(SEED)
     noises = NOISE * random.uniform(-1.0, 1.0, (DRAWS, chain.n_blocks))
     drawn = [
-        model.ask(replace(chain, weights=chain.weights * (1.0 + noise)))
-        for noise in noises
+        model(replace(chain, weights=chain.weights * (1.0 + noise))) for noise in noises
     ]
     return {
         name: np.array([answers[name] for answers in drawn])

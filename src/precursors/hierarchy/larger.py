@@ -27,7 +27,6 @@ from numpy.typing import ArrayLike
 from precursors.analysis.slips import find_precursors, find_slips
 from precursors.hierarchy.larger_steps import (
     CYCLE,
-    DURATION,
     GLOBAL,
     CompiledChain,
     End,
@@ -56,7 +55,7 @@ MAX_STEPS = 100_000_000  # ten times those of the longest run of the studies
 PATIENCE = 500_000_000
 BLOCKS_OF_A_STEP = 30
 LargerUntil = Literal["global slip", "settled"] | None
-ENDS = {None: DURATION, "global slip": GLOBAL, "settled": CYCLE}
+ENDS = {None: 0, "global slip": GLOBAL, "settled": CYCLE}
 
 
 @dataclass(frozen=True)
@@ -202,11 +201,11 @@ def simulate_larger(
     chain = larger.chain
     m = model_of(larger, leap)
     step = step or (STEP if m.weakening_velocity else STEP_OF_COULOMB)
-    lifts = m.tilt < 0.0
-    lifting = np.full(chain.n_blocks, np.inf)
-    lifting[lifts] = -m.weights[lifts] / m.tilt[lifts]
-    arrays: list[Any] = [*np.zeros((7, chain.n_blocks + 1))]
-    arrays += [*np.zeros((2, chain.n_blocks), np.int64), np.zeros(2)]
+    lifting = np.divide(
+        -m.weights, m.tilt, np.full(chain.n_blocks, np.inf), where=m.tilt < 0.0
+    )
+    modes = np.zeros((2, chain.n_blocks), np.int64)
+    arrays: list[Any] = [*np.zeros((7, chain.n_blocks + 1)), *modes, np.zeros(2)]
     state = State(*arrays)
     if start_forces is not None:
         state.force[:-1] = number_array("start_forces", start_forces, "N")

@@ -23,7 +23,7 @@ SETTLED = 1e-4
 REPEATS = 4
 LONGEST_PERIOD = 4
 MOST_STALLED = 4  # times the number of blocks: steps that end where they begin
-DURATION, GLOBAL, CYCLE = range(3)  # where a run shall end
+GLOBAL, CYCLE = 1, 2  # where a run shall end before its duration
 BEGIN, N_FAST, IS_GLOBAL = range(3)  # of an event: first row, blocks, whether global
 
 compiled = entry(

@@ -4,7 +4,6 @@ answers."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -25,6 +24,7 @@ from precursors.model.chain import Chain
 from precursors.model.scenes import PAPERS_MODEL
 from precursors.solver.simulate import simulate
 
+Model = Callable[[Chain], dict[str, Any]]
 # Longest run, in units of the time in which the drive reaches mu_s F_Z against all
 # springs in a row.
 LIMIT = 10.0
@@ -38,15 +38,6 @@ UNITS = {
     "slip_duration": "s",  # of the first global slip
     "waveform": "N",  # rows of time [s] and load [N], with straight lines between them
 }
-
-
-@dataclass(frozen=True)
-class Model:
-    """A model of the table: its name in figures, and all its answers about a chain, by
-    quantity."""
-
-    label: str
-    ask: Callable[[Chain], dict[str, Any]]
 
 
 def exact_answers(chain: Chain) -> dict[str, Any]:
@@ -90,18 +81,15 @@ def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
     return answers
 
 
-# From the smallest to the largest; the key is the word after `model:` in a scene.
-MODELS = {
-    "statics": Model("statics", statics.answers),
-    "law": Model("front law", statics.law_answers),
-    "rigid": Model("rigid slider", rigid.answers),
-    "overdamped": Model(
-        "overdamped chain", partial(cascade_answers, overshoot=OVERDAMPED)
-    ),
-    "quasistatic": Model(
-        "quasi-static chain", partial(cascade_answers, overshoot=ENERGY_CONSERVED)
-    ),
-    PAPERS_MODEL: Model("paper's chain", exact_answers),
+# From the smallest to the largest: all answers about a chain, by quantity. The key is
+# the word after `model:` in a scene.
+MODELS: dict[str, Model] = {
+    "statics": statics.answers,
+    "law": statics.law_answers,
+    "rigid": rigid.answers,
+    "overdamped": partial(cascade_answers, overshoot=OVERDAMPED),
+    "quasistatic": partial(cascade_answers, overshoot=ENERGY_CONSERVED),
+    PAPERS_MODEL: exact_answers,
 }
 
 
@@ -117,7 +105,7 @@ def scene_answers(slider: Mapping[str, Any], model: str) -> pd.DataFrame:
         load over time.
     """
     tables = []
-    for quantity, answer in MODELS[model].ask(Chain.from_slider(**slider)).items():
+    for quantity, answer in MODELS[model](Chain.from_slider(**slider)).items():
         value = np.asarray(answer)
         table = pd.DataFrame(
             {"value": np.atleast_1d(value if value.ndim < 2 else value[:, 1])}
