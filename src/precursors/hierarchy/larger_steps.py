@@ -141,9 +141,8 @@ def find_mean_velocities(m, s, last, h, leaps):
             push = inertia * s.velocity[i] + s.force[i] - s.force[i + 1]
             if abs(s.velocity[i]) < m.weakening_velocity:
                 fall = slope(m, w)
-                push -= s.mode[i] * m.mu_s * w - (
-                    fall * s.velocity[i] if leaps else 0.0
-                )
+                fallen = fall * s.velocity[i] if leaps else 0.0
+                push -= s.mode[i] * m.mu_s * w - fallen
                 pivot -= 0.0 if leaps else fall
             else:
                 push -= s.mode[i] * m.mu_k * w
@@ -303,8 +302,7 @@ def period_of(peaks, tolerance):
             return 0
         repeats = True
         for i in range(n - compared, n):
-            if abs(peaks[i] - peaks[i - period]) > tolerance:
-                repeats = False
+            repeats &= abs(peaks[i] - peaks[i - period]) <= tolerance
         if repeats:
             return period
     return 0
@@ -336,8 +334,7 @@ def note(m, s, record, watched, load_before, time, h):
             at = (slow - speed_before) / (speed - speed_before)
         load = load_before + at * (s.force[0] - load_before)
         rows.append((time - (1.0 - at) * h, i + 1.0, float(way), load))
-        if event[N_FAST] == len(s.mode):
-            event[IS_GLOBAL] = 1
+        event[IS_GLOBAL] |= event[N_FAST] == len(s.mode)
         if event[N_FAST] == 0:
             onset = rows[event[BEGIN]][3]
             if onset - s.force[0] < smallest_drop:
