@@ -31,7 +31,6 @@ APART = 0.003  # two cycles whose mean peaks [F_Z] are closer are one
 NODES = 8
 LOADINGS = [name for name in POINT if name not in ("theta", "critical_length")]
 MEDIANS = ["coefficient", "period", "state_error", "theory"]
-Past = tuple[float, float]
 
 
 def cycle_tables(
@@ -88,7 +87,7 @@ def run_past(
 
 
 def with_past(
-    larger: LargerChain, past: Past, random: np.random.Generator
+    larger: LargerChain, past: tuple[float, float], random: np.random.Generator
 ) -> tuple[LargerChain, FloatArray]:
     """A chain with noise in its normal loads, whose sum stays, and spring forces at
     which it rests strained.
