@@ -233,7 +233,7 @@ def simulate_larger(
     if len(rows) > max_transitions or steps > max_steps:
         raise TransitionLimitError(
             "the larger chain met its limit of work at "
-            f"t = {time:.9g} s of {duration:g} s",
+            f"t = {time:.9g} s of {duration:g} s: shorten duration",
             run,
         )
     return run
