@@ -4,7 +4,6 @@ do."""
 from __future__ import annotations
 
 from itertools import combinations
-from pathlib import Path
 
 import matplotlib
 import numpy as np
@@ -20,8 +19,6 @@ from precursors.figures import precursor_lengths, style
 from precursors.figures.event_law import MARKERS
 from precursors.figures.failure_gallery import PANELS
 from precursors.methods import ROWS
-
-RULES = Path(__file__).parents[2] / "workflow/rules"
 
 
 def small_figure():
