@@ -9,10 +9,13 @@ import re
 import shutil
 import sys
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import pytest
 import snakemake.cli
+
+from precursors.support.digest import digest_code
 
 # Imports and the search for plugins, once instead of in every run of Snakemake, which
 # is a fork of this one.
@@ -82,6 +85,7 @@ class Workspace:
 
     def run(self, *arguments: str) -> Outcome:
         """Run Snakemake in the directory."""
+        parse_the_code()
         output = self.path.with_name(f"{self.path.name}.txt")
         process = multiprocessing.get_context("fork").Process(
             target=_run_snakemake, args=(self.path, output, arguments)
@@ -130,6 +134,17 @@ class Workspace:
             )
             for file in files
         }
+
+
+@cache
+def parse_the_code() -> None:
+    """Read all modules once instead of in every run of Snakemake, which then knows the
+    syntax trees of those that a test leaves as they are."""
+    library = ROOT / "src/precursors"
+    modules = (path.relative_to(library) for path in library.rglob("[!_]*.py"))
+    names = [".".join(module.with_suffix("").parts) for module in modules]
+    for script in (ROOT / "workflow/scripts").glob("*.py"):
+        digest_code(ROOT, script.stem, *names)
 
 
 def _run_snakemake(directory: Path, output: Path, arguments: tuple[str, ...]) -> None:

@@ -15,7 +15,6 @@ from precursors import Run
             "figure: {width_mm: 17}",
             "the width must be between 40 and 400 mm, but is 17",
         ),
-        ("duration: 10.0", "durations: 10.0", "'durations' was unexpected"),
         (
             "scenes:",
             "scenes:\n  paper: {title: a, theta: 0}",

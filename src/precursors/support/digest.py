@@ -52,6 +52,18 @@ def _named_module(library: Path, name: str) -> Path:
 def _read(library: Path, path: Path) -> tuple[str, list[Path]]:
     """Digest of one file, and the files that it imports."""
     source = path.read_bytes()
+    digest, names = _parse(source)
+    imported = {
+        file for name in names if (file := _file_of(library, path.parent, name))
+    }
+    if path.name == "__init__.py" and b"import_module(" in source:
+        imported |= set(path.parent.glob("*.py"))  # by names that only a run knows
+    return digest, sorted(imported)
+
+
+@cache
+def _parse(source: bytes) -> tuple[str, list[str]]:
+    """Digest of the syntax tree of a module, and the names that it imports."""
     tree = ast.parse(source)
     tree.body = [part for part in tree.body if not _is_for_type_checkers(part)]
     names: list[str] = []
@@ -64,12 +76,7 @@ def _read(library: Path, path: Path) -> tuple[str, list[Path]]:
             node, ast.Module | ast.ClassDef | ast.FunctionDef
         ) and ast.get_docstring(node, False):
             node.body = node.body[1:]
-    imported = {
-        file for name in names if (file := _file_of(library, path.parent, name))
-    }
-    if path.name == "__init__.py" and b"import_module(" in source:
-        imported |= set(path.parent.glob("*.py"))  # by names that only a run knows
-    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), sorted(imported)
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), names
 
 
 def _is_for_type_checkers(statement: ast.stmt) -> bool:
