@@ -9,6 +9,7 @@ import shlex
 import signal
 import subprocess
 import sys
+import warnings
 from dataclasses import replace
 from fractions import Fraction
 from importlib import import_module
@@ -218,7 +219,7 @@ def test_a_run_that_meets_its_limit_is_kept_in_the_file_that_was_asked_for(
 
 def test_a_command_whose_output_is_closed_ends_without_a_traceback():
     told = subprocess.run(
-        f"{shlex.join(COMMAND)} simulate >&-",
+        f"{shlex.join(COMMAND)} score --list >&-",
         shell=True,
         capture_output=True,
         text=True,
@@ -341,11 +342,18 @@ def test_plot_runs_a_chain_and_draws_into_a_file_of_its_own_name(
     assert Path("precursors.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_measured_values_in_another_unit_are_drawn_with_a_warning(run_file, tmp_path):
-    (tmp_path / "kN.csv").write_text("time,load\n0,0\n1500,0.12\n3000,0.2\n")
-    command = [*COMMAND, "plot", str(run_file), "--data=kN.csv"]
-    told = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
-    assert (told.returncode, told.stderr) == (
+@pytest.mark.filterwarnings("always")
+def test_measured_values_in_another_unit_are_drawn_with_a_warning(
+    cli, run_file, tmp_path, monkeypatch
+):
+    def show(message, category, *place):  # pytest keeps warnings to itself
+        sys.stderr.write(warnings.formatwarning(message, category, *place))
+
+    monkeypatch.setattr(warnings, "showwarning", show)
+    monkeypatch.chdir(tmp_path)
+    Path("kN.csv").write_text("time,load\n0,0\n1500,0.12\n3000,0.2\n")
+    code, _, err = cli("plot", run_file, "--data=kN.csv", "--output=kN.svg")
+    assert (code, err) == (
         0,
         "kN.csv: 3 points, t [s] 0 to 3000, F_X [N] 0 to 0.2\n"
         "precursors: t [s] is measured from 0 to 3000, and computed from 0 to 3: is this the unit?\n"

@@ -79,7 +79,7 @@ def test_a_soft_drive_keeps_its_load_where_block_1_starts_at_its_limit():
     )
 
 
-@pytest.mark.parametrize("first", range(0, 300, 20))
+@pytest.mark.parametrize("first", range(0, 160, 20))
 def test_random_chains_move_as_the_model_says(first):
     """The auditor, which shares no code with the solver, finds nothing wrong."""
     verdicts = {

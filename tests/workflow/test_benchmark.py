@@ -9,6 +9,7 @@ import subprocess
 import sys
 import zipfile
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -34,6 +35,7 @@ def cells(line: str) -> list[str]:
     return [cell.strip() for cell in line.strip("|").split("|")]
 
 
+@cache
 def certificate(problem: str) -> Certificate:
     return Certificate.load(problems()[problem])
 

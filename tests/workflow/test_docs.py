@@ -68,27 +68,7 @@ def test_the_scene_and_the_figure_shown_are_made(documented):
     )
 
 
-def run_python(documented, code: str) -> str:
-    """What Python prints with the library of the copy."""
-    environment = {**os.environ, "PYTHONPATH": str(documented.path / "src")}
-    command = [sys.executable, "-c", code]
-    done = subprocess.run(
-        command, env=environment, capture_output=True, text=True, check=True
-    )
-    return done.stdout + done.stderr
-
-
-@pytest.mark.parametrize("section", ["A model", "A method"])
-def test_the_model_and_the_method_shown_give_what_is_shown(documented, section):
-    code = "\n".join(
-        code
-        for language, name, code in blocks(section)
-        if language == "python" and not name
-    )
-    (shown,) = [code for language, _, code in blocks(section) if language == "text"]
-    assert run_python(documented, code) == shown
-
-
+# A chart of the method shown, its points in it, and the colours of its line and of other methods.
 CHART_OF_THE_METHOD = """
 from matplotlib.colors import to_hex
 from precursors import Chain, simulate
@@ -107,13 +87,27 @@ print(*(row["color"] for name, row in ROWS.items() if name != "scipy_rk23"))
 """
 
 
-def test_the_method_shown_has_its_points_in_the_default_chart_in_a_colour_of_its_own(
+def test_the_model_and_the_method_shown_give_what_is_shown_and_the_method_has_a_colour_of_its_own(
     documented,
 ):
-    drawn, others = run_python(documented, CHART_OF_THE_METHOD).splitlines()[-2:]
+    found = [block for of in ("A model", "A method") for block in blocks(of)]
+    programs = [
+        code for language, name, code in found if language == "python" and not name
+    ]
+    done = subprocess.run(
+        [sys.executable, "-c", "\n".join([*programs, CHART_OF_THE_METHOD])],
+        env=os.environ | {"PYTHONPATH": str(documented.path / "src")},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    *lines, drawn, others = done.stdout.splitlines()
+    shown = "".join(code for language, _, code in found if language == "text")
+    assert lines == shown.splitlines()
     points, color = drawn.split()
     assert int(points) == 2
     assert color not in others.split()
+    assert done.stderr == ""
 
 
 def test_the_workflow_shown_uses_this_one_as_a_module(documented):

@@ -18,6 +18,7 @@ from typing import Any
 import codecheck
 import numpy as np
 import pandas as pd
+import print_reproduction
 import pytest
 from conftest import ROOT
 from matplotlib import image
@@ -235,7 +236,7 @@ fig10 0                                   events longer than all before  1      
 
 
 def test_the_reproduction_is_printed_beside_the_paper_with_the_names_of_the_figures(
-    tmp_path,
+    tmp_path, capsys
 ):
     golden = pd.read_csv(ROOT / "tests/golden/reproduction.csv").query(
         "scene == 'fig10'"
@@ -243,8 +244,11 @@ def test_the_reproduction_is_printed_beside_the_paper_with_the_names_of_the_figu
     golden.to_csv(tmp_path / "reproduction.csv", index=False)
     for name in ("b.svg", "a.svg", "a.png"):
         (tmp_path / name).touch()
-    told = call("print_reproduction", tmp_path, "reproduction.csv", tmp_path).stdout
-    assert told == REPRODUCTION + f"Figures: a.svg, b.svg in {tmp_path}\n"
+    print_reproduction.main(tmp_path / "reproduction.csv", tmp_path)
+    assert (
+        capsys.readouterr().out
+        == REPRODUCTION + f"Figures: a.svg, b.svg in {tmp_path}\n"
+    )
 
 
 @pytest.mark.parametrize(
@@ -264,7 +268,7 @@ def test_a_script_that_make_runs_says_in_one_line_which_file_is_missing(
 
 
 def test_numbers_are_as_kept_to_a_millionth_and_pictures_if_they_look_the_same(
-    tmp_path,
+    tmp_path, monkeypatch, capsys
 ):
     golden, results, files = tmp_path / "tests/golden", tmp_path / "results", []
     golden.mkdir(parents=True)
@@ -279,18 +283,15 @@ def test_numbers_are_as_kept_to_a_millionth_and_pictures_if_they_look_the_same(
         image.imsave(results / files[-1], np.full((rows, 8, 3), shade))
     listed = [{"file": f"results/{file}"} for file in files]
     (tmp_path / "codecheck.yml").write_text(json.dumps({"manifest": listed}))
-    assert call("codecheck", tmp_path, "--list").stdout.split() == [
-        entry["file"] for entry in listed
-    ]
-    done = call("codecheck", tmp_path)
-    *lines, total = done.stdout.splitlines()
+    monkeypatch.chdir(tmp_path)
+    assert codecheck.manifest() == [entry["file"] for entry in listed]
+    with pytest.raises(SystemExit) as ended:
+        codecheck.main()
+    *lines, total = capsys.readouterr().out.splitlines()
     as_kept = [line.endswith(": as kept") for line in lines]
     assert as_kept == [True, False, True, False, True, False, False]
     assert lines[5].endswith("1.png: another picture")
-    assert (done.returncode, total) == (1, "3 of 7 files as kept")
-    assert [
-        bool(codecheck.difference(results / file, golden / file)) for file in files[:2]
-    ] == [False, True]
+    assert (ended.value.code, total) == (True, "3 of 7 files as kept")
 
 
 # Proofs
