@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from typing import Literal
 
 from scipy.integrate import solve_ivp
 
@@ -29,7 +30,7 @@ def solve_scipy(
     tolerance: float,
     until: str | None = None,
     max_step: float = math.inf,
-    solver: str = "DOP853",
+    solver: Literal["DOP853", "RK23"] = "DOP853",
 ) -> Result:
     """Run a chain by a solver of SciPy; rtol is the tolerance, atol the same in N and
     N/tau.
