@@ -22,11 +22,11 @@ from precursors.methods import ROWS
 
 
 def small_figure():
-    """A line, plain text and a transparent colour."""
+    """A line, plain text and a pale band."""
     with style.page(85.0, 40.0) as figure:
         axes = figure.add_subplot()
         axes.plot([0.0, 1.0], [0.0, 1.0])
-        axes.axvspan(0.1, 0.2, color="red", alpha=0.5)
+        axes.axvspan(0.1, 0.2, color=style.pale(style.BLACK, 0.5))
     return figure
 
 
