@@ -14,20 +14,22 @@ HEIGHT_MM = 70.0
 WIDTHS = (1.0, 0.85, 1.9)
 MARKERS = {-1: "v", 0: "o", 1: "^"}  # by the sign of theta
 SIDE = 0.22  # from one loading to the next, in units of one pair
+RARE = 0.05
 
 
 def draw(nucleation: pd.DataFrame, peaks: pd.DataFrame, cycles: pd.DataFrame) -> Figure:
     """Draw l_c against its theory, each peak against the one before, and all cycles.
 
     The tables are larger_nucleation.csv, larger_peaks.csv and larger_cycles.csv, of
-    which the studies "grid" and "grid_fine" are drawn.
+    which the study "grid" is drawn. Cycles into which no more than `RARE` of the pasts
+    lead have small marks.
     """
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         lengths, steps, settled = figure.subplots(1, 3, width_ratios=WIDTHS)
         two_finest = sorted(nucleation["n_blocks"].unique())[-2:]
         _draw_lengths(lengths, nucleation[nucleation["n_blocks"].isin(two_finest)])
         _draw_map(steps, peaks)
-        _draw_cycles(settled, cycles[cycles["study"].isin(["grid", "grid_fine"])])
+        _draw_cycles(settled, cycles[cycles["study"] == "grid"])
         look = {"linestyle": "none"}
         entries = [
             style.mark(text, marker=MARKERS[s], color=style.theta_color(s), **look)
@@ -75,14 +77,21 @@ def _draw_map(axes: Axes, peaks: pd.DataFrame) -> None:
 
 def _draw_cycles(axes: Axes, cycles: pd.DataFrame) -> None:
     names = ["length", "relaxation_time"]
-    pairs = sorted({tuple(pair) for pair in cycles[names].to_numpy()})
+    pairs = cycles[names].drop_duplicates().sort_values(names, ignore_index=True)
     finest = cycles["n_blocks"].max()
-    for (length, time, _, _), rows in cycles.groupby([*names, "theta", "n_blocks"]):
-        i = pairs.index((length, time))
-        x = i + SIDE * np.sign(rows["theta"])
-        axes.plot(x, rows["coefficient"], **_look(rows, finest))
-        if rows["theta"].iloc[0] == 0:
-            axes.hlines(rows["theory"].iloc[0], i - 0.4, i + 0.4, color=style.GREY)
-    labels = [f"{length:g}\n{1e6 * time:g}" for length, time in pairs]
-    axes.set_xticks(range(len(pairs)), labels)
-    axes.set(xlabel=r"$l_c/L$ and $t_v$ [µs]", ylabel=r"settled peak of $F_X/F_Z$")
+    for i, pair in pairs.iterrows():
+        of_pair = cycles[(cycles[names] == pair).all(axis=1)]
+        theory = of_pair.loc[of_pair["theta"] == 0, "theory"].iloc[0]
+        axes.hlines(theory, i - 0.4, i + 0.4, color=style.GREY)
+        is_rare = of_pair["share"] <= RARE
+        for _, rows in of_pair.groupby(["theta", "n_blocks", is_rare]):
+            x = i + SIDE * np.sign(rows["theta"])
+            size = 2.0 if rows["share"].max() <= RARE else 4.5
+            look = _look(rows, finest) | {"markersize": size}
+            axes.plot(x, rows["coefficient"], **look)
+    axes.set_xticks(pairs.index, [f"{1e6 * t:g}" for t in pairs["relaxation_time"]])
+    axes.set(xlabel="$t_v$ [µs]", ylabel=r"settled peak of $F_X/F_Z$")
+    middles = pairs.reset_index().groupby("length")["index"].mean()
+    lengths = axes.secondary_xaxis("top")
+    lengths.set_xticks(middles, [f"$l_c = {length:g}\\,L$" for length in middles.index])
+    lengths.tick_params(length=0)
