@@ -79,7 +79,7 @@ def _draw_cycles(axes: Axes, cycles: pd.DataFrame) -> None:
     names = ["length", "relaxation_time"]
     pairs = cycles[names].drop_duplicates().sort_values(names, ignore_index=True)
     finest = cycles["n_blocks"].max()
-    for i, pair in pairs.iterrows():
+    for i, pair in enumerate(pairs.to_numpy()):
         of_pair = cycles[(cycles[names] == pair).all(axis=1)]
         theory = of_pair.loc[of_pair["theta"] == 0, "theory"].iloc[0]
         axes.hlines(theory, i - 0.4, i + 0.4, color=style.GREY)

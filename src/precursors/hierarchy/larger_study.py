@@ -138,11 +138,12 @@ def run_study(
 
     The normal loads have noise, which depends on the number of blocks and on the draw
     only. A run without a global slip has NaN. `study` is that of `points`, with the
-    number of runs; `common` has the seed and the noise (relative). The first draw of a
+    number of runs, and may have a step, which is otherwise `step_of`; `common` has the
+    seed and the noise (relative). The first draw of a
     chain with a length says what half the step changes (halved_mu_sapp).
     """
     tasks = [
-        partial(run_draw, point, larger, draw, common)
+        partial(run_draw, point, larger, draw, common, study.get("step"))
         for point, larger in points(slider, name, study)
         for draw in range(study["runs"])
     ]
@@ -155,7 +156,11 @@ def rows_of(tasks: Sequence[Callable[[], dict[str, Any]]]) -> pd.DataFrame:
 
 
 def run_draw(
-    point: dict[str, Any], larger: LargerChain, draw: int, common: Mapping[str, Any]
+    point: dict[str, Any],
+    larger: LargerChain,
+    draw: int,
+    common: Mapping[str, Any],
+    step: float | None,
 ) -> dict[str, Any]:
     """A row of `run_study`."""
     n = larger.chain.n_blocks
@@ -163,7 +168,7 @@ def run_draw(
     noise = 1.0 + common["noise"] * random.uniform(-1.0, 1.0, n)
     chain = replace(larger.chain, weights=larger.chain.weights * noise)
     drawn = replace(larger, chain=chain)
-    step = step_of(larger)
+    step = step or step_of(larger)
     found = numbers(run_to_slip(drawn, step))
     if draw == 0 and larger.weakening_velocity:
         finer = numbers(run_to_slip(drawn, step / 2.0))

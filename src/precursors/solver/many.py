@@ -14,7 +14,6 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until, whole
 from precursors.solver.kernel.compiled import untyped
 from precursors.solver.simulate import (
-    MAX_TRANSITIONS,
     OwnSolver,
     checked_end,
     checked_start,
@@ -65,7 +64,7 @@ def simulate_many(
         )
     chains = list(chains)
     exact = [c for c in chains if isinstance(c, Chain) or not isinstance(c, OwnSolver)]
-    end = checked_end(exact, duration, until, MAX_TRANSITIONS, longest_slip)
+    end = checked_end(exact, duration, until, None, longest_slip)
     if len(exact) < len(chains):
         refuse_for_own(start_positions, start_velocities, longest_slip)
     threads = (

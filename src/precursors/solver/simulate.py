@@ -24,6 +24,8 @@ from precursors.solver.run import Run
 __all__ = ["MAX_TRANSITIONS", "TransitionLimitError", "simulate"]
 
 MAX_TRANSITIONS = 10_000_000
+# Chains of more blocks have long fronts, with which a transition takes ten times as long.
+MANY_BLOCKS = 500
 
 
 Own = TypeVar("Own", covariant=True)  # what a chain with its own solver gives
@@ -47,7 +49,7 @@ def simulate(
     until: Until = None,
     start_positions: ArrayLike | None = None,
     start_velocities: ArrayLike | None = None,
-    max_transitions: int = MAX_TRANSITIONS,
+    max_transitions: int | None = None,
     longest_slip: float | None = None,
 ) -> Any:
     """Run a chain from rest, or from a given start, through all its transitions (Eqs.
@@ -65,8 +67,9 @@ def simulate(
     start_positions, start_velocities : array_like, shape (N,), optional
         Positions [m] relative to springs at natural length, and velocities [m/s], at
         time 0; zero by default.
-    max_transitions : int
-        Cap on the number of transitions.
+    max_transitions : int, optional
+        Cap on the number of transitions; by default ten million, and one million for
+        more than 500 blocks.
     longest_slip : float, optional
         Stop when one slip event has lasted so long [s]: some runs of many blocks never
         come to rest again.
@@ -86,7 +89,8 @@ def simulate(
     # The check of a protocol is slow, so that of the class comes first.
     if not isinstance(chain, Chain) and isinstance(chain, OwnSolver):
         refuse_for_own(start_positions, start_velocities, longest_slip)
-        return chain.simulate(duration, until, max_transitions=max_transitions)
+        limits = {} if max_transitions is None else {"max_transitions": max_transitions}
+        return chain.simulate(duration, until, **limits)
     end = checked_end([chain], duration, until, max_transitions, longest_slip)
     positions = checked_start("start_positions", start_positions, "m", chain)
     velocities = checked_start("start_velocities", start_velocities, "m/s", chain)
@@ -103,7 +107,7 @@ def checked_end(
     chains: Sequence[Chain],
     duration: float,
     until: Until,
-    most: int,
+    most: int | None,
     longest_slip: float | None,
 ) -> End:
     """Check what is simulated and where it ends."""
@@ -117,6 +121,9 @@ def checked_end(
         if longest_slip is None
         else positive("longest_slip", longest_slip, "s")
     )
+    if most is None:
+        is_long = any(chain.n_blocks > MANY_BLOCKS for chain in chains)
+        most = MAX_TRANSITIONS // 10 if is_long else MAX_TRANSITIONS
     most = whole("max_transitions", most, at_least=1)
     return End(checked_span(duration, until), until is not None, longest, most)
 
