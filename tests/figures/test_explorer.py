@@ -124,11 +124,11 @@ def predictability_settings():
     """Sliders of the paper and others; many of them are not predictable up to the first
     global slip."""
     rng = np.random.default_rng(32)
-    settings = [{"n_blocks": n, "theta": 5 / 6} for n in (10, 20, 30)]
-    settings += [{"n_blocks": 35, "theta": 0.83}, {"n_blocks": 40, "theta": 0.83}]
-    for _ in range(15):
+    settings = [{"n_blocks": n, "theta": 5 / 6} for n in (10, 20)]
+    settings += [{"n_blocks": 40, "theta": 0.83}]
+    for _ in range(6):
         mu_s = rng.uniform(0.3, 1.2)
-        setting = {"n_blocks": int(rng.integers(5, 41)), "theta": rng.uniform(-1, 1)}
+        setting = {"n_blocks": int(rng.integers(5, 26)), "theta": rng.uniform(-1, 1)}
         friction = {"mu_s": mu_s, "mu_k": mu_s * rng.uniform(0.1, 0.9)}
         settings.append(setting | friction)
     return settings
@@ -158,7 +158,7 @@ def test_from_where_the_library_calls_a_run_unpredictable_the_page_is_grey(page,
         if not is_grey and friction:
             expected = [friction.events_counted, f"{friction.mu_sapp:.4f}"]
             assert page.evaluate("[run.counted.length, ratio()]") == expected
-    assert 5 <= grey <= 15
+    assert 2 <= grey <= 7
 
 
 def test_the_answer_turns_grey_while_the_slider_is_held(page, file):
@@ -226,7 +226,7 @@ WATCH_SHIFTS = """(() => {
     .observe({ type: "layout-shift", buffered: true });
 })()"""
 DRAG = """(async () => {
-  const values = { theta: [-0.9, 0.3, 0.95], n_blocks: [3, 25, 40], mu_k: [0.1, 0.69] };
+  const values = { theta: [-0.9, 0.3, 0.95], n_blocks: [3, 40, 12], mu_k: [0.1, 0.6] };
   for (const id in values) {
     for (const value of values[id]) {
       element(id).value = value;
@@ -243,7 +243,7 @@ def test_nothing_jumps_between_steps_and_in_a_drag(page, file, size):
     open_explorer(page, file, *size)
     page.prefer(prefers_reduced_motion="reduce")  # which plays no film
     page.evaluate(WATCH_SHIFTS)
-    page.evaluate("STUDIES.digits.count = STUDIES.blocks.count = 12")
+    page.evaluate("STUDIES.digits.count = STUDIES.blocks.count = 2")
     for step in range(1, 7):
         page.evaluate(f"goToStep({step})")
         page.wait_for(SETTLED)
