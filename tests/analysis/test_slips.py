@@ -80,9 +80,9 @@ def events_one_by_one(run):
 
 def test_any_list_of_transitions_has_the_events_of_a_plain_loop():
     rng = np.random.default_rng(5)
-    runs = [random_transitions(rng) for _ in range(300)]
+    runs = [random_transitions(rng) for _ in range(120)]
     runs += [
-        simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(100)
+        simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(40)
     ]
     for run in runs:
         expected = pd.DataFrame(events_one_by_one(run), columns=find_slips(run).columns)

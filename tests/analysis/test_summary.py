@@ -56,16 +56,16 @@ def test_runs_at_random_have_the_summary_of_their_slip_table():
     transition."""
     rng = np.random.default_rng(4)
     runs = [
-        simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(150)
+        simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(50)
     ]
-    runs += [random_transitions(rng) for _ in range(300)]
+    runs += [random_transitions(rng) for _ in range(120)]
     runs.append(
         simulate(Chain.from_slider(), duration=0.5, start_velocities=np.full(10, 0.01))
     )
     runs.append(simulate(Chain.from_slider(), duration=0.1))
     runs.append(simulate(Chain.from_slider(), duration=3.0))
     summaries = summarise(runs)
-    assert 50 < summaries["reached"].sum() < 400  # both kinds are tried
+    assert 20 < summaries["reached"].sum() < 150  # both kinds are tried
     assert np.isnan(
         summaries["end"][summaries["reached"]]
     ).any()  # cut off by the end of the run

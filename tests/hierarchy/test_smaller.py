@@ -106,6 +106,17 @@ def dense_stage(chain, stiffness, net, sign, overshoot, rounding):
         sign = np.where(joins, np.sign(after), sign)
 
 
+def test_all_blocks_that_move_are_in_balance_with_friction_where_they_stop():
+    """In plain Python, where an index beyond the chain is an error."""
+    chain = SLIDER(3)
+    net = np.array([50.0, -20.0, 70.0])
+    friction = chain.kinetic_friction
+    cascade = quasistatic.Cascade(chain.springs, chain.strength, friction, 1.0)
+    step = quasistatic.balance.py_func(cascade, net, np.sign(net))
+    lost = quasistatic.lost_force.py_func(chain.springs, step)
+    np.testing.assert_allclose(net - lost, np.sign(net) * friction, rtol=ROUNDING)
+
+
 @pytest.mark.parametrize("velocity", [1e-4, 0.3])
 def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> None:
     chain = SLIDER(n_blocks=1, drive_velocity=velocity)

@@ -23,6 +23,11 @@ def test_the_residual_strain_of_eq_12_is_the_largest():
     assert residual_strain(run) == pytest.approx(1.0, rel=ROUNDING)
 
 
+def test_the_band_about_the_papers_coefficient_is_a_unit_of_its_last_digit():
+    _, _, decimals = str(printed.MU_SAPP).partition(".")
+    assert printed.LAST_DIGIT == 10 ** -len(decimals)
+
+
 def test_a_run_without_a_slip_has_no_numbers():
     run = simulate(Chain.from_slider(), 0.1)
     table = reproduction_table({"calm": slip_table(run)}, {"calm": {}})
