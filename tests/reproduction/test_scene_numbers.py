@@ -25,7 +25,7 @@ def test_the_residual_strain_of_eq_12_is_the_largest():
 
 def test_the_band_about_the_papers_coefficient_is_a_unit_of_its_last_digit():
     _, _, decimals = str(printed.MU_SAPP).partition(".")
-    assert printed.LAST_DIGIT == 10 ** -len(decimals)
+    assert 10 ** -len(decimals) == printed.LAST_DIGIT
 
 
 def test_a_run_without_a_slip_has_no_numbers():
