@@ -177,7 +177,7 @@ WRONG = {
     "a decimal comma": ([HEADER, "0,35,1,1,28"], "line 2: it must have 4"),
     "no number": (
         [HEADER, "# t", "soon,1,1,28"],
-        "line 3: time_s must be a finite number, or one in quotes",
+        "line 3: time_s must be a finite number, but is",
     ),
     "not finite": ([HEADER, "nan,1,1,28"], "line 2: time_s must be a finite number"),
     "block 0": ([HEADER, "0.35,0,1,28"], "line 2: block must be 1 to 10"),

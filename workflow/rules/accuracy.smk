@@ -36,7 +36,7 @@ TABLES |= {
         "inputs": {"solvers": str(BENCHMARKS / "solvers.csv")},
         "options": {"folder": str(BENCHMARKS / "results")},
         "also": sorted([*COMMITTED.glob("*.json.gz"), *(BENCHMARKS / "results").glob("*.csv")]),
-        "seconds": 5,
+        "seconds": 2,
     },
     "step_sweep": {
         "function": "accuracy.step_sweep:step_sweep_table",

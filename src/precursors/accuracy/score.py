@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import math
 import re
-from fractions import Fraction
+from decimal import Decimal, InvalidOperation
 from functools import cache
 from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from precursors.accuracy.compare import Truth, compare
 from precursors.analysis.slips import first_global_slip, slip_table
 from precursors.proof import Certificate
-from precursors.proof.exact_chain import exact
+from precursors.solver.run import Record
 
 # In a wheel the certificates lie in the package, in a checkout beside the workflow.
 PACKAGE = Path(__file__).parents[1]
@@ -62,9 +63,10 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
     end = truth.run.duration
     rows = [row for row in read_result(path, chain.n_blocks) if row["time_s"] <= end]
     given = [tuple(row[name] for name in NEEDED) for row in rows]
-    true = [row.item() for row in truth.run.transitions]
-    ordered = in_true_order(given, true, exact("ties", ties))
-    found = Truth.exact(chain, end, ordered)
+    true = truth.run.transitions.tolist()
+    ordered = in_true_order(given, true, decimal("ties", str(ties)))
+    columns = np.array(ordered, dtype=float).reshape(-1, len(NEEDED)).T
+    found = Truth.of_run(Record.from_columns(chain, end, *columns))
     whole = compare(found.run, truth)
     start = compare(found.until_global_slip().run, truth.until_global_slip())
     values = {
@@ -94,7 +96,7 @@ def in_words(transitions: Rows) -> str:
     return next(words, "none")
 
 
-def in_true_order(found: Rows, true: Rows, ties: Fraction) -> Rows:
+def in_true_order(found: Rows, true: Rows, ties: Decimal) -> Rows:
     """Order transitions no farther apart than `ties` [s] as the truth does."""
     ordered = list(found)
     for k, (_, block, mode, _) in enumerate(true[: len(found)]):
@@ -128,12 +130,12 @@ def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
         )
     modes: dict[Any, Any] = dict.fromkeys(range(first, last + 1), 0)
     rows: list[dict[str, Any]] = []
-    time = Fraction(0)
+    time = Decimal(0)
     for number, cells in lines.items():
         at = f"{path}, line {number}"
         require(len(cells) == len(names), at, f"it must have {len(names)} cells")
         row = {
-            name: exact(f"{at}: {name}", cell.replace(",", "."))
+            name: decimal(f"{at}: {name}", cell)
             for name, cell in zip(names, cells, strict=True)
             if name in NEEDED or (name in COSTS and cell)
         }
@@ -148,8 +150,19 @@ def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
         require(row["time_s"] >= time, at, "time_s must not fall from row to row")
         time = row["time_s"]
         modes[block] = mode
-        rows.append(row | {"block": block + 1 - first})
+        rows.append(row | {"block": int(block) + 1 - first, "mode": int(mode)})
     return rows
+
+
+def decimal(where: str, text: str) -> Decimal:
+    """Return a number as it is written, with a decimal point or comma."""
+    try:
+        number = Decimal(text.replace(",", "."))
+    except InvalidOperation:
+        number = Decimal("nan")
+    if not number.is_finite():
+        raise ValueError(f"{where} must be a finite number, but is {text!r}")
+    return number
 
 
 def require(holds: bool, where: object, otherwise: str) -> None:
