@@ -144,14 +144,14 @@ def one_method(name: str, rounds: int) -> pd.DataFrame:
     """Measure a method, the exact solver and heyoka.py at theta = 0 to the end of the
     first global slip."""
     truth = reference("0").until_global_slip()
-    case = Case("uniform", 0.0, truth.run.chain, DURATION, "global slip", truth)
-    quick = charted_values(case.until, full=False)
+    case = Case("uniform", 0.0, truth.run.chain, DURATION, truth)
+    quick = charted_values(full=False)
     values = {
         other: settings[-1:]
         for other, settings in quick.items()
         if other in ("exact", "heyoka")
     }
-    values[name] = quick[name] or charted_values(case.until, full=True)[name]
+    values[name] = quick[name] or charted_values(full=True)[name]
     return measure_methods(case, values, rounds)
 
 
@@ -272,7 +272,7 @@ def in_callbacks() -> Iterable[Row]:
         "cvode_adams": [(cvode_events, "rates_of"), (cvode_events, "event_functions")],
     }
     for name in filter(METHODS.__contains__, callbacks):
-        tightest = charted_values("global slip", full=False)[name][-1]
+        tightest = charted_values(full=False)[name][-1]
         run = partial(
             METHODS[name].solve,
             Chain.from_slider(),

@@ -95,8 +95,6 @@ SETTINGS = {
     "CHARTED",
     "values",
     "quick",
-    "whole",
-    "quick_whole",
     "ROUNDS",
 }  # what is charted
 # Arguments that change no result: guards against a slip of ours, signs of symbols, how

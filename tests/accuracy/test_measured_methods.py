@@ -4,29 +4,24 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
 from accuracy.made_up import (
     CHAIN,
     DURATION,
     TRUE,
-    has_all_transitions,
     made_up,
-    tied_certificate,
 )
 
-from precursors import Record, TransitionLimitError, simulate
-from precursors.accuracy.compare import Truth, compare
+from precursors import Record, TransitionLimitError
+from precursors.accuracy.compare import Truth
 from precursors.accuracy.work_precision import (
     COUNTS,
     SHORTEST,
     Case,
     charted_values,
     measure_methods,
-    proved_cases,
 )
 from precursors.methods import METHODS, ROWS, Method, Result
-from precursors.proof import ExactChain, certify
 
 FIVE = TRUE[:5]  # two slips, the second not over
 # A call of a fake method takes so long, on a clock that the test moves [s]; one is
@@ -35,34 +30,11 @@ CALL, SHORT_CALL = 2.0**-8, 2.0**-11
 
 
 def case(rows) -> Case:
-    return Case("made up", 0.0, CHAIN, DURATION, None, Truth.of_run(made_up(rows)))
+    return Case("made up", 0.0, CHAIN, DURATION, Truth.of_run(made_up(rows)))
 
 
-def test_a_proof_is_the_truth_to_its_end_and_to_the_first_global_slip():
-    certificate = certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), 8)
-    first, whole = proved_cases("two", 0.25, certificate)
-    assert (first.until, whole.until) == ("global slip", None)
-    assert first.duration == whole.duration == 8.0
-    n = len(first.truth.run.transitions)
-    assert 0 < n < len(whole.truth.run.transitions) == len(certificate.transitions)
-    np.testing.assert_array_equal(first.truth.time_rest, whole.truth.time_rest[:n])
-    for of in (first, whole):
-        assert has_all_transitions(
-            compare(simulate(of.chain, of.duration, of.until), of.truth)
-        )
-
-
-def test_methods_run_up_to_a_tie():
-    certificate = tied_certificate()
-    for of in proved_cases("seven", 0.0, certificate):
-        assert of.duration == of.truth.run.duration == float(certificate.proved_until)
-
-
-@pytest.mark.parametrize("until", [None, "global slip"])
-def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solver_comes_first(
-    until,
-):
-    full, default = (charted_values(until, full) for full in (True, False))
+def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solver_comes_first():
+    full, default = (charted_values(full) for full in (True, False))
     assert next(iter(full.items())) == next(iter(default.items())) == ("exact", (0.0,))
     for name in METHODS:
         assert len(default[name]) <= len(full[name])
@@ -105,7 +77,7 @@ def test_a_row_holds_time_work_and_errors(fake):
     assert [row.pop(name) for name in ("error_load_N", "error_time_s")] == [1.0, 0.0]
     assert [row.pop(name) for name in COUNTS] == [4, 4, 5, 2, 2, 2]
     shown = [ROWS["rk4"][name] for name in ("color", "marker")]
-    about = ["made up", 0.0, "end", "rk4", ROWS["rk4"]["label"], "once a step"]
+    about = ["made up", 0.0, "global slip", "rk4", ROWS["rk4"]["label"], "once a step"]
     about += [*shown, "time [s]"]
     assert list(row.values()) == [*about, CALL, 7, CALL]
 

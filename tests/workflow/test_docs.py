@@ -79,8 +79,8 @@ from precursors.methods import ROWS
 
 chain = Chain.from_slider(drive_velocity=0.01)
 truth = Truth.of_run(simulate(chain, 0.01))
-case = Case("fast", 0.0, chain, 0.01, "global slip", truth)
-table = measure_methods(case, {"scipy_rk23": charted_values("global slip", False)["scipy_rk23"]}, 1)
+case = Case("fast", 0.0, chain, 0.01, truth)
+table = measure_methods(case, {"scipy_rk23": charted_values(False)["scipy_rk23"]}, 1)
 lines = [line for axes in speed.draw(table).axes for line in axes.lines if line.get_marker() != "None"]
 print(len(table), *{to_hex(line.get_color()).upper() for line in lines})
 print(*(row["color"] for name, row in ROWS.items() if name != "scipy_rk23"))

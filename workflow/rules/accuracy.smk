@@ -4,7 +4,8 @@ from precursors.proof.chains import chain_duration, exact_chain, scene_exact_cha
 from precursors.model.chain import parse_theta
 
 CHAINS = config["accuracy"]["proved"]
-COMPARED = config["accuracy"]["compared"]
+THETAS = {chain: parse_theta(CHAINS[chain].get("theta", 0)) for chain in config["accuracy"]["compared"]}
+EVEN = min(THETAS, key=lambda chain: abs(THETAS[chain]))
 COMMITTED = ROOT / "workflow/certificates"
 BENCHMARKS = ROOT / "benchmarks"
 
@@ -24,12 +25,9 @@ TABLES |= {
     },
     "work_precision": {
         "function": "accuracy.work_precision:work_precision_table",
-        "inputs": {"certificates": {chain: CERTIFICATES[chain] for chain in COMPARED}},
-        "options": {
-            "thetas": {chain: parse_theta(CHAINS[chain].get("theta", 0)) for chain in COMPARED},
-            "full": config["full"],
-        },
-        "seconds": 300 if config["full"] else 10,
+        "inputs": {"certificate": CERTIFICATES[EVEN]},
+        "options": {"scene": EVEN, "theta": THETAS[EVEN], "full": config["full"]},
+        "seconds": 100 if config["full"] else 4,
     },
     "benchmark": {
         "function": "accuracy.score:score_table",

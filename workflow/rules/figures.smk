@@ -74,7 +74,7 @@ FIGURES = {
             "exponents": "results/tables/lyapunov.csv",
         },
         "options": {
-            "thetas": {chain: parse_theta(CHAINS[chain].get("theta", 0)) for chain in COMPARED},
+            "thetas": THETAS,
             "tolerance": config["accuracy"]["tolerance"],
         },
     },

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import pandas as pd
 
@@ -20,6 +20,7 @@ from precursors.support import timing
 if TYPE_CHECKING:
     from precursors.proof import Certificate
 
+UNTIL = "global slip"
 # Rounds of which a time is the median. In the default chart, a call that takes longer
 # than `LONG` [s] is timed once: it is a mean over what else the machine does, as the
 # short calls of a round together are.
@@ -47,17 +48,15 @@ COUNTS = (
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """What all methods are asked to do: a scene's chain, for a duration [s] or until
-    its first global slip.
+    """What all methods are asked to do: run a scene's chain to its first global slip.
 
-    The true run goes over the same time.
+    The true run goes over the same time, at most a duration [s].
     """
 
     scene: str
     theta: float
     chain: Chain
     duration: float
-    until: Literal["global slip"] | None
     truth: Truth
 
     def run(
@@ -66,43 +65,25 @@ class Case:
         """Run a method with a value of its setting; of a run that breaks off, what
         there is."""
         return attempt(
-            method.solve, self.chain, duration or self.duration, value, self.until
+            method.solve, self.chain, duration or self.duration, value, UNTIL
         )
 
 
-def proved_cases(
-    scene: str, theta: float, certificate: Certificate
-) -> tuple[Case, Case]:
-    """Make cases of what a certificate proves: to the end of the first global slip, and
-    to its own end."""
-    chain = certificate.chain.to_chain()
-    truth = Truth.proved(certificate)
-    whole = Case(
-        scene, theta, chain, float(certificate.proved_until), certificate.until, truth
-    )
-    return replace(whole, until="global slip", truth=truth.until_global_slip()), whole
-
-
 def work_precision_table(
-    certificates: Mapping[str, Certificate], thetas: Mapping[str, float], full: bool
+    certificate: Certificate, scene: str, theta: float, full: bool
 ) -> pd.DataFrame:
-    """Measure all methods on the proved chains, in both cases of each."""
+    """Measure all methods on a proved chain."""
     limits = (ROUNDS_FULL, LONGEST_FULL, LONG_FULL) if full else (ROUNDS, LONGEST, LONG)
-    tables = [
-        measure_methods(case, charted_values(case.until, full), *limits)
-        for scene, certificate in certificates.items()
-        for case in proved_cases(scene, thetas[scene], certificate)
-    ]
-    return pd.concat(tables, ignore_index=True)
+    truth = Truth.proved(certificate).until_global_slip()
+    chain = certificate.chain.to_chain()
+    case = Case(scene, theta, chain, float(certificate.proved_until), truth)
+    return measure_methods(case, charted_values(full), *limits)
 
 
-def charted_values(until: str | None, full: bool) -> dict[str, tuple[float, ...]]:
-    """Values of each method's setting in the default chart or the full one.
-
-    They go from loose to tight, up to the first global slip (`until`) or for the whole
-    run (None).
-    """
-    column = ("values" if full else "quick") + ("" if until else "_whole")
+def charted_values(full: bool) -> dict[str, tuple[float, ...]]:
+    """Values of each method's setting in the default chart or the full one, from loose
+    to tight."""
+    column = "values" if full else "quick"
     return {name: tuple(map(float, row[column].split())) for name, row in ROWS.items()}
 
 
@@ -157,7 +138,7 @@ def _row(
     return {
         "scene": case.scene,
         "theta": case.theta,
-        "until": case.until or "end",
+        "until": UNTIL,
         "method": method.name,
         "label": ROWS[method.name]["label"],
         "kind": method.kind,
