@@ -50,7 +50,7 @@ SCENES = {
 # bisection by none or by a step of its own.
 ROUNDING, STEPS = 1e-8, 1e-6
 RELATIVE = dict.fromkeys(
-    ("failures", "failure_curves", "limits", "definitions", "enclosures"), STEPS
+    ("failure_curves", "limits", "definitions", "enclosures"), STEPS
 )
 RELATIVE["audits"] = 1e-2  # deviations as printed, with three digits
 # Errors relative to the paper's chain are differences of numbers near one.
@@ -61,25 +61,11 @@ ABSOLUTE = {"model_comparison": 1e-12, "larger_runs": 1e-12}
 CHAOTIC = "silent_instability"
 
 
-def failures(measured: Callable[[str], Failure]) -> pd.DataFrame:
-    """The numbers of all failure modes but the chaotic one."""
-    rows = [
-        {"failure_mode": name, **vars(number)}
-        for name in FAILURE_MODES
-        if name != CHAOTIC
-        for number in measured(name).numbers
-    ]
-    return pd.DataFrame(rows)
-
-
 def limits(measured: Callable[[str], Failure]) -> pd.DataFrame:
     """All thresholds; how a run beyond a limit ends with friction differs with the
     processor, too."""
-    found = [
-        *thresholds(),
-        *(limit for mode in FAILURE_MODES for limit in measured(mode).thresholds),
-    ]
-    table = pd.DataFrame(map(vars, found))
+    of_modes = [measured(mode).threshold for mode in FAILURE_MODES]
+    table = pd.DataFrame([*thresholds(), *filter(None, of_modes)])
     is_sure = table["fails"] != NO_GLOBAL_SLIP
     return table.assign(measured=table["measured"].where(is_sure, 0.0))
 
@@ -346,7 +332,6 @@ TABLES: dict[str, Callable[[], pd.DataFrame]] = {
 ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
     "audits": audits,
     "enclosures": enclosures,
-    "failures": lambda: failures(_measured),
     "failure_curves": lambda: failure_curves(_measured),
     "limits": lambda: limits(_measured),
     "model_comparison": model_comparison,

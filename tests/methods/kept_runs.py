@@ -38,9 +38,7 @@ SETTINGS = {
     "none": (0.0,),
     "step [s]": (5e-6, 1e-6, 1e-7),
     "relative tolerance": (1e-4, 1e-8),
-    "forward_euler": (5e-7, 1e-7),
     "rk4_located": (5e-6, 1e-6),
-    "literal": (1e-6,),
 }
 
 

@@ -14,9 +14,7 @@ from golden.small_tables import SMALL
 from methods.kept_runs import kept_runs
 
 from precursors import Chain, simulate
-from precursors.accuracy.failures.regularised_friction import equations
 from precursors.methods import METHODS, columns, cvode_events, events
-from precursors.methods.columns import time_unit
 from precursors.methods.compiled import COMPILED
 from precursors.methods.events import EventMotion
 
@@ -46,14 +44,12 @@ TURN = 1e-7
 CLOCK = 1e-13  # s; roundings of a sum of some ten intervals
 # relative, after some tens of transitions: with and without fused products it was 1e-9
 ROUNDING = 1e-8
-# Eq. 4 taken literally never sticks, so that it makes other transitions.
-NAMES = [name for name in METHODS if name != "literal"]
 # Where friction is a law of the velocity, blocks creep at rest, and slide only after
 # the last of these ends.
 N_CHAINS = {"friction law": 4}
 CASES = [
     (name, *case)
-    for name in NAMES
+    for name in METHODS
     for case in CHAINS[: N_CHAINS.get(METHODS[name].kind)]
 ]
 
@@ -70,8 +66,6 @@ DURATION = LIMIT + 0.01
 STEPS = {
     "rk4_skip": (4, 0),
     "leapfrog": (1, 1),
-    "semi_implicit_euler": (1, 0),
-    "forward_euler": (1, 0),
     "moreau_jean_half": (1, 1),
     "moreau_jean_one": (1, 1),
     "karnopp": (4, 0),
@@ -176,18 +170,6 @@ def test_the_jacobian_of_located_events_is_that_of_differences():
     np.testing.assert_allclose(
         np.delete(motion.jacobian() - of_differences, sticking, 1), 0.0, atol=1e-10
     )
-
-
-def test_the_jacobian_of_regularised_friction_is_that_of_differences():
-    chain = Chain.from_slider(n_blocks=4, theta="-5/6")
-    width = 1e-2
-    rates, matrix = equations(chain, width)
-    unit = (
-        width * chain.mass / time_unit(chain)
-    )  # of velocities, in which friction turns over
-    state = unit * np.random.default_rng(6).uniform(-3, 3, 8)
-    of_differences = differences(lambda y: rates(0.0, y), state, 1e-5 * unit)
-    np.testing.assert_allclose(matrix(0.0, state), of_differences, rtol=1e-6, atol=1e-6)
 
 
 def test_code_is_compiled_again_after_an_edit_of_any_module_that_it_uses():

@@ -20,16 +20,10 @@ from precursors.methods.stability import highest_frequency
 ORDERS = {
     # A transition within a step is an error of its length.
     **dict.fromkeys(
-        ("rk4_skip", "leapfrog", "semi_implicit_euler"),
+        ("rk4_skip", "leapfrog", "moreau_jean_half", "moreau_jean_one"),
         (1.0, 5e-8, 5e-9),
     ),
-    **dict.fromkeys(("moreau_jean_half", "moreau_jean_one"), (1.0, 5e-8, 5e-9)),
     "rk4_located": (4.0, 8e-7, 2e-7),
-    "forward_euler": (
-        1.0,
-        5e-9,
-        1e-9,
-    ),  # energy that is made loses transitions at larger steps
     "karnopp": (0.5, 3e-8, 3e-9),  # creep in the dead zone
 }
 # Where a transition falls within a step is chance: an average over this many steps

@@ -393,13 +393,9 @@ def test_failure_modes_are_tabulated_with_their_curves_and_thresholds(monkeypatc
     monkeypatch.setattr(
         failures,
         "thresholds",
-        lambda: [Threshold("a", "A", 2, "fails", "s", "b", 2.0, 3.0)],
+        lambda: [Threshold("a", 2, "fails", "b", 2.0, 3.0)],
     )
     tables = failures.failure_tables()
-    assert (
-        tables["failures"]["failure_mode"].tolist()
-        == ["stiffness"] + ["dead_zone_too_large"] * 2
-    )
     assert tables["thresholds"]["n_blocks"].tolist() == [2, 10]
     assert tables["thresholds"]["ratio"].tolist() == [1.5, pytest.approx(1.0, rel=0.02)]
     curves = tables["failure_curves"]

@@ -25,5 +25,6 @@ def _method(name: str, module: str) -> Method:
 
 
 METHODS = {name: _method(name, row["module"]) for name, row in ROWS.items()}
+SMOOTH = {name: method.smooth for name, method in METHODS.items() if method.smooth}
 
-__all__ = ["METHODS", "ROWS", "DivergedError", "Method", "Result"]
+__all__ = ["METHODS", "ROWS", "SMOOTH", "DivergedError", "Method", "Result"]

@@ -16,7 +16,6 @@ finer ones it rises past it, without slips."""
 from __future__ import annotations
 
 import math
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -150,8 +149,4 @@ def run_karnopp(motion, step, dead_zone):
         record_modes(motion, dead_zone)
 
 
-METHODS = (
-    Method("karnopp", "step [s]", solve, kind="friction law"),
-    # At finer steps it records more than ten million changes of sign.
-    Method("literal", "step [s]", partial(solve, dead_zone=0.0), kind="friction law"),
-)
+METHODS = (Method("karnopp", "step [s]", solve, kind="friction law"),)

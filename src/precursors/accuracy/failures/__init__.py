@@ -1,13 +1,11 @@
-"""Failure modes of the methods on the paper's chain, each shown by measured numbers."""
+"""Failure modes of the methods on the paper's chain, each shown by measured curves."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
-from itertools import chain
 
 import numpy as np
 import pandas as pd
 
-from precursors.accuracy.failures.common import Failure, Number
+from precursors.accuracy.failures.common import Failure
 from precursors.accuracy.failures.dead_zone import (
     dead_zone_too_large,
     dead_zone_too_small,
@@ -38,28 +36,23 @@ FAILURE_MODES: dict[str, Callable[[], Failure]] = {
     )
 }
 
-__all__ = ["FAILURE_MODES", "Failure", "Number"]
+__all__ = ["FAILURE_MODES", "Failure"]
 
 
 def failure_tables() -> dict[str, pd.DataFrame]:
-    """Numbers, curves and thresholds of all failure modes: failures, failure_curves and
-    thresholds.
+    """Curves and thresholds of all failure modes: failure_curves and thresholds.
 
     A row of failure_curves is a point: mode, curve, role (see `common.Curve`), x, y,
     and the names of both quantities with their units (x_is, y_is).
     """
     found = {mode: measure() for mode, measure in FAILURE_MODES.items()}
-    numbers = [
-        {"failure_mode": mode, **asdict(number)}
-        for mode, failure in found.items()
-        for number in failure.numbers
-    ]
-    of_modes = chain.from_iterable(failure.thresholds for failure in found.values())
-    limits = pd.DataFrame(map(asdict, chain(thresholds(), of_modes)))
+    of_modes = [failure.threshold for failure in found.values() if failure.threshold]
+    limits = pd.DataFrame([*thresholds(), *of_modes])
     return {
-        "failures": pd.DataFrame(numbers),
         "failure_curves": curve_table(found),
-        "thresholds": limits.assign(ratio=limits["measured"] / limits["predicted"]),
+        "thresholds": limits.assign(
+            unit="s", ratio=limits["measured"] / limits["predicted"]
+        ),
     }
 
 

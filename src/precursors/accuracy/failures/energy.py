@@ -3,14 +3,11 @@ damping."""
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
-from precursors.accuracy.compare import transitions_right
-from precursors.accuracy.failures.common import Curve, Failure, Number
-from precursors.analysis.slips import first_global_slip, slip_table
-from precursors.methods import METHODS, ROWS, DivergedError
+from precursors.accuracy.failures.common import Curve, Failure
+from precursors.analysis.slips import apparent_friction
+from precursors.methods import METHODS, ROWS, SMOOTH, DivergedError
 from precursors.methods.rk4 import LIMIT as RK4_LIMIT
 from precursors.methods.stability import (
     energy_left,
@@ -23,7 +20,7 @@ from precursors.solver.simulate import simulate
 
 # Steps over which the factor per step is an average: more for leapfrog, whose energy
 # also swings, fewer for RK4, which damps the mode below the rounding of the others.
-UNSTABLE_STEPS = {"rk4": 20, "leapfrog": 200}
+UNSTABLE_STEPS = {"rk4_skip": 20, "leapfrog": 200}
 POINTS = 21
 # With friction: omega dt from RK4's limit on, and where its runs end.
 BEYOND = RK4_LIMIT * np.linspace(1.0, 1.25, 51)[1:]
@@ -39,72 +36,43 @@ def unstable() -> Failure:
     chain = without_friction(Chain.from_slider())
     omega = highest_frequency(chain)
     mode = highest_mode(chain)
-    lines = []
-    numbers = []
+    curves = []
     for name, n_steps in UNSTABLE_STEPS.items():
-        method = METHODS[name]
-        smooth = method.smooth
-        label = ROWS[name]["label"].removesuffix(", every step")
-        assert smooth
-        z = smooth.limit * np.linspace(0.9, 1.1, POINTS)
-        fine = smooth.limit * np.linspace(0.9, 1.1, 201)
+        method = SMOOTH[name]
+        z = method.limit * np.linspace(0.9, 1.1, POINTS)
+        fine = method.limit * np.linspace(0.9, 1.1, 201)
         left = [
-            energy_left(chain, smooth.slide, x / omega, n_steps, mode) ** (1 / n_steps)
+            energy_left(chain, method.slide, x / omega, n_steps, mode) ** (1 / n_steps)
             for x in z
         ]
-        theory = [smooth.energy_factor(x) for x in fine]
-        lines.append(Curve(label, fine / omega, theory, "theory"))
-        lines.append(Curve(label, z / omega, left))
-        numbers.append(
-            Number(
-                method=label,
-                setting=f"omega dt = {z[-1]:.3g}",
-                quantity="energy_per_step",
-                unit="1",
-                measured=left[-1],
-                exact=1.0,
-                predicted=smooth.energy_factor(z[-1]),
-            )
-        )
-    return Failure(tuple(numbers), "step_s", "energy_per_step", tuple(lines))
+        theory = [method.energy_factor(x) for x in fine]
+        curves += [
+            Curve(ROWS[name]["label"], fine / omega, theory, "theory"),
+            Curve(ROWS[name]["label"], z / omega, left),
+        ]
+    return Failure("step_s", "energy_per_step", curves)
 
 
 def silent_instability() -> Failure:
     """RK4 above its limit with friction: stops take the energy away, so that no number
     overflows at first."""
     chain = Chain.from_slider()
-    omega = highest_frequency(chain)
-    exact = simulate(chain, END, "global slip")
-    true = first_global_slip(slip_table(exact))
-    assert true
-    finished = []
+    exact = apparent_friction(simulate(chain, END, "global slip"))
+    steps = BEYOND / highest_frequency(chain)
     mu_sapp = []
-    right = 0
-    for z in BEYOND:
+    for step in steps:
         try:
-            run = METHODS["rk4_skip"].solve(chain, END, z / omega, "global slip").run
+            run = METHODS["rk4_skip"].solve(chain, END, step, "global slip").run
         except DivergedError:
             break
-        if (friction := first_global_slip(slip_table(run))) is None:
+        if np.isnan(friction := apparent_friction(run)):
             break
-        finished.append(z)
-        mu_sapp.append(friction.mu_sapp)
-        right = max(right, transitions_right(run, exact))
-    number = partial(Number, "RK4", "theta = 0")
-    n = len(exact.transitions)
-    return Failure(
-        (
-            number("least_mu_sapp", "1", min(mu_sapp), true.mu_sapp),
-            number("largest_mu_sapp", "1", max(mu_sapp), true.mu_sapp),
-            number("most_transitions_right", "1", right, n),
-        ),
-        x="step_s",
-        y="mu_sapp",
-        curves=(
-            Curve("exact", BEYOND[[0, -1]] / omega, [true.mu_sapp] * 2, "exact"),
-            Curve("RK4", np.array(finished) / omega, mu_sapp),
-        ),
-    )
+        mu_sapp.append(friction)
+    curves = [
+        Curve("exact", steps[[0, -1]], [exact, exact], "exact"),
+        Curve("RK4", steps[: len(mu_sapp)], mu_sapp),
+    ]
+    return Failure("step_s", "mu_sapp", curves)
 
 
 def numerical_damping() -> Failure:
@@ -112,34 +80,13 @@ def numerical_damping() -> Failure:
     chain = without_friction(Chain.from_slider())
     omega = highest_frequency(chain)
     mode = highest_mode(chain)
+    method = SMOOTH["moreau_jean_one"]
     times = np.linspace(0.0, SLIP, POINTS)
-    lines = []
-    numbers = []
-    runs = [
-        *(("moreau_jean_one", step) for step in DAMPING_STEPS),
-        ("moreau_jean_half", DAMPING_STEPS[0]),
-    ]
-    for name, step in runs:
-        method = METHODS[name]
-        assert method.smooth
+    curves = []
+    for step in DAMPING_STEPS:
         n_steps = np.linspace(0, round(SLIP / step), POINTS).astype(int)
-        left = [
-            energy_left(chain, method.smooth.slide, step, int(n), mode) for n in n_steps
-        ]
+        left = [energy_left(chain, method.slide, step, int(n), mode) for n in n_steps]
+        theory = method.energy_factor(omega * step) ** (times / step)
         setting = f"dt = {step:.0e} s"
-        factor = method.smooth.energy_factor(omega * step)
-        numbers.append(
-            Number(
-                method=ROWS[name]["label"],
-                setting=setting,
-                quantity="energy_left",
-                unit="1",
-                measured=left[-1],
-                exact=1.0,
-                predicted=factor ** (SLIP / step),
-            )
-        )
-        if name == "moreau_jean_one":
-            lines.append(Curve(setting, times, factor ** (times / step), "theory"))
-            lines.append(Curve(setting, times, left))
-    return Failure(tuple(numbers), "time_s", "energy_left", tuple(lines))
+        curves += [Curve(setting, times, theory, "theory"), Curve(setting, times, left)]
+    return Failure("time_s", "energy_left", curves)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from precursors.accuracy.failures.common import Curve, Failure, Number
+from precursors.accuracy.failures.common import Curve, Failure
 from precursors.methods import karnopp
 from precursors.methods.columns import FORCE, at_rest
 from precursors.model.chain import Chain, FloatArray
@@ -36,23 +36,9 @@ def literal_friction() -> Failure:
     limit = float(chain.strength.max())  # of every block
     onset = limit / chain.loading_rate
     times = np.linspace(0.0, END - onset, POINTS)
-    lines = [Curve("exact", exact_times, exact, "exact")]
-    numbers = []
+    curves = [Curve("exact", exact_times, exact, "exact")]
     for step in STEPS:
         load = load_after_limit(chain, step, times)
-        setting = f"dt = {step:.0e} s"
-        lines.append(
-            Curve(setting, np.append(0.0, onset + times), np.append(0.0, load))
-        )
-        numbers.append(
-            Number(
-                method="RK4 with Eq. 4 as printed",
-                setting=setting,
-                quantity="largest_load",
-                unit="N",
-                measured=float(load.max()),
-                exact=float(exact.max()),
-                predicted=limit,
-            )
-        )
-    return Failure(tuple(numbers), "time_s", "tangential_load_N", tuple(lines))
+        points = np.append(0.0, onset + times), np.append(0.0, load)
+        curves.append(Curve(f"dt = {step:.0e} s", *points))
+    return Failure("time_s", "tangential_load_N", curves)

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from precursors.accuracy.compare import transitions_right
-from precursors.accuracy.failures.common import Curve, Failure, Number, threshold
+from precursors.accuracy.failures.common import Curve, Failure, Threshold
 from precursors.analysis.slips import find_slips
 from precursors.methods.events import NUDGE, EventMotion
 from precursors.methods.scipy_events import solve_scipy
@@ -18,7 +18,6 @@ from precursors.model.chain import Chain
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-METHOD = "DOP853 with events"
 # Key of what fails.
 ROOTS_MISSED = "roots_missed"
 # At the loose tolerance DOP853 steps over two roots of a velocity; with steps of at
@@ -48,8 +47,6 @@ def missed_roots() -> Failure:
     """DOP853 steps over two roots of a velocity: a block's stop is not seen."""
     chain = Chain.from_slider()
     exact = simulate(chain, 10.0, "global slip")
-    n = len(exact.transitions)
-
     wrong = transitions_right(solve_scipy(chain, 10.0, LOOSE, "global slip").run, exact)
     ends = find_slips(exact)["end"].to_numpy()
     end_of_slip = float(ends[ends > exact.transitions["time"][wrong]][0])
@@ -75,24 +72,16 @@ def missed_roots() -> Failure:
 
     # A step that is shorter than the time below zero ends in it or does not begin
     # before it.
-    limit = threshold(
+    limit = Threshold(
         "scipy_dop853",
-        chain,
+        chain.n_blocks,
         fails=ROOTS_MISSED,
-        unit="s",
         theory="time for which the velocity is below zero, read off the exact run",
         predicted=below_zero,
         measured=longest,
     )
-    return Failure(
-        (Number(METHOD, f"rtol = {LOOSE:.0e}", "transitions_right", "1", wrong, n),),
-        x="time_s",
-        y="velocity_m_per_s",
-        curves=(
-            Curve("exact", times * motion.tau, velocity, "exact"),
-            Curve(
-                "steps of DOP853", steps.t * motion.tau, steps.y[column] * to_velocity
-            ),
-        ),
-        thresholds=(limit,),
-    )
+    curves = [
+        Curve("exact", times * motion.tau, velocity, "exact"),
+        Curve("steps of DOP853", steps.t * motion.tau, steps.y[column] * to_velocity),
+    ]
+    return Failure("time_s", "velocity_m_per_s", curves, limit)
