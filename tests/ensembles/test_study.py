@@ -43,7 +43,7 @@ def one_by_one(study: Study) -> pd.DataFrame:
     runs = []
     for member in study.members.to_dict("records"):
         runs.append(
-            simulate(chain_of(member, study.seed), member["duration"], study.until)
+            simulate(chain_of(member, study.seed), member["duration"], "global slip")
         )
     return summarise(runs)
 
@@ -71,12 +71,12 @@ def test_the_gathered_table_is_the_same_to_the_last_bit_however_a_study_is_cut(
 
 
 def test_more_chunks_than_members_leave_some_empty(noise, tmp_path):
-    few = Study(noise.members.iloc[:2], noise.until, noise.seed)
+    few = Study(noise.members.iloc[:2], noise.seed)
     assert len(gather(chunks_of(few, 3, tmp_path))) == 2
 
 
 def test_a_missing_and_a_doubled_chunk_are_noticed(noise, tmp_path):
-    few = Study(noise.members.iloc[:4], noise.until, noise.seed)
+    few = Study(noise.members.iloc[:4], noise.seed)
     a, b = chunks_of(few, 2, tmp_path)
     for chunks in ([a], [b], [a, a], [a, b, b]):
         with pytest.raises(ValueError, match="each once"):
@@ -92,7 +92,7 @@ def test_members_are_run_with_their_own_number_of_blocks_noise_and_duration():
         "group": 0,
         "draw": [0, 1, 2],
     }
-    study = Study(pd.DataFrame(table), until=None)
+    study = Study(pd.DataFrame(table))
     assert_rows(run_members(study), one_by_one(study))
 
 
@@ -105,9 +105,7 @@ def test_a_member_that_meets_the_limit_of_transitions_is_kept_as_far_as_it_came(
         ]
 
     monkeypatch.setattr("precursors.ensembles.study.simulate_many", capped)
-    found = run_members(
-        Study(noise.members.query("scene == 'fig12'"), noise.until, noise.seed)
-    )
+    found = run_members(Study(noise.members.query("scene == 'fig12'"), noise.seed))
     longer = rows.loc[found.index, "transitions"] > 100
     assert (
         found["transitions"] == rows.loc[found.index, "transitions"].clip(upper=100)

@@ -1,5 +1,4 @@
-"""The map: events counted, mu_sapp and the share of global slips over theta and
-mu_k/mu_s."""
+"""The map: events counted and mu_sapp over theta and mu_k/mu_s."""
 
 from __future__ import annotations
 
@@ -32,7 +31,7 @@ def loading_time(slider: Mapping[str, Any]) -> float:
 
 
 def map_study(slider: Mapping[str, Any], points: int) -> Study:
-    """A grid of at most so many chains. Runs go on after the first global slip."""
+    """A grid of at most so many chains."""
     side = math.isqrt(points)
     ratio, theta = (
         grid.ravel()
@@ -47,7 +46,6 @@ def map_study(slider: Mapping[str, Any], points: int) -> Study:
         "theta": theta,
         "friction_ratio": ratio,
         "mu_k": slider["mu_s"] * ratio,
+        "duration": LOADINGS * loading_time(slider),
     }
-    return Study(
-        stack([members | {"duration": LOADINGS * loading_time(slider)}]), until=None
-    )
+    return Study(stack([members]))

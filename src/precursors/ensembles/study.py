@@ -12,7 +12,6 @@ import pandas as pd
 
 from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.checks import Until
 from precursors.solver.many import simulate_many
 from precursors.solver.run import Record
 from precursors.solver.simulate import TransitionLimitError
@@ -35,7 +34,7 @@ WITH_UNITS = {name: f"{name}_{unit}" for name, unit in SUMMARY_UNITS.items()}
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """Runs that differ in a few values.
+    """Runs to the first global slip that differ in a few values.
 
     Attributes
     ----------
@@ -44,14 +43,11 @@ class Study:
         time limit of the run [s]; loading, a key of `LOADINGS`; load_noise (see
         `chain_of`) with group and draw, the numbers of the random stream. All other
         columns are labels.
-    until : "global slip" or None
-        As in `simulate`.
     seed : int
         Seed of all random numbers.
     """
 
     members: pd.DataFrame
-    until: Until = "global slip"
     seed: int = 0
 
     def chunk(self, i: int, n: int) -> Study:
@@ -111,9 +107,7 @@ def run_members(study: Study) -> pd.DataFrame:
             chains = [
                 chain_of(member, study.seed) for member in batch.to_dict("records")
             ]
-            summary = summarise(
-                _runs(chains, float(batch["duration"].iloc[0]), study.until)
-            )
+            summary = summarise(_runs(chains, float(batch["duration"].iloc[0])))
             results.append(summary.set_index(batch.index))
     return study.members.join(pd.concat(results).rename(columns=WITH_UNITS))
 
@@ -138,12 +132,12 @@ def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
     return together.drop(columns=["member", *constant])
 
 
-def _runs(chains: Sequence[Chain], duration: float, until: Until) -> Sequence[Record]:
+def _runs(chains: Sequence[Chain], duration: float) -> Sequence[Record]:
     """Run a batch; a run that meets the limit of transitions is kept as far as it
     came."""
     try:
-        return simulate_many(chains, duration, until, 1)
+        return simulate_many(chains, duration, "global slip", 1)
     except TransitionLimitError as limit:
         if len(chains) == 1:
             return [limit.run]
-        return [run for chain in chains for run in _runs([chain], duration, until)]
+        return [run for chain in chains for run in _runs([chain], duration)]
