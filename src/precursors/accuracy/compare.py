@@ -116,8 +116,6 @@ class Comparison:
     transitions_found: int
     transitions_true: int
     slips_right: int
-    slips_found: int
-    slips_true: int
     time_errors: FloatArray
     load_error: float
     first_difference: float
@@ -165,8 +163,6 @@ def compare(run: Record, truth: Truth) -> Comparison:
         transitions_found=len(found),
         transitions_true=len(true),
         slips_right=n_slips,
-        slips_found=len(slips),
-        slips_true=len(truth.slips),
         time_errors=abs(found["time"][:n] - true["time"][:n] - truth.time_rest[:n]),
         load_error=_largest(abs(at_onsets.to_numpy())),
         first_difference=float(

@@ -36,14 +36,7 @@ LONGEST_FULL = 5.0
 # is so short [s].
 WARM_UP = 0.4
 SHORTEST = 0.0025  # s, of a round: see `timing.measure`
-COUNTS = (
-    "transitions_right",
-    "transitions_found",
-    "transitions_true",
-    "slips_right",
-    "slips_found",
-    "slips_true",
-)
+COUNTS = ("transitions_right", "transitions_found", "transitions_true")
 
 
 @dataclass(frozen=True, eq=False)

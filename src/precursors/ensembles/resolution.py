@@ -69,7 +69,7 @@ def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
 
     Each row has the median of each count, also over that of the scene `uniform`, with
     the probability by chance of such a difference from this scene (two-sided test of
-    Mann and Whitney), and the median of the share of events that are counted.
+    Mann and Whitney).
     """
     runs = with_noise(members)
     rows = []
@@ -82,14 +82,7 @@ def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
             row[count] = own[count].median()
             row[f"{count}_over_uniform"] = own[count].median() / even[count].median()
             row[f"{count}_p"] = mannwhitneyu(own[count], even[count]).pvalue
-        rows.append(
-            row
-            | {
-                "share_counted": (
-                    own["events_counted"] / own["events_to_global_slip"]
-                ).median()
-            }
-        )
+        rows.append(row)
     return pd.DataFrame(rows).sort_values(["n_blocks", "theta"], ignore_index=True)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from importlib import import_module
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
 from precursors.model.scenes import Config, scene_slider
@@ -26,10 +26,7 @@ PREDICTED_UP_TO = 30  # blocks; the predictability time of longer chains takes m
 
 def make_study(name: str, arguments: dict[str, Any]) -> Study:
     """A study by its name and the arguments of its function."""
-    module, function = STUDIES[name].split(".")
-    study: Study = getattr(import_module(f"precursors.ensembles.{module}"), function)(
-        **arguments
-    )
+    study: Study = resolve_name(f"precursors.ensembles.{STUDIES[name]}")(**arguments)
     return study
 
 

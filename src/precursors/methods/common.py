@@ -33,7 +33,6 @@ class Smooth:
     """
 
     slide: Callable[..., None]
-    order: int
     limit: float
     energy_factor: Callable[[float], float]
 

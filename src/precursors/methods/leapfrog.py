@@ -42,4 +42,4 @@ def run_leapfrog(motion, step):
     run_in_steps(motion, step, leapfrog_step, True, 0.0)
 
 
-METHODS = (fixed_step("leapfrog", run_leapfrog, smooth=(2, LIMIT, energy_factor)),)
+METHODS = (fixed_step("leapfrog", run_leapfrog, smooth=(LIMIT, energy_factor)),)

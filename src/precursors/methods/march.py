@@ -134,7 +134,7 @@ def fixed_step(
     name: str,
     method: Callable[..., None],
     *parameters: Any,
-    smooth: tuple[int, float, Callable[[float], float]] | None = None,
+    smooth: tuple[float, Callable[[float], float]] | None = None,
     kind: Kind = "once a step",
     waits: bool = True,
 ) -> Method:

@@ -182,12 +182,12 @@ def run_moreau_jean(motion, step, theta):
                 change_mode(motion, i, new)
 
 
-def _method(name: str, theta: float, order: int) -> Method:
-    smooth = (order, math.inf, partial(energy_factor, theta=theta))
+def _method(name: str, theta: float) -> Method:
+    smooth = (math.inf, partial(energy_factor, theta=theta))
     return fixed_step(name, run_moreau_jean, theta, smooth=smooth)
 
 
 METHODS = (
-    _method("moreau_jean_half", TRAPEZOIDAL, 2),
-    _method("moreau_jean_one", IMPLICIT, 1),
+    _method("moreau_jean_half", TRAPEZOIDAL),
+    _method("moreau_jean_one", IMPLICIT),
 )

@@ -92,7 +92,7 @@ def run_rk4(motion, step):
     run_in_steps(motion, step, rk4_step, False, room(motion.state))
 
 
-SMOOTH = (4, LIMIT, energy_factor)
+SMOOTH = (LIMIT, energy_factor)
 METHODS = (
     fixed_step("rk4", run_rk4, waits=False, smooth=SMOOTH),
     fixed_step("rk4_skip", run_rk4, smooth=SMOOTH),

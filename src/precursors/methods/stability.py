@@ -107,9 +107,7 @@ def bisect(
     return broken
 
 
-def largest_stable_step(
-    chain: Chain, slide: Slide, works: float = 1e-8, broken: float = 1e-4
-) -> float:
-    """Step [s] above which the energy of a chain without friction has no limit, between
-    two steps."""
-    return bisect(partial(is_unstable, chain, slide), works, broken)
+def largest_stable_step(chain: Chain, slide: Slide) -> float:
+    """Step [s] above which the energy of a chain without friction has no limit."""
+    omega = highest_frequency(chain)
+    return bisect(partial(is_unstable, chain, slide), 1e-2 / omega, 1e2 / omega)

@@ -90,7 +90,7 @@ def without(free: Chain) -> Iterator[Threshold]:
     n = free.n_blocks
     for name, theory in GROWING.items():
         limit = SMOOTH[name].limit / omega
-        found = largest_stable_step(free, SMOOTH[name].slide, 1e-2 / omega, 1e2 / omega)
+        found = largest_stable_step(free, SMOOTH[name].slide)
         yield Threshold(name, n, ENERGY_UNBOUNDED, theory, limit, found)
     yield Threshold(DISSIPATIVE, n, ENERGY_CHANGED, DISSIPATION, *changing_step(free))
 
