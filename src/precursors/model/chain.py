@@ -15,7 +15,6 @@ from precursors.model.checks import (
     LARGEST,
     MOST_BLOCKS,
     SMALLEST,
-    knows_its_arguments,
     not_negative,
     number,
     number_array,
@@ -102,7 +101,6 @@ class Chain:
         object.__setattr__(self, "mu_k", mu_k)
 
     @classmethod
-    @knows_its_arguments
     def from_slider(
         cls,
         n_blocks: int = N_BLOCKS,
@@ -241,7 +239,7 @@ def remember_theta(chain: Chain, theta: float | str) -> Chain:
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:
     """Normal loads w_i that change linearly along the slider [N], shape (N,) (Eq. 7;
     w_1 = F_Z at N = 1)."""
-    n = whole("n_blocks", n_blocks, at_least=1, at_most=MOST_BLOCKS)
+    n = whole("n_blocks", n_blocks, MOST_BLOCKS)
     load = positive("normal_load", normal_load, "N")
     degree = parse_theta(theta)
     if n == 1:

@@ -3,42 +3,21 @@ parameter."""
 
 from __future__ import annotations
 
-import inspect
 import math
-from collections.abc import Callable
 from contextlib import suppress
-from difflib import get_close_matches
-from functools import wraps
 from numbers import Integral, Real
-from typing import Literal, ParamSpec, TypeVar
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 # Where a run ends before its duration is over.
 Until = Literal["global slip"] | None
-P = ParamSpec("P")
-R = TypeVar("R")
 
 # Products and squares of three such numbers stay within the range of doubles.
 SMALLEST = 1e-60
 LARGEST = 1e60
 MOST_BLOCKS = 100_000
-
-
-def knows_its_arguments(function: Callable[P, R]) -> Callable[P, R]:
-    """Decorator for a function that says which argument was probably meant."""
-    known = inspect.signature(function).parameters
-
-    @wraps(function)
-    def call(*arguments: P.args, **named: P.kwargs) -> R:
-        for name in named.keys() - known.keys():
-            near = get_close_matches(name, known, 1)
-            hint = "".join(f"; did you mean {argument}?" for argument in near)
-            raise TypeError(f"{function.__name__} has no argument {name!r}{hint}")
-        return function(*arguments, **named)
-
-    return call
 
 
 def number(name: str, value: object, unit: str) -> float:
@@ -93,19 +72,15 @@ def not_negative(name: str, value: object, unit: str) -> float:
     return result
 
 
-def whole(name: str, value: object, at_least: int, at_most: float = math.inf) -> int:
-    """Return an int within these limits, or raise a ValueError that names the
+def whole(name: str, value: object, at_most: float = math.inf) -> int:
+    """Return an int from 1 to `at_most`, or raise a ValueError that names the
     parameter."""
     if (
         isinstance(value, bool)
         or not isinstance(value, Integral)
-        or not at_least <= int(value) <= at_most
+        or not 1 <= int(value) <= at_most
     ):
-        limits = (
-            f"of at least {at_least}"
-            if at_most == math.inf
-            else f"from {at_least} to {at_most}"
-        )
+        limits = "of at least 1" if at_most == math.inf else f"from 1 to {at_most}"
         raise ValueError(f"{name} must be a whole number {limits}, but is {value!r}")
     return int(value)
 

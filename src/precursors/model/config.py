@@ -9,20 +9,38 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+import yaml
+from jsonschema import Draft202012Validator
+from jsonschema.exceptions import best_match
+
 from precursors.model.chain import Chain, parse_theta
-from precursors.model.checks import positive
-from precursors.model.scenes import (
-    Config,
-    scene_additions,
-    scene_duration,
-    scene_slider,
-    scenes_with_theta,
-)
+from precursors.model.scenes import Config, scene_slider, scenes_with_theta
 
 # Beyond these, a file takes minutes to read, or ends the interpreter.
 LARGEST_FILE = 1_000_000  # bytes
 DEEPEST = 20
 MOST_VALUES = 20_000
+# YAML reads 010 as 8, and 1:30 as 90; .nan and .inf are no number to compute with.
+NOT_PLAIN = re.compile(
+    r"[-+]?(0[\d_]+|\d[\d_]*(:[0-5]?\d)+(\.[\d_]*)?|\.(inf|nan))", re.IGNORECASE
+)
+
+
+class Loader(yaml.SafeLoader):
+    """Reads plain values, and each key once."""
+
+    def construct_mapping(
+        self, node: yaml.MappingNode, deep: bool = False
+    ) -> dict[Any, Any]:
+        """Return a table, in which no key stands twice."""
+        keys = [key.value for key, _ in node.value]
+        for i, (key, _) in enumerate(node.value):
+            if key.value in keys[:i]:
+                raise yaml.MarkedYAMLError(
+                    problem=f"the key {key.value!r} stands there twice",
+                    problem_mark=key.start_mark,
+                )
+        return super().construct_mapping(node, deep)
 
 
 def check_file(path: str | os.PathLike[str]) -> None:
@@ -31,67 +49,21 @@ def check_file(path: str | os.PathLike[str]) -> None:
 
     The ValueError says in one line which file, where in it, and what is wrong.
     """
-    import yaml
-
-    class Loader(yaml.SafeLoader):
-        """Reads plain values, and each key once; what could grow without end is
-        refused."""
-
-        depth = 0
-        values = 0
-
-        def compose_node(
-            self, parent: yaml.Node | None, index: int
-        ) -> yaml.Node | None:
-            event = self.peek_event()
-            self.depth += 1
-            self.values += 1
-            for is_too_much, problem in (
-                (isinstance(event, yaml.AliasEvent), "write out what * stands for"),
-                (self.depth > DEEPEST, f"more than {DEEPEST} tables in each other"),
-                (self.values > MOST_VALUES, f"more than {MOST_VALUES} values"),
-            ):
-                if is_too_much:
-                    raise yaml.MarkedYAMLError(
-                        problem=problem, problem_mark=event.start_mark
-                    )
-            node = super().compose_node(parent, index)
-            self.depth -= 1
-            return node
-
-        def construct_mapping(
-            self, node: yaml.MappingNode, deep: bool = False
-        ) -> dict[Any, Any]:
-            keys = [key.value for key, _ in node.value]
-            for i, (key, _) in enumerate(node.value):
-                if key.value in keys[:i]:
-                    raise yaml.MarkedYAMLError(
-                        problem=f"the key {key.value!r} stands there twice",
-                        problem_mark=key.start_mark,
-                    )
-            return super().construct_mapping(node, deep)
-
-        def plain_number(self, node: yaml.ScalarNode) -> Any:
-            """A number as people read it: YAML takes 010 for 8 and 1:30 for 90."""
-            if ":" in node.value or re.match(r"[-+]?0[0-9_]+$", node.value):
-                raise yaml.MarkedYAMLError(
-                    problem=f"{node.value} is not plain: write a decimal number, or a text in quotes",
-                    problem_mark=node.start_mark,
-                )
-            whole = node.tag.endswith("int")
-            return (
-                self.construct_yaml_int(node)
-                if whole
-                else self.construct_yaml_float(node)
-            )
-
-    for tag in ("int", "float"):
-        Loader.add_constructor(f"tag:yaml.org,2002:{tag}", Loader.plain_number)
-
     try:
         if Path(path).stat().st_size > LARGEST_FILE:
             raise ValueError(f"a configuration may have {LARGEST_FILE:,} bytes")
-        config = yaml.load(Path(path).read_text(encoding="utf-8"), Loader)
+        text = Path(path).read_text(encoding="utf-8")
+        depth = 0
+        values = 0
+        for event in yaml.parse(text):
+            depth += isinstance(event, yaml.CollectionStartEvent)
+            depth -= isinstance(event, yaml.CollectionEndEvent)
+            values += isinstance(event, yaml.NodeEvent)
+            if problem := _problem(event, depth, values):
+                raise yaml.MarkedYAMLError(
+                    problem=problem, problem_mark=event.start_mark
+                )
+        config = yaml.load(text, Loader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f" in line {mark.line + 1}, column {mark.column + 1}" if mark else ""
@@ -102,6 +74,23 @@ def check_file(path: str | os.PathLike[str]) -> None:
         raise ValueError(_short(f"{path}: {error}")) from None
     if not isinstance(config, dict):
         raise ValueError(f"{path} must be a table of keys and values")
+
+
+def _problem(event: yaml.Event, depth: int, values: int) -> str:
+    """What is wrong with a part of a file that has so many values up to there, or
+    nothing."""
+    if isinstance(event, yaml.AliasEvent):
+        return "write out what * stands for"
+    if depth > DEEPEST:
+        return f"more than {DEEPEST} tables in each other"
+    if values > MOST_VALUES:
+        return f"more than {MOST_VALUES} values"
+    is_plain = isinstance(event, yaml.ScalarEvent) and event.implicit[0]
+    if is_plain and NOT_PLAIN.fullmatch(event.value):
+        return (
+            f"{event.value} is not plain: write a decimal number, or a text in quotes"
+        )
+    return ""
 
 
 def read_numbers(values: Any) -> Any:
@@ -124,18 +113,16 @@ def check_config(config: Config, schema_path: str | os.PathLike[str]) -> None:
     The ValueError says in one line which value, where, and what it must be. The JSON
     schema is YAML, too.
     """
-    import yaml
-    from jsonschema import Draft202012Validator
-    from jsonschema.exceptions import best_match
-
     schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
     error = best_match(Draft202012Validator(schema).iter_errors(config))
     if error is not None:
         where = error.json_path.removeprefix("$").lstrip(".") or "top level"
         hint = ""
         message = error.message
-        if error.validator == "pattern" and "description" in error.schema:
-            message = f"{error.instance!r} must be {error.schema['description']}"
+        if "description" in error.schema:
+            is_table = isinstance(error.instance, dict)
+            given = list(error.instance) if is_table else error.instance
+            message = f"{given!r} must {error.schema['description']}"
         elif error.validator == "minItems":
             hint = f": at least {error.validator_value} are needed"
         with suppress(TypeError, ValueError):
@@ -163,8 +150,6 @@ def _check_chains(config: Config) -> None:
         for name in config["scenes"]:
             where = f"scenes.{name}"
             Chain.from_slider(**scene_slider(config, name))
-            scene_additions(config, name)
-            positive("duration", scene_duration(config, name), "s")
         for name, values in config["accuracy"]["proved"].items():
             where = f"accuracy.proved.{name}"
             Chain.from_slider(

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from fractions import Fraction
-from os import PathLike
 from typing import Any
 
 from precursors.model.chain import Chain, parse_theta, theta_from_load_cells
@@ -59,75 +58,42 @@ def scene_duration(config: Config, name: str) -> float:
     return float(config["scenes"][name].get("duration", config["duration"]))
 
 
-def measured(
-    slider: Mapping[str, Any], weights: str | PathLike[str] | Sequence[float]
-) -> dict[str, Any]:
-    """A slider with measured normal loads [N], a list or a file; there is no theta."""
-    loads = (
-        read_weights(weights) if isinstance(weights, str | PathLike) else list(weights)
-    )
-    known = {
+def scene_slider(config: Config, name: str) -> dict[str, Any]:
+    """Arguments of `Chain.from_slider` for a scene; theta and F_Z are rounded once.
+
+    Of measured normal loads [N], a list or a file, there is no theta.
+    """
+    slider = scene_as_written(config, name)
+    if "weights" not in slider:
+        return slider | {
+            "theta": parse_theta(slider["theta"]),
+            "normal_load": float(slider["normal_load"]),
+        }
+    loads = slider["weights"]
+    if isinstance(loads, str):
+        loads = read_weights(loads)
+    return slider | {
         "weights": loads,
         "n_blocks": len(loads),
         "normal_load": math.fsum(loads),
         "theta": math.nan,
     }
-    return {**slider, **known}
-
-
-def scene_slider(config: Config, name: str) -> dict[str, Any]:
-    """Arguments of `Chain.from_slider` for a scene; theta and F_Z are rounded once."""
-    slider = scene_as_written(config, name)
-    if "weights" in slider:
-        return measured(slider, slider["weights"])
-    return slider | {
-        "theta": parse_theta(slider["theta"]),
-        "normal_load": float(slider["normal_load"]),
-    }
 
 
 def scene_additions(config: Config, name: str) -> dict[str, float]:
-    """What the scene adds to the paper's chain, keys of `ADDITIONS`; a smaller model
-    takes nothing."""
+    """What the scene adds to the paper's chain, keys of `ADDITIONS`."""
     scene = config["scenes"][name]
-    given = {key: float(scene[key]) for key in ADDITIONS if key in scene}
-    if "viscosity" in given and "relaxation_time" in given:
-        raise ValueError(
-            "viscosity must not be given beside relaxation_time, which is viscosity / k"
-        )
-    if given and "model" in scene:
-        raise ValueError(f"{', '.join(given)} must not be given beside model")
-    return given
+    return {key: float(scene[key]) for key in ADDITIONS if key in scene}
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:
     """Arguments for a scene before any rounding: theta and F_Z = F_ZA + F_ZB of load
-    cells are fractions.
-
-    A scene must give one of theta, load cells and weights.
-    """
+    cells are fractions."""
     scene = config["scenes"][name]
     slider = {key: scene.get(key, value) for key, value in config["chain"].items()}
-    cells = [key for key in ("load_cell_a", "load_cell_b") if key in scene]
-    if "weights" in scene:
-        for key in ("theta", *cells, "normal_load", "n_blocks"):
-            if key in scene:
-                raise ValueError(f"{key} must not be given beside weights")
-        return slider | {"weights": scene["weights"]}
-    if ("theta" in scene) == bool(cells) or len(cells) == 1:
-        given = (
-            " and ".join([key for key in ("theta", *cells) if key in scene])
-            or "neither"
-        )
-        raise ValueError(
-            f"needed is either theta or both load_cell_a and load_cell_b, or weights, but given is {given}"
-        )
-    if "theta" in scene:
-        return slider | {"theta": scene["theta"]}
-    if "normal_load" in scene:
-        raise ValueError(
-            "normal_load must not be given beside load cells, whose sum it is"
-        )
+    if "load_cell_a" not in scene:
+        given = {key: scene[key] for key in ("theta", "weights") if key in scene}
+        return slider | given
     a = scene["load_cell_a"]
     b = scene["load_cell_b"]
     theta = theta_from_load_cells(

@@ -70,7 +70,7 @@ def simulate_many(
     threads = (
         untyped.config.NUMBA_NUM_THREADS
         if threads is None
-        else whole("threads", threads, at_least=1)
+        else whole("threads", threads)
     )
     positions = _starts("start_positions", start_positions, "m", chains)
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)

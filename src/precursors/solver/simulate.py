@@ -124,7 +124,7 @@ def checked_end(
     if most is None:
         is_long = any(chain.n_blocks > MANY_BLOCKS for chain in chains)
         most = MAX_TRANSITIONS // 10 if is_long else MAX_TRANSITIONS
-    most = whole("max_transitions", most, at_least=1)
+    most = whole("max_transitions", most)
     return End(checked_span(duration, until), until is not None, longest, most)
 
 
