@@ -55,6 +55,7 @@ def check_file(path: str | os.PathLike[str]) -> None:
         text = Path(path).read_text(encoding="utf-8")
         depth = 0
         values = 0
+        event: Any
         for event in yaml.parse(text):
             depth += isinstance(event, yaml.CollectionStartEvent)
             depth -= isinstance(event, yaml.CollectionEndEvent)
@@ -85,8 +86,11 @@ def _problem(event: yaml.Event, depth: int, values: int) -> str:
         return f"more than {DEEPEST} tables in each other"
     if values > MOST_VALUES:
         return f"more than {MOST_VALUES} values"
-    is_plain = isinstance(event, yaml.ScalarEvent) and event.implicit[0]
-    if is_plain and NOT_PLAIN.fullmatch(event.value):
+    if (
+        isinstance(event, yaml.ScalarEvent)
+        and event.implicit[0]  # not in quotes
+        and NOT_PLAIN.fullmatch(event.value)
+    ):
         return (
             f"{event.value} is not plain: write a decimal number, or a text in quotes"
         )

@@ -27,8 +27,12 @@ def digest_code(root: str | Path, script: str, *modules: str) -> str:
     """
     library = Path(root, "src/precursors")
     scripts = Path(root, "workflow/scripts")
-    named = [_named_module(library, name) for name in modules]
-    waiting = [scripts / f"{script}.py", *named]
+    waiting = [scripts / f"{script}.py"]
+    for name in modules:
+        module = _file(library.joinpath(*name.split(".")))
+        if module is None:
+            raise ValueError(f"there is no module {library.name}.{name}")
+        waiting.append(module)
     found: dict[Path, str] = {}
     while waiting:
         if (path := waiting.pop()) not in found:
@@ -40,12 +44,10 @@ def digest_code(root: str | Path, script: str, *modules: str) -> str:
     return hashlib.sha256(repr(trees).encode()).hexdigest()[:16]
 
 
-def _named_module(library: Path, name: str) -> Path:
-    module = library.joinpath(*name.split("."))
-    for file in (module.with_suffix(".py"), module / "__init__.py"):
-        if file.is_file():
-            return file
-    raise ValueError(f"there is no module {library.name}.{name}")
+def _file(module: Path) -> Path | None:
+    """The file of a module or package, if there is one."""
+    files = (module.with_suffix(".py"), module / "__init__.py")
+    return next((file for file in files if file.is_file()), None)
 
 
 @cache
@@ -65,7 +67,11 @@ def _read(library: Path, path: Path) -> tuple[str, list[Path]]:
 def _parse(source: bytes) -> tuple[str, list[str]]:
     """Digest of the syntax tree of a module, and the names that it imports."""
     tree = ast.parse(source)
-    tree.body = [part for part in tree.body if not _is_for_type_checkers(part)]
+    tree.body = [
+        part
+        for part in tree.body
+        if not (isinstance(part, ast.If) and ast.unparse(part.test) == "TYPE_CHECKING")
+    ]
     names: list[str] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
@@ -79,12 +85,6 @@ def _parse(source: bytes) -> tuple[str, list[str]]:
     return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), names
 
 
-def _is_for_type_checkers(statement: ast.stmt) -> bool:
-    return (
-        isinstance(statement, ast.If) and ast.unparse(statement.test) == "TYPE_CHECKING"
-    )
-
-
 @cache
 def _file_of(library: Path, beside: Path, name: str) -> Path | None:
     """The module of that name, or the one that defines it; None outside the library and
@@ -92,10 +92,4 @@ def _file_of(library: Path, beside: Path, name: str) -> Path | None:
     *parents, last = name.split(".")
     start = library.parent if parents[:1] == [library.name] else beside
     package = start.joinpath(*parents)
-    files = (
-        package / f"{last}.py",
-        package / last / "__init__.py",
-        package.with_suffix(".py"),
-        package / "__init__.py",
-    )
-    return next((file for file in files if file.is_file()), None)
+    return _file(package / last) or _file(package)
