@@ -9,11 +9,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from importlib.metadata import version as installed_version
 from pathlib import Path
-from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from precursors.cli import Refused
-from precursors.cli.options import CHAIN, DURATION, LARGER, RUN
+from precursors.cli.options import CHAIN, LARGER, RUN
 from precursors.support.files import write_table
 
 if TYPE_CHECKING:
@@ -217,7 +216,7 @@ def run_of_options(arguments: Namespace) -> Record:
             f"{loads.max():g} N, F_Z = {chain.normal_load:g} N"
         )
     added = given(arguments, LARGER)
-    how = {"duration": DURATION, **given(arguments, RUN)}
+    how = given(arguments, RUN)
     try:
         if any(added.values()):
             from precursors.hierarchy.larger import LargerChain
@@ -263,11 +262,10 @@ def tell_accuracy(run: Record, first: FirstGlobalSlip | None) -> None:
     from precursors.analysis.horizon import predicted_errors
     from precursors.solver.run import Run
 
-    found = accuracy(run)
     wrong = [
-        f"{name} = {found[name]:.3g}"
-        for name, most in MOST_WRONG.items()
-        if not abs(found.get(name, 0)) <= most
+        f"{name} = {value:.3g}"
+        for name, value in accuracy(run).items()
+        if not abs(value) <= MOST_WRONG[name]
     ]
     if wrong:
         tell(f"this run is not accurate: {', '.join(wrong)}")
@@ -276,13 +274,12 @@ def tell_accuracy(run: Record, first: FirstGlobalSlip | None) -> None:
     until = run.transitions[run.transitions["time"] <= first.time]
     if len(until) > MOST_REPEATED:
         return
-    start = monotonic()
     up_to_slip = replace(run, duration=first.time, transitions=until)
     known = predicted_errors(up_to_slip).order_known_until
     if known < first.time:
         tell(
             f"the first global slip at {first.time:.3f} s is beyond predictability: roundings "
-            f"decide from {known:.3f} s on ({monotonic() - start:.1f} s to find out)"
+            f"decide from {known:.3f} s on"
         )
 
 

@@ -54,7 +54,6 @@ LARGER = {
     "push_height": "height of the push above the interface [m]",
 }
 RUN = ("duration", "until", "max_transitions")
-DURATION = 10.0  # s
 
 
 class Parser(argparse.ArgumentParser):
@@ -112,19 +111,32 @@ def add_options(command: Parser, name: str) -> Parser:
         add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
         return command
     if name == "score":
-        text = "transitions as docs/benchmark.md asks for them"
-        add("file", nargs="?", type=Path, metavar="MINE.csv", help=text)
+        add(
+            "file",
+            nargs="?",
+            type=Path,
+            metavar="MINE.csv",
+            help="transitions as docs/benchmark.md asks for them",
+        )
         add("--problem", metavar="NAME", help="the problem that they solve")
-        text = "rows no farther apart may stand in any order [s] (0)"
-        add("--ties", type=_number, default=0.0, metavar="S", help=text)
+        add(
+            "--ties",
+            type=_number,
+            default=0.0,
+            metavar="S",
+            help="rows no farther apart may stand in any order [s] (0)",
+        )
         add("--list", action="store_true", help="list the problems")
-        add("--json", action="store_true", help="print one JSON value")
-        return command
-    if name == "simulate":
+    elif name == "simulate":
         add("--output", help="save the run (HDF5)", **output)
     else:
-        text = "a run file; else the options of a chain"
-        add("file", nargs="?", type=Path, metavar="RUN.h5", help=text)
+        add(
+            "file",
+            nargs="?",
+            type=Path,
+            metavar="RUN.h5",
+            help="a run file; else the options of a chain",
+        )
     if name == "slips":
         add("--counted", action="store_true", help="only the events counted in Fig. 13")
         add("--output", help="write the table with every digit (CSV)", **output)
@@ -133,7 +145,8 @@ def add_options(command: Parser, name: str) -> Parser:
         add("--output", default=file, help=f"PNG, SVG, PDF or EPS ({file})", **output)
         _add_look(command)
     add("--json", action="store_true", help="print one JSON value")
-    _add_chain(command)
+    if name != "score":
+        _add_chain(command)
     return command
 
 
@@ -144,12 +157,19 @@ def _add_chain(command: Parser) -> None:
     number: dict[str, Any] = {"type": _number, "metavar": "X"}
     about = "the defaults are the paper's"
     add = command.add_argument_group("the chain", about).add_argument
-    text = "number of blocks (10)"
-    add("--blocks", dest="n_blocks", type=int, metavar="N", help=text)
-    text = 'non-uniformity of the normal loading, for example "5/6" (0)'
-    add("--theta", metavar="X", help=text)
-    text = "normal loads [N]; replaces --theta, --blocks and --normal-load"
-    add("--weights", metavar="FILE", help=text)
+    add(
+        "--blocks", dest="n_blocks", type=int, metavar="N", help="number of blocks (10)"
+    )
+    add(
+        "--theta",
+        metavar="X",
+        help='non-uniformity of the normal loading, for example "5/6" (0)',
+    )
+    add(
+        "--weights",
+        metavar="FILE",
+        help="normal loads [N]; replaces --theta, --blocks and --normal-load",
+    )
     for name, meaning in CHAIN.items():
         add(_option(name), help=f"{meaning} ({SLIDER[name]:g})", **number)
     about = "each adds to the paper's chain; 0 by default"
@@ -158,27 +178,47 @@ def _add_chain(command: Parser) -> None:
         add(_option(name), help=meaning, **number)
     about = "from rest, with every spring at its natural length"
     add = command.add_argument_group("the run", about).add_argument
-    add("--duration", help=f"time to run [s] ({DURATION:g})", **number)
-    text = "stop at the end of the first global slip"
-    value: dict[str, Any] = {"action": "store_const", "const": "global slip"}
-    add("--until-global-slip", dest="until", help=text, **value)
+    add("--duration", help="time to run [s] (10)", **number)
+    add(
+        "--until-global-slip",
+        dest="until",
+        action="store_const",
+        const="global slip",
+        help="stop at the end of the first global slip",
+    )
     add("--max-transitions", type=int, metavar="N", help="limit of transitions")
 
 
 def _add_look(command: Parser) -> None:
     """Add the options of a figure."""
     add = command.add_argument
-    text = "load over time as in Fig. 10 (default), or lengths as in Fig. 13"
-    add("--figure", choices=["load", "lengths"], default="load", help=text)
-    text = "measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it"
-    add("--data", metavar="FILE", help=text)
-    text = "width of the figure [mm] (178, or 85 for lengths)"
-    add("--width", dest="width_mm", type=_number, metavar="MM", help=text)
+    add(
+        "--figure",
+        choices=["load", "lengths"],
+        default="load",
+        help="load over time as in Fig. 10 (default), or lengths as in Fig. 13",
+    )
+    add(
+        "--data",
+        metavar="FILE",
+        help="measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it",
+    )
+    add(
+        "--width",
+        dest="width_mm",
+        type=_number,
+        metavar="MM",
+        help="width of the figure [mm] (178, or 85 for lengths)",
+    )
     add("--font-size", type=_number, metavar="PT", help="size of the text [pt] (8)")
     add("--font", metavar="NAME", help="an installed font (DejaVu Sans)")
     add("--title", metavar="TEXT", help="title of the figure")
-    text = "without the magnified view"
-    add("--no-inset", dest="inset", action="store_false", help=text)
+    add(
+        "--no-inset",
+        dest="inset",
+        action="store_false",
+        help="without the magnified view",
+    )
 
 
 def _option(name: str) -> str:

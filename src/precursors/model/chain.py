@@ -31,7 +31,13 @@ FASTEST = 1e20
 N_BLOCKS = 10
 THETA = 0.0
 NORMAL_LOAD = 400.0
-_POSITIVE = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "length")
+_POSITIVE = {
+    "mass": "kg",
+    "stiffness": "N/m",
+    "drive_stiffness": "N/m",
+    "drive_velocity": "m/s",
+    "length": "m",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,17 +77,16 @@ class Chain:
     theta: float = field(default=math.nan, init=False)
 
     def __post_init__(self) -> None:
-        weights = _weights(self.weights)
-        object.__setattr__(self, "weights", weights)
-        for name, unit in zip(_POSITIVE, ("kg", "N/m", "N/m", "m/s", "m"), strict=True):
-            object.__setattr__(self, name, positive(name, getattr(self, name), unit))
-        if (
-            max(
-                self.stiffness / self.drive_stiffness,
-                self.drive_stiffness / self.stiffness,
-            )
-            > STIFFEST
-        ):
+        checked: dict[str, Any] = {
+            name: positive(name, getattr(self, name), unit)
+            for name, unit in _POSITIVE.items()
+        }
+        checked["weights"] = _weights(self.weights)
+        checked["mu_s"] = not_negative("mu_s", self.mu_s, "1")
+        checked["mu_k"] = number("mu_k", self.mu_k, "1")
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+        if not 1 / STIFFEST <= self.stiffness / self.drive_stiffness <= STIFFEST:
             raise ValueError(
                 f"stiffness and drive_stiffness must be within a factor of {STIFFEST:g}, but are "
                 f"{self.stiffness!r} and {self.drive_stiffness!r} N/m"
@@ -91,14 +96,10 @@ class Chain:
                 f"sqrt(stiffness/mass) must be between {1 / FASTEST:g} and {FASTEST:g} rad/s, but is "
                 f"{self.fastest_frequency_bound:g}"
             )
-        mu_s = not_negative("mu_s", self.mu_s, "1")
-        mu_k = number("mu_k", self.mu_k, "1")
-        if not 0 <= mu_k <= mu_s:
+        if not 0 <= self.mu_k <= self.mu_s:
             raise ValueError(
-                f"mu_k must be between 0 and mu_s = {mu_s!r}, but is {mu_k!r}"
+                f"mu_k must be between 0 and mu_s = {self.mu_s!r}, but is {self.mu_k!r}"
             )
-        object.__setattr__(self, "mu_s", mu_s)
-        object.__setattr__(self, "mu_k", mu_k)
 
     @classmethod
     def from_slider(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import re
 from contextlib import suppress
 from pathlib import Path
@@ -15,6 +14,7 @@ from jsonschema.exceptions import best_match
 
 from precursors.model.chain import Chain, parse_theta
 from precursors.model.scenes import Config, scene_slider, scenes_with_theta
+from precursors.support.files import AnyPath
 
 # Beyond these, a file takes minutes to read, or ends the interpreter.
 LARGEST_FILE = 1_000_000  # bytes
@@ -43,7 +43,7 @@ class Loader(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-def check_file(path: str | os.PathLike[str]) -> None:
+def check_file(path: AnyPath) -> None:
     """Refuse a YAML file that cannot be read, has a key twice, or a number that YAML
     reads as another.
 
@@ -111,7 +111,7 @@ def read_numbers(values: Any) -> Any:
     return {name: read(value) for name, value in values.items()}
 
 
-def check_config(config: Config, schema_path: str | os.PathLike[str]) -> None:
+def check_config(config: Config, schema_path: AnyPath) -> None:
     """Refuse a configuration, as YAML gives it, that the workflow cannot run.
 
     The ValueError says in one line which value, where, and what it must be. The JSON

@@ -7,17 +7,23 @@ import csv
 import math
 import re
 from collections.abc import Iterable, Sequence
-from itertools import takewhile
-from os import PathLike
+from itertools import takewhile, zip_longest
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from precursors.support.files import AnyPath
+
+if TYPE_CHECKING:
+    import pandas as pd
+
 NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d{1,3})?")
 GROUPED = re.compile(r"[-+]?\d{1,3}([.,'\u2019\s]\d{3})+([.,]\d+)?")
-# An error of a spreadsheet, such as #N/A or #DIV/0!, is no comment.
-COMMENT = re.compile(r"#(?!N/A|NV|[A-Z/0]+[!?])")
+# Empty lines, sep=; and comments; an error of a spreadsheet, such as #N/A or #DIV/0!, is
+# no comment.
+PASSED_OVER = re.compile(r'(?:[\t;,"]*|"?sep=."?)$|#(?!N/A|NV|[A-Z/0]+[!?])')
 # A line of names begins with one, and has no number between separators.
 NAMES = re.compile(
     r"(?!nan|inf|n/?a\b)[\s;,\"\[(]*[^\W\d](?!.*(?<![\w\[(^])[-+]?[.,]?\d)",
@@ -42,13 +48,9 @@ WORDS = {
     LENGTH: "l|l_?p|length|länge|longueur",
     NORMAL_LOAD: _LOADS,
 }
-# The fields of each line, by its number.
-Rows = dict[int, list[str]]
 
 
-def read_columns(
-    path: str | PathLike[str], needed: Sequence[str]
-) -> NDArray[np.float64]:
+def read_columns(path: AnyPath, needed: Sequence[str]) -> NDArray[np.float64]:
     """Read columns of numbers, keys of `WORDS`: by their units, by their names, or in
     this order.
 
@@ -68,31 +70,33 @@ def read_columns(
     ValueError
         In one line with file, line, and what is needed.
     """
-    return _columns(path, *_fields(path), needed)
+    return _columns(path, _fields(path), needed)
 
 
-def read_weights(path: str | PathLike[str]) -> list[float]:
+def read_weights(path: AnyPath) -> list[float]:
     """Normal loads [N], a number for each block, alone or after the number or name of
     the block: 1 or b1, 2 or b2."""
-    names, rows = _fields(path)
-    if len(rows) == 1 and len(names) > 2:  # a table of one line
-        rows = dict(enumerate(([field] for field in rows.popitem()[1]), 1))
-        names = [""]
-    if len(names) > 1:
-        labels = [re.search(r"(\d+)([.,]0*)?$", row.pop(0)) for row in rows.values()]
-        numbers = [int(label[1]) for label in labels if label]
-        if numbers != list(range(1, len(rows) + 1)):
+    table = _fields(path)
+    if len(table) == 1 and table.shape[1] > 2:  # a table of one line
+        lines = table.shape[1] * [table.index[0]]
+        table = table.T.set_axis(lines).set_axis([""], axis=1)
+    if table.shape[1] > 1:
+        labels = table.iloc[:, 0].str.extract(r"(\d+)(?:[.,]0*)?$")[0].dropna()
+        if labels.astype(int).tolist() != list(range(1, len(table) + 1)):
             raise ValueError(
-                f"{path}: columns: {len(names)}; needed: {NORMAL_LOAD}, one a line, "
+                f"{path}: columns: {table.shape[1]}; needed: {NORMAL_LOAD}, one a line, "
                 "alone or after the number of its block, 1, 2, 3, ..."
             )
-        names = names[1:]
-    loads = _columns(path, names, rows, [NORMAL_LOAD])
-    return [float(load) for load in loads[:, 0]]
+        table = table.iloc[:, 1:]
+    loads = _columns(path, table, [NORMAL_LOAD])
+    return list(map(float, loads[:, 0]))
 
 
-def _fields(path: str | PathLike[str]) -> tuple[list[str], Rows]:
-    """Names and fields of the columns of a file that are not empty."""
+def _fields(path: AnyPath) -> pd.DataFrame:
+    """Fields of a file by the number of their line and the name of their column, without
+    empty columns."""
+    import pandas as pd  # slow
+
     if not Path(path).is_file():
         raise ValueError(
             f"{path} is not a file" if Path(path).exists() else f"{path}: no such file"
@@ -102,34 +106,29 @@ def _fields(path: str | PathLike[str]) -> tuple[list[str], Rows]:
         raise ValueError(
             f"{path} is not plain text: in the spreadsheet, save the table as CSV (UTF-8)"
         )
-    lines = {n: line.strip(" \u00a0") for n, line in enumerate(text.splitlines(), 1)}
-    for n, line in list(lines.items()):
-        says_separator = re.fullmatch('"?sep=."?', line)
-        if says_separator or COMMENT.match(line) or not line.strip('\t;,"'):
-            del lines[n]
+    lines = {
+        n: line
+        for n, whole in enumerate(text.splitlines(), 1)
+        if not PASSED_OVER.match(line := whole.strip(" \u00a0"))
+    }
     above = list(takewhile(NAMES.match, lines.values()))
     rest = dict(list(lines.items())[len(above) :])
     if not rest:
         raise ValueError(f"{path} has no numbers")
     separator = _separator(path, above, list(rest.values()))
-    rows = {n: _cut(line, separator) for n, line in rest.items()}
-    width = max(map(len, rows.values()))
-    rows = {n: row + [""] * (width - len(row)) for n, row in rows.items()}
-    used = [j for j in range(width) if any(row[j] for row in rows.values())]
-    names = [""] * width
+    rows = [_cut(line, separator) for line in rest.values()]
+    table = pd.DataFrame(zip_longest(*rows, fillvalue=""), columns=list(rest)).T
+    names = [""] * table.shape[1]
     for line in above:
         parts = _cut(line, separator)
-        parts = parts * width if len(parts) == 1 else parts  # a title
-        for j, part in enumerate(parts[:width]):
+        parts = parts * len(names) if len(parts) == 1 else parts  # a title
+        for j, part in enumerate(parts[: len(names)]):
             names[j] = f"{names[j]} {part}".strip()
-    return [names[j] for j in used], {
-        n: [row[j] for j in used] for n, row in rows.items()
-    }
+    table.columns = pd.Index(names)
+    return table.loc[:, (table != "").any().to_numpy()]
 
 
-def _separator(
-    path: str | PathLike[str], above: Sequence[str], rows: Sequence[str]
-) -> str:
+def _separator(path: AnyPath, above: Sequence[str], rows: Sequence[str]) -> str:
     """What stands between two columns: a blank is any space, and a semicolon stands for
     a single column."""
     for separator in ";\t":
@@ -159,28 +158,31 @@ def _cut(line: str, separator: str) -> list[str]:
 
 
 def _columns(
-    path: str | PathLike[str], names: Sequence[str], rows: Rows, needed: Sequence[str]
+    path: AnyPath, table: pd.DataFrame, needed: Sequence[str]
 ) -> NDArray[np.float64]:
     """Numbers of the columns that are needed."""
+    names = [str(name) for name in table]
     kinds = [_kind(name, needed) for name in names]
     if len(kinds) == len(needed):
         missing = iter([kind for kind in needed if kind not in kinds])
         kinds = [kind or next(missing) for kind in kinds]
     if any(kinds.count(kind) != 1 for kind in needed):
         raise ValueError(
-            f"{path}, line {min(rows)}: columns: {len(names)}; needed: {', '.join(needed)}"
+            f"{path}, line {table.index[0]}: columns: {len(kinds)}; needed: {', '.join(needed)}"
         )
     for name, kind in zip(names, kinds, strict=True):
         if kind and _unit(name) not in ("", _unit(kind)):
             raise ValueError(
                 f"{path}: the column {name!r} is in {_unit(name)}; needed: {kind}"
             )
-    columns = [kinds.index(kind) for kind in needed]
-    fields = [(n, row[j]) for n, row in rows.items() for j in columns]
-    numbers = [_number(path, n, field) for n, field in fields]
-    if {",", "."} <= set("".join(field for _, field in fields)):
+    fields = table.iloc[:, [kinds.index(kind) for kind in needed]]
+    numbers = [
+        [_number(path, line, field) for field in row]
+        for line, *row in fields.itertuples(name=None)
+    ]
+    if {",", "."} <= set("".join(fields.to_numpy().ravel())):
         raise ValueError(f"{path} has decimal commas and decimal points: write one")
-    return np.reshape(numbers, (-1, len(needed)))
+    return np.array(numbers)
 
 
 def _kind(name: str, needed: Iterable[str]) -> str | None:
@@ -201,7 +203,7 @@ def _unit(name: str) -> str:
     return found[found.lastindex or 0].strip("-1") if found else ""
 
 
-def _number(path: str | PathLike[str], line: int, field: str) -> float:
+def _number(path: AnyPath, line: int, field: str) -> float:
     """The number that a field holds."""
     value = field.replace(",", ".")
     if NUMBER.fullmatch(field) and math.isfinite(float(value)):

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas as pd
 
+AnyPath = str | os.PathLike[str]
 LEAST_ROOM = 10_000_000  # bytes; a run of 10 s and its figure take less
 
 
-def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
+def write_whole(path: AnyPath, content: bytes) -> None:
     """Write a file under a temporary name beside `path`, and rename it: it is complete
     or as it was before.
 
@@ -42,7 +43,7 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
         raise OSError(f"cannot write {path}: {error.strerror}") from error
 
 
-def check_writable(path: str | os.PathLike[str], endings: Sequence[str] = ()) -> None:
+def check_writable(path: AnyPath, endings: Sequence[str] = ()) -> None:
     """Refuse a file that could not be written, before the work that it is to hold.
 
     Raises
@@ -69,17 +70,17 @@ def check_writable(path: str | os.PathLike[str], endings: Sequence[str] = ()) ->
         raise OSError(f"cannot write {path}: no room in {parent}")
 
 
-def write_text(path: str | os.PathLike[str], text: str) -> None:
+def write_text(path: AnyPath, text: str) -> None:
     """Write a text file, whole or not at all."""
     write_whole(path, text.encode())
 
 
-def write_table(table: pd.DataFrame, path: str | os.PathLike[str]) -> None:
+def write_table(table: pd.DataFrame, path: AnyPath) -> None:
     """Write a table as CSV with every digit of its numbers."""
     write_text(path, table.to_csv(index=False, lineterminator="\n"))
 
 
-def read_table(path: str | os.PathLike[str], **how: Any) -> pd.DataFrame:
+def read_table(path: AnyPath, **how: Any) -> pd.DataFrame:
     """Read a CSV table; `how` as for `pandas.read_csv`.
 
     Raises
