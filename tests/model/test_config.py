@@ -80,14 +80,22 @@ WRONG = [
         MEASURED | {"normal_load": 120.0},
         ["must not have normal_load or n_blocks beside weights"],
     ),
-    ("scenes.steep", MEASURED | {"weights": "none.csv"}, ["none.csv: no such file"]),
+    (
+        "scenes.steep",
+        MEASURED | {"weights": "none.csv"},
+        ["scenes.steep: [Errno 2] No such file", "none.csv"],
+    ),
     ("scenes.steep", MEASURED | {"weights": [0.0, 0.0]}, ["scenes.steep: ", "weights"]),
     (
         "fig13",
         ["fig10", "fig11", "fig99"],
         ["fig13 holds 'fig99'", "fig10, fig11, fig12"],
     ),
-    ("fig13", ["fig10", "fig11"], ["fig13: ", "too short: at least 3 are needed"]),
+    (
+        "fig13",
+        ["fig10", "fig11"],
+        ["fig13: ['fig10', 'fig11'] must be the names of three scenes"],
+    ),
     ("figure_formats", ["doc"], ["figure_formats[0]: 'doc' is not one of"]),
     (
         "scenes.steep",

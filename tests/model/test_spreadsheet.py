@@ -148,5 +148,5 @@ def refuses(read, path, about):
 
 
 def test_what_is_no_file_is_refused(tmp_path):
-    with pytest.raises(ValueError, match="is not a file"):
+    with pytest.raises(OSError, match="Is a directory"):
         read_columns(tmp_path, [TIME, LOAD])

@@ -16,7 +16,6 @@ from precursors.cli.options import CHAIN, LARGER, RUN
 from precursors.support.files import write_table
 
 if TYPE_CHECKING:
-    from precursors.analysis.slips import FirstGlobalSlip
     from precursors.solver.run import Record
 
 FOUND = "{events_counted} events counted in Fig. 13, of {events} "
@@ -40,41 +39,40 @@ MOST_WRONG = {"halved_load_N": 0.5, "halved_events": 0, "energy_error": 1e-6}
 
 def simulate(arguments: Namespace) -> None:
     """Run a chain, and print a sentence and a summary."""
-    from precursors.analysis.slips import first_global_slip, slip_table
+    from precursors.analysis.summary import summarise
 
     run = run_of_options(arguments)
-    table = slip_table(run)
-    first = first_global_slip(table)
+    [found] = summarise([run]).to_dict("records")
     values: dict[str, Any] = {
         "blocks": run.chain.n_blocks,
         "duration_s": run.duration,
         "transitions": len(run.transitions),
-        "events": first.event if first else len(table),
-        "events_counted": int(table["counted"].sum()),
-        "events_in_all": len(table),
-        "mu_sapp": first and first.mu_sapp,
-        "largest_load_N": first and first.load,
-        "global_slip_s": first and first.time,
-        "global_slip_end_s": first and table["end_s"].iloc[first.event - 1],
+        "events": found["events_to_global_slip"],
+        "events_counted": found["events_counted"],
+        "events_in_all": found["n_all_events"],
+        "mu_sapp": found["mu_sapp"],
+        "largest_load_N": found["load"],
+        "global_slip_s": found["time"],
+        "global_slip_end_s": found["end"],
     }
     values |= accuracy(run)
     if arguments.output:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
     if not arguments.json:
-        found = FOUND + (FIRST_SLIP if first else NO_SLIP)
-        print(found.format(**values, F_Z=run.chain.normal_load))
+        text = FOUND + (FIRST_SLIP if found["reached"] else NO_SLIP)
+        print(text.format(**values, F_Z=run.chain.normal_load))
     show_values(values, arguments.json)
-    tell_accuracy(run, first)
+    tell_accuracy(run, found["time"])
 
 
 def slips(arguments: Namespace) -> None:
     """List the slip events of a run file, or of a chain that is run."""
-    from precursors.analysis.slips import first_global_slip, slip_table
+    from precursors.analysis.slips import slip_table
+    from precursors.analysis.summary import summarise
 
     run = run_of(arguments)
     table = slip_table(run)
-    first = first_global_slip(table)
     if arguments.counted:
         table = table[table["counted"]]
     if arguments.output:
@@ -90,7 +88,7 @@ def slips(arguments: Namespace) -> None:
         shown = table.drop(columns=["theta", "n_blocks", "normal_load_N", "length_m"])
         shown.columns = shown.columns.str.replace("load_|is_|n_", "", regex=True)
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
-    tell_accuracy(run, first)
+    tell_accuracy(run, summarise([run])["time"][0])
 
 
 def plot(arguments: Namespace) -> None:
@@ -208,7 +206,7 @@ def run_of_options(arguments: Namespace) -> Record:
                 "--weights cannot be combined with --theta, --blocks or --normal-load"
             )
         slider["weights"] = read_weights(arguments.weights)
-    chain = Chain.from_slider(**slider)
+    chain: Any = Chain.from_slider(**slider)
     if arguments.weights is not None:
         loads = chain.weights
         tell(
@@ -216,13 +214,12 @@ def run_of_options(arguments: Namespace) -> Record:
             f"{loads.max():g} N, F_Z = {chain.normal_load:g} N"
         )
     added = given(arguments, LARGER)
-    how = given(arguments, RUN)
-    try:
-        if any(added.values()):
-            from precursors.hierarchy.larger import LargerChain
+    if any(added.values()):
+        from precursors.hierarchy.larger import LargerChain
 
-            return simulate(LargerChain(chain, **added), **how)
-        return simulate(chain, **how)
+        chain = LargerChain(chain, **added)
+    try:
+        return simulate(chain, **given(arguments, RUN))
     except TransitionLimitError as error:
         if arguments.command != "simulate" or not arguments.output:
             raise Refused(str(error)) from error
@@ -257,8 +254,8 @@ def accuracy(run: Record) -> dict[str, float]:
     return {name: larger[name] for name in MOST_WRONG if name in larger}
 
 
-def tell_accuracy(run: Record, first: FirstGlobalSlip | None) -> None:
-    """Say if steps are too long, or if roundings decide the first global slip."""
+def tell_accuracy(run: Record, first_global_slip: float) -> None:
+    """Say if steps are too long, or if roundings decide the first global slip [s]."""
     from precursors.analysis.horizon import predicted_errors
     from precursors.solver.run import Run
 
@@ -269,16 +266,14 @@ def tell_accuracy(run: Record, first: FirstGlobalSlip | None) -> None:
     ]
     if wrong:
         tell(f"this run is not accurate: {', '.join(wrong)}")
-    if first is None or not isinstance(run, Run):
+    until = run.transitions[run.transitions["time"] <= first_global_slip]
+    if not isinstance(run, Run) or not 0 < len(until) <= MOST_REPEATED:
         return
-    until = run.transitions[run.transitions["time"] <= first.time]
-    if len(until) > MOST_REPEATED:
-        return
-    up_to_slip = replace(run, duration=first.time, transitions=until)
+    up_to_slip = replace(run, duration=first_global_slip, transitions=until)
     known = predicted_errors(up_to_slip).order_known_until
-    if known < first.time:
+    if known < first_global_slip:
         tell(
-            f"the first global slip at {first.time:.3f} s is beyond predictability: roundings "
+            f"the first global slip at {first_global_slip:.3f} s is beyond predictability: roundings "
             f"decide from {known:.3f} s on"
         )
 

@@ -95,7 +95,9 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
         )
         if name in argv:  # the defaults of the others are not read
             add_options(command, name)
-    arguments = top.parse_args(_join_negative_values(argv))
+    # argparse takes -5/6 for an option, and " -5/6" for a value.
+    values = [re.sub(r"^-(?=[\d.])", " -", argument) for argument in argv]
+    arguments = top.parse_args(values)
     if arguments.version:
         arguments.command = "version"
     elif arguments.command is None:
@@ -106,7 +108,7 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
 def add_options(command: Parser, name: str) -> Parser:
     """Add the options of a command."""
     add = command.add_argument
-    output: dict[str, Any] = {"type": Path, "metavar": "FILE"}
+    output: dict[str, Any] = {"type": Path}
     if name == "audit":
         add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
         return command
@@ -118,7 +120,7 @@ def add_options(command: Parser, name: str) -> Parser:
             metavar="MINE.csv",
             help="transitions as docs/benchmark.md asks for them",
         )
-        add("--problem", metavar="NAME", help="the problem that they solve")
+        add("--problem", help="the problem that they solve")
         add(
             "--ties",
             type=_number,
@@ -154,20 +156,17 @@ def _add_chain(command: Parser) -> None:
     """Add the options of a chain and of its run."""
     from precursors.model.scenes import SLIDER
 
-    number: dict[str, Any] = {"type": _number, "metavar": "X"}
+    number: dict[str, Any] = {"type": _number}
     about = "the defaults are the paper's"
     add = command.add_argument_group("the chain", about).add_argument
-    add(
-        "--blocks", dest="n_blocks", type=int, metavar="N", help="number of blocks (10)"
-    )
+    add("--blocks", dest="n_blocks", type=int, help="number of blocks (10)")
     add(
         "--theta",
-        metavar="X",
+        type=str.strip,
         help='non-uniformity of the normal loading, for example "5/6" (0)',
     )
     add(
         "--weights",
-        metavar="FILE",
         help="normal loads [N]; replaces --theta, --blocks and --normal-load",
     )
     for name, meaning in CHAIN.items():
@@ -186,7 +185,7 @@ def _add_chain(command: Parser) -> None:
         const="global slip",
         help="stop at the end of the first global slip",
     )
-    add("--max-transitions", type=int, metavar="N", help="limit of transitions")
+    add("--max-transitions", type=int, help="limit of transitions")
 
 
 def _add_look(command: Parser) -> None:
@@ -200,19 +199,17 @@ def _add_look(command: Parser) -> None:
     )
     add(
         "--data",
-        metavar="FILE",
         help="measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it",
     )
     add(
         "--width",
         dest="width_mm",
         type=_number,
-        metavar="MM",
         help="width of the figure [mm] (178, or 85 for lengths)",
     )
-    add("--font-size", type=_number, metavar="PT", help="size of the text [pt] (8)")
-    add("--font", metavar="NAME", help="an installed font (DejaVu Sans)")
-    add("--title", metavar="TEXT", help="title of the figure")
+    add("--font-size", type=_number, help="size of the text [pt] (8)")
+    add("--font", help="an installed font (DejaVu Sans)")
+    add("--title", help="title of the figure")
     add(
         "--no-inset",
         dest="inset",
@@ -229,21 +226,8 @@ def _option(name: str) -> str:
 def _number(text: str) -> float:
     """Read a number, or a fraction such as 5/6."""
     try:
-        return float(Fraction(text)) if "/" in text else float(text)
+        return float(Fraction(text))
     except (ValueError, ArithmeticError):
         raise argparse.ArgumentTypeError(
             f"{text!r} is not a number or a fraction such as 5/6"
         ) from None
-
-
-def _join_negative_values(argv: Sequence[str]) -> list[str]:
-    """Write `--theta -5/6` as `--theta=-5/6`, because argparse takes -5/6 for an
-    option."""
-    joined: list[str] = []
-    for argument in argv:
-        is_negative = re.fullmatch(r"-[\d.][\d./eE+-]*", argument)
-        if joined and is_negative and re.fullmatch(r"--[^=]+", joined[-1]):
-            joined[-1] += f"={argument}"
-        else:
-            joined.append(argument)
-    return joined

@@ -188,9 +188,8 @@ class Chain:
     @property
     def springs(self) -> FloatArray:
         """Stiffness of the spring behind each block [N/m], shape (N,): K, k, k, ..."""
-        return np.concatenate(
-            [[self.drive_stiffness], np.full(self.n_blocks - 1, self.stiffness)]
-        )
+        between = np.full(self.n_blocks - 1, self.stiffness)
+        return np.append(self.drive_stiffness, between)
 
     @property
     def fastest_frequency_bound(self) -> float:

@@ -30,21 +30,13 @@ def number(name: str, value: object, unit: str) -> float:
 
 
 def number_array(name: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
-    """Return a new array of floats, or raise a ValueError that names the parameter and
-    its type."""
-    kind = (
-        "a masked array"
-        if np.ma.isMaskedArray(values)
-        else "lists of different lengths"
-    )
+    """Return a new array of floats, or raise a ValueError that names the parameter."""
     with suppress(TypeError, ValueError):
         array = np.asarray(values)
-        if not np.ma.isMaskedArray(values):
-            kind = f"of type {array.dtype}"
-            if array.dtype.kind in "iufO":
-                return np.array(array, dtype=np.float64)
+        if array.dtype.kind in "iufO" and not np.ma.isMaskedArray(values):
+            return np.array(array, dtype=np.float64)
     raise ValueError(
-        f"{name} must be numbers [{unit}], but are {kind}: {' '.join(repr(values).split())}"
+        f"{name} must be numbers [{unit}], but are {' '.join(repr(values).split())}"
     )
 
 

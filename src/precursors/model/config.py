@@ -121,18 +121,15 @@ def check_config(config: Config, schema_path: AnyPath) -> None:
     error = best_match(Draft202012Validator(schema).iter_errors(config))
     if error is not None:
         where = error.json_path.removeprefix("$").lstrip(".") or "top level"
-        hint = ""
         message = error.message
         if "description" in error.schema:
             is_table = isinstance(error.instance, dict)
             given = list(error.instance) if is_table else error.instance
             message = f"{given!r} must {error.schema['description']}"
-        elif error.validator == "minItems":
-            hint = f": at least {error.validator_value} are needed"
         with suppress(TypeError, ValueError):
             if isinstance(error.instance, str) and math.isfinite(float(error.instance)):
-                hint = ": this is text; write a number without quotes, as 2.5e+9 and not as 2.5e9"
-        raise ValueError(_short(f"configuration: {where}: {message}{hint}"))
+                message += ": this is text; write a number without quotes, as 2.5e+9 and not as 2.5e9"
+        raise ValueError(_short(f"configuration: {where}: {message}"))
     try:
         _check_chains(config)
         _check_names_and_lengths(config)
@@ -162,7 +159,7 @@ def _check_chains(config: Config) -> None:
         where = "theta in reproduction"
         for theta in config["reproduction"]["theta"]:
             parse_theta(theta)
-    except (ValueError, OverflowError) as error:
+    except (ValueError, OverflowError, OSError) as error:
         raise ValueError(f"{where}: {error}") from None
 
 

@@ -97,10 +97,6 @@ def _fields(path: AnyPath) -> pd.DataFrame:
     empty columns."""
     import pandas as pd  # slow
 
-    if not Path(path).is_file():
-        raise ValueError(
-            f"{path} is not a file" if Path(path).exists() else f"{path}: no such file"
-        )
     text = Path(path).read_bytes().decode("utf-8-sig", errors="replace")
     if "\0" in text:
         raise ValueError(

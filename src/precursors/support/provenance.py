@@ -65,19 +65,16 @@ def provenance(config: Mapping[str, Any], root: Path, results: Path) -> dict[str
 
 def checksums(
     paths: Iterable[Path], root: Path, leave_out: tuple[str, ...] = ()
-) -> dict[str, Any]:
-    """Size [bytes] and SHA-256 of files by their names seen from `root`, without hidden
-    and compiled ones."""
+) -> dict[str, str]:
+    """SHA-256 of files by their names seen from `root`, without hidden and compiled
+    ones."""
     table = {}
     for path in sorted(paths):
         parts = path.relative_to(root).parts
         hidden = any(part.startswith(".") or part == "__pycache__" for part in parts)
         if path.is_file() and not hidden and parts[0] not in leave_out:
-            content = path.read_bytes()
-            table["/".join(parts)] = {
-                "bytes": len(content),
-                "sha256": hashlib.sha256(content).hexdigest(),
-            }
+            digest = hashlib.sha256(path.read_bytes())
+            table["/".join(parts)] = digest.hexdigest()
     return table
 
 
@@ -98,10 +95,9 @@ def git_state(root: Path) -> dict[str, str | bool] | None:
     None where git does not know the sources. The identifiers (SWHID) are git's own
     hashes.
     """
-    commit = _git(root, "rev-parse", "HEAD")
-    tree = _git(root, "rev-parse", "HEAD^{tree}")
-    if not commit or not _git(root, "ls-files", "Snakefile"):
+    if not _git(root, "ls-files", "Snakefile"):
         return None
+    commit, tree = _git(root, "show", "-s", "--format=%H %T").split()
     return {
         "commit": commit,
         "swh_revision": f"swh:1:rev:{commit}",

@@ -33,25 +33,22 @@ class Seconds(NamedTuple):
 
 @dataclass(frozen=True)
 class Timing:
-    """Seconds per call in each round: on the clock, and of processor time of all
-    threads."""
+    """Seconds per call in each round."""
 
-    wall: tuple[float, ...]
-    cpu: tuple[float, ...]
+    rounds: list[Seconds]
 
     @property
     def seconds(self) -> float:
         """Median on the clock [s]."""
-        return statistics.median(self.wall)
+        return statistics.median(of.wall for of in self.rounds)
 
     def times_faster_than(self, other: Timing) -> tuple[float, float]:
         """Time of the other over this one, on the clock and in processor time:
         medians of rounds."""
+        pairs = list(zip(self.rounds, other.rounds, strict=True))
         return (
-            statistics.median(
-                b / a for a, b in zip(self.wall, other.wall, strict=True)
-            ),
-            statistics.median(b / a for a, b in zip(self.cpu, other.cpu, strict=True)),
+            statistics.median(b.wall / a.wall for a, b in pairs),
+            statistics.median(b.cpu / a.cpu for a, b in pairs),
         )
 
 
@@ -87,7 +84,7 @@ def measure(
     finally:
         gc.unfreeze()
         gc.enable()
-    return {name: Timing(*zip(*found[name], strict=True)) for name in tasks}
+    return {name: Timing(rounds) for name, rounds in found.items()}
 
 
 def second_call(

@@ -60,9 +60,14 @@ def in_threads(
                 except BaseException as error:
                     future.set_exception(error)
 
-    def goes_on() -> bool:
-        finished, pending = wait(found, SECOND, FIRST_EXCEPTION)
-        return bool(pending) and not any(future.exception() for future in finished)
+    def seconds() -> Iterator[None]:
+        while True:
+            finished, pending = wait(found, SECOND, FIRST_EXCEPTION)
+            for future in finished:
+                future.result()  # raises its error
+            if not pending:
+                return
+            yield
 
     def part() -> float:
         return sum(future.done() for future in found) / len(found)
@@ -70,9 +75,8 @@ def in_threads(
     for _ in range(min(threads, len(tasks))):
         Thread(target=run, daemon=True).start()
     try:
-        for _ in tell(work, iter(goes_on, False), done or part):
+        for _ in tell(work, seconds(), done or part):
             pass
     finally:
         left.clear()
-    failed = [future for future in found if future.done() and future.exception()]
-    return [future.result() for future in failed or found]
+    return [future.result() for future in found]
