@@ -39,11 +39,15 @@ def difference(made: Path, kept: Path) -> str:
             and np.sqrt(np.mean((drawn - expected) ** 2)) <= PIXELS
         )
         return "" if same else "another picture"
-    new, old = (
+    tables = [
         pd.read_csv(path, usecols=COLUMNS.get(made.name)) for path in (made, kept)
-    )
+    ]
+    # A column may hold numbers and formulas.
+    numbers = [table.apply(pd.to_numeric, errors="coerce") for table in tables]
+    texts = [table.where(n.isna()) for table, n in zip(tables, numbers, strict=True)]
     try:
-        pd.testing.assert_frame_equal(new, old, rtol=RELATIVE, atol=ABSOLUTE)
+        for new, old in (numbers, texts):
+            pd.testing.assert_frame_equal(new, old, rtol=RELATIVE, atol=ABSOLUTE)
     except AssertionError as error:
         return " ".join(str(error).split())
     return ""
