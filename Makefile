@@ -30,7 +30,7 @@ test: results $(DEV)
 
 # 100 single faults in copies of the project: prints those that no test sees, with some 1200 s of processor time.
 mutants: results $(DEV)
-	$(BIN)/python tools/mutants.py --jobs $(CORES)
+	PYTHONPATH=tests $(BIN)/python tools/mutants.py --jobs $(CORES)
 
 # The ensembles as jobs of a real SLURM; Error 77: there is none here, and nothing was tested.
 test-cluster: $(DEV)
