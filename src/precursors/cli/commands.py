@@ -152,9 +152,7 @@ def score(arguments: Namespace) -> None:
     else:
         values = score(arguments.file, arguments.problem, arguments.ties)
         if not arguments.json:
-            costs = {"evaluations": "evaluations", "seconds": "s"}
-            told = [f"{values[k]:g} {u}" for k, u in costs.items() if values[k] > 0]
-            print("; ".join([SCORE.format(**values), *told]), end="\n\n")
+            print(SCORE.format(**values), end="\n\n")
         show_values(values, arguments.json)
 
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 WRONG_USE = 2
 EPILOG = """\
@@ -86,8 +86,9 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    text = "show version, commit and identifiers"
-    top.add_argument("--version", action="store_true", help=text)
+    top.add_argument(
+        "--version", action="store_true", help="show version, commit and identifiers"
+    )
     subparsers = top.add_subparsers(dest="command", metavar="COMMAND")
     for name, meaning in COMMANDS.items():
         command = subparsers.add_parser(
@@ -108,7 +109,6 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
 def add_options(command: Parser, name: str) -> Parser:
     """Add the options of a command."""
     add = command.add_argument
-    output: dict[str, Any] = {"type": Path}
     if name == "audit":
         add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
         return command
@@ -130,7 +130,7 @@ def add_options(command: Parser, name: str) -> Parser:
         )
         add("--list", action="store_true", help="list the problems")
     elif name == "simulate":
-        add("--output", help="save the run (HDF5)", **output)
+        add("--output", help="save the run (HDF5)", type=Path)
     else:
         add(
             "file",
@@ -141,10 +141,10 @@ def add_options(command: Parser, name: str) -> Parser:
         )
     if name == "slips":
         add("--counted", action="store_true", help="only the events counted in Fig. 13")
-        add("--output", help="write the table with every digit (CSV)", **output)
+        add("--output", help="write the table with every digit (CSV)", type=Path)
     elif name == "plot":
         file = Path("precursors.png")
-        add("--output", default=file, help=f"PNG, SVG, PDF or EPS ({file})", **output)
+        add("--output", default=file, help=f"PNG, SVG, PDF or EPS ({file})", type=Path)
         _add_look(command)
     add("--json", action="store_true", help="print one JSON value")
     if name != "score":
@@ -156,9 +156,9 @@ def _add_chain(command: Parser) -> None:
     """Add the options of a chain and of its run."""
     from precursors.model.scenes import SLIDER
 
-    number: dict[str, Any] = {"type": _number}
-    about = "the defaults are the paper's"
-    add = command.add_argument_group("the chain", about).add_argument
+    add = command.add_argument_group(
+        "the chain", "the defaults are the paper's"
+    ).add_argument
     add("--blocks", dest="n_blocks", type=int, help="number of blocks (10)")
     add(
         "--theta",
@@ -170,14 +170,20 @@ def _add_chain(command: Parser) -> None:
         help="normal loads [N]; replaces --theta, --blocks and --normal-load",
     )
     for name, meaning in CHAIN.items():
-        add(_option(name), help=f"{meaning} ({SLIDER[name]:g})", **number)
-    about = "each adds to the paper's chain; 0 by default"
-    add = command.add_argument_group("a larger chain", about).add_argument
+        add(
+            f"--{name.replace('_', '-')}",
+            help=f"{meaning} ({SLIDER[name]:g})",
+            type=_number,
+        )
+    add = command.add_argument_group(
+        "a larger chain", "each adds to the paper's chain; 0 by default"
+    ).add_argument
     for name, meaning in LARGER.items():
-        add(_option(name), help=meaning, **number)
-    about = "from rest, with every spring at its natural length"
-    add = command.add_argument_group("the run", about).add_argument
-    add("--duration", help="time to run [s] (10)", **number)
+        add(f"--{name.replace('_', '-')}", help=meaning, type=_number)
+    add = command.add_argument_group(
+        "the run", "from rest, with every spring at its natural length"
+    ).add_argument
+    add("--duration", help="time to run [s] (10)", type=_number)
     add(
         "--until-global-slip",
         dest="until",
@@ -216,11 +222,6 @@ def _add_look(command: Parser) -> None:
         action="store_false",
         help="without the magnified view",
     )
-
-
-def _option(name: str) -> str:
-    """The option for an argument."""
-    return f"--{name.replace('_', '-')}"
 
 
 def _number(text: str) -> float:

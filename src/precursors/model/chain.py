@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-import re
+from contextlib import suppress
 from dataclasses import dataclass, field, fields
 from fractions import Fraction
 from typing import Any
@@ -248,29 +248,16 @@ def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> Flo
     return load / n * (1 + (2 * i - n - 1) / (n - 1) * degree)
 
 
-def written_fraction(text: str) -> Fraction:
-    """Return a decimal or a fraction as it is written, or raise a ValueError or
-    ZeroDivisionError."""
-    if re.search(r"[eE][-+]?[\d_]{4}", text):
-        raise ValueError(
-            f"{text!r} has an exponent of four digits"
-        )  # 10**exponent would be written out
-    return Fraction(text)
-
-
 def parse_theta(theta: float | str) -> float:
     """Read theta from a number between -1 and 1, or from a fraction written as
     "5/6"."""
-    try:
-        value = (
-            written_fraction(theta)
-            if isinstance(theta, str)
-            else Fraction(number("theta", theta, "1"))
-        )
+    with suppress(ArithmeticError, ValueError):
+        if isinstance(theta, str):
+            value = float(Fraction(theta) if "/" in theta else theta)
+        else:
+            value = number("theta", theta, "1")
         if abs(value) <= 1:
-            return float(value)
-    except (ArithmeticError, ValueError):
-        pass
+            return value
     raise ValueError(
         f'theta must be a number between -1 and 1, or a fraction as "5/6", but is {theta!r}'
     )

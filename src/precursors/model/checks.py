@@ -44,12 +44,9 @@ def positive(name: str, value: object, unit: str) -> float:
     """Return a float above zero that can be computed with, or raise a ValueError that
     names the parameter."""
     result = number(name, value, unit)
-    if result <= 0:
-        raise ValueError(f"{name} must be above 0 {unit}, but is {value!r}")
     if not SMALLEST <= result <= LARGEST:
-        raise ValueError(
-            f"{name} must be between {SMALLEST:g} and {LARGEST:g} {unit}, but is {value!r}"
-        )
+        limits = "above 0" if result <= 0 else f"between {SMALLEST:g} and {LARGEST:g}"
+        raise ValueError(f"{name} must be {limits} {unit}, but is {value!r}")
     return result
 
 

@@ -31,7 +31,7 @@ NAMES = re.compile(
 )
 # Commas between columns: beside a decimal point or a blank, or several in a line. The
 # point of 1.018,00 is none.
-SEPARATING = re.compile(r"(?<=\b0)\.|\.(?!\d{3},)|,\s|,[^,]*,")
+SEPARATING = re.compile(r"(?<=\b0)\.|\.(?!\d{3},)|,[^\S\n]|,[^,\n]*,")
 UNIT = re.compile(
     r"\[\s*([^\]]*?)\s*\]|(?:[(/\s]|^)(s|N)\)?$"
     r"|(?<![a-zA-Z])(kN|MN|mN|daN|kgf?|lbf?|ms|us|µs|μs|ns|min|h|mm|cm|µm|μm)(?![a-zA-Z])"
@@ -82,7 +82,7 @@ def read_weights(path: AnyPath) -> list[float]:
         table = table.T.set_axis(lines).set_axis([""], axis=1)
     if table.shape[1] > 1:
         labels = table.iloc[:, 0].str.extract(r"(\d+)(?:[.,]0*)?$")[0].dropna()
-        if labels.astype(int).tolist() != list(range(1, len(table) + 1)):
+        if list(map(int, labels)) != list(range(1, len(table) + 1)):
             raise ValueError(
                 f"{path}: columns: {table.shape[1]}; needed: {NORMAL_LOAD}, one a line, "
                 "alone or after the number of its block, 1, 2, 3, ..."
@@ -128,16 +128,17 @@ def _separator(path: AnyPath, above: Sequence[str], rows: Sequence[str]) -> str:
     """What stands between two columns: a blank is any space, and a semicolon stands for
     a single column."""
     for separator in ";\t":
-        if any(separator in line for line in (*above, *rows)):
+        if separator in "".join((*above, *rows)):
             return separator
-    plain = [re.sub(r'"[^"]*"', '""', line) for line in rows]
-    if not any("," in line for line in plain):
-        return " " if any(re.search(r"\s", line) for line in plain) else ";"
+    plain = re.sub(r'"[^"\n]*"', '""', "\n".join(rows))
+    if "," not in plain:
+        return " " if re.search(r"[^\S\n]", plain) else ";"
     names = above[0].split(",") if above else []
-    if len(names) == 1 and not any(map(SEPARATING.search, plain)):
+    is_separating = SEPARATING.search(plain)
+    if len(names) == 1 and not is_separating:
         return ";"  # one column, with decimal commas
     is_named = names and not any(UNIT.fullmatch(name.strip()) for name in names)
-    if is_named or NAMES.match(rows[0][:1]) or any(map(SEPARATING.search, plain)):
+    if is_named or is_separating or NAMES.match(rows[0][:1]):
         return ","
     raise ValueError(
         f"{path}: {rows[-1]!r} may be one number with a decimal comma, or two numbers: "
@@ -183,14 +184,14 @@ def _columns(
 
 def _kind(name: str, needed: Iterable[str]) -> str | None:
     """Which of the needed columns has this unit, or else a word of this name."""
-    by_unit = [kind for kind in needed if _unit(name) and _unit(name) == _unit(kind)]
-    words = r"(?<![^\W\d_])({})(?![^\W\d_])"
-    by_word = [
-        kind
-        for kind in needed
-        if re.search(words.format(WORDS[kind]), UNIT.sub("", name), re.IGNORECASE)
-    ]
-    return next(iter(by_unit + by_word), None)
+    for kind in needed:
+        if _unit(name) and _unit(name) == _unit(kind):
+            return kind
+    for kind in needed:
+        word = rf"(?<![^\W\d_])({WORDS[kind]})(?![^\W\d_])"
+        if re.search(word, UNIT.sub("", name), re.IGNORECASE):
+            return kind
+    return None
 
 
 def _unit(name: str) -> str:

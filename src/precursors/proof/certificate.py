@@ -13,9 +13,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from precursors.model.chain import written_fraction
 from precursors.model.checks import Until, checked_until
-from precursors.proof.exact_chain import ExactChain, exact_start
+from precursors.proof.exact_chain import ExactChain, exact_start, written_fraction
 from precursors.support.files import write_whole
 
 FORMAT = "precursors certificate 2"

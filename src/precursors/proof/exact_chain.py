@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -10,7 +11,7 @@ from numbers import Rational, Real
 
 import numpy as np
 
-from precursors.model.chain import Chain, written_fraction
+from precursors.model.chain import Chain
 
 Number = Fraction | int | float | str
 
@@ -123,6 +124,16 @@ class ExactChain:
             name: str(getattr(self, name)) for name in _NUMBERS
         }
         return {"weights": [str(w) for w in self.weights], **text}
+
+
+def written_fraction(text: str) -> Fraction:
+    """Return a decimal or a fraction as it is written, or raise a ValueError or
+    ZeroDivisionError."""
+    if re.search(r"[eE][-+]?[\d_]{4}", text):
+        raise ValueError(
+            f"{text!r} has an exponent of four digits"
+        )  # 10**exponent would be written out
+    return Fraction(text)
 
 
 def exact(name: str, value: object) -> Fraction:

@@ -10,7 +10,7 @@ import re
 import subprocess
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
-from importlib.metadata import distributions, version
+from importlib.metadata import distributions
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +43,6 @@ def provenance(config: Mapping[str, Any], root: Path, results: Path) -> dict[str
     return {
         "written": datetime.now(UTC).isoformat(timespec="seconds"),
         "software": {
-            "precursors": version("precursors"),
             "python": f"{platform.python_implementation()} {platform.python_version()}",
             "git": git_state(root),
         },
@@ -70,11 +69,10 @@ def checksums(
     ones."""
     table = {}
     for path in sorted(paths):
-        parts = path.relative_to(root).parts
-        hidden = any(part.startswith(".") or part == "__pycache__" for part in parts)
-        if path.is_file() and not hidden and parts[0] not in leave_out:
-            digest = hashlib.sha256(path.read_bytes())
-            table["/".join(parts)] = digest.hexdigest()
+        name = path.relative_to(root).as_posix()
+        is_hidden = re.search(r"(^|/)(\.|__pycache__/)", name)
+        if path.is_file() and not is_hidden and name.split("/")[0] not in leave_out:
+            table[name] = hashlib.sha256(path.read_bytes()).hexdigest()
     return table
 
 
