@@ -507,7 +507,7 @@ def test_an_error_is_one_line_that_names_what_is_wrong(cli, arguments, code, abo
     [
         (KeyboardInterrupt(), 130, "interrupted"),
         (Refused("two\nlines"), 1, "two lines"),
-        (ModuleNotFoundError("no 'flint'"), 4, "no 'flint'"),
+        (ModuleNotFoundError("no 'flint'"), 4, "no 'flint': install it to use this"),
         (MemoryError(), 2, "not enough memory for so many blocks or runs"),
         (MemoryError("1 TB is needed"), 2, "1 TB is needed"),
         (OSError(28, "No space left", "run.h5"), 3, "run.h5: No space left"),

@@ -25,7 +25,13 @@ from precursors.hierarchy.larger_cycles import (
     with_past,
 )
 from precursors.hierarchy.larger_steps import SETTLED, period_of
-from precursors.hierarchy.larger_study import POINT, as_logged, medians_table, run_study
+from precursors.hierarchy.larger_study import (
+    POINT,
+    as_logged,
+    medians_table,
+    run_study,
+    step_of,
+)
 
 ROOT = Path(__file__).parents[2]
 CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
@@ -91,6 +97,12 @@ def test_a_strained_chain_rests_and_loads_with_noise_keep_their_sum():
     weights = larger.chain.weights
     assert drawn.chain.weights.sum() == pytest.approx(weights.sum(), rel=1e-12)
     assert abs(drawn.chain.weights / weights - 1.0).max() > 0.05
+
+
+def test_a_study_may_have_a_step_and_long_chains_have_a_finer_one():
+    steps = [step_of(chain_of(n, 0.2, 1e-4), {}) for n in (100, 200)]
+    assert steps == [0.25, 0.1]
+    assert step_of(chain_of(100, 0.2, 1e-4), {"step": 0.125}) == 0.125
 
 
 def test_a_block_exactly_at_its_limit_does_not_stop_the_clock():

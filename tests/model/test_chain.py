@@ -225,3 +225,11 @@ def test_whole_numbers_are_taken_as_floats():
     assert {
         type(value) for name, value in vars(chain).items() if name != "weights"
     } == {float}
+
+
+def test_an_unknown_argument_is_refused_with_the_one_that_was_probably_meant():
+    with pytest.raises(TypeError) as refused:
+        Chain.from_slider(blocks=5)
+    assert str(refused.value) == (
+        "from_slider has no argument 'blocks'; did you mean n_blocks?"
+    )

@@ -83,7 +83,7 @@ WRONG = [
     (
         "scenes.steep",
         MEASURED | {"weights": "none.csv"},
-        ["scenes.steep: [Errno 2] No such file", "none.csv"],
+        ["scenes.steep: ", "none.csv: No such file"],
     ),
     ("scenes.steep", MEASURED | {"weights": [0.0, 0.0]}, ["scenes.steep: ", "weights"]),
     (

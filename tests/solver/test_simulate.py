@@ -14,6 +14,7 @@ from precursors import TransitionLimitError, find_slips, simulate
 from precursors.analysis.slips import first_global
 from precursors.model.statics import maximal_strain_positions
 from precursors.solver import batch as exact
+from precursors.solver.simulate import checked_end
 
 # What the project promises [s].
 PROMISED_TO_GLOBAL_SLIP, PROMISED_TO_THE_END = 1e-9, 1e-6
@@ -205,3 +206,11 @@ def test_a_start_off_balance_by_less_than_a_rounding_moves_as_the_model_does():
     adds in 1e-8 s."""
     chain = SLIDER(2, mu_s=0.0, mu_k=0.0)
     audited(simulate(chain, duration=1e-3, start_positions=[1e-30, 0.0]))
+
+
+@pytest.mark.parametrize(
+    ("n", "given", "most"),
+    [(500, None, 10_000_000), (501, None, 1_000_000), (501, 2_000_000, 2_000_000)],
+)
+def test_a_chain_of_many_blocks_has_a_lower_limit_of_transitions(n, given, most):
+    assert checked_end([SLIDER(n)], 1.0, None, given, None).most == most

@@ -56,7 +56,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         lines = list(error.args)
     except ImportError as error:
         code = NOT_INSTALLED
-        lines = [str(error)]
+        is_missing = isinstance(error, ModuleNotFoundError)
+        lines = [f"{error}: install it to use this" if is_missing else str(error)]
     except (ValueError, MemoryError) as error:
         code = WRONG_USE
         lines = [str(error) or "not enough memory for so many blocks or runs"]

@@ -59,15 +59,14 @@ def run_pasts(
     """Run every point of a study from many pasts until it settles: a row for each.
 
     `study` is that of `points`; `common` has the seed, the duration [s], and pasts:
-    pairs of noise in the normal loads and of strain at the start, with `runs` of each,
-    and `study` may have a step, which is otherwise `step_of`.
+    pairs of noise in the normal loads and of strain at the start, with `runs` of each.
     """
     tasks = []
     for point, larger in points(slider, name, study):
         chain = larger.chain
         share = load_part(chain, point["critical_length"])
         point["theory"] = chain.mu_k + (chain.mu_s - chain.mu_k) * share
-        point["step"] = study.get("step", step_of(larger))
+        point["step"] = step_of(larger, study)
         for past in range(len(common["pasts"]) * study["runs"]):
             tasks.append(partial(run_past, point, larger, common, past))
     return rows_of(tasks)

@@ -1,5 +1,5 @@
-"""What the larger chain answers before its first global slip: where creep runs away,
-and how many events it has."""
+"""The larger chain before its first global slip: where creep runs away, and how many
+events it has."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def points(
 
     `slider` has the arguments of `Chain.from_slider`. `study` has pairs of l_c/L (for
     an even load; 0 is Coulomb friction) and t_v [s], theta, n_blocks, and optionally
-    push_height [m] and normal_load [N]. v_c is that of the pair at the slider's own
+    push_height [m], normal_load [N] and the step (`step_of`). v_c is that of the pair at the slider's own
     normal load. critical_length is l_c/L at the point itself.
     """
     axes = {"push_height": [0.0], "normal_load": [slider["normal_load"]], **study}
@@ -74,8 +74,11 @@ def points(
         yield dict(zip(POINT, values, strict=True)), larger
 
 
-def step_of(larger: LargerChain) -> float:
-    """Step of `simulate_larger` that is fine enough for the tables."""
+def step_of(larger: LargerChain, study: Mapping[str, Any]) -> float:
+    """Step of `simulate_larger`: that of a study, or one that is fine enough for the
+    tables."""
+    if "step" in study:
+        return float(study["step"])
     if not larger.weakening_velocity:
         return STEP_OF_COULOMB
     return STEP if larger.chain.n_blocks < FINE_FROM else FINE_STEP
@@ -97,7 +100,7 @@ def nucleation_table(
         # The drive reaches mu_s F_Z in a tenth of the longest run.
         part = min(1.0, 1.3 * load_part(chain, point["critical_length"]))
         run = simulate_larger(
-            larger, 0.1 * part * longest_run(chain), step=step_of(larger)
+            larger, 0.1 * part * longest_run(chain), step=step_of(larger, study)
         )
         slips = find_slips(run)
         falls = slips["load_after"] < (1.0 - SEEN) * slips["load_before"]
@@ -138,12 +141,11 @@ def run_study(
 
     The normal loads have noise, which depends on the number of blocks and on the draw
     only. A run without a global slip has NaN. `study` is that of `points`, with the
-    number of runs, and may have a step, which is otherwise `step_of`; `common` has the
-    seed and the noise (relative). The first draw of a
+    number of runs; `common` has the seed and the noise (relative). The first draw of a
     chain with a length says what half the step changes (halved_mu_sapp).
     """
     tasks = [
-        partial(run_draw, point, larger, draw, common, study.get("step"))
+        partial(run_draw, point, larger, step_of(larger, study), draw, common)
         for point, larger in points(slider, name, study)
         for draw in range(study["runs"])
     ]
@@ -158,9 +160,9 @@ def rows_of(tasks: Sequence[Callable[[], dict[str, Any]]]) -> pd.DataFrame:
 def run_draw(
     point: dict[str, Any],
     larger: LargerChain,
+    step: float,
     draw: int,
     common: Mapping[str, Any],
-    step: float | None,
 ) -> dict[str, Any]:
     """A row of `run_study`."""
     n = larger.chain.n_blocks
@@ -168,7 +170,6 @@ def run_draw(
     noise = 1.0 + common["noise"] * random.uniform(-1.0, 1.0, n)
     chain = replace(larger.chain, weights=larger.chain.weights * noise)
     drawn = replace(larger, chain=chain)
-    step = step or step_of(larger)
     found = numbers(run_to_slip(drawn, step))
     if draw == 0 and larger.weakening_velocity:
         finer = numbers(run_to_slip(drawn, step / 2.0))

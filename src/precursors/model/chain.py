@@ -15,6 +15,7 @@ from precursors.model.checks import (
     LARGEST,
     MOST_BLOCKS,
     SMALLEST,
+    knows_its_arguments,
     not_negative,
     number,
     number_array,
@@ -102,6 +103,7 @@ class Chain:
             )
 
     @classmethod
+    @knows_its_arguments
     def from_slider(
         cls,
         n_blocks: int = N_BLOCKS,

@@ -159,7 +159,9 @@ def _check_chains(config: Config) -> None:
         where = "theta in reproduction"
         for theta in config["reproduction"]["theta"]:
             parse_theta(theta)
-    except (ValueError, OverflowError, OSError) as error:
+    except OSError as error:
+        raise ValueError(f"{where}: {error.filename}: {error.strerror}") from None
+    except (ValueError, OverflowError) as error:
         raise ValueError(f"{where}: {error}") from None
 
 
