@@ -16,9 +16,9 @@ EVERY_STEP: Options = {"marker": "+", "markersize": 6, "color": style.GREY}
 RIGHT: Options = {"marker": "o", "markersize": 3, "color": style.GREY}
 WRONG = RIGHT | {"markeredgewidth": 0.8, "markerfacecolor": "white"}
 QUANTITIES = {
-    "events_counted": style.EVENTS_LABEL,
+    "events_counted": style.EVENTS_LABEL.replace(" ", "\n", 1),
     "mu_sapp": style.MU_SAPP_LABEL,
-    "percentage": "Transitions right [%]",
+    "percentage": "Transitions\nright [%]",
 }
 
 
