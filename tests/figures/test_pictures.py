@@ -19,7 +19,6 @@ from precursors.figures import (
     hero,
     horizon,
     larger,
-    model_comparison,
     noise,
     precursor_lengths,
     resolution,
@@ -237,13 +236,6 @@ def map_of_friction():
     return friction_map.draw(table.assign(reached=table.index > 0), [(0.25, 0.5)])
 
 
-def compared_models():
-    table = read(SMALL / "model_comparison.csv")
-    return model_comparison.draw(
-        table.assign(cost_s=np.geomspace(1e-7, 10.0, len(table)))
-    )
-
-
 # By the names of the modules.
 PICTURES = {
     "chain_schematic": chain_schematic.draw,
@@ -275,7 +267,6 @@ PICTURES = {
     "noise": lambda: noise.draw(read(SMALL / "noise_amplitudes.csv")),
     "event_law": lambda: event_law.draw(read(SMALL / "event_law.csv")),
     "friction_map": map_of_friction,
-    "model_comparison": compared_models,
     "larger": lambda: larger.draw(
         read(SMALL / "larger_nucleation.csv"),
         read(SMALL / "larger_peaks.csv"),

@@ -129,11 +129,6 @@ FIGURES = {
             for name in ("nucleation", "peaks", "cycles")
         },
     },
-    "model_comparison": {
-        "section": "hierarchy",
-        "shows": "which model answers which question",
-        "tables": {"table": "results/tables/model_comparison.csv"},
-    },
 }
 # The scene whose first global slip is shown in slow motion: that in the middle.
 EVEN = config["fig13"][len(config["fig13"]) // 2]

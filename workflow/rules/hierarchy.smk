@@ -32,7 +32,7 @@ TABLES |= {
 
 rule hierarchy:
     input:
-        collect("results/figures/{figure}.{kind}", figure=["model_comparison", "larger"], kind=FORMATS),
-        collect("results/tables/{table}.csv", table=["larger", "larger_cycles"]),
+        collect("results/figures/larger.{kind}", kind=FORMATS),
+        collect("results/tables/{table}.csv", table=["model_comparison", "larger", "larger_cycles"]),
         collect("results/tables/{scene}_answers.csv", scene=ASKED),
     localrule: True
