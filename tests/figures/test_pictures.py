@@ -33,6 +33,7 @@ from precursors.model.scenes import SLIDER
 GOLDEN = Path(__file__).parents[1] / "golden"
 SMALL = GOLDEN / "small"
 PUBLISHED = GOLDEN.parents[1] / "paper/tables"
+PANELS = Path(failure_gallery.__file__).with_suffix(".csv")
 # Of 255: the same release of Matplotlib draws the same picture, but for a few grey
 # levels where it smooths.
 GREY_LEVELS = 8
@@ -153,11 +154,10 @@ def swept_steps():
 def gallery_of_failures():
     """The same curves in all panels; thresholds from 1.25, predicted ones from 3.75,
     for 10 blocks."""
-    panels = failure_gallery.PANELS.values()
-    limits = [(*limit, panel.scale) for panel in panels for limit in panel.limits]
-    thresholds = pd.DataFrame(limits, columns=["fails", "method", "scale"]).assign(
-        n_blocks=10
-    )
+    panels = read(PANELS)
+    limits = panels.dropna(subset="fails")
+    thresholds = limits.assign(method=limits["methods"].str.split()).explode("method")
+    thresholds = thresholds[["fails", "method", "scale"]].assign(n_blocks=10)
     place = np.arange(len(thresholds))
     thresholds["measured"] = (place + 1.25) / thresholds["scale"]
     thresholds["predicted"] = (place + 3.75) / thresholds["scale"]
@@ -170,9 +170,9 @@ def gallery_of_failures():
         ("theory", "theory"): 6,
     }
     curves = []
-    for mode, panel in failure_gallery.PANELS.items():
+    for mode, scale in zip(panels["mode"], panels["scale"], strict=True):
         y = np.array([0.1, 0.2, 0.4])
-        x = y / panel.scale
+        x = y / scale
         curves += [
             pd.DataFrame({"curve": name, "role": role, "x": x, "y": n * y}).assign(
                 failure_mode=mode
@@ -180,7 +180,7 @@ def gallery_of_failures():
             for (name, role), n in roles.items()
         ]
     limits = pd.concat([thresholds, thresholds.assign(n_blocks=2, measured=0.0)])
-    return failure_gallery.draw(limits, pd.concat(curves))
+    return failure_gallery.draw(limits, pd.concat(curves), panels)
 
 
 def predicted_errors():

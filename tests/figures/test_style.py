@@ -9,7 +9,7 @@ import matplotlib
 import numpy as np
 import pytest
 from colorspacious import cspace_convert
-from figures.test_pictures import PICTURES, slips
+from figures.test_pictures import PANELS, PICTURES, read, slips
 from matplotlib import image
 from matplotlib.colors import to_rgb
 
@@ -17,7 +17,6 @@ from precursors.accuracy.failures import FAILURE_MODES
 from precursors.ensembles.event_law import THETAS
 from precursors.figures import precursor_lengths, style
 from precursors.figures.event_law import MARKERS
-from precursors.figures.failure_gallery import PANELS
 from precursors.methods import ROWS
 
 
@@ -89,7 +88,7 @@ def test_every_method_has_a_marker_of_its_own_and_the_colour_of_its_kind():
 
 
 def test_every_failure_mode_has_a_panel_and_every_theta_of_the_law_a_marker():
-    assert list(PANELS) == list(FAILURE_MODES)
+    assert list(read(PANELS)["mode"]) == list(FAILURE_MODES)
     assert len(MARKERS) == len(THETAS)
 
 

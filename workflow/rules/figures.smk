@@ -64,6 +64,7 @@ FIGURES = {
         "tables": {
             "thresholds": "results/tables/thresholds.csv",
             "curves": "results/tables/failure_curves.csv",
+            "panels": f"{LIBRARY}/figures/failure_gallery.csv",
         },
     },
     "horizon": {
