@@ -28,7 +28,6 @@ from precursors.figures import (
     style,
     theta_window,
 )
-from precursors.model.scenes import SLIDER
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 SMALL = GOLDEN / "small"
@@ -239,7 +238,7 @@ def map_of_friction():
 # By the names of the modules.
 PICTURES = {
     "chain_schematic": chain_schematic.draw,
-    "scene": lambda: draw_scene(slips(), title="uniform", slider=SLIDER, key=False),
+    "scene": lambda: draw_scene(slips(), title="uniform", key=False),
     "scene_crowded": crowded_scene,
     "scene_endless": endless_scene,
     "scene_partial": partial_scene,

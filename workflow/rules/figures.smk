@@ -16,7 +16,6 @@ FIGURES = {
             },
             "options": {
                 "title": f"{scene.replace('fig', 'Fig. ')}: {config['scenes'][scene]['title']}",
-                "slider": scene_slider(config, scene),
                 # one key below the last of those of Fig. 13
                 "key": scene not in sorted(config["fig13"])[:-1],
             },

@@ -3,16 +3,12 @@ loses, and when and where blocks slipped."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from precursors.figures import style
@@ -35,6 +31,7 @@ FIRST_GLOBAL: Options = {
     "linewidth": 0.7,
     "linestyle": "--",
     "zorder": 1.5,
+    "label": "first global slip",
 }
 TO_THE_EDGE: Options = {
     "color": style.BLACK,
@@ -44,7 +41,10 @@ TO_THE_EDGE: Options = {
     "markerfacecolor": "white",
     "markeredgewidth": 0.7,
     "clip_on": False,
+    "label": "reaches the far end, but not all at once",
 }
+UNFINISHED: Options = {"color": style.pale(style.BLACK, 0.2), "linewidth": 6}
+LABELS = ("$F_X$ [N]", "$K x_1$ [N]", "$L_p$ [mm]")
 STAIRCASE = "$K x_1 = K V t - F_X$: a step for each slip"
 MEASURED: Options = {"color": style.GREY, "zorder": 1.8, "label": "measured"}
 
@@ -55,7 +55,6 @@ def draw(
     title: str = "",
     data: NDArray[np.float64] = style.NO_DATA,
     inset: bool = True,
-    slider: Mapping[str, Any] | None = None,
     key: bool = True,
     look: style.Look = style.LOOK,
 ) -> Figure:
@@ -64,46 +63,40 @@ def draw(
 
     An event that goes on when the run ends is a band. The slip table may be empty; the
     trace is straight between its rows. `data`, shape (n, 2), are measured times [s] and
-    loads [N]. The parameters of `slider` stand below the title.
+    loads [N].
     """
     width_mm = look.width_mm or style.PAGE_MM
     slips = _with_kinds(slips)
     first_s = slips.loc[slips["is_global"], "onset_s"].min()
-    end_s = trace["time_s"].iloc[-1]
-    ends = [np.fmax(end_s, ZOOM_END * first_s)]
+    ends = [np.fmax(trace["time_s"].iloc[-1], ZOOM_END * first_s)]
     if inset and first_s > 0:
         ends.append(ZOOM_END * first_s)
     n = len(ends)
     is_stacked = n > 1 and width_mm < NARROW_MM
-    height_mm = HEIGHT_MM * (1 + is_stacked) + KEY_MM * key * (1 + 2 * is_stacked)
+    rows = n if is_stacked else 1
+    height_mm = HEIGHT_MM * rows + KEY_MM * key * (1 + 2 * is_stacked)
     with style.page(width_mm, height_mm, look) as figure:
-        rows = n if is_stacked else 1
         panels = figure.subplots(
             3 * rows, n // rows, squeeze=False, height_ratios=[1.3, 1.3, 1] * rows
         )
         columns = panels.T.reshape(n, 3)
         for axes, end in zip(columns, ends, strict=True):
             _draw_loads(axes, slips, trace, end)
-            _draw_events(axes[2], slips[slips["onset_s"] <= end], end_s)
+            _draw_events(axes[2], slips[slips["onset_s"] <= end], end)
             axes[0].plot(*data.T, **MEASURED)
             axes[2].set_xlabel("Time $t$ [s]")
             for panel in axes:
                 panel.set_xlim(0, end)
                 panel.tick_params(labelbottom=panel is axes[2])
-                if first_s >= 0:
-                    panel.axvline(first_s, **FIRST_GLOBAL)
-        for forces, stairs, lengths in columns if is_stacked else columns[:1]:
-            forces.set_ylabel("$F_X$ [N]")
-            stairs.set_ylabel("$K x_1$ [N]")
-            lengths.set_ylabel("$L_p$ [mm]")
+                panel.axvline(first_s, **FIRST_GLOBAL)
+        for axes in columns if is_stacked else columns[:1]:
+            for panel, text in zip(axes, LABELS, strict=True):
+                panel.set_ylabel(text)
         figure.align_ylabels()
         if n > 1:
             _magnify(columns, first_s, trace)
         columns[-1][1].annotate(STAIRCASE, (0.02, 0.82), xycoords="axes fraction")
-        loads = np.append(trace["tangential_load_N"], data[:, 1])
-        _set_load_axis(columns[0][0], loads)
-        _number_blocks(columns[-1][2], slips)
-        _write_title(columns[0][0], slips, title, slider)
+        columns[0][0].set_title(_title(slips, title), loc="left", pad=4, wrap=True)
         if key:
             ncols = int(width_mm / (KEY_WIDTH * look.font_size))
             _draw_key(figure, slips, len(data) > 0, max(1, ncols))
@@ -114,10 +107,11 @@ def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:
     """Add what is drawn: the kind of each event, and the length that it reached."""
     slips = slips.astype({"is_global": bool, "counted": bool})
     partial, counted, whole = KINDS
-    kinds = np.where(slips["counted"], counted, partial)
     share = slips["front"] / slips["n_blocks"]
     return slips.assign(
-        kind=np.where(slips["is_global"], whole, kinds),
+        kind=np.select(
+            [slips["is_global"], slips["counted"]], [whole, counted], partial
+        ),
         reached_mm=style.MM_PER_M * slips["length_m"] * share,
         is_at_the_edge=~slips["is_global"] & (share == 1),
     )
@@ -139,7 +133,7 @@ def _draw_loads(
         axes[1].vlines(events["onset_s"], low, high, **look)
 
 
-def _draw_events(axes: Axes, slips: pd.DataFrame, end_s: float) -> None:
+def _draw_events(axes: Axes, slips: pd.DataFrame, end: float) -> None:
     if slips.empty:
         axes.annotate("no slip event", (0.4, 0.5), xycoords="axes fraction")
         axes.set_yticks([])
@@ -147,18 +141,19 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, end_s: float) -> None:
     for kind, look in KINDS.items():
         events = slips[slips["kind"] == kind]
         axes.vlines(events["onset_s"], 0, events["reached_mm"], **look)
-        for _, event in events[events["end_s"].isna()].iterrows():
-            band = [event["onset_s"], end_s]
-            axes.fill_between(band, 0, event["reached_mm"], **_unfinished(kind))
+        unfinished = events[events["end_s"].isna()]
+        axes.bar(
+            unfinished["onset_s"],
+            unfinished["reached_mm"],
+            end - unfinished["onset_s"],
+            align="edge",
+            color=style.pale(look["color"], 0.2),
+            zorder=0.5,
+        )
     edge = slips[slips["is_at_the_edge"]]
     if len(edge):  # an empty line that is not clipped upsets the layout
         axes.plot(edge["onset_s"], edge["reached_mm"], **TO_THE_EDGE)
     axes.set_ylim(0, 1.08 * style.MM_PER_M * slips["length_m"].iloc[0])
-
-
-def _unfinished(kind: str) -> Options:
-    color = style.pale(KINDS[kind]["color"], 0.2)
-    return {"color": color, "linewidth": 0, "zorder": 0.5}
 
 
 def _magnify(columns: Any, first_s: float, trace: pd.DataFrame) -> None:
@@ -170,65 +165,21 @@ def _magnify(columns: Any, first_s: float, trace: pd.DataFrame) -> None:
     columns[1][1].set_ylim(-0.08 * top, 1.3 * top)
 
 
-def _set_load_axis(axes: Axes, loads: NDArray[np.float64]) -> None:
-    """Let the axis begin and end at a tick, at 0 if no load is below it."""
-    locator = MaxNLocator(6, steps=[1, 2, 5, 10])
-    ticks = locator.tick_values(min(0.0, loads.min()), loads.max())
-    axes.set(yticks=ticks, ylim=(ticks[0], ticks[-1]))
-
-
-def _number_blocks(axes: Axes, slips: pd.DataFrame) -> None:
-    """Number the blocks on an axis beside that of L_p."""
-    if slips.empty:
-        return
-    n = int(slips["n_blocks"].iloc[0])
-    block_mm = style.MM_PER_M * slips["length_m"].iloc[0] / n
-    blocks = axes.secondary_yaxis(
-        "right", functions=(lambda mm: mm / block_mm, lambda i: i * block_mm)
-    )
-    style.set_ticks(blocks.yaxis, sorted({1, (n + 1) // 2, n}))
-    blocks.set_ylabel("Block")
-
-
-def _write_title(
-    axes: Axes, slips: pd.DataFrame, title: str, slider: Mapping[str, Any] | None
-) -> None:
-    """Write the title, with theta, and the parameters."""
+def _title(slips: pd.DataFrame, title: str) -> str:
+    """The title, with theta and a word where there is no global slip."""
     parts = [style.plain(title)] if title else []
     if slips["theta"].notna().any():
         parts.append(style.theta_text(slips["theta"].iloc[0]))
     elif len(slips):
         parts.append("loads as measured")
     note = " (no global slip)" if len(slips) and not slips["is_global"].any() else ""
-    lines = [", ".join(parts) + note, *([parameters(slider)] if slider else [])]
-    axes.set_title("\n".join(lines), loc="left", pad=4, wrap=True)
-
-
-def parameters(slider: Mapping[str, Any]) -> str:
-    """The parameters in the caption of Fig. 10 of the paper, from those of a slider."""
-    n = slider["n_blocks"]
-    spring = n * slider["youngs_modulus"] * slider["cross_section"] / slider["length"]
-    values = {
-        "N": f"{n}",
-        r"\mu_s": f"{slider['mu_s']:g}",
-        r"\mu_k": f"{slider['mu_k']:g}",
-        "F_Z": f"{slider['normal_load']:g} N",
-        "K": f"{slider['drive_stiffness'] / 1e6:g} MN/m",
-        "V": f"{slider['drive_velocity'] * style.MM_PER_M:g} mm/s",
-        "m": f"{slider['slider_mass'] / n * 1e3:g} g",
-        "k": f"{spring / 1e6:g} MN/m",
-    }
-    texts = [f"${name}$ = {value}" for name, value in values.items()]
-    # A line of the title ends between two of them.
-    return ", ".join(text.replace(" ", "\N{NO-BREAK SPACE}") for text in texts)
+    return ", ".join(parts) + note
 
 
 def _draw_key(figure: Figure, slips: pd.DataFrame, has_data: bool, ncols: int) -> None:
-    entries: list[Line2D | Patch] = [Line2D([], [], **MEASURED)] if has_data else []
+    entries = [style.mark(**MEASURED)] if has_data else []
     entries += [style.mark(kind, **look) for kind, look in KINDS.items()]
-    text = "reaches the far end, but not all at once"
-    entries.append(style.mark(text, **TO_THE_EDGE))
-    entries.append(style.mark("first global slip", **FIRST_GLOBAL))
-    for kind in slips.loc[slips["end_s"].isna(), "kind"][:1]:
-        entries.append(Patch(**_unfinished(kind), label="not over when the run ends"))
+    entries += [style.mark(**TO_THE_EDGE), style.mark(**FIRST_GLOBAL)]
+    if slips["end_s"].isna().any():
+        entries.append(style.mark("not over when the run ends", **UNFINISHED))
     style.draw_key(figure, entries, ncols)
