@@ -6,7 +6,6 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from precursors.figures import style
 from precursors.figures.style import Options
@@ -24,6 +23,7 @@ LEADING_EDGE = 75.0
 BLOCKS = {"1": TRAILING_EDGE, "2": 41.0, "N": LEADING_EDGE - BLOCK}
 SECTIONS = 10.5
 
+CENTRED: Options = {"ha": "center", "va": "center"}
 BELOW: Options = {"ha": "center", "va": "top", "fontsize": "small"}
 ARROW: Options = {"shrinkA": 0, "shrinkB": 0, "color": style.BLACK}
 PUSH = ARROW | {"arrowstyle": "-|>"}
@@ -39,21 +39,17 @@ def draw() -> Figure:
         axes.set_axis_off()
         _draw_plane(axes)
         _draw_drive(axes)
-        for name, left in BLOCKS.items():
-            _draw_block(axes, name, left)
+        _draw_blocks(axes)
         _draw_springs(axes)
         _draw_sections(axes)
     return figure
 
 
 def _draw_plane(axes: Axes) -> None:
-    left = TRAILING_EDGE - 3
-    right = LEADING_EDGE + 4
-    axes.plot([left, right], [PLANE, PLANE], color=style.BLACK, linewidth=1.0)
-    look: Options = {"fill": False, "edgecolor": style.GREY, "linewidth": 0}
-    axes.add_patch(
-        Rectangle((left, PLANE - 1.8), right - left, 1.8, hatch="//////", **look)
-    )
+    ends = [TRAILING_EDGE - 3, LEADING_EDGE + 4]
+    axes.plot(ends, [PLANE, PLANE], color=style.BLACK, linewidth=1.0)
+    hatched: Options = {"hatch": "//////", "edgecolor": style.GREY, "linewidth": 0}
+    axes.fill_between(ends, PLANE - 1.8, PLANE, facecolor="none", **hatched)
 
 
 def _draw_drive(axes: Axes) -> None:
@@ -67,16 +63,18 @@ def _draw_drive(axes: Axes) -> None:
     axes.annotate("$F_X$", block, (TRAILING_EDGE - 8, height), **push)
 
 
-def _draw_block(axes: Axes, name: str, left: float) -> None:
-    middle = left + BLOCK / 2
+def _draw_blocks(axes: Axes) -> None:
     look: Options = {"facecolor": style.PALE, "edgecolor": style.BLACK}
-    axes.add_patch(Rectangle((left, PLANE), BLOCK, BLOCK, linewidth=0.8, **look))
-    axes.text(middle, MIDDLE, f"${name}$\n$m$", ha="center", va="center")
+    lefts = list(BLOCKS.values())
+    axes.bar(lefts, BLOCK, BLOCK, PLANE, align="edge", linewidth=0.8, **look)
     press: Options = {"arrowprops": PUSH, "ha": "center"}
-    axes.annotate(f"$w_{name}$", (middle, TOP + 0.2), (middle, TOP + 6), **press)
-    right = left + BLOCK + 0.4
-    _draw_arrow(axes, right, PLANE + 1.4, f"$f_{name}$", 3.8, style.BLACK)
-    _draw_position(axes, middle, f"$x_{name}$")
+    for name, left in BLOCKS.items():
+        middle = left + BLOCK / 2
+        axes.text(middle, MIDDLE, f"${name}$\n$m$", **CENTRED)
+        axes.annotate(f"$w_{name}$", (middle, TOP + 0.2), (middle, TOP + 6), **press)
+        right = left + BLOCK + 0.4
+        _draw_arrow(axes, right, PLANE + 1.4, f"$f_{name}$", 3.8, style.BLACK)
+        _draw_position(axes, middle, f"$x_{name}$")
 
 
 def _draw_position(axes: Axes, origin: float, text: str) -> None:
@@ -106,7 +104,7 @@ def _draw_springs(axes: Axes) -> None:
     left = BLOCKS["2"] + BLOCK
     right = BLOCKS["N"]
     third = (right - left) / 3
-    axes.text(left + 1.5 * third, MIDDLE, "$\\cdots$", ha="center", va="center")
+    axes.text(left + 1.5 * third, MIDDLE, "$\\cdots$", **CENTRED)
     for start, end, name in (
         (DRIVE, TRAILING_EDGE, "$K$"),
         (TRAILING_EDGE + BLOCK, BLOCKS["2"], "$k$"),
@@ -130,9 +128,6 @@ def _draw_sections(axes: Axes) -> None:
         axes.annotate("", (left, SECTIONS), (right, SECTIONS), arrowprops=both_ways)
         axes.text((left + right) / 2, SECTIONS - 1, text, **BELOW)
     axes.vlines(DRIVE, SECTIONS - 1, MIDDLE - 5, **THIN)
-    for edge, text in (
-        (TRAILING_EDGE, "trailing edge"),
-        (LEADING_EDGE, "leading edge"),
-    ):
-        axes.vlines(edge, 5, PLANE, **THIN)
-        axes.text(edge, 4.4, text, **BELOW)
+    axes.vlines([TRAILING_EDGE, LEADING_EDGE], 5, PLANE, **THIN)
+    axes.text(TRAILING_EDGE, 4.4, "trailing edge", **BELOW)
+    axes.text(LEADING_EDGE, 4.4, "leading edge", **BELOW)

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from precursors.figures import style
@@ -23,16 +22,15 @@ def draw(table: pd.DataFrame, scenes: Sequence[tuple[float, float]]) -> Figure:
     and mu_k/mu_s. The colours end at the 1st and 99th percentile.
     """
     values = table.pivot_table("mu_sapp", "friction_ratio", "theta", dropna=False)
-    known = values.to_numpy()[np.isfinite(values)]
+    low, high = np.nanquantile(values, [0.01, 0.99])
     with style.page(WIDTH_MM, HEIGHT_MM) as figure:
         axes = figure.subplots()
         image = axes.pcolormesh(
             values.columns,
             values.index,
             values,
-            norm=Normalize(*np.quantile(known, [0.01, 0.99])),
-            cmap="viridis",
-            shading="nearest",
+            vmin=low,
+            vmax=high,
             rasterized=True,
         )
         figure.colorbar(image, ax=axes, label=style.MU_SAPP_LABEL, use_gridspec=False)
@@ -40,9 +38,9 @@ def draw(table: pd.DataFrame, scenes: Sequence[tuple[float, float]]) -> Figure:
         axes.contour(
             values.columns, values.index, values, levels, colors="white", linewidths=0.6
         )
-        for place in scenes:
-            axes.plot(*place, "+", color="white", markersize=8, markeredgewidth=2.6)
-            axes.plot(*place, "+", color=style.BLACK, markersize=7)
+        places = np.transpose(scenes)
+        axes.plot(*places, "+", color="white", markersize=8, markeredgewidth=2.6)
+        axes.plot(*places, "+", color=style.BLACK, markersize=7)
         axes.set(xlabel=r"$\theta$ [-]", ylabel=r"$\mu_k/\mu_s$ [-]")
         text = rf"white line: $\mu_\mathrm{{sapp}} = {printed.MU_SAPP:g}$"
         cross = {"marker": "+", "markersize": 6, "linestyle": "none"}

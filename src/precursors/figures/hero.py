@@ -3,7 +3,7 @@ many."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -49,7 +49,7 @@ def draw(
     printed digits, and `shares` is digits.csv.
     """
     is_mu_sapp = shares["quantity"].eq("mu_sapp") & shares["question"].eq("as_printed")
-    within = shares[is_mu_sapp].set_index("scene").to_dict("index")
+    within = shares[is_mu_sapp].set_index("scene")
     scenes = members.groupby("scene", sort=False)
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         left, right = figure.subplots(1, 2)
@@ -65,8 +65,8 @@ def draw(
             linewidth=0,
         )
         for place, (scene, own) in enumerate(scenes):
-            _draw_strip(right, place, own, within[scene])
-        n = max(int(row["n"]) for row in within.values())
+            _draw_strip(right, place, own, within.loc[scene])
+        n = within["n"].max()
         right.set_title(
             f"\N{HORIZONTAL ELLIPSIS} but they are one draw of {n}", **TITLE
         )
@@ -78,9 +78,7 @@ def draw(
     return figure
 
 
-def _draw_strip(
-    axes: Axes, place: int, own: pd.DataFrame, summary: Mapping[Any, Any]
-) -> None:
+def _draw_strip(axes: Axes, place: int, own: pd.DataFrame, summary: Any) -> None:
     """Draw the sliders of a loading as stacked dots, above their median and nine
     tenths."""
     alone = own[own["draw"] == 0].iloc[0]

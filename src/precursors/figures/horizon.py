@@ -35,6 +35,7 @@ def draw(
     The tables are horizon.csv and lyapunov.csv. A dashed line has the slope of the
     largest Lyapunov exponent, and a dotted one is the `tolerance` [s].
     """
+    power = f"$10^{{{np.log10(tolerance):.3g}}}$"
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         panels = figure.subplots(
             1, len(thetas), sharex=True, sharey=True, squeeze=False
@@ -43,17 +44,14 @@ def draw(
             own = errors[errors["chain"] == chain]
             for column, look in ERRORS.items():
                 axes.plot(own["time_s"], own[column], **look)
-            axes.axhline(tolerance, **style.DOTTED)
+            axes.axhline(tolerance, **style.DOTTED, label=f"tolerance, {power} s")
             is_chains = np.isclose(exponents["theta"], theta)
             for exponent in exponents.loc[is_chains, "exponent_per_s"]:
                 _draw_slope(axes, exponent)
             axes.set(yscale="log", ylim=ERROR_RANGE, xlabel="Time [s]")
             axes.set_title(style.theta_text(theta))
         figure.axes[0].set_ylabel("Error of time [s]")
-        entries = figure.axes[0].get_legend_handles_labels()[0]
-        power = f"$10^{{{np.log10(tolerance):.3g}}}$"
-        entries.append(style.mark(f"tolerance, {power} s", **style.DOTTED))
-        style.draw_key(figure, entries)
+        style.draw_key(figure, figure.axes[0].get_legend_handles_labels()[0])
     return figure
 
 
