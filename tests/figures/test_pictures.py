@@ -226,8 +226,8 @@ def numbers_by_n():
         "horizon_s": 2.5,
         "predictable": [True, False],
     }
-    tables = read(SMALL / "resolution.csv"), read(SMALL / "resolution_limits.csv")
-    return resolution.draw(*tables, pd.DataFrame(foreseen), 12)
+    table = read(SMALL / "resolution.csv")
+    return resolution.draw(table, pd.DataFrame(foreseen), papers_n=12, mu_k=0.45)
 
 
 def map_of_friction():

@@ -97,10 +97,9 @@ FIGURES = {
         "shows": "mu_sapp approaches mu_k as the number of blocks grows",
         "tables": {
             "table": "results/tables/resolution.csv",
-            "limits": "results/tables/resolution_limits.csv",
             "predictability": "results/tables/predictability.csv",
         },
-        "options": {"papers_n": config["chain"]["n_blocks"]},
+        "options": {"papers_n": config["chain"]["n_blocks"], "mu_k": config["chain"]["mu_k"]},
     },
     "noise": {
         "section": "ensembles",

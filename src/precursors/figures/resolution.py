@@ -25,40 +25,34 @@ BAND = 0.18  # share of a colour in a band, the rest is white
 
 
 def draw(
-    table: pd.DataFrame,
-    limits: pd.DataFrame,
-    predictability: pd.DataFrame,
-    papers_n: int,
+    table: pd.DataFrame, predictability: pd.DataFrame, papers_n: int, mu_k: float
 ) -> Figure:
-    """Draw events and mu_sapp against N; a dotted line marks the paper's N.
+    """Draw events and mu_sapp against N; dotted lines mark the paper's N and mu_k.
 
     Of resolution.csv, medians are lines and 5 to 95 % of the runs are bands. A run
     without noise is a dot where it is predictable up to its global slip
-    (predictability.csv). resolution_limits.csv has the limit of mu_sapp, mu_k.
+    (predictability.csv).
     """
+    known = predictability[["scene", "n_blocks", "predictable"]]
+    table = table.merge(known, how="left")
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         counts, frictions = figure.subplots(1, 2)
-        for scene, of_scene in table.groupby("scene", sort=False):
-            is_known = predictability["scene"].eq(scene) & predictability["predictable"]
-            known = predictability.loc[is_known, "n_blocks"]
-            for axes, quantity in ((counts, "events_counted"), (frictions, "mu_sapp")):
-                rows = of_scene[of_scene["quantity"] == quantity]
-                _draw_numbers(axes, rows, rows["n_blocks"].isin(known))
+        for _, of_scene in table.groupby("scene", sort=False):
+            rows = dict(list(of_scene.groupby("quantity")))
+            _draw_numbers(counts, rows["events_counted"])
+            _draw_numbers(frictions, rows["mu_sapp"])
             color = style.theta_color(of_scene["theta"].iloc[0])
             for quantity, look in COUNTS.items():
-                rows = of_scene[of_scene["quantity"] == quantity]
-                counts.plot(rows["n_blocks"], rows["q50"], color=color, **look)
+                of_runs = rows[quantity]
+                counts.plot(of_runs["n_blocks"], of_runs["q50"], color=color, **look)
         beyond = BEYOND * table["n_blocks"].max()
         for sign, count in printed.EVENTS_OF_EXPERIMENT.items():
             counts.plot(beyond, count, **EXPERIMENT, color=style.theta_color(sign))
         counts.set(ylabel="Events up to the first global slip [-]", yscale="log")
         style.set_ticks(counts.yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000])
         frictions.set_ylabel(style.MU_SAPP_LABEL)
-        is_limit = limits["quantity"].eq("mu_sapp")
-        style.draw_level(
-            frictions, printed.MU_SAPP, f"paper, experiment: {printed.MU_SAPP:g}"
-        )
-        mu_k = limits.loc[is_limit, "a"].iloc[0]
+        words = f"paper, experiment: {printed.MU_SAPP:g}"
+        style.draw_level(frictions, printed.MU_SAPP, words)
         style.draw_level(frictions, mu_k, r"$\mu_k$", "top")
         for axes in (counts, frictions):
             axes.set(xscale="log", xlabel=style.BLOCKS_LABEL)
@@ -68,7 +62,7 @@ def draw(
     return figure
 
 
-def _draw_numbers(axes: Axes, rows: pd.DataFrame, is_known: pd.Series) -> None:
+def _draw_numbers(axes: Axes, rows: pd.DataFrame) -> None:
     """Draw the median and nine tenths of the runs, and the runs without noise."""
     theta = rows["theta"].iloc[0]
     color = style.theta_color(theta)
@@ -81,7 +75,7 @@ def _draw_numbers(axes: Axes, rows: pd.DataFrame, is_known: pd.Series) -> None:
     axes.fill_between(n, rows["q05"], rows["q95"], **band)
     axes.plot(n, rows[["q05", "q95"]], color=style.pale(color, 0.5), linewidth=0.4)
     axes.plot(n, rows["q50"], color=color, linewidth=1.2)
-    exact = rows[is_known]
+    exact = rows[rows["predictable"].eq(True)]
     axes.plot(exact["n_blocks"], exact["without_noise"], color=color, **EXACT)
 
 
