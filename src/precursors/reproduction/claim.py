@@ -126,10 +126,9 @@ class Claim:
         row: dict[str, Any] = {"claim": self.name}
         row |= {name: getattr(self, name) for name in SAID}
         row |= {"expected": shown(finding.expected), "ours": shown(finding.ours)}
-        for name in ENSEMBLES:
-            share = finding.shares.get(name)
-            low, high = share.interval if share else (None, None)
-            row |= {f"{name}_share": share.k / share.n if share else None}
+        for name, share in finding.shares.items():
+            low, high = share.interval
+            row[f"{name}_share"] = share.k / share.n
             row |= {f"{name}_low": low, f"{name}_high": high}
         row |= {"note": finding.note, "verdict": finding.verdict}
         return row | {"verdict_text": in_words(self.kind, finding.verdict)}

@@ -194,7 +194,7 @@ def friction_independent_of_loading(t: Tables) -> Finding:
     of its interval; the note and the shares are of the three mu_sapp of one draw."""
     by_draw = in_draws(
         t,
-        lambda runs: spread(drawn("mu_sapp")(runs)),
+        spread_of_friction,
         lambda span: span <= printed.LAST_DIGIT,
         printed.LAST_DIGIT,
     )
@@ -211,10 +211,10 @@ def friction_independent_of_loading(t: Tables) -> Finding:
     )
 
 
-def spread(runs: Any) -> Any:
-    """Largest less smallest number of each draw; NaN where one is missing."""
-    largest = runs.max(axis=1, skipna=False)
-    return (largest - runs.min(axis=1, skipna=False)).to_frame()
+def spread_of_friction(runs: pd.DataFrame) -> pd.DataFrame:
+    """Largest less smallest mu_sapp of each draw; NaN where one is missing."""
+    friction = drawn("mu_sapp")(runs)
+    return pd.DataFrame(np.ptp(friction.to_numpy(), axis=1), friction.index)
 
 
 @of_claim

@@ -18,7 +18,6 @@ from precursors.analysis.slips import (
     first_global_slip,
     slip_table,
 )
-from precursors.methods.columns import SWITCHING_RULES
 from precursors.methods.march import march
 from precursors.methods.rk4_located import run_located
 from precursors.methods.switching import COULOMB, FORWARD_ONLY, KINETIC
@@ -43,36 +42,15 @@ SWITCHING = {
 class Reading:
     """A reading of the paper's words, by default ours.
 
-    `changed` names the one column of the table that is not as in ours.
+    `changed` names the one column of the table that is not as in ours, and `reading`
+    says how.
     """
 
     changed: str = "nothing"
+    reading: str = "our reading"
     degree: float | str = OF_SCENES
     switching: str = COULOMB
     definition: Definition = OURS
-
-    @property
-    def text(self) -> str:
-        """The change, in words."""
-        texts = {
-            "nothing": "our reading",
-            "global_slip": f"global slip: {self.definition.global_slip_text}",
-            "short": f"short event: {SHORT_EVENTS[self.definition.short]}",
-            "front": f"length: {FRONTS[self.definition.front]}",
-            "degree": f"size of theta: {self.degree}",
-            "switching": f"switching: {SWITCHING[self.switching]}",
-        }
-        return texts[self.changed]
-
-    def row(self) -> dict[str, Any]:
-        """The columns of the table that say which reading it is."""
-        return {
-            "changed": self.changed,
-            "reading": self.text,
-            "degree": self.degree,
-            "switching": self.switching,
-            **asdict(self.definition),
-        }
 
 
 def readings(
@@ -81,17 +59,20 @@ def readings(
     """Our reading and those with one change."""
     yield Reading()
     slips: list[str | float] = [*list(GLOBAL_SLIPS)[1:], *load_drops]
-    for global_slip in slips:
-        definition = replace(OURS, global_slip=global_slip)
-        yield Reading("global_slip", definition=definition)
-    for short in list(SHORT_EVENTS)[1:]:
-        yield Reading("short", definition=replace(OURS, short=short))
-    for front in list(FRONTS)[1:]:
-        yield Reading("front", definition=replace(OURS, front=front))
+    for slip in slips:
+        of_slip = replace(OURS, global_slip=slip)
+        text = f"global slip: {of_slip.global_slip_text}"
+        yield Reading("global_slip", text, definition=of_slip)
+    for short, text in list(SHORT_EVENTS.items())[1:]:
+        of_short = replace(OURS, short=short)
+        yield Reading("short", f"short event: {text}", definition=of_short)
+    for front, text in list(FRONTS.items())[1:]:
+        of_front = replace(OURS, front=front)
+        yield Reading("front", f"length: {text}", definition=of_front)
     for degree in degrees:
-        yield Reading("degree", degree=degree)
-    for rule in list(SWITCHING_RULES)[1:]:
-        yield Reading("switching", switching=rule)
+        yield Reading("degree", f"size of theta: {degree}", degree=degree)
+    for rule, text in list(SWITCHING.items())[1:]:
+        yield Reading("switching", f"switching: {text}", switching=rule)
 
 
 def definitions_table(
@@ -136,7 +117,8 @@ def definitions_table(
                 run = march(run_located, (), chain, duration, STEP, rule=rule).run
             elif chain is not of_scene.chain:
                 run = simulate(chain, duration)
-            row = {**reading.row(), "theta": chain.theta}
+            row = asdict(reading)
+            row |= row.pop("definition") | {"theta": chain.theta}
             rows.append(row | numbers(run, reading.definition, of_paper))
     table = pd.DataFrame(rows)
     of_reading = table.groupby(table.index // len(SIGNS))

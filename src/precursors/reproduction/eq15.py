@@ -88,19 +88,15 @@ def close(
 def eq15_table(runs: Mapping[str, Run], duration: float) -> pd.DataFrame:
     """One row per `Check` of the runs of the scenes; a global slip is awaited for
     `duration` [s]."""
-    scenes = {scene: run.chain for scene, run in runs.items()}
     rows = [*in_symbols(SYMBOLIC_BLOCKS)]
-    rows += [as_printed(scene, chain) for scene, chain in scenes.items()]
-    rows += [at_rest(scene, chain) for scene, chain in scenes.items()]
-    rows += [
-        row
-        for scene, chain in scenes.items()
-        for row in in_motion(scene, chain, duration)
-    ]
+    for make in (as_printed, at_rest):
+        rows += [make(scene, run.chain) for scene, run in runs.items()]
+    for scene, run in runs.items():
+        rows += in_motion(scene, run.chain, duration)
     for scene, run in runs.items():
         rows += [fast_drive(scene, run.chain), below_limit(scene, run)]
-    first = next(iter(scenes.values()))
-    table = pd.DataFrame([*rows, rigid(first, duration)])
+    first = next(iter(runs.values()))
+    table = pd.DataFrame([*rows, rigid(first.chain, duration)])
     return table.assign(statement=table["check"].map(STATEMENTS))
 
 

@@ -21,14 +21,14 @@ from precursors.support.files import read_table
 Pair = tuple[ArrayLike, ArrayLike]
 
 
+def of_check(t: Tables, check: str) -> list[float]:
+    """What a check of Eq. 15 finds in each scene."""
+    return [float(one(t["eq15"], "found", check=check, case=s)) for s in SCENES]
+
+
 def eq12(t: Tables) -> Pair:
     """F_X of the state of Eq. 12."""
-    checks = ("as_printed", "at_rest")
-    as_printed, right = (
-        [float(one(t["eq15"], "found", check=c, case=s)) for s in SCENES]
-        for c in checks
-    )
-    return as_printed, right
+    return of_check(t, "as_printed"), of_check(t, "at_rest")
 
 
 def counts(t: Tables) -> list[int]:
@@ -38,11 +38,7 @@ def counts(t: Tables) -> list[int]:
 
 def residual_strain(t: Tables) -> Pair:
     """mu_sapp from the largest residual strain, and from natural length."""
-    most = [
-        float(one(t["eq15"], "found", check="full_strain", case=scene))
-        for scene in SCENES
-    ]
-    return most, [
+    return of_check(t, "full_strain"), [
         one(t["reproduction"], "reproduced", scene=scene, quantity="mu_sapp")
         for scene in SCENES
     ]
@@ -112,6 +108,5 @@ def open_points_table(tables: Tables) -> pd.DataFrame:
         for point in table["point"]
     ]
     numbers = [[shown(values) for values in pair] for pair in pairs]
-    return table.join(
-        pd.DataFrame(numbers, columns=["number_as_printed", "number_taken"])
-    )
+    table[["number_as_printed", "number_taken"]] = numbers
+    return table

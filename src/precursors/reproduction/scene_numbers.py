@@ -76,11 +76,9 @@ def reproduction_table(
         theta = next(iter(table["theta"]), None)
         for quantity, unit in UNITS.items():
             row = {"scene": scene, "theta": theta, "quantity": quantity, "unit": unit}
-            numbers = {
-                "paper": paper[scene].get(quantity),
-                "reproduced": found.get(quantity),
-            }
-            rows.append(row | numbers)
+            row["paper"] = paper[scene].get(quantity)
+            row["reproduced"] = found.get(quantity)
+            rows.append(row)
     return pd.DataFrame(rows)
 
 
