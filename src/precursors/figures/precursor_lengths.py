@@ -169,8 +169,7 @@ def _draw_last(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
 def _label(slips: pd.DataFrame) -> str:
     """The scene, and the number of its events."""
     first = slips.iloc[0]
-    theta = first["theta"]
-    name = style.theta_text(theta) if pd.notna(theta) else "loads as measured"
+    name = style.theta_text(first["theta"])
     slider = f"$N = {first['n_blocks']}$, $F_Z = {first['normal_load_N']:g}$ N"
     n = int(slips["counted"].sum())
     note = "" if slips["is_global"].any() else ", no global slip"

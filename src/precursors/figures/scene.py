@@ -72,9 +72,8 @@ def draw(
     if inset and first_s > 0:
         ends.append(ZOOM_END * first_s)
     n = len(ends)
-    is_stacked = n > 1 and width_mm < NARROW_MM
-    rows = n if is_stacked else 1
-    height_mm = HEIGHT_MM * rows + KEY_MM * key * (1 + 2 * is_stacked)
+    rows = n if width_mm < NARROW_MM else 1
+    height_mm = HEIGHT_MM * rows + KEY_MM * key * (2 * rows - 1)
     with style.page(width_mm, height_mm, look) as figure:
         panels = figure.subplots(
             3 * rows, n // rows, squeeze=False, height_ratios=[1.3, 1.3, 1] * rows
@@ -89,7 +88,7 @@ def draw(
                 panel.set_xlim(0, end)
                 panel.tick_params(labelbottom=panel is axes[2])
                 panel.axvline(first_s, **FIRST_GLOBAL)
-        for axes in columns if is_stacked else columns[:1]:
+        for axes in columns[:rows]:
             for panel, text in zip(axes, LABELS, strict=True):
                 panel.set_ylabel(text)
         figure.align_ylabels()
@@ -98,8 +97,7 @@ def draw(
         columns[-1][1].annotate(STAIRCASE, (0.02, 0.82), xycoords="axes fraction")
         columns[0][0].set_title(_title(slips, title), loc="left", pad=4, wrap=True)
         if key:
-            ncols = int(width_mm / (KEY_WIDTH * look.font_size))
-            _draw_key(figure, slips, len(data) > 0, max(1, ncols))
+            _draw_key(figure, slips, len(data) > 0, width_mm / look.font_size)
     return figure
 
 
@@ -168,18 +166,18 @@ def _magnify(columns: Any, first_s: float, trace: pd.DataFrame) -> None:
 def _title(slips: pd.DataFrame, title: str) -> str:
     """The title, with theta and a word where there is no global slip."""
     parts = [style.plain(title)] if title else []
-    if slips["theta"].notna().any():
-        parts.append(style.theta_text(slips["theta"].iloc[0]))
-    elif len(slips):
-        parts.append("loads as measured")
+    parts += [style.theta_text(theta) for theta in slips["theta"][:1]]
     note = " (no global slip)" if len(slips) and not slips["is_global"].any() else ""
     return ", ".join(parts) + note
 
 
-def _draw_key(figure: Figure, slips: pd.DataFrame, has_data: bool, ncols: int) -> None:
+def _draw_key(
+    figure: Figure, slips: pd.DataFrame, has_data: bool, width: float
+) -> None:
+    """Draw the key; `width` is that of the page in mm per pt of the letters."""
     entries = [style.mark(**MEASURED)] if has_data else []
     entries += [style.mark(kind, **look) for kind, look in KINDS.items()]
     entries += [style.mark(**TO_THE_EDGE), style.mark(**FIRST_GLOBAL)]
     if slips["end_s"].isna().any():
         entries.append(style.mark("not over when the run ends", **UNFINISHED))
-    style.draw_key(figure, entries, ncols)
+    style.draw_key(figure, entries, max(1, int(width / KEY_WIDTH)))

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from io import BytesIO
-from math import isclose
+from math import isclose, isnan
 from pathlib import Path
 from typing import Any
 
@@ -185,7 +185,9 @@ def set_ticks(axis: Axis, values: Sequence[float]) -> None:
 
 def theta_text(theta: float) -> str:
     """Write theta, as a fraction if it has a small denominator (-5/6), else as a
-    decimal number."""
+    decimal number; without one the loads are measured."""
+    if isnan(theta):
+        return "loads as measured"
     fraction = Fraction(theta).limit_denominator(12)
     text = str(fraction) if isclose(fraction, theta) else f"{theta:.4g}"
     return rf"$\theta = {text}$"
