@@ -76,11 +76,10 @@ def _draw_map(axes: Axes, peaks: pd.DataFrame) -> None:
 
 
 def _draw_cycles(axes: Axes, cycles: pd.DataFrame) -> None:
-    names = ["length", "relaxation_time"]
-    pairs = cycles[names].drop_duplicates().sort_values(names, ignore_index=True)
+    pairs = cycles.groupby(["length", "relaxation_time"])
+    places = pd.Series(range(pairs.ngroups), pairs.size().index)
     finest = cycles["n_blocks"].max()
-    for i, pair in enumerate(pairs.to_numpy()):
-        of_pair = cycles[(cycles[names] == pair).all(axis=1)]
+    for i, (_, of_pair) in enumerate(pairs):
         theory = of_pair.loc[of_pair["theta"] == 0, "theory"].iloc[0]
         axes.hlines(theory, i - 0.4, i + 0.4, color=style.GREY)
         is_rare = of_pair["share"] <= RARE
@@ -89,9 +88,9 @@ def _draw_cycles(axes: Axes, cycles: pd.DataFrame) -> None:
             size = 2.0 if rows["share"].max() <= RARE else 4.5
             look = _look(rows, finest) | {"markersize": size}
             axes.plot(x, rows["coefficient"], **look)
-    axes.set_xticks(pairs.index, [f"{1e6 * t:g}" for t in pairs["relaxation_time"]])
+    axes.set_xticks(places, [f"{1e6 * time:g}" for _, time in places.index])
     axes.set(xlabel="$t_v$ [µs]", ylabel=r"settled peak of $F_X/F_Z$")
-    middles = pairs.reset_index().groupby("length")["index"].mean()
+    middles = places.groupby("length").mean()
     lengths = axes.secondary_xaxis("top")
     lengths.set_xticks(middles, [f"$l_c = {length:g}\\,L$" for length in middles.index])
     lengths.tick_params(length=0)

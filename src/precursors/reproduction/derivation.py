@@ -27,38 +27,25 @@ def bound(n: int) -> Expr:
     return mu_s * sympy.Add(*weights(n))
 
 
-def net_spring_forces(n: int) -> list[Expr]:
-    """Net force of the springs on each block: Eqs. 2 and 3, written with the
-    compressions of Eq. 11."""
-    x = sympy.symbols(f"x_0:{n + 1}", real=True)
-    behind = [K * (x[0] - x[1])] + [k * (x[i - 1] - x[i]) for i in range(2, n + 1)]
-    ahead = [k * (x[i] - x[i + 1]) for i in range(1, n)] + [sympy.S.Zero]
-    y = compressions(n)
-    positions = {x[i]: x[0] - sympy.Add(*y[:i]) for i in range(1, n + 1)}
-    return [
-        sympy.expand((b - a).xreplace(positions))
-        for b, a in zip(behind, ahead, strict=True)
-    ]
-
-
 def balances(n: int) -> list[Expr]:
-    """Left-hand sides of Eq. 12 as they follow from Eq. 2: every block rests at its
-    limit +mu_s w_i."""
-    return [
-        force - mu_s * w
-        for force, w in zip(net_spring_forces(n), weights(n), strict=True)
-    ]
+    """Left-hand sides of Eq. 12 as they follow from Eqs. 2, 3 and 11: every block rests
+    at its limit +mu_s w_i.
+
+    The spring behind block i pushes it by K y_1 or k y_i, and the next spring, which
+    block N does not have, pushes it back.
+    """
+    drive, *others = compressions(n)
+    behind = [K * drive, *(k * y for y in others)]
+    ahead = [*behind[1:], sympy.S.Zero]
+    loads = weights(n)
+    return [b - a - mu_s * w for b, a, w in zip(behind, ahead, loads, strict=True)]
 
 
 def balances_as_printed(n: int) -> list[Expr]:
     """Left-hand sides of Eq. 12 as the paper prints them, with K y_N in the last
     line."""
-    y = compressions(n)
-    w = weights(n)
-    lines = [
-        (K if i == 0 else k) * y[i] - k * y[i + 1] - mu_s * w[i] for i in range(n - 1)
-    ]
-    return [*lines, K * y[-1] - mu_s * w[-1]]
+    last = K * compressions(n)[-1] - mu_s * weights(n)[-1]
+    return [*balances(n)[:-1], last]
 
 
 def load(equations: list[Expr]) -> Expr:
