@@ -91,15 +91,16 @@ def _draw_strip(axes: Axes, place: int, own: pd.DataFrame, summary: Any) -> None
     nine_tenths = [summary["q05"], summary["q95"]]
     axes.plot(nine_tenths, [place - 0.1] * 2, color=color, linewidth=2)
     share = f"{100 * summary['share']:.0f} %"
-    axes.annotate(share, (printed.MU_SAPP, place - 0.33), ha="center")
+    axes.text(printed.MU_SAPP, place - 0.33, share, ha="center")
     axes.plot(
         summary["q50"], place - 0.1, "|", color=color, markersize=9, markeredgewidth=2.5
     )
     axes.plot(alone["mu_sapp"], place - 0.1, **STAR)
-    axes.annotate(
+    axes.text(
+        0.98,
+        place + 0.5,
         style.LOADINGS[int(np.sign(alone["theta"]))],
-        (0.98, place + 0.5),
-        xycoords=("axes fraction", "data"),
+        transform=axes.get_yaxis_transform(),
         ha="right",
         color=color,
         fontweight="bold",

@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
 
 from precursors.figures import style
 
@@ -97,8 +96,8 @@ def _draw_panel(strip: Axes, axes: Axes, rows: pd.DataFrame, with_names: bool) -
     axes.set(yscale="log")
     axes.margins(x=0.14, y=0.1)
     style.draw_level(axes, np.spacing(SHOWN_TIME_S), "spacing of doubles", "top")
-    for axis in (strip.xaxis, axes.xaxis, axes.yaxis):
-        axis.set_minor_locator(NullLocator())
+    for panel in (strip, axes):
+        panel.minorticks_off()
 
 
 def _name(axes: Axes, first: pd.Series) -> None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.ticker import MaxNLocator
 
 from precursors.figures import style
 from precursors.figures.style import Options
@@ -39,7 +39,7 @@ def draw(table: pd.DataFrame) -> Figure:
         for axes, label in zip(grid[:, 0], QUANTITIES.values(), strict=True):
             axes.set_ylabel(label)
         grid[0, 0].set_xscale("log")
-        grid[0, 0].xaxis.set_minor_locator(NullLocator())
+        grid[0, 0].minorticks_off()
         grid[0, 0].yaxis.set_major_locator(MaxNLocator(integer=True))
         grid[2, 0].set_ylim(0, 108)
         figure.align_ylabels(grid[:, 0])

@@ -22,7 +22,6 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import findfont
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
-from matplotlib.ticker import NullLocator
 
 from precursors.support.files import write_whole
 
@@ -179,8 +178,9 @@ def pale(color: str, share: float) -> str:
 def set_ticks(axis: Axis, values: Sequence[float]) -> None:
     """Put ticks at some values of an axis and nowhere else, labelled as decimal
     numbers."""
-    axis.set_ticks(values, labels=[f"{value:g}" for value in values])
-    axis.set_minor_locator(NullLocator())
+    axis.set_ticks(values)
+    axis.set_ticks([], minor=True)
+    axis.set_major_formatter("{x:g}")
 
 
 def theta_text(theta: float) -> str:
@@ -214,8 +214,8 @@ def plain(text: str) -> str:
 def draw_level(axes: Axes, value: float, text: str, side: str = "bottom") -> None:
     """Draw a dotted line at a value of the y axis, with its name at its right end."""
     axes.axhline(value, **DOTTED)
-    where: Options = {"xycoords": ("axes fraction", "data"), "ha": "right", "va": side}
-    axes.annotate(text, (0.98, value), **where, fontsize="small")
+    where = axes.get_yaxis_transform()
+    axes.text(0.98, value, text, ha="right", va=side, transform=where, fontsize="small")
 
 
 def draw_key(figure: Figure, entries: Sequence[Any], ncols: int = 0) -> None:
