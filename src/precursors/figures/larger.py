@@ -11,7 +11,7 @@ from precursors.figures import style
 from precursors.figures.style import Options
 
 HEIGHT_MM = 70.0
-WIDTHS = (1.0, 0.85, 1.9)
+WIDTHS = (1.0, 0.85, 2.3)
 MARKERS = {-1: "v", 0: "o", 1: "^"}  # by the sign of theta
 SIDE = 0.22  # from one loading to the next, in units of one pair
 RARE = 0.05
