@@ -34,15 +34,16 @@ def draw(
     `methods` fail in a way are marked on the x axis.
     """
     panels = panels.fillna({"log": "", "methods": ""})
-    limits = thresholds[thresholds["n_blocks"] == CHARTED_BLOCKS]
+    limits = thresholds[thresholds["n_blocks"] == CHARTED_BLOCKS].set_index(
+        ["fails", "method"]
+    )
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         grid = figure.subplots(3, 3).flat
         rows: Any = panels.itertuples()
         for letter, axes, panel in zip("abcdefghi", grid, rows, strict=True):
             _draw_curves(axes, panel, curves[curves["failure_mode"] == panel.mode])
-            is_marked = limits["fails"].eq(panel.fails)
-            is_marked &= limits["method"].isin(panel.methods.split())
-            for _, limit in limits[is_marked].iterrows():
+            for method in panel.methods.split():
+                limit = limits.loc[(panel.fails, method)]
                 axes.axvline(panel.scale * limit["predicted"], **PREDICTED)
                 axes.axvline(panel.scale * limit["measured"], **style.DOTTED)
             axes.set_title(f"$\\bf{{{letter}}}$  {panel.title}", fontsize="small")

@@ -81,7 +81,7 @@ def draw(
         columns = panels.T.reshape(n, 3)
         for axes, end in zip(columns, ends, strict=True):
             _draw_loads(axes, slips, trace, end)
-            _draw_events(axes[2], slips[slips["onset_s"] <= end], end)
+            _draw_events(axes[2], slips[slips["onset_s"] <= end], trace)
             axes[0].plot(*data.T, **MEASURED)
             axes[2].set_xlabel("Time $t$ [s]")
             for panel in axes:
@@ -131,7 +131,7 @@ def _draw_loads(
         axes[1].vlines(events["onset_s"], low, high, **look)
 
 
-def _draw_events(axes: Axes, slips: pd.DataFrame, end: float) -> None:
+def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
     if slips.empty:
         axes.annotate("no slip event", (0.4, 0.5), xycoords="axes fraction")
         axes.set_yticks([])
@@ -143,7 +143,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, end: float) -> None:
         axes.bar(
             unfinished["onset_s"],
             unfinished["reached_mm"],
-            end - unfinished["onset_s"],
+            trace["time_s"].iloc[-1] - unfinished["onset_s"],
             align="edge",
             color=style.pale(look["color"], 0.2),
             zorder=0.5,

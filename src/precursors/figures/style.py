@@ -185,7 +185,7 @@ def set_ticks(axis: Axis, values: Sequence[float]) -> None:
 
 def theta_text(theta: float) -> str:
     """Write theta, as a fraction if it has a small denominator (-5/6), else as a
-    decimal number; without one the loads are measured."""
+    decimal number; without one, the loads are measured."""
     if isnan(theta):
         return "loads as measured"
     fraction = Fraction(theta).limit_denominator(12)
