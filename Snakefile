@@ -10,7 +10,6 @@ from precursors.model.config import check_config, check_file, read_numbers
 from precursors.model.scenes import (
     scene_additions,
     scene_duration,
-    scene_model,
     scene_slider,
     scenes_with,
     scenes_with_theta,

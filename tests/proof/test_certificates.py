@@ -226,6 +226,26 @@ def test_theta_of_a_scene_is_not_rounded() -> None:
         assert scene_exact_chain(config, name) == SLIDER(theta=theta)
 
 
+def test_a_scene_that_is_not_the_papers_chain_is_not_proved_as_if_it_were() -> None:
+    slider = {"n_blocks": 3, "normal_load": 400.0, "length": 0.1}
+    plain = {"theta": "5/6", "push_height": 0.0}
+    config = {"chain": slider, "scenes": {"plain": plain}}
+    assert scene_exact_chain(config, "plain") == SLIDER(n_blocks=3, theta="5/6")
+    for changes in (
+        {"weights": [30.0, 40.0, 50.0]},
+        {"weakening_velocity": 0.02},
+        {"relaxation_time": 1e-6},
+        {"viscosity": 1.0},
+        {"push_height": 0.005},
+    ):
+        config["scenes"]["other"] = plain | changes
+        [name] = changes
+        with pytest.raises(
+            ValueError, match=f"^scenes.other must be the paper's chain .*has {name}$"
+        ):
+            scene_exact_chain(config, "other")
+
+
 def test_one_block_has_the_whole_load_whatever_theta_is():
     assert SLIDER(n_blocks=1, theta="5/6").weights == (400,)
 

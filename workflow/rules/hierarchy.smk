@@ -23,7 +23,7 @@ TABLES |= {
     **{
         f"{scene}_answers": {
             "function": "hierarchy.models:scene_answers",
-            "options": {"slider": scene_slider(config, scene), "model": scene_model(config, scene)},
+            "options": {"slider": scene_slider(config, scene), "model": config["scenes"][scene]["model"]},
         }
         for scene in ASKED
     },

@@ -12,9 +12,8 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.run_statistics import NOISE
-from precursors.hierarchy.models import MODELS, UNITS, Model
+from precursors.hierarchy.models import MODELS, PAPERS_MODEL, UNITS, Model
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.scenes import PAPERS_MODEL
 from precursors.support import timing
 
 WAVEFORM_SAMPLES = 2001

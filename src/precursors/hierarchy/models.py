@@ -21,10 +21,10 @@ from precursors.hierarchy.quasistatic import (
     quasistatic_slips,
 )
 from precursors.model.chain import Chain
-from precursors.model.scenes import PAPERS_MODEL
 from precursors.solver.simulate import simulate
 
 Model = Callable[[Chain], dict[str, Any]]
+PAPERS_MODEL = "chain"
 # Longest run, in units of the time in which the drive reaches mu_s F_Z against all
 # springs in a row.
 LIMIT = 10.0

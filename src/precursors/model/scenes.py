@@ -18,7 +18,6 @@ SLIDER = {
     name: p.default
     for name, p in inspect.signature(Chain.from_slider).parameters.items()
 }
-PAPERS_MODEL = "chain"
 # What a larger chain adds to the paper's (`hierarchy.larger`), with units.
 ADDITIONS = {
     "weakening_velocity": "m/s",
@@ -46,11 +45,6 @@ def scenes_with_theta(config: Config) -> list[str]:
         for name in scenes_with(config, "run")
         if "weights" not in config["scenes"][name]
     ]
-
-
-def scene_model(config: Config, name: str) -> str:
-    """The model of a scene, a key of `hierarchy.models.MODELS`."""
-    return str(config["scenes"][name].get("model", PAPERS_MODEL))
 
 
 def scene_duration(config: Config, name: str) -> float:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from precursors.model.scenes import PAPERS_MODEL, scene_as_written, scene_model
+from precursors.model.scenes import ADDITIONS, scene_as_written
 from precursors.proof.certificate import Certificate
 from precursors.proof.exact_chain import ExactChain
 
@@ -36,16 +36,14 @@ def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
     Raises
     ------
     ValueError
-        If the scene's model is another than the paper's chain.
+        If the scene has measured weights, or is that of a larger chain.
     """
-    model = scene_model(config, name)
-    if model != PAPERS_MODEL:
+    scene = config["scenes"][name]
+    unproved = [key for key in ("weights", *ADDITIONS) if scene.get(key)]
+    if unproved:
         raise ValueError(
-            f"scenes.{name}.model must be {PAPERS_MODEL!r} for a proof, but is {model!r}"
-        )
-    if "weights" in config["scenes"][name]:
-        raise ValueError(
-            f"scenes.{name} must have theta or load cells for a proof, but has weights"
+            f"scenes.{name} must be the paper's chain with theta or load cells for a proof, "
+            f"but has {', '.join(unproved)}"
         )
     return ExactChain.from_slider(**scene_as_written(config, name))
 
