@@ -6,18 +6,17 @@ from __future__ import annotations
 import csv
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import takewhile, zip_longest
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from precursors.support.files import AnyPath
 
-if TYPE_CHECKING:
-    import pandas as pd
+# The name of each column, and its fields from top to bottom.
+Columns = list[tuple[str, tuple[str, ...]]]
 
 NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d{1,3})?")
 GROUPED = re.compile(r"[-+]?\d{1,3}([.,'\u2019\s]\d{3})+([.,]\d+)?")
@@ -70,33 +69,30 @@ def read_columns(path: AnyPath, needed: Sequence[str]) -> NDArray[np.float64]:
     ValueError
         In one line with file, line, and what is needed.
     """
-    return _columns(path, _fields(path), needed)
+    return _numbers(path, *_fields(path), needed)
 
 
 def read_weights(path: AnyPath) -> list[float]:
     """Normal loads [N], a number for each block, alone or after the number or name of
     the block: 1 or b1, 2 or b2."""
-    table = _fields(path)
-    if len(table) == 1 and table.shape[1] > 2:  # a table of one line
-        lines = table.shape[1] * [table.index[0]]
-        table = table.T.set_axis(lines).set_axis([""], axis=1)
-    if table.shape[1] > 1:
-        labels = table.iloc[:, 0].str.extract(r"(\d+)(?:[.,]0*)?$")[0].dropna()
-        if list(map(int, labels)) != list(range(1, len(table) + 1)):
+    lines, columns = _fields(path)
+    if len(lines) == 1 and len(columns) > 2:  # a table of one line
+        columns = [("", tuple(field for _, (field,) in columns))]
+        lines *= len(columns[0][1])
+    if len(columns) > 1:
+        labels = (re.search(r"(\d+)([.,]0*)?$", label) for label in columns[0][1])
+        numbers = [label and int(label[1]) for label in labels]
+        if numbers != list(range(1, len(lines) + 1)):
             raise ValueError(
-                f"{path}: columns: {table.shape[1]}; needed: {NORMAL_LOAD}, one a line, "
+                f"{path}: columns: {len(columns)}; needed: {NORMAL_LOAD}, one a line, "
                 "alone or after the number of its block, 1, 2, 3, ..."
             )
-        table = table.iloc[:, 1:]
-    loads = _columns(path, table, [NORMAL_LOAD])
-    return list(map(float, loads[:, 0]))
+        del columns[0]
+    return list(map(float, _numbers(path, lines, columns, [NORMAL_LOAD])[:, 0]))
 
 
-def _fields(path: AnyPath) -> pd.DataFrame:
-    """Fields of a file by the number of their line and the name of their column, without
-    empty columns."""
-    import pandas as pd  # slow
-
+def _fields(path: AnyPath) -> tuple[list[int], Columns]:
+    """Numbers of the lines of a file, and its columns, without empty ones."""
     text = Path(path).read_bytes().decode("utf-8-sig", errors="replace")
     if "\0" in text:
         raise ValueError(
@@ -113,15 +109,14 @@ def _fields(path: AnyPath) -> pd.DataFrame:
         raise ValueError(f"{path} has no numbers")
     separator = _separator(path, above, list(rest.values()))
     rows = [_cut(line, separator) for line in rest.values()]
-    table = pd.DataFrame(zip_longest(*rows, fillvalue=""), columns=list(rest)).T
-    names = [""] * table.shape[1]
-    for line in above:
-        parts = _cut(line, separator)
-        parts = parts * len(names) if len(parts) == 1 else parts  # a title
-        for j, part in enumerate(parts[: len(names)]):
-            names[j] = f"{names[j]} {part}".strip()
-    table.columns = pd.Index(names)
-    return table.loc[:, (table != "").any().to_numpy()]
+    columns = list(zip_longest(*rows, fillvalue=""))
+    heads = [_cut(line, separator) for line in above]
+    # A title is above all columns.
+    heads = [head * len(columns) if len(head) == 1 else head for head in heads]
+    parts = zip_longest([""] * len(columns), *heads, fillvalue="")
+    names = (" ".join(filter(None, part)) for part in parts)
+    named = zip(names, columns, strict=False)
+    return list(rest), [(name, column) for name, column in named if any(column)]
 
 
 def _separator(path: AnyPath, above: Sequence[str], rows: Sequence[str]) -> str:
@@ -154,35 +149,34 @@ def _cut(line: str, separator: str) -> list[str]:
     return [field.strip() for field in fields]
 
 
-def _columns(
-    path: AnyPath, table: pd.DataFrame, needed: Sequence[str]
+def _numbers(
+    path: AnyPath, lines: Sequence[int], columns: Columns, needed: Sequence[str]
 ) -> NDArray[np.float64]:
     """Numbers of the columns that are needed."""
-    names = [str(name) for name in table]
-    kinds = [_kind(name, needed) for name in names]
+    kinds = [_kind(name, needed) for name, _ in columns]
     if len(kinds) == len(needed):
         missing = iter([kind for kind in needed if kind not in kinds])
         kinds = [kind or next(missing) for kind in kinds]
     if any(kinds.count(kind) != 1 for kind in needed):
         raise ValueError(
-            f"{path}, line {table.index[0]}: columns: {len(kinds)}; needed: {', '.join(needed)}"
+            f"{path}, line {lines[0]}: columns: {len(kinds)}; needed: {', '.join(needed)}"
         )
-    for name, kind in zip(names, kinds, strict=True):
+    for kind, (name, _) in zip(kinds, columns, strict=True):
         if kind and _unit(name) not in ("", _unit(kind)):
             raise ValueError(
                 f"{path}: the column {name!r} is in {_unit(name)}; needed: {kind}"
             )
-    fields = table.iloc[:, [kinds.index(kind) for kind in needed]]
+    fields = [columns[kinds.index(kind)][1] for kind in needed]
     numbers = [
         [_number(path, line, field) for field in row]
-        for line, *row in fields.itertuples(name=None)
+        for line, *row in zip(lines, *fields, strict=True)
     ]
-    if {",", "."} <= set("".join(fields.to_numpy().ravel())):
+    if {",", "."} <= set("".join(map("".join, fields))):
         raise ValueError(f"{path} has decimal commas and decimal points: write one")
     return np.array(numbers)
 
 
-def _kind(name: str, needed: Iterable[str]) -> str | None:
+def _kind(name: str, needed: Sequence[str]) -> str | None:
     """Which of the needed columns has this unit, or else a word of this name."""
     for kind in needed:
         if _unit(name) and _unit(name) == _unit(kind):
