@@ -55,7 +55,7 @@ def test_blocks_that_are_stronger_than_a_rounding_let_go_in_time_beside_others_t
     auditor = Auditor(run, ROUNDINGS)
     auditor.walk()
     assert not auditor.problems
-    is_resolved = auditor.strength > ROUNDINGS * auditor.state.one_force
+    is_resolved = auditor.state.strength > ROUNDINGS * auditor.state.one_force
     resolved = np.flatnonzero(is_resolved) + 1
     assert resolved.tolist() == blocks
     of_these = [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -32,12 +32,13 @@ class CarriedState:
 
     def __init__(self, run: Run) -> None:
         chain = run.chain
-        positions = np.asarray(run.start_positions, dtype=float)
+        positions = run.start_positions
         self.chain = chain
         self.springs = chain.springs
+        self.strength = chain.strength
         self.friction = chain.kinetic_friction
         self.mode = np.zeros(chain.n_blocks, dtype=np.int64)
-        self.velocity = np.array(run.start_velocities, dtype=float)
+        self.velocity = run.start_velocities.copy()
         # the force of the spring behind each block, and a zero ahead of block N
         stretch = -np.diff(positions, prepend=0.0)
         self.spring_force = np.append(self.springs * stretch, 0.0)
@@ -48,17 +49,15 @@ class CarriedState:
         # Forces at the start are differences of positions, which are known to their
         # rounding.
         ends = positions**2 + np.append(0.0, positions[:-1]) ** 2
-        at_start = _START_ROUNDINGS * math.sqrt(float(self.springs @ ends))
+        at_start = _START_ROUNDINGS * math.sqrt(self.springs @ ends)
         self.drive_momentum = math.sqrt(chain.mass) * chain.drive_velocity
         self.one = _UNIT * math.hypot(at_start, self.drive_momentum)
         self.per_force = np.sqrt(self.springs)
-        self.per_load = float(self.per_force[0])
+        self.per_load = self.per_force[0]
         self.per_force[:-1] += np.sqrt(self.springs[1:])
         self.fastest = 2 * math.sqrt(self.springs.max() / chain.mass)
         room = max(32, int(_MEMORY // (16 * chain.n_blocks**2)))
-        self.modes_of_row = lru_cache(maxsize=room)(
-            lambda first, last: normal_modes(chain, first, last)
-        )
+        self.modes_of_row = lru_cache(room)(partial(normal_modes, chain))
 
     @property
     def one_force(self) -> FloatArray:
@@ -77,8 +76,9 @@ class CarriedState:
 
     def energy(self) -> float:
         """Kinetic energy of the blocks and elastic energy of the springs [J]."""
-        kinetic = 0.5 * self.chain.mass * float(self.velocity @ self.velocity)
-        return kinetic + 0.5 * float(self.spring_force[:-1] ** 2 @ (1 / self.springs))
+        kinetic = 0.5 * self.chain.mass * (self.velocity @ self.velocity)
+        elastic = 0.5 * (self.spring_force[:-1] ** 2 @ (1 / self.springs))
+        return float(kinetic + elastic)
 
     def motion(self) -> ModalMotion:
         """Motion of the blocks that slide."""
@@ -115,12 +115,12 @@ class CarriedState:
         impulses = (
             self.spring_force[0] * duration,
             0.5 * loading_rate * duration**2,
-            -float(motion.modes.spring_shapes[0] @ motion.integral(duration)),
+            -(motion.modes.spring_shapes[0] @ motion.integral(duration)),
         )
         (displacement,), (velocity,), _ = motion.at(np.array([duration]))
         heat = (self.mode * self.friction)[slides] * (shapes @ displacement)
         self.work += chain.drive_velocity * sum(impulses)
-        self.heat += float(heat.sum())
+        self.heat += heat.sum()
         self.velocity[slides] = shapes @ velocity
         self.spring_force[0] += loading_rate * duration
         self.spring_force -= motion.modes.spring_shapes @ displacement

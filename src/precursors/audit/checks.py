@@ -31,7 +31,6 @@ class Auditor:
     def __init__(self, run: Run, roundings: float) -> None:
         self.run = run
         self.roundings = roundings
-        self.strength = run.chain.strength
         self.state = CarriedState(run)
         self.time = 0.0
         self.most = 0.0
@@ -45,11 +44,11 @@ class Auditor:
         """Walk through the run, interval by interval, up to `MAX_PROBLEMS` problems."""
         state = self.state
         start_energy = state.energy()
-        intervals = np.asarray(self.run.intervals, dtype=float)
+        intervals = self.run.intervals.tolist()
         instants = np.cumsum(intervals, dtype=np.longdouble).astype(float).tolist()
-        transitions = self.run.transitions.tolist()
+        transitions = [*self.run.transitions.tolist(), None]
         started = False
-        steps = zip(intervals.tolist(), instants, [*transitions, None], strict=True)
+        steps = zip(intervals, instants, transitions, strict=True)
         for duration, instant, transition in tell(
             "auditing", steps, lambda: self.time / self.run.duration
         ):
@@ -70,20 +69,14 @@ class Auditor:
                 return
             if transition:
                 self.check_transition(not started, *transition)
-        self.check_time(float(self.run.duration), "the duration")
+        self.check_time(self.run.duration, "the duration")
         self.check_energy(start_energy)
 
     def pass_interval(self, duration: float) -> None:
         """Check Coulomb's law inside an interval and move the state to its end."""
         state = self.state
         motion = state.motion()
-        conditions = Conditions(
-            motion,
-            state.mode,
-            state.net_force(),
-            self.strength,
-            state.chain.loading_rate,
-        )
+        conditions = Conditions(motion, state)
         state.advance(motion, duration)
         one = np.concatenate(
             [
@@ -96,10 +89,9 @@ class Auditor:
             duration, self.roundings * one, self.values_left
         )
         self.values_left -= conditions.computed
-        for j in np.flatnonzero(np.signbit(lowest)):
-            what, unit = conditions.broken(int(j))
-            time = self.time + when[j]
-            self.check(float(-lowest[j]), float(one[j]), what, unit, time)
+        for j in np.flatnonzero(np.signbit(lowest)).tolist():
+            what, unit = conditions.broken(j)
+            self.check(-lowest[j], one[j], what, unit, self.time + when[j])
 
     def check_transition(
         self, at_start: bool, time: float, block: int, mode: int, load: float
@@ -108,12 +100,12 @@ class Auditor:
         state = self.state
         self.check_time(time, f"a transition of block {block}")
         self.check(
-            abs(load - float(state.spring_force[0])),
+            abs(load - state.spring_force[0]),
             state.one * state.per_load,
             f"block {block} has {load:.9g} N recorded as tangential load, wrong by",
             "N",
         )
-        old = int(state.mode[block - 1])
+        old = state.mode[block - 1]
         if mode == old:
             self.report(
                 f"block {block} changes to mode {mode:+d}, which it already has"
@@ -127,9 +119,9 @@ class Auditor:
     def check_release(self, block: int, mode: int, at_start: bool) -> None:
         """A stuck block slides off at its limit; at the start it may be overloaded, or
         move."""
-        velocity = float(self.state.velocity[block - 1])
-        force = float(self.state.net_force()[block - 1])
-        excess = (force if mode > 0 else -force) - float(self.strength[block - 1])
+        state = self.state
+        velocity = state.velocity[block - 1]
+        excess = mode * state.net_force()[block - 1] - state.strength[block - 1]
         if at_start and velocity != 0:
             if np.sign(velocity) != mode:
                 self.report(
@@ -146,9 +138,9 @@ class Auditor:
         """A sliding block changes its mode where it stops; it sticks if its force
         allows that."""
         state = self.state
-        speed = abs(float(state.velocity[block - 1]))
-        force = float(state.net_force()[block - 1])
-        strength = float(self.strength[block - 1])
+        speed = abs(state.velocity[block - 1])
+        force = state.net_force()[block - 1]
+        strength = state.strength[block - 1]
         what = f"block {block} changes its mode while it moves at"
         self.check(speed, state.one_velocity, what, "m/s")
         if mode == 0:
@@ -156,7 +148,7 @@ class Auditor:
             self.check_force(block, what, abs(force) - strength)
         else:
             what = "turns round without a force beyond mu_s w"
-            self.check_force(block, what, strength - (force if mode > 0 else -force))
+            self.check_force(block, what, strength - mode * force)
         state.velocity[block - 1] = 0.0
 
     def check_start(self) -> None:
@@ -169,20 +161,19 @@ class Auditor:
                 f"block {i + 1} starts with {state.velocity[i]:.6g} m/s but is stuck"
             )
             state.velocity[i] = 0.0
-        excess = np.abs(state.net_force()) - self.strength
+        excess = np.abs(state.net_force()) - state.strength
         for block in (np.flatnonzero(sticks & (excess > 0)) + 1).tolist():
-            wrong = float(excess[block - 1])
-            self.check_force(block, "starts stuck beyond mu_s w", wrong)
+            self.check_force(block, "starts stuck beyond mu_s w", excess[block - 1])
 
     def check_force(self, block: int, what: str, wrong: float) -> None:
         """A net force is not wrong by more than its rounding."""
-        one = float(self.state.one_force[block - 1])
+        one = self.state.one_force[block - 1]
         self.check(wrong, one, f"block {block} {what}, by", "N")
 
     def check_time(self, time: float, what: str) -> None:
         """A recorded time is the sum of the intervals up to it."""
         wrong = abs(time - self.time)
-        if not wrong <= TIME_TOLERANCE * float(self.run.duration):
+        if not wrong <= TIME_TOLERANCE * self.run.duration:
             self.report(
                 f"{what} is recorded {time - self.time:.3g} s from the sum of the intervals"
             )
@@ -190,7 +181,7 @@ class Auditor:
     def check_energy(self, start_energy: float) -> None:
         """Work of the drive = change of kinetic and elastic energy + friction heat."""
         state = self.state
-        wrong = abs(state.work - (state.energy() - start_energy) - state.heat)
+        wrong = float(abs(state.work - (state.energy() - start_energy) - state.heat))
         self.energy_residual = wrong / state.turnover if state.turnover > 0 else 0.0
         what = "work, energy and heat are out of balance by"
         self.check(wrong, state.energy_rounding, what, "J")
@@ -200,7 +191,7 @@ class Auditor:
     ) -> None:
         """Report a deviation of more than so many roundings of size `one`; a negative
         deviation passes."""
-        self.most = max(self.most, wrong / one if one > 0 else 0.0)
+        self.most = max(self.most, float(wrong) / float(one) if one > 0 else 0.0)
         if not wrong <= self.roundings * one:
             self.report(f"{what} {wrong:.3g} {unit}", time)
 

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from precursors.audit.carried import CarriedState
 from precursors.audit.motion import ModalMotion
 from precursors.model.chain import FloatArray
 
@@ -29,18 +30,11 @@ class Conditions:
     number of values so far.
     """
 
-    def __init__(
-        self,
-        motion: ModalMotion,
-        mode: np.ndarray,
-        force: FloatArray,
-        strength: FloatArray,
-        loading_rate: float,
-    ) -> None:
+    def __init__(self, motion: ModalMotion, state: CarriedState) -> None:
         self.motion = motion
-        self.mode = mode.copy()
+        self.mode = state.mode.copy()
         self.computed = 0
-        moves = mode != 0
+        moves = state.mode != 0
         near = moves.copy()
         near[0] = True
         near[1:] |= moves[:-1]
@@ -48,11 +42,11 @@ class Conditions:
         self.sliding = np.flatnonzero(moves)
         self.stuck = np.flatnonzero(near & ~moves)
         springs = motion.modes.spring_shapes
-        self.to_speed = motion.modes.shapes.T * mode[self.sliding]
+        self.to_speed = motion.modes.shapes.T * state.mode[self.sliding]
         self.to_force = (springs[self.stuck + 1] - springs[self.stuck]).T
-        self.force = force[self.stuck]
-        self.strength = strength[self.stuck]
-        self.rate = np.where(self.stuck == 0, loading_rate, 0.0)
+        self.force = state.net_force()[self.stuck]
+        self.strength = state.strength[self.stuck]
+        self.rate = np.where(self.stuck == 0, state.chain.loading_rate, 0.0)
         displacement, velocity = motion.fourth_derivatives()
         bend = displacement @ np.abs(self.to_force)
         self.fourth = np.concatenate([velocity @ np.abs(self.to_speed), bend, bend])
