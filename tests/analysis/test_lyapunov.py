@@ -38,10 +38,6 @@ def test_the_exponents_are_those_of_the_linearised_motion(theta):
         LINEARISED[theta], abs=exponent.uncertainty_per_s
     )
     assert exponent.uncertainty_per_s < exponent.exponent_per_s
-    growth = exponent.exponent_per_s * (exponent.end_s - exponent.start_s)
-    assert exponent.exponent_per_transition * exponent.transitions == pytest.approx(
-        growth
-    )
 
 
 def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch):
@@ -52,9 +48,6 @@ def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch)
     run = simulate(chain, 2.0)
     one, other = lyapunov_exponent(run), lyapunov_exponent(simulate(slow, 4.0))
     assert other.exponent_per_s == pytest.approx(one.exponent_per_s / 2, rel=1e-12)
-    assert other.exponent_per_transition == pytest.approx(
-        one.exponent_per_transition, rel=1e-12
-    )
     monkeypatch.setattr(lyapunov, "DISTANCE", 100 * lyapunov.DISTANCE)
     assert lyapunov_exponent(run).exponent_per_s == pytest.approx(
         one.exponent_per_s, rel=1e-3
@@ -72,11 +65,9 @@ def test_the_interval_of_an_exponent_is_that_of_the_mean_of_20_stretches(
     found = exponent_of(7 * np.arange(n_all), growth, 0.3 / 7 * np.arange(7 * n_all))
     means = np.diff(growth[n_all - 1 - used :: used // 20]) / (used // 20)
     low, high = scipy.stats.t.interval(0.95, 19, means.mean(), scipy.stats.sem(means))
-    assert (found.events, found.transitions) == (used, 7 * used)
+    assert found.events == used
     assert found.exponent_per_s == pytest.approx(means.mean() / 0.3)
     assert found.uncertainty_per_s == pytest.approx((high - low) / 0.6)
-    assert found.exponent_per_transition == pytest.approx(means.mean() / 7)
-    assert found.uncertainty_per_transition == pytest.approx((high - low) / 14)
 
 
 def test_an_exponent_is_certain_where_differences_grow_in_proportion_to_time(
@@ -86,7 +77,6 @@ def test_an_exponent_is_certain_where_differences_grow_in_proportion_to_time(
     found = exponent_of(np.arange(400), 0.5 * time, time)
     assert found.exponent_per_s == pytest.approx(0.5)
     assert found.uncertainty_per_s == pytest.approx(0.0, abs=1e-12)
-    assert found.uncertainty_per_transition > 0.01
 
 
 def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):

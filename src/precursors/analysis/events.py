@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,8 +40,10 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     structured array of dtype EVENT
         One row per event, in the order of the runs and of time.
     """
+    joined = [np.empty(0, TRANSITION), *(run.transitions for run in runs)]
     time, of_block, mode, load = (
-        _joined(runs, name) for name in TRANSITION.names or ()
+        np.concatenate([each[name] for each in joined])
+        for name in TRANSITION.names or ()
     )
     pauses = np.concatenate([[], *(run.intervals[1:] for run in runs)])
     lengths = np.array([len(run.transitions) for run in runs], dtype=int)
@@ -93,10 +94,3 @@ def _changes(
     was_sliding = np.zeros(len(block), dtype=bool)
     was_sliding[order[1:]] = same_block & sliding[order][:-1]
     return sliding.astype(int) - was_sliding
-
-
-def _joined(runs: Sequence[Record], name: str) -> NDArray[Any]:
-    """One column of the transitions of all runs."""
-    return np.concatenate(
-        [np.empty(0, TRANSITION[name]), *(run.transitions[name] for run in runs)]
-    )

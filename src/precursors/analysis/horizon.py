@@ -140,8 +140,5 @@ def neighbours(run: Run) -> list[Run]:
 def _agreeing(run: Run, other: Run) -> int:
     """Number of transitions before the first that differs."""
     n = min(len(run.transitions), len(other.transitions))
-    same = [
-        run.transitions[name][:n] == other.transitions[name][:n]
-        for name in ("block", "mode")
-    ]
-    return int(np.argmin(np.append(np.logical_and(*same), False)))
+    mine, theirs = (one.transitions[["block", "mode"]][:n] for one in (run, other))
+    return int(np.argmin(np.append(mine == theirs, False)))

@@ -42,18 +42,13 @@ LEAST = 1e-4
 class LyapunovExponent:
     """Mean rate of growth of the logarithm of a small difference.
 
-    `uncertainty` is half the width of the 95 % confidence interval. The means are those
-    over so many slip events and transitions, from one onset to another.
+    `uncertainty` is half the width of the 95 % confidence interval. The mean is that
+    over so many slip events.
     """
 
     exponent_per_s: float
     uncertainty_per_s: float
-    exponent_per_transition: float
-    uncertainty_per_transition: float
     events: int
-    transitions: int
-    start_s: float
-    end_s: float
 
 
 def lyapunov_exponent(run: Run) -> LyapunovExponent:
@@ -78,16 +73,13 @@ def lyapunov_exponent(run: Run) -> LyapunovExponent:
             f"the run must have more than {N_STRETCHES} slip events after its transient, but has {len(kept)}"
         )
     ends = kept[-1] - n_each * np.arange(N_STRETCHES, -1, -1)
-    time = run.transitions["time"][onset]
-    log, seconds, number = (np.diff(x[ends]) for x in (growth, time, onset))
-    return LyapunovExponent(
-        *_mean_rate(log, seconds),
-        *_mean_rate(log, number),
-        events=int(ends[-1] - ends[0]),
-        transitions=int(number.sum()),
-        start_s=float(time[ends[0]]),
-        end_s=float(time[ends[-1]]),
-    )
+    log = np.diff(growth[ends])
+    seconds = np.diff(run.transitions["time"][onset[ends]])
+    rate = log.sum() / seconds.sum()
+    left = (log - rate * seconds) / seconds.mean()
+    quantile = scipy.stats.t.ppf((1 + CONFIDENCE) / 2, N_STRETCHES - 1)
+    half = quantile * left.std(ddof=1) / math.sqrt(N_STRETCHES)
+    return LyapunovExponent(float(rate), float(half), events=N_STRETCHES * n_each)
 
 
 def _growth(run: Run) -> tuple[NDArray[np.int64], FloatArray]:
@@ -129,29 +121,17 @@ def _growth(run: Run) -> tuple[NDArray[np.int64], FloatArray]:
     return finished["first"][2:], np.cumsum(growth)
 
 
-def _mean_rate(log: np.ndarray, length: np.ndarray) -> tuple[float, float]:
-    """Total growth over total length, and half the width of its confidence interval."""
-    n = len(log)
-    rate = log.sum() / length.sum()
-    left = (log - rate * length) / length.mean()
-    return float(rate), float(
-        scipy.stats.t.ppf((1 + CONFIDENCE) / 2, n - 1) * left.std(ddof=1) / np.sqrt(n)
-    )
-
-
 def lyapunov_table(
     sliders: Mapping[str, Mapping[str, Any]], duration: float
 ) -> pd.DataFrame:
     """One row a scene, from a run of `duration` [s]; NaN where it has no exponent (one
     block, few events)."""
+    names = [field.name for field in fields(LyapunovExponent)]
     rows = []
     for scene, slider in sliders.items():
-        found = dict.fromkeys(
-            (field.name for field in fields(LyapunovExponent)), math.nan
-        )
+        row = {"scene": scene, "theta": slider["theta"]}
         with suppress(ValueError):
-            found = asdict(
-                lyapunov_exponent(simulate(Chain.from_slider(**slider), duration))
-            )
-        rows.append({"scene": scene, "theta": slider["theta"], **found})
-    return pd.DataFrame(rows)
+            run = simulate(Chain.from_slider(**slider), duration)
+            row |= asdict(lyapunov_exponent(run))
+        rows.append(row)
+    return pd.DataFrame(rows, columns=["scene", "theta", *names])

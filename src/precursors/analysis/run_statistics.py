@@ -1,5 +1,5 @@
-"""Statistics of one number over several runs: moments, quantiles, and an interval that
-holds the median."""
+"""Statistics of one number over several runs: quantiles, and an interval that holds the
+median."""
 
 from __future__ import annotations
 
@@ -13,25 +13,16 @@ from numpy.typing import ArrayLike
 # Two intervals of this confidence hold both medians in 95 % of cases or more
 # (Bonferroni).
 EACH_OF_TWO = 0.975
+TAIL = (1.0 - 0.95) / 2.0  # on each side of a 95 % interval
 # Relative noise in the normal loads of an ensemble: a tenth of what an experiment knows
 # of them, and well above rounding.
 NOISE = 1e-3
-QUANTILES = {"q05": 0.05, "q25": 0.25, "q50": 0.5, "q75": 0.75, "q95": 0.95}
+QUANTILES = {"q05": 0.05, "q50": 0.5, "q95": 0.95}
 
 
-def statistics(values: pd.Series) -> dict[str, float]:
-    """Mean, deviation, quantiles, ends q50_low and q50_high of `median_interval`, and
-    how many values."""
-    values = values.dropna()
-    low, high = median_interval(values)
-    return {
-        "mean": values.mean(),
-        "deviation": values.std(),
-        **dict(zip(QUANTILES, values.quantile([*QUANTILES.values()]), strict=True)),
-        "q50_low": low,
-        "q50_high": high,
-        "n": len(values),
-    }
+def nine_tenths(values: pd.Series) -> dict[str, float]:
+    """Ends and middle of nine tenths of the values that are known."""
+    return {name: float(values.quantile(part)) for name, part in QUANTILES.items()}
 
 
 def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, float]:
@@ -44,11 +35,7 @@ def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, floa
     values.
     """
     values = np.sort(np.asarray(values, float))
-    left_out = (
-        int(scipy.stats.binom.ppf((1.0 - share) / 2.0, len(values), 0.5))
-        if len(values)
-        else 0
-    )
+    left_out = int(scipy.stats.binom.ppf((1.0 - share) / 2.0, len(values), 0.5))
     if not left_out:
         return math.nan, math.nan
     return float(values[left_out - 1]), float(values[-left_out])
@@ -69,10 +56,9 @@ def compared(low: float, high: float, tolerance: float) -> str:
     return "different" if low > tolerance or high < -tolerance else "undecided"
 
 
-def share_interval(hits: int, of: int, share: float = 0.95) -> tuple[float, float]:
-    """Interval of a probability of which so many hits were seen (Clopper and Pearson):
-    never too short."""
-    tail = (1.0 - share) / 2.0
-    low = scipy.stats.beta.ppf(tail, hits, of - hits + 1) if hits else 0.0
-    high = scipy.stats.beta.ppf(1.0 - tail, hits + 1, of - hits) if hits < of else 1.0
+def share_interval(hits: int, of: int) -> tuple[float, float]:
+    """95 % interval of a probability of which so many hits were seen (Clopper and
+    Pearson): never too short."""
+    low = scipy.stats.beta.ppf(TAIL, hits, of - hits + 1) if hits else 0.0
+    high = scipy.stats.beta.ppf(1.0 - TAIL, hits + 1, of - hits) if hits < of else 1.0
     return float(low), float(high)

@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from precursors.analysis.events import slip_events
+from precursors.analysis.events import EVENT, slip_events
 from precursors.analysis.slip_rows import (
     counted,
     first_global,
@@ -17,10 +17,8 @@ from precursors.analysis.slip_rows import (
 )
 from precursors.solver.run import Record
 
-COLUMNS = [
-    *("onset", "end", "load_before", "load_after", "largest_load"),
-    *("front", "n_slid", "n_simultaneous", "is_global"),
-]
+# Without the numbers of the run and of its transitions.
+COLUMNS = list(EVENT.names or ())[3:]
 WITH_UNITS = {
     "onset": "onset_s",
     "end": "end_s",
@@ -143,10 +141,6 @@ def apparent_friction(run: Record) -> float:
 
     NaN without a global slip.
     """
-    if not isinstance(run, Record):
-        raise TypeError(
-            f"mu_sapp is that of a Run or Record, but this is {type(run).__name__}"
-        )
     slip = first_global_slip(slip_table(run))
     return slip.mu_sapp if slip else math.nan
 
@@ -157,8 +151,8 @@ class FirstGlobalSlip:
 
     Attributes
     ----------
-    mu_sapp, load : float
-        Apparent static friction coefficient [1], and the F_X that it stands for [N].
+    mu_sapp : float
+        Apparent static friction coefficient [1].
     time : float
         Onset of the first global slip [s].
     event, events_counted : int
@@ -167,7 +161,6 @@ class FirstGlobalSlip:
     """
 
     mu_sapp: float
-    load: float
     time: float
     event: int
     events_counted: int
@@ -183,10 +176,8 @@ def first_global_slip(
     if first is None:
         return None
     slip = slips.iloc[first]
-    load = slip["largest_load_N"]
     return FirstGlobalSlip(
-        mu_sapp=float(mu_sapp(load, slip["normal_load_N"])),
-        load=float(load),
+        mu_sapp=float(mu_sapp(slip["largest_load_N"], slip["normal_load_N"])),
         time=float(slip["onset_s"]),
         event=first + 1,
         events_counted=len(find_precursors(slips, definition.short)),

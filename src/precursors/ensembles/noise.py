@@ -14,7 +14,7 @@ from precursors.analysis.run_statistics import (
     NOISE,
     compared,
     median_difference,
-    statistics,
+    nine_tenths,
 )
 from precursors.ensembles.study import Study, gather, stack
 from precursors.model import printed
@@ -83,7 +83,7 @@ def noise_table(
     -------
     DataFrame
         One row per point and quantity: without_noise; runs with noise; reached, how
-        many of these have a global slip; `statistics` of those.
+        many of these have a global slip; `nine_tenths` of those.
     """
     rows = []
     for values, at_point in members.groupby(list(point), sort=False):
@@ -93,7 +93,7 @@ def noise_table(
         for quantity in quantities:
             labels = dict(zip(point, values, strict=True)) | {"quantity": quantity}
             labels["without_noise"] = alone[quantity].item()
-            rows.append(labels | number | statistics(runs[quantity]))
+            rows.append(labels | number | nine_tenths(runs[quantity]))
     return pd.DataFrame(rows)
 
 

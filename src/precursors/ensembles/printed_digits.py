@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.run_statistics import QUANTILES, share_interval
+from precursors.analysis.run_statistics import nine_tenths, share_interval
 from precursors.ensembles.noise import TOLERANCES
 from precursors.ensembles.study import Study, gather, stack
 
@@ -27,7 +27,6 @@ HALF_A_DIGIT = {
 }
 THETA_DIGITS = 3
 ALL = "all"
-ENDS = ("q05", "q50", "q95")
 
 
 def digits_study(
@@ -96,12 +95,14 @@ def digits_table(
             agree = (drawn - value).abs() <= TOLERANCES[quantity]
             six.append(agree)
             names = {"scene": scene, "quantity": quantity, "question": "as_printed"}
-            rows.append(names | {"value": value} | share_row(agree) | ends(drawn))
+            rows.append(
+                names | {"value": value} | share_row(agree) | nine_tenths(drawn)
+            )
     friction: Any = draws["mu_sapp"]
     span = friction.max(axis=1, skipna=False) - friction.min(axis=1, skipna=False)
     same = span <= TOLERANCES["mu_sapp"]
     names = {"scene": ALL, "quantity": "mu_sapp", "question": "same_mu_sapp"}
-    rows.append(names | {"value": span.median()} | share_row(same) | ends(span))
+    rows.append(names | {"value": span.median()} | share_row(same) | nine_tenths(span))
     if six:
         names = {"scene": ALL, "quantity": ALL, "question": "all_six"}
         together = pd.concat(six, axis=1).all(axis=1)
@@ -115,8 +116,3 @@ def share_row(hits: pd.Series) -> dict[str, Any]:
     n = len(hits)
     low, high = share_interval(k, n)
     return {"k": k, "n": n, "share": k / n, "low": low, "high": high}
-
-
-def ends(drawn: pd.Series) -> dict[str, Any]:
-    """Ends and middle of nine tenths of the numbers."""
-    return {name: drawn.quantile(QUANTILES[name]) for name in ENDS}
