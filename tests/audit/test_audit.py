@@ -161,7 +161,7 @@ def test_energy_that_goes_astray_is_found(uniform):
     stopped.walk()
     stopped.state.heat += 1e-9 * stopped.state.turnover
     stopped.check_energy(0.0)
-    assert "out of balance" in stopped.problems[0]
+    assert "out of balance" in stopped.found.problems[0]
 
 
 def test_each_kind_of_mistake_is_found_and_told_as_it_was():

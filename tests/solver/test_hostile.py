@@ -54,7 +54,7 @@ def test_blocks_that_are_stronger_than_a_rounding_let_go_in_time_beside_others_t
     run, mine, exact = run_and_exact(number)
     auditor = Auditor(run, ROUNDINGS)
     auditor.walk()
-    assert not auditor.problems
+    assert not auditor.found.problems
     is_resolved = auditor.state.strength > ROUNDINGS * auditor.state.one_force
     resolved = np.flatnonzero(is_resolved) + 1
     assert resolved.tolist() == blocks

@@ -43,6 +43,6 @@ def audit(run: Run, roundings: float = ROUNDINGS) -> Audit:
     TypeError, ValueError
         If `run` is no run, or `roundings` not a number above zero.
     """
-    from precursors.audit.report import audit_run  # slow: SciPy
+    from precursors.audit.checks import audit_run  # slow: SciPy
 
     return audit_run(run, roundings)

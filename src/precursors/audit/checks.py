@@ -3,12 +3,12 @@ motion of the model."""
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from precursors.audit.carried import CarriedState
 from precursors.audit.conditions import Conditions, TooLongError
+from precursors.audit.report import Audit
+from precursors.model.checks import positive
 from precursors.solver.run import Run
 from precursors.support.waiting import tell
 
@@ -25,25 +25,48 @@ MAX_VALUES = 500_000_000
 slides that are long against the fastest vibration need more."""
 
 
+def audit_run(run: Run, roundings: float) -> Audit:
+    """Audit a run: see `precursors.audit`."""
+    if not isinstance(run, Run):
+        raise TypeError(f"what is audited must be a Run, but is {type(run).__name__}")
+    positive("roundings", roundings, "1")
+    if malformed := _malformed(run):
+        return Audit(problems=[malformed])
+    auditor = Auditor(run, roundings)
+    auditor.walk()
+    return auditor.found
+
+
+def _malformed(run: Run) -> str:
+    """Say why the arrays of a run cannot be audited at all, or nothing."""
+    n = len(run.transitions)
+    if len(run.intervals) != n + 1:
+        return (
+            f"{n} transitions need {n + 1} intervals, the run has {len(run.intervals)}"
+        )
+    block = run.transitions["block"]
+    mode = run.transitions["mode"]
+    is_wrong = (block < 1) | (block > run.chain.n_blocks) | (mode < -1) | (mode > 1)
+    for k in np.flatnonzero(is_wrong)[:1]:
+        return f"transition {k} has block {block[k]}, mode {mode[k]}: there is no such block or mode"
+    return ""
+
+
 class Auditor:
-    """A walk through a run: the carried state, and the problems found so far."""
+    """A walk through a run: the carried state, and what was found so far."""
 
     def __init__(self, run: Run, roundings: float) -> None:
         self.run = run
         self.roundings = roundings
         self.state = CarriedState(run)
         self.time = 0.0
-        self.most = 0.0
         self.values_left = MAX_VALUES
-        self.energy_residual = math.nan
-        self.n_audited = 0
-        self.problems: list[str] = []
-        self.is_undecided = False
+        self.found = Audit(roundings=0.0)
 
     def walk(self) -> None:
         """Walk through the run, interval by interval, up to `MAX_PROBLEMS` problems."""
-        state = self.state
-        start_energy = state.energy()
+        found = self.found
+        start_energy = self.state.energy()
         intervals = self.run.intervals.tolist()
         instants = np.cumsum(intervals, dtype=np.longdouble).astype(float).tolist()
         transitions = [*self.run.transitions.tolist(), None]
@@ -59,13 +82,13 @@ class Auditor:
                 try:
                     self.pass_interval(duration)
                 except TooLongError as error:
-                    self.is_undecided = not self.problems
+                    found.is_undecided = not found.problems
                     self.report(str(error))
                     return
             self.time = instant
-            self.n_audited += 1
-            if len(self.problems) >= MAX_PROBLEMS:
-                del self.problems[MAX_PROBLEMS:]
+            found.n_intervals += 1
+            if len(found.problems) >= MAX_PROBLEMS:
+                del found.problems[MAX_PROBLEMS:]
                 return
             if transition:
                 self.check_transition(not started, *transition)
@@ -78,13 +101,9 @@ class Auditor:
         motion = state.motion()
         conditions = Conditions(motion, state)
         state.advance(motion, duration)
-        one = np.concatenate(
-            [
-                np.full(len(conditions.sliding), state.one_velocity),
-                state.one_force[conditions.stuck],
-                state.one_force[conditions.stuck],
-            ]
-        )
+        of_velocity = np.full(len(conditions.sliding), state.one_velocity)
+        of_force = state.one_force[conditions.stuck]
+        one = np.concatenate([of_velocity, of_force, of_force])
         lowest, when = conditions.lowest(
             duration, self.roundings * one, self.values_left
         )
@@ -182,7 +201,8 @@ class Auditor:
         """Work of the drive = change of kinetic and elastic energy + friction heat."""
         state = self.state
         wrong = float(abs(state.work - (state.energy() - start_energy) - state.heat))
-        self.energy_residual = wrong / state.turnover if state.turnover > 0 else 0.0
+        residual = wrong / state.turnover if state.turnover > 0 else 0.0
+        self.found.energy_residual = residual
         what = "work, energy and heat are out of balance by"
         self.check(wrong, state.energy_rounding, what, "J")
 
@@ -191,11 +211,12 @@ class Auditor:
     ) -> None:
         """Report a deviation of more than so many roundings of size `one`; a negative
         deviation passes."""
-        self.most = max(self.most, float(wrong) / float(one) if one > 0 else 0.0)
+        off = float(wrong) / float(one) if one > 0 else 0.0
+        self.found.roundings = max(self.found.roundings, off)
         if not wrong <= self.roundings * one:
             self.report(f"{what} {wrong:.3g} {unit}", time)
 
     def report(self, sentence: str, time: float | None = None) -> None:
         """Add a problem."""
         when = self.time if time is None else time
-        self.problems.append(f"t = {when:.12g} s: {sentence}")
+        self.found.problems.append(f"t = {when:.12g} s: {sentence}")
