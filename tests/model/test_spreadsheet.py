@@ -32,6 +32,7 @@ def file(tmp_path):
         "20\n30.5\n",
         "load [N]\n20\n30.5",
         "20, 30.5, 40",
+        "20 30.5 40\n",
         "1;20\n2;30.5",
         "\ufeffNormalkraft [N]\r\n20,00\r\n30,50\r\n",
         "Charge répartie (N)\r\n20,00\r\n30,50\r\n".encode("cp1252"),

@@ -77,7 +77,7 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
 def scene_additions(config: Config, name: str) -> dict[str, float]:
     """What the scene adds to the paper's chain, keys of `ADDITIONS`."""
     scene = config["scenes"][name]
-    return {key: float(scene[key]) for key in ADDITIONS if key in scene}
+    return {key: scene[key] for key in ADDITIONS if key in scene}
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:

@@ -76,7 +76,7 @@ def read_weights(path: AnyPath) -> list[float]:
     """Normal loads [N], a number for each block, alone or after the number or name of
     the block: 1 or b1, 2 or b2."""
     lines, columns = _fields(path)
-    if len(lines) == 1 and len(columns) > 2:  # a table of one line
+    if len(lines) == 1 and len(columns) > 2:  # a table of one line, as of the explorer
         columns = [("", tuple(field for _, (field,) in columns))]
         lines *= len(columns[0][1])
     if len(columns) > 1:
@@ -104,11 +104,11 @@ def _fields(path: AnyPath) -> tuple[list[int], Columns]:
         if not PASSED_OVER.match(line := whole.strip(" \u00a0"))
     }
     above = list(takewhile(NAMES.match, lines.values()))
-    rest = dict(list(lines.items())[len(above) :])
-    if not rest:
+    below = list(lines.values())[len(above) :]
+    if not below:
         raise ValueError(f"{path} has no numbers")
-    separator = _separator(path, above, list(rest.values()))
-    rows = [_cut(line, separator) for line in rest.values()]
+    separator = _separator(path, above, below)
+    rows = [_cut(line, separator) for line in below]
     columns = list(zip_longest(*rows, fillvalue=""))
     heads = [_cut(line, separator) for line in above]
     # A title is above all columns.
@@ -116,7 +116,8 @@ def _fields(path: AnyPath) -> tuple[list[int], Columns]:
     parts = zip_longest([""] * len(columns), *heads, fillvalue="")
     names = (" ".join(filter(None, part)) for part in parts)
     named = zip(names, columns, strict=False)
-    return list(rest), [(name, column) for name, column in named if any(column)]
+    numbers = list(lines)[len(above) :]
+    return numbers, [(name, column) for name, column in named if any(column)]
 
 
 def _separator(path: AnyPath, above: Sequence[str], rows: Sequence[str]) -> str:
