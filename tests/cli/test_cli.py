@@ -30,7 +30,6 @@ from precursors.cli.options import CHAIN, EPILOG, LARGER, read_options
 from precursors.figures import precursor_lengths, scene, style
 from precursors.figures.run import plot
 from precursors.hierarchy.larger import LargerChain
-from precursors.support import provenance
 
 HEAVY = {"numpy", "numba", "pandas", "h5py", "matplotlib", "scipy"}
 COMMAND = [sys.executable, "-m", "precursors"]  # which is precursors/__main__.py
@@ -114,7 +113,7 @@ def test_the_version_is_told_with_the_commit_of_a_checkout(
     }
     root = Path(__file__).parents[2]
     monkeypatch.setattr(
-        provenance, "git_state", lambda place: state if place == root else None
+        commands, "git_state", lambda place: state if place == root else None
     )
     told = f"precursors {version('precursors')}\ncommit abc{words}\nrev\ndir\n"
     assert cli("--version") == (0, told, "")
@@ -219,7 +218,7 @@ def test_a_run_that_meets_its_limit_is_kept_in_the_file_that_was_asked_for(
 
 def test_a_command_whose_output_is_closed_ends_without_a_traceback():
     told = subprocess.run(
-        f"{shlex.join(COMMAND)} score --list >&-",
+        f"{shlex.join(COMMAND)} --version >&-",
         shell=True,
         capture_output=True,
         text=True,
@@ -602,9 +601,11 @@ def test_score_prints_a_line_to_paste_and_every_number(cli, tmp_path):
 
 
 def test_score_lists_the_problems_and_asks_for_what_is_missing(cli):
-    code, out, _ = cli("score", "--list")
-    assert (code, len(out.split()), "uniform" in out) == (0, 8, True)
-    told = "precursors score: a file and --problem are needed, or --list\n"
-    assert cli("score", "mine.csv") == (2, "", told)
+    told = "precursors score: unifrm: the problems are fast_drive, leading, slippery, "
+    told += "stiff_drive, three_blocks, trailing, twenty_blocks, uniform\n"
+    assert cli("score", "mine.csv", "--problem=unifrm") == (2, "", told)
+    code, out, err = cli("score", "mine.csv")
+    assert (code, out) == (2, "")
+    assert "required: --problem (see precursors score --help)" in err
     told = "precursors score: none.csv: No such file or directory\n"
     assert cli("score", "none.csv", "--problem=uniform") == (3, "", told)

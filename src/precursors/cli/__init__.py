@@ -11,12 +11,11 @@ import sys
 import warnings
 from collections.abc import Sequence
 
-from precursors.cli.options import read_options
+from precursors.cli.options import WRONG_USE, read_options
 from precursors.support.files import check_writable
 
 DONE = 0
 REFUSED = 1
-WRONG_USE = 2
 FILE = 3
 NOT_INSTALLED = 4
 INTERRUPTED = 130

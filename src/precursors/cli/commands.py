@@ -9,14 +9,15 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from importlib.metadata import version as installed_version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from precursors.cli import Refused
-from precursors.cli.options import CHAIN, LARGER, RUN
+from precursors.cli.options import LARGER, RUN, SLIDER
+from precursors.model.chain import Chain
+from precursors.model.spreadsheet import read_columns, read_weights
+from precursors.solver.run import Record, Run, RunFileError
 from precursors.support.files import write_table
-
-if TYPE_CHECKING:
-    from precursors.solver.run import Record
+from precursors.support.provenance import git_state
 
 FOUND = "{events_counted} events counted in Fig. 13, of {events} "
 FIRST_SLIP = """\
@@ -63,13 +64,12 @@ def simulate(arguments: Namespace) -> None:
         text = FOUND + (FIRST_SLIP if found["reached"] else NO_SLIP)
         print(text.format(**values, F_Z=run.chain.normal_load))
     show_values(values, arguments.json)
-    tell_accuracy(run, found["time"])
+    tell_accuracy(run)
 
 
 def slips(arguments: Namespace) -> None:
     """List the slip events of a run file, or of a chain that is run."""
     from precursors.analysis.slips import slip_table
-    from precursors.analysis.summary import summarise
 
     run = run_of(arguments)
     table = slip_table(run)
@@ -88,7 +88,7 @@ def slips(arguments: Namespace) -> None:
         shown = table.drop(columns=["theta", "n_blocks", "normal_load_N", "length_m"])
         shown.columns = shown.columns.str.replace("load_|is_|n_", "", regex=True)
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
-    tell_accuracy(run, summarise([run])["time"][0])
+    tell_accuracy(run)
 
 
 def plot(arguments: Namespace) -> None:
@@ -96,7 +96,6 @@ def plot(arguments: Namespace) -> None:
     load."""
     from precursors.figures.run import AXES, plot
     from precursors.figures.style import Look, save
-    from precursors.model.spreadsheet import read_columns
 
     look = Look(**given(arguments, ("width_mm", "font_size", "font")))
     how = given(arguments, ("figure", "title", "inset"))
@@ -116,7 +115,6 @@ def plot(arguments: Namespace) -> None:
 def audit(arguments: Namespace) -> None:
     """Check that each run file is whole and its run a motion of the model."""
     from precursors.audit import audit
-    from precursors.solver.run import Run
 
     wrong: list[str] = []
     for path in arguments.files:
@@ -142,25 +140,18 @@ def audit(arguments: Namespace) -> None:
 
 
 def score(arguments: Namespace) -> None:
-    """Score a result file on a reference problem, or list the problems."""
-    from precursors.accuracy.score import problems, score
+    """Score a result file on a reference problem."""
+    from precursors.accuracy.score import score
 
-    if arguments.list:
-        print(*problems(), sep="\n")
-    elif not arguments.file or not arguments.problem:
-        raise ValueError("a file and --problem are needed, or --list")
-    else:
-        values = score(arguments.file, arguments.problem, arguments.ties)
-        if not arguments.json:
-            print(SCORE.format(**values), end="\n\n")
-        show_values(values, arguments.json)
+    values = score(arguments.file, arguments.problem, arguments.ties)
+    if not arguments.json:
+        print(SCORE.format(**values), end="\n\n")
+    show_values(values, arguments.json)
 
 
 def version(_: Namespace) -> None:
     """Print the version, and in a checkout the commit and its software hash
     identifiers."""
-    from precursors.support.provenance import git_state
-
     print(f"precursors {installed_version('precursors')}")
     if state := git_state(Path(__file__).parents[3]):
         print(
@@ -171,8 +162,6 @@ def version(_: Namespace) -> None:
 
 def load(path: Path) -> Record:
     """Read a run file."""
-    from precursors.solver.run import Record, RunFileError
-
     try:
         return Record.load(path)
     except RunFileError as error:
@@ -183,7 +172,7 @@ def run_of(arguments: Namespace) -> Record:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
         return run_of_options(arguments)
-    if given(arguments, ("theta", "n_blocks", "weights", *CHAIN, *LARGER, *RUN)):
+    if given(arguments, ("weights", *SLIDER, *LARGER, *RUN)):
         raise ValueError(
             f"{arguments.file}: a run file cannot be combined with options of a chain"
         )
@@ -192,12 +181,13 @@ def run_of(arguments: Namespace) -> Record:
 
 def run_of_options(arguments: Namespace) -> Record:
     """Run the chain of the options."""
-    from precursors.model.chain import Chain
-    from precursors.model.scenes import read_weights
+    from numba.core import event
+
+    from precursors.solver.kernel.compiled import Announcement
     from precursors.solver.simulate import TransitionLimitError, simulate
 
-    announce_compiling()
-    slider = given(arguments, ("theta", "n_blocks", *CHAIN))
+    event.register("numba:compile", Announcement())  # the first run takes long
+    slider = given(arguments, SLIDER)
     if arguments.weights is not None:
         if slider.keys() & {"theta", "n_blocks", "normal_load"}:
             raise ValueError(
@@ -232,15 +222,6 @@ def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:
     }
 
 
-def announce_compiling() -> None:
-    """Tell whoever uses the solver for the first time why it takes so long."""
-    from numba.core import event
-
-    from precursors.solver.kernel.compiled import Announcement
-
-    event.register("numba:compile", Announcement())
-
-
 def tell(line: str) -> None:
     """Say something beside the result."""
     print(line, file=sys.stderr)
@@ -252,10 +233,10 @@ def accuracy(run: Record) -> dict[str, float]:
     return {name: larger[name] for name in MOST_WRONG if name in larger}
 
 
-def tell_accuracy(run: Record, first_global_slip: float) -> None:
-    """Say if steps are too long, or if roundings decide the first global slip [s]."""
+def tell_accuracy(run: Record) -> None:
+    """Say if steps are too long, or if roundings decide the first global slip."""
     from precursors.analysis.horizon import predicted_errors
-    from precursors.solver.run import Run
+    from precursors.analysis.summary import summarise
 
     wrong = [
         f"{name} = {value:.3g}"
@@ -264,14 +245,15 @@ def tell_accuracy(run: Record, first_global_slip: float) -> None:
     ]
     if wrong:
         tell(f"this run is not accurate: {', '.join(wrong)}")
-    until = run.transitions[run.transitions["time"] <= first_global_slip]
+    slip = summarise([run])["time"][0]
+    until = run.transitions[run.transitions["time"] <= slip]
     if not isinstance(run, Run) or not 0 < len(until) <= MOST_REPEATED:
         return
-    up_to_slip = replace(run, duration=first_global_slip, transitions=until)
+    up_to_slip = replace(run, duration=slip, transitions=until)
     known = predicted_errors(up_to_slip).order_known_until
-    if known < first_global_slip:
+    if known < slip:
         tell(
-            f"the first global slip at {first_global_slip:.3f} s is beyond predictability: roundings "
+            f"the first global slip at {slip:.3f} s is beyond predictability: roundings "
             f"decide from {known:.3f} s on"
         )
 

@@ -54,6 +54,7 @@ LARGER = {
     "push_height": "height of the push above the interface [m]",
 }
 RUN = ("duration", "until", "max_transitions")
+SLIDER = ("theta", "n_blocks", *CHAIN)
 
 
 class Parser(argparse.ArgumentParser):
@@ -115,12 +116,15 @@ def add_options(command: Parser, name: str) -> Parser:
     if name == "score":
         add(
             "file",
-            nargs="?",
             type=Path,
             metavar="MINE.csv",
             help="transitions as docs/benchmark.md asks for them",
         )
-        add("--problem", help="the problem that they solve")
+        add(
+            "--problem",
+            required=True,
+            help="which of its problems they solve, for example uniform",
+        )
         add(
             "--ties",
             type=_number,
@@ -128,7 +132,6 @@ def add_options(command: Parser, name: str) -> Parser:
             metavar="S",
             help="rows no farther apart may stand in any order [s] (0)",
         )
-        add("--list", action="store_true", help="list the problems")
     elif name == "simulate":
         add("--output", help="save the run (HDF5)", type=Path)
     else:
@@ -154,7 +157,7 @@ def add_options(command: Parser, name: str) -> Parser:
 
 def _add_chain(command: Parser) -> None:
     """Add the options of a chain and of its run."""
-    from precursors.model.scenes import SLIDER
+    from precursors.model import scenes
 
     add = command.add_argument_group(
         "the chain", "the defaults are the paper's"
@@ -172,7 +175,7 @@ def _add_chain(command: Parser) -> None:
     for name, meaning in CHAIN.items():
         add(
             f"--{name.replace('_', '-')}",
-            help=f"{meaning} ({SLIDER[name]:g})",
+            help=f"{meaning} ({scenes.SLIDER[name]:g})",
             type=_number,
         )
     add = command.add_argument_group(
