@@ -56,7 +56,10 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     # did before.
     block = of_block + np.repeat(np.cumsum(n_blocks) - n_blocks, lengths)
     order = np.argsort(block.astype(np.min_scalar_type(n_blocks.sum())), kind="stable")
-    total = np.append(0, np.cumsum(_changes(block, sliding, order)))
+    same_block = block[order][1:] == block[order][:-1]
+    was_sliding = np.zeros(len(block), dtype=bool)
+    was_sliding[order[1:]] = same_block & sliding[order][:-1]
+    total = np.append(0, np.cumsum(sliding.astype(int) - was_sliding))
     n_sliding = total[1:] - np.repeat(total[starts], lengths)
 
     ends = (n_sliding == 0) & (pauses > 0.0)
@@ -83,14 +86,3 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     events["n_simultaneous"] = np.maximum.reduceat(n_sliding, firsts)
     events["is_global"] = events["n_simultaneous"] == n_blocks[events["run"]]
     return events
-
-
-def _changes(
-    block: NDArray[np.int64], sliding: NDArray[np.bool_], order: NDArray[np.int64]
-) -> NDArray[np.int64]:
-    """Change of the number of sliding blocks at each transition; `order` sorts them by
-    block."""
-    same_block = block[order][1:] == block[order][:-1]
-    was_sliding = np.zeros(len(block), dtype=bool)
-    was_sliding[order[1:]] = same_block & sliding[order][:-1]
-    return sliding.astype(int) - was_sliding

@@ -112,7 +112,7 @@ def neighbours(run: Run) -> list[Run]:
         return ROUNDINGS * EPS / 2 * random.standard_normal((N_NEIGHBOURS, *shape))
 
     chain = run.chain
-    n = run.chain.n_blocks
+    n = chain.n_blocks
     # Eq. 7 adds two numbers: a small weight is rounded like its difference from the
     # mean.
     size = (chain.weights > 0) * (

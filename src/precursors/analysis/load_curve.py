@@ -32,19 +32,20 @@ def load_curve(
         return run.load_points[:, 0], run.load_points[:, 1]
     if not isinstance(run, Run):
         raise TypeError(f"a load curve needs a Run, but this is {type(run).__name__}")
-    slides = _slides_of_block_1(run)
+    of_first = run.transitions[run.transitions["block"] == 1]
+    slides = of_first["mode"] != 0
+    ends = np.append(of_first["time"], run.duration)[1:]
     step = PHASE_PER_STEP / run.chain.fastest_frequency_bound
     coarse = [
         np.linspace(start, end, int(np.ceil((end - start) / step)) + 1)
-        for start, end in slides
+        for start, end in zip(of_first["time"][slides], ends[slides], strict=True)
     ]
     times = np.unique(
         np.concatenate([[0.0, run.duration], run.transitions["time"], *coarse])
     )
     loads, slopes = _loads_and_slopes(run, times)
-    slide = np.searchsorted(slides[:, 0], times[:-1], side="right") - 1
-    is_curved = (slide >= 0) & (times[:-1] < np.append(slides[:, 1], -np.inf)[slide])
-    begin = np.flatnonzero(is_curved)
+    before = np.searchsorted(of_first["time"], times[:-1], side="right")
+    begin = np.flatnonzero(np.append(False, slides)[before])
     for _ in range(MOST_HALVINGS):
         interval = times[begin + 1] - times[begin]
         chord = (loads[begin + 1] - loads[begin]) / interval
@@ -76,13 +77,6 @@ def load_trace(run: Record) -> pd.DataFrame:
     return pd.DataFrame(
         {"time_s": times, "tangential_load_N": loads, "K_x1_N": pushed - loads}
     )
-
-
-def _slides_of_block_1(run: Run) -> FloatArray:
-    """Start and end [s] of the slides of block 1, shape (n, 2)."""
-    of_first = run.transitions[run.transitions["block"] == 1]
-    ends = np.append(of_first["time"], run.duration)[1:]
-    return np.column_stack([of_first["time"], ends])[of_first["mode"] != 0]
 
 
 def _loads_and_slopes(run: Run, times: FloatArray) -> tuple[FloatArray, FloatArray]:

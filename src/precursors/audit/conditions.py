@@ -110,8 +110,12 @@ class Conditions:
                         f"the audit ends here: it cannot look at {duration:.3g} s of "
                         f"sliding, {duration * fastest:.3g} radians of the fastest mode"
                     )
-                values, slopes = self(edges.ravel())
-                _note(values, edges.ravel(), lowest, when)
+                times = edges.ravel()
+                values, slopes = self(times)
+                row = np.argmin(values, axis=0)
+                value = values.min(axis=0)
+                when = np.where(value < lowest, times[row], when)
+                lowest = np.where(value < lowest, value, lowest)
                 shape = (*edges.shape, columns)
                 width = np.diff(edges, axis=0)[..., None]
                 bound = lower_bound(
@@ -131,14 +135,3 @@ def lower_bound(
     high = values[1:]
     inner = np.minimum(low + slopes[:-1] * (width / 3), high - slopes[1:] * (width / 3))
     return np.minimum(np.minimum(low, high), inner) - fourth * (width**4 / 384)
-
-
-def _note(
-    values: FloatArray, times: FloatArray, lowest: FloatArray, when: FloatArray
-) -> None:
-    """Keep the lowest value of each column and its time."""
-    row = np.argmin(values, axis=0)
-    value = values[row, np.arange(values.shape[1])]
-    deeper = value < lowest
-    lowest[deeper] = value[deeper]
-    when[deeper] = times[row[deeper]]

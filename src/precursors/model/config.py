@@ -29,10 +29,11 @@ class Loader(yaml.SafeLoader):
         self, node: yaml.MappingNode, deep: bool = False
     ) -> dict[Any, Any]:
         """Return a table, in which no key stands twice."""
-        keys = [key.value for key, _ in node.value]
-        for i, (key, _) in enumerate(node.value):
-            if key.value in keys[:i]:
+        known: list[object] = []
+        for key, _ in node.value:
+            if key.value in known:
                 raise _misread(key, f"the key {key.value!r} stands there twice")
+            known.append(key.value)
         return super().construct_mapping(node, deep)
 
     def construct_scalar(self, node: Any) -> Any:

@@ -26,8 +26,7 @@ def digest_code(root: str | Path, script: str, *modules: str) -> str:
         If there is no module of a name: a list of the workflow has it misspelt.
     """
     library = Path(root, "src/precursors")
-    scripts = Path(root, "workflow/scripts")
-    waiting = [scripts / f"{script}.py"]
+    waiting = [Path(root, "workflow/scripts", f"{script}.py")]
     for name in modules:
         module = _file(library.joinpath(*name.split(".")))
         if module is None:
