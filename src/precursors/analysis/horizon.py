@@ -52,17 +52,12 @@ class PredictedErrors:
 
     def horizon(self, tolerance: float) -> float:
         """Predictability time [s]; see the function `horizon`."""
-        wrong = np.flatnonzero(
-            (self.time_error > tolerance) & np.isfinite(self.time_error)
+        is_wrong = (self.time_error > tolerance) & np.isfinite(self.time_error)
+        # A transition may come earlier by its error, but not before the one ahead of it.
+        earliest = np.maximum(
+            self.time - self.time_error, np.append(0.0, self.time[:-1])
         )
-        first = np.inf
-        if wrong.size:
-            # This transition may come earlier by its error, but not before the one
-            # ahead of it.
-            k = int(wrong[0])
-            first = max(
-                self.time[k] - self.time_error[k], self.time[k - 1] if k else 0.0
-            )
+        first = earliest[is_wrong].min(initial=np.inf)
         return float(min(first, self.order_known_until, self.duration))
 
 
