@@ -247,6 +247,10 @@ def test_arrays_that_do_not_fit_are_one_problem_and_no_crash(uniform):
             "216 transitions need 217 intervals",
         ),
         (
+            replace(uniform, intervals=-uniform.intervals),
+            "an interval is negative or not finite",
+        ),
+        (
             changed(uniform, 7, block=11),
             "transition 7 has block 11, mode 1: there is no such block or mode",
         ),
@@ -254,11 +258,6 @@ def test_arrays_that_do_not_fit_are_one_problem_and_no_crash(uniform):
     ):
         (found,) = audit(run).problems
         assert problem in found
-    for factor in (-1.0, np.nan):
-        first, *_ = audit(
-            replace(uniform, intervals=factor * uniform.intervals)
-        ).problems
-        assert "s from the sum of the intervals" in first
 
 
 def test_the_report_says_what_was_found_in_a_few_lines(uniform):

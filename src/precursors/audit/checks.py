@@ -44,6 +44,8 @@ def _malformed(run: Run) -> str:
         return (
             f"{n} transitions need {n + 1} intervals, the run has {len(run.intervals)}"
         )
+    if not np.all((run.intervals >= 0) & np.isfinite(run.intervals)):
+        return "an interval is negative or not finite"
     block = run.transitions["block"]
     mode = run.transitions["mode"]
     is_wrong = (block < 1) | (block > run.chain.n_blocks) | (mode < -1) | (mode > 1)
