@@ -93,7 +93,7 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
     subparsers = top.add_subparsers(dest="command", metavar="COMMAND")
     for name, meaning in COMMANDS.items():
         command = subparsers.add_parser(
-            name, help=meaning, description=f"{meaning[0].upper()}{meaning[1:]}."
+            name, help=meaning, description=f"{meaning.capitalize()}."
         )
         if name in argv:  # the defaults of the others are not read
             add_options(command, name)
