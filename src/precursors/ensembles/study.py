@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -12,14 +11,14 @@ import pandas as pd
 
 from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
 from precursors.model.chain import Chain, FloatArray
+from precursors.model.scenes import SLIDER
 from precursors.solver.many import simulate_many
 from precursors.solver.run import Record
 from precursors.solver.simulate import TransitionLimitError
 
-ARGUMENTS = tuple(inspect.signature(Chain.from_slider).parameters)
 # Columns that the table of a study does not have where they are the same for all
 # members.
-LEFT_OUT = {*ARGUMENTS, "duration"} - {"theta", "n_blocks"}
+LEFT_OUT = {*SLIDER, "duration"} - {"theta", "n_blocks"}
 # Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
 BLOCKS_PER_BATCH = 2000
 # Normal load at a place x from 0 (trailing edge) to 1 (leading edge), but for a factor.
@@ -69,7 +68,7 @@ def chain_of(member: Mapping[Any, Any], seed: int = 0) -> Chain:
     -1..1.
     """
     chain = Chain.from_slider(
-        **{name: member[name] for name in ARGUMENTS if name in member}
+        **{name: member[name] for name in SLIDER if name in member}
     )
     chain = loaded(chain, member.get("loading", "linear"))
     size = member.get("load_noise", 0.0)

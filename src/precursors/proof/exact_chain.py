@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,14 +11,12 @@ from numbers import Rational, Real
 import numpy as np
 
 from precursors.model.chain import Chain
+from precursors.model.scenes import SLIDER
 
 Number = Fraction | int | float | str
 
-_PARAMETERS = inspect.signature(Chain.from_slider).parameters
 _PAPERS_SLIDER = {
-    name: of.default
-    for name, of in _PARAMETERS.items()
-    if isinstance(of.default, float)
+    name: value for name, value in SLIDER.items() if isinstance(value, float)
 }
 _NUMBERS = (
     "mass",
