@@ -601,6 +601,8 @@ def test_score_prints_a_line_to_paste_and_every_number(cli, tmp_path):
 
 
 def test_score_lists_the_problems_and_asks_for_what_is_missing(cli):
+    code, out, _ = cli("score", "--list")
+    assert (code, len(out.split()), "uniform" in out) == (0, 8, True)
     told = "precursors score: unifrm: the problems are fast_drive, leading, slippery, "
     told += "stiff_drive, three_blocks, trailing, twenty_blocks, uniform\n"
     assert cli("score", "mine.csv", "--problem=unifrm") == (2, "", told)

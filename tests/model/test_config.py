@@ -3,6 +3,7 @@ be."""
 
 import copy
 import math
+import time
 from functools import cache
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from precursors.model.config import check_config, check_file, read_numbers
 from precursors.model.scenes import scene_slider, scenes_with
 
 ROOT = Path(__file__).parents[2]
+AT_ONCE = 10.0  # s; a file without end takes minutes, the largest read here one second
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 PAPERS = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
 MISSING = object()
@@ -116,6 +118,12 @@ WRONG = [
 ]
 
 
+# Ten lines that stand for 9**9 entries.
+MERGE_BOMB = "a0: &a0 {x: 1}\n" + "".join(
+    f"a{i}: &a{i} {{<<: [{', '.join(9 * [f'*a{i - 1}'])}]}}\n" for i in range(1, 10)
+)
+
+
 def changed(key, value):
     """The paper's configuration with one value changed."""
     config = copy.deepcopy(PAPERS)
@@ -207,7 +215,11 @@ def test_every_value_of_the_file_is_checked(value):
         ("- 1\n", "must be a table of keys and values"),
         ("", "must be a table of keys and values"),
         ("a: \x07\n", "special characters are not allowed"),
-        ("a: *x\n", "found undefined alias 'x' in line 1, column 4"),
+        ("a: &x [1]\nb: *x\n", "write out what * stands for in line 2, column 4"),
+        (MERGE_BOMB, "write out what * stands for in line 2, column 15"),
+        (f"# {20_000_000 * 'x'}\n", "may have 100,000 bytes"),
+        (f"a: {20_000 * '['}", "too many tables in each other"),
+        (f"a: [{200_001 * '1,'}]", "may have 100,000 bytes"),
         ("a: 1\n---\na: 2\n", "but found another document in line 2, column 1"),
         (f"a: {10_000 * '1'}", "Exceeds the limit"),
     ],
@@ -215,10 +227,12 @@ def test_every_value_of_the_file_is_checked(value):
 def test_a_file_that_is_not_plain_yaml_is_refused_with_its_place(tmp_path, text, words):
     path = tmp_path / "mine.yaml"
     path.write_text(text, encoding="utf-8")
+    start = time.monotonic()
     with pytest.raises(ValueError, match=r"\A[^\n]+mine.yaml[^\n]+\Z") as error:
         check_file(path)
     assert words in str(error.value)
     assert len(str(error.value)) < 400
+    assert time.monotonic() - start < AT_ONCE
 
 
 def test_plain_numbers_and_quoted_texts_are_accepted(tmp_path):

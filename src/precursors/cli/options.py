@@ -114,6 +114,8 @@ def add_options(command: Parser, name: str) -> Parser:
         add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
         return command
     if name == "score":
+        from precursors.accuracy.score import problems
+
         add(
             "file",
             type=Path,
@@ -125,6 +127,7 @@ def add_options(command: Parser, name: str) -> Parser:
             required=True,
             help="which of its problems they solve, for example uniform",
         )
+        add("--list", action="version", version=" ".join(problems()), help="list them")
         add(
             "--ties",
             type=_number,

@@ -16,6 +16,7 @@ from precursors.model.chain import Chain, parse_theta
 from precursors.model.scenes import Config, scene_slider, scenes_with_theta
 from precursors.support.files import AnyPath
 
+LARGEST_FILE = 100_000  # bytes, which are read in a second
 # YAML reads 010 as 8, and 1:30 as 90; .nan and .inf are no number to compute with.
 NOT_PLAIN = re.compile(
     r"[-+]?(0[\d_]+|\d[\d_]*(:[0-5]?\d)+(\.[\d_]*)?|\.(inf|nan))", re.IGNORECASE
@@ -23,7 +24,14 @@ NOT_PLAIN = re.compile(
 
 
 class Loader(yaml.SafeLoader):
-    """Reads each key once, and no value that YAML takes for another."""
+    """Reads each key once, no value that YAML takes for another, and no aliases, of
+    which ten lines can stand for 9**9 values."""
+
+    def compose_node(self, parent: Any, index: Any) -> Any:
+        """Return the next part of the file."""
+        if self.check_event(yaml.AliasEvent):
+            raise _misread(self.peek_event(), "write out what * stands for")
+        return super().compose_node(parent, index)
 
     def construct_mapping(
         self, node: yaml.MappingNode, deep: bool = False
@@ -44,7 +52,7 @@ class Loader(yaml.SafeLoader):
         return super().construct_scalar(node)
 
 
-def _misread(node: yaml.Node, problem: str) -> yaml.MarkedYAMLError:
+def _misread(node: Any, problem: str) -> yaml.MarkedYAMLError:
     return yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
 
 
@@ -55,11 +63,15 @@ def check_file(path: AnyPath) -> None:
     The ValueError says in one line which file, where in it, and what is wrong.
     """
     try:
+        if Path(path).stat().st_size > LARGEST_FILE:
+            raise ValueError(f"a configuration may have {LARGEST_FILE:,} bytes")
         config = yaml.load(Path(path).read_text(encoding="utf-8"), Loader)
     except yaml.MarkedYAMLError as error:
         mark: Any = error.problem_mark
         place = f"in line {mark.line + 1}, column {mark.column + 1}"
         raise ValueError(_short(f"{path}: {error.problem} {place}")) from None
+    except RecursionError:
+        raise ValueError(f"{path}: too many tables in each other") from None
     except (yaml.YAMLError, ValueError, OSError) as error:
         raise ValueError(_short(f"{path}: {error}")) from None
     if not isinstance(config, dict):
