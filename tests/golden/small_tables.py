@@ -41,9 +41,9 @@ SMALL = Path(__file__).parent / "small"
 CONFIG = yaml.safe_load(
     (Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8")
 )
-SCENES = {
-    name: Chain.from_slider(theta=theta)
-    for name, theta in (("lead", "5/6"), ("even", 0.0))
+SCENES: dict[str, dict[str, str | float]] = {
+    "lead": {"theta": "5/6"},
+    "even": {"theta": 0.0},
 }
 # Times and loads of a run are right to 1e-9 s and 1e-6 N whatever the processor, and so
 # are their statistics. A method with steps is off by the roundings of some 1e6 steps, a

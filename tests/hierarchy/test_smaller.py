@@ -27,12 +27,11 @@ from precursors.hierarchy.quasistatic import (
 )
 from precursors.hierarchy.rigid import (
     load_drop,
-    onset_load,
     rigid_slip_duration,
     slip_load,
 )
 from precursors.hierarchy.statics import law_answers
-from precursors.model.statics import balance_matrix
+from precursors.model.statics import balance_matrix, load_bound
 
 ROOT = Path(__file__).parents[2]
 SLIDER = Chain.from_slider
@@ -124,14 +123,14 @@ def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> No
     n, intervals = len(run.transitions), run.intervals[:-1]
     assert n > 10
     assert run.transitions["mode"].tolist() == [1, 0] * (n // 2) + [1] * (n % 2)
-    load = {1: onset_load(chain), 0: onset_load(chain) - load_drop(chain)}
+    load = {1: load_bound(chain), 0: load_bound(chain) - load_drop(chain)}
     expected = [load[mode] for mode in run.transitions["mode"].tolist()]
     np.testing.assert_allclose(
         run.transitions["tangential_load"], expected, rtol=RUN_ROUNDING
     )
     slip, stick = rigid_slip_duration(chain), load_drop(chain) / chain.loading_rate
     assert intervals[0] == pytest.approx(
-        onset_load(chain) / chain.loading_rate, rel=RUN_ROUNDING
+        load_bound(chain) / chain.loading_rate, rel=RUN_ROUNDING
     )
     np.testing.assert_allclose(intervals[1::2], slip, rtol=RUN_ROUNDING, atol=1e-14)
     np.testing.assert_allclose(intervals[2::2], stick, rtol=RUN_ROUNDING)
@@ -270,7 +269,7 @@ def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(
     clock,
 ) -> None:
     calls, warm, rounds = [], 0.0005, 3
-    answers = MODELS["chain"](SCENES["even"])
+    answers = MODELS["chain"](SLIDER(**SCENES["even"]))
 
     def ask(chain: Chain) -> dict[str, Any]:
         clock.now += warm if len(calls) > 1 + DRAWS else 10.0

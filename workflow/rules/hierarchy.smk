@@ -2,7 +2,7 @@
 
 TABLES |= {
     "model_comparison": {
-        "function": "hierarchy.compare_models:model_comparison",
+        "function": "hierarchy.compare_models:compare_models",
         "options": {"sliders": SLIDERS},
         "seconds": 3,
     },

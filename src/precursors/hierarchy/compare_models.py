@@ -33,17 +33,18 @@ class Question:
 
     `error` (answer, answer of the paper's chain, chain) is their distance, in units of
     `error_unit`; up to the `tolerance`, with its whole 95 % interval, it counts as an
-    answer. `shown` is one number that stands for the answer in the table. A `statistic`
-    (values, axis) is asked of runs with noise in the normal loads: one run of the chain
-    at theta = 5/6 is a draw of many, and no measure of a model. `quantity` is that of
-    the models, where it is not the name of the question.
+    answer. `shown` is one number that stands for the answer in the table. `quantiles`
+    are asked of runs with noise in the normal loads: one run of the chain at theta =
+    5/6 is a draw of many, and no measure of a model. The last one is shown, and the
+    largest of their errors counts. `quantity` is that of the models, where it is not
+    the name of the question.
     """
 
     tolerance: float
     error: Callable[[Any, Any, Chain], Any]
     error_unit: str = "1"
     shown: Callable[[Any], float] = float
-    statistic: Callable[[FloatArray, int], FloatArray] | None = None
+    quantiles: tuple[float, ...] = ()
     quantity: str = ""
 
 
@@ -57,54 +58,35 @@ def difference(answer: Any, exact: Any, chain: Chain) -> Any:
     return abs(answer - exact)
 
 
-def ends_of_band(values: FloatArray, axis: int) -> FloatArray:
-    """5 and 95 % of the runs."""
-    return np.asarray(np.quantile(values, [0.05, 0.95], axis=axis))
-
-
-def ends_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> Any:
-    """Larger of the relative errors of both ends."""
-    return relative(answer, exact, chain).max(axis=0)
-
-
-def front_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
-    """Root mean square over the blocks of the error in the load that brings the front
-    there, over F_Z."""
-    return root_mean_square(answer - exact) / chain.normal_load
+def load_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
+    """Root mean square of the errors of some loads, over F_Z."""
+    return float(np.sqrt(np.mean(np.square(answer - exact)))) / chain.normal_load
 
 
 def waveform_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
-    """Root mean square over time of the error in F_X, over F_Z, up to the end of the
-    exact first global slip.
+    """Error of F_X over time, up to the end of the exact first global slip.
 
     An answer that ends earlier keeps its last load.
     """
     times = np.linspace(0.0, exact[-1, 0], WAVEFORM_SAMPLES)
-    loads = [np.interp(times, wave[:, 0], wave[:, 1]) for wave in (answer, exact)]
-    return root_mean_square(loads[0] - loads[1]) / chain.normal_load
-
-
-def root_mean_square(values: FloatArray) -> float:
-    """Root of the mean square."""
-    return float(np.sqrt(np.mean(np.square(values))))
+    load, exact_load = (
+        np.interp(times, wave[:, 0], wave[:, 1]) for wave in (answer, exact)
+    )
+    return load_error(load, exact_load, chain)
 
 
 QUESTIONS = {
     "first_load": Question(1e-6, relative),  # a formula is right to rounding
     # The paper counts whole events by eye.
-    "events_counted": Question(1, difference, "events", statistic=np.median),
+    "events_counted": Question(1, difference, "events", quantiles=(0.5,)),
     # A fifth of (mu_s - mu_k)/mu_k: it tells the models from mu_k and from mu_s.
-    "mu_sapp": Question(0.05, relative, statistic=np.median),
+    "mu_sapp": Question(0.05, relative, quantiles=(0.5,)),
     "mu_sapp_band": Question(
-        0.05,
-        ends_error,
-        shown=lambda ends: float(ends[1]),  # the upper end stands for both
-        statistic=ends_of_band,
-        quantity="mu_sapp",
+        0.05, relative, quantiles=(0.05, 0.95), quantity="mu_sapp"
     ),
     "front_loads": Question(
         0.02,  # 8 N, less than a step from one block to the next of ten
-        front_error,
+        load_error,
         shown=lambda loads: float(loads[(len(loads) - 1) // 2]),  # at the middle
     ),
     # The experiment's duration is printed with one digit.
@@ -117,18 +99,12 @@ QUESTIONS = {
 }
 
 
-def model_comparison(sliders: Mapping[str, Mapping[str, Any]]) -> pd.DataFrame:
-    """`compare_models` for the sliders of some scenes."""
-    chains = {scene: Chain.from_slider(**slider) for scene, slider in sliders.items()}
-    return compare_models(chains)
-
-
 def compare_models(
-    chains: Mapping[str, Chain],
+    sliders: Mapping[str, Mapping[str, Any]],
     models: Mapping[str, Model] = MODELS,
     rounds: int = ROUNDS,
 ) -> pd.DataFrame:
-    """Ask every model every question it answers, for the chains of some scenes.
+    """Ask every model every question it answers, for the sliders of some scenes.
 
     `models` go from the smallest to the largest, the paper's chain among them; `rounds`
     is how often each is timed.
@@ -136,15 +112,14 @@ def compare_models(
     Returns
     -------
     DataFrame
-        One row for each scene, question and model that answers it: model_number (1, 2,
-        ...) and name of the model, value and its unit (a statistic of runs with noise
-        where the question has one), error against the paper's chain with its 95 %
-        interval (error_low, error_high, which are the error where there is no noise),
-        tolerance, is_answer (the whole interval is within it), is_smallest (the first
-        model that answers in every scene), and cost_s (median time of all the model's
-        answers [s]).
+        One row for each scene, question and model that answers it: value and its unit
+        (of runs with noise where the question has quantiles), error against the paper's
+        chain with its 95 % interval (error_low, error_high, which are the error where
+        there is no noise), tolerance, is_answer (the whole interval is within it),
+        is_smallest (the first model that answers in every scene), and cost_s (median
+        time of all the model's answers [s]).
     """
-    rows = []
+    chains = {scene: Chain.from_slider(**slider) for scene, slider in sliders.items()}
     tasks = {
         (n, s): partial(model, chain)
         for n, model in models.items()
@@ -153,23 +128,23 @@ def compare_models(
     answers = {key: ask() for key, ask in tasks.items()}
     noisy = {(n, s): noisy_answers(models[n], chains[s]) for n, s in tasks}
     costs = timing.measure(tasks, rounds, SHORTEST)
+    rows = []
     for asked_for, question in QUESTIONS.items():
         quantity = question.quantity or asked_for
-        asked = noisy if question.statistic else answers
+        asked = noisy if question.quantiles else answers
         for (name, scene), answered in asked.items():
             if quantity not in answered:
                 continue
             exact = asked[PAPERS_MODEL, scene][quantity]
-            answer, error, low, high = answer_and_error(
+            value, error, low, high = value_and_error(
                 question, answered[quantity], exact, chains[scene]
             )
             rows.append(
                 {
                     "scene": scene,
                     "question": asked_for,
-                    "model_number": list(models).index(name) + 1,
                     "model": name,
-                    "value": question.shown(answer),
+                    "value": value,
                     "unit": UNITS[quantity],
                     "error": error,
                     "error_low": low,
@@ -183,50 +158,48 @@ def compare_models(
     return with_smallest(pd.DataFrame(rows))
 
 
-def noisy_answers(model: Model, chain: Chain) -> dict[str, FloatArray]:
-    """Answers to the questions that have a statistic for chains with noise in the
-    normal loads, the same for all models."""
+def noisy_answers(model: Model, chain: Chain) -> dict[Any, Any]:
+    """Answers about chains with noise in the normal loads, the same for all models."""
     random = np.random.default_rng(SEED)
     noises = NOISE * random.uniform(-1.0, 1.0, (DRAWS, chain.n_blocks))
     drawn = [
         model(replace(chain, weights=chain.weights * (1.0 + noise))) for noise in noises
     ]
-    return {
-        name: np.array([answers[name] for answers in drawn])
-        for name, question in QUESTIONS.items()
-        if question.statistic and name in drawn[0]
-    }
+    return pd.DataFrame(drawn).to_dict("series")
 
 
-def answer_and_error(
+def value_and_error(
     question: Question, answer: Any, exact: Any, chain: Chain
-) -> tuple[Any, float, float, float]:
-    """Answer of a model, and its error against that of the paper's chain with a 95 %
-    interval.
+) -> tuple[float, float, float, float]:
+    """What is shown of an answer, and its error against that of the paper's chain with
+    a 95 % interval.
 
-    Where the question has a statistic, both are samples of runs, which are drawn again
+    Where the question has quantiles, both are samples of runs, which are drawn again
     and again. The chain has no error against itself.
     """
-    if not question.statistic:
+    if not question.quantiles:
         error = question.error(answer, exact, chain)
-        return answer, error, error, error
-    value = question.statistic(answer, 0)
+        return question.shown(answer), error, error, error
+    quantiles = partial(np.quantile, q=question.quantiles, axis=0)
+    value = quantiles(answer)
     if answer is exact:
-        return value, 0.0, 0.0, 0.0
+        return value[-1], 0.0, 0.0, 0.0
+    error = question.error(value, quantiles(exact), chain).max()
     random = np.random.default_rng(SEED)
     drawn, drawn_exact = (
-        question.statistic(random.choice(sample, (len(sample), RESAMPLES)), 0)
+        quantiles(random.choice(sample, (len(sample), RESAMPLES)))
         for sample in (answer, exact)
     )
-    low, high = np.quantile(question.error(drawn, drawn_exact, chain), [0.025, 0.975])
-    error = question.error(value, question.statistic(exact, 0), chain)
-    return value, float(error), float(low), float(high)
+    errors = question.error(drawn, drawn_exact, chain).max(axis=0)
+    low, high = np.quantile(errors, [0.025, 0.975])
+    return value[-1], error, low, high
 
 
 def with_smallest(table: pd.DataFrame) -> pd.DataFrame:
-    """Mark for each question the smallest model that answers it in every scene."""
-    answers = table.groupby(["question", "model_number"])["is_answer"].all()
-    smallest = answers[answers].reset_index().groupby("question")["model_number"].min()
+    """Mark for each question the smallest model that answers it in every scene; models
+    are in order."""
+    answers = table.groupby(["question", "model"], sort=False)["is_answer"].all()
+    smallest = answers[answers].reset_index("model").groupby("question").first()
     return table.assign(
-        is_smallest=table["model_number"] == table["question"].map(smallest)
+        is_smallest=table["model"] == table["question"].map(smallest["model"])
     )

@@ -107,15 +107,14 @@ def scene_answers(slider: Mapping[str, Any], model: str) -> pd.DataFrame:
     tables = []
     for quantity, answer in MODELS[model](Chain.from_slider(**slider)).items():
         value = np.asarray(answer)
-        table = pd.DataFrame(
-            {"value": np.atleast_1d(value if value.ndim < 2 else value[:, 1])}
-        )
-        table["block"] = pd.array(
-            range(1, len(table) + 1) if value.ndim == 1 else [None] * len(table),
-            "Int64",
-        )
-        table["time_s"] = value[:, 0] if value.ndim == 2 else np.nan
+        if value.ndim == 2:
+            table = pd.DataFrame(value, columns=["time_s", "value"])
+        else:
+            table = pd.DataFrame({"value": np.atleast_1d(value)})
+        if value.ndim == 1:
+            table["block"] = table.index + 1
         tables.append(
             table.assign(model=model, quantity=quantity, unit=UNITS[quantity])
         )
-    return pd.concat(tables)[["model", "quantity", "block", "time_s", "value", "unit"]]
+    columns = ["model", "quantity", "block", "time_s", "value", "unit"]
+    return pd.concat(tables).reindex(columns=columns).astype({"block": "Int64"})

@@ -111,20 +111,12 @@ def quasistatic_slips(
         load -= stiffness * slip[0]
         moved += slip[0]
         slid = np.flatnonzero(slip)
+        front = slid[-1] + 1
+        is_global = len(slid) == n
         rows.append(
-            (
-                time,
-                time,
-                before,
-                load,
-                before,
-                slid[-1] + 1,
-                len(slid),
-                at_once,
-                len(slid) == n,
-            )
+            (time, time, before, load, before, front, len(slid), at_once, is_global)
         )
-        if len(slid) == n:
+        if is_global:
             slips = np.array(rows, SLIP)
             slips["largest_load"] = np.maximum.accumulate(slips["load_before"])
             return slips
@@ -139,24 +131,19 @@ def slip_of_event(cascade, net, max_stages):
     `net` [N] becomes what it is after the event. The set is 0 if the event does not
     come to rest.
     """
-    n = net.shape[0]
     at_once = 0
-    slip = np.zeros(n)
-    direction = np.zeros(n)
+    slip = np.zeros_like(net)
+    direction = np.zeros_like(net)
     direction[0] = 1.0
     for _ in range(max_stages):
         step = slip_of_stage(cascade, net, direction)
         lost = lost_force(cascade.springs, step)
-        moving = 0
-        beyond = 0
-        for i in range(n):
+        at_once = max(at_once, np.count_nonzero(direction))
+        for i in range(len(net)):
             slip[i] += step[i]
             net[i] -= lost[i]
-            moving += direction[i] != 0.0
             direction[i] = beyond_strength(cascade, net[i], i)
-            beyond += direction[i] != 0.0
-        at_once = max(at_once, moving)
-        if beyond == 0:
+        if np.count_nonzero(direction) == 0:
             return slip, at_once
     return slip, 0
 

@@ -1,5 +1,8 @@
-"""The rigid slider (N = 1): stick-slip of one block driven through K, in closed
-form."""
+"""The rigid slider (N = 1): stick-slip of one block driven through K, in closed form.
+
+It is released at the largest load of a state of rest, so that mu_sapp = mu_s (Sect.
+6.2).
+"""
 
 from __future__ import annotations
 
@@ -9,16 +12,11 @@ from typing import Any
 import numpy as np
 
 from precursors.model.chain import Chain, FloatArray
+from precursors.model.statics import load_bound
 
 # Corners of the half wave that draws a slip; straight lines between them are within 0.3
 # % of its height.
 WAVE_POINTS = 33
-
-
-def onset_load(chain: Chain) -> float:
-    """Tangential load mu_s F_Z at which the slider is released [N]: mu_sapp = mu_s
-    (Sect. 6.2)."""
-    return chain.mu_s * chain.normal_load
 
 
 def load_drop(chain: Chain) -> float:
@@ -58,7 +56,7 @@ def waveform(chain: Chain) -> FloatArray:
     """Time [s] and load [N] from the start to the end of the first slip, shape
     (WAVE_POINTS + 1, 2)."""
     since = np.linspace(0.0, rigid_slip_duration(chain), WAVE_POINTS)
-    onset = onset_load(chain) / chain.loading_rate
+    onset = load_bound(chain) / chain.loading_rate
     return np.concatenate(
         [[[0.0, 0.0]], np.column_stack([onset + since, slip_load(chain, since)])]
     )
@@ -67,10 +65,10 @@ def waveform(chain: Chain) -> FloatArray:
 def answers(chain: Chain) -> dict[str, Any]:
     """All answers of the model."""
     return {
-        "first_load": onset_load(chain),
+        "first_load": load_bound(chain),
         "events_counted": 1,
         "mu_sapp": chain.mu_s,
-        "front_loads": np.full(chain.n_blocks, onset_load(chain)),
+        "front_loads": np.full(chain.n_blocks, load_bound(chain)),
         "slip_duration": rigid_slip_duration(chain),
         "waveform": waveform(chain),
     }
