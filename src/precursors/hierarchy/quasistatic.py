@@ -138,12 +138,12 @@ def slip_of_event(cascade, net, max_stages):
     for _ in range(max_stages):
         step = slip_of_stage(cascade, net, direction)
         lost = lost_force(cascade.springs, step)
-        at_once = max(at_once, np.count_nonzero(direction))
+        at_once = max(at_once, int(np.count_nonzero(direction)))
         for i in range(len(net)):
             slip[i] += step[i]
             net[i] -= lost[i]
             direction[i] = beyond_strength(cascade, net[i], i)
-        if np.count_nonzero(direction) == 0:
+        if not direction.any():
             return slip, at_once
     return slip, 0
 
