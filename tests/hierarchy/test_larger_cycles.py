@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,7 @@ from precursors.hierarchy.larger import (
 from precursors.hierarchy.larger_cycles import (
     cycles_table,
     peaks_of,
-    run_pasts,
+    run_past,
     settled,
     verdict_of,
     with_past,
@@ -29,7 +30,8 @@ from precursors.hierarchy.larger_study import (
     POINT,
     as_logged,
     medians_table,
-    run_study,
+    run_draw,
+    run_studies,
     step_of,
 )
 
@@ -171,7 +173,8 @@ def test_the_committed_runs_of_few_blocks_are_those_of_the_library():
     common = CONFIG["hierarchy"]["larger"]
     study = FULL["hierarchy"]["larger"]["studies"]["counts"]
     study = {**study, "pairs": [[0.2, 2e-4]], "n_blocks": [COARSE]}
-    again = medians_table(run_study(CONFIG["chain"], "counts", study, common))
+    runs = run_studies(CONFIG["chain"], {"counts": study}, partial(run_draw, common))
+    again = medians_table(runs)
     keys = ["study", "length", "relaxation_time", "theta", "n_blocks"]
     there = again[keys].merge(committed("larger"), on=keys)
     assert len(there) == 3
@@ -184,7 +187,8 @@ def test_the_committed_cycles_are_those_of_the_library():
     study = full["studies"]["grid"]
     study = {**study, "pairs": [[0.3, 2e-4]], "n_blocks": [COARSE], "theta": [0]}
     common = {**CONFIG["hierarchy"]["cycles"], **full, "pasts": full["pasts"][:2]}
-    runs = run_pasts(CONFIG["chain"], "grid", {**study, "runs": 1}, common)
+    grid = {"grid": {**study, "runs": 1}}
+    runs = run_studies(CONFIG["chain"], grid, partial(run_past, common), 2)
     there = committed("larger_cycles").query(
         "study == 'grid' and length == 0.3 and relaxation_time == 2e-4"
         f" and theta == 0 and n_blocks == {COARSE}"

@@ -18,9 +18,7 @@ from precursors.hierarchy.larger_steps import SETTLED, period_of
 from precursors.hierarchy.larger_study import (
     POINT,
     load_part,
-    points,
-    rows_of,
-    step_of,
+    run_studies,
 )
 from precursors.model.chain import FloatArray
 from precursors.model.printed import LAST_DIGIT
@@ -38,10 +36,8 @@ def cycle_tables(
 ) -> dict[str, pd.DataFrame]:
     """Cycles of every point, what they say about the loadings, and the peaks of some
     runs, by file name."""
-    studies = settings["studies"].items()
-    runs = pd.concat(
-        [run_pasts(slider, name, study, settings) for name, study in studies]
-    )
+    run = partial(run_past, settings)
+    runs = run_studies(slider, settings["studies"], run, len(settings["pasts"]))
     cycles = cycles_table(runs)
     return {
         "larger_cycles": cycles,
@@ -50,39 +46,29 @@ def cycle_tables(
     }
 
 
-def run_pasts(
-    slider: Mapping[str, Any],
-    name: str,
-    study: Mapping[str, Any],
-    common: Mapping[str, Any],
-) -> pd.DataFrame:
-    """Run every point of a study from many pasts until it settles: a row for each.
-
-    `study` is that of `points`; `common` has the seed, the duration [s], and pasts:
-    pairs of noise in the normal loads and of strain at the start, with `runs` of each.
-    """
-    tasks = []
-    for point, larger in points(slider, name, study):
-        chain = larger.chain
-        share = load_part(chain, point["critical_length"])
-        point["theory"] = chain.mu_k + (chain.mu_s - chain.mu_k) * share
-        point["step"] = step_of(larger, study)
-        for past in range(len(common["pasts"]) * study["runs"]):
-            tasks.append(partial(run_past, point, larger, common, past))
-    return rows_of(tasks)
-
-
 def run_past(
-    point: dict[str, Any], larger: LargerChain, common: Mapping[str, Any], index: int
+    settings: Mapping[str, Any],
+    point: dict[str, Any],
+    larger: LargerChain,
+    step: float,
+    index: int,
 ) -> dict[str, Any]:
-    """A row of `run_pasts`."""
-    past = common["pasts"][index % len(common["pasts"])]
-    random = np.random.default_rng([common["seed"], index])
+    """Run a chain from one of many pasts until it settles: point, index of the past,
+    theory (see `cycles_table`), and `settled`.
+
+    `settings` has the seed, the duration [s], and pasts: pairs of noise in the normal
+    loads and of strain at the start.
+    """
+    past = settings["pasts"][index % len(settings["pasts"])]
+    random = np.random.default_rng([settings["seed"], index])
     drawn, forces = with_past(larger, past, random)
     run = simulate_larger(
-        drawn, common["duration"], "settled", point["step"], start_forces=forces
+        drawn, settings["duration"], "settled", step, start_forces=forces
     )
-    return point | {"past": index} | settled(run)
+    chain = larger.chain
+    share = load_part(chain, point["critical_length"])
+    theory = chain.mu_k + (chain.mu_s - chain.mu_k) * share
+    return point | {"past": index, "theory": theory} | settled(run)
 
 
 def with_past(

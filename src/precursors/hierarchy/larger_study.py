@@ -4,7 +4,7 @@ events it has."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from itertools import product
@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.slips import find_precursors, find_slips, mu_sapp
+from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
 from precursors.hierarchy.larger import (
     LargerChain,
     critical_length,
@@ -84,32 +84,61 @@ def step_of(larger: LargerChain, study: Mapping[str, Any]) -> float:
     return STEP if larger.chain.n_blocks < FINE_FROM else FINE_STEP
 
 
-def nucleation_table(
-    slider: Mapping[str, Any], study: Mapping[str, Any]
+def run_studies(
+    slider: Mapping[str, Any],
+    studies: Mapping[str, Mapping[str, Any]],
+    run: Callable[..., dict[str, Any]],
+    repeats: int = 1,
 ) -> pd.DataFrame:
-    """Length at which smooth growth ends, beside the theory: a row for each point.
+    """Run every point of some studies, on all threads: a row for each point and draw.
+
+    A study is that of `points`, with the number of `runs` (by default one), each of
+    them repeated so many times. `run` (point, chain, step, number of the draw) returns
+    a row.
+    """
+    tasks = [
+        partial(run, point, larger, step_of(larger, study), draw)
+        for name, study in studies.items()
+        for point, larger in points(slider, name, study)
+        for draw in range(repeats * study.get("runs", 1))
+    ]
+    return pd.DataFrame(in_threads("running", tasks, untyped.config.NUMBA_NUM_THREADS))
+
+
+def larger_tables(
+    slider: Mapping[str, Any], settings: Mapping[str, Any]
+) -> dict[str, pd.DataFrame]:
+    """First slips, and where creep runs away, by file name."""
+    runs = run_studies(slider, settings["studies"], partial(run_draw, settings))
+    creep = {"nucleation": settings["nucleation"]}
+    return {
+        "larger": medians_table(runs),
+        "larger_nucleation": run_studies(slider, creep, run_creep),
+    }
+
+
+def run_creep(
+    point: dict[str, Any], larger: LargerChain, step: float, _: int
+) -> dict[str, Any]:
+    """Length at which smooth growth ends: a row of larger_nucleation.csv.
 
     Creep of length l behind the drive needs F_X = mu_s W(l), W the cumulative normal
     load. So the load at which the first event begins gives the length that crept until
     then, if events in which F_X falls by less than `SEEN` are left out. Columns beside
     `POINT`: measured [L], and ratio, measured over theory.
     """
-    rows = []
-    for point, larger in points(slider, "nucleation", study):
-        chain = larger.chain
-        # The drive reaches mu_s F_Z in a tenth of the longest run.
-        part = min(1.0, 1.3 * load_part(chain, point["critical_length"]))
-        run = simulate_larger(
-            larger, 0.1 * part * longest_run(chain), step=step_of(larger, study)
-        )
-        slips = find_slips(run)
-        falls = slips["load_after"] < (1.0 - SEEN) * slips["load_before"]
-        first = slips["load_before"].iloc[falls.argmax()]
-        ends = np.append(0.0, np.cumsum(chain.strength))
-        measured = np.interp(first, ends, np.linspace(0.0, 1.0, len(ends)))
-        ratio = measured / point["critical_length"]
-        rows.append(point | {"measured": measured, "ratio": ratio})
-    return pd.DataFrame(rows)
+    chain = larger.chain
+    # The drive reaches mu_s F_Z in a tenth of the longest run.
+    part = min(1.0, 1.3 * load_part(chain, point["critical_length"]))
+    slips = find_slips(
+        simulate_larger(larger, 0.1 * part * longest_run(chain), step=step)
+    )
+    falls = slips["load_after"] < (1.0 - SEEN) * slips["load_before"]
+    first = slips["load_before"].iloc[falls.argmax()]
+    ends = np.append(0.0, np.cumsum(chain.strength))
+    measured = np.interp(first, ends, np.linspace(0.0, 1.0, len(ends)))
+    ratio = measured / point["critical_length"]
+    return point | {"measured": measured, "ratio": ratio}
 
 
 def load_part(chain: Chain, length: float) -> float:
@@ -118,63 +147,29 @@ def load_part(chain: Chain, length: float) -> float:
     return float(np.interp(length, np.linspace(0.0, 1.0, len(ends)), ends))
 
 
-def larger_tables(
-    slider: Mapping[str, Any], settings: Mapping[str, Any]
-) -> dict[str, pd.DataFrame]:
-    """First slips, and where creep runs away, by file name."""
-    studies = settings["studies"].items()
-    runs = [run_study(slider, name, study, settings) for name, study in studies]
-    return {
-        "larger": medians_table(pd.concat(runs)),
-        "larger_nucleation": nucleation_table(slider, settings["nucleation"]),
-    }
-
-
-def run_study(
-    slider: Mapping[str, Any],
-    name: str,
-    study: Mapping[str, Any],
-    common: Mapping[str, Any],
-) -> pd.DataFrame:
-    """Run every point of a study to its first global slip: a row for each point and
-    draw.
-
-    The normal loads have noise, which depends on the number of blocks and on the draw
-    only. A run without a global slip has NaN. `study` is that of `points`, with the
-    number of runs; `common` has the seed and the noise (relative). The first draw of a
-    chain with a length says what half the step changes (halved_mu_sapp).
-    """
-    tasks = [
-        partial(run_draw, point, larger, step_of(larger, study), draw, common)
-        for point, larger in points(slider, name, study)
-        for draw in range(study["runs"])
-    ]
-    return rows_of(tasks)
-
-
-def rows_of(tasks: Sequence[Callable[[], dict[str, Any]]]) -> pd.DataFrame:
-    """Table of the rows that some tasks return, which run on all threads."""
-    return pd.DataFrame(in_threads("running", tasks, untyped.config.NUMBA_NUM_THREADS))
-
-
 def run_draw(
+    settings: Mapping[str, Any],
     point: dict[str, Any],
     larger: LargerChain,
     step: float,
     draw: int,
-    common: Mapping[str, Any],
 ) -> dict[str, Any]:
-    """A row of `run_study`."""
+    """Run a chain to its first global slip: point, and `numbers` of the run.
+
+    The normal loads have noise (relative), which depends on the seed, the number of
+    blocks and the draw only. The first draw of a chain with a length says what half the
+    step changes (halved_mu_sapp).
+    """
     n = larger.chain.n_blocks
-    random = np.random.default_rng([common["seed"], n, draw])
-    noise = 1.0 + common["noise"] * random.uniform(-1.0, 1.0, n)
+    random = np.random.default_rng([settings["seed"], n, draw])
+    noise = 1.0 + settings["noise"] * random.uniform(-1.0, 1.0, n)
     chain = replace(larger.chain, weights=larger.chain.weights * noise)
     drawn = replace(larger, chain=chain)
     found = numbers(run_to_slip(drawn, step))
     if draw == 0 and larger.weakening_velocity:
-        finer = numbers(run_to_slip(drawn, step / 2.0))
-        found["halved_mu_sapp"] = abs(finer["mu_sapp"] - found["mu_sapp"])
-    return point | {"draw": draw} | found
+        finer = apparent_friction(run_to_slip(drawn, step / 2.0))
+        found["halved_mu_sapp"] = abs(finer - found["mu_sapp"])
+    return point | found
 
 
 def run_to_slip(larger: LargerChain, step: float) -> Record:
@@ -194,12 +189,10 @@ def numbers(run: Record) -> dict[str, float]:
     Fig. 13 as a logger at 1 kHz sees them.
     """
     slips = find_slips(run)
-    if not slips["is_global"].any():
-        return {"mu_sapp": math.nan}
-    found = {
-        "events_counted": len(find_precursors(slips)),
-        "mu_sapp": mu_sapp(slips["largest_load"].iloc[-1], run.chain.normal_load),
-    }
+    friction = apparent_friction(run)
+    if math.isnan(friction):
+        return {"mu_sapp": friction}
+    found = {"events_counted": len(find_precursors(slips)), "mu_sapp": friction}
     for x in DROPS:
         for name, table in {"counted": slips, "logged": as_logged(slips)}.items():
             large = table[table["load_before"] - table["load_after"] >= x]
@@ -224,7 +217,7 @@ def as_logged(slips: pd.DataFrame) -> pd.DataFrame:
 def medians_table(runs: pd.DataFrame) -> pd.DataFrame:
     """Medians over the runs of a point that have a global slip, of which there are
     `runs`: a row for each point."""
-    of_point = runs.drop(columns="draw").groupby(POINT, sort=False)
+    of_point = runs.groupby(POINT, sort=False)
     medians = of_point.median()
     medians.insert(0, "runs", of_point["mu_sapp"].count())
     return medians.reset_index()
