@@ -26,8 +26,6 @@ from numpy.typing import ArrayLike
 
 from precursors.analysis.slips import find_precursors, find_slips
 from precursors.hierarchy.larger_steps import (
-    CYCLE,
-    GLOBAL,
     CompiledChain,
     End,
     State,
@@ -45,7 +43,9 @@ from precursors.support.waiting import in_threads
 # scenes up to the first global slip, in order.
 STEP = 0.1
 STEP_OF_COULOMB = 5e-4
-LEAP = 0.5  # of the excess of falling friction over viscosity at which creep runs away
+# Creep is leapt over where falling friction exceeds viscosity by less than this part of
+# the excess at which it runs away; -inf: nowhere.
+LEAP = 0.5
 # Of `critical_length`: steps along the chain, and growth rates from 1e-5 to 1 times the
 # largest. With both doubled, l_c changes by less than 1e-3.
 LENGTH_STEPS = 2000
@@ -54,8 +54,6 @@ MAX_STEPS = 100_000_000  # ten times those of the longest run of the studies
 # Steps times blocks, of which any step has so many: some 7 s of work.
 PATIENCE = 500_000_000
 BLOCKS_OF_A_STEP = 30
-LargerUntil = Literal["global slip", "settled"] | None
-ENDS = {None: 0, "global slip": GLOBAL, "settled": CYCLE}
 
 
 @dataclass(frozen=True)
@@ -168,10 +166,9 @@ def tilt(chain: Chain, push_height: float) -> FloatArray:
 def simulate_larger(
     larger: LargerChain,
     duration: float,
-    until: LargerUntil = None,
+    until: Until | Literal["settled"] = None,
     step: float | None = None,
     max_transitions: int = MAX_TRANSITIONS,
-    leap: float = LEAP,
     start_forces: ArrayLike | None = None,
     max_steps: int = MAX_STEPS,
 ) -> LargerRun:
@@ -185,9 +182,8 @@ def simulate_larger(
     `until` may be "settled", too: the run ends when the loads at which global slips
     begin come again (see `period_of`). `step` is in the shorter of sqrt(m/k) and the
     time in which falling friction multiplies a velocity by e, by default `STEP` or
-    `STEP_OF_COULOMB`. Creep is leapt over where falling friction exceeds viscosity by
-    less than the part `leap` of the excess at which creep runs away; -inf: nowhere.
-    `start_forces` are those of the springs [N], F_X first, by default 0.
+    `STEP_OF_COULOMB`. `start_forces` are those of the springs [N], F_X first, by
+    default 0.
 
     Raises
     ------
@@ -199,7 +195,7 @@ def simulate_larger(
     """
     duration = checked_span(duration, None if until == "settled" else until)
     chain = larger.chain
-    m = model_of(larger, leap)
+    m = model_of(larger)
     step = step or (STEP if m.weakening_velocity else STEP_OF_COULOMB)
     lifting = np.divide(
         -m.weights, m.tilt, np.full(chain.n_blocks, np.inf), where=m.tilt < 0.0
@@ -210,7 +206,8 @@ def simulate_larger(
     if start_forces is not None:
         state.force[:-1] = number_array("start_forces", start_forces, "N")
     before = stored_energy(chain, state)
-    end = End(duration, ENDS[until], lifting.min(), max_transitions, max_steps)
+    ends_at = (until == "global slip", until == "settled")
+    end = End(duration, *ends_at, lifting.min(), max_transitions, max_steps)
     now = np.zeros(1)
     rows, points, time, steps = in_threads(
         "running",
@@ -239,7 +236,7 @@ def simulate_larger(
     return run
 
 
-def model_of(larger: LargerChain, leap: float) -> CompiledChain:
+def model_of(larger: LargerChain) -> CompiledChain:
     """Arrays and numbers of a chain for the compiled functions."""
     chain = larger.chain
     dashpots = np.zeros(chain.n_blocks + 1)
@@ -254,7 +251,7 @@ def model_of(larger: LargerChain, leap: float) -> CompiledChain:
         mu_k=chain.mu_k,
         weakening_velocity=larger.weakening_velocity * (chain.mu_k < chain.mu_s),
         drive_velocity=chain.drive_velocity,
-        leap=leap,
+        leap=LEAP,
     )
 
 

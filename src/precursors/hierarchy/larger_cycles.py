@@ -103,13 +103,14 @@ def settled(run: Record) -> dict[str, Any]:
     different blocks did.
     """
     slips = peaks_of(run)
-    peaks = slips["peak"].to_numpy()
-    period = period_of(peaks, SETTLED)
-    late = peaks[-period:] if period else peaks[slips["onset"] > 0.5 * run.duration]
+    peaks = slips["peak"]
+    period = period_of(peaks.to_numpy(), SETTLED)
+    is_late = slips["onset"] > 0.5 * run.duration
+    late = peaks.tail(period) if period else peaks[is_late]
     return {
-        "peaks": peaks,
+        "peaks": peaks.to_numpy(),
         "period": period,
-        "coefficient": late.mean() if len(late) else np.nan,
+        "coefficient": late.mean(),
         "state_error": state_error(run, slips["onset"].to_numpy(), period),
     }
 
@@ -128,7 +129,7 @@ def state_error(run: Record, onsets: FloatArray, period: int) -> float:
     ends = onsets[[-1 - 2 * period, -1 - period, -1]]
     rows = run.transitions
     before, after = (
-        of_period[np.argsort(of_period["block"], kind="stable")]
+        np.sort(of_period, order="block")
         for of_period in np.split(rows, np.searchsorted(rows["time"], ends))[1:3]
     )
     if not np.array_equal(before["block"], after["block"]):
@@ -151,10 +152,13 @@ def cycles_table(runs: pd.DataFrame) -> pd.DataFrame:
         found = of_point.dropna(subset="coefficient").sort_values("coefficient")
         number = (found["coefficient"].diff() > APART).cumsum()
         for _, of_cycle in found.groupby(number):
-            row = dict(zip(POINT, point, strict=True))
-            row |= {"pasts": len(of_point), "share": len(of_cycle) / len(of_point)}
-            row |= {"periodic": (of_cycle["period"] > 0).mean()}
-            rows.append(row | of_cycle[MEDIANS].median().to_dict())
+            shares = {
+                "pasts": len(of_point),
+                "share": len(of_cycle) / len(of_point),
+                "periodic": (of_cycle["period"] > 0).mean(),
+            }
+            medians = of_cycle[MEDIANS].median().to_dict()
+            rows.append(dict(zip(POINT, point, strict=True)) | shares | medians)
     return pd.DataFrame(rows)
 
 

@@ -23,7 +23,6 @@ SETTLED = 1e-4
 REPEATS = 4
 LONGEST_PERIOD = 4
 MOST_STALLED = 4  # times the number of blocks: steps that end where they begin
-GLOBAL, CYCLE = 1, 2  # where a run shall end before its duration
 BEGIN, N_FAST, IS_GLOBAL = range(3)  # of an event: first row, blocks, whether global
 
 compiled = entry(
@@ -32,7 +31,7 @@ compiled = entry(
 
 
 class CompiledChain(NamedTuple):
-    """What the compiled functions need of a chain; `leap` is that of `simulate_larger`.
+    """What the compiled functions need of a chain; `leap` is `larger.LEAP`.
 
     Springs and dashpots, like forces and velocities, end with a 0: nothing is ahead of
     block N.
@@ -76,11 +75,12 @@ class Record(NamedTuple):
 
 
 class End(NamedTuple):
-    """Where a run ends: at a time [s], after a slip, where a block is lifted [N], at so
-    many transitions, at so many steps."""
+    """Where a run ends: at a time [s], after a global slip, when it has settled, where
+    a block is lifted [N], at so many transitions, at so many steps."""
 
     duration: float
-    until: int
+    at_global_slip: bool
+    when_settled: bool
     lifting_load: float
     most: int
     most_steps: int
@@ -391,7 +391,7 @@ def march(m, s, end, step, now):
         ended = time >= end.duration or s.force[0] > end.lifting_load
         if note(m, s, record, watched, load_before, time, h):
             settled = period_of(record.peaks, tolerance) > 0
-            ended |= end.until == GLOBAL or (end.until == CYCLE and settled)
+            ended |= end.at_global_slip or (end.when_settled and settled)
         ended |= len(record.rows) - 1 > end.most or steps > end.most_steps
     record.points.append((time, s.force[0]))
     return np.array(record.rows)[1:], np.array(record.points), time, steps

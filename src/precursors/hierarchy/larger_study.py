@@ -21,7 +21,7 @@ from precursors.hierarchy.larger import (
     weakening_velocity,
 )
 from precursors.hierarchy.models import longest_run
-from precursors.model.chain import Chain, parse_theta
+from precursors.model.chain import Chain
 from precursors.solver.kernel.compiled import untyped
 from precursors.solver.run import Record
 from precursors.solver.simulate import simulate
@@ -70,7 +70,7 @@ def points(
         chain = Chain.from_slider(**{**slider, **own})
         larger = LargerChain(chain, v_c, pair[1], push_height=height)
         l_c = critical_length(larger) / chain.length
-        values = (name, *pair, v_c, height, load, parse_theta(theta), n, l_c)
+        values = (name, *pair, v_c, height, load, chain.theta, n, l_c)
         yield dict(zip(POINT, values, strict=True)), larger
 
 
