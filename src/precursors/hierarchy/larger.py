@@ -200,7 +200,7 @@ def simulate_larger(
     lifting = np.divide(
         -m.weights, m.tilt, np.full(chain.n_blocks, np.inf), where=m.tilt < 0.0
     )
-    modes = np.zeros((2, chain.n_blocks), np.int64)
+    modes = np.zeros((2, chain.n_blocks + 1), np.int64)
     arrays: list[Any] = [*np.zeros((7, chain.n_blocks + 1)), *modes, np.zeros(2)]
     state = State(*arrays)
     if start_forces is not None:

@@ -33,8 +33,8 @@ compiled = entry(
 class CompiledChain(NamedTuple):
     """What the compiled functions need of a chain; `leap` is `larger.LEAP`.
 
-    Springs and dashpots, like forces and velocities, end with a 0: nothing is ahead of
-    block N.
+    Springs and dashpots, like all arrays of the state, end with a 0: nothing is ahead
+    of block N.
     """
 
     springs: FloatArray
@@ -128,6 +128,7 @@ def find_mean_velocities(m, s, last, h, leaps):
     reach = h if leaps else 0.5 * h
     inertia = 0.0 if leaps else 2.0 * m.mass / h
     load = s.force[0] + reach * m.springs[0] * (m.drive_velocity - s.velocity[0])
+    s.mean[last + 1] = 0.0
     behind = reach * m.springs[0]
     u_behind = m.drive_velocity
     r_behind = 0.0
@@ -162,8 +163,8 @@ def try_step(m, s, last, watched, h, leaps, holds):
     find_mean_velocities(m, s, last, h, leaps)
     copy(s.new_force, s.force)
     copy(s.new_velocity, s.velocity)
-    for i in range(min(len(s.mode), last + 2)):
-        moved = s.mean[i] if i <= last else 0.0
+    for i in range(last + 2):
+        moved = s.mean[i]
         behind = s.mean[i - 1] if i > 0 else m.drive_velocity
         s.new_force[i] += h * m.springs[i] * (behind - moved)
         if s.mode[i] != 0:
@@ -216,12 +217,10 @@ def is_stable(m, load, p):
         wave = math.cos((i + 0.5) * angle) ** 2 * 4.0 / (2 * p + 1)
         share = 1.0 / p if whole else wave
         mean_weight += share * weight(m, load, i)
-    fall = slope(m, mean_weight)
-    if whole:
-        return fall < m.leap * 2.0 * math.sqrt(m.mass * m.springs[0] / p)
     shape = (2.0 * math.sin(0.5 * angle)) ** 2
-    runaway = 2.0 * math.sqrt(m.mass * m.springs[p] * shape)
-    return fall - m.dashpots[p] * shape < m.leap * runaway
+    stiffness = m.springs[0] / p if whole else m.springs[p] * shape
+    excess = slope(m, mean_weight) - m.dashpots[p] * shape
+    return excess < m.leap * 2.0 * math.sqrt(m.mass * stiffness)
 
 
 @compiled
@@ -245,9 +244,8 @@ def heat_of_step(m, s, load, last, h):
         mu = m.mu_k
         if abs(s.velocity[i]) < m.weakening_velocity:
             mu = m.mu_s - (m.mu_s - m.mu_k) * abs(s.mean[i]) / m.weakening_velocity
-        ahead = s.mean[i + 1] if i < last else 0.0
         heat += h * mu * weight(m, load, i) * s.mode[i] * s.mean[i]
-        heat += h * m.dashpots[i + 1] * (s.mean[i] - ahead) ** 2
+        heat += h * m.dashpots[i + 1] * (s.mean[i] - s.mean[i + 1]) ** 2
     return heat
 
 
@@ -334,7 +332,7 @@ def note(m, s, record, watched, load_before, time, h):
             at = (slow - speed_before) / (speed - speed_before)
         load = load_before + at * (s.force[0] - load_before)
         rows.append((time - (1.0 - at) * h, i + 1.0, float(way), load))
-        event[IS_GLOBAL] |= event[N_FAST] == len(s.mode)
+        event[IS_GLOBAL] |= event[N_FAST] == len(m.weights)
         if event[N_FAST] == 0:
             onset = rows[event[BEGIN]][3]
             if onset - s.force[0] < smallest_drop:
