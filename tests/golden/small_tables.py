@@ -339,7 +339,7 @@ ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
     **{
         name: partial(lambda name: small_larger_tables()[name], name)
         for name in (
-            *("larger", "larger_nucleation", "larger_cycles"),
+            *("larger", "larger_means", "larger_nucleation", "larger_cycles"),
             *("larger_verdicts", "larger_peaks"),
         )
     },

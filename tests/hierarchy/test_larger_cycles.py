@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 import yaml
 from chains import SLIDER
+from pandas.testing import assert_frame_equal
 
 from precursors import TransitionLimitError
 from precursors.hierarchy.larger import (
@@ -29,6 +30,7 @@ from precursors.hierarchy.larger_steps import SETTLED, period_of
 from precursors.hierarchy.larger_study import (
     POINT,
     as_logged,
+    means_table,
     medians_table,
     run_draw,
     run_studies,
@@ -219,6 +221,19 @@ def test_counts_settle_for_every_loading():
     assert len(change) == 15
     assert (change <= 1).sum() == 14
     assert (change <= 0.1 * counts[100] + 1).all()
+
+
+def test_the_means_over_many_lengths_are_those_of_the_committed_runs():
+    means = committed("larger_means")
+    assert_frame_equal(means_table(committed("larger")), means, rtol=1e-12)
+    sawtooth = means.query("study == 'sawtooth'").set_index(["n_blocks", "theta"])
+    by_hand = committed("larger").query("study == 'sawtooth' and n_blocks == 200")
+    by_theta = by_hand.pivot_table(index="length", columns="theta", values="mu_sapp")
+    differences = by_theta[5 / 6] - by_theta[0]
+    assert len(differences) == 40
+    mean, half = sawtooth.loc[(200, 5 / 6), ["mean", "half"]]
+    assert mean == pytest.approx(differences.mean())
+    assert half == pytest.approx(1.96 * differences.std() / np.sqrt(40))
 
 
 def cycles_of(study, n):

@@ -9,7 +9,7 @@ TABLES |= {
     "larger": {
         "function": "hierarchy.larger_study:larger_tables",
         "options": {"slider": config["chain"], "settings": config["hierarchy"]["larger"]},
-        "beside": ["larger_nucleation"],
+        "beside": ["larger_means", "larger_nucleation"],
         "threads": 4,
         "seconds": 600 if config["full"] else 2,
     },

@@ -16,6 +16,7 @@ from precursors.analysis.slips import find_slips
 from precursors.hierarchy.larger import LargerChain, simulate_larger
 from precursors.hierarchy.larger_steps import SETTLED, period_of
 from precursors.hierarchy.larger_study import (
+    LOADINGS,
     POINT,
     load_part,
     run_studies,
@@ -27,7 +28,6 @@ from precursors.solver.run import Record
 APART = 0.003  # two cycles whose mean peaks [F_Z] are closer are one
 # Of the straight lines from which the net forces of a strained start are made.
 NODES = 8
-LOADINGS = [name for name in POINT if name not in ("theta", "critical_length")]
 MEDIANS = ["coefficient", "period", "state_error", "theory"]
 
 
