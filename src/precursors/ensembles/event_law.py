@@ -109,10 +109,8 @@ def event_law_tables(
 def event_law_table(members: pd.DataFrame, slider: Mapping[str, Any]) -> pd.DataFrame:
     """The law beside the runs, a row for each chain.
 
-    Over the runs with a global slip: medians of the events, of their ratio to the law
-    with its 95 % interval, of rise, the load [(mu_s - mu_k) w_1] that the drive adds
-    between two events (assumption 2 says 1), and of path, K V t over what assumption 3
-    says.
+    Over the runs with a global slip: medians of the events, and of their ratio to the
+    law with its 95 % interval.
     """
     members = members.assign(
         **{name: slider[name] for name in set(slider) - set(members)}
@@ -122,13 +120,8 @@ def event_law_table(members: pd.DataFrame, slider: Mapping[str, Any]) -> pd.Data
         chain = chain_of(runs.iloc[0].to_dict() | {"load_noise": 0.0})
         done = runs[runs["reached"]]
         events = done["events_to_global_slip"]
-        load = chain.loading_rate * done["time_s"]
         law = predicted_events(chain)
-        w_1 = chain.weights[0]
         low, high = median_interval(events / law)
-        rise = (
-            (load - chain.mu_s * w_1) / (events - 1) / ((chain.mu_s - chain.mu_k) * w_1)
-        )
         found = {
             "law": law,
             "n_runs": len(runs),
@@ -137,8 +130,6 @@ def event_law_table(members: pd.DataFrame, slider: Mapping[str, Any]) -> pd.Data
             "ratio": (events / law).median(),
             "ratio_low": low,
             "ratio_high": high,
-            "rise": rise.median(),
-            "path": (load / added_load(chain)).median(),
         }
         rows.append(dict(zip(CASE, case, strict=True)) | found)
     return pd.DataFrame(rows)
