@@ -198,8 +198,6 @@ def value_and_error(
 def with_smallest(table: pd.DataFrame) -> pd.DataFrame:
     """Mark for each question the smallest model that answers it in every scene; models
     are in order."""
-    answers = table.groupby(["question", "model"], sort=False)["is_answer"].all()
-    smallest = answers[answers].reset_index("model").groupby("question").first()
-    return table.assign(
-        is_smallest=table["model"] == table["question"].map(smallest["model"])
-    )
+    answers = table.groupby(["question", "model"])["is_answer"].transform("all")
+    smallest = table[answers].groupby("question")["model"].first()
+    return table.assign(is_smallest=table["model"] == table["question"].map(smallest))

@@ -167,7 +167,7 @@ def peaks_table(runs: pd.DataFrame, settings: Mapping[str, Any]) -> pd.DataFrame
     of each past, in the first study that has it."""
     chain = pd.Series(settings["map"])
     of_chain = runs[(runs[chain.index] == chain).all(axis=1)]
-    first = of_chain.drop_duplicates("past").head(len(settings["pasts"]))
+    first = of_chain.head(len(settings["pasts"]))
     table = first.rename(columns={"peaks": "peak"}).explode("peak")
     return table[[*chain.index, "past", "peak"]].astype({"peak": float})
 
@@ -189,16 +189,13 @@ def verdicts_table(cycles: pd.DataFrame) -> pd.DataFrame:
         if len(values) < 2:
             continue
         within = max(np.ptp(each) for each in values)
-        apart = max(gap(a, b) for a, b in combinations(values, 2))
+        apart = max(
+            abs(np.subtract.outer(a, b)).min() for a, b in combinations(values, 2)
+        )
         verdict = verdict_of(within, apart, np.ptp(np.concatenate(values)))
         row = dict(zip(LOADINGS, point, strict=True))
         rows.append(row | {"within": within, "apart": apart, "verdict": verdict})
     return pd.DataFrame(rows)
-
-
-def gap(a: FloatArray, b: FloatArray) -> float:
-    """Least difference of a value of a and one of b."""
-    return float(abs(np.subtract.outer(a, b)).min())
 
 
 def verdict_of(within: float, apart: float, of_all: float) -> str:

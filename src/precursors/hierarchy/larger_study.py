@@ -30,7 +30,7 @@ from precursors.support.waiting import in_threads
 # Fall of F_X, over F_X, that ends smooth growth: creep that trembles lets it fall by
 # less.
 SEEN = 0.002
-DROPS = (0.1, 0.4, 2.0)  # of F_X [N], from which an event counts
+DROP = 0.4  # of F_X [N], from which an event is large
 SAMPLE = 1e-3  # s: a logger at 1 kHz takes two events with a shorter rest for one
 # Steps of `simulate_larger`. With 200 blocks, 0.25 shifts mu_sapp by 0.006 at
 # t_v = 0.2 ms. The tables say what half the step changes: which event becomes the
@@ -188,7 +188,7 @@ def numbers(run: Record) -> dict[str, float]:
     """What is noted of a run that ends with its first global slip; NaN without one.
 
     events_counted is that of Fig. 13, mu_sapp Eq. 1. Of the events in which F_X falls
-    by x [N] or more, counted_over_x is the number in Fig. 13, and logged_over_x that in
+    by `DROP` or more, counted_over is the number in Fig. 13, and logged_over that in
     Fig. 13 as a logger at 1 kHz sees them.
     """
     slips = find_slips(run)
@@ -196,10 +196,9 @@ def numbers(run: Record) -> dict[str, float]:
     if math.isnan(friction):
         return {"mu_sapp": friction}
     found = {"events_counted": len(find_precursors(slips)), "mu_sapp": friction}
-    for x in DROPS:
-        for name, table in {"counted": slips, "logged": as_logged(slips)}.items():
-            large = table[table["load_before"] - table["load_after"] >= x]
-            found[f"{name}_over_{x:g}N"] = len(find_precursors(large))
+    for name, table in {"counted": slips, "logged": as_logged(slips)}.items():
+        large = table[table["load_before"] - table["load_after"] >= DROP]
+        found[f"{name}_over_{DROP:g}N"] = len(find_precursors(large))
     return found
 
 
