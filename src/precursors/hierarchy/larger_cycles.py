@@ -192,7 +192,7 @@ def verdicts_table(cycles: pd.DataFrame) -> pd.DataFrame:
         apart = max(
             abs(np.subtract.outer(a, b)).min() for a, b in combinations(values, 2)
         )
-        verdict = verdict_of(within, apart, np.ptp(np.concatenate(values)))
+        verdict = verdict_of(within, apart, np.ptp(of_point["coefficient"]))
         row = dict(zip(LOADINGS, point, strict=True))
         rows.append(row | {"within": within, "apart": apart, "verdict": verdict})
     return pd.DataFrame(rows)

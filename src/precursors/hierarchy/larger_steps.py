@@ -127,9 +127,9 @@ def find_mean_velocities(m, s, last, h, leaps):
     """
     reach = h if leaps else 0.5 * h
     inertia = 0.0 if leaps else 2.0 * m.mass / h
-    load = s.force[0] + reach * m.springs[0] * (m.drive_velocity - s.velocity[0])
-    s.mean[last + 1] = 0.0
     behind = reach * m.springs[0]
+    load = s.force[0] + behind * (m.drive_velocity - s.velocity[0])
+    s.mean[last + 1] = 0.0
     u_behind = m.drive_velocity
     r_behind = 0.0
     for i in range(last + 1):
@@ -169,13 +169,13 @@ def try_step(m, s, last, watched, h, leaps, holds):
         s.new_force[i] += h * m.springs[i] * (behind - moved)
         if s.mode[i] != 0:
             s.new_velocity[i] = moved if leaps else 2.0 * moved - s.velocity[i]
-    part = 1.0
+    part = 2.0
     block = -1
     for i in range(watched):
         if holds and s.mode[i] == 0:
             continue
         at = part_until_change(m, s, i)
-        if at < part or (at == 1.0 and block < 0):
+        if at < part:
             part = at
             block = i
     return part, block
@@ -183,20 +183,21 @@ def try_step(m, s, last, watched, h, leaps, holds):
 
 @compiled
 def part_until_change(m, s, i):
-    """Part of the step at which block i stops or is released; 2 if it does neither."""
+    """Part of the step at which block i stops or is released, so that its velocity or
+    what it could bear beyond its net force becomes zero; 2 if neither does."""
     way = s.mode[i]
     if way != 0:
-        if way * s.new_velocity[i] < 0.0:
-            before = max(way * s.velocity[i], 0.0)
-            return before / abs(s.velocity[i] - s.new_velocity[i])
-        return 2.0
-    net = net_force(m, s.new_force, s.new_velocity, i)
-    side = 1.0 if net > 0.0 else -1.0
-    after = strength(m, s.new_force[0], i) - side * net
+        before = way * s.velocity[i]
+        after = way * s.new_velocity[i]
+    else:
+        net = net_force(m, s.new_force, s.new_velocity, i)
+        side = 1.0 if net > 0.0 else -1.0
+        after = strength(m, s.new_force[0], i) - side * net
+        net = net_force(m, s.force, s.velocity, i)
+        before = strength(m, s.force[0], i) - side * net
     if after >= 0.0:
         return 2.0
-    net = net_force(m, s.force, s.velocity, i)
-    before = max(strength(m, s.force[0], i) - side * net, 0.0)
+    before = max(before, 0.0)
     return before / (before - after)
 
 
