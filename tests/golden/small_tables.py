@@ -257,6 +257,7 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
             "n_blocks": [20],
             "theta": ["-5/6", 0],
             "pairs": [[0.1, 0], [0.2, 2e-4]],
+            "step": 0.25,
         },
         "studies": {
             "counts": {
@@ -265,6 +266,7 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
                 "normal_load": [300],
                 "theta": [0, "5/6"],
                 "runs": 7,
+                "step": 0.25,
             },
             "height": {
                 "pairs": [[0, 0]],
@@ -272,6 +274,7 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
                 "n_blocks": [4],
                 "theta": [0],
                 "runs": 7,
+                "step": 0.01,
             },
         },
     }
@@ -290,6 +293,7 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
                 "n_blocks": [10],
                 "theta": ["-5/6", 0],
                 "runs": 1,
+                "step": 0.25,
             },
         },
     }

@@ -14,6 +14,7 @@ from pandas.testing import assert_frame_equal
 
 from precursors import TransitionLimitError
 from precursors.hierarchy.larger import (
+    STEP,
     LargerChain,
     simulate_larger,
     weakening_velocity,
@@ -34,7 +35,6 @@ from precursors.hierarchy.larger_study import (
     medians_table,
     run_draw,
     run_studies,
-    step_of,
 )
 
 ROOT = Path(__file__).parents[2]
@@ -103,10 +103,24 @@ def test_a_strained_chain_rests_and_loads_with_noise_keep_their_sum():
     assert abs(drawn.chain.weights / weights - 1.0).max() > 0.05
 
 
-def test_a_study_may_have_a_step_and_long_chains_have_a_finer_one():
-    steps = [step_of(chain_of(n, 0.2, 1e-4), {}) for n in (100, 200)]
-    assert steps == [0.25, 0.1]
-    assert step_of(chain_of(100, 0.2, 1e-4), {"step": 0.125}) == 0.125
+def test_a_study_may_have_a_step():
+    study = {"pairs": [[0.2, 1e-4]], "theta": [0], "n_blocks": [10]}
+    for step, expected in (({}, None), ({"step": 0.125}, 0.125)):
+        rows = run_studies(
+            CONFIG["chain"],
+            {"some": study | step},
+            lambda point, larger, step, draw: {"step": step},
+        )
+        assert rows["step"].tolist() == [expected]
+
+
+def test_no_full_study_of_long_chains_has_a_coarse_step():
+    for part in ("larger", "cycles"):
+        here, full = (of["hierarchy"][part]["studies"] for of in (CONFIG, FULL))
+        for name, study in full.items():
+            step = (here.get(name, {}) | study).get("step", STEP)
+            assert step <= (0.1 if max(study["n_blocks"]) >= 200 else 0.25)
+            assert step <= 0.01 or min(study["pairs"])[0] > 0
 
 
 def test_a_block_exactly_at_its_limit_does_not_stop_the_clock():
@@ -173,7 +187,9 @@ def test_a_logger_takes_two_events_within_its_sample_for_one():
 
 def test_the_committed_runs_of_few_blocks_are_those_of_the_library():
     common = CONFIG["hierarchy"]["larger"]
-    study = FULL["hierarchy"]["larger"]["studies"]["counts"]
+    study = (
+        common["studies"]["counts"] | FULL["hierarchy"]["larger"]["studies"]["counts"]
+    )
     study = {**study, "pairs": [[0.2, 2e-4]], "n_blocks": [COARSE]}
     runs = run_studies(CONFIG["chain"], {"counts": study}, partial(run_draw, common))
     again = medians_table(runs)
@@ -186,7 +202,7 @@ def test_the_committed_runs_of_few_blocks_are_those_of_the_library():
 
 def test_the_committed_cycles_are_those_of_the_library():
     full = FULL["hierarchy"]["cycles"]
-    study = full["studies"]["grid"]
+    study = CONFIG["hierarchy"]["cycles"]["studies"]["grid"] | full["studies"]["grid"]
     study = {**study, "pairs": [[0.3, 2e-4]], "n_blocks": [COARSE], "theta": [0]}
     common = {**CONFIG["hierarchy"]["cycles"], **full, "pasts": full["pasts"][:2]}
     grid = {"grid": {**study, "runs": 1}}
@@ -211,7 +227,8 @@ def test_creep_runs_away_within_5_percent_of_l_c_for_every_loading(n):
 
 
 def test_counts_settle_for_every_loading():
-    table = committed("larger").query("study == 'counts'")
+    table = committed("larger")
+    table = table[table["study"].str.startswith("counts")]
     counts = table.pivot_table(
         index=["length", "relaxation_time", "theta"],
         columns="n_blocks",

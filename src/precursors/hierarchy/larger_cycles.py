@@ -50,7 +50,7 @@ def run_past(
     settings: Mapping[str, Any],
     point: dict[str, Any],
     larger: LargerChain,
-    step: float,
+    step: float | None,
     index: int,
 ) -> dict[str, Any]:
     """Run a chain from one of many pasts until it settles: point, index of the past,

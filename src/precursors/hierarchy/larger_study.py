@@ -32,13 +32,6 @@ from precursors.support.waiting import in_threads
 SEEN = 0.002
 DROP = 0.4  # of F_X [N], from which an event is large
 SAMPLE = 1e-3  # s: a logger at 1 kHz takes two events with a shorter rest for one
-# Steps of `simulate_larger`. With 200 blocks, 0.25 shifts mu_sapp by 0.006 at
-# t_v = 0.2 ms. The tables say what half the step changes: which event becomes the
-# global slip may depend on it.
-STEP = 0.25
-FINE_STEP = 0.1
-FINE_FROM = 200  # blocks
-STEP_OF_COULOMB = 0.01
 POINT = [
     "study",
     "length",
@@ -60,7 +53,7 @@ def points(
 
     `slider` has the arguments of `Chain.from_slider`. `study` has pairs of l_c/L (for
     an even load; 0 is Coulomb friction) and t_v [s], theta, n_blocks, and optionally
-    push_height [m], normal_load [N] and the step (`step_of`). v_c is that of the pair at the slider's own
+    push_height [m] and normal_load [N]. v_c is that of the pair at the slider's own
     normal load. critical_length is l_c/L at the point itself.
     """
     axes = {"push_height": [0.0], "normal_load": [slider["normal_load"]], **study}
@@ -75,16 +68,6 @@ def points(
         yield dict(zip(POINT, values, strict=True)), larger
 
 
-def step_of(larger: LargerChain, study: Mapping[str, Any]) -> float:
-    """Step of `simulate_larger`: that of a study, or one that is fine enough for the
-    tables."""
-    if "step" in study:
-        return float(study["step"])
-    if not larger.weakening_velocity:
-        return STEP_OF_COULOMB
-    return STEP if larger.chain.n_blocks < FINE_FROM else FINE_STEP
-
-
 def run_studies(
     slider: Mapping[str, Any],
     studies: Mapping[str, Mapping[str, Any]],
@@ -93,12 +76,12 @@ def run_studies(
 ) -> pd.DataFrame:
     """Run every point of some studies, on all threads: a row for each point and draw.
 
-    A study is that of `points`, with the number of `runs` (by default one), each of
-    them repeated so many times. `run` (point, chain, step, number of the draw) returns
-    a row.
+    A study is that of `points`; it may have the step of `simulate_larger`, and the
+    number of `runs` (by default one), each of them repeated so many times. `run`
+    (point, chain, step, number of the draw) returns a row.
     """
     tasks = [
-        partial(run, point, larger, step_of(larger, study), draw)
+        partial(run, point, larger, study.get("step"), draw)
         for name, study in studies.items()
         for point, larger in points(slider, name, study)
         for draw in range(repeats * study.get("runs", 1))
@@ -121,7 +104,7 @@ def larger_tables(
 
 
 def run_creep(
-    point: dict[str, Any], larger: LargerChain, step: float, _: int
+    point: dict[str, Any], larger: LargerChain, step: float | None, _: int
 ) -> dict[str, Any]:
     """Length at which smooth growth ends: a row of larger_nucleation.csv.
 
@@ -154,7 +137,7 @@ def run_draw(
     settings: Mapping[str, Any],
     point: dict[str, Any],
     larger: LargerChain,
-    step: float,
+    step: float | None,
     draw: int,
 ) -> dict[str, Any]:
     """Run a chain to its first global slip: point, and `numbers` of the run.
@@ -168,14 +151,15 @@ def run_draw(
     noise = 1.0 + settings["noise"] * random.uniform(-1.0, 1.0, n)
     chain = replace(larger.chain, weights=larger.chain.weights * noise)
     drawn = replace(larger, chain=chain)
-    found = numbers(run_to_slip(drawn, step))
+    run = run_to_slip(drawn, step)
+    found = numbers(run)
     if draw == 0 and larger.weakening_velocity:
-        finer = apparent_friction(run_to_slip(drawn, step / 2.0))
+        finer = apparent_friction(run_to_slip(drawn, run.larger["step"] / 2.0))
         found["halved_mu_sapp"] = abs(finer - found["mu_sapp"])
     return point | found
 
 
-def run_to_slip(larger: LargerChain, step: float) -> Record:
+def run_to_slip(larger: LargerChain, step: float | None) -> Any:
     """Run to the end of the first global slip; the paper's chain by its own solver,
     which is faster."""
     limit = longest_run(larger.chain) / 4.0
