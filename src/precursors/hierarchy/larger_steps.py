@@ -23,7 +23,7 @@ SETTLED = 1e-4
 REPEATS = 4
 LONGEST_PERIOD = 4
 MOST_STALLED = 4  # times the number of blocks: steps that end where they begin
-BEGIN, N_FAST, IS_GLOBAL = range(3)  # of an event: first row, blocks, whether global
+BEGIN, IS_GLOBAL = range(2)  # of an event: first row, whether it is a global slip
 
 compiled = entry(
     Path(__file__).parent, ["larger_steps.py"], error_model="numpy", nogil=True
@@ -322,10 +322,9 @@ def note(m, s, record, watched, load_before, time, h):
         way = s.mode[i] if speed > slow or slow == 0.0 else 0
         if way == s.seen[i]:
             continue
-        if event[N_FAST] == 0:
+        if not s.seen.any():
             event[BEGIN] = len(rows)
             event[IS_GLOBAL] = 0
-        event[N_FAST] += (way != 0) - (s.seen[i] != 0)
         s.seen[i] = way
         at = 1.0  # part of the step
         speed_before = abs(s.velocity_before[i])
@@ -333,8 +332,9 @@ def note(m, s, record, watched, load_before, time, h):
             at = (slow - speed_before) / (speed - speed_before)
         load = load_before + at * (s.force[0] - load_before)
         rows.append((time - (1.0 - at) * h, i + 1.0, float(way), load))
-        event[IS_GLOBAL] |= event[N_FAST] == len(m.weights)
-        if event[N_FAST] == 0:
+        n_fast = np.count_nonzero(s.seen)
+        event[IS_GLOBAL] |= n_fast == len(m.weights)
+        if n_fast == 0:
             onset = rows[event[BEGIN]][3]
             if onset - s.force[0] < smallest_drop:
                 del rows[event[BEGIN] :]
@@ -356,7 +356,7 @@ def march(m, s, end, step, now):
     """
     n = m.weights.shape[0]
     tolerance = SETTLED * m.weights.sum()
-    event = np.zeros(3, np.int64)
+    event = np.zeros(2, np.int64)
     record = Record([(0.0, 0.0, 0.0, 0.0)], [(0.0, s.force[0])], [0.0], event)
     del record.peaks[:]
     time = 0.0
