@@ -132,7 +132,7 @@ def limits_table(
         above = own.groupby("n_blocks")["mu_sapp"].median() - mu_k
         inverse = 1.0 / above.index.to_numpy(float)
         b = inverse @ above / (inverse @ inverse)
-        row = {"scene": scene, "quantity": "mu_sapp", "a": mu_k, "b": b}
+        row = {"scene": scene, "a": mu_k, "b": b}
         misfit = np.abs(above - b * inverse).max()
         rows.append(row | {"misfit": misfit, "n_points": len(above)})
     return pd.DataFrame(rows)

@@ -18,9 +18,7 @@ def draw(table: pd.DataFrame) -> Figure:
     digit.
     """
     uniform = table["other_theta"].abs().min()
-    differences = table[
-        table["quantity"].eq("mu_sapp") & table["other_theta"].eq(uniform)
-    ]
+    differences = table[table["other_theta"].eq(uniform)]
     with style.page(style.COLUMN_MM, HEIGHT_MM) as figure:
         axes = figure.subplots()
         for theta, rows in differences.groupby("theta"):
