@@ -13,7 +13,6 @@ from reference.goldens import SCENES
 from precursors import TransitionLimitError, find_slips, simulate
 from precursors.analysis.slips import first_global
 from precursors.model.statics import maximal_strain_positions
-from precursors.solver import batch as exact
 from precursors.solver.simulate import checked_end
 
 # What the project promises [s].
@@ -125,8 +124,8 @@ def test_a_cap_that_is_just_enough_raises_nothing():
 
 
 def test_a_chain_that_slides_without_end_meets_a_cap_on_work(monkeypatch):
-    monkeypatch.setattr(exact, "MAX_WINDOWS", 1000)
-    monkeypatch.setattr(exact, "WINDOWS_PER_CALL", 400)
+    monkeypatch.setattr("precursors.solver.simulate.MAX_WINDOWS", 1000)
+    monkeypatch.setattr("precursors.solver.batch.WINDOWS_PER_CALL", 400)
     with pytest.raises(
         TransitionLimitError, match=r"^1000 steps .* at t = \S+ s of 1 s.*shorten"
     ) as error:

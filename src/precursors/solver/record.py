@@ -14,6 +14,7 @@ IntArray = NDArray[np.int64]
 TRANSITION = np.dtype(
     [("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")]
 )
+COLUMNS = list(TRANSITION.names or ())
 
 
 class States(NamedTuple):
@@ -40,8 +41,3 @@ class States(NamedTuple):
             after=rows[:, 0].astype(np.int64),
             offset=rows[:, 1].copy(),
         )
-
-
-def room_for_states(n_states: int, n_blocks: int) -> FloatArray:
-    """Room for the rows of states of N blocks."""
-    return np.empty((n_states, 2 + 3 * n_blocks))

@@ -18,7 +18,8 @@ from precursors.model.checks import (
     positive,
     whole,
 )
-from precursors.solver.batch import End, TransitionLimitError, run_batch
+from precursors.solver.batch import TransitionLimitError, run_batch
+from precursors.solver.kernel import End
 from precursors.solver.run import Run
 
 __all__ = ["MAX_TRANSITIONS", "TransitionLimitError", "simulate"]
@@ -26,6 +27,9 @@ __all__ = ["MAX_TRANSITIONS", "TransitionLimitError", "simulate"]
 MAX_TRANSITIONS = 10_000_000
 # Chains of more blocks have long fronts, with which a transition takes ten times as long.
 MANY_BLOCKS = 500
+# Blocks that slide without end would keep the kernel busy for ever: some 10 minutes at
+# N = 10.
+MAX_WINDOWS = 1_000_000_000
 
 
 Own = TypeVar("Own", covariant=True)  # what a chain with its own solver gives
@@ -125,7 +129,8 @@ def checked_end(
         is_long = any(chain.n_blocks > MANY_BLOCKS for chain in chains)
         most = MAX_TRANSITIONS // 10 if is_long else MAX_TRANSITIONS
     most = whole("max_transitions", most)
-    return End(checked_span(duration, until), until is not None, longest, most)
+    span = checked_span(duration, until)
+    return End(span, until is not None, longest, most, MAX_WINDOWS)
 
 
 def checked_start(

@@ -44,7 +44,7 @@ from precursors.solver.kernel.arrays import (
     PROGRESS,
     ROW,
     Batch,
-    Limits,
+    End,
     memory_for,
     words,
 )

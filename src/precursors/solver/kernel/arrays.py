@@ -93,30 +93,22 @@ class Batch(NamedTuple):
     velocities: FloatArray
 
 
-class Limits(NamedTuple):
-    """Where a run ends or pauses.
-
-    It ends at `duration` [s], after a global slip, or when one slip has lasted
-    `longest_slip` [s]. It pauses when it has so many transitions, states, or windows in
-    this call. A state is stored after every `stride` transitions or so. With `goes_on`,
-    the run is one that was paused.
-    """
+class End(NamedTuple):
+    """Where runs end: at a time [s], after a global slip, in a slip so long [s], and
+    with an error after so many transitions or windows."""
 
     duration: float
     until_global: bool
     longest_slip: float
-    transitions: int
-    states: int
-    windows: int
-    stride: int
-    goes_on: bool
+    most: int
+    most_windows: int
 
 
 # Where a run is: tau [s]; time of the event's onset in two doubles [s], time since then
 # and since the last transition [tau]; numbers of transitions, sliding blocks, stored
-# states, windows, derivatives of single blocks, searches of a function and steps to
-# roots; whether all blocks slid at once; how it ended; a block beyond which none
-# slides; windows on end in which time stood still.
+# states, transitions between two of these, windows, derivatives of single blocks,
+# searches of a function and steps to roots; whether all blocks slid at once; how it
+# ended; a block beyond which none slides; windows on end in which time stood still.
 PROGRESS = np.dtype(
     [(name, "f8") for name in ("tau", "onset", "onset_error", "elapsed", "since")]
     + [
@@ -125,6 +117,7 @@ PROGRESS = np.dtype(
             "transitions",
             "sliding",
             "stored",
+            "stride",
             "windows",
             "derivatives",
             "searches",
@@ -137,33 +130,17 @@ PROGRESS = np.dtype(
     ]
 )
 progress_at = cast_to(from_dtype(PROGRESS))
-Progress = NDArray[np.void]
 
-# A transition and the interval before it [s]. After the last of a run comes the
-# interval to its end.
-ROW = np.dtype(
-    [
-        ("time", "f8"),
-        ("block", "i8"),
-        ("mode", "i8"),
-        ("tangential_load", "f8"),
-        ("interval", "f8"),
-    ]
-)
-_row_at = cast_to(from_dtype(ROW))
-ROW_BYTES = ROW.itemsize
+# Numbers in a row of a record: a transition's time [s], block, mode, tangential load
+# [N], and the interval before it [s]. After the last of a run comes the time that is
+# reached, and the interval before that.
+ROW = 5
 
 
 def words(records: NDArray[np.void]) -> IntArray:
     """The memory of records, a row each; Numba takes long to recognise an array of
     records."""
     return records.view(np.int64).reshape(len(records), -1)
-
-
-@register_jitable
-def recorded(k, record):
-    """Transition k of a record at an address."""
-    return _row_at(record + k * ROW_BYTES)
 
 
 def memory_for(n_blocks: int) -> FloatArray:

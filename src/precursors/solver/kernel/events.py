@@ -3,7 +3,7 @@ record."""
 
 from __future__ import annotations
 
-from precursors.solver.kernel.arrays import progress_at, recorded
+from precursors.solver.kernel.arrays import ROW, progress_at
 from precursors.solver.kernel.compiled import (
     inner,
     inner_unfused,
@@ -21,6 +21,7 @@ from precursors.solver.kernel.friction import (
 from precursors.solver.kernel.guess import LEAST, MARGIN, NEAR, find_root, guess
 from precursors.solver.kernel.layout import (
     FINISHED,
+    FIRST_ROOM,
     PAUSED,
     PROOF_ORDER,
     ROUNDINGS,
@@ -44,47 +45,55 @@ from precursors.solver.kernel.units import lay_out
 
 
 @outer
-def run_batch(batch, limits, progress, record, states, memory):
-    """Run chain after chain from its start, as many as there is room for, into one
-    record.
+def run_batch(batch, end, progress, record, states, memory, first, windows):
+    """Run chain after chain, from the first that is not finished on, into one record.
 
     Row j of `batch` is a chain with its start, row j of `progress` has the words of
-    where it ended. Limits are those of each chain. Returns how many chains are finished
-    and whether the one after them is paused: its state is in `memory`, and what it
-    recorded follows that of the others. A paused run can continue only if it is alone
-    in its batch.
+    where it is. Returns how many chains are finished, and how many rows and states they
+    took. The chain after them has not begun, or is paused as the record is full or so
+    many windows were gone through in this call. Then its state is in `memory`, and what
+    it recorded follows that of the others; it goes on in a record that begins with it.
     """
     n_blocks = batch.weights.shape[1]
-    used = stored = windows = 0
-    for j in range(batch.weights.shape[0]):
-        if not limits.goes_on:
-            full = used + max(limits.transitions, n_blocks) >= record.shape[0]
+    used = stored = gone_through = 0
+    for j in range(first, batch.weights.shape[0]):
+        mine = progress_at(row_address(progress, j))
+        is_new = mine.stored == 0
+        if is_new:
             if (
-                full
-                or stored + limits.states > states.shape[0]
-                or windows > limits.windows
+                used + max(FIRST_ROOM, n_blocks) >= record.shape[0]
+                or stored == states.shape[0]
+                or gone_through > windows
             ):
-                return j, False
+                return j, used, stored
             memory[:] = 0.0
         chain, motion = lay_out(batch.parameters[j], batch.weights[j], memory)
-        mine = progress_at(row_address(progress, j))
         my_record = row_address(record, used)
         my_states = row_address(states, stored)
-        if not limits.goes_on:
+        if is_new:
             start = batch.positions[j], batch.velocities[j]
             take_start(
                 start, batch.parameters[j], chain, motion, mine, my_record, my_states
             )
-        mine.status = find_transitions(
-            chain, motion, limits, mine, my_record, my_states
+        limits = (
+            min(end.most, record.shape[0] - used - 1),
+            states.shape[0] - stored,
+            mine.windows + windows,
         )
-        if mine.status == PAUSED:
-            return j, True
-        recorded(mine.transitions, my_record).interval = mine.since * mine.tau
+        mine.status = find_transitions(
+            chain, motion, end, limits, mine, my_record, my_states
+        )
+        note_time(mine, my_record)
+        if (
+            mine.status == PAUSED
+            and mine.transitions < end.most
+            and mine.windows < end.most_windows
+        ):
+            return j, used, stored
         used += mine.transitions + 1
         stored += mine.stored
-        windows += mine.windows
-    return batch.weights.shape[0], False
+        gone_through += mine.windows
+    return batch.weights.shape[0], used, stored
 
 
 @unfused
@@ -122,28 +131,28 @@ def take_start(start, parameters, chain, motion, progress, record, states):
 
 
 @unfused
-def find_transitions(chain, motion, limits, progress, record, states):
-    """Run a chain until `duration` [s], the end of the first global slip, full records
-    or enough windows.
+def find_transitions(chain, motion, end, limits, progress, record, states):
+    """Run a chain until its end, or until it has so many transitions, states or
+    windows.
 
     The state and `progress` are left at the time reached; record and states are filled
     from where it says.
     """
     status = PAUSED
-    last_window = progress.windows + limits.windows
+    most, most_states, most_windows = limits
     while (
         status == PAUSED
-        and progress.transitions < limits.transitions
-        and progress.windows < last_window
-        and progress.stored < limits.states
+        and progress.transitions < most
+        and progress.stored < most_states
+        and progress.windows < most_windows
     ):
         progress.windows += 1
-        if progress.transitions >= limits.stride * progress.stored:
+        if progress.transitions >= progress.stride * progress.stored:
             store_state(chain, motion, progress, states)
         if progress.sliding == 0:
-            status = rest(chain, motion, limits, progress, record)
+            status = rest(chain, motion, end, progress, record)
         else:
-            status = slide(chain, motion, limits, progress, record)
+            status = slide(chain, motion, end, progress, record)
     return status
 
 
@@ -162,21 +171,21 @@ def store_state(chain, motion, progress, states):
 
 
 @inner_unfused
-def time_left(limits, progress):
+def time_left(end, progress):
     """Time until the end of the run [tau]."""
-    since_onset = (limits.duration - progress.onset) - progress.onset_error
+    since_onset = (end.duration - progress.onset) - progress.onset_error
     return since_onset / progress.tau - progress.elapsed
 
 
 @inner_unfused
-def rest(chain, motion, limits, progress, record):
+def rest(chain, motion, end, progress, record):
     """All blocks stick: end the run, or wait in closed form until block 1 lets go."""
-    if limits.until_global and progress.all_slid != 0:
+    if end.until_global and progress.all_slid != 0:
         return STOPPED
     force = motion.spring_force
     second = motion.force_rest
     block_1 = 1
-    remaining = max(time_left(limits, progress), 0.0)
+    remaining = max(time_left(end, progress), 0.0)
     loading_rate = chain.coupling[1] * chain.drive_velocity
     wait = max((chain.strength[1] - motion.net_force[1]) / loading_rate, 0.0)
     if wait >= remaining:
@@ -214,25 +223,30 @@ def count_sliding(more, chain, progress):
 
 
 @inner_unfused
+def note_time(progress, record):
+    """Record the time, after the transitions so far; return the row."""
+    row = numbers(record + EIGHT * progress.transitions * ROW)
+    row[0] = progress.onset + (progress.onset_error + progress.elapsed * progress.tau)
+    row[4] = progress.since * progress.tau
+    return row
+
+
+@inner_unfused
 def note_transition(i, new, load, progress, record):
     """Record that block i has a new mode now."""
-    transition = recorded(progress.transitions, record)
-    transition.time = progress.onset + (
-        progress.onset_error + progress.elapsed * progress.tau
-    )
-    transition.block = i
-    transition.mode = new
-    transition.tangential_load = load
-    transition.interval = progress.since * progress.tau
+    row = note_time(progress, record)
+    row[1] = i
+    row[2] = new
+    row[3] = load
     progress.since = 0.0
     progress.transitions += 1
 
 
 @inner_unfused
-def slide(chain, motion, limits, progress, record):
+def slide(chain, motion, end, progress, record):
     """Go through one window, to its first transition or to its end."""
-    remaining = time_left(limits, progress)
-    left_of_slip = limits.longest_slip / chain.tau - progress.elapsed
+    remaining = time_left(end, progress)
+    left_of_slip = end.longest_slip / chain.tau - progress.elapsed
     if remaining <= 0.0:
         return FINISHED
     if left_of_slip <= 0.0:

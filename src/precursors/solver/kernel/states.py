@@ -6,12 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from precursors.model.chain import Chain, FloatArray
-from precursors.solver.kernel.arrays import ROW, memory_for, recorded, words
+from precursors.solver.kernel.arrays import memory_for
 from precursors.solver.kernel.compiled import inner, outer, unfused
 from precursors.solver.kernel.events import last_column
 from precursors.solver.kernel.friction import farthest_sliding, set_mode, take_mode
 from precursors.solver.kernel.layout import WINDOW
-from precursors.solver.kernel.pointers import row_address
 from precursors.solver.kernel.series import (
     begin,
     expand,
@@ -20,7 +19,7 @@ from precursors.solver.kernel.series import (
     take_net_force,
 )
 from precursors.solver.kernel.units import lay_out, parameters
-from precursors.solver.record import TRANSITION, States
+from precursors.solver.record import States
 
 
 def evaluate(
@@ -32,58 +31,62 @@ def evaluate(
 ) -> tuple[FloatArray, FloatArray]:
     """Spring forces [N] and velocities [m/s] of the blocks at each of `sorted_times`
     [s]."""
-    record = np.zeros(len(intervals), ROW)
-    for name in TRANSITION.names or ():
-        record[name][:-1] = transitions[name]
-    record["time"][-1] = np.inf  # after the last transition none comes any more
-    record["interval"] = intervals
+    # Times of the start and of the transitions; the state stored last at each time.
+    instants = np.append(0.0, transitions["time"])
+    stored = instants[states.after] + states.offset
+    nearest = np.searchsorted(stored, sorted_times, side="right") - 1
     found = np.empty((2, len(sorted_times), chain.n_blocks))
-    numbers = np.array(parameters(chain))
-    weights = np.array(chain.weights)
     go_through(
-        numbers,
-        weights,
+        np.array(parameters(chain)),
+        np.array(chain.weights),
         sorted_times,
         found,
-        words(record),
+        instants,
+        intervals,
+        transitions["block"].astype(np.int64),
+        transitions["mode"].astype(np.int64),
         states,
+        nearest,
         memory_for(chain.n_blocks),
     )
     return found[0], found[1]
 
 
 @outer
-def go_through(parameters, weights, times, found, record, states, memory):
+def go_through(
+    parameters,
+    weights,
+    times,
+    found,
+    instants,
+    intervals,
+    blocks,
+    modes,
+    states,
+    nearest,
+    memory,
+):
     """Fill `found` with spring forces and velocities, from stored states and
     transitions."""
     chain, motion = lay_out(parameters, weights, memory)
-    rows = row_address(record, 0)
     # Velocities and spring forces in two doubles stand side by side: what a motion
     # changes for good.
     state = memory[3 * motion.wide : 6 * motion.wide]
     before = np.empty_like(state)
-    nearest = 0
     done = 0
     offset = states.offset[0]
     take_state(0, states, chain, motion)
-    for q in range(times.shape[0]):
-        stored = nearest
-        while nearest + 1 < states.after.shape[0] and (
-            time_of(states.after[nearest + 1], rows) + states.offset[nearest + 1]
-            <= times[q]
-        ):
-            nearest += 1
-        if nearest > stored and states.after[nearest] > done:
-            done = states.after[nearest]
-            offset = states.offset[nearest]
-            take_state(nearest, states, chain, motion)
-        while recorded(done, rows).time <= times[q]:
-            transition = recorded(done, rows)
-            propagate((transition.interval - offset) / chain.tau, chain, motion)
-            set_mode(transition.block, transition.mode, chain, motion)
+    for q in range(times.size):
+        if states.after[nearest[q]] > done:
+            done = states.after[nearest[q]]
+            offset = states.offset[nearest[q]]
+            take_state(nearest[q], states, chain, motion)
+        while done < blocks.size and instants[done + 1] <= times[q]:
+            propagate((intervals[done] - offset) / chain.tau, chain, motion)
+            set_mode(blocks[done], modes[done], chain, motion)
             done += 1
             offset = 0.0
-        since = times[q] - time_of(done, rows)
+        since = times[q] - instants[done]
         # Whole windows are gone through once, so that many times in one slip cost no
         # more than the slip.
         is_moving = motion.mode[farthest_sliding(chain.n_blocks, motion.mode)] != 0
@@ -96,12 +99,6 @@ def go_through(parameters, weights, times, found, record, states, memory):
             found[0, q, i] = motion.spring_force[i + 1]
             found[1, q, i] = motion.velocity[i + 1] * chain.speed
         state[:] = before
-
-
-@inner
-def time_of(n, rows):
-    """Time of the n-th transition; 0 at the start."""
-    return recorded(n - 1, rows).time if n > 0 else 0.0
 
 
 @inner
