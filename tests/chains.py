@@ -37,7 +37,7 @@ def by_plain(
     names = ("start_positions", "start_velocities")
     at = [np.array(start.get(name, np.zeros(chain.n_blocks))) for name in names]
     state = plain.at_start(chain, *at)
-    rows, end, _ = plain.find_transitions(
+    rows, end = plain.find_transitions(
         chain, state, duration, until_global, np.inf, most
     )
     return np.array(rows, float).reshape(-1, 5), end

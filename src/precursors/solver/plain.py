@@ -187,9 +187,9 @@ def find_transitions(
     until_global: bool,
     longest_slip: float,
     most: int,
-) -> tuple[list[tuple[float, float, int, int, float]], float, float]:
-    """Transitions (time, time since the last, block, mode, load); time of the end, and
-    since the last."""
+) -> tuple[list[tuple[float, float, int, int, float]], float]:
+    """Transitions (time, time since the last, block, mode, load), and the time of the
+    end."""
     rows = [
         (0.0, 0.0, int(i), int(state.mode[i]), state.force[1])
         for i in np.flatnonzero(state.mode)
@@ -228,4 +228,4 @@ def find_transitions(
             state.mode[block] = new
             rows.append((onset + elapsed, since, block, new, state.force[1]))
             since = 0.0
-    return rows, onset + elapsed, since
+    return rows, onset + elapsed

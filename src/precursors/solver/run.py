@@ -67,7 +67,7 @@ class Record:
         `intervals` are by default differences of `time`, whose rounding grows with the
         time; `others` are further attributes of the class.
         """
-        transitions = np.empty(len(np.atleast_1d(np.asarray(time))), dtype=TRANSITION)
+        transitions = np.empty(np.size(time), dtype=TRANSITION)
         transitions["time"] = time
         transitions["block"] = block
         transitions["mode"] = mode
@@ -95,19 +95,17 @@ class Record:
         states.
         """
         content = read_record(path)
-        found: Record
+        kind: type[Record] = Record
         if "states" in content:
-            found = Run(**content)
+            kind = Run
         elif "load_points" in content:
-            found = LargerRun(**content)
-        else:
-            found = Record(**content)
-        if not isinstance(found, cls):
+            kind = LargerRun
+        if not issubclass(kind, cls):
             raise RunFileError(
-                f"{path} holds a {type(found).__name__} and not a {cls.__name__}: "
+                f"{path} holds a {kind.__name__} and not a {cls.__name__}: "
                 "Record.load reads it"
             )
-        return found
+        return kind(**content)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -171,17 +171,26 @@ def divide(memory, n_blocks):
     def at(k):
         return shifted(start, k * wide)
 
-    mode = whole_numbers(memory.ctypes.data + 7 * EIGHT * wide)
-    open = whole_numbers(memory.ctypes.data + 16 * EIGHT * wide)
-    state = at(3), at(4), at(5), at(6), mode, at(8), at(9), at(10), at(11)
-    window = at(12), at(13), at(14), at(15), open
-    of_terms = (
-        shifted(start, terms),
-        shifted(start, terms + TERMS),
-        shifted(start, terms + 2 * TERMS),
-    )
     return (start, at(1), at(2)), MotionArrays(
-        *(state + window + of_terms + (at(3 + BY_COLUMN), wide))
+        velocity=at(3),
+        spring_force=at(4),
+        force_rest=at(5),
+        net_force=at(6),
+        mode=whole_numbers(memory.ctypes.data + 7 * EIGHT * wide),
+        slides=at(8),
+        push=at(9),
+        hold=at(10),
+        felt=at(11),
+        sign=at(12),
+        force_before=at(13),
+        rest_before=at(14),
+        slip=at(15),
+        open=whole_numbers(memory.ctypes.data + 16 * EIGHT * wide),
+        whole=shifted(start, terms),
+        weight=shifted(start, terms + TERMS),
+        series=shifted(start, terms + 2 * TERMS),
+        rate=at(3 + BY_COLUMN),
+        wide=wide,
     )
 
 

@@ -22,77 +22,69 @@ def expand(start, order, end, chain, motion):
     three groups of blocks stay in registers from row to row, even and odd rows side by
     side.
     """
-    coupling = chain.coupling
     still = lanes.spread(0.0)
     drive = lanes.spread(row(start - 2, motion)[0])
-    groups = end // WIDTH
-    if groups == 1:
-        b1, a1, c1, m1, even1, odd1 = ready(start, 1, coupling, motion)
+    n_groups = end // WIDTH
+    if n_groups == 1:
+        group1, even1, odd1 = ready(start, 1, chain, motion)
         for n in range(start, order + 1, 2):
-            even1 = row_from(drive, even1, still, b1, a1, c1, m1, n, 1, motion)
-            odd1 = row_from(still, odd1, still, b1, a1, c1, m1, n + 1, 1, motion)
+            even1 = row_from(drive, even1, still, group1, n, motion)
+            odd1 = row_from(still, odd1, still, group1, n + 1, motion)
             drive = still
-    elif groups == 2:
-        b1, a1, c1, m1, even1, odd1 = ready(start, 1, coupling, motion)
-        b2, a2, c2, m2, even2, odd2 = ready(start, 1 + WIDTH, coupling, motion)
+    elif n_groups == 2:
+        group1, even1, odd1 = ready(start, 1, chain, motion)
+        group2, even2, odd2 = ready(start, 1 + WIDTH, chain, motion)
+        pair = group1, group2
         for n in range(start, order + 1, 2):
-            v1 = even1
-            v2 = even2
-            even1 = row_from(drive, v1, v2, b1, a1, c1, m1, n, 1, motion)
-            even2 = row_from(v1, v2, still, b2, a2, c2, m2, n, 1 + WIDTH, motion)
-            v1 = odd1
-            v2 = odd2
-            odd1 = row_from(still, v1, v2, b1, a1, c1, m1, n + 1, 1, motion)
-            odd2 = row_from(v1, v2, still, b2, a2, c2, m2, n + 1, 1 + WIDTH, motion)
+            even1, even2 = two_rows(drive, even1, even2, pair, n, motion)
+            odd1, odd2 = two_rows(still, odd1, odd2, pair, n + 1, motion)
             drive = still
-    elif groups == 3:
-        b1, a1, c1, m1, even1, odd1 = ready(start, 1, coupling, motion)
-        b2, a2, c2, m2, even2, odd2 = ready(start, 1 + WIDTH, coupling, motion)
-        b3, a3, c3, m3, even3, odd3 = ready(start, 1 + 2 * WIDTH, coupling, motion)
+    elif n_groups == 3:
+        group1, even1, odd1 = ready(start, 1, chain, motion)
+        group2, even2, odd2 = ready(start, 1 + WIDTH, chain, motion)
+        group3, even3, odd3 = ready(start, 1 + 2 * WIDTH, chain, motion)
+        groups = group1, group2, group3
         for n in range(start, order + 1, 2):
-            v1 = even1
-            v2 = even2
-            v3 = even3
-            even1 = row_from(drive, v1, v2, b1, a1, c1, m1, n, 1, motion)
-            even2 = row_from(v1, v2, v3, b2, a2, c2, m2, n, 1 + WIDTH, motion)
-            even3 = row_from(v2, v3, still, b3, a3, c3, m3, n, 1 + 2 * WIDTH, motion)
-            v1 = odd1
-            v2 = odd2
-            v3 = odd3
-            odd1 = row_from(still, v1, v2, b1, a1, c1, m1, n + 1, 1, motion)
-            odd2 = row_from(v1, v2, v3, b2, a2, c2, m2, n + 1, 1 + WIDTH, motion)
-            odd3 = row_from(v2, v3, still, b3, a3, c3, m3, n + 1, 1 + 2 * WIDTH, motion)
+            even1, even2, even3 = three_rows(
+                drive, even1, even2, even3, groups, n, motion
+            )
+            odd1, odd2, odd3 = three_rows(
+                still, odd1, odd2, odd3, groups, n + 1, motion
+            )
             drive = still
     else:
-        for n in range(start - 2, order):
-            moves = lanes.load(motion.slides, 1)
-            here = lanes.only(moves, lanes.load(row(n, motion), 1))
-            left = lanes.spread(row(n, motion)[0])
+        for n in range(start, order + 2):
+            left = lanes.spread(row(n - 2, motion)[0])
+            _, here, _ = ready(n, 1, chain, motion)
             for i in range(1, end + 1, WIDTH):
-                right = still
-                move_right = still
-                if i + WIDTH <= end:
-                    move_right = lanes.load(motion.slides, i + WIDTH)
-                    right = lanes.only(
-                        move_right, lanes.load(row(n, motion), i + WIDTH)
-                    )
-                behind = lanes.load(coupling, i)
-                ahead = lanes.load(coupling, i + 1)
-                row_from(
-                    left,
-                    here,
-                    right,
-                    behind,
-                    ahead,
-                    behind + ahead,
-                    moves,
-                    n + 2,
-                    i,
-                    motion,
-                )
+                group, _, _ = ready(n, i, chain, motion)
+                _, right, _ = ready(n, i + WIDTH, chain, motion)
+                row_from(left, here, right, group, n, motion)
                 left = here
                 here = right
-                moves = move_right
+
+
+@inner
+def two_rows(left, v1, v2, pair, n, motion):
+    """Row n of two groups."""
+    still = lanes.spread(0.0)
+    group1, group2 = pair
+    return (
+        row_from(left, v1, v2, group1, n, motion),
+        row_from(v1, v2, still, group2, n, motion),
+    )
+
+
+@inner
+def three_rows(left, v1, v2, v3, groups, n, motion):
+    """Row n of three groups."""
+    still = lanes.spread(0.0)
+    group1, group2, group3 = groups
+    return (
+        row_from(left, v1, v2, group1, n, motion),
+        row_from(v1, v2, v3, group2, n, motion),
+        row_from(v2, v3, still, group3, n, motion),
+    )
 
 
 @inner
@@ -115,28 +107,26 @@ def begin(end, motion):
 
 
 @inner
-def ready(start, i, coupling, motion):
-    """Stiffness behind and ahead of a group and its sum, which blocks move, two rows
-    before `start`."""
-    behind = lanes.load(coupling, i)
-    ahead = lanes.load(coupling, i + 1)
+def ready(start, i, chain, motion):
+    """A group from block i on, and the two rows before `start`, zero where blocks stick.
+
+    A group is i, the stiffness behind and ahead of its blocks and their sum, and which
+    of them move.
+    """
+    behind = lanes.load(chain.coupling, i)
+    ahead = lanes.load(chain.coupling, i + 1)
     moves = lanes.load(motion.slides, i)
     even = lanes.load(row(start - 2, motion), i)
     odd = lanes.load(row(start - 1, motion), i)
-    return (
-        behind,
-        ahead,
-        behind + ahead,
-        moves,
-        lanes.only(moves, even),
-        lanes.only(moves, odd),
-    )
+    group = i, behind, ahead, behind + ahead, moves
+    return group, lanes.only(moves, even), lanes.only(moves, odd)
 
 
 @inner
-def row_from(left, here, right, behind, ahead, both, moves, n, i, motion):
+def row_from(left, here, right, group, n, motion):
     """Store row n of a group from the row two before, `here`; return it with zero where
     blocks stick."""
+    i, behind, ahead, both, moves = group
     found = (behind * lanes.behind(left, here) - both * here) + ahead * lanes.ahead(
         here, right
     )
