@@ -69,7 +69,7 @@ def run_batch(
     positions: FloatArray,
     velocities: FloatArray,
     end: kernel.End,
-) -> list[Run]:
+) -> Iterator[Run]:
     """Run chains of equal length one after the other, in as few calls of the kernel as
     it takes."""
     work = _workspace_for(chains[0].n_blocks)
@@ -79,48 +79,44 @@ def run_batch(
         positions=positions,
         velocities=velocities,
     )
-    progress = np.zeros(len(chains), kernel.PROGRESS)
+    words = np.zeros((len(chains), kernel.WORDS), np.int64)
+    progress = words.view(kernel.PROGRESS)[:, 0]
     progress["stride"] = work.stride
-    record = work.record
-    states = work.states
-    runs: list[Run] = []
     telling = tell("running", count(), lambda: progress["onset"].mean() / end.duration)
-    while True:
+    first = n_rows = n_states = 0
+    while first < len(chains):
+        run = progress[first]
+        if run["stored"] == 0:  # it has not begun
+            record = work.record
+            states = work.states
+        else:
+            next(telling)
+            record = record[n_rows:]
+            states = states[n_states:]
+            if run["transitions"] + 1 == len(record):
+                record = np.resize(record, (2 * len(record), kernel.ROW))
+            if run["stored"] == len(states):
+                states = _with_room(states, run)
         n_finished, n_rows, n_states = kernel.run_batch(
             batch,
             end,
-            kernel.words(progress),
+            words,
             record,
             states,
             work.memory,
-            len(runs),
+            first,
             WINDOWS_PER_CALL,
         )
-        runs.extend(
-            _runs(
-                chains,
-                batch,
-                progress,
-                range(len(runs), n_finished),
-                record[:n_rows],
-                states[:n_states],
-                end,
-            )
+        yield from _runs(
+            chains,
+            batch,
+            progress,
+            range(first, n_finished),
+            record[:n_rows],
+            states[:n_states],
+            end,
         )
-        if n_finished == len(chains):
-            return runs
-        next(telling)
-        paused = progress[n_finished]
-        if paused["stored"] == 0:  # it has not begun
-            record = work.record
-            states = work.states
-            continue
-        record = record[n_rows:]
-        states = states[n_states:]
-        if paused["transitions"] + 1 == len(record):
-            record = np.resize(record, (2 * len(record), kernel.ROW))
-        if paused["stored"] == len(states):
-            states = _with_room(states, paused)
+        first = n_finished
 
 
 def _runs(
@@ -154,7 +150,7 @@ def _runs(
             intervals=intervals[row : end_row + 1],
             start_positions=batch.positions[j],
             start_velocities=batch.velocities[j],
-            states=States._make(column[state:end_state] for column in stored),
+            states=States._make([column[state:end_state] for column in stored]),
             evaluations=float(last["derivatives"]) / chains[j].n_blocks,
         )
         if last["status"] == kernel.PAUSED:

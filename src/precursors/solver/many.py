@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
-from itertools import chain as joined
 from typing import Any
 
 import numpy as np
@@ -75,19 +74,22 @@ def simulate_many(
     positions = _starts("start_positions", start_positions, "m", chains)
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)
 
-    def run(batch: list[int]) -> list[Any]:
+    runs: dict[int, Any] = {}
+
+    def run(batch: list[int]) -> None:
         if not _length(chains[batch[0]]):
-            return [chains[j].simulate(duration, until) for j in batch]
-        start = (
+            runs.update((j, chains[j].simulate(duration, until)) for j in batch)
+            return
+        made = run_batch(
+            [chains[j] for j in batch],
             np.array([positions[j] for j in batch]),
             np.array([velocities[j] for j in batch]),
+            end,
         )
-        return run_batch([chains[j] for j in batch], *start, end)
+        runs.update(zip(batch, made, strict=True))
 
-    batches = list(_batches(chains, threads))
-    tasks = [partial(run, batch) for batch in batches]
-    found = joined.from_iterable(in_threads("running", tasks, threads))
-    runs = dict(zip(joined.from_iterable(batches), found, strict=True))
+    tasks = [partial(run, batch) for batch in _batches(chains, threads)]
+    in_threads("running", tasks, threads, lambda: len(runs) / len(chains))
     return [runs[j] for j in range(len(chains))]
 
 

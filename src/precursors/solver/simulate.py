@@ -98,7 +98,7 @@ def simulate(
     end = checked_end([chain], duration, until, max_transitions, longest_slip)
     positions = checked_start("start_positions", start_positions, "m", chain)
     velocities = checked_start("start_velocities", start_velocities, "m/s", chain)
-    return run_batch([chain], positions[None], velocities[None], end)[0]
+    return next(run_batch([chain], positions[None], velocities[None], end))
 
 
 def refuse_for_own(*given: object) -> None:

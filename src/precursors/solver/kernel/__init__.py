@@ -43,10 +43,10 @@ for a group of four.
 from precursors.solver.kernel.arrays import (
     PROGRESS,
     ROW,
+    WORDS,
     Batch,
     End,
     memory_for,
-    words,
 )
 from precursors.solver.kernel.events import run_batch
 from precursors.solver.kernel.layout import FINISHED, PAUSED

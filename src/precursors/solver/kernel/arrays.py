@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import from_dtype
 from numba.extending import register_jitable
-from numpy.typing import NDArray
 
 from precursors.model.chain import FloatArray
 from precursors.solver.kernel.compiled import inner
@@ -20,7 +19,6 @@ from precursors.solver.kernel.pointers import (
     shifted,
     whole_numbers,
 )
-from precursors.solver.record import IntArray
 
 # In compiled code a vector is a pointer to a number for each column.
 Vector = Any
@@ -130,17 +128,13 @@ PROGRESS = np.dtype(
     ]
 )
 progress_at = cast_to(from_dtype(PROGRESS))
+# Numba takes long to recognise an array of records, so that it is given their words.
+WORDS = PROGRESS.itemsize // EIGHT
 
 # Numbers in a row of a record: a transition's time [s], block, mode, tangential load
 # [N], and the interval before it [s]. After the last of a run comes the time that is
 # reached, and the interval before that.
 ROW = 5
-
-
-def words(records: NDArray[np.void]) -> IntArray:
-    """The memory of records, a row each; Numba takes long to recognise an array of
-    records."""
-    return records.view(np.int64).reshape(len(records), -1)
 
 
 def memory_for(n_blocks: int) -> FloatArray:
