@@ -105,7 +105,7 @@ class Record:
                 f"{path} holds a {kind.__name__} and not a {cls.__name__}: "
                 "Record.load reads it"
             )
-        return kind(**content)
+        return kind.from_columns(**content)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

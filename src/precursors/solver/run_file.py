@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from precursors.model.chain import ARGUMENTS, Chain, remember_theta
 from precursors.model.checks import not_negative
-from precursors.solver.record import TRANSITION, States
+from precursors.solver.record import COLUMNS, States
 from precursors.support.files import write_whole
 
 if TYPE_CHECKING:
@@ -98,7 +98,7 @@ def write_record(record: Record, path: str | PathLike[str]) -> None:
 
 
 def read_record(path: str | PathLike[str]) -> dict[str, Any]:
-    """Read the attributes of a record or run; `RunFileError` says why a file has
+    """Read what `Record.from_columns` takes; `RunFileError` says why a file has
     none."""
     import h5py
 
@@ -121,9 +121,8 @@ def read_record(path: str | PathLike[str]) -> dict[str, Any]:
 
 
 def _content(file: h5py.File) -> dict[str, Any]:
-    """Attributes of the record in a file, all checked."""
-    names = ["weights", "intervals"]
-    names += [f"transitions/{name}" for name in TRANSITION.names or ()]
+    """Columns and further attributes of the record in a file, all checked."""
+    names = ["weights", "intervals", *(f"transitions/{name}" for name in COLUMNS)]
     if "load_points" in file:
         names.append("load_points")
     elif "states" in file:
@@ -137,19 +136,11 @@ def _content(file: h5py.File) -> dict[str, Any]:
     if not math.isnan(theta):
         remember_theta(chain, theta)
     _check(found, duration, chain.n_blocks)
-    transitions = np.empty(len(found["transitions/time"]), dtype=TRANSITION)
-    for name in TRANSITION.names or ():
-        transitions[name] = found.pop(f"transitions/{name}")
-    content: dict[str, Any] = {
-        "chain": chain,
-        "duration": duration,
-        "transitions": transitions,
-    }
+    content: dict[str, Any] = {"chain": chain, "duration": duration}
+    content |= {name: found.pop(f"transitions/{name}") for name in COLUMNS}
     if "states/after" in found:
-        states = {name: found.pop(f"states/{name}") for name in States._fields}
-        # Compiled code takes counts of this type only.
-        counts = {name: states[name].astype(np.int64) for name in ("mode", "after")}
-        content["states"] = States(**states | counts)
+        states = [found.pop(f"states/{name}") for name in States._fields]
+        content["states"] = States(*states)
         evaluations = _scalar(file, "evaluations")
         content["evaluations"] = not_negative("evaluations", evaluations, "1")
     if "load_points" in found:
@@ -186,7 +177,7 @@ def _numbers(file: h5py.File, name: str) -> NDArray[Any]:
         f"{name} is of type {values.dtype}",
     )
     _require(np.isfinite(values).all(), f"{name} is not finite")
-    return values if counts else values.astype(float)
+    return values.astype(np.int64 if counts else float)
 
 
 def _check(found: Mapping[str, NDArray[Any]], duration: float, n_blocks: int) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Protocol, TypeVar, overload, runtime_checkable
+from typing import Any, Protocol, overload, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,7 @@ from precursors.model.checks import (
 )
 from precursors.solver.batch import TransitionLimitError, run_batch
 from precursors.solver.kernel import End
-from precursors.solver.run import Run
+from precursors.solver.run import LargerRun, Run
 
 __all__ = ["MAX_TRANSITIONS", "TransitionLimitError", "simulate"]
 
@@ -32,30 +32,27 @@ MANY_BLOCKS = 500
 MAX_WINDOWS = 1_000_000_000
 
 
-Own = TypeVar("Own", covariant=True)  # what a chain with its own solver gives
-
-
 @runtime_checkable
-class OwnSolver(Protocol[Own]):
+class OwnSolver(Protocol):
     """A chain that is not solved here, such as `LargerChain`."""
 
-    def simulate(self, duration: float, until: Until, **limits: int) -> Own:
+    def simulate(self, duration: float, until: Until, **limits: int) -> LargerRun:
         """Run it from rest."""
 
 
 @overload
 def simulate(chain: Chain, *how: Any, **more: Any) -> Run: ...
 @overload
-def simulate(chain: OwnSolver[Own], *how: Any, **more: Any) -> Own: ...
+def simulate(chain: OwnSolver, *how: Any, **more: Any) -> LargerRun: ...
 def simulate(
-    chain: Chain | OwnSolver[Any],
+    chain: Chain | OwnSolver,
     duration: float = 10.0,
     until: Until = None,
     start_positions: ArrayLike | None = None,
     start_velocities: ArrayLike | None = None,
     max_transitions: int | None = None,
     longest_slip: float | None = None,
-) -> Any:
+) -> Run | LargerRun:
     """Run a chain from rest, or from a given start, through all its transitions (Eqs.
     2-6).
 

@@ -11,7 +11,7 @@ import functools
 import operator
 
 from llvmlite import ir
-from numba.core import cgutils, types
+from numba.core import types
 from numba.extending import (
     intrinsic,
     lower_builtin,
@@ -81,10 +81,8 @@ def _shuffle(builder, a, b, lanes):
 
 def _call(builder, name, value):
     kind = ir.FunctionType(VECTOR, [VECTOR])
-    function = cgutils.get_or_insert_function(
-        builder.module, kind, f"llvm.{name}.v{WIDTH}f64"
-    )
-    return builder.call(function, [value])
+    name = f"llvm.{name}.v{WIDTH}f64"
+    return builder.call(builder.module.declare_intrinsic(name, fnty=kind), [value])
 
 
 def _select(builder, comparison, a, b):
