@@ -11,14 +11,6 @@ if TYPE_CHECKING:
 
 WIDTH = 420
 HEIGHT = 120
-PAGE = """\
-<div><p>{name} of {duration:g} s: {transitions} transitions of {blocks} blocks under F_Z = {F_Z:g} N;
-largest F_X = {largest:.1f} N = {share:.3f} F_Z</p>
-<svg width="{width}" height="{height}" role="img" aria-label="tangential load over time">
-<title>tangential load over time</title>
-<polyline points="{points}" fill="none" stroke="currentColor"/>
-</svg><p>F_X from 0 to {largest:.1f} N, from 0 to {duration:g} s</p></div>
-"""
 
 
 def html(record: Record) -> str:
@@ -35,15 +27,13 @@ def html(record: Record) -> str:
     y = np.append(HEIGHT, HEIGHT * (1 - load / largest))
     pixels = np.unique(np.column_stack([x, y]).round(1), axis=0, return_index=True)[1]
     points = " ".join(f"{x[i]:.1f},{y[i]:.1f}" for i in np.sort(pixels))
-    return PAGE.format(
-        name=type(record).__name__,
-        duration=record.duration,
-        transitions=len(moments),
-        blocks=record.chain.n_blocks,
-        F_Z=record.chain.normal_load,
-        largest=largest,
-        share=largest / record.chain.normal_load,
-        width=WIDTH,
-        height=HEIGHT,
-        points=points,
-    )
+    f_z = record.chain.normal_load
+    return f"""\
+<div><p>{type(record).__name__} of {record.duration:g} s: {len(moments)} transitions of \
+{record.chain.n_blocks} blocks under F_Z = {f_z:g} N;
+largest F_X = {largest:.1f} N = {largest / f_z:.3f} F_Z</p>
+<svg width="{WIDTH}" height="{HEIGHT}" role="img" aria-label="tangential load over time">
+<title>tangential load over time</title>
+<polyline points="{points}" fill="none" stroke="currentColor"/>
+</svg><p>F_X from 0 to {largest:.1f} N, from 0 to {record.duration:g} s</p></div>
+"""

@@ -111,7 +111,7 @@ def checksum(directory: Path, modules: Iterable[str] = ()) -> str:
     for file in [directory / name for name in modules] or sorted(
         directory.glob("*.py")
     ):
-        digest.update(file.name.encode())
+        digest.update(f"{file.name} {file.stat().st_size} ".encode())
         digest.update(file.read_bytes())
     return digest.hexdigest()[:16]
 

@@ -21,7 +21,6 @@ from precursors.solver.kernel.friction import (
 from precursors.solver.kernel.guess import LEAST, MARGIN, NEAR, find_root, guess
 from precursors.solver.kernel.layout import (
     FINISHED,
-    FIRST_ROOM,
     PAUSED,
     PROOF_ORDER,
     ROUNDINGS,
@@ -50,21 +49,19 @@ def run_batch(batch, end, progress, record, states, memory, first, windows):
 
     Row j of `batch` is a chain with its start, row j of `progress` has the words of
     where it is. Returns how many chains are finished, and how many rows and states they
-    took. The chain after them has not begun, or is paused as the record is full or so
-    many windows were gone through in this call. Then its state is in `memory`, and what
-    it recorded follows that of the others; it goes on in a record that begins with it.
+    took. The chain after them has not begun, as the record is half full, or is paused, as
+    record or states are full or it has gone through so many windows. Then its state is
+    in `memory`, and what it recorded follows that of the others; it goes on in a record
+    that begins with it.
     """
     n_blocks = batch.weights.shape[1]
-    used = stored = gone_through = 0
+    used = stored = 0
     for j in range(first, batch.weights.shape[0]):
         mine = progress_at(row_address(progress, j))
         is_new = mine.stored == 0
         if is_new:
-            if (
-                used + max(FIRST_ROOM, n_blocks) >= record.shape[0]
-                or stored == states.shape[0]
-                or gone_through > windows
-            ):
+            is_full = 2 * used + n_blocks >= record.shape[0]
+            if is_full or stored == states.shape[0]:
                 return j, used, stored
             memory[:] = 0.0
         chain, motion = lay_out(batch.parameters[j], batch.weights[j], memory)
@@ -92,7 +89,6 @@ def run_batch(batch, end, progress, record, states, memory, first, windows):
             return j, used, stored
         used += mine.transitions + 1
         stored += mine.stored
-        gone_through += mine.windows
     return batch.weights.shape[0], used, stored
 
 

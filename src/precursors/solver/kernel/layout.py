@@ -43,9 +43,6 @@ INVERSE_FACTORIAL = np.array([1.0 / math.factorial(n) for n in range(TERMS)])
 # decide: the limit is doubled until they do not.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
 
-# A run begins in a record that has room for so many transitions.
-FIRST_ROOM = 2048
-
 # A run reached its duration; it ended before, at rest or in a long slip; or it can go
 # on.
 FINISHED = 0
