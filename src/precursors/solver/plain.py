@@ -42,7 +42,7 @@ N = np.arange(ORDER + 1, dtype=REAL)
 BINOMIAL = np.array(
     [[math.comb(n, k) for n in range(ORDER + 1)] for k in range(ORDER + 1)], dtype=REAL
 )
-EXPONENT = np.maximum(N[None, :] - N[:, None], 0).astype(int)
+EXPONENT = np.maximum(N[None, :] - N[:, None], 0)
 
 
 class State(NamedTuple):
@@ -94,14 +94,9 @@ def expand(chain: Chain, state: State, window: float) -> tuple[Floats, Floats]:
     return v, force
 
 
-def powers(s: float) -> Floats:
-    """1, s, s^2, ..., shape (ORDER + 1,)."""
-    return np.append(REAL(1), np.cumprod(np.full(ORDER, s, dtype=REAL)))
-
-
 def move(state: State, v: Floats, force: Floats, s: float) -> State:
     """The state at s, summed from the smallest term on."""
-    terms = powers(s)[:, None]
+    terms = s ** N[:, None]
     return State(
         (v * terms)[::-1].sum(axis=0), (force * terms)[::-1].sum(axis=0), state.mode
     )
@@ -135,7 +130,7 @@ def first_root(series: Floats, zero: float, limit: float) -> float:
         if s + left * step >= limit:
             return math.inf
         # The series about the new place, on what is left of the window.
-        c = (BINOMIAL * powers(step)[EXPONENT]) @ c * powers(1.0 - step)
+        c = (BINOMIAL * step**EXPONENT) @ c * (1.0 - step) ** N
         s = s + left * step
         left = left * (1.0 - step)
     return math.inf

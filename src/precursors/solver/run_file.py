@@ -6,7 +6,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import fields
 from importlib.metadata import version
 from io import BytesIO
 from os import PathLike
@@ -64,20 +63,19 @@ def write_record(record: Record, path: str | PathLike[str]) -> None:
     }
     scalars = {name: getattr(chain, name) for name in [*SCALARS, "theta"]}
     datasets = {"weights": chain.weights}
-    for field in fields(record):
-        value = getattr(record, field.name)
-        if field.name == "transitions":
+    for name, value in vars(record).items():
+        if name == "transitions":
+            datasets |= {f"transitions/{column}": value[column] for column in COLUMNS}
+        elif name == "states":
             datasets |= {
-                f"transitions/{name}": value[name] for name in value.dtype.names
+                f"states/{column}": of for column, of in value._asdict().items()
             }
-        elif field.name == "states":
-            datasets |= {f"states/{name}": of for name, of in value._asdict().items()}
-        elif field.name == "larger":
+        elif name == "larger":
             texts["larger"] = json.dumps(value)
         elif isinstance(value, np.ndarray):
-            datasets[field.name] = value
-        elif field.name != "chain":
-            scalars[field.name] = value
+            datasets[name] = value
+        elif name != "chain":
+            scalars[name] = value
 
     # HDF5 may end the interpreter when the disk is full, so the file is made in memory
     # first.

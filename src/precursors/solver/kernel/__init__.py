@@ -31,8 +31,7 @@ for a group of four.
 | `State` | `arrays.MotionArrays`, with room to work in |
 | `at_start` | `events.take_start` |
 | `expand` | `series.expand`: velocities and net forces; spring forces follow from slips |
-| `powers` | `series.powers`, divided by n! |
-| `move` | `series.move`, which sums them group by group (`sum_series`) |
+| `move` | `series.move`, which sums terms group by group (`powers`, `sum_series`) |
 | `safe_step` | `roots.safe_step` |
 | `first_root` | `roots.first_root`, for functions that `proof.prove` leaves open |
 | `next_transition` | `events.next_transition`: `guess`, `find_root`, `prove`, `search` |
