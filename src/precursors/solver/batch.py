@@ -131,8 +131,8 @@ def _runs(
     """Runs of a batch that were recorded one after the other; an error if one met a
     cap."""
     transitions = np.empty(len(record), TRANSITION)
-    for column, name in enumerate(COLUMNS):
-        transitions[name] = record[:, column]
+    for name, column in zip(COLUMNS, record.T, strict=False):
+        transitions[name] = column
     intervals = record[:, -1].copy()
     stored = States.from_rows(states)
     row = state = 0
@@ -143,9 +143,7 @@ def _runs(
         is_finished = last["status"] == kernel.FINISHED
         run = Run(
             chain=chains[j],
-            duration=end.duration
-            if is_finished
-            else float(transitions["time"][end_row]),
+            duration=end.duration if is_finished else float(record[end_row, 0]),
             transitions=transitions[row:end_row],
             intervals=intervals[row : end_row + 1],
             start_positions=batch.positions[j],
