@@ -71,7 +71,10 @@ def run_batch(
     end: kernel.End,
 ) -> Iterator[Run]:
     """Run chains of equal length one after the other, in as few calls of the kernel as
-    it takes."""
+    it takes.
+
+    A thread has one workspace: it must take all runs before it begins others.
+    """
     work = _workspace_for(chains[0].n_blocks)
     batch = kernel.Batch(
         parameters=np.array([kernel.parameters(chain) for chain in chains]),
