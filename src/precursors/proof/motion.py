@@ -135,7 +135,8 @@ class EnclosedState:
         with ctx.workprec(BOUND_BITS):
             radii = size(constants, [x.rad() for x in force], [x.rad() for x in rate])
             self.distance = (self.distance + radii).abs_upper()
-        self.force, self.rate = [x.mid() for x in force], [x.mid() for x in rate]
+        self.force = [x.mid() for x in force]
+        self.rate = [x.mid() for x in rate]
 
     def largest_force_change(self, constants: Constants, gap: arb) -> arb:
         """Bound how much a net force changes in any run during twice the gap [T], in N.

@@ -85,10 +85,8 @@ class Proof:
         self._constants: dict[int, Constants] = {}
         with ctx.workprec(self.bits + GUARD_BITS):
             self.unit = ball(self.unit_seconds)
-            self.duration, self.width = (
-                ball(certificate.duration),
-                ball(certificate.width),
-            )
+            self.duration = ball(certificate.duration)
+            self.width = ball(certificate.width)
             self.clock = arb(0)
             self.state = self.at_start(
                 certificate.start_positions, certificate.start_velocities
@@ -318,7 +316,8 @@ class Proof:
         force = state.net_force(i) + arb(0, spread)
         slows_down = state.mode[i] * force < bounds.friction[i]
         if slows_down and abs(force) < bounds.strength[i]:
-            state.mode[i], self.fresh = 0, set()
+            state.mode[i] = 0
+            self.fresh = set()
         elif -state.mode[i] * force > bounds.strength[i]:
             state.mode[i] = -state.mode[i]
             self.fresh = {i}
