@@ -82,6 +82,18 @@ def test_states_of_long_runs_are_thinned_to_the_room_they_may_take_and_known_eve
             )
 
 
+@pytest.mark.parametrize(
+    ("room", "windows"), [(16, 100), (64, 7), (500, solver.WINDOWS_PER_CALL)]
+)
+def test_runs_are_the_same_however_often_the_kernel_pauses(monkeypatch, room, windows):
+    chains = mixed()[:16]
+    runs = simulate_many(chains, 1.0, threads=1)
+    monkeypatch.setattr(solver, "SHARED_ROOM", room)
+    monkeypatch.setattr(solver, "WINDOWS_PER_CALL", windows)
+    again = simulate_many(chains, 1.0, threads=1)
+    assert all(same(one, other) for one, other in zip(again, runs, strict=True))
+
+
 def test_each_chain_starts_from_its_own_start():
     chains = [SLIDER(3), SLIDER(2)]
     positions = [np.array([1e-6, 0.0, -1e-6]), np.array([0.0, 2e-6])]
