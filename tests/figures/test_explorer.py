@@ -236,7 +236,7 @@ DRAG = """(async () => {
     for (const value of values[id]) {
       element(id).value = value;
       element(id).dispatchEvent(new Event("input", { bubbles: true }));
-      await new Promise((done) => setTimeout(done, 150));
+      await new Promise((done) => setTimeout(done, 50));
     }
   }
   element("mu_k").dispatchEvent(new Event("change", { bubbles: true }));
