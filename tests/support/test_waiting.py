@@ -1,6 +1,7 @@
 """Who waits at a terminal is told how much of long work is done, and nobody else."""
 
 import io
+import re
 import time
 from functools import partial
 
@@ -73,6 +74,9 @@ def test_work_in_threads_is_told_as_well_and_its_results_or_error_handed_back(
     assert waiting.in_threads("running", tasks(1), done=lambda: 0.5) == [1]
     assert waiting.sys.stderr.getvalue().startswith("\rrunning: 50% 0 s left")
     assert waiting.in_threads("running", tasks(*range(1, 9)), 3) == [1] + 7 * [0]
+    shares = set(re.findall(r"(\d+)%", waiting.sys.stderr.getvalue()))
+    assert max(map(int, shares)) <= 100
+    assert len(shares) > 2
     assert waiting.in_threads("running", []) == []
     begun.clear()
     with pytest.raises(ZeroDivisionError):
