@@ -92,8 +92,8 @@ def entries(claims: pd.DataFrame) -> Iterator[str]:
 
 
 def numbers(claim: Mapping[Any, str]) -> str:
-    """What was found and expected, the rule, the shares of the ensembles, and the
-    note."""
+    """The value found and the one expected, the rule, the shares of the ensembles, and
+    the note."""
     unit = "" if claim["unit"] == "1" else f" {claim['unit']}"
     expected = f", expected {claim['expected']}{unit}" if claim["expected"] else ""
     sentences = [f"found {claim['ours']}{unit}{expected} ({claim['rule']})."]
@@ -108,7 +108,7 @@ def numbers(claim: Mapping[Any, str]) -> str:
 
 
 def totals(claims: pd.DataFrame) -> Iterator[str]:
-    """How many claims of each kind have which verdict."""
+    """The number of claims with each verdict, a line for each kind."""
     for kind, of_kind in claims.groupby("kind", sort=False):
         verdicts = Counter(of_kind["verdict"])
         counts = ", ".join(

@@ -1,4 +1,4 @@
-"""What scripts of the workflow share: one line on an error, the threads they were
+"""Shared by the scripts of the workflow: one line on an error, the threads they were
 given, their inputs."""
 
 import os
@@ -49,8 +49,8 @@ def job() -> Iterator[Any]:
 
 
 def read(files: Any, readers: Mapping[str, str]) -> Any:
-    """What a file holds, or each of a list or mapping; a reader is "room.module:name",
-    by the ending. A file that is damaged can be deleted."""
+    """Content of a file, or of each in a list or mapping, from the reader of its
+    ending, "room.module:name". A file that is damaged can be deleted."""
     if isinstance(files, Mapping):
         return {name: read(file, readers) for name, file in files.items()}
     if isinstance(files, str):

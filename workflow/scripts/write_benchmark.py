@@ -51,7 +51,7 @@ def files_of(name: str, certificate: bytes) -> dict[str, str]:
 
 
 def resource(path: str, content: bytes) -> dict[str, object]:
-    """What the data package says about a file."""
+    """Entry of a file in the data package."""
     kind = path.rpartition(".")[2]
     about = {
         "name": path.replace("/", "-").removesuffix(f".{kind}").replace("_", "-"),

@@ -52,7 +52,7 @@ def main(
 
 
 def _line(problem: object) -> str:
-    """What Typst says, in one line, with the places in the source."""
+    """A complaint of Typst in one line, with the places in the source."""
     places = re.findall(r"(paper/\S+\.typ:\d+)", getattr(problem, "diagnostic", ""))
     message = getattr(problem, "message", str(problem)).removeprefix(
         "assertion failed: "
