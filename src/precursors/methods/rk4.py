@@ -9,7 +9,7 @@ import numpy as np
 
 from precursors.methods.columns import FORCE, SPRING, VELOCITY
 from precursors.methods.compiled import inner, outer, template
-from precursors.methods.equations import by_mode, rates
+from precursors.methods.equations import by_mode, copy, rates
 from precursors.methods.fixed_step import run_in_steps
 from precursors.methods.march import fixed_step
 
@@ -32,25 +32,24 @@ def rk4_step(system, state, last, h, work):
 @template
 def step_of_law(law, parameter, system, state, last, h, work):
     """The same under a law of friction, see `rates`."""
-    rates(law, parameter, system, state, last, state, work[0])
+    rate, _, end = work
+    rates(law, parameter, system, state, last, state, rate)
     step_from_rates(law, parameter, system, state, last, h, work)
+    copy(end, last, state)
     return 4
 
 
 @inner
 def step_from_rates(law, parameter, system, state, last, h, work):
-    """One step whose first rates are already in `work`."""
-    rate, trial, total = work
+    """Find the end of a step whose first rates are already in `work`."""
+    rate, trial, end = work
     for i in range(1, last + 2):
         for row in range(2):
-            total[row, i] = state[row, i] + h / 6.0 * rate[row, i]
+            end[row, i] = state[row, i] + h / 6.0 * rate[row, i]
             trial[row, i] = state[row, i] + h / 2.0 * rate[row, i]
     stage(law, parameter, system, state, last, h / 3.0, h / 2.0, work)
     stage(law, parameter, system, state, last, h / 3.0, h, work)
     stage(law, parameter, system, state, last, h / 6.0, 0.0, work)
-    for i in range(1, last + 2):
-        for row in range(2):
-            state[row, i] = total[row, i]
 
 
 @inner
@@ -60,7 +59,7 @@ def stage(law, parameter, system, state, last, share, ahead, work):
 
     One loop: for short chains, to write down the rates costs more than the sums.
     """
-    _, trial, total = work
+    _, trial, end = work
     behind = trial[VELOCITY, 0]
     force = trial[FORCE, 1]
     for i in range(1, last + 1):
@@ -69,21 +68,21 @@ def stage(law, parameter, system, state, last, share, ahead, work):
             system, state, i, force - force_ahead, trial[VELOCITY, i], parameter
         )
         force_rate = system[SPRING, i] * (behind - here)
-        total[FORCE, i] += share * force_rate
-        total[VELOCITY, i] += share * acceleration
+        end[FORCE, i] += share * force_rate
+        end[VELOCITY, i] += share * acceleration
         trial[FORCE, i] = state[FORCE, i] + ahead * force_rate
         trial[VELOCITY, i] = state[VELOCITY, i] + ahead * acceleration
         behind = here
         force = force_ahead
     force_rate = system[SPRING, last + 1] * behind
-    total[FORCE, last + 1] += share * force_rate
+    end[FORCE, last + 1] += share * force_rate
     trial[FORCE, last + 1] = state[FORCE, last + 1] + ahead * force_rate
 
 
 @inner
 def room(state):
-    """Rates, a trial state and a sum, to work in."""
-    return np.zeros_like(state), state.copy(), np.zeros_like(state)
+    """Rates, a trial state and the state at the end of a step, to work in."""
+    return np.zeros_like(state), state.copy(), state.copy()
 
 
 @outer

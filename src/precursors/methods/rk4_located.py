@@ -43,20 +43,19 @@ NEVER = 2.0  # a part of the step beyond its end
 
 
 @inner
-def evaluate(system, state, last, rate, event):
-    """Rates of blocks 1..last; event functions of all that can change, and their rates
-    (rows of `event`)."""
-    rates(by_mode, 0.0, system, state, last, state, rate)
+def evaluate(system, state, y, last, rate, event):
+    """Rates of blocks 1..last in a state y; event functions of all that can change, and
+    their rates (rows of `event`)."""
+    rates(by_mode, 0.0, system, state, last, y, rate)
     for i in range(1, feels(state, last) + 1):
-        event[0, i] = event_function(system, state, state, i)
+        event[0, i] = event_function(system, state, y, i)
         if state[MODE, i] != 0.0:
             event[1, i] = state[MODE, i] * rate[VELOCITY, i]
         else:
-            net = net_force(state, i)
-            sign = (
-                1.0 if system[STRENGTH, i] - net < system[BACKWARD, i] + net else -1.0
-            )
-            event[1, i] = -sign * net_force(rate, i)
+            net = net_force(y, i)
+            growth = net_force(rate, i)
+            is_forward = system[STRENGTH, i] - net < system[BACKWARD, i] + net
+            event[1, i] = -growth if is_forward else growth
 
 
 @inner
@@ -98,28 +97,21 @@ def first_zero(g0, b0, g1, b1, rounding):
     a = 3.0 * (b0 + b1 - 2.0 * (g1 - g0))
     b = 6.0 * (g1 - g0) - 4.0 * b0 - 2.0 * b1
     lowest = 1.0
+    top = 0.0
     discriminant = b * b - 4.0 * a * b0
     if discriminant > 0.0:
         q = -0.5 * (b + math.copysign(math.sqrt(discriminant), b))
-        for turn in (q / a, b0 / q):
-            if (
-                0.0 < turn < 1.0
-                and b + 2.0 * a * turn > 0.0
-                and cubic_at(turn, g0, b0, g1, b1) < -rounding
-            ):
-                lowest = turn
+        bottom, top = (b0 / q, q / a) if q < 0.0 else (q / a, b0 / q)
+        if 0.0 < bottom < 1.0 and cubic_at(bottom, g0, b0, g1, b1) < -rounding:
+            lowest = bottom
     if lowest == 1.0 and g1 >= -rounding:
         return NEVER
     start = 0.0
     if g0 <= rounding and b0 > 0.0:
         # It rises from zero: begin at the top before the fall.
-        start = 1.0
-        if discriminant > 0.0:
-            for turn in (q / a, b0 / q):
-                if 0.0 < turn < lowest and b + 2.0 * a * turn < 0.0:
-                    start = turn
-        if start == 1.0:
+        if not 0.0 < top < lowest:
             return NEVER
+        start = top
     return falls_to_zero(start, lowest, g0, b0, g1, b1)
 
 
@@ -138,7 +130,7 @@ def first_transition(state, last, h, before, after, rounding):
     first = NEVER
     block = 0
     for i in range(1, feels(state, last) + 1):
-        zero = rounding[0] if state[MODE, i] == 0.0 else rounding[1]
+        zero = rounding[int(state[MODE, i] != 0.0)]
         s = first_zero(
             before[0, i], h * before[1, i], after[0, i], h * after[1, i], zero
         )
@@ -148,6 +140,26 @@ def first_transition(state, last, h, before, after, rounding):
     return first, block
 
 
+@inner
+def shorten_step(motion, last, h, s, i, at_start, at_end, zero, work):
+    """Correct the part s of a step h [s] until the event function of block i is zero at
+    its end."""
+    system = motion.system
+    state = motion.state
+    end = work[2]
+    for correction in range(1, CORRECTIONS + 1):
+        step_from_rates(by_mode, 0.0, system, state, last, s * h, work)
+        motion.progress[0].evaluations += 3
+        g = event_function(system, state, end, i)
+        slope = cubic_slope(
+            s, at_start[0, i], h * at_start[1, i], at_end[0, i], h * at_end[1, i]
+        )
+        if abs(g) <= zero or slope >= 0.0 or correction == CORRECTIONS:
+            break
+        s = min(max(s - g / slope, 0.0), 1.0)
+    return s
+
+
 @outer
 def run_located(motion, step):
     """Run in steps that end where a block changes its state."""
@@ -155,59 +167,36 @@ def run_located(motion, step):
     state = motion.state
     progress = motion.progress[0]
     rounding = roundings(system)
-    rate, trial, total = room(state)
-    # The state at a step's start, and event functions with their rates; rates and
-    # functions at its end.
-    start = np.zeros(state.shape)
-    event = np.zeros(state.shape)
-    rate_after = np.zeros(rate.shape)
-    event_after = np.zeros(state.shape)
+    rate, trial, end = room(state)
+    # Rates at the end of a step; event functions with their rates at both its ends.
+    rate_after = np.zeros_like(rate)
+    event = np.zeros_like(rate)
+    event_after = np.zeros_like(rate)
     idle = 0
     while begin_leg(motion):
         last = progress.last
-        evaluate(system, state, last, rate, event)
+        copy(state, feels(state, last), end)
+        evaluate(system, state, state, last, rate, event)
         progress.evaluations += 1
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
-            s = 1.0
-            i = 0
-            copy(state, last, start)
-            for correction in range(CORRECTIONS + 1):
-                step_from_rates(
-                    by_mode, 0.0, system, state, last, s * h, (rate, trial, total)
-                )
-                progress.evaluations += 3
-                if correction == 0:
-                    evaluate(system, state, last, rate_after, event_after)
-                    progress.evaluations += 1
-                    s, i = first_transition(
-                        state, last, h, event, event_after, rounding
-                    )
-                    # Where blocks change without time going on, rounding can decide in
-                    # a circle: make a whole step.
-                    if s > 1.0 or idle > state.size:
-                        i = 0
-                        break
-                else:
-                    zero = rounding[0] if state[MODE, i] == 0.0 else rounding[1]
-                    g = event_function(system, state, state, i)
-                    ends = (
-                        event[0, i],
-                        h * event[1, i],
-                        event_after[0, i],
-                        h * event_after[1, i],
-                    )
-                    slope = cubic_slope(s, *ends)
-                    if abs(g) <= zero or slope >= 0.0 or correction == CORRECTIONS:
-                        break
-                    s = min(max(s - g / slope, 0.0), 1.0)
-                copy(start, last, state)
-            if i > 0:
+            work = rate, trial, end
+            step_from_rates(by_mode, 0.0, system, state, last, h, work)
+            evaluate(system, state, end, last, rate_after, event_after)
+            progress.evaluations += 4
+            s, i = first_transition(state, last, h, event, event_after, rounding)
+            # Where blocks change without time going on, rounding can decide in a
+            # circle: make a whole step.
+            if s <= 1.0 and idle <= state.size:
+                zero = rounding[int(state[MODE, i] != 0.0)]
+                s = shorten_step(motion, last, h, s, i, event, event_after, zero, work)
                 idle = idle + 1 if s * h <= IDLE * step else 0
                 progress.elapsed += s * h
+                copy(end, last, state)
                 change_state(motion, i)
                 break
             progress.elapsed += h
+            copy(end, last, state)
             rate, rate_after = rate_after, rate
             event, event_after = event_after, event
             idle = 0
