@@ -12,12 +12,10 @@ largest c_i are 1."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from precursors.methods import switching
 from precursors.model.chain import Chain, FloatArray
 
 # Rows of a system, which stay: the spring behind each column [N/m], 1/m, mu_s w and
@@ -30,26 +28,24 @@ SPRING, INVERSE_MASS, STRENGTH, KINETIC, BACKWARD, TURNING = range(6)
 FORCE, VELOCITY, MODE, MOBILITY, FRICTION = range(5)
 RATES = MODE  # number of these
 
-# Rule of switching: from mu_s w and mu_k w to the rows BACKWARD and TURNING. The first
-# is ours.
-SWITCHING_RULES: dict[
-    str, Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
-] = {
-    switching.COULOMB: lambda strength, _kinetic: (strength, strength),
-    switching.KINETIC: lambda strength, kinetic: (strength, kinetic),
-    switching.FORWARD_ONLY: lambda strength, _kinetic: (
-        (np.full_like(strength, np.inf),) * 2
-    ),
+# Rules of when a block that stops sticks, which Eqs. 4 and 5 leave open: where |F| <=
+# mu_s w, which is ours; where |F| <= mu_k w; always, and none slides backward. Each
+# tells the rows that BACKWARD and TURNING equal; those of the last stay infinite.
+COULOMB = "static"
+SWITCHING_RULES = {
+    COULOMB: [STRENGTH, STRENGTH],
+    "kinetic": [STRENGTH, KINETIC],
+    "forward_only": [BACKWARD, TURNING],
 }
 
 
 def time_unit(chain: Chain) -> float:
     """tau [s]."""
-    return math.sqrt(chain.mass / float(np.max(chain.springs)))
+    return math.sqrt(chain.mass / float(chain.springs.max()))
 
 
 def at_rest(
-    chain: Chain, rule: str = switching.COULOMB, scaled: bool = False
+    chain: Chain, rule: str = COULOMB, scaled: bool = False
 ) -> tuple[FloatArray, FloatArray]:
     """System and state of a chain whose blocks all stick, springs at natural length;
     `scaled`: in tau."""
@@ -60,12 +56,11 @@ def at_rest(
     blocks[INVERSE_MASS] = 1.0 / chain.mass
     blocks[STRENGTH] = chain.strength
     blocks[KINETIC] = chain.kinetic_friction
-    blocks[BACKWARD], blocks[TURNING] = SWITCHING_RULES[rule](
-        blocks[STRENGTH], blocks[KINETIC]
-    )
+    blocks[[BACKWARD, TURNING]] = np.inf
+    blocks[[BACKWARD, TURNING]] = blocks[SWITCHING_RULES[rule]]
     state[VELOCITY, 0] = chain.drive_velocity
     if scaled:
-        blocks[SPRING] /= np.max(chain.springs)
+        blocks[SPRING] /= chain.springs.max()
         blocks[INVERSE_MASS] = 1.0
         state[VELOCITY, 0] *= chain.mass / time_unit(chain)
     return system, state
@@ -74,18 +69,22 @@ def at_rest(
 def set_modes(system: FloatArray, state: FloatArray, modes: ArrayLike) -> None:
     """Set the modes of all blocks, shape (N,), and what follows from them."""
     state[MODE, 1:-1] = modes
-    state[MOBILITY], state[FRICTION] = (
-        abs(state[MODE]) * system[INVERSE_MASS],
-        state[MODE] * system[KINETIC],
-    )
+    state[MOBILITY] = abs(state[MODE]) * system[INVERSE_MASS]
+    state[FRICTION] = state[MODE] * system[KINETIC]
 
 
 def sliding_forward(
     chain: Chain, velocities: ArrayLike
 ) -> tuple[FloatArray, FloatArray]:
     """System and state of blocks that slide forward [m/s], shape (N,), springs at
-    natural length."""
+    natural length.
+
+    They count as stuck, but nothing holds and nothing releases them, so that they keep
+    their motion.
+    """
     system, state = at_rest(chain)
     set_modes(system, state, 1.0)
+    state[MODE] = 0.0
+    system[[STRENGTH, BACKWARD]] = np.inf
     state[VELOCITY, 1:-1] = velocities
     return system, state

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from precursors.model.chain import Chain
+from precursors.model.checks import Until
 from precursors.solver.run import Record
 
 
@@ -54,7 +55,7 @@ class Method:
 
     name: str
     setting: str
-    solve: Callable[[Chain, float, float, str | None], Result]
+    solve: Callable[[Chain, float, float, Until], Result]
     smooth: Smooth | None = None
     kind: Kind = "located"
 

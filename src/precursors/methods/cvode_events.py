@@ -38,7 +38,6 @@ def solve_cvode(
     motion = EventMotion(chain, duration, until)
     system = motion.system
     state = motion.state
-    matrix = motion.jacobian()
     n_events = 2 * chain.n_blocks
 
     def right_hand_side(_time: float, y: FloatArray, result: FloatArray) -> None:
@@ -50,7 +49,7 @@ def solve_cvode(
     def jacobian(
         _time: float, _y: FloatArray, _rates: FloatArray, result: FloatArray
     ) -> None:
-        result[:] = matrix
+        result[:] = motion.jacobian()
 
     events.direction = [FALLING] * n_events  # type: ignore[attr-defined]
     solver = CVODE(
@@ -65,7 +64,6 @@ def solve_cvode(
     )
 
     def next_transition(time: float) -> tuple[float, int]:
-        matrix[:] = motion.jacobian()
         solver.init_step(time, motion.y)
         solution = solver.step(motion.remaining, tstop=motion.remaining)
         motion.evaluations += int(solution.nfev)

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Literal, cast
-
 from precursors.methods.common import Method, Result
 from precursors.model.chain import Chain
+from precursors.model.checks import Until
 from precursors.solver.simulate import simulate
 
 
 def solve(
-    chain: Chain, duration: float, _value: float = 0.0, until: str | None = None
+    chain: Chain, duration: float, _value: float = 0.0, until: Until = None
 ) -> Result:
     """Simulate exactly; nothing sets the accuracy. Each derivative of a Taylor series
     is an evaluation."""
-    run = simulate(chain, duration, cast(Literal["global slip"] | None, until))
+    run = simulate(chain, duration, until)
     return Result(run, round(run.evaluations))
 
 

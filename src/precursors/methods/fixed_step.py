@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from precursors.methods.columns import (
+    COULOMB,
     FORCE,
     MODE,
     STRENGTH,
@@ -28,7 +29,6 @@ from precursors.methods.equations import (
     net_force,
     resting_mode,
 )
-from precursors.methods.switching import COULOMB
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span
 
@@ -262,12 +262,11 @@ def begin_leg(motion, can_rest=True, releases=True):
 
 
 @template
-def run_in_steps(motion, step, advance, starts, work):
+def run_in_steps(motion, step, advance, at_start, work):
     """Run in steps.
 
     `advance(system, state, last, h, work)` makes a step of h [s] and returns the
-    evaluations made. If it `starts`, a leg begins with a step of no length, which
-    evaluates the forces. A block whose velocity has changed its sign at the end of a
+    evaluations made; it needs `at_start` more of them at the start of a leg. A block whose velocity has changed its sign at the end of a
     step is stopped there, and sticks or turns round; a stuck block whose force exceeds
     mu_s w at the end of a step is released there.
     """
@@ -275,8 +274,7 @@ def run_in_steps(motion, step, advance, starts, work):
     state = motion.state
     progress = motion.progress[0]
     while begin_leg(motion):
-        if starts:
-            progress.evaluations += advance(system, state, progress.last, 0.0, work)
+        progress.evaluations += at_start
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
             progress.evaluations += advance(system, state, progress.last, h, work)

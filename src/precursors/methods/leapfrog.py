@@ -39,7 +39,7 @@ def run_leapfrog(motion, step):
     The forces at the end of a step are those at the start of the next: one evaluation
     a step, and one more where friction has changed in between.
     """
-    run_in_steps(motion, step, leapfrog_step, True, 0.0)
+    run_in_steps(motion, step, leapfrog_step, 1, 0.0)
 
 
 METHODS = (fixed_step("leapfrog", run_leapfrog, smooth=(LIMIT, energy_factor)),)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from precursors.methods.columns import BACKWARD, MODE, STRENGTH
+from precursors.methods.columns import COULOMB
 from precursors.methods.common import DivergedError, Kind, Method, Result, Smooth
 from precursors.methods.fixed_step import (
     DIVERGED,
@@ -20,7 +20,6 @@ from precursors.methods.fixed_step import (
     SteppedMotion,
     motion_from_rest,
 )
-from precursors.methods.switching import COULOMB
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import positive
 from precursors.solver.record import TRANSITION
@@ -81,24 +80,15 @@ def slide(
     step: float,
     n_steps: int,
 ) -> None:
-    """Make n steps [s] of all blocks as they slide in a state, without switching, by
-    the code of `march`.
-
-    Blocks that count as stuck, that nothing holds and that nothing releases keep their
-    motion and their mode.
-    """
-    free = system.copy()
-    free[[STRENGTH, BACKWARD]] = np.inf
+    """Make n steps [s] of blocks that slide as `sliding_forward`, without switching, by
+    the code of `march`."""
     progress = np.zeros(1, PROGRESS)
     progress["sliding"] = progress["last"] = state.shape[1] - 2
     progress["remaining"] = n_steps * step
-    modes = state[MODE].copy()
-    state[MODE] = 0.0
-    motion = SteppedMotion(free, state, progress, np.empty(FIRST_ROOM, RECORD))
     progress["status"] = PAUSED
+    motion = SteppedMotion(system, state, progress, np.empty(FIRST_ROOM, RECORD))
     while progress["status"] == PAUSED:
         method(motion, step, *parameters)
-    state[MODE] = modes
 
 
 def with_room(motion: SteppedMotion) -> SteppedMotion:

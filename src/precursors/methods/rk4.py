@@ -88,7 +88,7 @@ def room(state):
 @outer
 def run_rk4(motion, step):
     """Run with a step [s], see `run_in_steps`."""
-    run_in_steps(motion, step, rk4_step, False, room(motion.state))
+    run_in_steps(motion, step, rk4_step, 0, room(motion.state))
 
 
 SMOOTH = (LIMIT, energy_factor)

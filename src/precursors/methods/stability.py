@@ -16,6 +16,7 @@ import numpy as np
 
 from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
 from precursors.model.chain import Chain, FloatArray
+from precursors.model.statics import balance_matrix
 
 # Energy that becomes so many times larger within so many steps has no limit. Bounded
 # energy can rise by 1 / (1 - (omega dt / 2)^2) in leapfrog: 500 times at 0.1 % below
@@ -38,12 +39,8 @@ def without_friction(chain: Chain) -> Chain:
 def stiffness_matrix(chain: Chain) -> FloatArray:
     """Stiffness of the chain with the drive held [N/m], shape (N, N), from the springs
     of Eqs. 2-4."""
-    ahead = np.append(chain.springs[1:], 0.0)
-    return (
-        np.diag(chain.springs + ahead)
-        - np.diag(chain.springs[1:], k=1)
-        - np.diag(chain.springs[1:], k=-1)
-    )
+    n = chain.n_blocks
+    return balance_matrix(chain) @ (np.eye(n) - np.eye(n, k=-1))
 
 
 def highest_frequency(chain: Chain) -> float:

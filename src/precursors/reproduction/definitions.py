@@ -18,9 +18,9 @@ from precursors.analysis.slips import (
     first_global_slip,
     slip_table,
 )
+from precursors.methods.columns import COULOMB, SWITCHING_RULES
 from precursors.methods.march import march
 from precursors.methods.rk4_located import run_located
-from precursors.methods.switching import COULOMB, FORWARD_ONLY, KINETIC
 from precursors.model import printed
 from precursors.model.chain import Chain, parse_theta
 from precursors.solver.run import Record, Run
@@ -33,8 +33,8 @@ STEP = 1e-7
 SIGNS = (-1, 0, 1)
 SWITCHING = {
     COULOMB: "sticks if |F| <= mu_s w",
-    KINETIC: "sticks if |F| <= mu_k w",
-    FORWARD_ONLY: "slides forward only",
+    "kinetic": "sticks if |F| <= mu_k w",
+    "forward_only": "slides forward only",
 }
 
 
