@@ -266,9 +266,10 @@ def run_in_steps(motion, step, advance, at_start, work):
     """Run in steps.
 
     `advance(system, state, last, h, work)` makes a step of h [s] and returns the
-    evaluations made; it needs `at_start` more of them at the start of a leg. A block whose velocity has changed its sign at the end of a
-    step is stopped there, and sticks or turns round; a stuck block whose force exceeds
-    mu_s w at the end of a step is released there.
+    evaluations made; it needs `at_start` more of them at the start of a leg. A block
+    whose velocity has changed its sign at the end of a step is stopped there, and
+    sticks or turns round; a stuck block whose force exceeds mu_s w at the end of a step
+    is released there.
     """
     system = motion.system
     state = motion.state

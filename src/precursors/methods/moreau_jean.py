@@ -39,6 +39,7 @@ from precursors.methods.fixed_step import (
     STEPS_IN_LEG,
     begin_leg,
     change_mode,
+    feels,
     step_length,
 )
 from precursors.methods.march import fixed_step
@@ -47,7 +48,6 @@ from precursors.methods.march import fixed_step
 # faster than a step.
 TRAPEZOIDAL = 0.5
 IMPLICIT = 1.0
-KNOWN, FACTOR, NEW = range(3)  # rows to work in
 # The active set settles in two or three solutions; where it goes in a circle, this many
 # are enough.
 SOLUTIONS_PER_BLOCK = 4
@@ -74,9 +74,7 @@ def explicit_forces(system, state, last, h, theta, known):
 @inner
 def solve_velocities(system, state, last, h, theta, work):
     """New velocities of the blocks 1..last that slide."""
-    known = work[KNOWN]
-    factor = work[FACTOR]
-    new = work[NEW]
+    known, factor, new = work
     for i in range(1, last + 1):
         slides = h * state[MOBILITY, i]
         net = known[i] - known[i + 1] - state[FRICTION, i]
@@ -94,8 +92,7 @@ def finish(system, state, last, h, theta, new):
         before = velocity[i - 1] - velocity[i]
         after = new[i - 1] - new[i]
         force[i] += h * spring[i] * (theta * after + (1.0 - theta) * before)
-        if i > 1:
-            velocity[i - 1] = new[i - 1]
+        velocity[i - 1] = new[i - 1]
 
 
 @inner
@@ -108,8 +105,7 @@ def set_trial(system, state, trial, i, mode):
 @inner
 def static_friction(system, state, i, h, theta, work):
     """Friction R_i that keeps block i at v' = 0, or brings it there [N]."""
-    known = work[KNOWN]
-    new = work[NEW]
+    known, _, new = work
     spring = system[SPRING]
     reach = theta * theta * h
     behind = known[i] + reach * spring[i] * (new[i - 1] - new[i])
@@ -121,14 +117,13 @@ def static_friction(system, state, i, h, theta, work):
 def step_modes(system, state, last, h, theta, work, trial):
     """Find modes and new velocities of a step; return the farthest sliding block and
     the solutions made."""
-    n_blocks = state.shape[1] - 2
-    new = work[NEW]
-    explicit_forces(system, state, last, h, theta, work[KNOWN])
-    most = SOLUTIONS_PER_BLOCK * (n_blocks + 1)
+    known, _, new = work
+    explicit_forces(system, state, last, h, theta, known)
+    most = SOLUTIONS_PER_BLOCK * (state.shape[1] - 1)
     for solutions in range(1, most + 1):
         solve_velocities(system, state, last, h, theta, work)
         changed = False
-        for i in range(1, min(last + 1, n_blocks) + 1):
+        for i in range(1, feels(state, last) + 1):
             if trial[i] != 0:
                 if new[i] * trial[i] < 0.0:
                     set_trial(system, state, trial, i, 0)
@@ -155,16 +150,16 @@ def run_moreau_jean(motion, step, theta):
     system = motion.system
     state = motion.state
     progress = motion.progress[0]
-    work = np.zeros_like(state)
     trial = state[MODE].copy()
-    work[NEW, 0] = state[VELOCITY, 0]
+    velocities = state[VELOCITY].copy()
+    work = np.zeros_like(trial), np.zeros_like(trial), velocities
     while begin_leg(motion):
         trial[1] = state[MODE, 1]
         last = progress.last
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
             last, solutions = step_modes(system, state, last, h, theta, work, trial)
-            finish(system, state, last, h, theta, work[NEW])
+            finish(system, state, last, h, theta, velocities)
             progress.evaluations += solutions
             progress.elapsed += h
             if h < step or solutions > 1:
