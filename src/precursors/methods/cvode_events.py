@@ -12,6 +12,7 @@ from precursors.methods.common import Method, Result
 from precursors.methods.events import (
     EventMotion,
     event_functions,
+    jacobian_of,
     march_restarting,
     rates_of,
 )
@@ -49,7 +50,7 @@ def solve_cvode(
     def jacobian(
         _time: float, _y: FloatArray, _rates: FloatArray, result: FloatArray
     ) -> None:
-        result[:] = motion.jacobian()
+        result[:] = jacobian_of(system, state)
 
     events.direction = [FALLING] * n_events  # type: ignore[attr-defined]
     solver = CVODE(

@@ -22,7 +22,6 @@ from numpy.typing import ArrayLike
 from precursors.methods.columns import (
     BACKWARD,
     FORCE,
-    FRICTION,
     MOBILITY,
     MODE,
     SPRING,
@@ -57,16 +56,15 @@ from precursors.solver.simulate import TransitionLimitError
 NUDGE = math.sqrt(np.finfo(float).tiny)
 # More transitions per block at one instant are a solver that has lost its way.
 MAX_AT_ONCE = 8
-# Rows of the settings: 1 for blocks that slide, mode_i mu_k w_i, mode_i, 1 for blocks
-# that stick.
-SLIDES, FRICTIONS, MODES, STICKS = range(4)
+# Rows of the settings: the rows of the state from MODE on, and 1 for blocks that stick.
+STICKS = 3
 
 
 class EventMotion:
     """A chain in motion, with the numbers that a solver carries, or keeps itself.
 
-    `y`, shape (2 N,), is the state; `settings` is what each block does, in the rows
-    SLIDES, FRICTIONS, MODES and STICKS.
+    `y`, shape (2 N,), is the state; `settings` is what each block does: the
+    rows MODE, MOBILITY and FRICTION of `columns`, and STICKS.
     """
 
     def __init__(self, chain: Chain, duration: float, until: str | None) -> None:
@@ -115,10 +113,6 @@ class EventMotion:
         result = np.empty_like(y)
         rates_of(y, self.system, self.state, result)
         return result
-
-    def jacobian(self) -> FloatArray:
-        """Matrix of the equations of motion, shape (2 N, 2 N)."""
-        return jacobian_of(self.system, self.state)
 
     def switch(self, event: int, elapsed: float) -> bool:
         """Make the transition of an event function that has reached zero, and any that
@@ -249,8 +243,7 @@ def go_on(system, state, progress, record, y, settings, event, elapsed):
     for i in range(n):
         y[i] = state[FORCE, i + 1]
         y[n + i] = state[VELOCITY, i + 1]
-        settings[SLIDES, i] = state[MOBILITY, i + 1]
+        for row in range(STICKS):
+            settings[row, i] = state[MODE + row, i + 1]
         settings[STICKS, i] = 1.0 - state[MOBILITY, i + 1]
-        settings[MODES, i] = state[MODE, i + 1]
-        settings[FRICTIONS, i] = state[FRICTION, i + 1]
     return status

@@ -41,7 +41,7 @@ def integrator_of(
     coupling = system[SPRING, 1:-1]
     force = [hy.expression(f"T{i}") for i in range(n)]
     velocity = [hy.expression(f"v{i}") for i in range(n)]
-    slides, friction, mode, sticks = (
+    mode, slides, friction, sticks = (
         [hy.par[row * n + i] for i in range(n)] for row in range(4)
     )
     net = [force[i] - force[i + 1] for i in range(n - 1)] + [force[-1]]
