@@ -42,7 +42,6 @@ from precursors import Chain, Record, simulate, simulate_many
 from precursors.accuracy.compare import Truth, compare
 from precursors.accuracy.work_precision import (
     ROUNDS,
-    Case,
     charted_values,
     measure_methods,
 )
@@ -144,7 +143,6 @@ def one_method(name: str, rounds: int) -> pd.DataFrame:
     """Measure a method, the exact solver and heyoka.py at theta = 0 to the end of the
     first global slip."""
     truth = reference("0").until_global_slip()
-    case = Case("uniform", 0.0, truth.run.chain, DURATION, truth)
     quick = charted_values(full=False)
     values = {
         other: settings[-1:]
@@ -152,7 +150,7 @@ def one_method(name: str, rounds: int) -> pd.DataFrame:
         if other in ("exact", "heyoka")
     }
     values[name] = quick[name] or charted_values(full=True)[name]
-    return measure_methods(case, values, rounds)
+    return measure_methods(truth, DURATION, values, rounds)
 
 
 def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:

@@ -6,7 +6,6 @@ import math
 
 import pytest
 from accuracy.made_up import (
-    CHAIN,
     DURATION,
     TRUE,
     made_up,
@@ -17,7 +16,6 @@ from precursors.accuracy.compare import Truth
 from precursors.accuracy.work_precision import (
     COUNTS,
     SHORTEST,
-    Case,
     charted_values,
     measure_methods,
 )
@@ -27,10 +25,6 @@ FIVE = TRUE[:5]  # two slips, the second not over
 # A call of a fake method takes so long, on a clock that the test moves [s]; one is
 # repeated in a round.
 CALL, SHORT_CALL = 2.0**-8, 2.0**-11
-
-
-def case(rows) -> Case:
-    return Case("made up", 0.0, CHAIN, DURATION, Truth.of_run(made_up(rows)))
 
 
 def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solver_comes_first():
@@ -62,13 +56,15 @@ class Fake:
 @pytest.fixture
 def fake(monkeypatch: pytest.MonkeyPatch, clock) -> Fake:
     fake = Fake(clock)
-    method = Method("rk4", "time [s]", fake.solve, kind="once a step")
+    method = Method("rk4", "time [s]", fake.solve)
     monkeypatch.setitem(METHODS, "rk4", method)
     return fake
 
 
 def measured(*values: float, **limits: float) -> list[dict]:
-    return measure_methods(case(FIVE), {"rk4": values}, 5, **limits).to_dict("records")
+    truth = Truth.of_run(made_up(FIVE))
+    table = measure_methods(truth, DURATION, {"rk4": values}, 5, **limits)
+    return table.to_dict("records")
 
 
 def test_a_row_holds_time_work_and_errors(fake):
@@ -77,8 +73,7 @@ def test_a_row_holds_time_work_and_errors(fake):
     assert [row.pop(name) for name in ("error_load_N", "error_time_s")] == [1.0, 0.0]
     assert [row.pop(name) for name in COUNTS] == [4, 4, 5]
     shown = [ROWS["rk4"][name] for name in ("color", "marker")]
-    about = ["made up", 0.0, "global slip", "rk4", ROWS["rk4"]["label"], "once a step"]
-    about += [*shown, "time [s]"]
+    about = ["rk4", ROWS["rk4"]["label"], *shown, "time [s]"]
     assert list(row.values()) == [*about, CALL, 7, CALL]
 
 

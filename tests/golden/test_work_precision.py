@@ -71,9 +71,7 @@ def test_the_table_in_the_docs_is_of_the_published_one(row, method, value):
 
 
 def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(table):
-    assert table[["scene", "until"]].drop_duplicates().to_numpy().tolist() == [
-        ["uniform", "global slip"]
-    ]
+    assert set(table["scene"]) == {"uniform"}
     is_right = table["transitions_right"].eq(table["transitions_true"])
     (exact,) = table[is_right & table["method"].eq("exact")].to_dict("records")
     whole = table[is_right & table["method"].ne("exact")]

@@ -73,14 +73,13 @@ CHART_OF_THE_METHOD = """
 from matplotlib.colors import to_hex
 from precursors import Chain, simulate
 from precursors.accuracy.compare import Truth
-from precursors.accuracy.work_precision import Case, charted_values, measure_methods
+from precursors.accuracy.work_precision import charted_values, measure_methods
 from precursors.figures import speed
 from precursors.methods import ROWS
 
 chain = Chain.from_slider(drive_velocity=0.01)
 truth = Truth.of_run(simulate(chain, 0.01))
-case = Case("fast", 0.0, chain, 0.01, truth)
-table = measure_methods(case, {"scipy_rk23": charted_values(False)["scipy_rk23"]}, 1)
+table = measure_methods(truth, 0.01, {"scipy_rk23": charted_values(False)["scipy_rk23"]}, 1)
 lines = [line for axes in speed.draw(table).axes for line in axes.lines if line.get_marker() != "None"]
 print(len(table), *{to_hex(line.get_color()).upper() for line in lines})
 print(*(row["color"] for name, row in ROWS.items() if name != "scipy_rk23"))

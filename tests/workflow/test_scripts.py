@@ -374,10 +374,9 @@ def test_methods_are_measured_to_the_first_global_slip(monkeypatch):
     values = {"exact": [0.0], "leapfrog": [1e-6, 1e-7]}
     monkeypatch.setattr(work_precision, "charted_values", lambda _full: values)
     certificate = certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), 6.0)
-    table = work_precision.work_precision_table(certificate, "two", 0.25, False)
+    table = work_precision.work_precision_table(certificate, "two", False)
     assert table["method"].tolist() == ["exact", "leapfrog", "leapfrog"]
-    labels = table[["scene", "theta", "until"]].drop_duplicates()
-    assert labels.to_numpy().tolist() == [["two", 0.25, "global slip"]]
+    assert set(table["scene"]) == {"two"}
     exact, coarse, fine = table.to_dict("records")
     assert exact["transitions_right"] == exact["transitions_true"]
     assert 0 < exact["transitions_true"] < len(certificate.transitions)

@@ -26,7 +26,7 @@ TABLES |= {
     "work_precision": {
         "function": "accuracy.work_precision:work_precision_table",
         "inputs": {"certificate": CERTIFICATES[EVEN]},
-        "options": {"scene": EVEN, "theta": THETAS[EVEN], "full": config["full"]},
+        "options": {"scene": EVEN, "full": config["full"]},
         "seconds": 100 if config["full"] else 4,
     },
     "benchmark": {
@@ -39,10 +39,7 @@ TABLES |= {
     "step_sweep": {
         "function": "accuracy.step_sweep:step_sweep_table",
         "inputs": {"runs": RUNS},
-        "options": {
-            "thetas": {scene: slider["theta"] for scene, slider in SLIDERS.items()},
-            "full": config["full"],
-        },
+        "options": {"full": config["full"]},
         "seconds": 3,
     },
     "failures": {

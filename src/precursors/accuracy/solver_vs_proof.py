@@ -11,7 +11,6 @@ import pandas as pd
 
 from precursors.accuracy.compare import Comparison, Truth, compare
 from precursors.analysis.horizon import PredictedErrors, predicted_errors
-from precursors.analysis.slips import find_slips, first_global
 from precursors.model.chain import FloatArray
 from precursors.proof import Certificate
 from precursors.proof.chains import certificates_table
@@ -92,15 +91,14 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
     ratio = np.maximum.accumulate(compared.time_errors[known]) / np.maximum.accumulate(
         predicted[known]
     )
-    slips = find_slips(run)
-    first = first_global(slips)
-    first_end = -np.inf if first is None else float(slips["end"].iloc[first])
-    until = np.searchsorted(time, first_end, side="right")
+    to_global_slip = Truth.of_run(run).until_global_slip().run.transitions
     return {
         "duration_s": run.duration,
         "transitions": len(run.transitions),
         "agreeing_transitions": n,
-        "time_error_to_first_global_slip_s": _largest(compared.time_errors[:until]),
+        "time_error_to_first_global_slip_s": _largest(
+            compared.time_errors[: len(to_global_slip)]
+        ),
         "time_error_while_agreeing_s": _largest(compared.time_errors),
         "right_until_s": float(
             min(

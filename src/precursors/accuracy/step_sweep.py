@@ -11,7 +11,7 @@ import pandas as pd
 
 from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import Truth, transitions_right
-from precursors.analysis.slips import first_global_slip, slip_table
+from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
 from precursors.methods import METHODS
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Record, Run
@@ -35,12 +35,10 @@ def charted_steps(full: bool = False) -> dict[str, FloatArray]:
     }
 
 
-def step_sweep_table(
-    runs: Mapping[str, Run], thetas: Mapping[str, float], full: bool
-) -> pd.DataFrame:
+def step_sweep_table(runs: Mapping[str, Run], full: bool) -> pd.DataFrame:
     """One row per scene, method and step; see `row`."""
     return pd.DataFrame(
-        {"scene": scene, "theta": thetas[scene], **row}
+        {"scene": scene, "theta": run.chain.theta, **row}
         for scene, run in runs.items()
         for row in sweep(run, charted_steps(full))
     )
@@ -75,13 +73,11 @@ def row(method: str, step: float, run: Record, truth: Record) -> dict[str, objec
         events in Fig. 13; mu_sapp (Eq. 1), NaN without a global slip; transitions_right
         before the first wrong one, and transitions_true, all there are.
     """
-    slips = slip_table(run)
-    friction = first_global_slip(slips)
     return {
         "method": method,
         "step_s": step,
-        "events_counted": int(slips["counted"].sum()),
-        "mu_sapp": friction.mu_sapp if friction else math.nan,
+        "events_counted": len(find_precursors(find_slips(run))),
+        "mu_sapp": apparent_friction(run),
         "transitions_right": transitions_right(run, truth),
         "transitions_true": len(truth.transitions),
     }

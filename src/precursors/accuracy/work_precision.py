@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -14,7 +13,6 @@ import pandas as pd
 from precursors.accuracy.attempt import attempt
 from precursors.accuracy.compare import Truth, compare
 from precursors.methods import METHODS, ROWS, Method, Result
-from precursors.model.chain import Chain
 from precursors.support import timing
 
 if TYPE_CHECKING:
@@ -39,38 +37,16 @@ SHORTEST = 0.0025  # s, of a round: see `timing.measure`
 COUNTS = ("transitions_right", "transitions_found", "transitions_true")
 
 
-@dataclass(frozen=True, eq=False)
-class Case:
-    """What all methods are asked to do: run a scene's chain to its first global slip.
-
-    The true run goes over the same time, at most a duration [s].
-    """
-
-    scene: str
-    theta: float
-    chain: Chain
-    duration: float
-    truth: Truth
-
-    def run(
-        self, method: Method, value: float, duration: float | None = None
-    ) -> Result:
-        """Run a method with a value of its setting; of a run that breaks off, what
-        there is."""
-        return attempt(
-            method.solve, self.chain, duration or self.duration, value, UNTIL
-        )
-
-
 def work_precision_table(
-    certificate: Certificate, scene: str, theta: float, full: bool
+    certificate: Certificate, scene: str, full: bool
 ) -> pd.DataFrame:
-    """Measure all methods on a proved chain."""
+    """Measure all methods on a proved chain, up to its first global slip."""
     limits = (ROUNDS_FULL, LONGEST_FULL, LONG_FULL) if full else (ROUNDS, LONGEST, LONG)
     truth = Truth.proved(certificate).until_global_slip()
-    chain = certificate.chain.to_chain()
-    case = Case(scene, theta, chain, float(certificate.proved_until), truth)
-    return measure_methods(case, charted_values(full), *limits)
+    duration = float(certificate.proved_until)
+    table = measure_methods(truth, duration, charted_values(full), *limits)
+    table.insert(0, "scene", scene)
+    return table
 
 
 def charted_values(full: bool) -> dict[str, tuple[float, ...]]:
@@ -81,7 +57,8 @@ def charted_values(full: bool) -> dict[str, tuple[float, ...]]:
 
 
 def measure_methods(
-    case: Case,
+    truth: Truth,
+    duration: float,
     values: Mapping[str, Sequence[float]],
     rounds: int = ROUNDS,
     longest: float = LONGEST,
@@ -89,10 +66,12 @@ def measure_methods(
 ) -> pd.DataFrame:
     """Time methods with several settings, and compare each run with the truth.
 
-    `values` of each method's setting go from loose to tight. A time is the median of
-    some rounds in which methods take turns, after a short warm-up; a call that takes
-    longer than `long` [s] is timed once. A method is given up at a value with which a
-    call takes longer than `longest` [s].
+    A run ends with the first global slip, as the truth does, and at the latest after a
+    `duration` [s]; of a run that breaks off, what there is counts. `values` of each
+    method's setting go from loose to tight. A time is the median of some rounds in
+    which methods take turns, after a short warm-up; a call that takes longer than
+    `long` [s] is timed once. A method is given up at a value with which a call takes
+    longer than `longest` [s].
 
     Returns
     -------
@@ -102,16 +81,18 @@ def measure_methods(
     """
     tasks: list[tuple[Callable[[], Result], timing.Seconds]] = []
     rows = []
+    chain = truth.run.chain
     for name, some in values.items():
         for value in some:
-            task = partial(case.run, METHODS[name], value)
-            result, seconds = timing.second_call(
-                task, partial(task, min(WARM_UP, case.duration))
+            task, warm_up = (
+                partial(attempt, METHODS[name].solve, chain, end, value, UNTIL)
+                for end in (duration, min(WARM_UP, duration))
             )
+            result, seconds = timing.second_call(task, warm_up)
             if seconds.wall > longest:
                 break
             tasks.append((task, seconds))
-            rows.append(_row(case, METHODS[name], value, result, seconds.wall))
+            rows.append(_row(truth, METHODS[name], value, result, seconds.wall))
     short = {key: of for key, of in enumerate(tasks) if of[1].wall <= long}
     timings = timing.measure(
         {key: task for key, (task, _) in short.items()},
@@ -125,16 +106,12 @@ def measure_methods(
 
 
 def _row(
-    case: Case, method: Method, value: float, result: Result, seconds: float
+    truth: Truth, method: Method, value: float, result: Result, seconds: float
 ) -> dict[str, object]:
-    found = compare(result.run, case.truth)
+    found = compare(result.run, truth)
     return {
-        "scene": case.scene,
-        "theta": case.theta,
-        "until": UNTIL,
         "method": method.name,
         "label": ROWS[method.name]["label"],
-        "kind": method.kind,
         "color": ROWS[method.name]["color"],
         "marker": ROWS[method.name]["marker"],
         "setting": method.setting,

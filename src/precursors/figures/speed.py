@@ -37,7 +37,7 @@ def draw(
     works: Sequence[str] = ("seconds",),
 ) -> Figure:
     """Draw the largest error of a transition's time against work, up to the first
-    global slip at even load.
+    global slip.
 
     `table` is work_precision.csv, and `works` its columns of work. Methods of one
     colour of their own have their names beside them, the others are grey points. A tick
@@ -45,10 +45,9 @@ def draw(
     how many times as long as the exact solver heyoka takes in `sessions`
     (beside_heyoka.csv).
     """
-    rows = table[table["theta"].eq(0) & table["until"].eq("global slip")]
-    true = rows["transitions_true"]
-    is_right = rows["transitions_right"].eq(true) & rows["transitions_found"].eq(true)
-    rows = rows.assign(is_right=is_right)
+    true = table["transitions_true"]
+    is_right = table["transitions_right"].eq(true) & table["transitions_found"].eq(true)
+    rows = table.assign(is_right=is_right)
     width_mm = style.COLUMN_MM if len(works) == 1 else style.PAGE_MM
     with style.page(width_mm, HEIGHT_MM) as figure:
         panels = figure.subplots(

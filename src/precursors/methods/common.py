@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
 
 from precursors.model.chain import Chain
 from precursors.model.checks import Until
@@ -38,11 +37,6 @@ class Smooth:
     energy_factor: Callable[[float], float]
 
 
-# How a method finds its transitions: as roots, at the end of each step, or not at all,
-# where friction is a function of the velocity.
-Kind = Literal["located", "once a step", "friction law"]
-
-
 @dataclass(frozen=True)
 class Method:
     """A method by its name, which is its row in methods.csv.
@@ -57,7 +51,6 @@ class Method:
     setting: str
     solve: Callable[[Chain, float, float, Until], Result]
     smooth: Smooth | None = None
-    kind: Kind = "located"
 
 
 class DivergedError(RuntimeError):

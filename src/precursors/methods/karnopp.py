@@ -149,4 +149,4 @@ def run_karnopp(motion, step, dead_zone):
         record_modes(motion, dead_zone)
 
 
-METHODS = (Method("karnopp", "step [s]", solve, kind="friction law"),)
+METHODS = (Method("karnopp", "step [s]", solve),)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from precursors.methods.columns import COULOMB
-from precursors.methods.common import DivergedError, Kind, Method, Result, Smooth
+from precursors.methods.common import DivergedError, Method, Result, Smooth
 from precursors.methods.fixed_step import (
     DIVERGED,
     FINISHED,
@@ -125,7 +125,6 @@ def fixed_step(
     method: Callable[..., None],
     *parameters: Any,
     smooth: tuple[float, Callable[[float], float]] | None = None,
-    kind: Kind = "once a step",
     waits: bool = True,
 ) -> Method:
     """Make a compiled fixed-step method.
@@ -138,5 +137,4 @@ def fixed_step(
         "step [s]",
         partial(march, method, parameters, waits=waits),
         smooth=Smooth(partial(slide, method, parameters), *smooth) if smooth else None,
-        kind=kind,
     )

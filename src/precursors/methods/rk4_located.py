@@ -204,4 +204,4 @@ def run_located(motion, step):
                 break
 
 
-METHODS = (fixed_step("rk4_located", run_located, kind="located"),)
+METHODS = (fixed_step("rk4_located", run_located),)

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping
 
-import numpy as np
 import pandas as pd
 
 from precursors.accuracy.failures.common import Failure
@@ -64,8 +63,8 @@ def curve_table(found: Mapping[str, Failure]) -> pd.DataFrame:
                 "failure_mode": mode,
                 "curve": curve.name,
                 "role": curve.role,
-                "x": np.asarray(curve.x, float),
-                "y": np.asarray(curve.y, float),
+                "x": curve.x,
+                "y": curve.y,
                 "x_is": failure.x,
                 "y_is": failure.y,
             }

@@ -40,7 +40,8 @@ def dead_zone_too_large() -> Failure:
     """Karnopp's dead zone, so wide that blocks creep in it beyond mu_s w."""
     chain = Chain.from_slider()
     measured = [first_excess(chain, zone) for zone in LARGE_ZONES]
-    theory = [predicted_excess(chain, zone) for zone in LARGE_ZONES]
+    delays = [karnopp.release_delay(chain, zone) for zone in LARGE_ZONES]
+    theory = chain.loading_rate * np.array(delays)
     curves = [
         Curve("theory", LARGE_ZONES, theory, "theory"),
         Curve("measured", LARGE_ZONES, measured),
@@ -55,8 +56,3 @@ def first_excess(chain: Chain, dead_zone: float) -> float:
         chain, 1.2 * limit / chain.loading_rate, STEPS[0], None, dead_zone
     ).run
     return float(run.transitions["tangential_load"][0]) - limit
-
-
-def predicted_excess(chain: Chain, dead_zone: float) -> float:
-    """`first_excess` by the closed form of the creep in a dead zone [N]."""
-    return chain.loading_rate * karnopp.release_delay(chain, dead_zone)

@@ -69,7 +69,9 @@ STEPS = 200
 PARTS = 0.8 * 1.02 ** np.arange(50)
 LATER = 2.0
 MOST: Any = {"max_transitions": 20_000}
-# Steps [s] with which the first five slips are run, from coarse to fine.
+# Methods with which the first five slips are run, besides RK4 with its transitions
+# located, and their steps [s] from coarse to fine.
+IN_STEPS = ("rk4_skip", "leapfrog", "moreau_jean_half", DISSIPATIVE, "karnopp")
 COARSE_STEPS = 1e-5 * 10.0 ** -np.arange(0.0, 4.0, 0.25)
 
 
@@ -148,15 +150,9 @@ def gets_lost(chain: Chain, name: str, end: float, step: float) -> bool:
 
 
 def five_slips(exact: Run) -> Iterator[Threshold]:
-    """Longest steps [s] with which all transitions of a run are the exact one's.
-
-    `rk4` makes the steps of `rk4_skip`.
-    """
+    """Longest steps [s] with which all transitions of a run are the exact one's."""
     chain = exact.chain
-    shortest = float(exact.intervals.min())
-    once_a_step = [name for name, of in METHODS.items() if of.kind == "once a step"]
-    expected = dict.fromkeys([*once_a_step, "karnopp"], (INTERVAL, shortest))
-    del expected["rk4"]
+    expected = dict.fromkeys(IN_STEPS, (INTERVAL, float(exact.intervals.min())))
     expected[DISSIPATIVE] = (DISSIPATION, changing_step(without_friction(chain))[0])
     limit, theory = STOPPING["rk4_located"]
     expected["rk4_located"] = (theory, limit / highest_frequency(chain))
@@ -173,4 +169,4 @@ def is_right(exact: Run, name: str, value: float) -> bool:
 
 def first(holds: Callable[[float], bool], values: Iterable[float]) -> float:
     """First of some values for which something holds; infinity if there is none."""
-    return next((float(value) for value in values if holds(float(value))), math.inf)
+    return next(filter(holds, values), math.inf)
