@@ -20,8 +20,9 @@ from precursors.model.chain import Chain, FloatArray
 
 # Rows of a system, which stay: the spring behind each column [N/m], 1/m, mu_s w and
 # mu_k w [N]; the largest forces [N] that do not release a stuck block backward and do
-# not turn a stopping block round.
-SPRING, INVERSE_MASS, STRENGTH, KINETIC, BACKWARD, TURNING = range(6)
+# not turn a stopping block round; the velocity [m/s] up to which Karnopp's method takes
+# a block for one that rests.
+SPRING, INVERSE_MASS, STRENGTH, KINETIC, BACKWARD, TURNING, DEAD_ZONE = range(7)
 # Rows of a state, which change: spring force [N], velocity [m/s], mode, 1/m where a
 # block slides, mode_i mu_k w_i [N]. The first two are also those of its rates, and of
 # states that a method tries.
@@ -49,7 +50,7 @@ def at_rest(
 ) -> tuple[FloatArray, FloatArray]:
     """System and state of a chain whose blocks all stick, springs at natural length;
     `scaled`: in tau."""
-    system = np.zeros((6, chain.n_blocks + 2))
+    system = np.zeros((7, chain.n_blocks + 2))
     state = np.zeros((5, chain.n_blocks + 2))
     blocks = system[:, 1:-1]
     blocks[SPRING] = chain.springs

@@ -57,7 +57,7 @@ def stages(system, state, last, h, k, end, trial):
                 for row in range(2):
                     for i in range(1, last + 2):
                         trial[row, i] += share * k[before, row, i]
-        rates(by_mode, 0.0, system, state, last, trial, k[stage])
+        rates(by_mode, system, state, last, trial, k[stage])
         if stage == STAGES:
             copy(trial, last, end)
 
@@ -163,9 +163,8 @@ def advance(motion, tolerance):
     trial = state[:RATES].copy()
     before = np.zeros(n)
     after = np.zeros(n)
-    rates(by_mode, 0.0, system, state, last, state, k[0])
-    for i in range(1, feels(state, last) + 1):
-        before[i] = event_function(system, state, state, i)
+    rates(by_mode, system, state, last, state, k[0])
+    functions_at(0.0, system, state, last, f, trial, before)
     progress.evaluations += 1
     longest = FIRST_STEP * tolerance**-EXPONENT
     while progress.elapsed < progress.remaining:

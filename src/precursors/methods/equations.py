@@ -33,21 +33,19 @@ def net_force(y, i):
 
 
 @inner
-def by_mode(_system, state, i, net, velocity, _parameter):
+def by_mode(_system, state, i, net, velocity):
     """Velocity of block i as the springs see it, and its acceleration: friction is that
     of its mode."""
     return velocity, state[MOBILITY, i] * (net - state[FRICTION, i])
 
 
 @inner
-def rates(law, parameter, system, state, last, y, rate):
+def rates(law, system, state, last, y, rate):
     """Rates of a state y under a law of friction (Eqs. 2-6); blocks ahead of 1..last
     rest."""
     behind = y[VELOCITY, 0]
     for i in range(1, last + 1):
-        here, rate[VELOCITY, i] = law(
-            system, state, i, net_force(y, i), y[VELOCITY, i], parameter
-        )
+        here, rate[VELOCITY, i] = law(system, state, i, net_force(y, i), y[VELOCITY, i])
         rate[FORCE, i] = system[SPRING, i] * (behind - here)
         behind = here
     rate[FORCE, last + 1] = system[SPRING, last + 1] * behind

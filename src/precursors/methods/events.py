@@ -179,7 +179,7 @@ def rates_of(y, system, state, result):
     take(state, y)
     n = state.shape[1] - 2
     rate = np.empty_like(state)
-    rates(by_mode, 0.0, system, state, n, state, rate)
+    rates(by_mode, system, state, n, state, rate)
     for i in range(n):
         result[i] = rate[FORCE, i + 1]
         result[n + i] = rate[VELOCITY, i + 1]

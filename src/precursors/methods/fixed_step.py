@@ -31,6 +31,7 @@ from precursors.methods.equations import (
 )
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span
+from precursors.solver.record import TRANSITION
 
 FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, LOST, MOVING = range(6)
 # A leg has at most so many steps, and a call so many legs, so that Ctrl-C is heard
@@ -63,15 +64,8 @@ PROGRESS = np.dtype(
         ("status", "i8"),  # MOVING while there is a leg to begin, or why not
     ]
 )
-RECORD = np.dtype(
-    [
-        ("time", "f8"),
-        ("block", "i4"),
-        ("mode", "i1"),
-        ("tangential_load", "f8"),
-        ("interval", "f8"),
-    ]
-)
+# A transition, and the time from the one before [s].
+RECORD = np.dtype([*TRANSITION.descr, ("interval", "f8")])
 
 
 class SteppedMotion(NamedTuple):

@@ -25,11 +25,9 @@ from precursors.model.chain import Chain
 # recommends for large systems.
 LARGE = 20
 
-Callback = Callable[[Any, int], bool]
-
 
 def integrator_of(
-    chain: Chain, tolerance: float, callback: Callable[[int], Callback]
+    chain: Chain, tolerance: float, callback: Callable[[int], Any]
 ) -> Any:
     """heyoka's integrator of a chain: `callback(event)` is what it calls at an event
     function's root."""
@@ -72,7 +70,7 @@ def _integrator(chain: Chain, tolerance: float) -> tuple[Any, list[EventMotion]]
     present."""
     present: list[EventMotion] = []
 
-    def callback(event: int) -> Callback:
+    def callback(event: int) -> Any:
         def switch(solver: Any, _direction: int) -> bool:
             # The function that fired means something else from now on: its cooldown
             # must not hide a root.

@@ -18,9 +18,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
-from precursors.methods.columns import INVERSE_MASS, KINETIC, MODE, STRENGTH, VELOCITY
+from precursors.methods.columns import (
+    DEAD_ZONE,
+    INVERSE_MASS,
+    KINETIC,
+    MODE,
+    STRENGTH,
+    VELOCITY,
+)
 from precursors.methods.common import Method, Result
 from precursors.methods.compiled import apart, inner, outer
 from precursors.methods.fixed_step import (
@@ -77,9 +82,9 @@ def solve(
 
 
 @inner
-def by_velocity(system, _state, i, net, velocity, dead_zone):
+def by_velocity(system, _state, i, net, velocity):
     """The law of friction with the dead zone; at dv = 0 it is Eqs. 4-6 as printed."""
-    if abs(velocity) <= dead_zone:
+    if abs(velocity) <= system[DEAD_ZONE, i]:
         held = min(max(net, -system[STRENGTH, i]), system[STRENGTH, i])
         return 0.0, system[INVERSE_MASS, i] * (net - held)
     friction = math.copysign(system[KINETIC, i], velocity)
@@ -87,18 +92,18 @@ def by_velocity(system, _state, i, net, velocity, dead_zone):
 
 
 @outer
-def slide(system, state, h, n_steps, dead_zone):
+def slide(system, state, h, n_steps):
     """Make n steps of the whole chain, with nothing recorded."""
     n = state.shape[1] - 2
     work = room(state)
     for _ in range(n_steps):
-        step_of_law(by_velocity, dead_zone, system, state, n, h, work)
+        step_of_law(by_velocity, system, state, n, h, work)
 
 
 @inner
 def mode_of(v, dead_zone):
     """Mode of a block with velocity v: in the dead zone it counts as resting."""
-    return 0 if abs(v) <= dead_zone else int(np.sign(v))
+    return 0.0 if abs(v) <= dead_zone else math.copysign(1.0, v)
 
 
 @inner
@@ -117,7 +122,7 @@ def record_modes(motion, dead_zone):
     progress = motion.progress[0]
     for i in range(1, state.shape[1] - 1):
         old = int(state[MODE, i])
-        new = mode_of(state[VELOCITY, i], dead_zone)
+        new = int(mode_of(state[VELOCITY, i], dead_zone))
         if new != old:
             state[MODE, i] = new
             progress.sliding += abs(new) - abs(old)
@@ -132,13 +137,12 @@ def run_karnopp(motion, step, dead_zone):
     progress = motion.progress[0]
     n = state.shape[1] - 2
     work = room(state)
+    system[DEAD_ZONE] = dead_zone
     # No block is released: its velocity decides.
     while begin_leg(motion, all_keep_their_modes(system, state, n), False):
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
-            progress.evaluations += step_of_law(
-                by_velocity, dead_zone, system, state, n, h, work
-            )
+            progress.evaluations += step_of_law(by_velocity, system, state, n, h, work)
             progress.elapsed += h
             if (
                 h < step

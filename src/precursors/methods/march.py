@@ -114,10 +114,8 @@ def run_of(motion: SteppedMotion, chain: Chain, status: int) -> Record:
         if status == FINISHED
         else progress["onset"] + progress["elapsed"] * unit
     )
-    time, block, mode, load = (rows[name][:n] for name in TRANSITION.names or ())
-    return Record.from_columns(
-        chain, float(reached), time, block, mode, load, intervals
-    )
+    columns = {name: rows[name][:n] for name in TRANSITION.names or ()}
+    return Record.from_columns(chain, float(reached), **columns, intervals=intervals)
 
 
 def fixed_step(

@@ -44,10 +44,6 @@ from precursors.methods.fixed_step import (
 )
 from precursors.methods.march import fixed_step
 
-# theta: of order 2 while nothing switches, without damping; of order 1, damping what is
-# faster than a step.
-TRAPEZOIDAL = 0.5
-IMPLICIT = 1.0
 # The active set settles in two or three solutions; where it goes in a circle, this many
 # are enough.
 SOLUTIONS_PER_BLOCK = 4
@@ -182,7 +178,6 @@ def _method(name: str, theta: float) -> Method:
     return fixed_step(name, run_moreau_jean, theta, smooth=smooth)
 
 
-METHODS = (
-    _method("moreau_jean_half", TRAPEZOIDAL),
-    _method("moreau_jean_one", IMPLICIT),
-)
+# Of order 2 while nothing switches, without damping; of order 1, damping what is faster
+# than a step.
+METHODS = (_method("moreau_jean_half", 0.5), _method("moreau_jean_one", 1.0))

@@ -26,34 +26,34 @@ def energy_factor(z: float) -> float:
 def rk4_step(system, state, last, h, work):
     """One step h [s] of blocks 1..last: four evaluations (W. Kutta, Z. Math. Phys. 46,
     1901, 435-453)."""
-    return step_of_law(by_mode, 0.0, system, state, last, h, work)
+    return step_of_law(by_mode, system, state, last, h, work)
 
 
 @template
-def step_of_law(law, parameter, system, state, last, h, work):
+def step_of_law(law, system, state, last, h, work):
     """The same under a law of friction, see `rates`."""
     rate, _, end = work
-    rates(law, parameter, system, state, last, state, rate)
-    step_from_rates(law, parameter, system, state, last, h, work)
+    rates(law, system, state, last, state, rate)
+    step_from_rates(law, system, state, last, h, work)
     copy(end, last, state)
     return 4
 
 
 @inner
-def step_from_rates(law, parameter, system, state, last, h, work):
+def step_from_rates(law, system, state, last, h, work):
     """Find the end of a step whose first rates are already in `work`."""
     rate, trial, end = work
     for i in range(1, last + 2):
         for row in range(2):
             end[row, i] = state[row, i] + h / 6.0 * rate[row, i]
             trial[row, i] = state[row, i] + h / 2.0 * rate[row, i]
-    stage(law, parameter, system, state, last, h / 3.0, h / 2.0, work)
-    stage(law, parameter, system, state, last, h / 3.0, h, work)
-    stage(law, parameter, system, state, last, h / 6.0, 0.0, work)
+    stage(law, system, state, last, h / 3.0, h / 2.0, work)
+    stage(law, system, state, last, h / 3.0, h, work)
+    stage(law, system, state, last, h / 6.0, 0.0, work)
 
 
 @inner
-def stage(law, parameter, system, state, last, share, ahead, work):
+def stage(law, system, state, last, share, ahead, work):
     """Evaluate the rates of the trial state as `rates`, add their share, make the next
     trial state.
 
@@ -65,7 +65,7 @@ def stage(law, parameter, system, state, last, share, ahead, work):
     for i in range(1, last + 1):
         force_ahead = trial[FORCE, i + 1]
         here, acceleration = law(
-            system, state, i, force - force_ahead, trial[VELOCITY, i], parameter
+            system, state, i, force - force_ahead, trial[VELOCITY, i]
         )
         force_rate = system[SPRING, i] * (behind - here)
         end[FORCE, i] += share * force_rate

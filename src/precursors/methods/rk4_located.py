@@ -46,7 +46,7 @@ NEVER = 2.0  # a part of the step beyond its end
 def evaluate(system, state, y, last, rate, event):
     """Rates of blocks 1..last in a state y; event functions of all that can change, and
     their rates (rows of `event`)."""
-    rates(by_mode, 0.0, system, state, last, y, rate)
+    rates(by_mode, system, state, last, y, rate)
     for i in range(1, feels(state, last) + 1):
         event[0, i] = event_function(system, state, y, i)
         if state[MODE, i] != 0.0:
@@ -148,7 +148,7 @@ def shorten_step(motion, last, h, s, i, at_start, at_end, zero, work):
     state = motion.state
     end = work[2]
     for correction in range(1, CORRECTIONS + 1):
-        step_from_rates(by_mode, 0.0, system, state, last, s * h, work)
+        step_from_rates(by_mode, system, state, last, s * h, work)
         motion.progress[0].evaluations += 3
         g = event_function(system, state, end, i)
         slope = cubic_slope(
@@ -181,7 +181,7 @@ def run_located(motion, step):
         for _ in range(STEPS_IN_LEG):
             h = step_length(progress, step)
             work = rate, trial, end
-            step_from_rates(by_mode, 0.0, system, state, last, h, work)
+            step_from_rates(by_mode, system, state, last, h, work)
             evaluate(system, state, end, last, rate_after, event_after)
             progress.evaluations += 4
             s, i = first_transition(state, last, h, event, event_after, rounding)

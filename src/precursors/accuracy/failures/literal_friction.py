@@ -22,7 +22,7 @@ def load_after_limit(chain: Chain, step: float, times: FloatArray) -> FloatArray
     state[FORCE, 1] = chain.strength[0]
     load = []
     for time in np.diff(times, prepend=0.0):
-        karnopp.slide(system, state, step, round(time / step), 0.0)
+        karnopp.slide(system, state, step, round(time / step))
         load.append(float(state[FORCE, 1]))
     return np.array(load)
 
