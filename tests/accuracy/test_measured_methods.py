@@ -14,7 +14,6 @@ from accuracy.made_up import (
 from precursors import Record, TransitionLimitError
 from precursors.accuracy.compare import Truth
 from precursors.accuracy.work_precision import (
-    COUNTS,
     SHORTEST,
     charted_values,
     measure_methods,
@@ -71,7 +70,8 @@ def test_a_row_holds_time_work_and_errors(fake):
     fake.run = made_up([(t, b, m, f - 1.0) for t, b, m, f in FIVE[:4]])
     (row,) = measured(CALL)
     assert [row.pop(name) for name in ("error_load_N", "error_time_s")] == [1.0, 0.0]
-    assert [row.pop(name) for name in COUNTS] == [4, 4, 5]
+    counts = [row.pop(f"transitions_{which}") for which in ("right", "found", "true")]
+    assert counts == [4, 4, 5]
     shown = [ROWS["rk4"][name] for name in ("color", "marker")]
     about = ["rk4", ROWS["rk4"]["label"], *shown, "time [s]"]
     assert list(row.values()) == [*about, CALL, 7, CALL]

@@ -92,11 +92,10 @@ class Truth:
             return self
         transitions = self.run.transitions
         n = int(np.searchsorted(transitions["time"], end, side="right"))
-        columns = [
-            transitions[name][:n]
-            for name in ("time", "block", "mode", "tangential_load")
-        ]
-        run = Record.from_columns(self.run.chain, end, *columns)
+        columns = {
+            name: transitions[name][:n] for name in transitions.dtype.names or ()
+        }
+        run = Record.from_columns(self.run.chain, end, **columns)
         return Truth(run, self.time_rest[:n], self.load_rest[:n])
 
 
@@ -183,7 +182,7 @@ def _rounded(numbers: Sequence[Fraction]) -> tuple[FloatArray, FloatArray]:
     """Doubles, and what is left of the numbers, as doubles too."""
     nearest = [float(x) for x in numbers]
     rest = [float(x - Fraction(y)) for x, y in zip(numbers, nearest, strict=True)]
-    return np.array(nearest, dtype=np.float64), np.array(rest, dtype=np.float64)
+    return np.array(nearest, float), np.array(rest, float)
 
 
 def _agreeing(found: NDArray[Any], true: NDArray[Any]) -> int:

@@ -11,7 +11,6 @@ import pandas as pd
 
 from precursors.accuracy.compare import Comparison, Truth, compare
 from precursors.analysis.horizon import PredictedErrors, predicted_errors
-from precursors.model.chain import FloatArray
 from precursors.proof import Certificate
 from precursors.proof.chains import certificates_table
 from precursors.solver.run import Run
@@ -56,23 +55,24 @@ def validate(certificate: Certificate) -> Validation:
     return Validation(run, compare(run, truth), predicted_errors(run))
 
 
-def error_table(validation: Validation) -> pd.DataFrame:
-    """Largest error so far, actual and predicted, at up to `ROWS` transitions; NaN
-    where order is unknown."""
+def largest_errors(validation: Validation) -> pd.DataFrame:
+    """Largest error so far at each transition, actual and predicted; NaN where order is
+    unknown."""
     run, compared, predictions = validation
-    n = len(run.transitions)
-    actual, predicted = np.full((2, n), np.nan)
-    actual[: compared.transitions_right] = np.maximum.accumulate(compared.time_errors)
-    known = np.isfinite(predictions.time_error)
-    predicted[known] = np.maximum.accumulate(predictions.time_error[known])
-    rows = np.unique(np.linspace(0, n - 1, ROWS).astype(int))
-    return pd.DataFrame(
+    errors = pd.DataFrame(
         {
-            "time_s": run.transitions["time"][rows],
-            "actual_error_s": actual[rows],
-            "predicted_error_s": predicted[rows],
+            "time_s": run.transitions["time"],
+            "predicted_error_s": predictions.time_error,
         }
     )
+    errors["actual_error_s"] = pd.Series(compared.time_errors)
+    return errors.replace(np.inf, np.nan).cummax()
+
+
+def error_table(validation: Validation) -> pd.DataFrame:
+    """The same at up to `ROWS` transitions."""
+    errors = largest_errors(validation)
+    return errors.iloc[np.unique(np.linspace(0, len(errors) - 1, ROWS).astype(int))]
 
 
 def summary(validation: Validation, tolerance: float) -> dict[str, float]:
@@ -83,35 +83,19 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
     `largest_ratio` is that of actual to predicted error, both the largest so far.
     """
     run, compared, predictions = validation
+    errors = largest_errors(validation)
+    actual = errors["actual_error_s"]
     n = compared.transitions_right
-    time = run.transitions["time"][:n]
-    wrong = time[compared.time_errors > tolerance]
-    predicted = predictions.time_error[:n]
-    known = np.isfinite(predicted)
-    ratio = np.maximum.accumulate(compared.time_errors[known]) / np.maximum.accumulate(
-        predicted[known]
-    )
+    wrong = run.transitions["time"][:n][compared.time_errors > tolerance]
     to_global_slip = Truth.of_run(run).until_global_slip().run.transitions
     return {
         "duration_s": run.duration,
         "transitions": len(run.transitions),
         "agreeing_transitions": n,
-        "time_error_to_first_global_slip_s": _largest(
-            compared.time_errors[: len(to_global_slip)]
-        ),
-        "time_error_while_agreeing_s": _largest(compared.time_errors),
-        "right_until_s": float(
-            min(
-                wrong[0] if wrong.size else np.inf,
-                compared.first_difference,
-                run.duration,
-            )
-        ),
+        "time_error_to_first_global_slip_s": actual[: len(to_global_slip)].max(),
+        "time_error_while_agreeing_s": compared.time_error,
+        "right_until_s": min(*wrong[:1], compared.first_difference, run.duration),
         "horizon_s": predictions.horizon(tolerance),
         "order_lost_s": compared.first_difference,
-        "largest_ratio": _largest(ratio),
+        "largest_ratio": (actual / errors["predicted_error_s"]).max(),
     }
-
-
-def _largest(values: FloatArray) -> float:
-    return float(np.max(values, initial=0.0))

@@ -34,7 +34,6 @@ LONGEST_FULL = 5.0
 # is so short [s].
 WARM_UP = 0.4
 SHORTEST = 0.0025  # s, of a round: see `timing.measure`
-COUNTS = ("transitions_right", "transitions_found", "transitions_true")
 
 
 def work_precision_table(
@@ -79,8 +78,9 @@ def measure_methods(
         A row per method and value; `evaluations` is NaN for a method that counts none,
         and errors are those of `Comparison`.
     """
-    tasks: list[tuple[Callable[[], Result], timing.Seconds]] = []
-    rows = []
+    tasks: dict[int, Callable[[], Result]] = {}
+    warm: dict[int, timing.Seconds] = {}
+    rows: list[dict[str, object]] = []
     chain = truth.run.chain
     for name, some in values.items():
         for value in some:
@@ -91,16 +91,11 @@ def measure_methods(
             result, seconds = timing.second_call(task, warm_up)
             if seconds.wall > longest:
                 break
-            tasks.append((task, seconds))
+            if seconds.wall <= long:
+                tasks[len(rows)] = task
+                warm[len(rows)] = seconds
             rows.append(_row(truth, METHODS[name], value, result, seconds.wall))
-    short = {key: of for key, of in enumerate(tasks) if of[1].wall <= long}
-    timings = timing.measure(
-        {key: task for key, (task, _) in short.items()},
-        rounds,
-        SHORTEST,
-        seconds={key: seconds for key, (_, seconds) in short.items()},
-    )
-    for key, found in timings.items():
+    for key, found in timing.measure(tasks, rounds, SHORTEST, warm).items():
         rows[key]["seconds"] = found.seconds
     return pd.DataFrame(rows)
 
@@ -120,5 +115,7 @@ def _row(
         "seconds": seconds,
         "error_load_N": found.load_error,
         "error_time_s": found.time_error,
-        **{name: getattr(found, name) for name in COUNTS},
+        "transitions_right": found.transitions_right,
+        "transitions_found": found.transitions_found,
+        "transitions_true": found.transitions_true,
     }

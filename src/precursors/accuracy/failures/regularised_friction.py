@@ -113,27 +113,21 @@ def creep_grows(chain: Chain, width: float, step: float) -> bool:
     return bool((abs(velocities) > 1.0).any())
 
 
-def longest_step(chain: Chain, width: float) -> float:
-    """Step [s] from which RK4 makes creep grow; by bisection."""
-    expected = RK4_REAL_LIMIT / fastest_rate(chain, width)
-    return bisect(
-        partial(creep_grows, chain, width), 0.5 * expected, 2.0 * expected, BISECTIONS
-    )
-
-
 def stiffness() -> Failure:
     """Regularised friction: the narrower, the stiffer."""
     chain = Chain.from_slider()
     omega = highest_frequency(chain)
     rates = [fastest_rate(chain, width) for width in STIFF_WIDTHS]
     at_unit_width = float(chain.strength.max()) / chain.mass
+    grows = partial(creep_grows, chain, LIMIT_WIDTH)
+    expected = RK4_REAL_LIMIT / fastest_rate(chain, LIMIT_WIDTH)
     limit = Threshold(
         method="rk4_regularised",
         n_blocks=chain.n_blocks,
         fails=CREEP_GROWS,
         theory="2.785 m width / (mu_s w)",
         predicted=RK4_REAL_LIMIT * LIMIT_WIDTH / at_unit_width,
-        measured=longest_step(chain, LIMIT_WIDTH),
+        measured=bisect(grows, 0.5 * expected, 2.0 * expected, BISECTIONS),
     )
     curves = [
         Curve("theory", STIFF_WIDTHS, at_unit_width / STIFF_WIDTHS, "theory"),
