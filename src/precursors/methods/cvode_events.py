@@ -71,12 +71,10 @@ def solve_cvode(
         if not solution.success:
             raise RuntimeError(f"CVODE at t = {motion.onset:.9g} s: {solution.message}")
         motion.y[:] = solution.y
-        fired = (
-            np.flatnonzero(solution.i_events[-1])
-            if solution.status == EVENT_FOUND
-            else [-1]
-        )
-        return float(solution.t), int(fired[0])
+        event = -1
+        if solution.status == EVENT_FOUND:
+            event = int(np.flatnonzero(solution.i_events[-1])[0])
+        return float(solution.t), event
 
     return march_restarting(motion, next_transition)
 

@@ -8,8 +8,6 @@ with c = K, k, k, ... and v_0 = V, in the arrays of `columns`.
 
 from __future__ import annotations
 
-import numpy as np
-
 from precursors.methods.columns import (
     BACKWARD,
     FORCE,
@@ -20,7 +18,6 @@ from precursors.methods.columns import (
     MODE,
     SPRING,
     STRENGTH,
-    TURNING,
     VELOCITY,
 )
 from precursors.methods.compiled import inner
@@ -121,11 +118,3 @@ def move_by(system, state, i, mode):
     """Give a block the mobility and the friction of a mode."""
     state[MOBILITY, i] = system[INVERSE_MASS, i] if mode != 0 else 0.0
     state[FRICTION, i] = mode * system[KINETIC, i]
-
-
-@inner
-def resting_mode(system, state, i):
-    """Mode of a block that stops: by the rule of switching it sticks, or slides on
-    along the force."""
-    net = net_force(state, i)
-    return int(np.sign(net)) if abs(net) > system[TURNING, i] else 0

@@ -18,6 +18,7 @@ from precursors.methods.columns import (
     FORCE,
     MODE,
     STRENGTH,
+    TURNING,
     VELOCITY,
     at_rest,
     time_unit,
@@ -27,7 +28,6 @@ from precursors.methods.equations import (
     event_function,
     move_by,
     net_force,
-    resting_mode,
 )
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_span
@@ -141,15 +141,16 @@ def record_transition(motion, i, new):
 
 @apart
 def change_state(motion, i):
-    """Release a stuck block in the direction of its force, or let a sliding one stop or
-    turn round."""
+    """Release a stuck block in the direction of its force, or stop a sliding one: by
+    the rule of switching it sticks, or slides on along the force."""
     state = motion.state
+    net = net_force(state, i)
     old = int(state[MODE, i])
-    if old == 0:
-        new = int(np.sign(net_force(state, i)))
-    else:
+    new = int(np.sign(net))
+    if old != 0:
         state[VELOCITY, i] = 0.0
-        new = resting_mode(motion.system, state, i)
+        if not abs(net) > motion.system[TURNING, i]:
+            new = 0
     if new != old:
         change_mode(motion, i, new)
 

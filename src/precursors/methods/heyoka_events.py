@@ -44,20 +44,21 @@ def integrator_of(
     )
     net = [force[i] - force[i + 1] for i in range(n - 1)] + [force[-1]]
     behind = [state[VELOCITY, 0], *velocity[:-1]]
-    falling = {"direction": hy.event_direction.negative}
-    events = []
+    functions = []
     for i in range(n):
-        forward = mode[i] * velocity[i] + sticks[i] * (strength[i] - net[i])
-        backward = slides[i] + sticks[i] * (strength[i] + net[i])
-        events += [
-            hy.t_event(function, callback=callback(2 * i + side), **falling)
-            for side, function in enumerate((forward, backward))
+        functions += [
+            mode[i] * velocity[i] + sticks[i] * (strength[i] - net[i]),
+            slides[i] + sticks[i] * (strength[i] + net[i]),
         ]
+    falling = hy.event_direction.negative
     return hy.taylor_adaptive(
         [(force[i], coupling[i] * (behind[i] - velocity[i])) for i in range(n)]
         + [(velocity[i], slides[i] * net[i] - friction[i]) for i in range(n)],
         np.zeros(2 * n),
-        t_events=events,
+        t_events=[
+            hy.t_event(function, callback=callback(event), direction=falling)
+            for event, function in enumerate(functions)
+        ],
         pars=np.zeros(4 * n),
         tol=tolerance,
         compact_mode=n > LARGE,

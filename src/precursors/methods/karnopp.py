@@ -27,7 +27,7 @@ from precursors.methods.columns import (
     VELOCITY,
 )
 from precursors.methods.common import Method, Result
-from precursors.methods.compiled import apart, inner, outer
+from precursors.methods.compiled import inner, outer
 from precursors.methods.fixed_step import (
     STEPS_IN_LEG,
     all_keep_their_modes,
@@ -101,32 +101,21 @@ def slide(system, state, h, n_steps):
 
 
 @inner
-def mode_of(v, dead_zone):
-    """Mode of a block with velocity v: in the dead zone it counts as resting."""
-    return 0.0 if abs(v) <= dead_zone else math.copysign(1.0, v)
-
-
-@inner
-def all_are_recorded(state, dead_zone):
-    """Whether no block has entered, left or crossed the dead zone."""
-    changes = 0
-    for i in range(1, state.shape[1] - 1):
-        changes += mode_of(state[VELOCITY, i], dead_zone) != state[MODE, i]
-    return changes == 0
-
-
-@apart
 def record_modes(motion, dead_zone):
-    """Record the blocks that have entered, left or crossed the dead zone in a step."""
+    """Record the blocks that have entered, left or crossed the dead zone in a step;
+    whether there are any."""
     state = motion.state
     progress = motion.progress[0]
+    known = progress.transitions
     for i in range(1, state.shape[1] - 1):
-        old = int(state[MODE, i])
-        new = int(mode_of(state[VELOCITY, i], dead_zone))
+        old = state[MODE, i]
+        velocity = state[VELOCITY, i]
+        new = 0.0 if abs(velocity) <= dead_zone else math.copysign(1.0, velocity)
         if new != old:
             state[MODE, i] = new
-            progress.sliding += abs(new) - abs(old)
-            record_transition(motion, i, new)
+            progress.sliding += int(abs(new) - abs(old))
+            record_transition(motion, i, int(new))
+    return progress.transitions > known
 
 
 @outer
@@ -144,13 +133,8 @@ def run_karnopp(motion, step, dead_zone):
             h = step_length(progress, step)
             progress.evaluations += step_of_law(by_velocity, system, state, n, h, work)
             progress.elapsed += h
-            if (
-                h < step
-                or progress.sliding == 0
-                or not all_are_recorded(state, dead_zone)
-            ):
+            if record_modes(motion, dead_zone) or h < step or progress.sliding == 0:
                 break
-        record_modes(motion, dead_zone)
 
 
 METHODS = (Method("karnopp", "step [s]", solve),)

@@ -75,18 +75,6 @@ def cubic_slope(s, g0, b0, g1, b1):
 
 
 @apart
-def falls_to_zero(low, high, g0, b0, g1, b1):
-    """Where the cubic, positive at `low` and negative at `high`, is zero."""
-    for _ in range(BISECTIONS):
-        middle = 0.5 * (low + high)
-        if cubic_at(middle, g0, b0, g1, b1) > 0.0:
-            low = middle
-        else:
-            high = middle
-    return high
-
-
-@apart
 def first_zero(g0, b0, g1, b1, rounding):
     """First place in 0 < s <= 1 where the cubic becomes negative by more than a
     rounding, or NEVER."""
@@ -112,7 +100,14 @@ def first_zero(g0, b0, g1, b1, rounding):
         if not 0.0 < top < lowest:
             return NEVER
         start = top
-    return falls_to_zero(start, lowest, g0, b0, g1, b1)
+    # The cubic is positive at the start and negative at its lowest.
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (start + lowest)
+        if cubic_at(middle, g0, b0, g1, b1) > 0.0:
+            start = middle
+        else:
+            lowest = middle
+    return lowest
 
 
 @inner

@@ -61,12 +61,12 @@ def solve_scipy(
         if not solution.success:
             raise RuntimeError(f"at t = {motion.onset:.9g} s: {solution.message}")
         motion.y[:] = solution.y[:, -1]
-        fired = [
+        fired = (
             number
             for number, times in zip(numbers, solution.t_events or (), strict=True)
             if len(times)
-        ]
-        return float(solution.t[-1]), fired[0] if fired else -1
+        )
+        return float(solution.t[-1]), next(fired, -1)
 
     return march_restarting(motion, next_transition)
 
