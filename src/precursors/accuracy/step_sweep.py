@@ -56,7 +56,7 @@ def sweep(
     truth = Truth.of_run(exact).until_global_slip().run
     yield row("exact", math.nan, truth, truth)
     for method, values in steps.items():
-        for step in map(float, values):
+        for step in values:
             result = attempt(
                 METHODS[method].solve, exact.chain, exact.duration, step, "global slip"
             )

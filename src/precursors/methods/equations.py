@@ -53,9 +53,9 @@ def rates(law, system, state, last, y, rate):
 def copy(y, last, result):
     """Copy spring forces and velocities up to the next after the last block that
     slides."""
-    for row in range(2):
-        for i in range(1, last + 2):
-            result[row, i] = y[row, i]
+    for i in range(1, last + 2):
+        result[FORCE, i] = y[FORCE, i]
+        result[VELOCITY, i] = y[VELOCITY, i]
 
 
 @inner
@@ -71,11 +71,10 @@ def accelerate(state, last, h):
 def stretch(system, state, last, h):
     """Change the spring forces by what blocks 1..last move in a time h at their
     velocities."""
-    for i in range(1, last + 1):
+    for i in range(1, last + 2):
         state[FORCE, i] += (
             h * system[SPRING, i] * (state[VELOCITY, i - 1] - state[VELOCITY, i])
         )
-    state[FORCE, last + 1] += h * system[SPRING, last + 1] * state[VELOCITY, last]
 
 
 @inner

@@ -9,7 +9,6 @@ from precursors.accuracy.compare import transitions_right
 from precursors.accuracy.failures.common import FIVE_SLIPS, Curve, Failure
 from precursors.methods import karnopp
 from precursors.model.chain import Chain
-from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
 STEPS = (4e-8, 2e-8)  # s
@@ -24,16 +23,13 @@ def dead_zone_too_small() -> Failure:
     curves = []
     for step in STEPS:
         zones = SMALL_ZONES * karnopp.safe_width(exact.chain, step)
-        right = [right_with(exact, step, zone) for zone in zones]
+        runs = [
+            karnopp.solve(exact.chain, FIVE_SLIPS, step, None, zone).run
+            for zone in zones
+        ]
+        right = [transitions_right(run, exact) for run in runs]
         curves.append(Curve(f"dt = {step:.0e} s", SMALL_ZONES, right))
     return Failure("zone_over_safe_width", "transitions_right", curves)
-
-
-def right_with(exact: Run, step: float, dead_zone: float) -> int:
-    """Transitions that Karnopp's method gets right with a step [s] and a dead zone
-    [m/s]."""
-    run = karnopp.solve(exact.chain, exact.duration, step, None, dead_zone).run
-    return transitions_right(run, exact)
 
 
 def dead_zone_too_large() -> Failure:

@@ -18,8 +18,6 @@ from precursors.model.chain import Chain
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-# Key of what fails.
-ROOTS_MISSED = "roots_missed"
 # At the loose tolerance DOP853 steps over two roots of a velocity; with steps of at
 # most so many seconds, it does not and does.
 LOOSE = 1e-7
@@ -75,7 +73,7 @@ def missed_roots() -> Failure:
     limit = Threshold(
         "scipy_dop853",
         chain.n_blocks,
-        fails=ROOTS_MISSED,
+        fails="roots_missed",
         theory="time for which the velocity is below zero, read off the exact run",
         predicted=below_zero,
         measured=longest,

@@ -32,7 +32,6 @@ STIFF_WIDTHS = np.geomspace(1e-9, 1e-4, 11)  # m/s
 LIMIT_WIDTH = 1e-6  # of the threshold
 # A stiff decay is stable with RK4 up to this lambda dt.
 RK4_REAL_LIMIT = 2.785293563
-CREEP_GROWS = "creep_grows"  # it becomes a growing oscillation
 STEPS = 200
 BISECTIONS = 8
 
@@ -98,9 +97,8 @@ def matrix_at_rest(chain: Chain, width: float) -> FloatArray:
 
 def fastest_rate(chain: Chain, width: float) -> float:
     """Largest eigenvalue of that matrix [1/s]."""
-    return float(
-        np.abs(np.linalg.eigvals(matrix_at_rest(chain, width))).max()
-    ) / time_unit(chain)
+    rates = abs(np.linalg.eigvals(matrix_at_rest(chain, width)))
+    return float(rates.max()) / time_unit(chain)
 
 
 def creep_grows(chain: Chain, width: float, step: float) -> bool:
@@ -124,7 +122,7 @@ def stiffness() -> Failure:
     limit = Threshold(
         method="rk4_regularised",
         n_blocks=chain.n_blocks,
-        fails=CREEP_GROWS,
+        fails="creep_grows",
         theory="2.785 m width / (mu_s w)",
         predicted=RK4_REAL_LIMIT * LIMIT_WIDTH / at_unit_width,
         measured=bisect(grows, 0.5 * expected, 2.0 * expected, BISECTIONS),

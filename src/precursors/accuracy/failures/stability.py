@@ -12,7 +12,7 @@ the step is unstable, up to where this factor exceeds 1 in size.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -131,7 +131,8 @@ def with_friction(chain: Chain) -> Iterator[Threshold]:
             # friction.
             limit = 2.0 * math.sqrt(chain.mu_s / (chain.mu_s - chain.mu_k))
             theory = "2 sqrt(mu_s / (mu_s - mu_k)) / omega"
-        found = first(partial(gets_lost, chain, name, end), PARTS * limit / omega)
+        lost = partial(gets_lost, chain, name, end)
+        found = next(filter(lost, PARTS * limit / omega), math.inf)
         yield Threshold(
             name, chain.n_blocks, NO_GLOBAL_SLIP, theory, limit / omega, found
         )
@@ -157,7 +158,7 @@ def five_slips(exact: Run) -> Iterator[Threshold]:
     limit, theory = STOPPING["rk4_located"]
     expected["rk4_located"] = (theory, limit / highest_frequency(chain))
     for name, (theory, predicted) in expected.items():
-        found = first(partial(is_right, exact, name), COARSE_STEPS)
+        found = next(filter(partial(is_right, exact, name), COARSE_STEPS), math.inf)
         yield Threshold(name, chain.n_blocks, SEQUENCE_WRONG, theory, predicted, found)
 
 
@@ -165,8 +166,3 @@ def is_right(exact: Run, name: str, value: float) -> bool:
     """Whether a method with a value of its setting has all transitions right."""
     run = attempt(METHODS[name].solve, exact.chain, exact.duration, value, None).run
     return transitions_right(run, exact) == len(exact.transitions)
-
-
-def first(holds: Callable[[float], bool], values: Iterable[float]) -> float:
-    """First of some values for which something holds; infinity if there is none."""
-    return next(filter(holds, values), math.inf)
