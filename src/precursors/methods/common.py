@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from precursors.model.chain import Chain
-from precursors.model.checks import Until
 from precursors.solver.run import Record
 
 
@@ -49,7 +47,7 @@ class Method:
 
     name: str
     setting: str
-    solve: Callable[[Chain, float, float, Until], Result]
+    solve: Callable[..., Result]
     smooth: Smooth | None = None
 
 

@@ -41,9 +41,6 @@ def solve_cvode(
     state = motion.state
     n_events = 2 * chain.n_blocks
 
-    def right_hand_side(_time: float, y: FloatArray, result: FloatArray) -> None:
-        rates_of(y, system, state, result)
-
     def events(_time: float, y: FloatArray, result: FloatArray) -> None:
         event_functions(y, system, state, result)
 
@@ -54,7 +51,7 @@ def solve_cvode(
 
     events.direction = [FALLING] * n_events  # type: ignore[attr-defined]
     solver = CVODE(
-        right_hand_side,
+        lambda _time, y, result: rates_of(y, system, state, result),
         method="Adams",
         rtol=tolerance,
         atol=tolerance,

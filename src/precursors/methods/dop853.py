@@ -12,18 +12,18 @@ missed.
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 from scipy.integrate import DOP853
 
 from precursors.methods.columns import RATES
-from precursors.methods.common import Method, Result
+from precursors.methods.common import Method
 from precursors.methods.compiled import apart, inner, outer, template
 from precursors.methods.equations import by_mode, copy, event_function, rates
 from precursors.methods.events import nudge_starting
 from precursors.methods.fixed_step import begin_leg, feels, switch
 from precursors.methods.march import march
-from precursors.model.chain import Chain
 
 STAGES = 12
 # Row s: shares of the stages before s in the state of stage s. Stage 12 is the end of
@@ -208,12 +208,6 @@ def run_dop853(motion, tolerance):
         switch(motion, advance(motion, tolerance))
 
 
-def solve_dop853(
-    chain: Chain, duration: float, tolerance: float, until: str | None = None
-) -> Result:
-    """Run a chain by DOP853; rtol is the tolerance, atol the same number in N and N/tau
-    (see `columns`)."""
-    return march(run_dop853, (), chain, duration, tolerance, until, scaled=True)
-
-
+# rtol is the tolerance, atol the same number in N and N/tau (see `columns`).
+solve_dop853 = partial(march, run_dop853, (), scaled=True)
 METHODS = (Method("dop853", "relative tolerance", solve_dop853),)

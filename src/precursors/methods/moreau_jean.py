@@ -32,7 +32,6 @@ from precursors.methods.columns import (
     STRENGTH,
     VELOCITY,
 )
-from precursors.methods.common import Method
 from precursors.methods.compiled import inner, outer
 from precursors.methods.equations import move_by, net_force, solve_springs
 from precursors.methods.fixed_step import (
@@ -173,11 +172,14 @@ def run_moreau_jean(motion, step, theta):
                 change_mode(motion, i, new)
 
 
-def _method(name: str, theta: float) -> Method:
-    smooth = (math.inf, partial(energy_factor, theta=theta))
-    return fixed_step(name, run_moreau_jean, theta, smooth=smooth)
-
-
-# Of order 2 while nothing switches, without damping; of order 1, damping what is faster
-# than a step.
-METHODS = (_method("moreau_jean_half", 0.5), _method("moreau_jean_one", 1.0))
+# theta = 1/2 is of order 2 while nothing switches, without damping; theta = 1 is of
+# order 1 and damps what is faster than a step.
+METHODS = tuple(
+    fixed_step(
+        name,
+        run_moreau_jean,
+        theta,
+        smooth=(math.inf, partial(energy_factor, theta=theta)),
+    )
+    for name, theta in (("moreau_jean_half", 0.5), ("moreau_jean_one", 1.0))
+)

@@ -14,7 +14,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import partial
-from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -68,7 +67,7 @@ STEPS = 200
 # slip and transitions.
 PARTS = 0.8 * 1.02 ** np.arange(50)
 LATER = 2.0
-MOST: Any = {"max_transitions": 20_000}
+MOST = 20_000
 # Methods with which the first five slips are run, besides RK4 with its transitions
 # located, and their steps [s] from coarse to fine.
 IN_STEPS = ("rk4_skip", "leapfrog", "moreau_jean_half", DISSIPATIVE, "karnopp")
@@ -142,10 +141,10 @@ def gets_lost(chain: Chain, name: str, end: float, step: float) -> bool:
     """Whether a run has no global slip, or its numbers overflow, or it makes
     transitions without end."""
     try:
-        return (
-            METHODS[name].solve(chain, end, step, "global slip", **MOST).run.duration
-            >= end
+        found = METHODS[name].solve(
+            chain, end, step, "global slip", max_transitions=MOST
         )
+        return found.run.duration >= end
     except (DivergedError, TransitionLimitError):
         return True
 
