@@ -72,7 +72,7 @@ def test_a_record_gets_more_room_and_a_run_ends_at_the_limit_of_transitions():
     with pytest.raises(
         TransitionLimitError, match=f"max_transitions = {2 * FIRST_ROOM} reached"
     ) as limit:
-        march(run_rk4, (), chain, 10.0, 1e-6, max_transitions=2 * FIRST_ROOM)
+        march(run_rk4, chain, 10.0, 1e-6, max_transitions=2 * FIRST_ROOM)
     run = limit.value.run
     assert transitions_right(run, simulate(chain, 0.05)) > 40
     assert (np.diff(run.transitions["time"]) >= 0.0).all()

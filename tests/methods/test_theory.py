@@ -133,9 +133,8 @@ def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free):
     def is_unstable_at(theta: float) -> bool:
         # Below one half, energy rises by 4 (1/2 - theta) a step: 1e6 within 4000 steps
         # from 0.499 on.
-        return is_unstable(
-            free, partial(slide, moreau_jean.run_moreau_jean, (theta,)), step
-        )
+        method = partial(moreau_jean.run_moreau_jean, theta=theta)
+        return is_unstable(free, partial(slide, method), step)
 
     assert bisect(is_unstable_at, 0.6, 0.4) == pytest.approx(0.5, rel=2e-3)
 

@@ -18,9 +18,7 @@ from precursors.methods.events import (
 )
 from precursors.model.chain import Chain, FloatArray
 
-MAX_STEPS = 1_000_000
 EVENT_FOUND = 2
-FALLING = -1
 
 
 def solve_cvode(
@@ -44,12 +42,7 @@ def solve_cvode(
     def events(_time: float, y: FloatArray, result: FloatArray) -> None:
         event_functions(y, system, state, result)
 
-    def jacobian(
-        _time: float, _y: FloatArray, _rates: FloatArray, result: FloatArray
-    ) -> None:
-        result[:] = jacobian_of(system, state)
-
-    events.direction = [FALLING] * n_events  # type: ignore[attr-defined]
+    events.direction = [-1] * n_events  # type: ignore[attr-defined]  # falling
     solver = CVODE(
         lambda _time, y, result: rates_of(y, system, state, result),
         method="Adams",
@@ -57,8 +50,10 @@ def solve_cvode(
         atol=tolerance,
         eventsfn=events,
         num_events=n_events,
-        jacfn=jacobian,
-        max_num_steps=MAX_STEPS,
+        jacfn=lambda _time, _y, _rates, result: np.copyto(
+            result, jacobian_of(system, state)
+        ),
+        max_num_steps=1_000_000,
     )
 
     def next_transition(time: float) -> tuple[float, int]:

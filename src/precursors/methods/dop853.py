@@ -209,5 +209,5 @@ def run_dop853(motion, tolerance):
 
 
 # rtol is the tolerance, atol the same number in N and N/tau (see `columns`).
-solve_dop853 = partial(march, run_dop853, (), scaled=True)
+solve_dop853 = partial(march, run_dop853, scaled=True)
 METHODS = (Method("dop853", "relative tolerance", solve_dop853),)

@@ -71,10 +71,11 @@ def accelerate(state, last, h):
 def stretch(system, state, last, h):
     """Change the spring forces by what blocks 1..last move in a time h at their
     velocities."""
-    for i in range(1, last + 2):
+    for i in range(1, last + 1):
         state[FORCE, i] += (
             h * system[SPRING, i] * (state[VELOCITY, i - 1] - state[VELOCITY, i])
         )
+    state[FORCE, last + 1] += h * system[SPRING, last + 1] * state[VELOCITY, last]
 
 
 @inner

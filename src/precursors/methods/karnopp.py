@@ -16,6 +16,7 @@ finer ones it rises past it, without slips."""
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 from precursors.methods.columns import (
@@ -78,7 +79,8 @@ def solve(
     if dead_zone is None:
         dead_zone = PART_OF_SAFE_WIDTH * safe_width(chain, positive("step", step, "s"))
     width = not_negative("dead_zone", dead_zone, "m/s")
-    return march(run_karnopp, (width,), chain, duration, step, until, **limits)
+    method = partial(run_karnopp, dead_zone=width)
+    return march(method, chain, duration, step, until, **limits)
 
 
 @inner

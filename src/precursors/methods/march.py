@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -29,7 +28,6 @@ from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 
 def march(
     method: Callable[..., None],
-    parameters: tuple[Any, ...],
     chain: Chain,
     duration: float,
     setting: float,
@@ -39,7 +37,7 @@ def march(
     scaled: bool = False,
     waits: bool = True,
 ) -> Result:
-    """Run a compiled method from rest: `method` is (motion, setting, *parameters).
+    """Run a compiled method from rest: `method` is (motion, setting).
 
     `setting` is a step [s] or, where the method meets the numbers of solvers with a
     tolerance (`scaled`, see `columns`), a tolerance. `rule` is a key of
@@ -57,7 +55,7 @@ def march(
     status = PAUSED
     while status == PAUSED and motion.progress["transitions"][0] < max_transitions:
         motion = with_room(motion)
-        method(motion, setting, *parameters)
+        method(motion, setting)
         status = int(motion.progress["status"][0])
     run = run_of(motion, chain, status)
     if status == DIVERGED:
@@ -74,7 +72,6 @@ def march(
 
 def slide(
     method: Callable[..., None],
-    parameters: tuple[Any, ...],
     system: FloatArray,
     state: FloatArray,
     step: float,
@@ -88,7 +85,7 @@ def slide(
     progress["status"] = PAUSED
     motion = SteppedMotion(system, state, progress, np.empty(FIRST_ROOM, RECORD))
     while progress["status"] == PAUSED:
-        method(motion, step, *parameters)
+        method(motion, step)
 
 
 def with_room(motion: SteppedMotion) -> SteppedMotion:
@@ -121,18 +118,16 @@ def run_of(motion: SteppedMotion, chain: Chain, status: int) -> Record:
 def fixed_step(
     name: str,
     method: Callable[..., None],
-    *parameters: Any,
     smooth: tuple[float, Callable[[float], float]] | None = None,
     waits: bool = True,
 ) -> Method:
     """Make a compiled fixed-step method.
 
-    `method`, its parameters and `waits` are those of `march`; `smooth` is the rest of
-    `Smooth`.
+    `method` and `waits` are those of `march`; `smooth` is the rest of `Smooth`.
     """
     return Method(
         name,
         "step [s]",
-        partial(march, method, parameters, waits=waits),
-        smooth=Smooth(partial(slide, method, parameters), *smooth) if smooth else None,
+        partial(march, method, waits=waits),
+        smooth=Smooth(partial(slide, method), *smooth) if smooth else None,
     )

@@ -177,8 +177,7 @@ def run_moreau_jean(motion, step, theta):
 METHODS = tuple(
     fixed_step(
         name,
-        run_moreau_jean,
-        theta,
+        partial(run_moreau_jean, theta=theta),
         smooth=(math.inf, partial(energy_factor, theta=theta)),
     )
     for name, theta in (("moreau_jean_half", 0.5), ("moreau_jean_one", 1.0))

@@ -114,7 +114,7 @@ def definitions_table(
             run: Record = of_scene
             if reading.switching != COULOMB:
                 rule = reading.switching
-                run = march(run_located, (), chain, duration, STEP, rule=rule).run
+                run = march(run_located, chain, duration, STEP, rule=rule).run
             elif chain is not of_scene.chain:
                 run = simulate(chain, duration)
             row = asdict(reading)
