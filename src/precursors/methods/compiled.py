@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from numba import int64, njit
 
@@ -12,8 +13,9 @@ from precursors.solver.kernel.compiled import entry
 # step. So what is called in every step is inlined. Assignments to slices are loops
 # here: Numba compiles their errors' texts. A function is compiled anew for a literal
 # number, unless its variable has a type.
-apart = njit(error_model="numpy", fastmath={"contract"}, locals={"first": int64})
-inner = njit(error_model="numpy", fastmath={"contract"}, forceinline=True)
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
+apart = njit(**OPTIONS, locals={"first": int64})
+inner = njit(**OPTIONS, forceinline=True)
 # Written into its only caller before that is compiled, not compiled for itself as well.
 template = njit(inline="always")
 # Python calls these; their code is kept until one of these files is edited.
@@ -22,10 +24,4 @@ NAMES = (
     "rk4 rk4_located"
 )
 COMPILED = [f"{name}.py" for name in NAMES.split()]
-outer = entry(
-    Path(__file__).parent,
-    COMPILED,
-    error_model="numpy",
-    fastmath={"contract"},
-    nogil=True,
-)
+outer = entry(Path(__file__).parent, COMPILED, **OPTIONS, nogil=True)

@@ -91,13 +91,6 @@ def finish(system, state, last, h, theta, new):
 
 
 @inner
-def set_trial(system, state, trial, i, mode):
-    """Give a block the mobility and the friction of a mode that is being tried."""
-    trial[i] = mode
-    move_by(system, state, i, mode)
-
-
-@inner
 def static_friction(system, state, i, h, theta, work):
     """Friction R_i that keeps block i at v' = 0, or brings it there [N]."""
     known, _, new = work
@@ -119,16 +112,19 @@ def step_modes(system, state, last, h, theta, work, trial):
         solve_velocities(system, state, last, h, theta, work)
         changed = False
         for i in range(1, feels(state, last) + 1):
-            if trial[i] != 0:
-                if new[i] * trial[i] < 0.0:
-                    set_trial(system, state, trial, i, 0)
-                    changed = True
+            mode = trial[i]
+            if mode != 0.0:
+                if new[i] * mode < 0.0:
+                    mode = 0.0
             else:
                 friction = static_friction(system, state, i, h, theta, work)
                 if abs(friction) > system[STRENGTH, i]:
-                    set_trial(system, state, trial, i, np.sign(friction))
-                    changed = True
-                    last = max(last, i)
+                    mode = np.sign(friction)
+            if mode != trial[i]:
+                trial[i] = mode
+                move_by(system, state, i, mode)
+                last = max(last, i)
+                changed = True
         if not changed:
             return last, solutions
     return last, most
@@ -166,8 +162,8 @@ def run_moreau_jean(motion, step, theta):
                 state[VELOCITY, i] = 0.0
                 net = net_force(state, i)
                 if old * net < -system[STRENGTH, i]:
-                    set_trial(system, state, trial, i, -old)
                     new = -old
+                    trial[i] = new
             if new != old:
                 change_mode(motion, i, new)
 
