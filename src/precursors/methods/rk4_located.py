@@ -111,14 +111,6 @@ def first_zero(g0, b0, g1, b1, rounding):
 
 
 @inner
-def roundings(system):
-    """Roundings of the event functions: of a force while a block sticks [N], of a
-    velocity [m/s]."""
-    force = ROUNDINGS * system[STRENGTH].sum()
-    return force, force * math.sqrt(system[INVERSE_MASS, 1] / system[SPRING].max())
-
-
-@inner
 def first_transition(state, last, h, before, after, rounding):
     """Block that changes its state first in a step, and the part of the step at which
     it does."""
@@ -161,7 +153,10 @@ def run_located(motion, step):
     system = motion.system
     state = motion.state
     progress = motion.progress[0]
-    rounding = roundings(system)
+    # Of the event functions: a force while a block sticks [N], a velocity [m/s].
+    force = ROUNDINGS * system[STRENGTH].sum()
+    velocity = force * math.sqrt(system[INVERSE_MASS, 1] / system[SPRING].max())
+    rounding = force, velocity
     rate, trial, end = room(state)
     # Rates at the end of a step; event functions with their rates at both its ends.
     rate_after = np.zeros_like(rate)
