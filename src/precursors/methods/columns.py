@@ -30,8 +30,9 @@ FORCE, VELOCITY, MODE, MOBILITY, FRICTION = range(5)
 RATES = MODE  # number of these
 
 # Rules of when a block that stops sticks, which Eqs. 4 and 5 leave open: where |F| <=
-# mu_s w, which is ours; where |F| <= mu_k w; always, and none slides backward. Each
-# tells the rows that BACKWARD and TURNING equal; those of the last stay infinite.
+# mu_s w, which is ours; where |F| <= mu_k w; always, and none slides backward. A
+# rule names the rows that BACKWARD and TURNING are copies of; with the last, both stay
+# infinite.
 COULOMB = "static"
 SWITCHING_RULES = {
     COULOMB: [STRENGTH, STRENGTH],

@@ -63,8 +63,8 @@ STICKS = 3
 class EventMotion:
     """A chain in motion, with the numbers that a solver carries, or keeps itself.
 
-    `y`, shape (2 N,), is the state; `settings` is what each block does: the
-    rows MODE, MOBILITY and FRICTION of `columns`, and STICKS.
+    `y`, shape (2 N,), is the state; `settings` is what each block does: the rows MODE,
+    MOBILITY and FRICTION of `columns`, and STICKS.
     """
 
     def __init__(self, chain: Chain, duration: float, until: str | None) -> None:

@@ -153,7 +153,8 @@ def run_located(motion, step):
     system = motion.system
     state = motion.state
     progress = motion.progress[0]
-    # Of the event functions: a force while a block sticks [N], a velocity [m/s].
+    # Roundings of the event functions: of a force while a block sticks [N], of a
+    # velocity [m/s].
     force = ROUNDINGS * system[STRENGTH].sum()
     velocity = force * math.sqrt(system[INVERSE_MASS, 1] / system[SPRING].max())
     rounding = force, velocity
