@@ -27,7 +27,6 @@ SPRING, INVERSE_MASS, STRENGTH, KINETIC, BACKWARD, TURNING, DEAD_ZONE = range(7)
 # block slides, mode_i mu_k w_i [N]. The first two are also those of its rates, and of
 # states that a method tries.
 FORCE, VELOCITY, MODE, MOBILITY, FRICTION = range(5)
-RATES = MODE  # number of these
 
 # Rules of when a block that stops sticks, which Eqs. 4 and 5 leave open: where |F| <=
 # mu_s w, which is ours; where |F| <= mu_k w; always, and none slides backward. A

@@ -17,7 +17,6 @@ from functools import partial
 import numpy as np
 from scipy.integrate import DOP853
 
-from precursors.methods.columns import RATES
 from precursors.methods.common import Method
 from precursors.methods.compiled import apart, inner, outer, template
 from precursors.methods.equations import by_mode, copy, event_function, rates
@@ -157,10 +156,10 @@ def advance(motion, tolerance):
     progress = motion.progress[0]
     n = state.shape[1]
     last = progress.last
-    k = np.zeros((len(A), RATES, n))
-    f = np.zeros((7, RATES, n))
-    end = np.zeros((RATES, n))
-    trial = state[:RATES].copy()
+    k = np.zeros((len(A), 2, n))
+    f = np.zeros((7, 2, n))
+    end = np.zeros((2, n))
+    trial = state[:2].copy()
     before = np.zeros(n)
     after = np.zeros(n)
     rates(by_mode, system, state, last, state, k[0])
