@@ -36,7 +36,9 @@ class Ensemble:
             solver.reset_cooldowns()
             motion = self.run.motion
             motion.y, motion.settings = solver.state, solver.pars.reshape(4, -1)
-            return motion.switch(event, solver.time) or not motion.has_slid_globally
+            if motion.switch(event, solver.time):
+                return True
+            return not motion.motion.progress["was_global"][0]
 
         return make_transitions
 

@@ -35,7 +35,6 @@ from precursors.methods.compiled import inner, outer
 from precursors.methods.equations import by_mode, net_force, rates
 from precursors.methods.fixed_step import (
     FINISHED,
-    GLOBAL_SLIP,
     LOST,
     MOVING,
     PAUSED,
@@ -94,11 +93,6 @@ class EventMotion:
         return not self.slides and self.switch(-1, 0.0)
 
     @property
-    def has_slid_globally(self) -> bool:
-        """Whether all blocks have slid at the same instant."""
-        return bool(self.motion.progress["was_global"][0])
-
-    @property
     def onset(self) -> float:
         """Onset of the present or last slip event [s]."""
         return float(self.motion.progress["onset"][0])
@@ -124,7 +118,7 @@ class EventMotion:
         status = go_on(*self.motion, self.y, self.settings, event, elapsed)
         self.slides = status == MOVING
         if status == LOST:
-            run = run_of(self.motion, self.chain, status)
+            run = run_of(self.motion, self.chain)
             raise TransitionLimitError(
                 f"the solver makes transition after transition at t = {run.duration:.9g} s",
                 run,
@@ -137,12 +131,10 @@ class EventMotion:
     def run(self) -> Result:
         """Transitions and cost so far: of a run that is over, or goes on to its end in
         its present modes."""
-        status = FINISHED
         if self.slides:
             self.motion.progress["elapsed"] = self.remaining
-        elif self.has_slid_globally and self.motion.progress["until_global"]:
-            status = GLOBAL_SLIP
-        return Result(run_of(self.motion, self.chain, status), self.evaluations)
+            self.motion.progress["status"] = FINISHED
+        return Result(run_of(self.motion, self.chain), self.evaluations)
 
 
 def march_restarting(

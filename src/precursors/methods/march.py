@@ -57,7 +57,7 @@ def march(
         motion = with_room(motion)
         method(motion, setting)
         status = int(motion.progress["status"][0])
-    run = run_of(motion, chain, status)
+    run = run_of(motion, chain)
     if status == DIVERGED:
         raise DivergedError(
             f"the numbers overflow at t = {run.duration:.9g} s: shorten the step", run
@@ -97,7 +97,7 @@ def with_room(motion: SteppedMotion) -> SteppedMotion:
     )
 
 
-def run_of(motion: SteppedMotion, chain: Chain, status: int) -> Record:
+def run_of(motion: SteppedMotion, chain: Chain) -> Record:
     """The run so far; of a diverged one what is finite."""
     progress = motion.progress[0]
     rows = motion.record[: progress["transitions"]]
@@ -108,7 +108,7 @@ def run_of(motion: SteppedMotion, chain: Chain, status: int) -> Record:
     intervals = np.add.reduceat(np.append(rows["interval"], since), np.arange(n + 1))
     reached = (
         progress["duration"]
-        if status == FINISHED
+        if progress["status"] == FINISHED
         else progress["onset"] + progress["elapsed"] * unit
     )
     columns = {name: rows[name][:n] for name in TRANSITION.names or ()}
