@@ -1,1 +1,1 @@
-"""What is proved, how methods compare with it, and how they fail."""
+"""Methods compared with proved transitions, and the ways in which they fail."""

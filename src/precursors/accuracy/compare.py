@@ -1,5 +1,5 @@
-"""How far the run of any method is from the truth: transitions and slips in order,
-their times and loads."""
+"""Distance of any method's run from the truth: order, times and loads of transitions
+and slips."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ Transition = tuple[Fraction, int, int, Fraction]
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """What runs are compared with: the true transitions, rounded to doubles in a run,
-    and what that left.
+    """The true transitions, which runs are compared with: rounded to doubles in a run,
+    and the remainders.
 
     `time_rest` [s] and `load_rest` [N], shape (n_transitions,), are true numbers less
     rounded ones.
@@ -101,7 +101,8 @@ class Truth:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """How far a run agrees with the truth, and how closely as far as it does.
+    """Agreement of a run with the truth: how far it goes, and how close it is up to
+    there.
 
     A transition is right if its block and mode are; a slip event, if its front is, and
     whether all blocks slid at once. What is right ends with the first that is wrong or
@@ -186,7 +187,7 @@ def _rounded(numbers: Sequence[Fraction]) -> tuple[FloatArray, FloatArray]:
 
 
 def _agreeing(found: NDArray[Any], true: NDArray[Any]) -> int:
-    """How many rows agree before the first that does not, or the end of one of them."""
+    """Number of rows that agree before the first that does not, or an end."""
     n = min(len(found), len(true))
     differs = found[:n] != true[:n]
     return int(np.argmax(differs)) if differs.any() else n

@@ -31,8 +31,8 @@ class Validation(NamedTuple):
 def proof_tables(
     certificates: Mapping[str, Certificate], effort: pd.DataFrame, tolerance: float
 ) -> dict[str, pd.DataFrame]:
-    """What is proved, how the errors of the solver grow, and what it gets right: tables
-    by file name."""
+    """Proofs, growth of the solver's errors, and transitions it gets right: tables by
+    file name."""
     runs = {name: validate(certificate) for name, certificate in certificates.items()}
     errors = [error_table(run).assign(chain=name) for name, run in runs.items()]
     return {
@@ -76,7 +76,7 @@ def error_table(validation: Validation) -> pd.DataFrame:
 
 
 def summary(validation: Validation, tolerance: float) -> dict[str, float]:
-    """What the run gets right, in one row of solver_vs_proof.csv.
+    """Accuracy of the run, a row of solver_vs_proof.csv.
 
     `right_until_s` is when the first transition is in error by more than the tolerance,
     of another block, or to another mode; `horizon_s` is when this is predicted.

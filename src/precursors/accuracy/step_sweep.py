@@ -1,5 +1,4 @@
-"""What the step of Runge and Kutta's method does to the numbers that the paper
-prints."""
+"""The paper's printed numbers against the step of Runge and Kutta's method."""
 
 from __future__ import annotations
 
@@ -64,7 +63,7 @@ def sweep(
 
 
 def row(method: str, step: float, run: Record, truth: Record) -> dict[str, object]:
-    """What a run that stopped after its first global slip gives.
+    """Results of a run that stopped after its first global slip.
 
     Returns
     -------

@@ -22,8 +22,8 @@ INTERRUPTED = 130
 
 
 class Refused(Exception):
-    """What the user asked for does not hold, or was not reached: each argument is a
-    line."""
+    """The user asked for something that does not hold, or was not reached: each
+    argument is a line."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:

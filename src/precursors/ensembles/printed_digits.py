@@ -70,7 +70,7 @@ def digits_tables(
 def digits_table(
     members: pd.DataFrame, paper: Mapping[str, Mapping[str, float]]
 ) -> pd.DataFrame:
-    """How far the printed digits settle each number.
+    """Ranges of each number over all sliders with the printed digits.
 
     `paper` has events_counted and mu_sapp of each scene, as far as the paper prints
     them.
@@ -111,7 +111,7 @@ def digits_table(
 
 
 def share_row(hits: pd.Series) -> dict[str, Any]:
-    """How many sliders have a number, and their share with its interval."""
+    """Number of sliders that have a value, and their share with its interval."""
     k = int(hits.sum())
     n = len(hits)
     low, high = share_interval(k, n)

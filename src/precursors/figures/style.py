@@ -98,7 +98,7 @@ _METADATA: dict[str, dict[str, str | None]] = {
 
 @dataclass(frozen=True)
 class Look:
-    """What a journal asks of a figure: its width [mm], None for the figure's own, and
+    """A journal's demands on a figure: its width [mm], None for the figure's own, and
     its text.
 
     Raises

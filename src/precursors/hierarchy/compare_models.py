@@ -171,8 +171,8 @@ def noisy_answers(model: Model, chain: Chain) -> dict[Any, Any]:
 def value_and_error(
     question: Question, answer: Any, exact: Any, chain: Chain
 ) -> tuple[float, float, float, float]:
-    """What is shown of an answer, and its error against that of the paper's chain with
-    a 95 % interval.
+    """Value of an answer, and its error against that of the paper's chain with a 95 %
+    interval.
 
     Where the question has quantiles, both are samples of runs, which are drawn again
     and again. The chain has no error against itself.

@@ -31,7 +31,7 @@ compiled = entry(
 
 
 class CompiledChain(NamedTuple):
-    """What the compiled functions need of a chain; `leap` is `larger.LEAP`.
+    """A chain as the compiled functions take it; `leap` is `larger.LEAP`.
 
     Springs and dashpots, like all arrays of the state, end with a 0: nothing is ahead
     of block N.
@@ -66,7 +66,7 @@ class State(NamedTuple):
 
 
 class Record(NamedTuple):
-    """What is noted of a run; `event` has the numbers of the event that goes on."""
+    """Results of a run so far; `event` has the numbers of the event that goes on."""
 
     rows: list[tuple[float, float, float, float]]
     points: list[tuple[float, float]]

@@ -169,7 +169,7 @@ def run_to_slip(larger: LargerChain, step: float | None) -> Any:
 
 
 def numbers(run: Record) -> dict[str, float]:
-    """What is noted of a run that ends with its first global slip; NaN without one.
+    """Numbers of a run that ends with its first global slip; NaN without one.
 
     events_counted is that of Fig. 13, mu_sapp Eq. 1. Of the events in which F_X falls
     by `DROP` or more, counted_over is the number in Fig. 13, and logged_over that in
@@ -210,9 +210,8 @@ def medians_table(runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def means_table(medians: pd.DataFrame) -> pd.DataFrame:
-    """How much mu_sapp is above that of an even load: a row for each study, number of
-    blocks and theta, with the mean over the study's chains and half of its 95 %
-    interval."""
+    """Excess of mu_sapp over that of an even load: for each study, number of blocks and
+    theta, its mean over the study's chains and half of the mean's 95 % interval."""
     even = medians[medians["theta"] == 0]
     pairs = medians.merge(even, on=LOADINGS, suffixes=("", "_even"))
     pairs["excess"] = pairs["mu_sapp"] - pairs["mu_sapp_even"]

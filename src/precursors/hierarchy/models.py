@@ -65,8 +65,8 @@ def cascade_answers(chain: Chain, overshoot: float) -> dict[str, Any]:
 
 
 def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
-    """What slip events say that end with the first global slip; NaN for what needs one
-    and has none."""
+    """A model's answers from its slip events up to the first global slip; NaN for one
+    that needs a global slip and has none."""
     last = slips[-1]
     blocks = np.arange(1, chain.n_blocks + 1)
     reached = np.searchsorted(np.maximum.accumulate(slips["front"]), blocks)

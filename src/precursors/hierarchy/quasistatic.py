@@ -52,7 +52,7 @@ compiled = entry(Path(__file__).parent, ["quasistatic.py"], error_model="numpy")
 
 
 class Cascade(NamedTuple):
-    """What the compiled functions need of a chain."""
+    """A chain as the compiled functions take it."""
 
     springs: FloatArray
     limit: FloatArray  # force beyond which a block does not rest [N]

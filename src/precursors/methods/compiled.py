@@ -1,4 +1,4 @@
-"""How methods are compiled."""
+"""Compilation of the methods."""
 
 from __future__ import annotations
 

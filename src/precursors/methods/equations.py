@@ -105,8 +105,8 @@ def solve_springs(system, state, last, weight, result, factor):
 
 @inner
 def event_function(system, state, y, i):
-    """What is positive while block i keeps its mode in a state y: its velocity along
-    it, or a margin [N]."""
+    """Event function of block i, positive while it keeps its mode in a state y: its
+    velocity along the mode, or its margin [N]."""
     if state[MODE, i] != 0.0:
         return state[MODE, i] * y[VELOCITY, i]
     net = net_force(y, i)

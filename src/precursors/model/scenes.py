@@ -75,7 +75,7 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
 
 
 def scene_additions(config: Config, name: str) -> dict[str, float]:
-    """What the scene adds to the paper's chain, keys of `ADDITIONS`."""
+    """Additions of a scene to the paper's chain, keys of `ADDITIONS`."""
     scene = config["scenes"][name]
     return {key: scene[key] for key in ADDITIONS if key in scene}
 

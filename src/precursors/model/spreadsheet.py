@@ -121,8 +121,8 @@ def _fields(path: AnyPath) -> tuple[list[int], Columns]:
 
 
 def _separator(path: AnyPath, above: Sequence[str], rows: Sequence[str]) -> str:
-    """What stands between two columns: a blank is any space, and a semicolon stands for
-    a single column."""
+    """Separator of two columns: a blank is any space, and a semicolon stands for a
+    single column."""
     for separator in ";\t":
         if separator in "".join((*above, *rows)):
             return separator

@@ -18,7 +18,7 @@ from precursors.analysis.slips import (
     first_global_slip,
     slip_table,
 )
-from precursors.methods.columns import COULOMB, SWITCHING_RULES
+from precursors.methods.columns import COULOMB
 from precursors.methods.march import march
 from precursors.methods.rk4_located import run_located
 from precursors.model import printed

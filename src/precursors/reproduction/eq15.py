@@ -195,7 +195,7 @@ def fast_drive(scene: str, chain: Chain) -> Check:
 
 
 def below_limit(scene: str, run: Run) -> Check:
-    """How near a run comes to the state of Eq. 12, in which all blocks are at their
+    """Distance of a run from the state of Eq. 12, in which all blocks are at their
     limits at once.
 
     At the onset of each slip: how far the block farthest from its limit mu_s w_i is below

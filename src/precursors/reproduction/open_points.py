@@ -22,7 +22,7 @@ Pair = tuple[ArrayLike, ArrayLike]
 
 
 def of_check(t: Tables, check: str) -> list[float]:
-    """What a check of Eq. 15 finds in each scene."""
+    """The finding of a check of Eq. 15 in each scene."""
     return [float(one(t["eq15"], "found", check=check, case=s)) for s in SCENES]
 
 
