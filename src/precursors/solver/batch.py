@@ -100,25 +100,13 @@ def run_batch(
                 record = np.resize(record, (2 * len(record), kernel.ROW))
             if run["stored"] == len(states):
                 states = _with_room(states, run)
+        arrays = (words, record, states, work.memory)
         n_finished, n_rows, n_states = kernel.run_batch(
-            batch,
-            end,
-            words,
-            record,
-            states,
-            work.memory,
-            first,
-            WINDOWS_PER_CALL,
+            batch, end, *arrays, first, WINDOWS_PER_CALL
         )
-        yield from _runs(
-            chains,
-            batch,
-            progress,
-            range(first, n_finished),
-            record[:n_rows],
-            states[:n_states],
-            end,
-        )
+        which = range(first, n_finished)
+        recorded = (record[:n_rows], states[:n_states])
+        yield from _runs(chains, batch, progress, which, *recorded, end)
         first = n_finished
 
 
