@@ -144,7 +144,12 @@ def test_bad_weights_are_refused(weights, words):
 
 @pytest.mark.parametrize(
     ("a", "b", "words"),
-    [(-1.0, 2.0, "load_a"), (0.0, 0.0, "both are 0 N"), (400.0, 1.0, "theta")],
+    [
+        (-1.0, 2.0, "load_a must"),
+        (1.0, np.inf, "load_b must"),
+        (0.0, 0.0, "both are 0 N"),
+        (400.0, 1.0, "theta must"),
+    ],
 )
 def test_load_cells_that_the_line_cannot_pass_through_are_refused(a, b, words):
     with pytest.raises(ValueError, match=words):

@@ -275,10 +275,12 @@ def theta_from_load_cells(
     is extended over the contact of length `length` [m]. Nothing is rounded: 100 N and
     300 N at 60 mm on 100 mm give 5/6.
     """
-    a, b, d, extent = (Fraction(repr(x)) for x in (load_a, load_b, spacing, length))
+    a = Fraction(repr(not_negative("load_a", load_a, "N")))
+    b = Fraction(repr(not_negative("load_b", load_b, "N")))
+    span = Fraction(repr(length)) / Fraction(repr(positive("spacing", spacing, "m")))
     if a + b == 0:
         raise ValueError("load_a or load_b must be above 0 N, but both are 0 N")
-    theta = (b - a) / (a + b) * extent / d
+    theta = (b - a) / (a + b) * span
     if abs(theta) > 1:
         raise ValueError(
             f"theta must be between -1 and 1, but load_a = {load_a!r} N and load_b = {load_b!r} N give "
