@@ -142,6 +142,8 @@ def test_no_function_is_below_its_bound_in_a_cell_and_one_with_a_constant_fourth
     least = (cubics - fourth * width**4 / 24 * (s * (1 - s)) ** 2).min(axis=0)
     assert (bound <= least + 1e-12).all()
     assert bound[0, 0] == pytest.approx(least[0], rel=1e-12)
+    of_cubics = lower_bound(np.array(width), cells[[0, 3]], slopes, np.array(0.0))
+    assert of_cubics[0] == pytest.approx(cells.min(axis=0), abs=1e-12)
 
 
 def test_an_audit_that_takes_too_much_work_ends_and_says_where(uniform, monkeypatch):

@@ -23,6 +23,12 @@ def test_the_residual_strain_of_eq_12_is_the_largest():
     assert residual_strain(run) == pytest.approx(1.0, rel=ROUNDING)
 
 
+def test_one_block_has_no_residual_strain_and_two_have():
+    one, two = (simulate(Chain.from_slider(n), 10.0) for n in (1, 2))
+    assert math.isnan(residual_strain(one))
+    assert 0.0 < residual_strain(two) < 1.0
+
+
 def test_the_band_about_the_papers_coefficient_is_a_unit_of_its_last_digit():
     _, _, decimals = str(printed.MU_SAPP).partition(".")
     assert 10 ** -len(decimals) == printed.LAST_DIGIT
