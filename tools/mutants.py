@@ -531,8 +531,14 @@ def record(pool: ProcessPoolExecutor, place: Path) -> dict[str, Outcome]:
     files = sorted(
         str(path) for path in tests if not any(path.match(pattern) for pattern in ASIDE)
     )
+    ignore = shutil.ignore_patterns(*LEFT)
     shutil.copytree(
-        ROOT, place / "whole", symlinks=True, ignore=shutil.ignore_patterns(*LEFT)
+        ROOT,
+        place / "whole",
+        symlinks=True,
+        ignore=lambda folder, names: ignore(
+            folder, names if folder == str(ROOT) else []
+        ),
     )
     (place / "whole/results").symlink_to(ROOT / "results")
     compileall.compile_dir(place / "whole/src", quiet=2)
