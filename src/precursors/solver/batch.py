@@ -88,12 +88,13 @@ def run_batch(
     telling = tell("running", count(), lambda: progress["onset"].mean() / end.duration)
     first = n_rows = n_states = 0
     while first < len(chains):
-        run = progress[first]
-        if run["stored"] == 0:  # it has not begun
+        # Of a record, a field of the array is read faster than one of its row.
+        if progress["stored"][first] == 0:  # it has not begun
             record = work.record
             states = work.states
         else:
             next(telling)
+            run = progress[first]
             record = record[n_rows:]
             states = states[n_states:]
             if run["transitions"] + 1 == len(record):
@@ -128,10 +129,10 @@ def _runs(
     stored = States.from_rows(states)
     row = state = 0
     for j in which:
-        last = progress[j]
-        end_row = row + last["transitions"]
-        end_state = state + last["stored"]
-        is_finished = last["status"] == kernel.FINISHED
+        end_row = row + progress["transitions"][j]
+        end_state = state + progress["stored"][j]
+        status = progress["status"][j]
+        is_finished = status == kernel.FINISHED
         run = Run(
             chain=chains[j],
             duration=end.duration if is_finished else float(record[end_row, 0]),
@@ -140,9 +141,9 @@ def _runs(
             start_positions=batch.positions[j],
             start_velocities=batch.velocities[j],
             states=States._make([column[state:end_state] for column in stored]),
-            evaluations=float(last["derivatives"]) / chains[j].n_blocks,
+            evaluations=float(progress["derivatives"][j]) / chains[j].n_blocks,
         )
-        if last["status"] == kernel.PAUSED:
+        if status == kernel.PAUSED:
             raise _unfinished(run, end)
         yield run
         row = end_row + 1
