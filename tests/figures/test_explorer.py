@@ -113,6 +113,7 @@ def test_the_row_of_blocks_moves_as_the_library_says(page, file):
     run = simulate(Chain.from_slider(), 3.0)
     slip = find_slips(run).query("is_global").iloc[0]
     open_explorer(page, file)
+    page.prefer(prefers_reduced_motion="reduce")  # which plays no film
     page.evaluate("goToStep(3)")
     page.wait_for(SETTLED)
     for share in (0.0, 0.25, 0.8):
