@@ -76,9 +76,9 @@ docs: $(DEV)
 bench: $(READY)
 	$(BIN)/python benchmarks/bench.py $(if $(METHOD),--method $(METHOD))
 
-# The published medians and ranges, in some twenty minutes with nothing else running.
+# The published medians and ranges, in some minutes with nothing else running.
 speed: $(READY)
-	$(BIN)/python benchmarks/bench.py --sessions 9 --output paper/tables/beside_heyoka.csv
+	$(BIN)/python benchmarks/bench.py --sessions 5 --output paper/tables/beside_heyoka.csv
 
 lint: $(DEV)
 	$(BIN)/ruff check . && $(BIN)/ruff format --check . && $(BIN)/snakefmt --check Snakefile workflow && $(BIN)/mypy && $(BIN)/lint-imports

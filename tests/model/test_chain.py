@@ -131,6 +131,7 @@ def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):
         ([1.0, -1.0], "block 2"),
         ([0.0, 0.0], "all are 0 N"),
         (["1.0"], "must be numbers"),
+        ([1.0, 10**400], "must be numbers"),
         (np.ma.masked_less([1.0, 2.0], 1.5), "weights must be numbers.*masked_array"),
         (np.array([1.0 + 0j]), "weights must be numbers.*0.j"),
         ([True, False], "weights must be numbers.*True"),

@@ -52,7 +52,7 @@ def number(name: str, value: object, unit: str) -> float:
 
 def number_array(name: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
     """Return a new array of floats, or raise a ValueError that names the parameter."""
-    with suppress(TypeError, ValueError):
+    with suppress(TypeError, ValueError, OverflowError):
         array = np.asarray(values)
         if array.dtype.kind in "iufO" and not np.ma.isMaskedArray(values):
             return np.array(array, dtype=np.float64)
