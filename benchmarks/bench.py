@@ -2,7 +2,7 @@
 against 40 digits.
 
     make bench                 everything, in a minute or two
-    make speed                 nine times, for paper/tables/beside_heyoka.csv
+    make speed                 five times, for paper/tables/beside_heyoka.csv
     make bench METHOD=name     one method, in seconds
 
 With --quick it has a reduced size, to see that it runs.
