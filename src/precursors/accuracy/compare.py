@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from precursors.analysis.horizon import agreeing
 from precursors.analysis.slips import find_slips, first_global
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Record
@@ -150,7 +150,7 @@ def compare(run: Record, truth: Truth) -> Comparison:
     true = true_run.transitions
     n = transitions_right(run, true_run)
     slips = find_slips(run)
-    n_slips = _agreeing(
+    n_slips = agreeing(
         slips[OUTCOME].to_records(index=False),
         truth.slips[OUTCOME].to_records(index=False),
     )
@@ -174,7 +174,7 @@ def compare(run: Record, truth: Truth) -> Comparison:
 def transitions_right(run: Record, true: Record) -> int:
     """Number of transitions before the first that is missing or whose block or mode is
     wrong."""
-    return _agreeing(
+    return agreeing(
         run.transitions[["block", "mode"]], true.transitions[["block", "mode"]]
     )
 
@@ -184,13 +184,6 @@ def _rounded(numbers: Sequence[Fraction]) -> tuple[FloatArray, FloatArray]:
     nearest = [float(x) for x in numbers]
     rest = [float(x - Fraction(y)) for x, y in zip(numbers, nearest, strict=True)]
     return np.array(nearest, float), np.array(rest, float)
-
-
-def _agreeing(found: NDArray[Any], true: NDArray[Any]) -> int:
-    """Number of rows that agree before the first that does not, or an end."""
-    n = min(len(found), len(true))
-    differs = found[:n] != true[:n]
-    return int(np.argmax(differs)) if differs.any() else n
 
 
 def _largest(errors: FloatArray) -> float:

@@ -9,8 +9,10 @@ gives a proof.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from precursors.model.chain import FloatArray
 from precursors.model.checks import positive
@@ -77,7 +79,11 @@ def predicted_errors(run: Run) -> PredictedErrors:
     """
     time = run.transitions["time"].astype(np.float64)
     others = neighbours(run)
-    n = min(_agreeing(run, other) for other in others)
+    changes = ["block", "mode"]
+    n = min(
+        agreeing(run.transitions[changes], other.transitions[changes])
+        for other in others
+    )
     following = [
         one.transitions["time"][n] for one in (run, *others) if len(one.transitions) > n
     ]
@@ -132,8 +138,7 @@ def neighbours(run: Run) -> list[Run]:
     )
 
 
-def _agreeing(run: Run, other: Run) -> int:
-    """Number of transitions before the first that differs."""
-    n = min(len(run.transitions), len(other.transitions))
-    mine, theirs = (one.transitions[["block", "mode"]][:n] for one in (run, other))
-    return int(np.argmin(np.append(mine == theirs, False)))
+def agreeing(mine: NDArray[Any], theirs: NDArray[Any]) -> int:
+    """Number of rows that agree before the first that does not, or an end."""
+    n = min(len(mine), len(theirs))
+    return int(np.argmin(np.append(mine[:n] == theirs[:n], False)))
