@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from precursors.cli import Refused
-from precursors.cli.options import LARGER, RUN, SLIDER
+from precursors.cli.options import LARGER, RUN, SLIDER_OPTIONS
 from precursors.model.chain import Chain
 from precursors.model.spreadsheet import read_columns, read_weights
 from precursors.solver.run import Record, Run, RunFileError
@@ -64,7 +64,7 @@ def simulate(arguments: Namespace) -> None:
         text = FOUND + (FIRST_SLIP if found["reached"] else NO_SLIP)
         print(text.format(**values, F_Z=run.chain.normal_load))
     show_values(values, arguments.json)
-    tell_accuracy(run)
+    tell_accuracy(run, found["time"])
 
 
 def slips(arguments: Namespace) -> None:
@@ -73,6 +73,7 @@ def slips(arguments: Namespace) -> None:
 
     run = run_of(arguments)
     table = slip_table(run)
+    first_global_slip = table.loc[table["is_global"], "onset_s"].min()
     if arguments.counted:
         table = table[table["counted"]]
     if arguments.output:
@@ -88,7 +89,7 @@ def slips(arguments: Namespace) -> None:
         shown = table.drop(columns=["theta", "n_blocks", "normal_load_N", "length_m"])
         shown.columns = shown.columns.str.replace("load_|is_|n_", "", regex=True)
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
-    tell_accuracy(run)
+    tell_accuracy(run, first_global_slip)
 
 
 def plot(arguments: Namespace) -> None:
@@ -172,7 +173,7 @@ def run_of(arguments: Namespace) -> Record:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
         return run_of_options(arguments)
-    if given(arguments, ("weights", *SLIDER, *LARGER, *RUN)):
+    if given(arguments, ("weights", *SLIDER_OPTIONS, *LARGER, *RUN)):
         raise ValueError(
             f"{arguments.file}: a run file cannot be combined with options of a chain"
         )
@@ -187,7 +188,7 @@ def run_of_options(arguments: Namespace) -> Record:
     from precursors.solver.simulate import TransitionLimitError, simulate
 
     event.register("numba:compile", Announcement())  # the first run takes long
-    slider = given(arguments, SLIDER)
+    slider = given(arguments, SLIDER_OPTIONS)
     if arguments.weights is not None:
         if slider.keys() & {"theta", "n_blocks", "normal_load"}:
             raise ValueError(
@@ -233,10 +234,9 @@ def accuracy(run: Record) -> dict[str, float]:
     return {name: larger[name] for name in MOST_WRONG if name in larger}
 
 
-def tell_accuracy(run: Record) -> None:
-    """Say if steps are too long, or if roundings decide the first global slip."""
+def tell_accuracy(run: Record, first_global_slip: float) -> None:
+    """Say if steps are too long, or if roundings decide the first global slip [s]."""
     from precursors.analysis.horizon import predicted_errors
-    from precursors.analysis.summary import summarise
 
     wrong = [
         f"{name} = {value:.3g}"
@@ -245,15 +245,14 @@ def tell_accuracy(run: Record) -> None:
     ]
     if wrong:
         tell(f"this run is not accurate: {', '.join(wrong)}")
-    slip = summarise([run])["time"][0]
-    until = run.transitions[run.transitions["time"] <= slip]
+    until = run.transitions[run.transitions["time"] <= first_global_slip]
     if not isinstance(run, Run) or not 0 < len(until) <= MOST_REPEATED:
         return
-    up_to_slip = replace(run, duration=slip, transitions=until)
+    up_to_slip = replace(run, duration=first_global_slip, transitions=until)
     known = predicted_errors(up_to_slip).order_known_until
-    if known < slip:
+    if known < first_global_slip:
         tell(
-            f"the first global slip at {slip:.3f} s is beyond predictability: roundings "
+            f"the first global slip at {first_global_slip:.3f} s is beyond predictability: roundings "
             f"decide from {known:.3f} s on"
         )
 

@@ -54,7 +54,7 @@ LARGER = {
     "push_height": "height of the push above the interface [m]",
 }
 RUN = ("duration", "until", "max_transitions")
-SLIDER = ("theta", "n_blocks", *CHAIN)
+SLIDER_OPTIONS = ("theta", "n_blocks", *CHAIN)
 
 
 class Parser(argparse.ArgumentParser):
@@ -77,6 +77,17 @@ class Parser(argparse.ArgumentParser):
             "ignored explicit argument", "takes no value, but has"
         )
         self.exit(WRONG_USE, f"{self.prog}: {message}{hint} (see {self.prog} --help)\n")
+
+
+class ListProblems(argparse.Action):
+    """An option that lists the reference problems."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
+        """Print their names, and end."""
+        from precursors.accuracy.score import problems
+
+        print(*problems(), sep="\n")
+        parser.exit()
 
 
 def read_options(argv: Sequence[str]) -> argparse.Namespace:
@@ -114,8 +125,6 @@ def add_options(command: Parser, name: str) -> Parser:
         add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
         return command
     if name == "score":
-        from precursors.accuracy.score import problems
-
         add(
             "file",
             type=Path,
@@ -127,7 +136,7 @@ def add_options(command: Parser, name: str) -> Parser:
             required=True,
             help="which of its problems they solve, for example uniform",
         )
-        add("--list", action="version", version=" ".join(problems()), help="list them")
+        add("--list", action=ListProblems, nargs=0, help="list them")
         add(
             "--ties",
             type=_number,
@@ -160,7 +169,7 @@ def add_options(command: Parser, name: str) -> Parser:
 
 def _add_chain(command: Parser) -> None:
     """Add the options of a chain and of its run."""
-    from precursors.model import scenes
+    from precursors.model.scenes import SLIDER
 
     add = command.add_argument_group(
         "the chain", "the defaults are the paper's"
@@ -178,7 +187,7 @@ def _add_chain(command: Parser) -> None:
     for name, meaning in CHAIN.items():
         add(
             f"--{name.replace('_', '-')}",
-            help=f"{meaning} ({scenes.SLIDER[name]:g})",
+            help=f"{meaning} ({SLIDER[name]:g})",
             type=_number,
         )
     add = command.add_argument_group(
