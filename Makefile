@@ -71,7 +71,7 @@ golden: results $(DEV)
 
 # Pages of the interface, from the docstrings, and of docs/, in results/docs.
 docs: $(DEV)
-	$(BIN)/pdoc -o results/docs -d numpy precursors precursors.analysis.horizon precursors.methods docs/guide.py
+	$(BIN)/pdoc -o results/docs -d numpy precursors precursors.analysis.horizon maegawa2010.methods docs/guide.py
 
 bench: $(READY)
 	$(BIN)/python benchmarks/bench.py $(if $(METHOD),--method $(METHOD))
@@ -104,10 +104,10 @@ $(READY): requirements.lock
 	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
 	@# Compile what is not in the user's cache, on two cores.
-	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.hierarchy.larger import LargerChain, simulate_larger; \
+	$(BIN)/python -c "from precursors import Chain, simulate; from precursors.larger.chain import LargerChain, simulate_larger; \
 	  chain = Chain.from_slider(); simulate(chain, 0.4).at([0.4]); simulate_larger(LargerChain(chain, 0.02), 0.1)" & \
-	$(BIN)/python -c "from precursors import Chain; from precursors.methods import METHODS; \
-	  from precursors.hierarchy.quasistatic import quasistatic_slips; chain = Chain.from_slider(); quasistatic_slips(chain); \
+	$(BIN)/python -c "from precursors import Chain; from maegawa2010.methods import METHODS; \
+	  from maegawa2010.studies.models.quasistatic import quasistatic_slips; chain = Chain.from_slider(); quasistatic_slips(chain); \
 	  [METHODS[name].solve(chain, 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'dop853', \
 	  'leapfrog', 'moreau_jean_half', 'karnopp', 'cvode_adams') if name in METHODS]" & \
 	wait

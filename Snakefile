@@ -5,22 +5,22 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from precursors.model import printed
-from precursors.model.config import check_config, check_file, read_numbers
-from precursors.model.scenes import (
+from maegawa2010 import printed
+from maegawa2010.config import check_config, check_file, read_numbers
+from maegawa2010.scenes import (
     scene_additions,
     scene_duration,
     scene_slider,
     scenes_with,
     scenes_with_theta,
 )
-from precursors.support.digest import digest_code
+from maegawa2010.support.digest import digest_code
 
 min_version("9.20")
 
 # As seen from the working directory; `workflow.basedir` would be another workflow's that uses this one as a module.
 ROOT = Path(os.path.relpath(workflow.current_basedir.get_path_or_uri(secret_free=True)))
-LIBRARY = ROOT / "src/precursors"
+PAPERS = ROOT / "src/maegawa2010"
 # What a script computes: its rule has it as a parameter, and its jobs run again when it changes.
 digest = partial(digest_code, ROOT)
 
@@ -63,9 +63,9 @@ PAPER_PRINTS = {scene: printed.SCENES.get(scene, {}) for scene in SCENES}
 TABLES = {}  # of all rooms: see tables.smk
 # What reads a file, by its ending.
 READERS = {
-    ".csv": "support.files:read_table",
-    ".h5": "solver.run:Run.load",
-    ".gz": "proof.certificate:Certificate.load",
+    ".csv": "precursors.support.files:read_table",
+    ".h5": "precursors.solver.run:Run.load",
+    ".gz": "precursors.proof.certificate:Certificate.load",
 }
 
 
@@ -92,7 +92,7 @@ rule all:
     localrule: True
 
 
-others = {name for name, figure in FIGURES.items() if figure.get("module") != "scene"}
+others = {name for name, figure in FIGURES.items() if not figure["module"].endswith(".scene")}
 for scene in {*(rule.name for rule in workflow.rules), *others} & set(config["scenes"]):
     raise WorkflowError(
         f"configuration: scenes.{scene} has the name of a target or figure: give it another one"

@@ -8,7 +8,7 @@ against 40 digits.
 With --quick it has a reduced size, to see that it runs.
 
 Ratios are what counts: all that is compared runs in turn in one process on one thread
-(see `precursors.support.timing`).
+(see `maegawa2010.support.timing`).
 """
 
 from __future__ import annotations
@@ -38,21 +38,21 @@ from unittest.mock import patch
 
 import pandas as pd
 
-from precursors import Chain, Record, simulate, simulate_many
-from precursors.accuracy.compare import Truth, compare
-from precursors.accuracy.work_precision import (
+from maegawa2010.methods import METHODS, cvode_events, events
+from maegawa2010.methods.common import Result
+from maegawa2010.methods.heyoka_events import solve_heyoka
+from maegawa2010.methods.scipy_events import solve_scipy
+from maegawa2010.studies.work_precision.tables import (
     ROUNDS,
     charted_values,
     measure_methods,
 )
-from precursors.methods import METHODS, cvode_events, events
-from precursors.methods.common import Result
-from precursors.methods.heyoka_events import solve_heyoka
-from precursors.methods.scipy_events import solve_scipy
+from maegawa2010.support import timing
+from precursors import Chain, Record, simulate, simulate_many
+from precursors.benchmark.compare import Truth, compare
 from precursors.model.checks import Until
 from precursors.model.statics import maximal_strain_positions
 from precursors.solver.simulate import TransitionLimitError
-from precursors.support import timing
 from precursors.support.files import write_table
 
 ROOT = Path(__file__).resolve().parent.parent

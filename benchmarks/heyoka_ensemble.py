@@ -11,9 +11,9 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from precursors.methods.columns import time_unit
-from precursors.methods.events import STICKS, EventMotion
-from precursors.methods.heyoka_events import integrator_of
+from maegawa2010.methods.columns import time_unit
+from maegawa2010.methods.events import STICKS, EventMotion
+from maegawa2010.methods.heyoka_events import integrator_of
 from precursors.model.chain import Chain
 
 

@@ -11,9 +11,9 @@ from time import perf_counter
 
 import pandas as pd
 
-from precursors.accuracy.attempt import attempt
-from precursors.accuracy.score import problems
-from precursors.methods import METHODS
+from maegawa2010.methods import METHODS
+from maegawa2010.methods.attempt import attempt
+from precursors.benchmark.score import problems
 from precursors.proof import Certificate
 from precursors.support.files import write_table
 

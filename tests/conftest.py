@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from precursors.support import timing
+from maegawa2010.support import timing
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in the workflow's jobs
 

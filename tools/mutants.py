@@ -54,10 +54,10 @@ import pytest
 from browser import find_browser
 
 ROOT = Path(__file__).parents[1]
-LIBRARY, SCRIPTS = Path("src/precursors"), Path("workflow/scripts")
+SOURCES, SCRIPTS = Path("src"), Path("workflow/scripts")
 # tests that import it meet the faults of the JavaScript
-PAGE = "src/precursors/figures/explorer/page.py"
-COMPILED = {"kernel", "methods", "hierarchy"}  # directories with compiled code
+PAGE = "src/maegawa2010/explorer/page.py"
+COMPILED = {"kernel", "methods", "larger", "models"}  # directories with compiled code
 LEFT = ("results", "wheelhouse", ".venv", ".git", ".snakemake", ".*_cache")
 # These compare files that are already there, or run the workflow.
 ASIDE = ("tests/cluster/*", "tests/golden/test_golden.py", "tests/workflow/test_[dfr]*")
@@ -157,8 +157,8 @@ class Fault(NamedTuple):
             .strip()
         )
         place = (
-            self.path.relative_to(LIBRARY)
-            if self.path.is_relative_to(LIBRARY)
+            self.path.relative_to(SOURCES)
+            if self.path.is_relative_to(SOURCES)
             else self.path
         )
         where = f" in: {line}" if re.fullmatch(r"[\w.]+|\W{1,3}", old) else ""
@@ -258,10 +258,10 @@ def script_faults(path: Path) -> Iterator[Fault]:
 
 def chosen_faults(under: str, number: int, seed: int) -> list[Fault]:
     """A sample of the faults, which changes only in modules that change."""
-    paths = [*(ROOT / LIBRARY).rglob("*.py"), *(ROOT / SCRIPTS).glob("*.py")]
+    paths = [*(ROOT / SOURCES).rglob("*.py"), *(ROOT / SCRIPTS).glob("*.py")]
     if find_browser():
         paths += (
-            path for path in (ROOT / LIBRARY).rglob("*.js") if path.stem != "drawing"
+            path for path in (ROOT / SOURCES).rglob("*.js") if path.stem != "drawing"
         )
     else:
         print("no Chromium or Chrome here: the explorer's JavaScript is left out")
@@ -282,7 +282,7 @@ def mark_functions(copy: Path) -> set[Function]:
 
     def get_code(loader: SourceFileLoader, name: str) -> CodeType | None:
         path = Path(loader.get_filename(name))
-        if not any(path.is_relative_to(copy / part) for part in (LIBRARY, SCRIPTS)):
+        if not any(path.is_relative_to(copy / part) for part in (SOURCES, SCRIPTS)):
             return whole(loader, name)
         file, text = str(path.relative_to(copy)), path.read_bytes()
         entered.add((file, 0))

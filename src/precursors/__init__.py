@@ -1,8 +1,7 @@
 """Stick-slip chains solved exactly: precursors of global slip after Maegawa, Suzuki and
 Nakano (2010).
 
-The library is `model`, `solver`, `audit`, `proof` and `analysis`, for any chain; the
-other rooms reproduce the paper with it.
+This is the library, for any chain; the package `maegawa2010` reproduces the paper with it.
 
     >>> from precursors import Chain, apparent_friction, find_slips, plot, simulate
     >>> run = simulate(Chain.from_slider(theta="-5/6"))  # else as in the paper
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
     )
     from precursors.analysis.summary import summarise
     from precursors.figures.run import plot
-    from precursors.hierarchy.larger import LargerChain
+    from precursors.larger.chain import LargerChain
     from precursors.model.chain import Chain
     from precursors.proof import certify
     from precursors.solver.many import simulate_many
@@ -41,7 +40,7 @@ if TYPE_CHECKING:
 # must not load the compiler.
 _MODULES = {
     "Chain": "model.chain",
-    "LargerChain": "hierarchy.larger",
+    "LargerChain": "larger.chain",
     "LargerRun": "solver.run",
     "Record": "solver.run",
     "Run": "solver.run",

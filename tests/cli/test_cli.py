@@ -29,7 +29,7 @@ from precursors.cli import Refused, commands, main
 from precursors.cli.options import CHAIN, EPILOG, LARGER, read_options
 from precursors.figures import precursor_lengths, scene, style
 from precursors.figures.run import plot
-from precursors.hierarchy.larger import LargerChain
+from precursors.larger.chain import LargerChain
 
 HEAVY = {"numpy", "numba", "pandas", "h5py", "matplotlib", "scipy"}
 COMMAND = [sys.executable, "-m", "precursors"]  # which is precursors/__main__.py

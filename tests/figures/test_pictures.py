@@ -11,28 +11,24 @@ import pandas as pd
 import pytest
 from matplotlib import image
 
-from precursors.figures import (
-    chain_schematic,
-    event_law,
-    failure_gallery,
-    friction_map,
-    hero,
-    horizon,
-    larger,
-    noise,
-    precursor_lengths,
-    resolution,
-    scene,
-    speed,
-    step_sweep,
-    style,
-    theta_window,
-)
+from maegawa2010.paper import chain_schematic
+from maegawa2010.studies.event_law import figure as event_law
+from maegawa2010.studies.failures import figure as failure_gallery
+from maegawa2010.studies.friction_map import figure as friction_map
+from maegawa2010.studies.horizon import figure as horizon
+from maegawa2010.studies.larger import figure as larger
+from maegawa2010.studies.noise import figure as noise
+from maegawa2010.studies.printed_digits import figure as hero
+from maegawa2010.studies.resolution import figure as resolution
+from maegawa2010.studies.step_sweep import figure as step_sweep
+from maegawa2010.studies.theta_window import figure as theta_window
+from maegawa2010.studies.work_precision import figure as speed
+from precursors.figures import precursor_lengths, scene, style
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 SMALL = GOLDEN / "small"
 PUBLISHED = GOLDEN.parents[1] / "paper/tables"
-PANELS = Path(failure_gallery.__file__).with_suffix(".csv")
+PANELS = Path(failure_gallery.__file__).with_name("failure_gallery.csv")
 # Of 255: the same release of Matplotlib draws the same picture, but for a few grey
 # levels where it smooths.
 GREY_LEVELS = 8

@@ -13,11 +13,11 @@ from figures.test_pictures import PANELS, PICTURES, read, slips
 from matplotlib import image
 from matplotlib.colors import to_rgb
 
-from precursors.accuracy.failures import FAILURE_MODES
-from precursors.ensembles.event_law import THETAS
+from maegawa2010.methods import ROWS
+from maegawa2010.studies.event_law.figure import MARKERS
+from maegawa2010.studies.event_law.tables import THETAS
+from maegawa2010.studies.failures.tables import FAILURE_MODES
 from precursors.figures import precursor_lengths, style
-from precursors.figures.event_law import MARKERS
-from precursors.methods import ROWS
 
 
 def small_figure():

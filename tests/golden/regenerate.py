@@ -6,7 +6,8 @@ import sys
 from pathlib import Path
 
 import check_claims
-from figures import explorer_sessions, test_pictures
+from explorer import explorer_sessions
+from figures import test_pictures
 from golden import benchmark_page, small_tables
 
 from precursors.support.files import read_table, write_text, write_whole

@@ -15,27 +15,28 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import yaml
-from accuracy.made_up import go_on, proof_of
 from audit.falsified import audits
-from ensembles.studies import PAPER, study_of
+from benchmark.made_up import go_on, proof_of
 from methods.kept_runs import kept_runs
+from studies.made import PAPER, study_of
 
+from maegawa2010.methods import METHODS
+from maegawa2010.paper.definitions import definitions_table
+from maegawa2010.paper.scene_numbers import measures_table
+from maegawa2010.studies.event_law.tables import event_law_tables
+from maegawa2010.studies.failures.stability import NO_GLOBAL_SLIP, thresholds
+from maegawa2010.studies.failures.tables import FAILURE_MODES, Failure, curve_table
+from maegawa2010.studies.larger.cycles import cycle_tables
+from maegawa2010.studies.larger.first_slips import larger_tables
+from maegawa2010.studies.members import gather, run_members
+from maegawa2010.studies.models.compare_models import compare_models
+from maegawa2010.studies.noise import tables as noise
+from maegawa2010.studies.printed_digits.tables import digits_tables
+from maegawa2010.studies.registry import MAP
+from maegawa2010.studies.resolution import tables as resolution
 from precursors import Chain, simulate
-from precursors.accuracy.failures import FAILURE_MODES, Failure, curve_table
-from precursors.accuracy.failures.stability import NO_GLOBAL_SLIP, thresholds
-from precursors.ensembles import noise, resolution
-from precursors.ensembles.event_law import event_law_tables
-from precursors.ensembles.printed_digits import digits_tables
-from precursors.ensembles.studies import MAP
-from precursors.ensembles.study import gather, run_members
-from precursors.hierarchy.compare_models import compare_models
-from precursors.hierarchy.larger import LargerChain
-from precursors.hierarchy.larger_cycles import cycle_tables
-from precursors.hierarchy.larger_study import larger_tables
-from precursors.methods import METHODS
+from precursors.larger.chain import LargerChain
 from precursors.proof import ExactChain
-from precursors.reproduction.definitions import definitions_table
-from precursors.reproduction.scene_numbers import measures_table
 
 SMALL = Path(__file__).parent / "small"
 CONFIG = yaml.safe_load(

@@ -13,9 +13,9 @@ import pandas as pd
 import pytest
 from golden.regenerate import GOLDEN
 
-from precursors.reproduction.claim import HOLDS, READINGS
-from precursors.reproduction.claims import CLAIMS, claims_tables, evaluate
-from precursors.reproduction.inputs import CLAIM_TABLES, POINT_TABLES
+from maegawa2010.paper.claim import HOLDS, READINGS
+from maegawa2010.paper.claims import CLAIMS, claims_tables, evaluate
+from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
 from precursors.support.files import read_table
 from precursors.support.provenance import checksums
 

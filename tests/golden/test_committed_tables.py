@@ -6,10 +6,10 @@ from pathlib import Path
 import pandas as pd
 import pytest
 import yaml
-from ensembles.studies import study_of
+from studies.made import study_of
 
-from precursors.ensembles.event_law import event_law_table, predicted_events
-from precursors.ensembles.study import chain_of, run_members
+from maegawa2010.studies.event_law.tables import event_law_table, predicted_events
+from maegawa2010.studies.members import chain_of, run_members
 
 ROOT = Path(__file__).parents[2]
 CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))

@@ -13,7 +13,7 @@ import write_paper
 from pdf_text import pages_of
 from pypdf import PdfReader
 
-from precursors.reproduction.shown import results_shown
+from maegawa2010.paper.shown import results_shown
 
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "paper"

@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from maegawa2010.methods import METHODS
 from precursors import Chain
-from precursors.methods import METHODS
 
 # A drive so fast makes slips follow one another within milliseconds.
 SPEED = 0.01  # m/s

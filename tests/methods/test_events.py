@@ -6,12 +6,12 @@ from importlib.util import find_spec
 import pytest
 from reference.goldens import SCENES, read_golden
 
+from maegawa2010.methods.cvode_events import solve_cvode
+from maegawa2010.methods.dop853 import solve_dop853
+from maegawa2010.methods.events import EventMotion
+from maegawa2010.methods.heyoka_events import solve_heyoka
+from maegawa2010.methods.scipy_events import solve_scipy
 from precursors import Chain, Run
-from precursors.methods.cvode_events import solve_cvode
-from precursors.methods.dop853 import solve_dop853
-from precursors.methods.events import EventMotion
-from precursors.methods.heyoka_events import solve_heyoka
-from precursors.methods.scipy_events import solve_scipy
 
 FIRST_SLIP = 216  # transitions of theta = 0 to the end of the first global slip
 # Errors of a step add up and grow in 2.7 s: measured were 7e-10 (SciPy) and more.

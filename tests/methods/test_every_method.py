@@ -13,10 +13,10 @@ import pytest
 from golden.small_tables import SMALL
 from methods.kept_runs import kept_runs
 
+from maegawa2010.methods import METHODS, columns, cvode_events, events
+from maegawa2010.methods.compiled import COMPILED
+from maegawa2010.methods.events import EventMotion
 from precursors import Chain, simulate
-from precursors.methods import METHODS, columns, cvode_events, events
-from precursors.methods.compiled import COMPILED
-from precursors.methods.events import EventMotion
 
 # Blocks, theta, mu_k, and a time [s]: past the first global slip; after a block has
 # slid backward: block 3 of 3 and block 1, which turn round, and block 2, which is

@@ -6,15 +6,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from maegawa2010.methods import METHODS, DivergedError, rk4_located
+from maegawa2010.methods.fixed_step import FIRST_ROOM
+from maegawa2010.methods.march import march
+from maegawa2010.methods.rk4 import run_rk4
+from maegawa2010.methods.stability import highest_frequency
+from maegawa2010.studies.failures.common import FIVE_SLIPS
+from maegawa2010.studies.failures.literal_friction import load_after_limit
 from precursors import Chain, Run, TransitionLimitError, simulate
-from precursors.accuracy.compare import transitions_right
-from precursors.accuracy.failures.common import FIVE_SLIPS
-from precursors.accuracy.failures.literal_friction import load_after_limit
-from precursors.methods import METHODS, DivergedError, rk4_located
-from precursors.methods.fixed_step import FIRST_ROOM
-from precursors.methods.march import march
-from precursors.methods.rk4 import run_rk4
-from precursors.methods.stability import highest_frequency
+from precursors.benchmark.compare import transitions_right
 
 # Orders with transitions, and the two steps between which they are measured [s].
 ORDERS = {

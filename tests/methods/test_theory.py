@@ -9,16 +9,10 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from precursors import Chain, simulate
-from precursors.accuracy.failures.regularised_friction import (
-    STRIBECK,
-    creep_velocity,
-    measured_creep,
-)
-from precursors.methods import SMOOTH, karnopp, moreau_jean
-from precursors.methods.columns import FORCE, VELOCITY, sliding_forward
-from precursors.methods.march import slide
-from precursors.methods.stability import (
+from maegawa2010.methods import SMOOTH, karnopp, moreau_jean
+from maegawa2010.methods.columns import FORCE, VELOCITY, sliding_forward
+from maegawa2010.methods.march import slide
+from maegawa2010.methods.stability import (
     bisect,
     energy_left,
     highest_frequency,
@@ -27,6 +21,12 @@ from precursors.methods.stability import (
     largest_stable_step,
     without_friction,
 )
+from maegawa2010.studies.failures.regularised_friction import (
+    STRIBECK,
+    creep_velocity,
+    measured_creep,
+)
+from precursors import Chain, simulate
 
 UNSTABLE = [name for name, smooth in SMOOTH.items() if 0.0 < smooth.limit < np.inf]
 # So much beyond RK4's limit energy becomes a millionfold within 4000 steps; a wrong

@@ -10,8 +10,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from maegawa2010 import printed
 from precursors import Chain
-from precursors.model import printed
 from precursors.model.chain import linear_weights, parse_theta, theta_from_load_cells
 
 ROUNDING = 4e-16  # a few roundings of doubles, relative

@@ -14,10 +14,16 @@ from pathlib import Path
 
 import pytest
 import yaml
-from accuracy.made_up import tied_certificate
+from benchmark.made_up import tied_certificate
 from reference import Transition
 from reference.goldens import GOLDEN, SCENE_DIGITS, SCENES, csv_rows
 
+from maegawa2010.studies.horizon.chains import (
+    chain_duration,
+    exact_chain,
+    is_about,
+    scene_exact_chain,
+)
 from precursors.proof import (
     Certificate,
     CertificateError,
@@ -26,12 +32,6 @@ from precursors.proof import (
     ExactChain,
     certify,
     verify,
-)
-from precursors.proof.chains import (
-    chain_duration,
-    exact_chain,
-    is_about,
-    scene_exact_chain,
 )
 
 CHAINS = yaml.safe_load((Path(__file__).parents[2] / "config.yaml").read_text())[

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from accuracy.made_up import go_on, proof_of
+from benchmark.made_up import go_on, proof_of
 from flint import arb, arb_poly, ctx
 from scipy.linalg import expm
 

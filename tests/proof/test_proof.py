@@ -13,7 +13,7 @@ from typing import Any
 
 import mpmath
 import pytest
-from accuracy.made_up import SYMMETRIC_START, go_on, proof_of
+from benchmark.made_up import SYMMETRIC_START, go_on, proof_of
 from flint import arb, ctx
 from golden import small_tables
 from reference import HeldOut, Transition, read_golden, read_held_out

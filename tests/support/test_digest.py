@@ -3,7 +3,7 @@ else."""
 
 import pytest
 
-from precursors.support import digest
+from maegawa2010.support import digest
 
 SCRIPT = '''\
 """Add."""
@@ -57,7 +57,7 @@ SCRIPT_FILE, SUMS_FILE = "workflow/scripts/script.py", "src/precursors/room/sums
         ("src/precursors/room/unused.py", "x = 2\n", [], False),
         ("src/precursors/room/types.py", "x = 2\n", [], False),
         ("src/precursors/named.py", "x = 2\n", [], False),
-        ("src/precursors/named.py", "x = 2\n", ["named"], True),
+        ("src/precursors/named.py", "x = 2\n", ["precursors.named"], True),
         (SCRIPT_FILE, f"{SCRIPT}x = 1\n", [], True),
         ("workflow/scripts/helper.py", "def help_out():\n    return 2\n", [], True),
         (SUMS_FILE, SUMS.replace("a + b", "a - b"), [], True),
@@ -87,4 +87,4 @@ def test_a_script_that_is_not_there_is_named(root):
 
 def test_a_misspelt_module_is_no_package_that_has_it(root):
     with pytest.raises(ValueError, match=r"^there is no module precursors\.parts\.on$"):
-        digest.digest_code(root, "script", "parts.on")
+        digest.digest_code(root, "script", "precursors.parts.on")

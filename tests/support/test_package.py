@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 # The compiler, and what only simulations and tables need.
 HEAVY = {"numba", "h5py", "pandas"}
 # What the rules of the workflow import.
-RULES = "from precursors.ensembles import studies; from precursors.reproduction import inputs, shown"
+RULES = "from maegawa2010.studies import registry; from maegawa2010.paper import inputs, shown"
 
 
 def loaded(program: str) -> set[str]:
@@ -40,7 +40,7 @@ def test_every_public_name_is_there(name):
     [
         ("import precursors", HEAVY | {"numpy"}),
         ("from precursors import Chain", HEAVY),
-        ("import precursors.model.scenes", HEAVY),
+        ("import maegawa2010.scenes", HEAVY),
         ("import precursors.figures.scene", HEAVY - {"pandas"}),
         (
             "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.1)",
@@ -78,7 +78,8 @@ def test_the_library_works_without_its_extras():
     loaded(
         f"sys.modules.update(dict.fromkeys({absent!r}))\n"
         "from precursors import Chain, audit, find_slips, simulate\n"
-        "import precursors.cli, precursors.hierarchy.models, precursors.ensembles.study, precursors.methods\n"
+        "import precursors.cli, maegawa2010.studies.models.models\n"
+        "import maegawa2010.studies.members, maegawa2010.methods\n"
         "import precursors.figures.scene, precursors.figures.precursor_lengths\n"
         "try: precursors.certify(Chain.from_slider(), 1)\n"
         "except ModuleNotFoundError as error: assert 'pip install \"precursors[proof]\"' in str(error)\n"
@@ -99,7 +100,7 @@ def test_the_wheel_has_every_file_of_the_package_and_nothing_else(tmp_path):
     with zipfile.ZipFile(tmp_path / done.stdout.split()[-1]) as wheel:
         found = {name for name in wheel.namelist() if ".dist-info/" not in name}
         wheel.extractall(tmp_path)
-    paths = {path for path in (ROOT / "src/precursors").rglob("*") if path.is_file()}
+    paths = {path for path in (ROOT / "src").rglob("*") if path.is_file()}
     wanted = {
         str(path.relative_to(ROOT / "src")) for path in paths if path.suffix != ".pyc"
     }
@@ -108,7 +109,7 @@ def test_the_wheel_has_every_file_of_the_package_and_nothing_else(tmp_path):
     assert "precursors/py.typed" in found
     program = (
         f"import sys; sys.path.insert(0, {str(tmp_path)!r}); "
-        "from precursors.accuracy.score import problems; print(*problems().values())"
+        "from precursors.benchmark.score import problems; print(*problems().values())"
     )
     listed = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True

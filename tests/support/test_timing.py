@@ -6,8 +6,8 @@ import gc
 
 import pytest
 
-from precursors.support import timing
-from precursors.support.timing import Seconds
+from maegawa2010.support import timing
+from maegawa2010.support.timing import Seconds
 
 
 @pytest.fixture

@@ -16,15 +16,15 @@ from pathlib import Path
 import pytest
 import snakemake.cli
 
-from precursors.support.digest import digest_code
+from maegawa2010.support.digest import digest_code
 
 # Imports and the search for plugins, once instead of in every run of Snakemake, which
 # is a fork of this one.
 for module in (
     "jsonschema",
     "nbformat",
-    "precursors.model.config",
-    "precursors.ensembles.studies",
+    "maegawa2010.config",
+    "maegawa2010.studies.registry",
     "precursors.proof",
     "smart_open",
     "snakemake.report",
@@ -141,8 +141,9 @@ class Workspace:
 def parse_the_code() -> None:
     """Read all modules once instead of in every run of Snakemake, which then knows the
     syntax trees of those that a test leaves as they are."""
-    library = ROOT / "src/precursors"
-    modules = (path.relative_to(library) for path in library.rglob("[!_]*.py"))
+    modules = (
+        path.relative_to(ROOT / "src") for path in (ROOT / "src").rglob("[!_]*.py")
+    )
     names = [".".join(module.with_suffix("").parts) for module in modules]
     for script in (ROOT / "workflow/scripts").glob("*.py"):
         digest_code(ROOT, script.stem, *names)

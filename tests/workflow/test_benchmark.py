@@ -18,7 +18,7 @@ import pytest
 from conftest import ROOT
 from golden.benchmark_page import PAGE, PROBLEMS, results_table
 
-from precursors.accuracy.score import problems, score, solution
+from precursors.benchmark.score import problems, score, solution
 from precursors.proof import Certificate, ExactChain
 
 TEXT = PAGE.read_text(encoding="utf-8")

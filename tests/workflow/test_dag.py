@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 from conftest import ROOT, copy_workflow
 
-from precursors.hierarchy.models import scene_answers
+from maegawa2010.studies.models.models import scene_answers
 
 PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all
@@ -85,7 +85,7 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(
             finished.path / name, clone.path / name, copy_function=shutil.copyfile
         )
     assert clone.would_run() == set()
-    clone.edit("src/precursors/figures/theta_window.py", "", CODE)
+    clone.edit("src/maegawa2010/studies/theta_window/figure.py", "", CODE)
     assert clone.would_run() == {"draw_ensembles"} | PAPER
 
 
@@ -93,32 +93,32 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(
     ("module", "run", "left"),
     [
         (
-            "figures/scene",
+            "precursors/figures/scene",
             {"draw_reproduction"},
             {"tabulate", "simulate", "draw_accuracy"},
         ),
         (
-            "figures/style",
+            "precursors/figures/style",
             {"draw_reproduction", "draw_accuracy"},
             {"tabulate", "simulate"},
         ),
         (
-            "methods/moreau_jean",
+            "maegawa2010/methods/moreau_jean",
             {"tabulate_work_precision", "draw_accuracy"},
             {"take", "run_chunk", "simulate"},
         ),
         (
-            "analysis/slips",
+            "precursors/analysis/slips",
             {"simulate_scene fig10", "tabulate_reproduction"},
             {"take_certificates"},
         ),
-        ("solver/kernel/events", PAPERS | {"run_chunk"}, set()),
+        ("precursors/solver/kernel/events", PAPERS | {"run_chunk"}, set()),
     ],
 )
 def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
     finished, module, run, left
 ):
-    finished.edit(f"src/precursors/{module}.py", "", CODE)
+    finished.edit(f"src/{module}.py", "", CODE)
     jobs = finished.would_run()
     assert run <= jobs
     assert not [job for job in jobs if job.startswith(tuple(left))]

@@ -72,10 +72,10 @@ def test_the_scene_and_the_figure_shown_are_made(documented):
 CHART_OF_THE_METHOD = """
 from matplotlib.colors import to_hex
 from precursors import Chain, simulate
-from precursors.accuracy.compare import Truth
-from precursors.accuracy.work_precision import charted_values, measure_methods
-from precursors.figures import speed
-from precursors.methods import ROWS
+from precursors.benchmark.compare import Truth
+from maegawa2010.studies.work_precision.tables import charted_values, measure_methods
+from maegawa2010.studies.work_precision import figure as speed
+from maegawa2010.methods import ROWS
 
 chain = Chain.from_slider(drive_velocity=0.01)
 truth = Truth.of_run(simulate(chain, 0.01))

@@ -24,20 +24,21 @@ from conftest import ROOT
 from matplotlib import image
 from matplotlib.figure import Figure
 
+from maegawa2010.studies.failures import tables as failures
+from maegawa2010.studies.failures.common import Threshold
+from maegawa2010.studies.horizon.lyapunov import lyapunov_table
+from maegawa2010.studies.horizon.solver_vs_proof import proof_tables
+from maegawa2010.studies.registry import MAP
+from maegawa2010.studies.work_precision import tables as work_precision
 from precursors import Record, Run, simulate
-from precursors.accuracy import failures, work_precision
-from precursors.accuracy.failures.common import Threshold
-from precursors.accuracy.solver_vs_proof import proof_tables
 from precursors.analysis.load_curve import load_trace
-from precursors.analysis.lyapunov import lyapunov_table
 from precursors.analysis.slips import slip_table
-from precursors.ensembles.studies import MAP
 from precursors.figures import style
 from precursors.proof import Certificate, ExactChain, certify
 from precursors.solver.run import LargerRun
 from precursors.support.files import read_table
 
-READERS = {".csv": "support.files:read_table"}
+READERS = {".csv": "precursors.support.files:read_table"}
 SCRIPTS = ROOT / "workflow/scripts"
 PAIR, DURATION = (
     ExactChain.from_slider(n_blocks=2, theta="1/2", drive_velocity="1e-3"),
@@ -85,7 +86,7 @@ def test_a_job_logs_what_it_took_and_tells_beforehand_if_that_is_long(
     tmp_path, capsys, seconds, told
 ):
     params = Named(
-        function="support.files:read_table",
+        function="precursors.support.files:read_table",
         inputs={},
         options={"path": tmp_path / "a.csv"},
     )
@@ -108,7 +109,7 @@ def test_what_goes_wrong_in_a_job_is_one_line_and_a_traceback_in_its_log_if_it_i
     tmp_path,
 ):
     params = Named(
-        function="support.files:read_table",
+        function="precursors.support.files:read_table",
         inputs={},
         options={"path": tmp_path / "none.csv"},
     )
@@ -116,7 +117,7 @@ def test_what_goes_wrong_in_a_job_is_one_line_and_a_traceback_in_its_log_if_it_i
     with pytest.raises(SystemExit, match=r"^rule: .*none\.csv'$"):
         run_script("make_tables", tmp_path, output=Named("a.csv"), params=params)
     assert (tmp_path / "make_tables.log").read_text().count("\n") == 1
-    params.function = "support.files:no_function"
+    params.function = "precursors.support.files:no_function"
     with pytest.raises(SystemExit, match=r"^rule: .*no_function"):
         run_script("make_tables", tmp_path, output=Named("a.csv"), params=params)
     assert "\nTraceback" in (tmp_path / "make_tables.log").read_text()
@@ -141,13 +142,14 @@ def test_each_figure_is_drawn_from_its_tables_into_its_own_files(tmp_path, monke
     figures = {
         "ours": {
             "shows": "one table",
+            "module": "precursors.figures.ours",
             "tables": {"table": table},
             "options": {"title": "one"},
             "look": {},
         },
         "two": {
             "shows": "a list of tables",
-            "module": "ours",
+            "module": "precursors.figures.ours",
             "tables": {"table": [table]},
             "options": {"title": "two"},
         },

@@ -1,6 +1,6 @@
 # methods, proofs
 
-from precursors.proof.chains import chain_duration, exact_chain, scene_exact_chain
+from maegawa2010.studies.horizon.chains import chain_duration, exact_chain, scene_exact_chain
 from precursors.model.chain import parse_theta
 
 CHAINS = config["accuracy"]["proved"]
@@ -12,38 +12,38 @@ BENCHMARKS = ROOT / "benchmarks"
 CERTIFICATES = {chain: f"results/certificates/chains/{chain}.json.gz" for chain in CHAINS}
 TABLES |= {
     "proofs": {
-        "function": "accuracy.solver_vs_proof:proof_tables",
+        "function": "maegawa2010.studies.horizon.solver_vs_proof:proof_tables",
         "inputs": {"certificates": CERTIFICATES, "effort": str(COMMITTED / "effort.csv")},
         "options": {"tolerance": config["accuracy"]["tolerance"]},
         "tables": ["certificates", "solver_vs_proof"],
         "beside": ["horizon"],
     },
     "lyapunov": {
-        "function": "analysis.lyapunov:lyapunov_table",
+        "function": "maegawa2010.studies.horizon.lyapunov:lyapunov_table",
         "options": {"sliders": SLIDERS, "duration": config["accuracy"]["lyapunov_duration"]},
         "seconds": 2,
     },
     "work_precision": {
-        "function": "accuracy.work_precision:work_precision_table",
+        "function": "maegawa2010.studies.work_precision.tables:work_precision_table",
         "inputs": {"certificate": CERTIFICATES[EVEN]},
         "options": {"scene": EVEN, "full": config["full"]},
         "seconds": 100 if config["full"] else 4,
     },
     "benchmark": {
-        "function": "accuracy.score:score_table",
+        "function": "precursors.benchmark.score:score_table",
         "inputs": {"solvers": str(BENCHMARKS / "solvers.csv")},
         "options": {"folder": str(BENCHMARKS / "results")},
         "also": sorted([*COMMITTED.glob("*.json.gz"), *(BENCHMARKS / "results").glob("*.csv")]),
         "seconds": 2,
     },
     "step_sweep": {
-        "function": "accuracy.step_sweep:step_sweep_table",
+        "function": "maegawa2010.studies.step_sweep.tables:step_sweep_table",
         "inputs": {"runs": RUNS},
         "options": {"full": config["full"]},
         "seconds": 3,
     },
     "failures": {
-        "function": "accuracy.failures:failure_tables",
+        "function": "maegawa2010.studies.failures.tables:failure_tables",
         "tables": ["thresholds"],
         "beside": ["failure_curves"],
         "seconds": 3,

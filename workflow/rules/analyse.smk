@@ -2,7 +2,7 @@
 
 TABLES |= {
     "reproduction": {
-        "function": "reproduction.scene_numbers:reproduction_table",
+        "function": "maegawa2010.paper.scene_numbers:reproduction_table",
         "inputs": {"slips": {scene: f"results/tables/{scene}_slips.csv" for scene in SCENES}},
         "options": {"paper": PAPER_PRINTS},
     },

@@ -2,13 +2,13 @@
 
 TABLES |= {
     "eq15": {
-        "function": "reproduction.eq15:eq15_table",
+        "function": "maegawa2010.paper.eq15:eq15_table",
         "inputs": {"runs": RUNS},
         "options": {"duration": config["duration"]},
         "seconds": 2,
     },
     "definitions": {
-        "function": "reproduction.definitions:definitions_table",
+        "function": "maegawa2010.paper.definitions:definitions_table",
         "inputs": {"runs": list(RUNS.values())},
         "options": {
             "slider": config["chain"],

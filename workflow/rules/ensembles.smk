@@ -1,6 +1,6 @@
 # noise, printed digits, N, map
 
-from precursors.ensembles.studies import MAP, PREDICTED_UP_TO, STUDIES, study_arguments
+from maegawa2010.studies.registry import MAP, PREDICTED_UP_TO, STUDIES, study_arguments
 
 NUMBER_OF_CHUNKS = config["ensembles"]["chunks"]
 CHUNKS = [f"{i}of{NUMBER_OF_CHUNKS}" for i in range(1, NUMBER_OF_CHUNKS + 1)]
@@ -8,19 +8,19 @@ chunks_of = partial(collect, "results/ensembles/{study}/{chunk}.csv", chunk=CHUN
 
 TABLES |= {
     "noise": {
-        "function": "ensembles.noise:noise_tables",
+        "function": "maegawa2010.studies.noise.tables:noise_tables",
         "inputs": {"chunks": chunks_of(study="noise_members")},
         "tables": ["noise", "noise_differences", "noise_amplitudes"],
         "beside": ["noise_members"],
     },
     "digits": {
-        "function": "ensembles.printed_digits:digits_tables",
+        "function": "maegawa2010.studies.printed_digits.tables:digits_tables",
         "inputs": {"chunks": chunks_of(study="digits_members")},
         "options": {"paper": {scene: PAPER_PRINTS[scene] for scene in config["fig13"]}},
         "beside": ["digits_members"],
     },
     "resolution": {
-        "function": "ensembles.resolution:resolution_tables",
+        "function": "maegawa2010.studies.resolution.tables:resolution_tables",
         "inputs": {
             "chunks": chunks_of(study="resolution_members"),
             "noise": "results/tables/noise_members.csv",
@@ -34,7 +34,7 @@ TABLES |= {
         "beside": ["resolution_members"],
     },
     "predictability": {
-        "function": "ensembles.resolution:predictability_table",
+        "function": "maegawa2010.studies.resolution.tables:predictability_table",
         "options": {
             "sliders": SLIDERS,
             "n_blocks": [
@@ -48,14 +48,14 @@ TABLES |= {
         "seconds": 120 if config["full"] else 1,
     },
     "event_law": {
-        "function": "ensembles.event_law:event_law_tables",
+        "function": "maegawa2010.studies.event_law.tables:event_law_tables",
         "inputs": {"chunks": chunks_of(study="event_law_members")},
         "options": {"slider": config["chain"]},
         "beside": ["event_law_members"],
     },
     **{
         study: {
-            "function": "ensembles.study:gather",
+            "function": "maegawa2010.studies.members:gather",
             "inputs": {"chunks": chunks_of(study=study)},
             "tables": [],
             "beside": [study],
@@ -89,6 +89,8 @@ rule run_chunk:
         seconds=lambda wildcards: 6 if wildcards.study == "resolution_members" else 2,
     params:
         arguments=lambda wildcards: study_arguments(config, wildcards.study),
-        code=digest("run_chunk", *(f"ensembles.{study.split('.')[0]}" for study in STUDIES.values())),
+        code=digest(
+            "run_chunk", *(f"maegawa2010.studies.{study.rpartition('.')[0]}" for study in STUDIES.values())
+        ),
     script:
         "../scripts/run_chunk.py"

@@ -9,7 +9,7 @@ FIGURES = {
             "section": "reproduction",
             "shows": config["scenes"][scene]["title"],
             "caption": "scene",
-            "module": "scene",
+            "module": "precursors.figures.scene",
             "tables": {
                 "slips": f"results/tables/{scene}_slips.csv",
                 "trace": f"results/tables/{scene}_trace.csv",
@@ -26,12 +26,12 @@ FIGURES = {
     "fig09": {
         "section": "reproduction",
         "shows": "the model: blocks on springs, pushed through a spring",
-        "module": "chain_schematic",
+        "module": "maegawa2010.paper.chain_schematic",
     },
     "fig13": {
         "section": "reproduction",
         "shows": "lengths of precursors against the load: 6, 9 and 14 are counted",
-        "module": "precursor_lengths",
+        "module": "precursors.figures.precursor_lengths",
         "tables": {
             "slips": collect("results/tables/{scene}_slips.csv", scene=config["fig13"]),
         },
@@ -40,11 +40,12 @@ FIGURES = {
     "work_precision": {
         "section": "accuracy",
         "shows": "what accuracy costs, in time and in evaluations",
-        "module": "speed",
+        "module": "maegawa2010.studies.work_precision.figure",
         "tables": {"table": "results/tables/work_precision.csv"},
         "options": {"works": ["seconds", "evaluations"]},
     },
     "speed": {
+        "module": "maegawa2010.studies.work_precision.figure",
         "shows": "what accuracy costs, as published",
         "section": "accuracy",
         "tables": {
@@ -53,20 +54,23 @@ FIGURES = {
         },
     },
     "step_sweep": {
+        "module": "maegawa2010.studies.step_sweep.figure",
         "section": "accuracy",
         "shows": "the paper's numbers against the step of a Runge-Kutta method",
         "tables": {"table": "results/tables/step_sweep.csv"},
     },
     "failure_gallery": {
+        "module": "maegawa2010.studies.failures.figure",
         "section": "accuracy",
         "shows": "nine ways in which methods fail",
         "tables": {
             "thresholds": "results/tables/thresholds.csv",
             "curves": "results/tables/failure_curves.csv",
-            "panels": f"{LIBRARY}/figures/failure_gallery.csv",
+            "panels": f"{PAPERS}/studies/failures/failure_gallery.csv",
         },
     },
     "horizon": {
+        "module": "maegawa2010.studies.horizon.figure",
         "section": "accuracy",
         "shows": "how errors grow, predicted and actual",
         "tables": {
@@ -79,6 +83,7 @@ FIGURES = {
         },
     },
     "hero": {
+        "module": "maegawa2010.studies.printed_digits.figure",
         "shows": "the paper's six numbers, and mu_sapp of the sliders that are printed alike",
         "section": "ensembles",
         "tables": {
@@ -88,11 +93,13 @@ FIGURES = {
         },
     },
     "theta_window": {
+        "module": "maegawa2010.studies.theta_window.figure",
         "shows": "small changes of theta change the numbers",
         "section": "ensembles",
         "tables": {"members": "results/tables/theta_window_members.csv"},
     },
     "resolution": {
+        "module": "maegawa2010.studies.resolution.figure",
         "section": "ensembles",
         "shows": "mu_sapp approaches mu_k as the number of blocks grows",
         "tables": {
@@ -102,11 +109,13 @@ FIGURES = {
         "options": {"papers_n": config["chain"]["n_blocks"], "mu_k": config["chain"]["mu_k"]},
     },
     "noise": {
+        "module": "maegawa2010.studies.noise.figure",
         "section": "ensembles",
         "shows": "mu_sapp is larger at +5/6, however small the noise",
         "tables": {"table": "results/tables/noise_amplitudes.csv"},
     },
     "event_law": {
+        "module": "maegawa2010.studies.event_law.figure",
         "section": "ensembles",
         "shows": "the number of events compared with the law",
         "tables": {"table": "results/tables/event_law.csv"},
@@ -114,13 +123,14 @@ FIGURES = {
     "map_theta_friction_ratio": {
         "shows": "mu_sapp over theta and mu_k/mu_s",
         "section": "ensembles",
-        "module": "friction_map",
+        "module": "maegawa2010.studies.friction_map.figure",
         "tables": {"table": "results/tables/map_theta_friction_ratio.csv"},
         "options": {
             "scenes": [(slider["theta"], slider["mu_k"] / slider["mu_s"]) for slider in SLIDERS.values()]
         },
     },
     "larger": {
+        "module": "maegawa2010.studies.larger.figure",
         "shows": "a chain with a length",
         "section": "hierarchy",
         "tables": {
@@ -161,7 +171,7 @@ rule explorer:
 
 for section in dict.fromkeys(figure["section"] for figure in FIGURES.values()):
     drawn = {name: figure for name, figure in FIGURES.items() if figure["section"] == section}
-    modules = {f"figures.{figure.get('module', name)}" for name, figure in drawn.items()}
+    modules = {figure["module"] for figure in drawn.values()}
 
     rule:
         name:
@@ -213,7 +223,7 @@ rule write_wave:
 rule write_explorer:
     input:
         page=collect(
-            f"{LIBRARY}/figures/explorer/{{file}}",
+            f"{PAPERS}/explorer/{{file}}",
             file=[
                 "drawing.js",
                 "explorer.css",

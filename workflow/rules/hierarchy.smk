@@ -2,19 +2,19 @@
 
 TABLES |= {
     "model_comparison": {
-        "function": "hierarchy.compare_models:compare_models",
+        "function": "maegawa2010.studies.models.compare_models:compare_models",
         "options": {"sliders": SLIDERS},
         "seconds": 3,
     },
     "larger": {
-        "function": "hierarchy.larger_study:larger_tables",
+        "function": "maegawa2010.studies.larger.first_slips:larger_tables",
         "options": {"slider": config["chain"], "settings": config["hierarchy"]["larger"]},
         "beside": ["larger_means", "larger_nucleation"],
         "threads": 4,
         "seconds": 600 if config["full"] else 2,
     },
     "larger_cycles": {
-        "function": "hierarchy.larger_cycles:cycle_tables",
+        "function": "maegawa2010.studies.larger.cycles:cycle_tables",
         "options": {"slider": config["chain"], "settings": config["hierarchy"]["cycles"]},
         "beside": ["larger_peaks", "larger_verdicts"],
         "threads": 4,
@@ -22,7 +22,7 @@ TABLES |= {
     },
     **{
         f"{scene}_answers": {
-            "function": "hierarchy.models:scene_answers",
+            "function": "maegawa2010.studies.models.models:scene_answers",
             "options": {"slider": scene_slider(config, scene), "model": config["scenes"][scene]["model"]},
         }
         for scene in ASKED

@@ -2,10 +2,10 @@
 
 import sys
 
-from precursors.model.scenes import SLIDER
-from precursors.reproduction.inputs import CLAIM_TABLES, POINT_TABLES
-from precursors.reproduction.inputs import SCENES as PAPERS_SCENES
-from precursors.reproduction.shown import results_shown
+from precursors.model.chain import SLIDER
+from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
+from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
+from maegawa2010.paper.shown import results_shown
 
 PAPER_SOURCE = ROOT / "paper"
 FIG13 = config["fig13"]
@@ -23,19 +23,19 @@ PAPER = ["results/paper.pdf", "results/supplement.pdf"] if IS_PAPERS else []
 
 TABLES |= {
     "measures": {
-        "function": "reproduction.scene_numbers:measures_table",
+        "function": "maegawa2010.paper.scene_numbers:measures_table",
         "inputs": {"runs": RUNS},
         "tables": [],
         "beside": ["measures"],
     },
     "claims": {
-        "function": "reproduction.claims:claims_tables",
+        "function": "maegawa2010.paper.claims:claims_tables",
         "inputs": {
             "tables": {
                 table: f"results/tables/{table}.csv" for table in sorted({*CLAIM_TABLES, *POINT_TABLES})
             }
         },
-        "also": [f"{LIBRARY}/reproduction/{said}.csv" for said in ("claims", "open_points")],
+        "also": [f"{PAPERS}/paper/{said}.csv" for said in ("claims", "open_points")],
         "tables": ["claims", "open_points"],
     },
 }

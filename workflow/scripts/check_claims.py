@@ -14,7 +14,7 @@ from typing import Any
 
 import pandas as pd
 
-from precursors.reproduction.claim import (
+from maegawa2010.paper.claim import (
     CHECK,
     EXPERIMENT,
     READINGS,
@@ -22,8 +22,8 @@ from precursors.reproduction.claim import (
     VERDICTS,
     in_words,
 )
-from precursors.reproduction.claims import differences, evaluate
-from precursors.reproduction.inputs import CLAIM_TABLES
+from maegawa2010.paper.claims import differences, evaluate
+from maegawa2010.paper.inputs import CLAIM_TABLES
 from precursors.support.files import read_table
 from precursors.support.provenance import NOT_RESULTS, checksums
 

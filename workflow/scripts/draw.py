@@ -13,7 +13,7 @@ gc.disable()
 with job() as snakemake:
     for name, figure in snakemake.params.figures.items():
         asked = {"look": style.Look(**figure["look"])} if figure.get("look") else {}
-        draw = resolve_name(f"precursors.figures.{figure.get('module', name)}:draw")
+        draw = resolve_name(f"{figure['module']}:draw")
         tables = read(figure.get("tables", {}), snakemake.params.readers)
         drawn = draw(**tables, **figure.get("options", {}), **asked)
         for output in snakemake.output:

@@ -50,12 +50,12 @@ def job() -> Iterator[Any]:
 
 def read(files: Any, readers: Mapping[str, str]) -> Any:
     """Content of a file, or of each in a list or mapping, from the reader of its
-    ending, "room.module:name". A file that is damaged can be deleted."""
+    ending, "package.module:name". A file that is damaged can be deleted."""
     if isinstance(files, Mapping):
         return {name: read(file, readers) for name, file in files.items()}
     if isinstance(files, str):
         try:
-            return resolve_name(f"precursors.{readers[Path(files).suffix]}")(files)
+            return resolve_name(readers[Path(files).suffix])(files)
         except ValueError as error:
             raise ValueError(f"{error}: delete it, and it is made again") from error
     return [read(file, readers) for file in files]

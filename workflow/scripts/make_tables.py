@@ -14,8 +14,7 @@ with job() as snakemake:
     arguments = {
         name: read(files, params.readers) for name, files in params.inputs.items()
     }
-    # A function of the library, "room.module:name", returns a table, or tables by their
-    # names.
-    found = resolve_name(f"precursors.{params.function}")(**arguments, **params.options)
+    # A function, "package.module:name", returns a table, or tables by their names.
+    found = resolve_name(params.function)(**arguments, **params.options)
     for name, path in zip(params.names, snakemake.output, strict=True):
         write_table(found if isinstance(found, pd.DataFrame) else found[name], path)

@@ -7,8 +7,8 @@ from time import process_time
 import pandas as pd
 from job import job
 
+from maegawa2010.studies.horizon.chains import certificate_row
 from precursors.proof import verify
-from precursors.proof.chains import certificate_row
 from precursors.support.files import write_table
 
 with job() as snakemake:

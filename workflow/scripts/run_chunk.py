@@ -3,8 +3,8 @@ its run gave."""
 
 from job import job
 
-from precursors.ensembles.studies import make_study
-from precursors.ensembles.study import run_members
+from maegawa2010.studies.members import run_members
+from maegawa2010.studies.registry import make_study
 from precursors.support.files import write_table
 
 with job() as snakemake:

@@ -23,7 +23,7 @@ with job() as snakemake:
     run: Run | LargerRun
     try:
         if any(params.additions.values()):
-            from precursors.hierarchy.larger import MAX_STEPS, LargerChain
+            from precursors.larger.chain import MAX_STEPS, LargerChain
 
             larger = LargerChain(chain, **params.additions)
             run = larger.simulate(params.duration, max_steps=MAX_STEPS)

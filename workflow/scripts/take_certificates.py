@@ -5,8 +5,8 @@ from pathlib import Path
 
 from job import job
 
+from maegawa2010.studies.horizon.chains import is_about
 from precursors.proof import Certificate, ExactChain, certify
-from precursors.proof.chains import is_about
 from precursors.support.files import write_whole
 
 with job() as snakemake:

@@ -3,10 +3,10 @@
 import pandas as pd
 from job import job
 
+from maegawa2010.explorer.page import proved_slider, write_explorer
+from maegawa2010.studies.horizon.chains import chain_duration
+from maegawa2010.studies.printed_digits.tables import HALF_A_DIGIT
 from precursors.analysis.slips import first_global_slip
-from precursors.ensembles.printed_digits import HALF_A_DIGIT
-from precursors.figures.explorer.page import proved_slider, write_explorer
-from precursors.proof.chains import chain_duration
 
 with job() as snakemake:
     params = snakemake.params

@@ -14,10 +14,10 @@ from typing import Any
 from precursors.cli import Refused
 from precursors.cli.options import LARGER, RUN, SLIDER_OPTIONS
 from precursors.model.chain import Chain
-from precursors.model.spreadsheet import read_columns, read_weights
 from precursors.solver.run import Record, Run, RunFileError
 from precursors.support.files import write_table
 from precursors.support.provenance import git_state
+from precursors.support.spreadsheet import read_columns, read_weights
 
 FOUND = "{events_counted} events counted in Fig. 13, of {events} "
 FIRST_SLIP = """\
@@ -142,7 +142,7 @@ def audit(arguments: Namespace) -> None:
 
 def score(arguments: Namespace) -> None:
     """Score a result file on a reference problem."""
-    from precursors.accuracy.score import score
+    from precursors.benchmark.score import score
 
     values = score(arguments.file, arguments.problem, arguments.ties)
     if not arguments.json:
@@ -184,8 +184,8 @@ def run_of_options(arguments: Namespace) -> Record:
     """Run the chain of the options."""
     from numba.core import event
 
-    from precursors.solver.kernel.compiled import Announcement
     from precursors.solver.simulate import TransitionLimitError, simulate
+    from precursors.support.compiled import Announcement
 
     event.register("numba:compile", Announcement())  # the first run takes long
     slider = given(arguments, SLIDER_OPTIONS)
@@ -204,7 +204,7 @@ def run_of_options(arguments: Namespace) -> Record:
         )
     added = given(arguments, LARGER)
     if any(added.values()):
-        from precursors.hierarchy.larger import LargerChain
+        from precursors.larger.chain import LargerChain
 
         chain = LargerChain(chain, **added)
     try:

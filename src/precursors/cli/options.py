@@ -84,7 +84,7 @@ class ListProblems(argparse.Action):
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
         """Print their names, and end."""
-        from precursors.accuracy.score import problems
+        from precursors.benchmark.score import problems
 
         print(*problems(), sep="\n")
         parser.exit()
@@ -169,7 +169,7 @@ def add_options(command: Parser, name: str) -> Parser:
 
 def _add_chain(command: Parser) -> None:
     """Add the options of a chain and of its run."""
-    from precursors.model.scenes import SLIDER
+    from precursors.model.chain import SLIDER
 
     add = command.add_argument_group(
         "the chain", "the defaults are the paper's"

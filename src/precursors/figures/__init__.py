@@ -1,1 +1,1 @@
-"""The paper's figures, drawn from tables."""
+"""Figures of a run, drawn from its tables."""

@@ -16,8 +16,8 @@ from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
 from precursors.figures import precursor_lengths, scene
 from precursors.figures.style import LOOK, NO_DATA, Look
-from precursors.model.spreadsheet import LENGTH, LOAD, TIME
 from precursors.solver.run import Record
+from precursors.support.spreadsheet import LENGTH, LOAD, TIME
 
 # The axes of each figure, which are the columns of measured data.
 AXES = {"load": (TIME, LOAD), "lengths": (LOAD, LENGTH)}

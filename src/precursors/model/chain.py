@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from contextlib import suppress
 from dataclasses import dataclass, field, fields
@@ -230,6 +231,11 @@ class Chain:
 
 
 ARGUMENTS = [field.name for field in fields(Chain) if field.init]
+# Arguments of `Chain.from_slider` and their defaults, the paper's.
+SLIDER = {
+    name: p.default
+    for name, p in inspect.signature(Chain.from_slider).parameters.items()
+}
 
 
 def remember_theta(chain: Chain, theta: float | str) -> Chain:

@@ -9,11 +9,20 @@ from precursors.model.chain import Chain, FloatArray
 
 # HiGHS allows 1e-7 by default. Loads are posed in units of F_Z, so this is 1e-10 F_Z.
 LP_FEASIBILITY = 1e-10
+# Longest run, in units of the time in which the drive reaches mu_s F_Z against all
+# springs in a row.
+LIMIT = 10.0
 
 
 def load_bound(chain: Chain) -> float:
     """Largest tangential load of a chain at rest, mu_s F_Z [N] (Eq. 14)."""
     return chain.mu_s * chain.normal_load
+
+
+def longest_run(chain: Chain) -> float:
+    """Time [s] after which a run is given up that has had no global slip."""
+    compliance = 1.0 / chain.drive_stiffness + (chain.n_blocks - 1) / chain.stiffness
+    return LIMIT * chain.mu_s * chain.normal_load * compliance / chain.drive_velocity
 
 
 def maximal_compressions(chain: Chain) -> FloatArray:

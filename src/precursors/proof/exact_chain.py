@@ -10,8 +10,7 @@ from numbers import Rational, Real
 
 import numpy as np
 
-from precursors.model.chain import Chain
-from precursors.model.scenes import SLIDER
+from precursors.model.chain import SLIDER, Chain
 
 Number = Fraction | int | float | str
 

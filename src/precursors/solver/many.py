@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until, whole
-from precursors.solver.kernel.compiled import untyped
 from precursors.solver.simulate import (
     OwnSolver,
     checked_end,
@@ -19,6 +18,7 @@ from precursors.solver.simulate import (
     refuse_for_own,
     run_batch,
 )
+from precursors.support.compiled import untyped
 from precursors.support.waiting import in_threads
 
 # Chains of a batch: many for little work between batches, few for all threads to end

@@ -115,7 +115,7 @@ class LargerRun(Record):
     Attributes
     ----------
     larger : dict
-        Numbers of the chain, and the accuracy of the run (see `hierarchy.larger`).
+        Numbers of the chain, and the accuracy of the run (see `precursors.larger.chain`).
     load_points : array, shape (n, 2)
         Times [s] and F_X [N] between which straight lines draw the load.
     """

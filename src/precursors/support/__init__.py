@@ -1,1 +1,1 @@
-"""Files written whole, timing and provenance; no physics."""
+"""Files written whole, measured tables, provenance, kept machine code; no physics."""

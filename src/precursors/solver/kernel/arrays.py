@@ -10,7 +10,7 @@ from numba import from_dtype
 from numba.extending import register_jitable
 
 from precursors.model.chain import FloatArray
-from precursors.solver.kernel.compiled import inner
+from precursors.solver.kernel.decorators import inner
 from precursors.solver.kernel.layout import ROWS, TERMS, WIDTH
 from precursors.solver.kernel.pointers import (
     EIGHT,

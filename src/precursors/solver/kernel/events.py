@@ -4,7 +4,7 @@ record."""
 from __future__ import annotations
 
 from precursors.solver.kernel.arrays import ROW, progress_at
-from precursors.solver.kernel.compiled import (
+from precursors.solver.kernel.decorators import (
     inner,
     inner_unfused,
     outer,

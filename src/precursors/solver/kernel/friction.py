@@ -3,7 +3,7 @@ block at rest takes."""
 
 from __future__ import annotations
 
-from precursors.solver.kernel.compiled import inner, seldom
+from precursors.solver.kernel.decorators import inner, seldom
 
 
 @inner

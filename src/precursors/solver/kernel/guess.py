@@ -6,7 +6,7 @@ import numpy as np
 
 from precursors.solver.kernel import lanes
 from precursors.solver.kernel.arrays import row
-from precursors.solver.kernel.compiled import inner
+from precursors.solver.kernel.decorators import inner
 from precursors.solver.kernel.layout import PROOF_ORDER, WIDTH
 from precursors.solver.kernel.series import powers
 

@@ -32,7 +32,7 @@ import numpy as np
 
 from precursors.solver.kernel import lanes
 from precursors.solver.kernel.arrays import row
-from precursors.solver.kernel.compiled import inner, seldom
+from precursors.solver.kernel.decorators import inner, seldom
 from precursors.solver.kernel.guess import watched
 from precursors.solver.kernel.layout import WIDTH, WINDOW
 from precursors.solver.kernel.roots import first_root, zero_below

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from precursors.solver.kernel.arrays import row
-from precursors.solver.kernel.compiled import inner, seldom
+from precursors.solver.kernel.decorators import inner, seldom
 from precursors.solver.kernel.layout import PROOF_ORDER
 
 # A search that takes so many steps starts anew from where it is: near a flat start its

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from precursors.solver.kernel import lanes
 from precursors.solver.kernel.arrays import row
-from precursors.solver.kernel.compiled import inner
+from precursors.solver.kernel.decorators import inner
 from precursors.solver.kernel.layout import INVERSE_FACTORIAL, ORDERS, PARTS, WIDTH
 from precursors.solver.kernel.pointers import numbers
 

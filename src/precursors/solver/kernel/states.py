@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.kernel.arrays import memory_for
-from precursors.solver.kernel.compiled import inner, outer, unfused
+from precursors.solver.kernel.decorators import inner, outer, unfused
 from precursors.solver.kernel.events import last_column
 from precursors.solver.kernel.friction import farthest_sliding, set_mode, take_mode
 from precursors.solver.kernel.layout import WINDOW

@@ -7,7 +7,7 @@ import math
 from operator import attrgetter
 
 from precursors.solver.kernel.arrays import System, divide
-from precursors.solver.kernel.compiled import inner, unfused
+from precursors.solver.kernel.decorators import inner, unfused
 
 # Numbers that `set_up` takes of a chain beside its weights.
 parameters = attrgetter(

@@ -1,0 +1,3 @@
+"""Maegawa, Suzuki and Nakano (2010) with the library `precursors`: scenes, readings, claims,
+Figs. 9-13, and the studies about them.
+"""

@@ -1,0 +1,64 @@
+"""Write the explorer: a page that solves the chain in the browser and lets the reader
+play with it.
+
+The page holds no run. `solver.js` does what `solver/plain.py` does, in two workers
+(`worker.js`). `story.js` has the words, `studies.js` the sliders of the last two steps,
+and `figures.js` the figures, with the means of `drawing.js`. `explorer.js` links them to
+what the reader does.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from importlib.resources import files
+from os import PathLike
+from string import Template
+from typing import Any
+
+from precursors.model.chain import SLIDER, parse_theta
+from precursors.support.files import write_text
+
+SCRIPTS = ("drawing.js", "story.js", "studies.js", "figures.js", "explorer.js")
+
+
+def proved_slider(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Arguments of `Chain.from_slider` of a chain of the configuration's
+    `accuracy.proved`."""
+    slider = {
+        name: values.get(name, value)
+        for name, value in SLIDER.items()
+        if name != "weights"
+    }
+    return slider | {"theta": parse_theta(values.get("theta", 0))}
+
+
+def write_explorer(data: Mapping[str, Any], path: str | PathLike[str]) -> None:
+    """Write the explorer as one HTML file that needs no other file and no network.
+
+    Parameters
+    ----------
+    data
+        `scenes` of the paper: the `slider` of each, as arguments of
+        `Chain.from_slider`, and its `mu_sapp`. The steps use those with the smallest
+        and largest theta, and the nearest to 0. `proved`: a `slider` and the
+        `duration` [s] up to which its transitions are proved. `duration` [s] of a run;
+        `tolerance` [s] of the times of a run that is called predictable;
+        `half_a_digit`: by how much sliders that are printed alike differ.
+    path
+        The file that is written.
+    """
+
+    def part(*names: str) -> str:
+        room = files("maegawa2010.explorer")
+        return "\n".join(
+            room.joinpath(name).read_text(encoding="utf-8") for name in names
+        )
+
+    page = Template(part("page.html")).substitute(
+        style=part("explorer.css"),
+        data=json.dumps(data, allow_nan=False, separators=(",", ":")),
+        worker=part("solver.js", "worker.js"),
+        script=part(*SCRIPTS),
+    )
+    write_text(path, page)

@@ -1,0 +1,133 @@
+"""Runs of compiled methods from rest, and the row that a fixed-step method needs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from maegawa2010.methods.columns import COULOMB
+from maegawa2010.methods.common import DivergedError, Method, Result, Smooth
+from maegawa2010.methods.fixed_step import (
+    DIVERGED,
+    FINISHED,
+    FIRST_ROOM,
+    PAUSED,
+    PROGRESS,
+    RECORD,
+    SteppedMotion,
+    motion_from_rest,
+)
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.checks import positive
+from precursors.solver.record import TRANSITION
+from precursors.solver.run import Record
+from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
+
+
+def march(
+    method: Callable[..., None],
+    chain: Chain,
+    duration: float,
+    setting: float,
+    until: str | None = None,
+    max_transitions: int = MAX_TRANSITIONS,
+    rule: str = COULOMB,
+    scaled: bool = False,
+    waits: bool = True,
+) -> Result:
+    """Run a compiled method from rest: `method` is (motion, setting).
+
+    `setting` is a step [s] or, where the method meets the numbers of solvers with a
+    tolerance (`scaled`, see `columns`), a tolerance. `rule` is a key of
+    `SWITCHING_RULES`. A method `waits` in closed form while all blocks stick, or makes
+    each step then as well. The others are those of `precursors.simulate`.
+
+    Raises
+    ------
+    ValueError, DivergedError, TransitionLimitError
+        If an argument is out of range, the numbers overflow, or there are more than
+        `max_transitions`.
+    """
+    positive("tolerance" if scaled else "step", setting, "1" if scaled else "s")
+    motion = motion_from_rest(chain, duration, until, rule, scaled, waits)
+    status = PAUSED
+    while status == PAUSED and motion.progress["transitions"][0] < max_transitions:
+        motion = with_room(motion)
+        method(motion, setting)
+        status = int(motion.progress["status"][0])
+    run = run_of(motion, chain)
+    if status == DIVERGED:
+        raise DivergedError(
+            f"the numbers overflow at t = {run.duration:.9g} s: shorten the step", run
+        )
+    if status == PAUSED:
+        raise TransitionLimitError(
+            f"max_transitions = {max_transitions} reached at t = {run.duration:.9g} s",
+            run,
+        )
+    return Result(run, int(motion.progress["evaluations"][0]))
+
+
+def slide(
+    method: Callable[..., None],
+    system: FloatArray,
+    state: FloatArray,
+    step: float,
+    n_steps: int,
+) -> None:
+    """Make n steps [s] of blocks that slide as `sliding_forward`, without switching, by
+    the code of `march`."""
+    progress = np.zeros(1, PROGRESS)
+    progress["sliding"] = progress["last"] = state.shape[1] - 2
+    progress["remaining"] = n_steps * step
+    progress["status"] = PAUSED
+    motion = SteppedMotion(system, state, progress, np.empty(FIRST_ROOM, RECORD))
+    while progress["status"] == PAUSED:
+        method(motion, step)
+
+
+def with_room(motion: SteppedMotion) -> SteppedMotion:
+    """The motion with a longer record where its own is full."""
+    if motion.progress["transitions"][0] + motion.state.shape[1] <= len(motion.record):
+        return motion
+    return motion._replace(
+        record=np.resize(motion.record, 2 * len(motion.record) + motion.state.shape[1])
+    )
+
+
+def run_of(motion: SteppedMotion, chain: Chain) -> Record:
+    """The run so far; of a diverged one what is finite."""
+    progress = motion.progress[0]
+    rows = motion.record[: progress["transitions"]]
+    unit = progress["unit"]
+    n = int(np.isfinite(rows["tangential_load"]).sum())
+    since = progress["waited"] + (progress["elapsed"] - progress["noted"]) * unit
+    # The last interval includes those of the transitions that are left out.
+    intervals = np.add.reduceat(np.append(rows["interval"], since), np.arange(n + 1))
+    reached = (
+        progress["duration"]
+        if progress["status"] == FINISHED
+        else progress["onset"] + progress["elapsed"] * unit
+    )
+    columns = {name: rows[name][:n] for name in TRANSITION.names or ()}
+    return Record.from_columns(chain, float(reached), **columns, intervals=intervals)
+
+
+def fixed_step(
+    name: str,
+    method: Callable[..., None],
+    smooth: tuple[float, Callable[[float], float]] | None = None,
+    waits: bool = True,
+) -> Method:
+    """Make a compiled fixed-step method.
+
+    `method` and `waits` are those of `march`; `smooth` is the rest of `Smooth`.
+    """
+    return Method(
+        name,
+        "step [s]",
+        partial(march, method, waits=waits),
+        smooth=Smooth(partial(slide, method), *smooth) if smooth else None,
+    )

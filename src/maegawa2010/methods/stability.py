@@ -1,0 +1,110 @@
+"""Where fixed-step methods become unstable: measured energy growth per step.
+
+A chain without friction whose drive rests keeps its energy. A method multiplies the
+energy of a mode of angular frequency omega by a factor in each step,
+`Smooth.energy_factor(omega dt)`. The fastest mode is the first whose factor exceeds 1;
+its omega dt is then `Smooth.limit`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from maegawa2010.methods.columns import FORCE, VELOCITY, sliding_forward
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.statics import balance_matrix
+
+# Energy that becomes so many times larger within so many steps has no limit. Bounded
+# energy can rise by 1 / (1 - (omega dt / 2)^2) in leapfrog: 500 times at 0.1 % below
+# its limit.
+UNBOUNDED = 1e6
+STEPS = 4000
+BISECTIONS = 20
+# A drive so slow does no work in a test; `Chain` has none that rests.
+AT_REST = float(np.finfo(float).eps)  # m/s
+
+Slide = Callable[..., None]
+
+
+def without_friction(chain: Chain) -> Chain:
+    """The chain without friction and with a drive that (almost) rests: its energy stays
+    as it is."""
+    return replace(chain, mu_s=0.0, mu_k=0.0, drive_velocity=AT_REST)
+
+
+def stiffness_matrix(chain: Chain) -> FloatArray:
+    """Stiffness of the chain with the drive held [N/m], shape (N, N), from the springs
+    of Eqs. 2-4."""
+    n = chain.n_blocks
+    return balance_matrix(chain) @ (np.eye(n) - np.eye(n, k=-1))
+
+
+def highest_frequency(chain: Chain) -> float:
+    """Largest angular frequency of the chain with all blocks sliding [rad/s], the
+    drive's spring included."""
+    return float(np.sqrt(np.linalg.eigvalsh(stiffness_matrix(chain))[-1] / chain.mass))
+
+
+def highest_mode(chain: Chain) -> FloatArray:
+    """Shape (N,) of the motion of that frequency, of length 1."""
+    return np.linalg.eigh(stiffness_matrix(chain))[1][:, -1]
+
+
+def energy(chain: Chain, state: FloatArray) -> float:
+    """Kinetic energy and that of the springs [J]."""
+    force = state[FORCE, 1:-1]
+    velocity = state[VELOCITY, 1:-1]
+    return 0.5 * float(
+        chain.mass * velocity @ velocity + (force**2 / chain.springs).sum()
+    )
+
+
+def energy_left(
+    chain: Chain, slide: Slide, step: float, n_steps: int, velocities: FloatArray
+) -> float:
+    """Energy after n steps of all blocks sliding from some velocities [m/s], over that
+    at the start."""
+    system, state = sliding_forward(chain, velocities)
+    before = energy(chain, state)
+    slide(system, state, step, n_steps)
+    with np.errstate(over="ignore", invalid="ignore"):
+        return energy(chain, state) / before
+
+
+def is_unstable(chain: Chain, slide: Slide, step: float) -> bool:
+    """Whether the energy has no limit at a step [s], whichever mode it is in."""
+    velocities = np.sin(1.0 + 2.0 * np.arange(chain.n_blocks))
+    return not energy_left(chain, slide, step, STEPS, velocities) < UNBOUNDED
+
+
+def bisect(
+    fails: Callable[[float], bool],
+    works: float,
+    broken: float,
+    bisections: int = BISECTIONS,
+) -> float:
+    """Limit between a value that works and one that does not, on a logarithmic scale.
+
+    Raises
+    ------
+    ValueError
+        If the first does not work, or the second does.
+    """
+    if fails(works) or not fails(broken):
+        raise ValueError(
+            f"there is no limit: {works!r} must work and {broken!r} must fail"
+        )
+    for _ in range(bisections):
+        middle = math.sqrt(works * broken)
+        works, broken = (works, middle) if fails(middle) else (middle, broken)
+    return broken
+
+
+def largest_stable_step(chain: Chain, slide: Slide) -> float:
+    """Step [s] above which the energy of a chain without friction has no limit."""
+    omega = highest_frequency(chain)
+    return bisect(partial(is_unstable, chain, slide), 1e-2 / omega, 1e2 / omega)

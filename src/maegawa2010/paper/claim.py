@@ -1,0 +1,163 @@
+"""A claim: a statement of the paper, and the function that finds whether the model
+agrees."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike
+
+from maegawa2010.paper.tables import Tables
+from maegawa2010.support.run_statistics import share_interval
+
+# Verdicts: EXACT is one that holds for exactly these inputs.
+HOLDS = "holds"
+EXACT = "exact"
+FAILS = "fails"
+UNDECIDED = "undecided"
+VERDICTS = (HOLDS, EXACT, FAILS, UNDECIDED)
+# Kinds: the six printed numbers by which the readings of the paper's words were chosen;
+# what was found after; statements on PMMA, which say nothing of the model; and what
+# cannot fail in practice, which counts as no claim.
+READINGS = "readings"
+RESULT = "result"
+EXPERIMENT = "experiment"
+CHECK = "check"
+# A claim that holds and one that fails, in words.
+IN_WORDS = {EXPERIMENT: ("agrees", "differs"), CHECK: ("passes", "fails")}
+# A claim that holds in the run must hold in this share of an ensemble, too.
+ENOUGH = 0.95
+# Ensembles around the run: noise of 0.1 % in the normal loads, and sliders whose inputs
+# are printed alike. Draw 0 is the run itself.
+ENSEMBLES = {"noise": "noise_members", "digits": "digits_members"}
+
+
+@dataclass(frozen=True)
+class Share:
+    """In how many of n draws of an ensemble a claim holds."""
+
+    k: int
+    n: int
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """95 % interval of the share."""
+        return share_interval(self.k, self.n)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Our numbers; whether the claim holds for them (None: an interval crosses the
+    tolerance).
+
+    `expected` is what ours are compared with, `shares` has the share of each ensemble
+    whose draws have these numbers, and `note` is a sentence that belongs to them.
+    """
+
+    ours: ArrayLike
+    holds: bool | None
+    expected: ArrayLike = ()
+    shares: Mapping[str, Share] = field(default_factory=dict)
+    note: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """The run decides whether a claim holds, the ensembles whether it does so for
+        these inputs only."""
+        if self.holds is None:
+            return UNDECIDED
+        if not self.holds:
+            return FAILS
+        intervals = [share.interval for share in self.shares.values()]
+        if any(high < ENOUGH for _, high in intervals):
+            return EXACT
+        return UNDECIDED if any(low < ENOUGH for low, _ in intervals) else HOLDS
+
+
+Find = Callable[[Tables], Finding]
+SAID = ("section", "kind", "statement", "rule", "unit")
+
+
+def in_words(kind: str, verdict: str) -> str:
+    """The verdict on a claim of some kind, in words."""
+    holds, fails = IN_WORDS.get(kind, ("holds", "does not hold"))
+    exact = f"{holds} only for exactly these inputs"
+    words = (holds, exact, fails, "cannot be decided")
+    return words[VERDICTS.index(verdict)]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement of the paper that a run could contradict.
+
+    `section` says where the paper states it, `kind` is one of those above, `rule` says when
+    it holds, `unit` is the unit of its numbers, and `find` compares it with the tables.
+    """
+
+    name: str
+    section: str
+    kind: str
+    statement: str
+    rule: str
+    unit: str
+    find: Find
+
+    def row(self, tables: Tables) -> dict[str, Any]:
+        """The claim's row of claims.csv; a run without an event that a claim is about
+        contradicts it.
+
+        Raises
+        ------
+        ValueError
+            In one line: the tables do not have the claim's numbers.
+        """
+        try:
+            finding = self.find(tables)
+        except (IndexError, ZeroDivisionError):
+            finding = Finding((), False)
+        except (KeyError, TypeError, ValueError) as error:
+            raise ValueError(
+                f"claim {self.name}: the tables do not have its numbers: {error}"
+            ) from error
+        row: dict[str, Any] = {"claim": self.name}
+        row |= {name: getattr(self, name) for name in SAID}
+        row |= {"expected": shown(finding.expected), "ours": shown(finding.ours)}
+        for name, share in finding.shares.items():
+            low, high = share.interval
+            row[f"{name}_share"] = share.k / share.n
+            row |= {f"{name}_low": low, f"{name}_high": high}
+        row |= {"note": finding.note, "verdict": finding.verdict}
+        return row | {"verdict_text": in_words(self.kind, finding.verdict)}
+
+
+def in_draws(
+    tables: Tables,
+    ours: Callable[[pd.DataFrame], Any],
+    holds: Callable[[pd.DataFrame], Any],
+    expected: ArrayLike = (),
+) -> Finding:
+    """A claim on numbers of the members: found in the run, and counted over the draws
+    of both ensembles.
+
+    `ours` takes runs, one row per draw and (quantity, scene) as columns, to the numbers
+    of the claim, one row per draw; `holds` says of each number whether it agrees, which
+    NaN, no global slip, does not.
+    """
+    shares = {}
+    for name, members in ENSEMBLES.items():
+        runs = tables[members].pivot_table(index="draw", columns="scene", dropna=False)
+        numbers = ours(runs)
+        agree = holds(numbers).all(axis=1)
+        drawn = agree[agree.index > 0]
+        shares[name] = Share(int(drawn.sum()), len(drawn))
+    return Finding(numbers.loc[0], bool(agree.loc[0]), expected, shares)
+
+
+def shown(values: ArrayLike) -> str:
+    """Numbers with four digits, equal ones once."""
+    texts = [f"{value:.4g}" for value in np.ravel(values)]
+    return "; ".join(texts if len(set(texts)) > 1 else texts[:1])

@@ -1,0 +1,347 @@
+"""All claims of the paper that a run could contradict. Numbers are in the order of
+SCENES.
+
+`claims.csv` has each statement of the paper, in our words, and when it holds. Here is a
+function for each claim, with its name, that compares it with the tables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import scipy
+
+from maegawa2010 import printed
+from maegawa2010.paper.claim import Claim, Find, Finding, in_draws, shown
+from maegawa2010.paper.inputs import LEADING, SCENES, TRAILING, UNIFORM
+from maegawa2010.paper.open_points import open_points_table
+from maegawa2010.paper.tables import Tables, before_global, one, rows
+from precursors.analysis.slip_rows import up_to_first_global
+from precursors.model.chain import FloatArray
+from precursors.support.files import read_table
+
+# The smallest mu_s that is printed as 0.70.
+MU_S = 0.695
+# Times whose steps vary by less than this (standard deviation over mean) would be
+# called periodic.
+PERIODIC = 0.05
+# Probability by chance below which a trend counts as one.
+CHANCE = 0.05
+# "Approximately" 200 N and 2 ms.
+NEAR_LOAD = 0.05
+NEAR_TIME = 0.25
+# A length is a whole number of blocks: a straight line passes it by half a block at
+# most.
+HALF_A_BLOCK = 0.5
+
+FINDINGS: dict[str, Find] = {}
+
+
+def of_claim(find: Find) -> Find:
+    """Enter a function under the name of its claim."""
+    return FINDINGS.setdefault(find.__name__.replace("_", "-"), find)
+
+
+def drawn(number: str, *scenes: str) -> Callable[[Any], Any]:
+    """A number of runs in some scenes, or in all three, a row for each draw."""
+    return lambda runs: runs[number][list(scenes or SCENES)]
+
+
+def printed_count(scene: str, t: Tables) -> Finding:
+    """Events of Fig. 13."""
+    count = printed.SCENES[scene]["events_counted"]
+    return in_draws(
+        t,
+        drawn("events_counted", scene),
+        lambda counts: counts == count,
+        count,
+    )
+
+
+def printed_friction(scene: str, t: Tables) -> Finding:
+    """mu_sapp."""
+    return in_draws(
+        t,
+        drawn("mu_sapp", scene),
+        lambda friction: (friction - printed.MU_SAPP).abs() <= printed.LAST_DIGIT,
+        printed.MU_SAPP,
+    )
+
+
+for scene, side in {
+    TRAILING: "trailing",
+    UNIFORM: "uniform",
+    LEADING: "leading",
+}.items():
+    FINDINGS[f"count-{side}"] = partial(printed_count, scene)
+    FINDINGS[f"friction-{side}"] = partial(printed_friction, scene)
+
+
+@of_claim
+def chaos(t: Tables) -> Finding:
+    """Largest Lyapunov exponent, above its uncertainty."""
+    exponent, uncertainty = (
+        one(t["lyapunov"], column, scene=UNIFORM)
+        for column in ("exponent_per_s", "uncertainty_per_s")
+    )
+    return Finding(exponent, exponent > uncertainty, uncertainty)
+
+
+def line_of_lengths(slips: pd.DataFrame, along: str) -> FloatArray:
+    """Slope and offset of the straight line through the lengths along a column; needed
+    are two events."""
+    slips.iloc[1]
+    return np.polyfit(slips[along], slips["front"], 1)
+
+
+def not_periodic(times: pd.Series) -> Finding:
+    """Standard deviation of the steps between times over their mean: 0 for a period."""
+    steps = np.diff(times)
+    variation = float(np.std(steps) / np.mean(steps))
+    return Finding(variation, variation > PERIODIC)
+
+
+@of_claim
+def stick_slip_is_not_periodic(t: Tables) -> Finding:
+    """Intervals between the global slips."""
+    return not_periodic(rows(t[f"{UNIFORM}_slips"], is_global=True)["onset_s"])
+
+
+@of_claim
+def precursors_are_not_periodic(t: Tables) -> Finding:
+    """Intervals between the precursors."""
+    return not_periodic(before_global(t, UNIFORM)["onset_s"])
+
+
+@of_claim
+def every_slip_drops_the_load(t: Tables) -> Finding:
+    """Smallest drop of F_X in a slip event of each scene (the last event may be cut
+    off)."""
+    smallest = [
+        (s["load_before_N"] - s["load_after_N"]).min()
+        for s in (t[f"{x}_slips"] for x in SCENES)
+    ]
+    return Finding(smallest, min(smallest) > 0)
+
+
+@of_claim
+def lengths_tend_to_increase(t: Tables) -> Finding:
+    """Probability that lengths in random order rise as much, with the global slip and
+    without it."""
+    partial = before_global(t, UNIFORM)["front"]
+    lengths = up_to_first_global(t[f"{UNIFORM}_slips"])["front"]
+    by_chance = [chance_of_rise(lengths), chance_of_rise(partial)]
+    below = [chance < CHANCE for chance in by_chance]
+    return Finding(by_chance, all(below) if len(set(below)) == 1 else None, CHANCE)
+
+
+def chance_of_rise(values: pd.Series) -> float:
+    """Probability that values in random order rise as much: one-sided test of Kendall's
+    tau."""
+    order = range(len(values))
+    return float(scipy.stats.kendalltau(order, values, alternative="greater").pvalue)
+
+
+@of_claim
+def length_is_linear_in_time(t: Tables) -> Finding:
+    """Largest distance of the lengths before the global slip from a straight line in
+    time [blocks]."""
+    counted = rows(before_global(t, UNIFORM), counted=True)
+    line = line_of_lengths(counted, "onset_s")
+    distance = float(
+        np.abs(counted["front"] - np.polyval(line, counted["onset_s"])).max()
+    )
+    return Finding(distance, distance <= HALF_A_BLOCK)
+
+
+@of_claim
+def count_grows_with_theta(t: Tables) -> Finding:
+    """Counts of Fig. 13 from theta to theta, in each draw and by the medians of the
+    noise ensemble."""
+    by_draw = in_draws(
+        t,
+        drawn("events_counted"),
+        lambda counts: counts.diff(axis=1).iloc[:, 1:] > 0,
+    )
+    medians = [
+        rows(t["noise_differences"], quantity="events_counted", scene=a, other=b)
+        for b, a in pairwise(SCENES)
+    ]
+    low, high = (pd.concat(medians)[name] for name in ("low", "high"))
+    if (low <= 0).any() and by_draw.holds:
+        return replace(by_draw, holds=None if (high > 0).all() else False)
+    return by_draw
+
+
+@of_claim
+def growth_falls_with_theta(t: Tables) -> Finding:
+    """Growth of the length in Fig. 13 with the load [blocks/N]."""
+    counted = [rows(t[f"{scene}_slips"], counted=True) for scene in SCENES]
+    growth = [line_of_lengths(slips, "load_before_N")[0] for slips in counted]
+    return Finding(growth, all(before > after for before, after in pairwise(growth)))
+
+
+@of_claim
+def friction_independent_of_loading(t: Tables) -> Finding:
+    """Differences of the medians of mu_sapp in the noise ensemble, each with a verdict
+    of its interval; the note and the shares are of the three mu_sapp of one draw."""
+    by_draw = in_draws(
+        t,
+        spread_of_friction,
+        lambda span: span <= printed.LAST_DIGIT,
+        printed.LAST_DIGIT,
+    )
+    pairs = rows(t["noise_differences"], quantity="mu_sapp")
+    verdicts = set(pairs["verdict"])
+    holds = not pairs.empty and "different" not in verdicts
+    agree = "agree" if by_draw.holds else "do not agree"
+    return replace(
+        by_draw,
+        ours=pairs["difference"],
+        holds=None if holds and "undecided" in verdicts else holds,
+        note=f"The values of the three runs {agree}: they differ by"
+        f" {shown(by_draw.ours)}.",
+    )
+
+
+def spread_of_friction(runs: pd.DataFrame) -> pd.DataFrame:
+    """Largest less smallest mu_sapp of each draw; NaN where one is missing."""
+    friction = drawn("mu_sapp")(runs)
+    return pd.DataFrame(np.ptp(friction.to_numpy(), axis=1), friction.index)
+
+
+@of_claim
+def friction_underestimated(t: Tables) -> Finding:
+    """mu_sapp against the smallest mu_s that is printed alike."""
+    return in_draws(t, drawn("mu_sapp"), lambda friction: friction < MU_S, MU_S)
+
+
+@of_claim
+def waves(t: Tables) -> Finding:
+    """mu_sapp of a chain without inertia, which has no waves.
+
+    Where it is below mu_s, too, waves need not be the cause, and may still be.
+    """
+    overdamped = rows(t["model_comparison"], model="overdamped", question="mu_sapp")
+    without = np.array([one(overdamped, "value", scene=scene) for scene in SCENES])
+    return Finding(without, True if (without >= MU_S).all() else None, MU_S)
+
+
+def largest_loads(t: Tables) -> list[float]:
+    """Largest F_X of each scene in all the time simulated [N]."""
+    return [t[f"{scene}_trace"]["tangential_load_N"].max() for scene in SCENES]
+
+
+@of_claim
+def eq15_in_motion(t: Tables) -> Finding:
+    """Largest F_X over F_Z, sliding included."""
+    normal_loads = [t[f"{scene}_slips"]["normal_load_N"].iloc[0] for scene in SCENES]
+    ratio = np.divide(largest_loads(t), normal_loads)
+    return Finding(ratio, bool((ratio <= MU_S).all()), MU_S)
+
+
+@of_claim
+def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
+    """Largest F_X of all, against that at the first global slip."""
+    first = [
+        up_to_first_global(t[f"{scene}_slips"])["load_before_N"].iloc[-1]
+        for scene in SCENES
+    ]
+    largest = largest_loads(t)
+    return Finding(largest, bool(np.less_equal(largest, first).all()), first)
+
+
+@of_claim
+def short_events(t: Tables) -> Finding:
+    """Events before the first global slip that Fig. 13 leaves out."""
+    every = drawn("events_to_global_slip")
+    counted = drawn("events_counted")
+    return in_draws(t, lambda runs: every(runs) - counted(runs), lambda n: n > 0)
+
+
+@of_claim
+def static_and_kinetic_friction(t: Tables) -> Finding:
+    """Median of the events counted over theta, where mu_k/mu_s is largest and
+    smallest."""
+    counts = t["map_theta_friction_ratio"].dropna(subset=["events_counted"])
+    medians = counts.groupby("friction_ratio")["events_counted"].median()
+    largest, smallest = medians.iloc[[-1, 0]]
+    return Finding([largest, smallest], largest > smallest)
+
+
+@of_claim
+def precursors_in_later_periods(t: Tables) -> Finding:
+    """Share of the stick phases between global slips that have a partial slip."""
+    is_global = t[f"{UNIFORM}_slips"]["is_global"]
+    share = float(np.mean(np.diff(np.flatnonzero(is_global)) > 1))
+    return Finding(share, share > 0.5)
+
+
+@of_claim
+def no_rapid_growth(t: Tables) -> Finding:
+    """Growth of L_p beyond 0.7 L over that before: in the experiment, it is large for
+    all three loadings."""
+    by_draw = in_draws(
+        t,
+        drawn("speedup"),
+        lambda speedup: (speedup <= 1.0).any(axis=1).to_frame(),
+    )
+    alike = t["digits_members"].query("draw > 0").groupby("scene")["speedup"]
+    medians = shown(alike.median()[list(SCENES)])
+    return replace(by_draw, note=f"Medians of the sliders printed alike: {medians}.")
+
+
+@of_claim
+def load_of_the_experiment(t: Tables) -> Finding:
+    """F_X at the first global slip."""
+    return in_draws(
+        t,
+        drawn("load_N", UNIFORM),
+        lambda load: (load / printed.FIRST_GLOBAL_SLIP_N - 1).abs() <= NEAR_LOAD,
+        printed.FIRST_GLOBAL_SLIP_N,
+    )
+
+
+@of_claim
+def slip_duration_of_the_experiment(t: Tables) -> Finding:
+    """Duration of the first global slip."""
+    return in_draws(
+        t,
+        lambda runs: (runs["end_s"] - runs["time_s"])[[UNIFORM]],
+        lambda time: (time / printed.SLIP_DURATION_S - 1).abs() <= NEAR_TIME,
+        printed.SLIP_DURATION_S,
+    )
+
+
+STATED = read_table(Path(__file__).with_name("claims.csv"), dtype=str)
+CLAIMS = [Claim(**said, find=FINDINGS[said["name"]]) for _, said in STATED.iterrows()]
+
+
+def claims_tables(tables: Tables) -> dict[str, pd.DataFrame]:
+    """Both tables by file name."""
+    return {"claims": evaluate(tables), "open_points": open_points_table(tables)}
+
+
+def evaluate(tables: Tables) -> pd.DataFrame:
+    """Compare every claim with the tables: one row per claim, see `Claim.row`."""
+    return pd.DataFrame([claim.row(tables) for claim in CLAIMS])
+
+
+def differences(found: pd.DataFrame, expected: pd.DataFrame) -> list[str]:
+    """Say in a line each which claims have another verdict than expected, or none."""
+    new, old = (
+        dict(zip(table["claim"], table["verdict"], strict=True))
+        for table in (found, expected)
+    )
+    return [
+        f"{name}: is {new.get(name, 'missing')}, expected {old.get(name, 'none')}"
+        for name in {**new, **old}
+        if new.get(name) != old.get(name)
+    ]

@@ -1,0 +1,143 @@
+"""Other readings of the paper's words, one change at a time, and what they give."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import pandas as pd
+
+from maegawa2010 import printed
+from maegawa2010.methods.columns import COULOMB
+from maegawa2010.methods.march import march
+from maegawa2010.methods.rk4_located import run_located
+from precursors.analysis.slip_rows import SHORT_EVENTS
+from precursors.analysis.slips import (
+    FRONTS,
+    GLOBAL_SLIPS,
+    OURS,
+    Definition,
+    first_global_slip,
+    slip_table,
+)
+from precursors.model.chain import Chain, parse_theta
+from precursors.solver.run import Record, Run
+from precursors.solver.simulate import simulate
+
+# The size of theta where it is that of the scenes.
+OF_SCENES = "scenes"
+# Of the method for other rules of switching [s]; mu_sapp is right to 1e-5.
+STEP = 1e-7
+SIGNS = (-1, 0, 1)
+SWITCHING = {
+    COULOMB: "sticks if |F| <= mu_s w",
+    "kinetic": "sticks if |F| <= mu_k w",
+    "forward_only": "slides forward only",
+}
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A reading of the paper's words, by default ours.
+
+    `changed` names the one column of the table that is not as in ours, and `reading`
+    says how.
+    """
+
+    changed: str = "nothing"
+    reading: str = "our reading"
+    degree: float | str = OF_SCENES
+    switching: str = COULOMB
+    definition: Definition = OURS
+
+
+def readings(
+    degrees: Iterable[float | str], load_drops: Iterable[float]
+) -> Iterator[Reading]:
+    """Our reading and those with one change."""
+    yield Reading()
+    slips: list[str | float] = [*list(GLOBAL_SLIPS)[1:], *load_drops]
+    for slip in slips:
+        of_slip = replace(OURS, global_slip=slip)
+        text = f"global slip: {of_slip.global_slip_text}"
+        yield Reading("global_slip", text, definition=of_slip)
+    for short, text in list(SHORT_EVENTS.items())[1:]:
+        of_short = replace(OURS, short=short)
+        yield Reading("short", f"short event: {text}", definition=of_short)
+    for front, text in list(FRONTS.items())[1:]:
+        of_front = replace(OURS, front=front)
+        yield Reading("front", f"length: {text}", definition=of_front)
+    for degree in degrees:
+        yield Reading("degree", f"size of theta: {degree}", degree=degree)
+    for rule, text in list(SWITCHING.items())[1:]:
+        yield Reading("switching", f"switching: {text}", switching=rule)
+
+
+def definitions_table(
+    runs: Sequence[Run],
+    slider: Mapping[str, Any],
+    duration: float,
+    degrees: Sequence[float | str],
+    load_drops: Iterable[float],
+    paper: Sequence[Mapping[str, float]],
+) -> pd.DataFrame:
+    """One row for each reading and loading; the first three rows are ours.
+
+    Of the six numbers of a reading, `numbers_within_a_digit` counts those that differ
+    from the paper's by at most one unit of its last digit. A reading that has no global
+    slip has no numbers.
+
+    Parameters
+    ----------
+    runs : sequence of Run
+        The scenes with theta < 0, theta = 0 and theta > 0.
+    slider, duration : mapping, float
+        Arguments of `Chain.from_slider` but theta, and time to simulate [s], for other
+        sizes of theta.
+    degrees : sequence
+        Other sizes of theta.
+    load_drops : iterable of float
+        Drops of F_X [N]; an event with a larger drop is a global slip in this reading.
+    paper : sequence of mapping
+        The paper's events_counted and mu_sapp in the order of the runs, as far as it
+        has them.
+    """
+    rows = []
+    for reading in readings(degrees, load_drops):
+        for sign, of_scene, of_paper in zip(SIGNS, runs, paper, strict=True):
+            chain = of_scene.chain
+            if reading.degree != OF_SCENES:
+                theta = sign * parse_theta(reading.degree)
+                chain = Chain.from_slider(**{**slider, "theta": theta})
+            run: Record = of_scene
+            if reading.switching != COULOMB:
+                rule = reading.switching
+                run = march(run_located, chain, duration, STEP, rule=rule).run
+            elif chain is not of_scene.chain:
+                run = simulate(chain, duration)
+            row = asdict(reading)
+            row |= row.pop("definition") | {"theta": chain.theta}
+            rows.append(row | numbers(run, reading.definition, of_paper))
+    table = pd.DataFrame(rows)
+    of_reading = table.groupby(table.index // len(SIGNS))
+    within = of_reading["numbers_within_a_digit"].transform("sum")
+    return table.assign(numbers_within_a_digit=within)
+
+
+def numbers(
+    run: Record, definition: Definition, of_paper: Mapping[str, float]
+) -> dict[str, Any]:
+    """Both numbers of a run, and how many of them are the paper's: mu_sapp to a unit of
+    its last digit."""
+    found = first_global_slip(slip_table(run), definition)
+    counted = found.events_counted if found else math.nan
+    friction = found.mu_sapp if found else math.nan
+    off = abs(friction - of_paper.get("mu_sapp", math.nan))
+    agree = [counted == of_paper.get("events_counted"), off <= printed.LAST_DIGIT]
+    return {
+        "events_counted": counted,
+        "mu_sapp": friction,
+        "numbers_within_a_digit": sum(agree),
+    }

@@ -1,0 +1,224 @@
+"""Eq. 15, mu_sapp <= mu_s: checked in symbols, over all states of rest, and in motion.
+
+The equation is about rest. So `fast_drive` drives the chain ever faster, until inertia
+breaks it, and `below_limit` says how far from the state of Eq. 12 a run stays.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+import scipy
+
+from precursors.analysis.load_curve import load_curve
+from precursors.analysis.slips import apparent_friction, find_slips
+from precursors.model.chain import Chain, FloatArray
+from precursors.model.statics import (
+    compressions_as_printed,
+    largest_load_at_rest,
+    load_bound,
+    maximal_compressions,
+    maximal_strain_positions,
+)
+from precursors.solver.run import Run
+from precursors.solver.simulate import simulate
+
+SYMBOLIC_BLOCKS = 10
+# A start slightly below the maximal strain, as a fraction of it.
+SLIGHTLY_BELOW = 0.999
+# Of the speed at which a rigid slider would pass the bound: the chain bends, and moves
+# before F_X = mu_k F_Z.
+RIGID_TOLERANCE = 0.25
+# Of the speed that is found, and of the distance from the limit: more than rounding
+# errors reach in 10 s.
+DIGITS = 4
+# A run ends after the drive has advanced so many times what the bound needs, if nothing
+# stops it before.
+ADVANCES = 3
+# Relative. HiGHS is asked for 1e-10 of F_Z; sums of N terms are rounded to 1e-16 each.
+LP_TOLERANCE = 1e-9
+ROUNDING = 1e-12
+
+STATEMENTS = {
+    "at_limit": "F_X = mu_s F_Z with all blocks at their limit",
+    "as_printed": "Eq. 12 as printed gives mu_s F_Z + (k/K - 1) mu_s w_N",
+    "at_rest": "largest F_X of all states of rest is mu_s F_Z",
+    "full_strain": "mu_sapp = mu_s, pushed from maximal residual strain",
+    "less_strain": "mu_sapp < mu_s, pushed from "
+    f"{SLIGHTLY_BELOW:g} of maximal residual strain",
+    "rigid": "mu_sapp = mu_s for a rigid slider, N = 1",
+    "fast": "F_X passes mu_s F_Z in motion from (mu_s - mu_k) F_Z / sqrt(K M) on,"
+    f" to {100 * RIGID_TOLERANCE:g} %",
+    "below": "some block at rest is below its limit (least part at slip onsets, above 0)",
+}
+
+
+class Check(NamedTuple):
+    """A check by its key in STATEMENTS, with the value it expects and the one it finds.
+
+    The case is a scene or a number of blocks.
+    """
+
+    check: str
+    case: str
+    unit: str
+    expected: Any
+    found: Any
+    holds: bool
+
+
+def close(
+    check: str,
+    case: str,
+    unit: str,
+    expected: float,
+    found: float,
+    tolerance: float = ROUNDING,
+) -> Check:
+    """A check that both values are the same to a relative tolerance."""
+    holds = math.isclose(found, expected, rel_tol=tolerance)
+    return Check(check, case, unit, expected, found, holds)
+
+
+def eq15_table(runs: Mapping[str, Run], duration: float) -> pd.DataFrame:
+    """One row per `Check` of the runs of the scenes; a global slip is awaited for
+    `duration` [s]."""
+    rows = [*in_symbols(SYMBOLIC_BLOCKS)]
+    for make in (as_printed, at_rest):
+        rows += [make(scene, run.chain) for scene, run in runs.items()]
+    for scene, run in runs.items():
+        rows += in_motion(scene, run.chain, duration)
+    for scene, run in runs.items():
+        rows += [fast_drive(scene, run.chain), below_limit(scene, run)]
+    first = next(iter(runs.values()))
+    table = pd.DataFrame([*rows, rigid(first.chain, duration)])
+    return table.assign(statement=table["check"].map(STATEMENTS))
+
+
+def in_symbols(n: int) -> Iterator[Check]:
+    """The load of Eq. 12 for N blocks with any normal loads, as it follows from Eq. 2
+    and as printed."""
+    import sympy  # slow, and the names of the checks are wanted without it
+
+    from maegawa2010.paper import derivation
+
+    w = derivation.weights(n)
+    bound = derivation.bound(n)
+    excess = (derivation.k / derivation.K - 1) * derivation.mu_s * w[-1]
+    for check, equations, expected in (
+        ("at_limit", derivation.balances(n), bound),
+        ("as_printed", derivation.balances_as_printed(n), bound + excess),
+    ):
+        found = derivation.load(equations)
+        wanted = sympy.expand(expected)
+        yield Check(
+            check, f"N = {n}, in symbols", "N", str(wanted), str(found), found == wanted
+        )
+
+
+def as_printed(scene: str, chain: Chain) -> Check:
+    """The load of Eq. 12 as printed, from its N equations in numbers and by the
+    formula."""
+    stiffer = chain.stiffness / chain.drive_stiffness - 1
+    expected = load_bound(chain) + stiffer * float(chain.strength[-1])
+    found = float(chain.drive_stiffness * compressions_as_printed(chain)[0])
+    return close("as_printed", scene, "N", expected, found)
+
+
+def at_rest(case: str, chain: Chain) -> Check:
+    """The largest load over all states of rest, which is reached in the state of Eq. 12
+    (corrected)."""
+    expected = load_bound(chain)
+    found, compressions = largest_load_at_rest(chain)
+    holds = math.isclose(found, expected, rel_tol=LP_TOLERANCE) and np.allclose(
+        compressions, maximal_compressions(chain), rtol=LP_TOLERANCE, atol=0
+    )
+    return Check("at_rest", case, "N", expected, found, holds)
+
+
+def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[Check]:
+    """mu_sapp of a chain pushed from the state of maximal residual strain, and from
+    slightly below it.
+
+    At a fraction a of that strain every block is at a mu_s w_i. Block 1 slips first, at
+    F_X = a mu_s F_Z + (1 - a) mu_s w_1, and the others are near enough to their limits
+    to follow it.
+    """
+    full = maximal_strain_positions(chain)
+    share = float(chain.weights[0]) / chain.normal_load
+    for check, a in (("full_strain", 1.0), ("less_strain", SLIGHTLY_BELOW)):
+        expected = chain.mu_s * (a + (1 - a) * share)
+        found = pushed(chain, a * full, duration)
+        yield close(check, scene, "1", expected, found)
+
+
+def largest_load(chain: Chain, speed: float) -> float:
+    """Largest F_X [N], from natural length, up to the end of the first global slip of a
+    chain driven so fast.
+
+    Driven fast, a chain never stops: its run then has time for a swing of the whole
+    slider on the drive.
+    """
+    driven = replace(chain, drive_velocity=speed)
+    swing = math.tau * math.sqrt(chain.n_blocks * chain.mass / chain.drive_stiffness)
+    duration = ADVANCES * load_bound(chain) / driven.loading_rate + swing
+    return float(load_curve(simulate(driven, duration, "global slip"))[1].max())
+
+
+def fast_drive(scene: str, chain: Chain) -> Check:
+    """The speed of the drive that takes F_X beyond mu_s F_Z, and that of a rigid
+    slider; NaN if none does.
+
+    A rigid slider that slides at rest under mu_k F_Z when the drive comes at V has at
+    most F_X = mu_k F_Z + V sqrt(K M). The speed is sought up to that at which V sqrt(K
+    M) alone is mu_s F_Z.
+    """
+    momentum = math.sqrt(chain.drive_stiffness * chain.n_blocks * chain.mass)
+    expected = (chain.mu_s - chain.mu_k) * chain.normal_load / momentum
+
+    def excess(speed: float) -> float:
+        return largest_load(chain, speed) - load_bound(chain)
+
+    between = chain.drive_velocity, load_bound(chain) / momentum
+    passes = excess(between[0]) <= 0.0 < excess(between[1])
+    found = (
+        round(scipy.optimize.brentq(excess, *between, xtol=1e-6), DIGITS)
+        if passes
+        else math.nan
+    )
+    return close("fast", scene, "m/s", expected, found, RIGID_TOLERANCE)
+
+
+def below_limit(scene: str, run: Run) -> Check:
+    """Distance of a run from the state of Eq. 12, in which all blocks are at their
+    limits at once.
+
+    At the onset of each slip: how far the block farthest from its limit mu_s w_i is below
+    it, over mu_s w_i.
+    """
+    forces = run.spring_forces(find_slips(run)["onset"])
+    below = 1.0 + np.diff(forces, append=0.0) / run.chain.strength
+    found = round(float(below.max(axis=1).min(initial=math.inf)), DIGITS)
+    return Check("below", scene, "1", 0.0, found, found > 0.0)
+
+
+def rigid(chain: Chain, duration: float) -> Check:
+    """mu_sapp of one block with the weight and the mass of the whole chain, pushed from
+    natural length."""
+    block = replace(
+        chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass
+    )
+    found = pushed(block, None, duration)
+    return close("rigid", "N = 1", "1", chain.mu_s, found)
+
+
+def pushed(chain: Chain, start: FloatArray | None, duration: float) -> float:
+    """mu_sapp (Eq. 1) of a chain pushed from rest at some positions [m]; NaN without a
+    global slip."""
+    run = simulate(chain, duration, "global slip", start_positions=start)
+    return apparent_friction(run)

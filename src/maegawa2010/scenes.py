@@ -1,0 +1,86 @@
+"""The scenes of a configuration, and the chain that each of them stands for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from precursors.larger.additions import ADDITIONS
+from precursors.model.chain import parse_theta, theta_from_load_cells
+from precursors.support.spreadsheet import read_weights
+
+Config = Mapping[str, Any]
+
+
+def scenes_with(config: Config, output: str) -> list[str]:
+    """Names of the scenes that have a "run", or "answers" because they name a model, in
+    order."""
+    return [
+        name
+        for name, scene in config["scenes"].items()
+        if ("model" in scene) == (output == "answers")
+    ]
+
+
+def scenes_with_theta(config: Config) -> list[str]:
+    """Names of the scenes that have a run and whose normal load changes linearly along
+    the slider."""
+    return [
+        name
+        for name in scenes_with(config, "run")
+        if "weights" not in config["scenes"][name]
+    ]
+
+
+def scene_duration(config: Config, name: str) -> float:
+    """Time that the scene is simulated for [s]."""
+    return float(config["scenes"][name].get("duration", config["duration"]))
+
+
+def scene_slider(config: Config, name: str) -> dict[str, Any]:
+    """Arguments of `Chain.from_slider` for a scene; theta and F_Z are rounded once.
+
+    Of measured normal loads [N], a list or a file, there is no theta.
+    """
+    slider = scene_as_written(config, name)
+    if "weights" not in slider:
+        return slider | {
+            "theta": parse_theta(slider["theta"]),
+            "normal_load": float(slider["normal_load"]),
+        }
+    loads = slider["weights"]
+    if isinstance(loads, str):
+        loads = read_weights(loads)
+    return slider | {
+        "weights": loads,
+        "n_blocks": len(loads),
+        "normal_load": math.fsum(loads),
+        "theta": math.nan,
+    }
+
+
+def scene_additions(config: Config, name: str) -> dict[str, float]:
+    """Additions of a scene to the paper's chain, keys of `ADDITIONS`."""
+    scene = config["scenes"][name]
+    return {key: scene[key] for key in ADDITIONS if key in scene}
+
+
+def scene_as_written(config: Config, name: str) -> dict[str, Any]:
+    """Arguments for a scene before any rounding: theta and F_Z = F_ZA + F_ZB of load
+    cells are fractions."""
+    scene = config["scenes"][name]
+    slider = {key: scene.get(key, value) for key, value in config["chain"].items()}
+    if "load_cell_a" not in scene:
+        given = {key: scene[key] for key in ("theta", "weights") if key in scene}
+        return slider | given
+    a = scene["load_cell_a"]
+    b = scene["load_cell_b"]
+    theta = theta_from_load_cells(
+        a, b, spacing=config["load_cells"]["spacing"], length=slider["length"]
+    )
+    return slider | {
+        "theta": theta,
+        "normal_load": Fraction(repr(a)) + Fraction(repr(b)),
+    }

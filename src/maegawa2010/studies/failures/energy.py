@@ -1,0 +1,92 @@
+"""Energy that is made or lost: steps beyond the stability limit, and implicit
+damping."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from maegawa2010.methods import METHODS, ROWS, SMOOTH, DivergedError
+from maegawa2010.methods.rk4 import LIMIT as RK4_LIMIT
+from maegawa2010.methods.stability import (
+    energy_left,
+    highest_frequency,
+    highest_mode,
+    without_friction,
+)
+from maegawa2010.studies.failures.common import Curve, Failure
+from precursors.analysis.slips import apparent_friction
+from precursors.model.chain import Chain
+from precursors.solver.simulate import simulate
+
+# Steps over which the factor per step is an average: more for leapfrog, whose energy
+# also swings, fewer for RK4, which damps the mode below the rounding of the others.
+UNSTABLE_STEPS = {"rk4_skip": 20, "leapfrog": 200}
+POINTS = 21
+# With friction: omega dt from RK4's limit on, and where its runs end.
+BEYOND = RK4_LIMIT * np.linspace(1.0, 1.25, 51)[1:]
+END = 10.0  # s
+# Time of a short slip [s], and the steps with which Moreau-Jean time stepping goes
+# through it.
+SLIP = 100e-6
+DAMPING_STEPS = (1e-6, 1e-7, 1e-8)
+
+
+def unstable() -> Failure:
+    """RK4 above omega dt = 2 sqrt 2 and leapfrog above 2, without friction."""
+    chain = without_friction(Chain.from_slider())
+    omega = highest_frequency(chain)
+    mode = highest_mode(chain)
+    curves = []
+    for name, n_steps in UNSTABLE_STEPS.items():
+        method = SMOOTH[name]
+        z = method.limit * np.linspace(0.9, 1.1, POINTS)
+        fine = method.limit * np.linspace(0.9, 1.1, 201)
+        left = [
+            energy_left(chain, method.slide, x / omega, n_steps, mode) ** (1 / n_steps)
+            for x in z
+        ]
+        theory = [method.energy_factor(x) for x in fine]
+        curves += [
+            Curve(ROWS[name]["label"], fine / omega, theory, "theory"),
+            Curve(ROWS[name]["label"], z / omega, left),
+        ]
+    return Failure("step_s", "energy_per_step", curves)
+
+
+def silent_instability() -> Failure:
+    """RK4 above its limit with friction: stops take the energy away, so that no number
+    overflows at first."""
+    chain = Chain.from_slider()
+    exact = apparent_friction(simulate(chain, END, "global slip"))
+    steps = BEYOND / highest_frequency(chain)
+    mu_sapp = []
+    for step in steps:
+        try:
+            run = METHODS["rk4_skip"].solve(chain, END, step, "global slip").run
+        except DivergedError:
+            break
+        if np.isnan(friction := apparent_friction(run)):
+            break
+        mu_sapp.append(friction)
+    curves = [
+        Curve("exact", steps[[0, -1]], [exact, exact], "exact"),
+        Curve("RK4", steps[: len(mu_sapp)], mu_sapp),
+    ]
+    return Failure("step_s", "mu_sapp", curves)
+
+
+def numerical_damping() -> Failure:
+    """Implicit Moreau-Jean time stepping slows down what moves freely."""
+    chain = without_friction(Chain.from_slider())
+    omega = highest_frequency(chain)
+    mode = highest_mode(chain)
+    method = SMOOTH["moreau_jean_one"]
+    times = np.linspace(0.0, SLIP, POINTS)
+    curves = []
+    for step in DAMPING_STEPS:
+        n_steps = np.linspace(0, round(SLIP / step), POINTS).astype(int)
+        left = [energy_left(chain, method.slide, step, int(n), mode) for n in n_steps]
+        theory = method.energy_factor(omega * step) ** (times / step)
+        setting = f"dt = {step:.0e} s"
+        curves += [Curve(setting, times, theory, "theory"), Curve(setting, times, left)]
+    return Failure("time_s", "energy_left", curves)

@@ -1,0 +1,75 @@
+"""Failure modes of the methods on the paper's chain, each shown by measured curves."""
+
+from collections.abc import Callable, Mapping
+
+import pandas as pd
+
+from maegawa2010.studies.failures.common import Failure
+from maegawa2010.studies.failures.dead_zone import (
+    dead_zone_too_large,
+    dead_zone_too_small,
+)
+from maegawa2010.studies.failures.energy import (
+    numerical_damping,
+    silent_instability,
+    unstable,
+)
+from maegawa2010.studies.failures.literal_friction import literal_friction
+from maegawa2010.studies.failures.missed_roots import missed_roots
+from maegawa2010.studies.failures.regularised_friction import creep, stiffness
+from maegawa2010.studies.failures.stability import thresholds
+
+# By name, in the order of the gallery.
+FAILURE_MODES: dict[str, Callable[[], Failure]] = {
+    measure.__name__: measure
+    for measure in (
+        unstable,
+        silent_instability,
+        numerical_damping,
+        literal_friction,
+        dead_zone_too_small,
+        dead_zone_too_large,
+        creep,
+        stiffness,
+        missed_roots,
+    )
+}
+
+__all__ = ["FAILURE_MODES", "Failure"]
+
+
+def failure_tables() -> dict[str, pd.DataFrame]:
+    """Curves and thresholds of all failure modes: failure_curves and thresholds.
+
+    A row of failure_curves is a point: mode, curve, role (see `common.Curve`), x, y,
+    and the names of both quantities with their units (x_is, y_is).
+    """
+    found = {mode: measure() for mode, measure in FAILURE_MODES.items()}
+    of_modes = [failure.threshold for failure in found.values() if failure.threshold]
+    limits = pd.DataFrame([*thresholds(), *of_modes])
+    return {
+        "failure_curves": curve_table(found),
+        "thresholds": limits.assign(
+            unit="s", ratio=limits["measured"] / limits["predicted"]
+        ),
+    }
+
+
+def curve_table(found: Mapping[str, Failure]) -> pd.DataFrame:
+    """The points of all curves of some failure modes."""
+    curves = [
+        pd.DataFrame(
+            {
+                "failure_mode": mode,
+                "curve": curve.name,
+                "role": curve.role,
+                "x": curve.x,
+                "y": curve.y,
+                "x_is": failure.x,
+                "y_is": failure.y,
+            }
+        )
+        for mode, failure in found.items()
+        for curve in failure.curves
+    ]
+    return pd.concat(curves, ignore_index=True)

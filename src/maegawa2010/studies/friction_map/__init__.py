@@ -1,0 +1,1 @@
+"""mu_sapp over theta and mu_k/mu_s."""

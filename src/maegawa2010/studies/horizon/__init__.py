@@ -1,0 +1,1 @@
+"""Proved transitions, the growth of errors, and the predictability time."""

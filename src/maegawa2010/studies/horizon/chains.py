@@ -1,0 +1,101 @@
+"""The chains of the configuration that are proved, and what their certificates say."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+import pandas as pd
+
+from maegawa2010.scenes import scene_as_written
+from precursors.larger.additions import ADDITIONS
+from precursors.proof.certificate import Certificate
+from precursors.proof.exact_chain import ExactChain
+
+# Duration of a proof [s] where the configuration has none.
+PROVED_FOR = 10.0
+
+
+def exact_chain(values: Mapping[str, Any]) -> ExactChain:
+    """A chain of the configuration's `accuracy.proved`, from the values it states."""
+    return ExactChain.from_slider(
+        **{name: x for name, x in values.items() if name != "duration"}
+    )
+
+
+def chain_duration(values: Mapping[str, Any]) -> float:
+    """Duration of the proof of a chain of the configuration's `accuracy.proved` [s]."""
+    return float(values.get("duration", PROVED_FOR))
+
+
+def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
+    """Return the chain of a scene of the configuration; theta from load cells is not
+    rounded (Sect. 5.2).
+
+    Raises
+    ------
+    ValueError
+        If the scene has measured weights, or is that of a larger chain.
+    """
+    scene = config["scenes"][name]
+    unproved = [key for key in ("weights", *ADDITIONS) if scene.get(key)]
+    if unproved:
+        raise ValueError(
+            f"scenes.{name} must be the paper's chain with theta or load cells for a proof, "
+            f"but has {', '.join(unproved)}"
+        )
+    return ExactChain.from_slider(**scene_as_written(config, name))
+
+
+def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bool:
+    """Whether a certificate is about all of the run of a chain from rest, for
+    `duration` [s]."""
+    return (
+        certificate.chain == chain
+        and certificate.duration == Fraction(repr(duration))
+        and certificate.until is None
+        and not any(certificate.start_positions + certificate.start_velocities)
+    )
+
+
+def certificates_table(
+    certificates: Mapping[str, Certificate], effort: pd.DataFrame
+) -> pd.DataFrame:
+    """One row a chain; `effort` has the processor time that the committed proofs
+    took."""
+    rows = [
+        {"chain": name, **certificate_row(certificate)}
+        for name, certificate in certificates.items()
+    ]
+    return pd.DataFrame(rows).merge(effort, on=["chain", "transitions"], how="left")
+
+
+def certificate_row(certificate: Certificate) -> dict[str, float]:
+    """Row of certificates.csv: numbers of a proof."""
+    return {
+        "proved_until_s": float(certificate.proved_until),
+        "transitions": len(certificate.transitions),
+        "largest_time_width_s": float(
+            max(t.time.upper - t.time.lower for t in certificate.transitions)
+        ),
+        **least_slopes(certificate),
+        "bits": certificate.bits,
+    }
+
+
+def least_slopes(certificate: Certificate) -> dict[str, float]:
+    """Least proved slopes of all releases and of all stops and turns; NaN of none."""
+    releases: list[float] = []
+    stops: list[float] = []
+    mode: dict[int, int] = {}
+    for t in certificate.transitions:
+        was_sliding = mode.get(t.block, 0) != 0
+        mode[t.block] = t.mode
+        if t.slope:
+            (stops if was_sliding else releases).append(float(t.slope))
+    return {
+        "least_release_slope_N_per_s": min(releases, default=math.nan),
+        "least_stop_slope_m_per_s2": min(stops, default=math.nan),
+    }

@@ -1,0 +1,101 @@
+"""The solver compared with the proof: the errors it makes, and the errors it
+predicts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from maegawa2010.studies.horizon.chains import certificates_table
+from precursors.analysis.horizon import PredictedErrors, predicted_errors
+from precursors.benchmark.compare import Comparison, Truth, compare
+from precursors.proof import Certificate
+from precursors.solver.run import Run
+from precursors.solver.simulate import simulate
+
+# Rows of a chain's error table, at most.
+ROWS = 400
+
+
+class Validation(NamedTuple):
+    """A run in double precision with its actual and its predicted errors."""
+
+    run: Run
+    actual: Comparison
+    predicted: PredictedErrors
+
+
+def proof_tables(
+    certificates: Mapping[str, Certificate], effort: pd.DataFrame, tolerance: float
+) -> dict[str, pd.DataFrame]:
+    """Proofs, growth of the solver's errors, and transitions it gets right: tables by
+    file name."""
+    runs = {name: validate(certificate) for name, certificate in certificates.items()}
+    errors = [error_table(run).assign(chain=name) for name, run in runs.items()]
+    return {
+        "certificates": certificates_table(certificates, effort),
+        "horizon": pd.concat(errors)[
+            ["chain", "time_s", "actual_error_s", "predicted_error_s"]
+        ],
+        "solver_vs_proof": pd.DataFrame(
+            [{"chain": name, **summary(run, tolerance)} for name, run in runs.items()]
+        ),
+    }
+
+
+def validate(certificate: Certificate) -> Validation:
+    """Run the chain of a certificate, rounded to double precision, as far as it is
+    proved, and compare."""
+    truth = Truth.proved(certificate)
+    start = [float(x) for x in certificate.start_positions]
+    run = simulate(truth.run.chain, truth.run.duration, start_positions=start)
+    return Validation(run, compare(run, truth), predicted_errors(run))
+
+
+def largest_errors(validation: Validation) -> pd.DataFrame:
+    """Largest error so far at each transition, actual and predicted; NaN where order is
+    unknown."""
+    run, compared, predictions = validation
+    errors = pd.DataFrame(
+        {
+            "time_s": run.transitions["time"],
+            "predicted_error_s": predictions.time_error,
+        }
+    )
+    errors["actual_error_s"] = pd.Series(compared.time_errors)
+    return errors.replace(np.inf, np.nan).cummax()
+
+
+def error_table(validation: Validation) -> pd.DataFrame:
+    """The same at up to `ROWS` transitions."""
+    errors = largest_errors(validation)
+    return errors.iloc[np.unique(np.linspace(0, len(errors) - 1, ROWS).astype(int))]
+
+
+def summary(validation: Validation, tolerance: float) -> dict[str, float]:
+    """Accuracy of the run, a row of solver_vs_proof.csv.
+
+    `right_until_s` is when the first transition is in error by more than the tolerance,
+    of another block, or to another mode; `horizon_s` is when this is predicted.
+    `largest_ratio` is that of actual to predicted error, both the largest so far.
+    """
+    run, compared, predictions = validation
+    errors = largest_errors(validation)
+    actual = errors["actual_error_s"]
+    n = compared.transitions_right
+    wrong = run.transitions["time"][:n][compared.time_errors > tolerance]
+    to_global_slip = Truth.of_run(run).until_global_slip().run.transitions
+    return {
+        "duration_s": run.duration,
+        "transitions": len(run.transitions),
+        "agreeing_transitions": n,
+        "time_error_to_first_global_slip_s": actual[: len(to_global_slip)].max(),
+        "time_error_while_agreeing_s": compared.time_error,
+        "right_until_s": min(*wrong[:1], compared.first_difference, run.duration),
+        "horizon_s": predictions.horizon(tolerance),
+        "order_lost_s": compared.first_difference,
+        "largest_ratio": (actual / errors["predicted_error_s"]).max(),
+    }

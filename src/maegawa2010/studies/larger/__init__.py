@@ -1,0 +1,1 @@
+"""Chains with a length: first slips and settled cycles."""

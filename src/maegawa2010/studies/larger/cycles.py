@@ -1,0 +1,205 @@
+"""Stick-slip of the larger chain after its first slips: the cycles into which it
+settles, and whether they depend on the loading."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from maegawa2010.printed import LAST_DIGIT
+from maegawa2010.studies.larger.first_slips import (
+    LOADINGS,
+    POINT,
+    load_part,
+    run_studies,
+)
+from precursors.analysis.slips import find_slips
+from precursors.larger.chain import LargerChain, simulate_larger
+from precursors.larger.steps import SETTLED, period_of
+from precursors.model.chain import FloatArray
+from precursors.solver.run import Record
+
+APART = 0.003  # two cycles whose mean peaks [F_Z] are closer are one
+# Of the straight lines from which the net forces of a strained start are made.
+NODES = 8
+MEDIANS = ["coefficient", "period", "state_error", "theory"]
+
+
+def cycle_tables(
+    slider: Mapping[str, Any], settings: Mapping[str, Any]
+) -> dict[str, pd.DataFrame]:
+    """Cycles of every point, what they say about the loadings, and the peaks of some
+    runs, by file name."""
+    run = partial(run_past, settings)
+    runs = run_studies(slider, settings["studies"], run, len(settings["pasts"]))
+    cycles = cycles_table(runs)
+    return {
+        "larger_cycles": cycles,
+        "larger_verdicts": verdicts_table(cycles),
+        "larger_peaks": peaks_table(runs, settings),
+    }
+
+
+def run_past(
+    settings: Mapping[str, Any],
+    point: dict[str, Any],
+    larger: LargerChain,
+    step: float | None,
+    index: int,
+) -> dict[str, Any]:
+    """Run a chain from one of many pasts until it settles: point, index of the past,
+    theory (see `cycles_table`), and `settled`.
+
+    `settings` has the seed, the duration [s], and pasts: pairs of noise in the normal
+    loads and of strain at the start.
+    """
+    past = settings["pasts"][index % len(settings["pasts"])]
+    random = np.random.default_rng([settings["seed"], index])
+    drawn, forces = with_past(larger, past, random)
+    run = simulate_larger(
+        drawn, settings["duration"], "settled", step, start_forces=forces
+    )
+    chain = larger.chain
+    share = load_part(chain, point["critical_length"])
+    theory = chain.mu_k + (chain.mu_s - chain.mu_k) * share
+    return point | {"past": index, "theory": theory} | settled(run)
+
+
+def with_past(
+    larger: LargerChain, past: tuple[float, float], random: np.random.Generator
+) -> tuple[LargerChain, FloatArray]:
+    """A chain with noise in its normal loads, whose sum stays, and spring forces at
+    which it rests strained.
+
+    `past` is the noise, relative to each load, and the largest net force on a block,
+    relative to mu_s w. Net forces are straight lines between a few nodes, so that
+    chains of any number of blocks have the same.
+    """
+    noise, strain = past
+    weights = larger.chain.weights
+    places = np.linspace(0.0, 1.0, len(weights))
+    net = np.interp(places, np.linspace(0.0, 1.0, NODES), random.uniform(-1, 1, NODES))
+    net -= (net @ weights) / weights.sum()  # F_X is 0
+    net *= strain * larger.chain.strength / abs(net).max()
+    noisy = weights * (1.0 + noise * random.uniform(-1.0, 1.0, len(weights)))
+    noisy *= weights.sum() / noisy.sum()
+    forces = np.append(0.0, -np.cumsum(net)[:-1])
+    return replace(larger, chain=replace(larger.chain, weights=noisy)), forces
+
+
+def settled(run: Record) -> dict[str, Any]:
+    """Stick-slip into which a run has settled.
+
+    peaks are the F_X/F_Z at which global slips begin, and period is the number of slips
+    after which they come again; 0 if they do not, and then the later half of the run
+    counts. coefficient is their mean. state_error is the largest difference [F_Z] of a
+    load at which a block changed its state, from one period to the next; NaN if
+    different blocks did.
+    """
+    slips = peaks_of(run)
+    peaks = slips["peak"]
+    period = period_of(peaks.to_numpy(), SETTLED)
+    is_late = slips["onset"] > 0.5 * run.duration
+    late = peaks.tail(period) if period else peaks[is_late]
+    return {
+        "peaks": peaks.to_numpy(),
+        "period": period,
+        "coefficient": late.mean(),
+        "state_error": state_error(run, slips["onset"].to_numpy(), period),
+    }
+
+
+def peaks_of(run: Record) -> pd.DataFrame:
+    """Onset [s] of each global slip, and F_X/F_Z there."""
+    slips = find_slips(run)
+    slips = slips[slips["is_global"]]
+    return slips.assign(peak=slips["load_before"] / run.chain.weights.sum())
+
+
+def state_error(run: Record, onsets: FloatArray, period: int) -> float:
+    """See `settled`."""
+    if not period:
+        return np.nan
+    ends = onsets[[-1 - 2 * period, -1 - period, -1]]
+    rows = run.transitions
+    before, after = (
+        np.sort(of_period, order="block")
+        for of_period in np.split(rows, np.searchsorted(rows["time"], ends))[1:3]
+    )
+    if not np.array_equal(before["block"], after["block"]):
+        return np.nan
+    change = abs(after["tangential_load"] - before["tangential_load"])
+    return float(change.max() / run.chain.weights.sum())
+
+
+def cycles_table(runs: pd.DataFrame) -> pd.DataFrame:
+    """All cycles of each point with their shares: a row for each cycle.
+
+    Runs whose coefficients are a chain of values less than `APART` apart have one
+    cycle. Its coefficient, period and state_error are medians over its runs; share is
+    that of the point's `pasts` runs, and periodic the share of its runs that settled.
+    theory is mu_k + (mu_s - mu_k) W(l_c)/F_Z, which for an even load is mu_k + (mu_s -
+    mu_k) l_c/L.
+    """
+    rows = []
+    for point, of_point in runs.groupby(POINT, sort=False):
+        found = of_point.dropna(subset="coefficient").sort_values("coefficient")
+        number = (found["coefficient"].diff() > APART).cumsum()
+        for _, of_cycle in found.groupby(number):
+            shares = {
+                "pasts": len(of_point),
+                "share": len(of_cycle) / len(of_point),
+                "periodic": (of_cycle["period"] > 0).mean(),
+            }
+            medians = of_cycle[MEDIANS].median().to_dict()
+            rows.append(dict(zip(POINT, point, strict=True)) | shares | medians)
+    return pd.DataFrame(rows)
+
+
+def peaks_table(runs: pd.DataFrame, settings: Mapping[str, Any]) -> pd.DataFrame:
+    """Peaks of F_X/F_Z at the global slips of the chain `map`, in order, from one run
+    of each past, in the first study that has it."""
+    chain = pd.Series(settings["map"])
+    of_chain = runs[(runs[chain.index] == chain).all(axis=1)]
+    first = of_chain.head(len(settings["pasts"]))
+    table = first.rename(columns={"peaks": "peak"}).explode("peak")
+    return table[[*chain.index, "past", "peak"]].astype({"peak": float})
+
+
+def verdicts_table(cycles: pd.DataFrame) -> pd.DataFrame:
+    """Whether the loadings differ by more than the cycles of one loading: a row for
+    each point with several, without its theta.
+
+    within is the largest difference of two cycles of one loading. apart is the largest
+    gap between two loadings: between the nearest cycles of the two. The loadings
+    "differ" if apart is above within and above a unit of the last printed digit, and
+    "do not" if all cycles of all loadings are within it.
+    """
+    rows = []
+    for point, of_point in cycles.groupby(LOADINGS, sort=False):
+        values = [
+            group.to_numpy() for _, group in of_point.groupby("theta")["coefficient"]
+        ]
+        if len(values) < 2:
+            continue
+        within = max(np.ptp(each) for each in values)
+        apart = max(
+            abs(np.subtract.outer(a, b)).min() for a, b in combinations(values, 2)
+        )
+        verdict = verdict_of(within, apart, np.ptp(of_point["coefficient"]))
+        row = dict(zip(LOADINGS, point, strict=True))
+        rows.append(row | {"within": within, "apart": apart, "verdict": verdict})
+    return pd.DataFrame(rows)
+
+
+def verdict_of(within: float, apart: float, of_all: float) -> str:
+    """See `verdicts_table`."""
+    if apart > max(within, LAST_DIGIT):
+        return "differ"
+    return "do not" if of_all <= LAST_DIGIT else "undecided"

@@ -1,0 +1,188 @@
+"""A study: a table of members, each of them one run, and the summaries of the runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from maegawa2010 import printed
+from maegawa2010.support.run_statistics import NOISE, nine_tenths
+from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
+from precursors.model.chain import SLIDER, Chain, FloatArray
+from precursors.solver.many import simulate_many
+from precursors.solver.run import Record
+from precursors.solver.simulate import TransitionLimitError
+
+# Columns that the table of a study does not have where they are the same for all
+# members.
+LEFT_OUT = {*SLIDER, "duration"} - {"theta", "n_blocks"}
+# Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
+BLOCKS_PER_BATCH = 2000
+# Normal load at a place x from 0 (trailing edge) to 1 (leading edge), but for a factor.
+LOADINGS: dict[str, Callable[[FloatArray], FloatArray]] = {
+    "middle": lambda x: 0.2 + x * (1 - x),
+    "edges": lambda x: 0.2 + (2 * x - 1) ** 2,
+    "falling": lambda x: np.exp(-2 * x),
+    "rising": lambda x: np.exp(2 * x),
+}
+# Two numbers are the same if they differ by no more than this: friction coefficients by
+# a unit of the last digit of the paper's 0.49, times by what can be read from the axis
+# of Figs. 10-12.
+TOLERANCES = {
+    "mu_sapp": printed.LAST_DIGIT,
+    "events_counted": 0.0,
+    "events_to_global_slip": 0.0,
+    "time_s": 0.05,
+}
+WITH_UNITS = {name: f"{name}_{unit}" for name, unit in SUMMARY_UNITS.items()}
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """Runs to the first global slip that differ in a few values.
+
+    Attributes
+    ----------
+    members : DataFrame
+        One row per run. Its columns are arguments of `Chain.from_slider`; duration, the
+        time limit of the run [s]; loading, a key of `LOADINGS`; load_noise (see
+        `chain_of`) with group and draw, the numbers of the random stream. All other
+        columns are labels.
+    seed : int
+        Seed of all random numbers.
+    """
+
+    members: pd.DataFrame
+    seed: int = 0
+
+    def chunk(self, i: int, n: int) -> Study:
+        """Chunk i = 1..n: every n-th member, from the i-th on, about an n-th of the
+        work."""
+        return replace(self, members=self.members.iloc[i - 1 :: n])
+
+
+def stack(blocks: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
+    """Members of several ensembles one below the other; each has a value or an array
+    for every column."""
+    return pd.concat([pd.DataFrame(block) for block in blocks], ignore_index=True)
+
+
+def draws(runs: int) -> dict[str, Any]:
+    """Columns of an ensemble: as many runs with noise, after draw 0 without it."""
+    draw = np.arange(runs + 1)
+    return {"draw": draw, "load_noise": np.where(draw == 0, 0.0, NOISE)}
+
+
+def chain_of(member: Mapping[Any, Any], seed: int = 0) -> Chain:
+    """Chain of a member; it depends on nothing but the member and the seed.
+
+    Noise of size s changes each normal load to w_i (1 + s u_i) with u_i uniform in
+    -1..1.
+    """
+    chain = Chain.from_slider(
+        **{name: member[name] for name in SLIDER if name in member}
+    )
+    chain = loaded(chain, member.get("loading", "linear"))
+    size = member.get("load_noise", 0.0)
+    if size == 0.0:
+        return chain
+    stream = np.random.SeedSequence(seed, spawn_key=(member["group"], member["draw"]))
+    change = size * np.random.default_rng(stream).uniform(-1, 1, chain.n_blocks)
+    return replace(chain, weights=chain.weights * (1 + change))
+
+
+def loaded(chain: Chain, loading: str) -> Chain:
+    """The chain with the same total load in another shape, a key of LOADINGS; "linear"
+    is Eq. 7 as it is."""
+    if loading == "linear":
+        return chain
+    weights = LOADINGS[loading](np.linspace(0.0, 1.0, chain.n_blocks))
+    return replace(chain, weights=weights / weights.sum() * chain.normal_load)
+
+
+def run_members(study: Study) -> pd.DataFrame:
+    """Run all members of a study on one core.
+
+    Returns
+    -------
+    DataFrame
+        The members, each with the summary of its run (see `summary.SUMMARY`), units in
+        the names: load_N. A member that meets the limit of transitions is summarised as
+        far as it came.
+    """
+    size = max(1, BLOCKS_PER_BATCH // max(study.members["n_blocks"], default=1))
+    results = [pd.DataFrame(np.empty(0, SUMMARY))]
+    for _, members in study.members.groupby("duration", sort=False):
+        for begin in range(0, len(members), size):
+            batch = members.iloc[begin : begin + size]
+            chains = [
+                chain_of(member, study.seed) for member in batch.to_dict("records")
+            ]
+            summary = summarise(_runs(chains, float(batch["duration"].iloc[0])))
+            results.append(summary.set_index(batch.index))
+    return study.members.join(pd.concat(results).rename(columns=WITH_UNITS))
+
+
+def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
+    """One table of a study from its chunks, without columns that say nothing
+    (`LEFT_OUT`).
+
+    Raises
+    ------
+    ValueError
+        If a chunk is missing or there twice.
+    """
+    together = pd.concat([table for table in chunks if len(table)]).sort_values(
+        "member", ignore_index=True
+    )
+    if (together["member"] != together.index).any():
+        raise ValueError("the chunks are not all members of their study, each once")
+    constant = [
+        name for name in LEFT_OUT & set(together) if len(set(together[name])) == 1
+    ]
+    return together.drop(columns=["member", *constant])
+
+
+def noise_table(
+    members: pd.DataFrame,
+    point: Sequence[str] = ("scene", "theta"),
+    quantities: Iterable[str] = TOLERANCES,
+) -> pd.DataFrame:
+    """Distribution of each number over the noise.
+
+    Returns
+    -------
+    DataFrame
+        One row per point and quantity: without_noise; runs with noise; reached, how
+        many of these have a global slip; `nine_tenths` of those.
+    """
+    rows = []
+    for values, at_point in members.groupby(list(point), sort=False):
+        alone = at_point[at_point["draw"] == 0]
+        runs = with_noise(at_point)
+        number = {"runs": int((at_point["draw"] > 0).sum()), "reached": len(runs)}
+        for quantity in quantities:
+            labels = dict(zip(point, values, strict=True)) | {"quantity": quantity}
+            labels["without_noise"] = alone[quantity].item()
+            rows.append(labels | number | nine_tenths(runs[quantity]))
+    return pd.DataFrame(rows)
+
+
+def with_noise(members: pd.DataFrame) -> pd.DataFrame:
+    """The runs with noise that have a global slip."""
+    return members[(members["draw"] > 0) & members["reached"]]
+
+
+def _runs(chains: Sequence[Chain], duration: float) -> Sequence[Record]:
+    """Run a batch; a run that meets the limit of transitions is kept as far as it
+    came."""
+    try:
+        return simulate_many(chains, duration, "global slip", 1)
+    except TransitionLimitError as limit:
+        if len(chains) == 1:
+            return [limit.run]
+        return [run for chain in chains for run in _runs([chain], duration)]

@@ -1,0 +1,1 @@
+"""Smaller models, and which of them answers which question."""

@@ -1,0 +1,112 @@
+"""The models, from the smallest to the largest, and the quantities that each of them
+answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from maegawa2010.studies.models import rigid, statics
+from maegawa2010.studies.models.quasistatic import (
+    ENERGY_CONSERVED,
+    OVERDAMPED,
+    quasistatic_slips,
+)
+from precursors.analysis.events import slip_events
+from precursors.analysis.slip_rows import counted
+from precursors.analysis.slips import mu_sapp
+from precursors.model.chain import Chain
+from precursors.model.statics import longest_run
+from precursors.solver.simulate import simulate
+
+Model = Callable[[Chain], dict[str, Any]]
+PAPERS_MODEL = "chain"
+# What one may ask of a chain, up to and including its first global slip, and its unit.
+UNITS = {
+    "load_bound": "N",  # largest load of any state of rest (Eq. 13)
+    "first_load": "N",  # load at the onset of the first event
+    "events_counted": "1",  # number of events counted in Fig. 13
+    "mu_sapp": "1",  # apparent static friction coefficient (Eq. 1)
+    "front_loads": "N",  # load at which the front first reaches each block 1..N
+    "slip_duration": "s",  # of the first global slip
+    "waveform": "N",  # rows of time [s] and load [N], with straight lines between them
+}
+
+
+def exact_answers(chain: Chain) -> dict[str, Any]:
+    """Follow the paper's chain through time to the end of its first global slip."""
+    run = simulate(chain, longest_run(chain), until="global slip")
+    slips = slip_events([run])
+    last = slips[-1]
+    times = np.append(0.0, run.transitions["time"])
+    loads = np.append(0.0, run.transitions["tangential_load"])
+    return loading_answers(chain, slips) | {
+        "slip_duration": last["end"] - last["onset"] if last["is_global"] else np.nan,
+        "waveform": np.column_stack([times, loads]),
+    }
+
+
+def cascade_answers(chain: Chain, overshoot: float) -> dict[str, Any]:
+    """Follow a quasi-static chain to its first global slip."""
+    return loading_answers(chain, quasistatic_slips(chain, overshoot))
+
+
+def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
+    """A model's answers from its slip events up to the first global slip; NaN for one
+    that needs a global slip and has none."""
+    last = slips[-1]
+    blocks = np.arange(1, chain.n_blocks + 1)
+    reached = np.searchsorted(np.maximum.accumulate(slips["front"]), blocks)
+    answers = {
+        "first_load": slips["load_before"][0],
+        "events_counted": np.count_nonzero(counted(slips["front"])),
+        "mu_sapp": mu_sapp(last["largest_load"], chain.normal_load),
+        "front_loads": np.append(slips["load_before"], np.nan)[reached],
+    }
+    if not last["is_global"]:
+        answers |= {"events_counted": np.nan, "mu_sapp": np.nan}
+    return answers
+
+
+# From the smallest to the largest: all answers about a chain, by quantity. The key is
+# the word after `model:` in a scene.
+MODELS: dict[str, Model] = {
+    "statics": statics.answers,
+    "law": statics.law_answers,
+    "rigid": rigid.answers,
+    "overdamped": partial(cascade_answers, overshoot=OVERDAMPED),
+    "quasistatic": partial(cascade_answers, overshoot=ENERGY_CONSERVED),
+    PAPERS_MODEL: exact_answers,
+}
+
+
+def scene_answers(slider: Mapping[str, Any], model: str) -> pd.DataFrame:
+    """Ask a model all that it answers about a slider, up to the end of the first global
+    slip.
+
+    Returns
+    -------
+    DataFrame
+        One row per number: model, quantity, value and its unit; block (1..N) for the
+        load at which the front first reaches each block; time_s [s] for the tangential
+        load over time.
+    """
+    tables = []
+    for quantity, answer in MODELS[model](Chain.from_slider(**slider)).items():
+        value = np.asarray(answer)
+        if value.ndim == 2:
+            table = pd.DataFrame(value, columns=["time_s", "value"])
+        else:
+            table = pd.DataFrame({"value": np.atleast_1d(value)})
+        if value.ndim == 1:
+            table["block"] = table.index + 1
+        tables.append(
+            table.assign(model=model, quantity=quantity, unit=UNITS[quantity])
+        )
+    columns = ["model", "quantity", "block", "time_s", "value", "unit"]
+    return pd.concat(tables).reindex(columns=columns).astype({"block": "Int64"})

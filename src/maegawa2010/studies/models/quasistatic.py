@@ -1,0 +1,221 @@
+"""The quasi-static chain: slips are cascades from one state of rest to the next,
+without inertia or time.
+
+The load grows until block 1 reaches its strength. Then a set of blocks moves at once.
+With B the stiffness matrix of the chain, g_i the net force of the springs on block i
+and s_i the direction of its slip, the blocks S of the set would be in balance with
+kinetic friction after the displacements
+
+    u* = B_SS^-1 (g - s mu_k w)_S,
+
+and they move by (1 + overshoot) u*. A block at rest that this pushes beyond mu_s w
+joins the set, which then moves anew from where it began. One that would move against
+its direction once it has joined is put out again, and so is one that began the slip
+where no other does. When no block joins, all stop. Those whose net force then exceeds
+mu_s w begin a further stage of the same event. Without time, "all blocks at the same
+instant" has no meaning: a global slip is an event in which every block slides.
+
+Two values of the overshoot have a meaning:
+
+* overshoot = 1 ("quasistatic"). On the straight line through u*, the elastic energy set
+  free equals the friction heat again at 2 u*. The set has no kinetic energy left there,
+  so it stops. Its net forces are mirrored about mu_k w. For one block this is the exact
+  slip, 2 (mu_s - mu_k) w / (k + K).
+* overshoot = 0 ("overdamped"). All kinetic energy is lost on the way: the limit of a
+  slip that is damped at every instant. Which set moves does not depend on the order in
+  which blocks join it.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from precursors.analysis.events import EVENT
+from precursors.analysis.slips import COLUMNS
+from precursors.model.chain import Chain, FloatArray
+from precursors.support.compiled import entry
+
+ENERGY_CONSERVED = 1.0
+OVERDAMPED = 0.0
+MAX_EVENTS = 1_000_000
+MAX_STAGES = 100_000  # of one event, each with less elastic energy than the one before
+ROUNDING = 1e-12  # of F_Z: a block that far beyond its strength still rests
+BEGAN, JOINED, PUT_OUT = range(3)
+SLIP = np.dtype([(name, EVENT[name]) for name in COLUMNS])
+
+compiled = entry(Path(__file__).parent, ["quasistatic.py"], error_model="numpy")
+
+
+class Cascade(NamedTuple):
+    """A chain as the compiled functions take it."""
+
+    springs: FloatArray
+    limit: FloatArray  # force beyond which a block does not rest [N]
+    friction: FloatArray
+    reach: float  # 1 + overshoot
+
+
+def quasistatic_slips(
+    chain: Chain, overshoot: float = ENERGY_CONSERVED, max_events: int = MAX_EVENTS
+) -> NDArray[np.void]:
+    """Slip events of the quasi-static chain, from rest to its first global slip, as
+    `find_slips` has them.
+
+    An event ends when it begins; `n_simultaneous` is the largest set that moves.
+    `overshoot` is how far the blocks move beyond the balance with kinetic friction,
+    from 0 (all kinetic energy is lost) to 1 (none is).
+
+    Raises
+    ------
+    ValueError
+        If the overshoot is not within 0..1, a block has no weight, or mu_s = mu_k.
+    RuntimeError
+        If the first global slip is not reached within `max_events`, or an event does
+        not come to rest within MAX_STAGES stages.
+    """
+    if not 0.0 <= overshoot <= 1.0:
+        raise ValueError(f"overshoot must be between 0 and 1, but is {overshoot:g}")
+    if chain.mu_s == chain.mu_k:
+        raise ValueError(
+            f"mu_k of a quasi-static chain must be below mu_s = {chain.mu_s:g}, but is equal"
+        )
+    if not chain.weights.all():
+        block = int(np.argmin(chain.weights)) + 1
+        raise ValueError(
+            f"every block of a quasi-static chain must have weight, but block {block} has 0 N"
+        )
+    limit = chain.strength + ROUNDING * chain.normal_load
+    numbers = Cascade(chain.springs, limit, chain.kinetic_friction, 1.0 + overshoot)
+    strength = float(chain.strength[0])
+    stiffness = chain.drive_stiffness
+    n = chain.n_blocks
+    net = np.zeros(n)
+    load = 0.0
+    moved = 0.0
+    rows = []
+    for event in range(1, max_events + 1):
+        load += strength - net[0]
+        net[0] = strength
+        slip, at_once = slip_of_event(numbers, net, MAX_STAGES)
+        if not at_once:
+            raise RuntimeError(
+                f"event {event} does not come to rest within {MAX_STAGES} stages; a larger mu_s - mu_k helps"
+            )
+        time = (load / stiffness + moved) / chain.drive_velocity
+        before = load
+        load -= stiffness * slip[0]
+        moved += slip[0]
+        slid = np.flatnonzero(slip)
+        front = slid[-1] + 1
+        is_global = len(slid) == n
+        rows.append(
+            (time, time, before, load, before, front, len(slid), at_once, is_global)
+        )
+        if is_global:
+            slips = np.array(rows, SLIP)
+            slips["largest_load"] = np.maximum.accumulate(slips["load_before"])
+            return slips
+    raise RuntimeError(f"no global slip within {max_events} events: raise max_events")
+
+
+@compiled
+def slip_of_event(cascade, net, max_stages):
+    """Displacements [m] of one event that block 1 begins, and the largest set that
+    moves at once.
+
+    `net` [N] becomes what it is after the event. The set is 0 if the event does not
+    come to rest.
+    """
+    at_once = 0
+    slip = np.zeros_like(net)
+    direction = np.zeros_like(net)
+    direction[0] = 1.0
+    for _ in range(max_stages):
+        step = slip_of_stage(cascade, net, direction)
+        lost = lost_force(cascade.springs, step)
+        at_once = max(at_once, int(np.count_nonzero(direction)))
+        for i in range(len(net)):
+            slip[i] += step[i]
+            net[i] -= lost[i]
+            direction[i] = beyond_strength(cascade, net[i], i)
+        if not direction.any():
+            return slip, at_once
+    return slip, 0
+
+
+@compiled
+def beyond_strength(cascade, net, i):
+    """Direction in which a net force [N] moves block i, or 0 if static friction holds
+    it."""
+    return math.copysign(1.0, net) if abs(net) > cascade.limit[i] else 0.0
+
+
+@compiled
+def slip_of_stage(cascade, net, direction):
+    """Displacements [m] of the set that `direction` begins, once no block joins or
+    leaves it."""
+    n = net.shape[0]
+    state = np.zeros(n, np.int64)
+    while True:
+        step = balance(cascade, net, direction)
+        leaves = -1  # blocks in this state that turn round
+        for i in range(n):
+            step[i] *= cascade.reach
+            if step[i] * direction[i] < 0.0:
+                leaves = max(leaves, state[i])
+        if leaves >= 0:
+            for i in range(n):
+                if step[i] * direction[i] < 0.0 and state[i] == leaves:
+                    direction[i] = 0.0
+                    state[i] = PUT_OUT
+            continue
+        lost = lost_force(cascade.springs, step)
+        joins = False
+        for i in range(n):
+            if direction[i] == 0.0 and state[i] != PUT_OUT:
+                direction[i] = beyond_strength(cascade, net[i] - lost[i], i)
+                if direction[i] != 0.0:
+                    state[i] = JOINED
+                    joins = True
+        if not joins:
+            return step
+
+
+@compiled
+def balance(cascade, net, direction):
+    """Displacements u* [m] that put the moving blocks in balance with friction (Thomas'
+    algorithm)."""
+    n = net.shape[0]
+    ratio = np.zeros(n)
+    solved = np.zeros(n)
+    step = np.zeros(n)
+    for i in range(n):
+        if direction[i] != 0.0:
+            behind = cascade.springs[i]
+            ahead = cascade.springs[i + 1] if i + 1 < n else 0.0
+            # A block that rests has the ratio and the solution 0.
+            pivot = behind + ahead - (behind * ratio[i - 1] if i > 0 else 0.0)
+            force = net[i] - direction[i] * cascade.friction[i]
+            solved[i] = (force + (behind * solved[i - 1] if i > 0 else 0.0)) / pivot
+            ratio[i] = ahead / pivot
+    for i in range(n - 1, -1, -1):
+        step[i] = solved[i] + (ratio[i] * step[i + 1] if i + 1 < n else 0.0)
+    return step
+
+
+@compiled
+def lost_force(springs, step):
+    """Forces [N] by which displacements [m] lower the net forces of the springs on the
+    blocks."""
+    lost = np.empty_like(step)
+    ahead = 0.0
+    for i in range(step.shape[0] - 1, -1, -1):
+        behind = springs[i] * step[i] - (springs[i] * step[i - 1] if i > 0 else 0.0)
+        lost[i] = behind - ahead
+        ahead = behind
+    return lost

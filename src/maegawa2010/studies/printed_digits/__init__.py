@@ -1,0 +1,1 @@
+"""Sliders with the same printed inputs."""

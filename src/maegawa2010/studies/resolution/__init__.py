@@ -1,0 +1,1 @@
+"""Convergence with the number of blocks."""

@@ -1,0 +1,1 @@
+"""The paper's numbers against the step of a Runge-Kutta method."""

@@ -1,0 +1,1 @@
+"""The paper's numbers in a window of theta."""

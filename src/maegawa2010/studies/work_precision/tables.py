@@ -1,0 +1,121 @@
+"""Speed against accuracy: methods with several settings, timed side by side and
+compared with the truth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from maegawa2010.methods import METHODS, ROWS, Method, Result
+from maegawa2010.methods.attempt import attempt
+from maegawa2010.support import timing
+from precursors.benchmark.compare import Truth, compare
+
+if TYPE_CHECKING:
+    from precursors.proof import Certificate
+
+UNTIL = "global slip"
+# Rounds of which a time is the median. In the default chart, a call that takes longer
+# than `LONG` [s] is timed once: it is a mean over what else the machine does, as the
+# short calls of a round together are.
+ROUNDS = 3
+ROUNDS_FULL = 5
+LONG = 0.05
+LONG_FULL = math.inf
+# A method is given up at a setting with which one call takes longer [s]: in the default
+# chart, in the full one.
+LONGEST = 2.0
+LONGEST_FULL = 5.0
+# What a method compiles, loads or builds for a chain and a value, it does in a run that
+# is so short [s].
+WARM_UP = 0.4
+SHORTEST = 0.0025  # s, of a round: see `timing.measure`
+
+
+def work_precision_table(
+    certificate: Certificate, scene: str, full: bool
+) -> pd.DataFrame:
+    """Measure all methods on a proved chain, up to its first global slip."""
+    limits = (ROUNDS_FULL, LONGEST_FULL, LONG_FULL) if full else (ROUNDS, LONGEST, LONG)
+    truth = Truth.proved(certificate).until_global_slip()
+    duration = float(certificate.proved_until)
+    table = measure_methods(truth, duration, charted_values(full), *limits)
+    table.insert(0, "scene", scene)
+    return table
+
+
+def charted_values(full: bool) -> dict[str, tuple[float, ...]]:
+    """Values of each method's setting in the default chart or the full one, from loose
+    to tight."""
+    column = "values" if full else "quick"
+    return {name: tuple(map(float, row[column].split())) for name, row in ROWS.items()}
+
+
+def measure_methods(
+    truth: Truth,
+    duration: float,
+    values: Mapping[str, Sequence[float]],
+    rounds: int = ROUNDS,
+    longest: float = LONGEST,
+    long: float = math.inf,
+) -> pd.DataFrame:
+    """Time methods with several settings, and compare each run with the truth.
+
+    A run ends with the first global slip, as the truth does, and at the latest after a
+    `duration` [s]; of a run that breaks off, what there is counts. `values` of each
+    method's setting go from loose to tight. A time is the median of some rounds in
+    which methods take turns, after a short warm-up; a call that takes longer than
+    `long` [s] is timed once. A method is given up at a value with which a call takes
+    longer than `longest` [s].
+
+    Returns
+    -------
+    DataFrame
+        A row per method and value; `evaluations` is NaN for a method that counts none,
+        and errors are those of `Comparison`.
+    """
+    tasks: dict[int, Callable[[], Result]] = {}
+    warm: dict[int, timing.Seconds] = {}
+    rows: list[dict[str, object]] = []
+    chain = truth.run.chain
+    for name, some in values.items():
+        for value in some:
+            task, warm_up = (
+                partial(attempt, METHODS[name].solve, chain, end, value, UNTIL)
+                for end in (duration, min(WARM_UP, duration))
+            )
+            result, seconds = timing.second_call(task, warm_up)
+            if seconds.wall > longest:
+                break
+            if seconds.wall <= long:
+                tasks[len(rows)] = task
+                warm[len(rows)] = seconds
+            rows.append(_row(truth, METHODS[name], value, result, seconds.wall))
+    for key, found in timing.measure(tasks, rounds, SHORTEST, warm).items():
+        rows[key]["seconds"] = found.seconds
+    return pd.DataFrame(rows)
+
+
+def _row(
+    truth: Truth, method: Method, value: float, result: Result, seconds: float
+) -> dict[str, object]:
+    found = compare(result.run, truth)
+    return {
+        "method": method.name,
+        "label": ROWS[method.name]["label"],
+        "color": ROWS[method.name]["color"],
+        "marker": ROWS[method.name]["marker"],
+        "setting": method.setting,
+        "value": value,
+        "evaluations": result.evaluations or math.nan,
+        "seconds": seconds,
+        "error_load_N": found.load_error,
+        "error_time_s": found.time_error,
+        "transitions_right": found.transitions_right,
+        "transitions_found": found.transitions_found,
+        "transitions_true": found.transitions_true,
+    }

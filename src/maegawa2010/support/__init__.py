@@ -1,0 +1,1 @@
+"""Digest of code, timing, statistics of runs."""

@@ -1,0 +1,94 @@
+"""Digest of what a job computes: the syntax trees of its script and of all that this
+imports."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+from functools import cache
+from pathlib import Path
+
+
+def digest_code(root: str | Path, script: str, *modules: str) -> str:
+    """Digest of a script of the workflow, of some modules, and of all modules that
+    these import.
+
+    Comments, docstrings and the format of the code are left out, and so is what only a
+    type checker imports. `root` is the directory of the Snakefile, `script` a name such
+    as "simulate_scene"; `modules` are those that the script imports by a name that it is
+    given, such as "precursors.figures.scene".
+
+    Raises
+    ------
+    OSError
+        If a file cannot be read.
+    ValueError
+        If there is no module of a name: a list of the workflow has it misspelt.
+    """
+    sources = Path(root, "src")
+    waiting = [Path(root, "workflow/scripts", f"{script}.py")]
+    for name in modules:
+        module = _file(sources.joinpath(*name.split(".")))
+        if module is None:
+            raise ValueError(f"there is no module {name}")
+        waiting.append(module)
+    found: dict[Path, str] = {}
+    while waiting:
+        if (path := waiting.pop()) not in found:
+            found[path], imported = _read(sources, path)
+            waiting += imported
+    trees = sorted(
+        (path.relative_to(root).as_posix(), tree) for path, tree in found.items()
+    )
+    return hashlib.sha256(repr(trees).encode()).hexdigest()[:16]
+
+
+def _file(module: Path) -> Path | None:
+    """The file of a module or package, if there is one."""
+    files = (module.with_suffix(".py"), module / "__init__.py")
+    return next((file for file in files if file.is_file()), None)
+
+
+@cache
+def _read(sources: Path, path: Path) -> tuple[str, list[Path]]:
+    """Digest of one file, and the files that it imports."""
+    source = path.read_bytes()
+    digest, names = _parse(source)
+    imported = {
+        file for name in names if (file := _file_of(sources, path.parent, name))
+    }
+    if path.name == "__init__.py" and b"import_module(" in source:
+        imported |= set(path.parent.glob("*.py"))  # by names that only a run knows
+    return digest, sorted(imported)
+
+
+@cache
+def _parse(source: bytes) -> tuple[str, list[str]]:
+    """Digest of the syntax tree of a module, and the names that it imports."""
+    tree = ast.parse(source)
+    tree.body = [
+        part
+        for part in tree.body
+        if not (isinstance(part, ast.If) and ast.unparse(part.test) == "TYPE_CHECKING")
+    ]
+    names: list[str] = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            names += [f"{node.module}.{alias.name}" for alias in node.names]
+        elif isinstance(
+            node, ast.Module | ast.ClassDef | ast.FunctionDef
+        ) and ast.get_docstring(node, False):
+            node.body = node.body[1:]
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), names
+
+
+@cache
+def _file_of(sources: Path, beside: Path, name: str) -> Path | None:
+    """The module of that name, or the one that defines it; None outside the sources and
+    the directory."""
+    *parents, last = name.split(".")
+    start = sources if parents and (sources / parents[0]).is_dir() else beside
+    package = start.joinpath(*parents)
+    return _file(package / last) or _file(package)

@@ -1,1 +1,0 @@
-"""Methods compared with proved transitions, and the ways in which they fail."""

@@ -1,0 +1,1 @@
+"""Lists of transitions compared with proved ones."""

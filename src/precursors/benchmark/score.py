@@ -1,0 +1,171 @@
+"""Scores of result files on the reference problems of docs/benchmark.md."""
+
+from __future__ import annotations
+
+import math
+import re
+from decimal import Decimal, InvalidOperation
+from functools import cache
+from itertools import takewhile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from precursors.analysis.slips import first_global_slip, slip_table
+from precursors.benchmark.compare import Truth, compare
+from precursors.proof import Certificate
+from precursors.solver.run import Record
+
+# In a wheel the certificates lie in the package, in a checkout beside the workflow.
+PACKAGE = Path(__file__).parents[1]
+PLACES = (PACKAGE / "certificates", PACKAGE.parents[1] / "workflow" / "certificates")
+NEEDED = ("time_s", "block", "mode", "tangential_load_N")
+COSTS = ("evaluations", "seconds")
+# Transitions: time [s], block, mode, load [N].
+Rows = list[Any]
+
+
+def problems() -> dict[str, Path]:
+    """Names of the problems, with the certificates of their solutions."""
+    files = [path for place in PLACES for path in sorted(place.glob("*.json.gz"))]
+    return {path.name.removesuffix(".json.gz"): path for path in files}
+
+
+@cache
+def solution(problem: str) -> Truth:
+    """The proved transitions of a problem."""
+    known = problems()
+    require(problem in known, problem, f"the problems are {', '.join(known)}")
+    return Truth.proved(Certificate.load(known[problem]))
+
+
+def score_table(solvers: pd.DataFrame, folder: str) -> pd.DataFrame:
+    """Score the files SOLVER-PROBLEM.csv of a folder: a row for each of them."""
+    rows = [
+        solver | score(path, path.stem.rpartition("-")[2], solver["ties_s"])
+        for solver in solvers.to_dict("records")
+        for path in sorted(Path(folder).glob(f"{solver['solver']}-*.csv"))
+    ]
+    return pd.DataFrame(rows)
+
+
+def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
+    """Compare a result file with the proved solution of a problem.
+
+    Rows whose times differ by at most `ties` [s] may stand in any order. Errors are the
+    largest before the first wrong transition; NaN is what the file does not tell. A
+    file that is no result of the problem is a ValueError in one line.
+    """
+    truth = solution(problem)
+    chain = truth.run.chain
+    end = truth.run.duration
+    rows = [row for row in read_result(path, chain.n_blocks) if row["time_s"] <= end]
+    given = [tuple(row[name] for name in NEEDED) for row in rows]
+    true = truth.run.transitions.tolist()
+    ordered = in_true_order(given, true, decimal("ties", str(ties)))
+    columns = np.array(ordered, dtype=float).reshape(-1, len(NEEDED)).T
+    found = Truth.of_run(Record.from_columns(chain, end, *columns))
+    whole = compare(found.run, truth)
+    start = compare(found.until_global_slip().run, truth.until_global_slip())
+    values = {
+        "problem": problem,
+        "transitions_right": whole.transitions_right,
+        "transitions_true": whole.transitions_true,
+        "first_wrong": in_words(ordered[whole.transitions_right :]),
+        "should_be": in_words(true[whole.transitions_right :]),
+        "time_error_s": whole.time_error,
+        "load_error_N": whole.load_error,
+        "time_error_to_global_slip_s": start.time_error,
+        "load_error_to_global_slip_N": start.load_error,
+    }
+    for which, run in (("", found.run), ("_true", truth.run)):
+        first = first_global_slip(slip_table(run))
+        values[f"events_counted{which}"] = first.events_counted if first else math.nan
+        values[f"mu_sapp{which}"] = first.mu_sapp if first else math.nan
+    last = rows[-1] if rows else {}
+    return values | {name: float(last.get(name, math.nan)) for name in COSTS}
+
+
+def in_words(transitions: Rows) -> str:
+    """The first of some transitions."""
+    words = (
+        f"block {i} to mode {m} at {float(t):.12g} s" for t, i, m, _ in transitions
+    )
+    return next(words, "none")
+
+
+def in_true_order(found: Rows, true: Rows, ties: Decimal) -> Rows:
+    """Order transitions no farther apart than `ties` [s] as the truth does."""
+    ordered = list(found)
+    for k, (_, block, mode, _) in enumerate(true[: len(found)]):
+        end = ordered[k][0] + ties
+        tied = takewhile(end.__ge__, (time for time, *_ in ordered[k:]))
+        blocks = [row[1] for row in ordered[k : k + len(list(tied))]]
+        place = k + blocks.index(block) if block in blocks else k
+        if ordered[place][1:3] != (block, mode):
+            break
+        ordered.insert(k, ordered.pop(place))
+    return ordered
+
+
+def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
+    """Read the rows of a result file, with blocks from 1."""
+    text = Path(path).read_text(encoding="utf-8-sig", errors="replace")
+    separator = ";" if re.search("(?m)^[^#\n]*;", text) else ","
+    lines = {
+        number: [cell.strip('" ') for cell in line.split(separator)]
+        for number, line in enumerate(text.splitlines(), 1)
+        if line.strip() and line[0] != "#"
+    }
+    header = lines.pop(min(lines)) if lines else []
+    first = 0 if "block_from_0" in header else 1
+    last = first + n_blocks - 1
+    names = [name.removesuffix("_from_0") for name in header]
+    for name in NEEDED:
+        times = names.count(name)
+        require(
+            times == 1, path, f"{name} must be once in the header, not {times} times"
+        )
+    modes: dict[Any, Any] = dict.fromkeys(range(first, last + 1), 0)
+    rows: list[dict[str, Any]] = []
+    time = Decimal(0)
+    for number, cells in lines.items():
+        at = f"{path}, line {number}"
+        require(len(cells) == len(names), at, f"it must have {len(names)} cells")
+        row = {
+            name: decimal(f"{at}: {name}", cell)
+            for name, cell in zip(names, cells, strict=True)
+            if name in NEEDED or (name in COSTS and cell)
+        }
+        block = row["block"]
+        mode = row["mode"]
+        from_0 = " (is the column block_from_0?)" if block == 0 else ""
+        allowed = f"block must be {first} to {last}, but is {block}{from_0}"
+        require(block in modes, at, allowed)
+        require(mode in (-1, 0, 1), at, f"mode must be -1, 0 or 1, but is {mode}")
+        repeated = f"block {block} is in mode {mode} already: is a row missing?"
+        require(mode != modes[block], at, repeated)
+        require(row["time_s"] >= time, at, "time_s must not fall from row to row")
+        time = row["time_s"]
+        modes[block] = mode
+        rows.append(row | {"block": int(block) + 1 - first, "mode": int(mode)})
+    return rows
+
+
+def decimal(where: str, text: str) -> Decimal:
+    """Return a number as it is written, with a decimal point or comma."""
+    try:
+        number = Decimal(text.replace(",", "."))
+    except InvalidOperation:
+        number = Decimal("nan")
+    if not number.is_finite():
+        raise ValueError(f"{where} must be a finite number, but is {text!r}")
+    return number
+
+
+def require(holds: bool, where: object, otherwise: str) -> None:
+    """Raise a ValueError unless something holds."""
+    if not holds:
+        raise ValueError(f"{where}: {otherwise}")

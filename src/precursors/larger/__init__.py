@@ -1,0 +1,1 @@
+"""The one larger chain: falling friction, viscosity, and the height of the push."""

@@ -1,0 +1,71 @@
+"""Transitions of a run that nobody computed, and proofs that are made step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from precursors import Chain, Record
+from precursors.benchmark.compare import Comparison
+from precursors.proof import Certificate, ExactChain, certify
+from precursors.proof.tube import Proof
+
+CHAIN = Chain.from_slider(n_blocks=3)
+DURATION = 4.0
+# Times are multiples of 1/8 s and loads of 1/2 N, so that sums and differences are
+# exact.
+TRUE = [
+    (1.0, 1, 1, 50.0),
+    (1.125, 1, 0, 49.0),
+    (2.0, 1, 1, 90.0),
+    (2.125, 2, 1, 88.0),
+    (2.25, 1, 0, 85.0),
+    (2.375, 2, 0, 85.5),
+    (3.0, 1, 1, 120.0),
+    (3.125, 2, 1, 118.0),
+    (3.25, 3, 1, 110.0),
+    (3.375, 1, 0, 100.0),
+    (3.5, 2, 0, 101.0),
+    (3.625, 3, 0, 101.5),
+]
+# Seven blocks, the middle one pushed aside: blocks 2 and 6 are released at the same
+# instant, by symmetry.
+SYMMETRIC_START = ["0", "0", "0", "1e-5", "0", "0", "0"]
+
+
+def made_up(rows) -> Record:
+    time, block, mode, load = zip(*rows, strict=True) if rows else ((), (), (), ())
+    return Record.from_columns(CHAIN, DURATION, time, block, mode, load)
+
+
+def has_all_transitions(found: Comparison) -> bool:
+    """Whether a run has the transitions of the truth in their order, and no other."""
+    return found.transitions_right == found.transitions_found == found.transitions_true
+
+
+def tied_certificate() -> Certificate:
+    """A proof that ends with a tie."""
+    return certify(
+        ExactChain.from_slider(n_blocks=7), 1, start_positions=SYMMETRIC_START
+    )
+
+
+def proof_of(
+    chain: ExactChain,
+    bits: int,
+    positions: Sequence[Fraction | str] = (),
+    velocities: Sequence[Fraction | str] = (),
+) -> Proof:
+    """A proof that has not begun; the chain starts from rest if nothing is given."""
+    starts = [
+        tuple(map(Fraction, of or [0] * chain.n_blocks))
+        for of in (positions, velocities)
+    ]
+    return Proof(
+        Certificate(chain, Fraction(100), None, *starts, Fraction(1), (), None, bits)
+    )
+
+
+def go_on(proof: Proof) -> None:
+    """Take the next step of a proof."""
+    assert proof.slide() if any(proof.state.mode) else proof.load()

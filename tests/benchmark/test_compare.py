@@ -1,0 +1,175 @@
+"""A run is compared with the truth transition by transition."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from benchmark.made_up import (
+    CHAIN,
+    DURATION,
+    TRUE,
+    has_all_transitions,
+    made_up,
+    tied_certificate,
+)
+from reference import read_golden
+
+from precursors import Chain, simulate
+from precursors.benchmark.compare import Truth, compare
+
+ONSETS = [0, 2, 6]
+# What doubles reach up to the first global slip [s], ten times what the exact solver's
+# error is.
+ROUNDING = 1e-14
+NONE = math.nan
+
+
+def altered(*changes, shift: float = 0.0, after: int = len(TRUE)) -> list[tuple]:
+    """The true rows with others in some places, and times shifted in and after one of
+    them."""
+    rows = [(t + shift * (k >= after), *rest) for k, (t, *rest) in enumerate(TRUE)]
+    for k, row in changes:
+        rows[k] = row
+    return rows
+
+
+# A run, its right transitions and slips, all its transitions, its largest errors [s, N],
+# and when it first differs [s].
+FOUND = {
+    "the truth": (TRUE, 12, 3, 12, 0.0, 0.0, math.inf),
+    "late, and once early": (
+        altered((4, (2.21875, *TRUE[4][1:])), shift=0.015625, after=0),
+        *(12, 3, 12, 0.03125, 0.0, math.inf),
+    ),
+    "another load at an onset": (
+        altered((6, (3.0, 1, 1, 119.5))),
+        12,
+        3,
+        12,
+        0.0,
+        0.5,
+        math.inf,
+    ),
+    "another load elsewhere": (
+        altered((7, (3.125, 2, 1, 119.5))),
+        12,
+        3,
+        12,
+        0.0,
+        0.0,
+        math.inf,
+    ),
+    "another block": (
+        altered((5, (2.375, 3, 0, 85.5)), shift=0.25, after=6),
+        5,
+        1,
+        12,
+        0.0,
+        0.0,
+        2.375,
+    ),
+    "another mode": (
+        altered((5, (2.375, 2, -1, 85.5)), shift=0.25, after=6),
+        5,
+        1,
+        12,
+        0.0,
+        0.0,
+        2.375,
+    ),
+    "another first block": (
+        altered((0, (1.0, 2, 1, 50.0))),
+        0,
+        0,
+        12,
+        NONE,
+        NONE,
+        1.0,
+    ),
+    "another order": (
+        altered((4, (2.25, 2, 0, 85.0)), (5, (2.375, 1, 0, 85.5))),
+        4,
+        3,
+        12,
+        0.0,
+        0.0,
+        2.25,
+    ),
+    "another front": (
+        [*TRUE[:2], (2.0, 1, 1, 80.0), (2.125, 1, 0, 70.0), *TRUE[6:]],
+        *(3, 1, 10, 0.0, 0.0, 2.125),
+    ),
+    "one is missing": ([*TRUE[:9], *TRUE[10:]], 9, 3, 11, 0.0, 0.0, 3.375),
+    "it breaks off": (TRUE[:6], 6, 2, 6, 0.0, 0.0, 3.0),
+    "two more": (
+        [*TRUE, (3.75, 1, 1, 101.0), (3.875, 1, 0, 100.0)],
+        12,
+        3,
+        14,
+        0.0,
+        0.0,
+        3.75,
+    ),
+    "nothing": ([], 0, 0, 0, NONE, NONE, 1.0),
+}
+
+
+@pytest.mark.parametrize(
+    ("rows", "n", "n_slips", "found", "time", "load", "differs"),
+    FOUND.values(),
+    ids=FOUND,
+)
+def test_what_is_right_ends_with_the_first_difference(
+    rows, n, n_slips, found, time, load, differs
+):
+    of = compare(made_up(rows), Truth.of_run(made_up(TRUE)))
+    assert (of.transitions_right, of.slips_right) == (n, n_slips)
+    assert (of.transitions_found, of.transitions_true) == (found, 12)
+    assert (of.time_error, of.load_error, of.first_difference) == pytest.approx(
+        (time, load, differs), abs=0.0, rel=0.0, nan_ok=True
+    )
+
+
+def test_digits_that_doubles_do_not_hold_count_too():
+    beyond = Fraction(1, 2**60)
+    exact = [(Fraction(t) + beyond, b, m, Fraction(f) - beyond) for t, b, m, f in TRUE]
+    found = compare(made_up(TRUE), Truth.exact(CHAIN, DURATION, exact))
+    assert (found.time_error, found.load_error) == (2.0**-60, 2.0**-60)
+
+
+def test_runs_of_other_chains_are_refused():
+    with pytest.raises(ValueError, match="as many blocks as the truth, 3, but has 4"):
+        compare(
+            simulate(Chain.from_slider(n_blocks=4), 0.1), Truth.of_run(made_up(TRUE))
+        )
+
+
+def test_the_truth_until_the_global_slip_is_what_a_run_until_it_has():
+    cut = Truth.of_run(simulate(Chain.from_slider(), 10.0)).until_global_slip()
+    run = simulate(Chain.from_slider(), 10.0, "global slip")
+    np.testing.assert_array_equal(cut.run.transitions, run.transitions)
+    assert cut.run.duration == run.duration
+    for rows in (TRUE[:6], TRUE[:10]):
+        unfinished = Truth.of_run(made_up(rows))
+        assert unfinished.until_global_slip() is unfinished
+
+
+def test_the_exact_solver_has_every_transition_of_the_reference():
+    truth = Truth.exact(Chain.from_slider(), 10.0, read_golden("fig10"))
+    assert has_all_transitions(compare(simulate(Chain.from_slider()), truth))
+    found = compare(
+        simulate(Chain.from_slider(), 10.0, "global slip"), truth.until_global_slip()
+    )
+    assert has_all_transitions(found)
+    assert 0.0 < found.time_error < ROUNDING
+
+
+def test_a_proof_that_ends_with_a_tie_is_the_truth_up_to_there():
+    certificate = tied_certificate()
+    assert certificate.tie
+    truth = Truth.proved(certificate)
+    assert truth.run.duration == float(certificate.proved_until) < certificate.duration
+    assert len(truth.run.transitions) == len(certificate.transitions) == 3

@@ -1,0 +1,210 @@
+"""Result files are scored against the proved lists; wrong ones are told in a line."""
+
+from __future__ import annotations
+
+import math
+import re
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from precursors import simulate
+from precursors.analysis.slips import find_slips, first_global
+from precursors.benchmark.score import problems, score, solution
+from precursors.proof import Certificate
+
+HEADER = "time_s,block,mode,tangential_load_N"
+# Largest error of a number that is rounded to a double, below 16 s and 512 N.
+ROUNDING_S = 2.0**-50
+ROUNDING_N = 2.0**-45
+
+
+def true_rows(problem: str = "uniform") -> list[str]:
+    """The proved list as a result file, with times and loads rounded once."""
+    certificate = Certificate.load(problems()[problem])
+    return [
+        f"{float(t.time.midpoint)!r},{t.block},{t.mode},"
+        f"{float(t.tangential_load.midpoint)!r}"
+        for t in certificate.transitions
+    ]
+
+
+@pytest.fixture
+def scored(tmp_path: Path):
+    """Score the lines of a result file."""
+
+    def of(*lines: str, problem: str = "uniform", ties: float = 0.0):
+        path = tmp_path / "mine.csv"
+        path.write_text("\n".join(lines), encoding="utf-8")
+        return score(path, problem, ties)
+
+    return of
+
+
+@pytest.mark.parametrize("problem", problems())
+def test_the_list_itself_is_right_to_rounding(scored, problem):
+    rows = true_rows(problem)
+    found = scored(HEADER, *rows, problem=problem)
+    assert found["transitions_right"] == found["transitions_true"] == len(rows)
+    assert found["first_wrong"] == found["should_be"] == "none"
+    assert found["time_error_s"] <= ROUNDING_S
+    assert found["load_error_N"] <= ROUNDING_N
+    assert found["mu_sapp"] == found["mu_sapp_true"]
+    assert found["events_counted"] == found["events_counted_true"]
+
+
+def test_a_score_ends_with_the_first_wrong_transition(scored):
+    rows = true_rows()
+    rows[700] = rows[700].replace(",1,", ",3,", 1).replace(",0,", ",-1,")
+    time, block, mode, _ = true_rows()[700].split(",")
+    found = scored(HEADER, *rows)
+    assert found["transitions_right"] == 700
+    truth = f"block {block} to mode {mode} at {float(time):.12g} s"
+    assert found["should_be"] == truth != found["first_wrong"]
+
+
+def test_errors_are_those_before_the_first_wrong_transition_and_the_global_slip(scored):
+    rows = [row.split(",") for row in true_rows()]
+    end = solution("uniform").until_global_slip().run.duration
+    later = next(k for k, row in enumerate(rows) if float(row[0]) > end)
+    onset = find_slips(solution("uniform").run)["onset"]
+    for k, shift in ((3, 2.0**-30), (later + 5, 2.0**-20)):
+        rows[k][0] = repr(float(rows[k][0]) + shift)
+    for row in rows:
+        if float(row[0]) == onset[2]:
+            row[3] = repr(float(row[3]) + 0.5)
+    rows[later + 50][2] = "-1"
+    rows[later + 60][0] = repr(float(rows[later + 60][0]) + 1e-9)
+    found = scored(HEADER, *[",".join(row) for row in rows])
+    assert found["transitions_right"] == later + 50
+    assert found["time_error_s"] == pytest.approx(2.0**-20, abs=ROUNDING_S)
+    assert found["time_error_to_global_slip_s"] == pytest.approx(
+        2.0**-30, abs=ROUNDING_S
+    )
+    assert found["load_error_to_global_slip_N"] == pytest.approx(0.5, abs=ROUNDING_N)
+
+
+def test_ties_may_stand_in_any_order_within_the_tolerance_only(scored):
+    rows = true_rows("trailing")
+    times = [float(row.split(",")[0]) for row in rows]
+    gaps = [b - a for a, b in pairwise(times)]
+    k = gaps.index(min(gaps))  # the closest two: 0.47 ns
+    middle = repr(times[k])
+    swapped = [row.split(",", 1)[1] for row in (rows[k + 1], rows[k])]
+    rows[k : k + 2] = [f"{middle},{row}" for row in swapped]
+    ask = {"problem": "trailing"}
+    assert scored(HEADER, *rows, **ask)["transitions_right"] == len(rows)
+    rows[k + 1] = f"{times[k + 1]!r},{swapped[1]}"
+    assert scored(HEADER, *rows, **ask)["transitions_right"] == k
+    assert scored(HEADER, *rows, **ask, ties=1e-10)["transitions_right"] == k
+    assert scored(HEADER, *rows, **ask, ties=1e-9)["transitions_right"] == len(rows)
+
+
+def test_two_transitions_of_one_block_are_no_tie(scored):
+    rows = true_rows()[:2]  # block 1 begins to slide, and stops
+    turned = [rows[0].replace(",1,1,", ",1,-1,"), rows[1]]
+    assert scored(HEADER, *turned, ties=1.0)["transitions_right"] == 0
+
+
+def test_files_are_read_as_solvers_write_them(scored):
+    rows = true_rows()[:60]
+    plain = scored(HEADER, *rows)
+    assert plain["transitions_right"] == 60
+    assert plain["first_wrong"] == "none"
+    columns = [row.split(",") for row in rows]
+    zero = [f"{t},{int(b) - 1},{m},{load}" for t, b, m, load in columns]
+    others = {
+        "blocks from 0": (HEADER.replace("block", "block_from_0"), *zero),
+        "semicolons": [row.replace(",", ";") for row in (HEADER, *rows)],
+        "decimal commas": [
+            row.replace(",", ";").replace(".", ",") for row in (HEADER, *rows)
+        ],
+        "another order": (
+            'mode, time_s, "remark", tangential_load_N, block',
+            *[f"{m}, {t}, mine, {load}, {b}" for t, b, m, load in columns],
+        ),
+        "comments, empty lines, byte order mark": (
+            f"\ufeff# mine; all of it\n{HEADER}",
+            *[f"{row}\n\n#" for row in rows],
+        ),
+        "rows after the end": (HEADER, *rows),
+    }
+    for lines in others.values():
+        found = scored(*lines)
+        assert {k: v for k, v in found.items() if v == v} == {
+            k: v for k, v in plain.items() if v == v
+        }
+
+
+def test_rows_after_the_duration_are_ignored_and_costs_are_those_of_the_last(scored):
+    rows = [f"{row},{k},{k / 8}" for k, row in enumerate(true_rows())]
+    found = scored(f"{HEADER},evaluations,seconds", *rows, "10.5,1,1,200,9999,9999")
+    assert found["first_wrong"] == "none"
+    assert (found["evaluations"], found["seconds"]) == (1427, 1427 / 8)
+    without = scored(HEADER, *true_rows())
+    assert math.isnan(without["evaluations"])
+
+
+def test_the_exact_solver_is_right_up_to_its_predictability_time(scored):
+    truth = solution("fast_drive")
+    run = simulate(truth.run.chain, truth.run.duration)
+    rows = [",".join(map(repr, row.item())) for row in run.transitions]
+    found = scored(HEADER, *rows, problem="fast_drive")
+    slips = find_slips(truth.run)
+    onset = slips["onset"].iloc[first_global(slips)]
+    first_wrong = float(found["should_be"].split()[-2])
+    assert onset < first_wrong < truth.run.duration
+
+
+ROW = "0.35,1,1,28"
+WRONG = {
+    "empty": ([], "mine.csv: time_s must be once in the header, not 0 times"),
+    "no header": ([ROW], "mine.csv: time_s must be once in the header, not 0 times"),
+    "no modes": (
+        ["time_s,block,tangential_load_N"],
+        "mode must be once in the header, not 0 times",
+    ),
+    "milliseconds": (["time_ms,block,mode,tangential_load_N"], "time_s must be once"),
+    "two columns of blocks": (
+        ["time_s,block,block_from_0,mode,tangential_load_N"],
+        "block must be once in the header, not 2 times",
+    ),
+    "a short row": (
+        [HEADER, ROW, "0.4,1,0"],
+        "line 3: it must have 4 cells",
+    ),
+    "a decimal comma": ([HEADER, "0,35,1,1,28"], "line 2: it must have 4"),
+    "no number": (
+        [HEADER, "# t", "soon,1,1,28"],
+        "line 3: time_s must be a finite number, but is",
+    ),
+    "not finite": ([HEADER, "nan,1,1,28"], "line 2: time_s must be a finite number"),
+    "block 0": ([HEADER, "0.35,0,1,28"], "line 2: block must be 1 to 10"),
+    "block 10 from 0": (
+        [HEADER.replace("block", "block_from_0"), "0.35,10,1,28"],
+        "line 2: block must be 0 to 9",
+    ),
+    "half a block": ([HEADER, "0.35,1.5,1,28"], "line 2: block must be 1 to 10"),
+    "mode 2": ([HEADER, "0.35,1,2,28"], "line 2: mode must be -1, 0 or 1, but is 2"),
+    "mode twice": ([HEADER, ROW, ROW], "line 3: block 1 is in mode 1 already"),
+    "sticks first": ([HEADER, "0.1,4,0,1"], "line 2: block 4 is in mode 0 already"),
+    "back in time": (
+        [HEADER, ROW, "0.34,1,0,27"],
+        "line 3: time_s must not fall",
+    ),
+    "before the start": ([HEADER, "-1,1,1,28"], "line 2: time_s must not fall"),
+    "binary": (["\x00\x01\x89PNG"], "time_s must be once in the header, not 0 times"),
+}
+
+
+@pytest.mark.parametrize(("lines", "told"), WRONG.values(), ids=WRONG)
+def test_a_wrong_file_is_told_in_one_line(scored, lines, told):
+    with pytest.raises(ValueError, match=re.escape(told)) as caught:
+        scored(*lines)
+    assert "\n" not in str(caught.value)
+
+
+def test_an_unknown_problem_is_told_with_those_there_are(scored):
+    with pytest.raises(ValueError, match=r"unifrom: the problems are .*, uniform"):
+        scored(HEADER, problem="unifrom")

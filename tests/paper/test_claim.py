@@ -1,0 +1,325 @@
+"""A claim gets the verdict that the run and the ensembles around it give."""
+
+from dataclasses import replace
+
+import pandas as pd
+import pytest
+
+from maegawa2010.paper.claim import (
+    CHECK,
+    EXACT,
+    EXPERIMENT,
+    FAILS,
+    HOLDS,
+    READINGS,
+    RESULT,
+    UNDECIDED,
+    Claim,
+    Finding,
+    Share,
+    in_draws,
+    in_words,
+)
+from maegawa2010.paper.claims import (
+    CLAIMS,
+    count_grows_with_theta,
+    differences,
+    evaluate,
+    friction_independent_of_loading,
+    growth_falls_with_theta,
+    lengths_tend_to_increase,
+    waves,
+)
+from maegawa2010.paper.inputs import SCENES
+from maegawa2010.paper.tables import one
+
+NAN = float("nan")
+
+
+@pytest.mark.parametrize(
+    ("holds", "noise", "digits", "verdict"),
+    [
+        (True, 1000, 390, HOLDS),  # at least 95.4 %
+        (True, 1000, 385, UNDECIDED),  # 93.8 to 97.9 %
+        (True, 1000, 375, UNDECIDED),  # 91.1 to 95.9 %
+        (True, 1000, 365, EXACT),  # at most 93.7 %
+        (True, 930, 385, EXACT),  # one ensemble is enough
+        (False, 1000, 400, FAILS),
+        (None, 1000, 400, UNDECIDED),
+    ],
+)
+def test_the_run_decides_whether_a_claim_holds_and_the_ensembles_for_which_inputs(
+    holds, noise, digits, verdict
+):
+    shares = {"noise": Share(noise, 1000), "digits": Share(digits, 400)}
+    assert Finding(1.0, holds, shares=shares).verdict == verdict
+    assert (
+        Finding(1.0, holds).verdict
+        == {True: HOLDS, False: FAILS, None: UNDECIDED}[holds]
+    )
+
+
+def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_does_not_hold():
+    def found(noise: list[float], digits: list[float]) -> Finding:
+        members = [
+            pd.DataFrame({"scene": "s", "draw": range(len(x)), "x": x})
+            for x in (noise, digits)
+        ]
+        tables = dict(zip(("noise_members", "digits_members"), members, strict=True))
+        return in_draws(tables, lambda runs: runs["x"], lambda x: x < 0.5)
+
+    finding = found([0.4, 0.4, 0.6], [0.4, 0.4, 0.4, NAN])
+    assert finding.holds
+    assert finding.shares == {"noise": Share(1, 2), "digits": Share(2, 3)}
+    assert not found([NAN, 0.4], [NAN, 0.4]).holds
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "verdict"),
+    [
+        (["same", "same", "same"], HOLDS),
+        (["same", "different", "undecided"], FAILS),
+        (["same", "undecided", "same"], UNDECIDED),
+        ([], FAILS),
+    ],
+)
+def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(
+    verdicts, verdict
+):
+    found = pd.DataFrame(
+        {"quantity": "mu_sapp", "difference": 0.0, "verdict": verdicts}
+    )
+    tables = {"noise_differences": found, **members_of(mu_sapp=0.5)}
+    finding = friction_independent_of_loading(tables)
+    assert replace(finding, shares={}).verdict == verdict
+    assert finding.note == "The values of the three runs agree: they differ by 0."
+
+
+def test_the_values_of_three_runs_agree_to_a_unit_of_the_last_digit():
+    """In the run they are 0.011 apart, and in the draw of each ensemble 0.009."""
+    run, draw = [0.49, 0.495, 0.501], [0.49, 0.495, 0.499]
+    members = pd.concat(
+        pd.DataFrame({"scene": SCENES, "draw": i, "mu_sapp": values})
+        for i, values in enumerate((run, draw))
+    )
+    pairs = pd.DataFrame(columns=["quantity", "difference", "verdict"])
+    tables = {"noise_differences": pairs, "noise_members": members}
+    finding = friction_independent_of_loading({**tables, "digits_members": members})
+    assert finding.note.endswith("do not agree: they differ by 0.011.")
+    assert [*finding.shares.values()] == [Share(1, 1)] * 2
+
+
+@pytest.mark.parametrize(
+    ("front", "verdict"),
+    [
+        ([1, 3, 2, 4, 5, 6], HOLDS),  # of all orders 0.8 and 4.2 % rise as much
+        ([2, 1, 4, 3, 5, 6], UNDECIDED),  # 2.8 and 11.7 %
+        ([2, 1, 4, 3, 6, 5], FAILS),  # 6.8 and 11.7 %
+    ],
+)
+def test_lengths_tend_to_increase_if_they_do_so_without_the_global_slip_too(
+    front, verdict
+):
+    assert lengths_tend_to_increase(slips_of(front=front)).verdict == verdict
+
+
+@pytest.mark.parametrize(("mu_sapp", "verdict"), [(0.6951, HOLDS), (0.6949, UNDECIDED)])
+def test_a_chain_without_waves_can_confirm_the_condition_on_waves_but_not_refute_it(
+    mu_sapp, verdict
+):
+    assert waves(overdamped(mu_sapp)).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("kind", "verdict", "words"),
+    [
+        (RESULT, EXACT, "holds only for exactly these inputs"),
+        (EXPERIMENT, EXACT, "agrees only for exactly these inputs"),
+        (EXPERIMENT, FAILS, "differs"),
+        (CHECK, HOLDS, "passes"),
+        (READINGS, UNDECIDED, "cannot be decided"),
+    ],
+)
+def test_the_words_of_a_verdict_are_those_of_its_kind(kind, verdict, words):
+    assert in_words(kind, verdict) == words
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "verdict"),
+    [(3, 3, HOLDS), (0, 3, UNDECIDED), (0, 0, FAILS), (-2, -1, FAILS)],
+)
+def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zero(
+    low, high, verdict
+):
+    counts = pd.DataFrame({"scene": SCENES, "events_counted": [6, 9, 14]})
+    members = counts.merge(pd.DataFrame({"draw": range(401)}), how="cross")
+    pairs = [("fig10", "fig11", 1, 1), ("fig12", "fig10", low, high)]
+    medians = pd.DataFrame(pairs, columns=["scene", "other", "low", "high"])
+    tables = {"noise_differences": medians.assign(quantity="events_counted")}
+    tables |= dict.fromkeys(("noise_members", "digits_members"), members)
+    assert count_grows_with_theta(tables).verdict == verdict
+
+
+@pytest.mark.parametrize(("last", "holds"), [(3.1, True), (3.0, False)])
+def test_growth_falls_with_theta_if_it_is_less_for_each_next_loading(last, holds):
+    tables = {
+        f"{scene}_slips": pd.DataFrame(
+            {"load_before_N": [1.0, load], "front": [1, 2], "counted": True}
+        )
+        for scene, load in zip(SCENES, (2.0, 3.0, last), strict=True)
+    }
+    assert growth_falls_with_theta(tables).holds is holds
+
+
+def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_is_one_clear_line():
+    def no_event(_):
+        raise IndexError
+
+    row = Claim("a", "Sect. 1", RESULT, "", "", "1", no_event).row({})
+    assert row["verdict"] == FAILS
+    with pytest.raises(
+        ValueError, match=r"^claim count-trailing: the tables do not have its numbers"
+    ):
+        evaluate({"noise_members": pd.DataFrame({"scene": ["fig10"], "draw": [0]})})
+    with pytest.raises(IndexError, match="0 rows have x = 1: needed is one"):
+        one(pd.DataFrame({"x": [2]}), "x", x=1)
+
+
+def test_differences_are_claims_that_are_new_gone_or_of_another_verdict():
+    def table(**verdicts):
+        return pd.DataFrame(verdicts.items(), columns=["claim", "verdict"])
+
+    found, expected = table(a=HOLDS, b=HOLDS, c=EXACT), table(a=HOLDS, b=EXACT, d=EXACT)
+    assert differences(found, expected) == [
+        "b: is holds, expected exact",
+        "c: is exact, expected none",
+        "d: is missing, expected exact",
+    ]
+
+
+def slips_of(**columns) -> dict[str, pd.DataFrame]:
+    """The same slip table for each scene, ending with a global slip unless it is said
+    which are."""
+    table = pd.DataFrame(columns)
+    if "is_global" not in table:
+        table["is_global"] = table.index == len(table) - 1
+    return {
+        f"{scene}_slips": table.assign(counted=True, n_blocks=10) for scene in SCENES
+    }
+
+
+def members_of(**columns) -> dict[str, pd.DataFrame]:
+    """The run and one draw of each ensemble, the same in each scene."""
+    runs = pd.DataFrame(
+        [
+            {"scene": scene, "draw": draw, **columns}
+            for scene in SCENES
+            for draw in (0, 1)
+        ]
+    )
+    return dict.fromkeys(("noise_members", "digits_members"), runs)
+
+
+def times(spread: float, *is_global: bool) -> dict[str, pd.DataFrame]:
+    """Events whose times vary by `spread`, standard deviation over mean."""
+    onset = [0.0, 1.0 - spread, 2.0, 9.0][: len(is_global)]
+    return slips_of(onset_s=onset, is_global=is_global)
+
+
+def traces(load: float, first: float) -> dict[str, pd.DataFrame]:
+    trace = pd.DataFrame({"tangential_load_N": [0.0, load, 1.0]})
+    slips = slips_of(normal_load_N=[400.0], load_before_N=[first])
+    return slips | {f"{scene}_trace": trace for scene in SCENES}
+
+
+def grown(*speedup: float) -> dict[str, pd.DataFrame]:
+    """The run and one draw of each ensemble, which grow faster by so much."""
+    runs = pd.DataFrame({"scene": SCENES, "speedup": speedup}).merge(
+        pd.DataFrame({"draw": (0, 1)}), how="cross"
+    )
+    return dict.fromkeys(("noise_members", "digits_members"), runs)
+
+
+def map_of(largest: float, smallest: float) -> dict[str, pd.DataFrame]:
+    counts = pd.DataFrame(
+        {"friction_ratio": [0.2, 0.5, 0.9], "events_counted": [smallest, 99.0, largest]}
+    )
+    return {"map_theta_friction_ratio": counts}
+
+
+def lyapunov(exponent: float) -> dict[str, pd.DataFrame]:
+    columns = {
+        "scene": SCENES,
+        "exponent_per_s": [9.0, exponent, 9.0],
+        "uncertainty_per_s": 1.0,
+    }
+    return {"lyapunov": pd.DataFrame(columns)}
+
+
+def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
+    columns = {
+        "scene": SCENES,
+        "value": [0.7, mu_sapp, 0.7],
+        "model": "overdamped",
+        "question": "mu_sapp",
+    }
+    return {"model_comparison": pd.DataFrame(columns)}
+
+
+@pytest.mark.parametrize(
+    ("name", "meets", "misses"),
+    [
+        ("friction-uniform", members_of(mu_sapp=0.4801), members_of(mu_sapp=0.4799)),
+        ("friction-uniform", members_of(mu_sapp=0.4999), members_of(mu_sapp=0.5001)),
+        ("chaos", lyapunov(1.001), lyapunov(1.0)),
+        ("stick-slip-is-not-periodic", times(0.051, 1, 1, 1), times(0.049, 1, 1, 1)),
+        (
+            "precursors-are-not-periodic",
+            times(0.051, 0, 0, 0, 1),
+            times(0.049, 0, 0, 0, 1),
+        ),
+        (
+            "every-slip-drops-the-load",
+            slips_of(load_before_N=[2.0, 2.0], load_after_N=[1.0, 1.9]),
+            slips_of(load_before_N=[2.0, 2.0], load_after_N=[1.0, 2.0]),
+        ),
+        (
+            "length-is-linear-in-time",
+            slips_of(onset_s=[0, 1, 2, 3], front=[1.0, 1.74, 1.0, 9.0]),
+            slips_of(onset_s=[0, 1, 2, 3], front=[1.0, 1.76, 1.0, 9.0]),
+        ),
+        (
+            "friction-underestimated",
+            members_of(mu_sapp=0.6949),
+            members_of(mu_sapp=0.6951),
+        ),
+        ("eq15-in-motion", traces(277.9, 270.0), traces(278.1, 270.0)),
+        (
+            "first-global-slip-is-at-the-largest-load",
+            traces(200.0, 200.0),
+            traces(200.1, 200.0),
+        ),
+        (
+            "short-events",
+            members_of(events_to_global_slip=10, events_counted=9),
+            members_of(events_to_global_slip=9, events_counted=9),
+        ),
+        ("static-and-kinetic-friction", map_of(6.0, 5.0), map_of(5.0, 5.0)),
+        (
+            "precursors-in-later-periods",
+            slips_of(is_global=[1, 0, 1, 1, 0, 1]),
+            slips_of(is_global=[1, 0, 1, 1]),
+        ),
+        ("no-rapid-growth", grown(1.2, 1.0, 1.2), grown(1.2, 1.01, 1.2)),
+        ("load-of-the-experiment", members_of(load_N=209.9), members_of(load_N=210.1)),
+        (
+            "slip-duration-of-the-experiment",
+            members_of(time_s=1.0, end_s=1.00151),
+            members_of(time_s=1.0, end_s=1.00149),
+        ),
+    ],
+)
+def test_a_claim_holds_up_to_its_limit_and_not_beyond(name, meets, misses):
+    find = next(claim.find for claim in CLAIMS if claim.name == name)
+    assert find(meets).holds
+    assert not find(misses).holds

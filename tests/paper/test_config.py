@@ -1,0 +1,266 @@
+"""A wrong configuration is refused in one line: which value, where, and what it must
+be."""
+
+import copy
+import math
+import time
+from functools import cache
+from pathlib import Path
+
+import pytest
+import yaml
+
+from maegawa2010.config import check_config, check_file, read_numbers
+from maegawa2010.scenes import scene_slider, scenes_with
+from precursors.model.chain import Chain
+
+ROOT = Path(__file__).parents[2]
+AT_ONCE = 10.0  # s; a file without end takes minutes, the largest read here one second
+SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
+PAPERS = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+MISSING = object()
+read_once = cache(yaml.safe_load)  # the schema
+STEEP = {"title": "steep", "theta": 0.9}
+
+
+@pytest.fixture(autouse=True)
+def _schema_is_read_once(monkeypatch):
+    monkeypatch.setattr(yaml, "safe_load", read_once)
+
+
+# Key, value, and words that the line must hold.
+MEASURED = {"title": "as measured", "weights": [30.0, 40.0, 50.0]}
+WRONG = [
+    (
+        "chain.youngs_modulus",
+        "2.5e9",
+        ["chain.youngs_modulus: '2.5e9'", "2.5e+9 and not as 2.5e9"],
+    ),
+    ("chain.mu_k", "0.46", ["chain.mu_k: '0.46'", "this is text"]),
+    ("chain.n_blocks", 10**4000, ["chain.n_blocks: 1000", "0... is greater"]),
+    ("chain.mu_k", 0.8, ["chain: ", "mu_k", "0.8", "mu_s = 0.7"]),
+    ("scenes.fig10.mu_k", 0.9, ["scenes.fig10: ", "mu_k", "0.9", "mu_s = 0.7"]),
+    ("chain.n_blocks", 0, ["chain.n_blocks: 0", "minimum of 1"]),
+    ("chain.length", math.nan, ["chain: ", "length", "nan"]),
+    ("chain.length", MISSING, ["chain: 'length' is a required property"]),
+    ("chain.mass", 0.0012, ["chain: ", "'mass' was unexpected"]),
+    ("speed", 1.0, ["top level: ", "'speed' was unexpected"]),
+    ("scenes.fig10.load_cel_a", 1.0, ["scenes.fig10: ", "'load_cel_a' was unexpected"]),
+    (
+        "scenes.fig10.load_cell_b",
+        MISSING,
+        ["'load_cell_a'] must have either theta or both load_cell_a and load_cell_b"],
+    ),
+    ("scenes.fig10.theta", 0.1, ["'theta'] must have either theta or both"]),
+    ("scenes.fig10.load_cell_b", 5000.0, ["scenes.fig10: ", "-1"]),
+    (
+        "scenes.fig10.normal_load",
+        500.0,
+        ["scenes.fig10: ", "must not have normal_load beside load cells", "sum"],
+    ),
+    (
+        "scenes.steep",
+        {"title": "steep"},
+        ["scenes.steep: ['title'] must have either theta"],
+    ),
+    (
+        "scenes.steep",
+        STEEP | {"theta": 1.1},
+        ["scenes.steep.theta: 1.1 must be a number between -1 and 1, or"],
+    ),
+    ("scenes.st eep", STEEP, ["scenes: 'st eep' must be a name of at most 64 letters"]),
+    ("scenes.steep", STEEP | {"title": "a\x01"}, ["without control characters"]),
+    (
+        "scenes.steep",
+        MEASURED | {"theta": 0},
+        ["scenes.steep: ['title', 'weights', 'theta'] must have either theta"],
+    ),
+    (
+        "scenes.steep",
+        MEASURED | {"normal_load": 120.0},
+        ["must not have normal_load or n_blocks beside weights"],
+    ),
+    (
+        "scenes.steep",
+        MEASURED | {"weights": "none.csv"},
+        ["scenes.steep: ", "none.csv: No such file"],
+    ),
+    ("scenes.steep", MEASURED | {"weights": [0.0, 0.0]}, ["scenes.steep: ", "weights"]),
+    (
+        "fig13",
+        ["fig10", "fig11", "fig99"],
+        ["fig13 holds 'fig99'", "fig10, fig11, fig12"],
+    ),
+    (
+        "fig13",
+        ["fig10", "fig11"],
+        ["fig13: ['fig10', 'fig11'] must be the names of three scenes"],
+    ),
+    ("figure_formats", ["doc"], ["figure_formats[0]: 'doc' is not one of"]),
+    (
+        "scenes.steep",
+        STEEP | {"viscosity": 1.0, "relaxation_time": 1e-6},
+        ["must not have viscosity beside relaxation_time"],
+    ),
+    (
+        "scenes.steep",
+        STEEP | {"viscosity": 1.0, "model": "statics"},
+        ["must not have what a larger chain adds beside model"],
+    ),
+    ("reproduction.theta", ["0", "7/6"], ["theta in reproduction: ", "7/6"]),
+    ("accuracy.proved.leading.mu_k", 0.9, ["accuracy.proved.leading: ", "mu_k"]),
+    ("accuracy.compared", ["none"], ["holds 'none'", "trailing"]),
+    (
+        "ensembles.resolution.runs",
+        [40],
+        ["resolution.runs", "one number for each of n_blocks"],
+    ),
+]
+
+
+# Ten lines that stand for 9**9 entries.
+MERGE_BOMB = "a0: &a0 {x: 1}\n" + "".join(
+    f"a{i}: &a{i} {{<<: [{', '.join(9 * [f'*a{i - 1}'])}]}}\n" for i in range(1, 10)
+)
+
+
+def changed(key, value):
+    """The paper's configuration with one value changed."""
+    config = copy.deepcopy(PAPERS)
+    table = config
+    *parents, last = key.split(".")
+    for name in parents:
+        table = table[name]
+    if value is MISSING:
+        del table[last]
+    else:
+        table[last] = value
+    return config
+
+
+def leaves(value, where=()):
+    """Places of all numbers, texts and lists of a configuration."""
+    if isinstance(value, dict):
+        return [
+            leaf
+            for key, inner in value.items()
+            for leaf in leaves(inner, (*where, key))
+        ]
+    return [".".join(where)]
+
+
+def refused(config):
+    with pytest.raises(ValueError, match=r"\Aconfiguration: [^\n]+\Z") as error:
+        check_config(config, SCHEMA)
+    return str(error.value)
+
+
+def test_the_papers_configuration_is_accepted():
+    check_config(PAPERS, SCHEMA)
+    assert scenes_with(PAPERS, "run") == ["fig10", "fig11", "fig12"]
+    assert [
+        Chain.from_slider(**scene_slider(PAPERS, name)).normal_load
+        for name in PAPERS["scenes"]
+    ] == pytest.approx([400.0] * 3)
+    assert [scene_slider(PAPERS, name)["theta"] for name in PAPERS["scenes"]] == [
+        0.0,
+        -5 / 6,
+        5 / 6,
+    ]
+    for theta in (-1, 0.5, "5/6"):
+        check_config(changed("scenes.steep", STEEP | {"theta": theta}), SCHEMA)
+
+
+def test_a_scene_that_names_a_model_is_answered_and_not_run():
+    config = changed("scenes.rough", STEEP | {"model": "quasistatic"})
+    config["scenes"]["quick"] = STEEP | {"model": "chain"}
+    check_config(config, SCHEMA)
+    assert scenes_with(config, "answers") == ["rough", "quick"]
+
+
+@pytest.mark.parametrize(("key", "value", "words"), WRONG)
+def test_a_wrong_value_is_named_with_its_place_and_what_it_must_be(key, value, words):
+    line = refused(changed(key, value))
+    assert [word for word in words if word not in line] == [], line
+
+
+@pytest.mark.parametrize(
+    "value", [None, {"a": 1}, "much"], ids=["empty", "table", "text"]
+)
+def test_every_value_of_the_file_is_checked(value):
+    keys = [leaf for leaf in leaves(PAPERS) if "title" not in leaf]
+    lines = {key: refused(changed(key, value)) for key in keys}
+    assert [key for key, line in lines.items() if key.split(".")[-1] not in line] == []
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            "a: 1\nb: {c: 2, c: 3}\n",
+            "the key 'c' stands there twice in line 2, column 11",
+        ),
+        (
+            "a:\n\tb: 1\n",
+            "found character '\\t' that cannot start any token in line 2, column 1",
+        ),
+        (
+            "a: 010\n",
+            "010 is not plain: write a decimal number, or a text in quotes in line 1, column 4",
+        ),
+        ("a: [1, 1:30]\n", "1:30 is not plain"),
+        ("a: .nan\n", ".nan is not plain"),
+        ("a: [1\n", "line 2, column 1"),
+        ("a: !!python/tuple [1]\n", "could not determine a constructor"),
+        ("- 1\n", "must be a table of keys and values"),
+        ("", "must be a table of keys and values"),
+        ("a: \x07\n", "special characters are not allowed"),
+        ("a: &x [1]\nb: *x\n", "write out what * stands for in line 2, column 4"),
+        (MERGE_BOMB, "write out what * stands for in line 2, column 15"),
+        (f"# {20_000_000 * 'x'}\n", "may have 100,000 bytes"),
+        (f"a: {20_000 * '['}", "too many tables in each other"),
+        (f"a: [{200_001 * '1,'}]", "may have 100,000 bytes"),
+        ("a: 1\n---\na: 2\n", "but found another document in line 2, column 1"),
+        (f"a: {10_000 * '1'}", "Exceeds the limit"),
+    ],
+)
+def test_a_file_that_is_not_plain_yaml_is_refused_with_its_place(tmp_path, text, words):
+    path = tmp_path / "mine.yaml"
+    path.write_text(text, encoding="utf-8")
+    start = time.monotonic()
+    with pytest.raises(ValueError, match=r"\A[^\n]+mine.yaml[^\n]+\Z") as error:
+        check_file(path)
+    assert words in str(error.value)
+    assert len(str(error.value)) < 400
+    assert time.monotonic() - start < AT_ONCE
+
+
+def test_plain_numbers_and_quoted_texts_are_accepted(tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text(
+        """a: [0, -1, 0.5, 2.5e+9, 1_000, "010", '1:30', text, true]\n""",
+        encoding="utf-8",
+    )
+    check_file(path)
+
+
+def test_measured_normal_loads_are_those_of_the_blocks_from_a_list_or_a_file(tmp_path):
+    (tmp_path / "loads.csv").write_text("30\n40\n50\n")
+    for weights in (MEASURED["weights"], str(tmp_path / "loads.csv")):
+        config = changed("scenes.steep", MEASURED | {"weights": weights})
+        check_config(config, SCHEMA)
+        chain = Chain.from_slider(**scene_slider(config, "steep"))
+        assert chain.weights.tolist() == [30.0, 40.0, 50.0]
+        assert chain == Chain.from_slider(n_blocks=3, normal_load=120.0, theta=0.25)
+        slider = scene_slider(config, "steep")
+        assert (slider["n_blocks"], slider["normal_load"]) == (3, 120.0)
+        assert math.isnan(slider["theta"])
+
+
+def test_numbers_of_the_chain_may_be_text_as_in_config_of_the_command_line():
+    read = read_numbers(
+        {"n_blocks": "12", "youngs_modulus": "3e9", "mu_s": 0.7, "mu_k": "low"}
+    )
+    assert read == {"n_blocks": 12, "youngs_modulus": 3e9, "mu_s": 0.7, "mu_k": "low"}
+    assert isinstance(read["n_blocks"], int)
+    assert read_numbers(5) == 5

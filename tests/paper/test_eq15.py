@@ -1,0 +1,107 @@
+"""Every check of Eq. 15 holds, and fails where the equation or the chain it is about is
+broken."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+import sympy
+from golden.test_golden import assert_eq15
+
+from maegawa2010.paper import derivation, eq15
+from precursors import Chain, simulate
+
+SCENES = {"fig11": "-5/6", "fig10": 0.0, "fig12": "5/6"}
+CHAINS = {name: Chain.from_slider(theta=theta) for name, theta in SCENES.items()}
+CHAIN = CHAINS["fig10"]
+# Times of mu_s F_Z in double precision.
+ROUNDING = 1e-12
+
+
+@pytest.fixture(scope="module")
+def table():
+    return eq15.eq15_table(
+        {name: simulate(chain, 10.0) for name, chain in CHAINS.items()}, 10.0
+    )
+
+
+def test_every_check_holds_with_the_numbers_that_are_kept(table, tmp_path):
+    table.to_csv(tmp_path / "eq15.csv", index=False)
+    assert_eq15(pd.read_csv(tmp_path / "eq15.csv"))
+
+
+@pytest.mark.parametrize("n", range(1, 13))
+def test_the_load_of_eq_12_is_mu_s_F_Z_for_any_normal_loads(n):
+    load = derivation.load(derivation.balances(n))
+    assert sympy.expand(load - derivation.bound(n)) == 0
+    assert all(sympy.diff(load, w) == derivation.mu_s for w in derivation.weights(n))
+
+
+def test_the_load_of_a_rigid_slider_is_that_of_the_closed_form():
+    """One block with mu_s = mu_k: at most F_X = mu_k F_Z + V sqrt(K M)."""
+    block = replace(Chain.from_slider(n_blocks=1), mu_s=0.45)
+    speed = 2.0
+    closed = 180.0 + speed * np.sqrt(block.drive_stiffness * block.mass)
+    assert eq15.largest_load(block, speed) == pytest.approx(closed, rel=1e-6)
+
+
+# Each check on something broken.
+
+
+def test_the_state_of_eq_12_is_at_the_limit():
+    """From maximal strain on all blocks are at their limits at the onset of the first
+    slip."""
+    start = eq15.maximal_strain_positions(CHAIN)
+    strained = simulate(CHAIN, 0.001, start_positions=start)
+    row = eq15.below_limit("fig10", strained)
+    assert row.found == pytest.approx(0.0, abs=ROUNDING)
+    assert not row.holds
+
+
+@pytest.mark.parametrize(
+    ("name", "broken"),
+    [
+        ("load_bound", lambda chain: chain.mu_k * chain.normal_load),
+        ("maximal_compressions", eq15.compressions_as_printed),
+        (
+            "largest_load_at_rest",
+            lambda chain: (279.9, eq15.maximal_compressions(chain)),
+        ),
+    ],
+)
+def test_the_states_of_rest_see_a_broken_part(monkeypatch, name, broken):
+    assert eq15.at_rest("fig10", CHAIN).holds
+    monkeypatch.setattr(eq15, name, broken)
+    assert not eq15.at_rest("fig10", CHAIN).holds
+
+
+@pytest.mark.parametrize(
+    ("name", "factor", "failing"),
+    [
+        ("mu_s", 1.0 + 1.4e-11, ["full_strain", "less_strain", "rigid"]),
+        ("stiffness", 1.01, ["less_strain"]),
+        ("mu_k", 0.5, ["fast"]),
+    ],
+)
+def test_the_motion_sees_another_chain_than_the_one_it_is_about(
+    monkeypatch, name, factor, failing
+):
+    def of_another(chain, *arguments, **options):
+        return simulate(
+            replace(chain, **{name: factor * getattr(chain, name)}),
+            *arguments,
+            **options,
+        )
+
+    monkeypatch.setattr(eq15, "simulate", of_another)
+    rows = [
+        *eq15.in_motion("fig10", CHAIN, 10.0),
+        eq15.rigid(CHAIN, 10.0),
+        eq15.fast_drive("fig10", CHAIN),
+    ]
+    assert [row.check for row in rows if not row.holds] == failing
+
+
+def test_a_chain_without_a_global_slip_shows_nothing():
+    assert not eq15.rigid(CHAIN, 1.0).holds

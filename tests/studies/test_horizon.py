@@ -1,0 +1,88 @@
+"""The Lyapunov exponent is that of the linearised motion, a rate, and as uncertain as
+it says."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import scipy
+from chains import SLIDER
+
+from maegawa2010.studies.horizon import lyapunov
+from maegawa2010.studies.horizon.lyapunov import lyapunov_exponent
+from precursors import simulate
+
+# Exponents [1/s] that the linearised motion gave for the scenes.
+LINEARISED = {"-5/6": 1.657, "0": 2.164, "5/6": 1.909}
+
+
+@pytest.fixture
+def exponent_of(monkeypatch):
+    """The exponent of made-up events: where the transitions begin them, growth, and
+    times of transitions."""
+
+    def exponent(onset, growth, time):
+        monkeypatch.setattr(lyapunov, "_growth", lambda _: (onset, growth))
+        return lyapunov_exponent(SimpleNamespace(transitions={"time": time}))
+
+    return exponent
+
+
+@pytest.mark.parametrize("theta", LINEARISED)
+def test_the_exponents_are_those_of_the_linearised_motion(theta):
+    exponent = lyapunov_exponent(simulate(SLIDER(theta=theta), 100.0))
+    # Beyond the predictability time another rounding gives another run, and a mean over
+    # it another value.
+    assert exponent.exponent_per_s == pytest.approx(
+        LINEARISED[theta], abs=exponent.uncertainty_per_s
+    )
+    assert exponent.uncertainty_per_s < exponent.exponent_per_s
+
+
+def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch):
+    """Four times the mass, half the speed: the same motion, twice as slow, to the last
+    digit."""
+    chain = SLIDER(theta="5/6", drive_velocity=1e-3)
+    slow = replace(chain, mass=4 * chain.mass, drive_velocity=chain.drive_velocity / 2)
+    run = simulate(chain, 2.0)
+    one, other = lyapunov_exponent(run), lyapunov_exponent(simulate(slow, 4.0))
+    assert other.exponent_per_s == pytest.approx(one.exponent_per_s / 2, rel=1e-12)
+    monkeypatch.setattr(lyapunov, "DISTANCE", 100 * lyapunov.DISTANCE)
+    assert lyapunov_exponent(run).exponent_per_s == pytest.approx(
+        one.exponent_per_s, rel=1e-3
+    )
+
+
+@pytest.mark.parametrize(("n", "used"), [(21, 20), (40, 20), (41, 40), (400, 380)])
+def test_the_interval_of_an_exponent_is_that_of_the_mean_of_20_stretches(
+    n, used, exponent_of
+):
+    """Of events that each last 0.3 s and 7 transitions, after a tenth that is left
+    out."""
+    n_all = n + round(n * lyapunov.TRANSIENT / (1 - lyapunov.TRANSIENT))
+    growth = np.cumsum(np.random.default_rng(n).normal(0.5, 1.0, n_all))
+    found = exponent_of(7 * np.arange(n_all), growth, 0.3 / 7 * np.arange(7 * n_all))
+    means = np.diff(growth[n_all - 1 - used :: used // 20]) / (used // 20)
+    low, high = scipy.stats.t.interval(0.95, 19, means.mean(), scipy.stats.sem(means))
+    assert found.events == used
+    assert found.exponent_per_s == pytest.approx(means.mean() / 0.3)
+    assert found.uncertainty_per_s == pytest.approx((high - low) / 0.6)
+
+
+def test_an_exponent_is_certain_where_differences_grow_in_proportion_to_time(
+    exponent_of,
+):
+    time = np.cumsum(np.random.default_rng(5).exponential(size=400))
+    found = exponent_of(np.arange(400), 0.5 * time, time)
+    assert found.exponent_per_s == pytest.approx(0.5)
+    assert found.uncertainty_per_s == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):
+    with pytest.raises(ValueError, match="all differences die out"):
+        lyapunov_exponent(simulate(SLIDER(1, drive_velocity=0.02), 5.0))
+    with pytest.raises(
+        ValueError, match="more than 20 slip events after its transient, but has 20"
+    ):
+        exponent_of(np.arange(22), np.arange(22.0), np.arange(22.0))

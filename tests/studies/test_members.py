@@ -1,0 +1,126 @@
+"""The rows of a study are those of its runs one by one, however it is cut into
+chunks."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from studies.made import noise_of
+
+from maegawa2010.studies.members import (
+    LEFT_OUT,
+    WITH_UNITS,
+    Study,
+    chain_of,
+    gather,
+    run_members,
+)
+from precursors import simulate
+from precursors.analysis.summary import SUMMARY, summarise
+from precursors.support.files import read_table, write_table
+
+
+@pytest.fixture(scope="module")
+def noise() -> Study:
+    return noise_of(runs=12)
+
+
+@pytest.fixture(scope="module")
+def rows(noise) -> pd.DataFrame:
+    return run_members(noise)
+
+
+def chunks_of(study: Study, n: int, directory) -> list:
+    paths = [directory / f"{i}of{n}.csv" for i in range(1, n + 1)]
+    for i, path in enumerate(paths, 1):
+        write_table(
+            run_members(study.chunk(i, n)).rename_axis("member").reset_index(), path
+        )
+    return [read_table(path) for path in paths]
+
+
+def one_by_one(study: Study) -> pd.DataFrame:
+    """Summaries of the members of a study, each run alone."""
+    runs = []
+    for member in study.members.to_dict("records"):
+        runs.append(
+            simulate(chain_of(member, study.seed), member["duration"], "global slip")
+        )
+    return summarise(runs)
+
+
+def assert_rows(found: pd.DataFrame, expected: np.ndarray) -> None:
+    for name in SUMMARY.names:
+        np.testing.assert_array_equal(
+            found[WITH_UNITS.get(name, name)], expected[name], err_msg=name
+        )
+
+
+def test_every_row_is_that_of_its_run_alone_to_the_last_bit(noise, rows):
+    some = noise.chunk(1, 7)
+    assert_rows(rows.loc[some.members.index], one_by_one(some))
+
+
+@pytest.mark.parametrize("n", [2, 5])
+def test_the_gathered_table_is_the_same_to_the_last_bit_however_a_study_is_cut(
+    noise, rows, n, tmp_path
+):
+    chunks = chunks_of(noise, n, tmp_path)
+    table = gather(chunks[::-1])
+    pd.testing.assert_frame_equal(table, rows[list(table)], check_exact=True)
+    assert set(rows) - set(table) <= LEFT_OUT
+
+
+def test_more_chunks_than_members_leave_some_empty(noise, tmp_path):
+    few = Study(noise.members.iloc[:2], noise.seed)
+    assert len(gather(chunks_of(few, 3, tmp_path))) == 2
+
+
+def test_a_missing_and_a_doubled_chunk_are_noticed(noise, tmp_path):
+    few = Study(noise.members.iloc[:4], noise.seed)
+    a, b = chunks_of(few, 2, tmp_path)
+    for chunks in ([a], [b], [a, a], [a, b, b]):
+        with pytest.raises(ValueError, match="each once"):
+            gather(chunks)
+
+
+def test_members_are_run_with_their_own_number_of_blocks_noise_and_duration():
+    table = {
+        "n_blocks": [4, 4, 6],
+        "theta": 0.0,
+        "load_noise": [0.0, 0.5, 0.5],
+        "duration": [1.0, 2.0, 1.0],
+        "group": 0,
+        "draw": [0, 1, 2],
+    }
+    study = Study(pd.DataFrame(table))
+    assert_rows(run_members(study), one_by_one(study))
+
+
+def test_a_member_that_meets_the_limit_of_transitions_is_kept_as_far_as_it_came(
+    noise, rows, monkeypatch
+):
+    def capped(chains, duration, until, threads):
+        return [
+            simulate(chain, duration, until, max_transitions=100) for chain in chains
+        ]
+
+    monkeypatch.setattr("maegawa2010.studies.members.simulate_many", capped)
+    found = run_members(Study(noise.members.query("scene == 'fig12'"), noise.seed))
+    longer = rows.loc[found.index, "transitions"] > 100
+    assert (
+        found["transitions"] == rows.loc[found.index, "transitions"].clip(upper=100)
+    ).all()
+    assert (found["end_s"].isna() == longer).all()
+    assert longer.sum() > 0
+
+
+def test_a_larger_ensemble_contains_the_smaller(noise):
+    for few, many in zip(
+        noise.members.groupby("scene"),
+        noise_of(runs=20).members.groupby("scene"),
+        strict=True,
+    ):
+        small, large = (table.head(13).to_dict("records") for _, table in (few, many))
+        assert [chain_of(member, 1) for member in small] == [
+            chain_of(member, 1) for member in large
+        ]

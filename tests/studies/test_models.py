@@ -1,0 +1,282 @@
+"""The smaller models: closed forms, and the exact chain where both must agree."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+from golden.small_tables import SCENES, assert_kept, model_comparison
+
+from maegawa2010.studies.models import quasistatic
+from maegawa2010.studies.models.compare_models import (
+    DRAWS,
+    QUESTIONS,
+    SHORTEST,
+    compare_models,
+)
+from maegawa2010.studies.models.models import MODELS, UNITS, scene_answers
+from maegawa2010.studies.models.quasistatic import (
+    ENERGY_CONSERVED,
+    OVERDAMPED,
+    quasistatic_slips,
+)
+from maegawa2010.studies.models.rigid import (
+    load_drop,
+    rigid_slip_duration,
+    slip_load,
+)
+from maegawa2010.studies.models.statics import law_answers
+from precursors import Chain, simulate
+from precursors.model.statics import balance_matrix, load_bound
+
+ROOT = Path(__file__).parents[2]
+SLIDER = Chain.from_slider
+THETAS = ["-5/6", 0.0, "5/6"]
+ROUNDING = 1e-12  # relative, of sums of a few terms
+# Relative, grows from event to event; a wrong set of blocks is off by 1e-2.
+CASCADE_ROUNDING = 1e-8
+FORCE_ROUNDING = 1e-9  # of F_Z, in the dense cascade
+RUN_ROUNDING = 1e-11  # relative, of the exact solver's times and loads over ten slips
+
+
+def dense_cascade(
+    chain: Chain, overshoot: float
+) -> list[tuple[float, float, int, int]]:
+    """Events (loads before and after, front, blocks that slid) by dense matrices,
+    energies checked."""
+    n, matrix = chain.n_blocks, balance_matrix(chain)
+    stiffness = matrix @ (np.eye(n) - np.eye(n, k=-1))
+    rounding = FORCE_ROUNDING * chain.normal_load
+    force, events = np.zeros(n), []
+    while (not events or events[-1][3] < n) and len(events) < 2000:
+        force[0] = chain.strength[0] + np.append(force[1:], 0.0)[0]
+        before, slid = force[0], np.zeros(n, bool)
+        sign = np.eye(n)[0]
+        while sign.any():
+            net = force - np.append(force[1:], 0.0)
+            step, sign = dense_stage(chain, stiffness, net, sign, overshoot, rounding)
+            released = net @ step - 0.5 * step @ stiffness @ step
+            heat = chain.kinetic_friction @ np.abs(step)
+            lost = (released - heat) / (net @ step)
+            assert (
+                abs(lost) < FORCE_ROUNDING
+                if overshoot == ENERGY_CONSERVED
+                else lost > 0.0
+            )
+            force = force - chain.springs * np.diff(step, prepend=0.0)
+            slid |= sign != 0
+            net = force - np.append(force[1:], 0.0)
+            sign = np.where(np.abs(net) > chain.strength + rounding, np.sign(net), 0.0)
+        events.append(
+            (
+                before,
+                force[0],
+                int(np.flatnonzero(slid)[-1]) + 1,
+                np.count_nonzero(slid),
+            )
+        )
+    return events
+
+
+def dense_stage(chain, stiffness, net, sign, overshoot, rounding):
+    seeds, out = sign != 0, np.zeros(chain.n_blocks, bool)
+    while True:
+        moving = np.flatnonzero(sign)
+        step = np.zeros(chain.n_blocks)
+        push = (net - sign * chain.kinetic_friction)[moving]
+        step[moving] = (1 + overshoot) * np.linalg.solve(
+            stiffness[np.ix_(moving, moving)], push
+        )
+        turned = step * sign < 0
+        if turned.any():
+            if (turned & ~seeds).any():
+                turned &= ~seeds
+            out |= turned
+            sign = np.where(turned, 0.0, sign)
+            continue
+        after = net - stiffness @ step
+        joins = (sign == 0) & ~out & (np.abs(after) > chain.strength + rounding)
+        if not joins.any():
+            return step, sign
+        sign = np.where(joins, np.sign(after), sign)
+
+
+def test_all_blocks_that_move_are_in_balance_with_friction_where_they_stop():
+    """In plain Python, where an index beyond the chain is an error."""
+    chain = SLIDER(3)
+    net = np.array([50.0, -20.0, 70.0])
+    friction = chain.kinetic_friction
+    cascade = quasistatic.Cascade(chain.springs, chain.strength, friction, 1.0)
+    step = quasistatic.balance.py_func(cascade, net, np.sign(net))
+    lost = quasistatic.lost_force.py_func(chain.springs, step)
+    np.testing.assert_allclose(net - lost, np.sign(net) * friction, rtol=ROUNDING)
+
+
+@pytest.mark.parametrize("velocity", [1e-4, 0.3])
+def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> None:
+    chain = SLIDER(n_blocks=1, drive_velocity=velocity)
+    run = simulate(chain, 12.5 * 200.0 / chain.loading_rate)
+    n, intervals = len(run.transitions), run.intervals[:-1]
+    assert n > 10
+    assert run.transitions["mode"].tolist() == [1, 0] * (n // 2) + [1] * (n % 2)
+    load = {1: load_bound(chain), 0: load_bound(chain) - load_drop(chain)}
+    expected = [load[mode] for mode in run.transitions["mode"].tolist()]
+    np.testing.assert_allclose(
+        run.transitions["tangential_load"], expected, rtol=RUN_ROUNDING
+    )
+    slip, stick = rigid_slip_duration(chain), load_drop(chain) / chain.loading_rate
+    assert intervals[0] == pytest.approx(
+        load_bound(chain) / chain.loading_rate, rel=RUN_ROUNDING
+    )
+    np.testing.assert_allclose(intervals[1::2], slip, rtol=RUN_ROUNDING, atol=1e-14)
+    np.testing.assert_allclose(intervals[2::2], stick, rtol=RUN_ROUNDING)
+    np.testing.assert_allclose(
+        np.cumsum(intervals), run.transitions["time"], rtol=RUN_ROUNDING
+    )
+    since = np.linspace(0.0, slip, 7)
+    onset = run.transitions["time"][0]
+    np.testing.assert_allclose(
+        slip_load(chain, since), run.tangential_load(onset + since), rtol=1e-6
+    )
+
+
+@pytest.mark.parametrize("theta", THETAS)
+@pytest.mark.parametrize("overshoot", [ENERGY_CONSERVED, OVERDAMPED, 0.4])
+@pytest.mark.parametrize("n_blocks", [1, 2, 10, 23])
+def test_cascades_agree_with_dense_matrices_that_balance_energy(
+    theta, overshoot, n_blocks
+) -> None:
+    assert_dense(SLIDER(n_blocks=n_blocks, theta=theta), overshoot)
+
+
+# Two uneven chains in which blocks join, turn round and are put out, those that began
+# the slip among them.
+@pytest.mark.parametrize(("draw", "mu_k"), [(72, 0.45), (88, 0.6)])
+def test_so_do_cascades_in_which_blocks_turn_round(draw, mu_k) -> None:
+    chain = SLIDER(n_blocks=6, mu_k=mu_k, drive_stiffness=8e6)
+    uneven = np.random.default_rng(draw).uniform(0.1, 1.9, 6)
+    assert_dense(replace(chain, weights=chain.weights * uneven), ENERGY_CONSERVED)
+
+
+def assert_dense(chain: Chain, overshoot: float) -> None:
+    slips = quasistatic_slips(chain, overshoot)
+    dense = np.array(dense_cascade(chain, overshoot))
+    found = np.array(
+        [slips[name] for name in ("load_before", "load_after", "front", "n_slid")]
+    ).T
+    np.testing.assert_array_equal(found[:, 2:], dense[:, 2:])
+    np.testing.assert_allclose(found[:, :2], dense[:, :2], rtol=CASCADE_ROUNDING)
+    assert slips["is_global"].tolist() == [False] * (len(slips) - 1) + [True]
+    # The drive advances while the load grows, and no event takes time.
+    before, after = dense[:, :2].T
+    driven = before + np.append(0.0, np.cumsum(before - after)[:-1])
+    np.testing.assert_allclose(
+        slips["onset"], driven / chain.loading_rate, rtol=CASCADE_ROUNDING
+    )
+    np.testing.assert_array_equal(slips["end"], slips["onset"])
+    np.testing.assert_array_equal(
+        slips["largest_load"], np.maximum.accumulate(slips["load_before"])
+    )
+
+
+@pytest.mark.parametrize("theta", THETAS)
+def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta) -> None:
+    errors = []
+    for n_blocks in (10, 40):
+        chain = SLIDER(n_blocks=n_blocks, theta=theta)
+        exact = MODELS["chain"](chain)["front_loads"]
+        law = law_answers(chain)["front_loads"]
+        errors.append(np.square(law - exact).mean())
+    assert errors[1] < 0.36 * errors[0]
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (
+            lambda: quasistatic_slips(SLIDER(), 1.5),
+            "overshoot must be between 0 and 1, but is 1.5",
+        ),
+        (lambda: quasistatic_slips(SLIDER(theta=1.0)), "block 1 has 0 N"),
+        (
+            lambda: quasistatic_slips(SLIDER(mu_k=0.7)),
+            "must be below mu_s = 0.7, but is equal",
+        ),
+    ],
+)
+def test_a_chain_that_no_cascade_fits_gets_one_clear_line(call, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+def test_a_limit_that_is_met_is_said_and_no_other_advice_given(monkeypatch) -> None:
+    needed = len(quasistatic_slips(SLIDER()))
+    assert len(quasistatic_slips(SLIDER(), max_events=needed)) == needed
+    with pytest.raises(
+        RuntimeError,
+        match=f"no global slip within {needed - 1} events: raise max_events",
+    ):
+        quasistatic_slips(SLIDER(), max_events=needed - 1)
+    monkeypatch.setattr(quasistatic, "MAX_STAGES", 0)
+    with pytest.raises(
+        RuntimeError, match=r"\Aevent 1 does not come to rest (?!.*max_events)"
+    ):
+        quasistatic_slips(SLIDER())
+
+
+def test_the_schema_of_the_configuration_knows_the_names_of_the_models() -> None:
+    schema = yaml.safe_load(
+        (ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8")
+    )
+    scene = schema["properties"]["scenes"]["additionalProperties"]
+    assert scene["properties"]["model"]["enum"] == list(MODELS)
+    assert all(set(model(SLIDER())) <= set(UNITS) for model in MODELS.values())
+
+
+def test_answers_are_a_table_with_a_row_for_each_number() -> None:
+    table = scene_answers({"theta": "5/6"}, "quasistatic").set_index("quantity")
+    assert table.loc["events_counted", "value"] == 14.0
+    assert list(table.loc["front_loads", "block"]) == list(range(1, 11))
+    assert table.loc[["first_load", "mu_sapp"], "block"].isna().all()
+    assert set(table["unit"]) == {"1", "N"}
+    wave = scene_answers({}, "rigid").query("quantity == 'waveform'")
+    assert wave["time_s"].is_monotonic_increasing
+    assert wave["value"].max() == pytest.approx(280.0)
+
+
+def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(
+    monkeypatch,
+) -> None:
+    monkeypatch.setattr("precursors.model.statics.LIMIT", 0.1)
+    answers = MODELS["chain"](SLIDER())
+    assert all(
+        np.isnan(answers[name])
+        for name in ("events_counted", "mu_sapp", "slip_duration")
+    )
+    assert np.isnan(answers["front_loads"][-1])
+    assert answers["first_load"] == pytest.approx(28.0)
+
+
+def test_every_answer_is_the_one_that_is_kept() -> None:
+    assert_kept("model_comparison", model_comparison())
+
+
+def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(
+    clock,
+) -> None:
+    calls, warm, rounds = [], 0.0005, 3
+    answers = MODELS["chain"](SLIDER(**SCENES["even"]))
+
+    def ask(chain: Chain) -> dict[str, Any]:
+        clock.now += warm if len(calls) > 1 + DRAWS else 10.0
+        calls.append(chain)
+        return answers
+
+    table = compare_models({"even": SCENES["even"]}, {"chain": ask}, rounds)
+    assert table["cost_s"].tolist() == pytest.approx([warm] * len(QUESTIONS))
+    # One run answers all questions, and each draw is run once.
+    assert len(calls) == 1 + DRAWS + 2 + rounds * round(SHORTEST / warm)

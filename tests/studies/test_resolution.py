@@ -1,0 +1,46 @@
+"""Each number is tabulated for every N, and extrapolated to infinite N."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from studies.made import CONFIG
+
+from maegawa2010.studies.resolution import tables as resolution
+
+
+def test_an_exact_law_is_found_from_the_runs_with_noise_and_a_global_slip():
+    """Three runs for each N, one below the law, one on it, one above; others do not
+    count."""
+    n = np.array([20, 40, 80, 160])
+    law = pd.DataFrame(
+        {
+            "n_blocks": n,
+            "scene": "s",
+            "draw": 1,
+            "reached": True,
+            "mu_sapp": 0.4 + 2 / n,
+        }
+    )
+    others = [{"n_blocks": 5}, {"draw": 0}, {"reached": False}]
+    members = [law.assign(mu_sapp=factor * law["mu_sapp"]) for factor in (0.9, 1, 1.1)]
+    members += [law.assign(mu_sapp=9.9, **other) for other in others]
+    [found] = resolution.limits_table(pd.concat(members), 20, 0.4).to_dict("records")
+    assert (found["a"], found["n_points"]) == (0.4, 4)
+    assert found["b"] == pytest.approx(2.0, rel=1e-12)
+    assert found["misfit"] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_median_off_the_law_is_the_misfit():
+    """0.1 and 0.3 above the limit at N = 1 and 2: b = (0.1 + 0.3/2)/(1 + 1/4) = 0.2."""
+    members = pd.DataFrame({"n_blocks": [1, 2], "mu_sapp": [0.5, 0.7], "scene": "s"})
+    members = members.assign(draw=1, reached=True)
+    [found] = resolution.limits_table(members, 1, 0.4).to_dict("records")
+    assert (found["b"], found["misfit"]) == pytest.approx((0.2, 0.2), rel=1e-12)
+
+
+def test_the_papers_run_is_predictable_and_thirty_blocks_with_a_heavy_trailing_edge_are_not():
+    """At N = 30 and theta = 5/6 the horizon of the run is shorter than its first global
+    slip."""
+    slider = {"s": {**CONFIG["chain"], "theta": 5 / 6}}
+    table = resolution.predictability_table(slider, [10, 30], 10.0, 1e-9)
+    assert table["predictable"].tolist() == [True, False]

@@ -1,0 +1,111 @@
+"""Methods are timed as they should be, and compared with what is proved."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from benchmark.made_up import (
+    DURATION,
+    TRUE,
+    made_up,
+)
+
+from maegawa2010.methods import METHODS, ROWS, Method, Result
+from maegawa2010.studies.work_precision.tables import (
+    SHORTEST,
+    charted_values,
+    measure_methods,
+)
+from precursors import Record, TransitionLimitError
+from precursors.benchmark.compare import Truth
+
+FIVE = TRUE[:5]  # two slips, the second not over
+# A call of a fake method takes so long, on a clock that the test moves [s]; one is
+# repeated in a round.
+CALL, SHORT_CALL = 2.0**-8, 2.0**-11
+
+
+def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solver_comes_first():
+    full, default = (charted_values(full) for full in (True, False))
+    assert next(iter(full.items())) == next(iter(default.items())) == ("exact", (0.0,))
+    for name in METHODS:
+        assert len(default[name]) <= len(full[name])
+        for values in (full[name], default[name]):
+            assert list(values) == sorted(values, reverse=True)
+
+
+class Fake:
+    """A method that takes as long as its setting says, at first longer, and gives a
+    run."""
+
+    def __init__(self, clock) -> None:
+        self.run, self.clock, self.calls, self.compiling = made_up(FIVE), clock, [], 0.0
+
+    def solve(
+        self, _chain, _duration: float, value: float, _until: str | None
+    ) -> Result:
+        self.clock.now += value if self.calls else value + self.compiling
+        self.calls.append(value)
+        if isinstance(self.run, Record):
+            return Result(self.run, 7)
+        raise self.run
+
+
+@pytest.fixture
+def fake(monkeypatch: pytest.MonkeyPatch, clock) -> Fake:
+    fake = Fake(clock)
+    method = Method("rk4", "time [s]", fake.solve)
+    monkeypatch.setitem(METHODS, "rk4", method)
+    return fake
+
+
+def measured(*values: float, **limits: float) -> list[dict]:
+    truth = Truth.of_run(made_up(FIVE))
+    table = measure_methods(truth, DURATION, {"rk4": values}, 5, **limits)
+    return table.to_dict("records")
+
+
+def test_a_row_holds_time_work_and_errors(fake):
+    fake.run = made_up([(t, b, m, f - 1.0) for t, b, m, f in FIVE[:4]])
+    (row,) = measured(CALL)
+    assert [row.pop(name) for name in ("error_load_N", "error_time_s")] == [1.0, 0.0]
+    counts = [row.pop(f"transitions_{which}") for which in ("right", "found", "true")]
+    assert counts == [4, 4, 5]
+    shown = [ROWS["rk4"][name] for name in ("color", "marker")]
+    about = ["rk4", ROWS["rk4"]["label"], *shown, "time [s]"]
+    assert list(row.values()) == [*about, CALL, 7, CALL]
+
+
+def test_a_method_is_given_up_before_the_first_value_that_takes_too_long(fake):
+    rows = measured(CALL, 10 * CALL, 11 * CALL, SHORT_CALL, longest=10 * CALL)
+    assert [row["value"] for row in rows] == [CALL, 10 * CALL]
+    # one to warm up, and one that counts as the first of five
+    assert (
+        fake.calls.count(CALL),
+        fake.calls.count(10 * CALL),
+        fake.calls.count(11 * CALL),
+    ) == (6, 6, 2)
+    assert SHORT_CALL not in fake.calls
+
+
+def test_a_long_call_is_timed_once_and_a_short_one_is_repeated_in_each_round(fake):
+    rows = measured(CALL + SHORT_CALL, CALL, SHORT_CALL, long=CALL)
+    assert [row["seconds"] for row in rows] == [CALL + SHORT_CALL, CALL, SHORT_CALL]
+    repeated = 5 * round(SHORTEST / SHORT_CALL)
+    assert [fake.calls.count(row["value"]) for row in rows] == [2, 6, 2 + repeated]
+
+
+@pytest.mark.parametrize("compiling", [0.05, 0.82, 1.9, 10.0])
+def test_a_first_call_that_compiles_counts_for_nothing(fake, compiling):
+    fake.compiling = compiling
+    (row,) = measured(SHORT_CALL, longest=2.0)
+    assert len(fake.calls) == 2 + 5 * round(SHORTEST / SHORT_CALL)
+    assert row["seconds"] == SHORT_CALL
+
+
+def test_a_run_that_breaks_off_is_a_row_with_what_there_is(fake):
+    fake.run = TransitionLimitError("enough", made_up(FIVE[:3]))
+    (row,) = measured(CALL)
+    assert row["transitions_right"] == 3
+    assert math.isnan(row["evaluations"])
