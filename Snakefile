@@ -1,12 +1,14 @@
 import os
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
-from snakemake.utils import min_version
+from snakemake.utils import min_version, update_config
 
 from maegawa2010 import printed
-from maegawa2010.config import check_config, check_file, read_numbers
+from maegawa2010.config import check_config, check_sections, read_file, read_numbers
+from maegawa2010.entries import Ensemble, Entries, Figure, Table
 from maegawa2010.scenes import (
     scene_additions,
     scene_duration,
@@ -15,23 +17,25 @@ from maegawa2010.scenes import (
     scenes_with_theta,
 )
 from maegawa2010.support.digest import digest_code
+from precursors.model.chain import parse_theta
 
 min_version("9.20")
 
 # As seen from the working directory; `workflow.basedir` would be another workflow's that uses this one as a module.
 ROOT = Path(os.path.relpath(workflow.current_basedir.get_path_or_uri(secret_free=True)))
 PAPERS = ROOT / "src/maegawa2010"
+PROOFS = ROOT / "workflow/certificates"  # committed
 # What a script computes: its rule has it as a parameter, and its jobs run again when it changes.
 digest = partial(digest_code, ROOT)
 
-
+# Files of the configuration, from the least to the most important one.
+settings = [str(ROOT / "workflow/studies.yaml")]
 if not workflow.modifier.skip_configfile:
-    try:
-        for path in ["config.yaml", *workflow.overwrite_configfiles]:
-            if os.path.exists(path):  # else Snakemake says that it is missing
-                check_file(path)
-    except ValueError as error:
-        raise WorkflowError(str(error)) from None
+    settings += [path for path in ["config.yaml", *workflow.overwrite_configfiles] if os.path.exists(path)]
+try:
+    settings = {path: read_file(path) for path in settings}
+except ValueError as error:
+    raise WorkflowError(str(error)) from None
 
 
 configfile: "config.yaml"
@@ -43,7 +47,11 @@ report: "workflow/report/workflow.rst"
 if "chain" in config:
     config["chain"] = read_numbers(config["chain"])
 try:
-    check_config(config, ROOT / "workflow/schemas/config.schema.yaml")
+    studies = read_file(ROOT / "workflow/studies.yaml")
+    check_sections(config, studies)
+    update_config(studies, config)
+    config.update(studies)
+    check_config(config, ROOT / "workflow/schemas/config.schema.yaml", settings)
     if config["figure"]:
         from precursors.figures.style import Look  # slow
 
@@ -55,12 +63,15 @@ if not os.access("results" if os.path.exists("results") else ".", os.W_OK | os.X
 
 SCENES = scenes_with(config, "run")
 ASKED = scenes_with(config, "answers")
+FIG13 = config["fig13"]
 # Formats of the figures; the paper and the report show SVG.
 FORMATS = ["svg", *[name for name in config["figure_formats"] if name != "svg"]]
-SLIDERS = {scene: scene_slider(config, scene) for scene in config["fig13"]}
-RUNS = {scene: f"results/runs/{scene}.h5" for scene in config["fig13"]}
+SLIDERS = {scene: scene_slider(config, scene) for scene in FIG13}
+RUNS = {scene: f"results/runs/{scene}.h5" for scene in FIG13}
+CERTIFICATES = {
+    chain: f"results/certificates/chains/{chain}.json.gz" for chain in config["horizon"]["proved"]
+}
 PAPER_PRINTS = {scene: printed.SCENES.get(scene, {}) for scene in SCENES}
-TABLES = {}  # of all rooms: see tables.smk
 # What reads a file, by its ending.
 READERS = {
     ".csv": "precursors.support.files:read_table",
@@ -73,15 +84,23 @@ wildcard_constraints:
     scene="|".join(SCENES),
 
 
-include: "workflow/rules/simulate.smk"
-include: "workflow/rules/analyse.smk"
-include: "workflow/rules/derivation.smk"
-include: "workflow/rules/accuracy.smk"
-include: "workflow/rules/hierarchy.smk"
-include: "workflow/rules/ensembles.smk"
-include: "workflow/rules/figures.smk"
-include: "workflow/rules/paper.smk"
-include: "workflow/rules/tables.smk"
+# Every file of rules adds its entries, and to RESULTS what `all` makes beside them. Their order does not matter.
+TABLES, FIGURES, ENSEMBLES = Entries(), Entries(), Entries()
+RESULTS = []
+CHUNKS = [f"{i}of{config['chunks']}" for i in range(1, config["chunks"] + 1)]
+chunks_of = partial(collect, "results/ensembles/{study}/{chunk}.csv", chunk=CHUNKS)
+parts = {}  # entries and results of each file
+
+for file in sorted((ROOT / "workflow/rules").glob("*.smk")):
+    known = {*TABLES, *FIGURES, *ENSEMBLES}
+    so_far = len(RESULTS)
+
+    include: f"workflow/rules/{file.name}"
+
+    parts[file.stem] = ({*TABLES, *FIGURES, *ENSEMBLES} - known, RESULTS[so_far:])
+
+
+include: "workflow/entries.smk"
 
 
 rule all:
@@ -90,10 +109,3 @@ rule all:
         RESULTS,
         "results/provenance.json",
     localrule: True
-
-
-others = {name for name, figure in FIGURES.items() if not figure["module"].endswith(".scene")}
-for scene in {*(rule.name for rule in workflow.rules), *others} & set(config["scenes"]):
-    raise WorkflowError(
-        f"configuration: scenes.{scene} has the name of a target or figure: give it another one"
-    )

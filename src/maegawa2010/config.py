@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -13,9 +14,25 @@ from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
 
 from maegawa2010.scenes import Config, scene_slider, scenes_with_theta
-from precursors.model.chain import Chain, parse_theta
+from precursors.model.chain import Chain
 from precursors.support.files import AnyPath
 
+SECTIONS = (
+    "chain",
+    "load_cells",
+    "duration",
+    "scenes",
+    "fig13",
+    "figure",
+    "figure_formats",
+)
+# Where the sections of former configurations went.
+OLD_SECTIONS = {
+    "reproduction": "definitions",
+    "accuracy": "horizon",
+    "hierarchy": "larger, with first_slips and cycles",
+    "ensembles": "chunks, noise, printed_digits, theta_window, resolution, event_law, friction_map",
+}
 LARGEST_FILE = 100_000  # bytes, which are read in a second
 # YAML reads 010 as 8, and 1:30 as 90; .nan and .inf are no number to compute with.
 NOT_PLAIN = re.compile(
@@ -56,9 +73,9 @@ def _misread(node: Any, problem: str) -> yaml.MarkedYAMLError:
     return yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
 
 
-def check_file(path: AnyPath) -> None:
-    """Refuse a YAML file that cannot be read, has a key twice, or a number that YAML
-    reads as another.
+def read_file(path: AnyPath) -> dict[str, Any]:
+    """Read a YAML file; refuse one that cannot be read, has a key twice, or a number
+    that YAML reads as another.
 
     The ValueError says in one line which file, where in it, and what is wrong.
     """
@@ -76,6 +93,7 @@ def check_file(path: AnyPath) -> None:
         raise ValueError(_short(f"{path}: {error}")) from None
     if not isinstance(config, dict):
         raise ValueError(f"{path} must be a table of keys and values")
+    return config
 
 
 def read_numbers(values: Any) -> Any:
@@ -92,30 +110,66 @@ def read_numbers(values: Any) -> Any:
     return {name: read(value) for name, value in values.items()}
 
 
-def check_config(config: Config, schema_path: AnyPath) -> None:
+def check_config(
+    config: Config,
+    schema_path: AnyPath,
+    files: Mapping[str, Config] | None = None,
+) -> None:
     """Refuse a configuration, as YAML gives it, that the workflow cannot run.
 
-    The ValueError says in one line which value, where, and what it must be. The JSON
-    schema is YAML, too.
+    The ValueError says in one line which value, where, and what it must be. `files` are
+    the contents of the files from which the configuration was put together, the most
+    important one last. The JSON schema is YAML, too.
     """
     schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
-    error = best_match(Draft202012Validator(schema).iter_errors(config))
-    if error is not None:
-        where = error.json_path.removeprefix("$").lstrip(".") or "top level"
-        message = error.message
-        if "description" in error.schema:
-            is_table = isinstance(error.instance, dict)
-            given = list(error.instance) if is_table else error.instance
-            message = f"{given!r} must {error.schema['description']}"
-        with suppress(ValueError):
-            if isinstance(error.instance, str) and math.isfinite(float(error.instance)):
-                message += ": this is text; write a number without quotes, as 2.5e+9 and not as 2.5e9"
-        raise ValueError(_short(f"configuration: {where}: {message}"))
     try:
-        _check_chains(config)
-        _check_names_and_lengths(config)
-    except ValueError as error:
-        raise ValueError(_short(f"configuration: {error}")) from None
+        error = best_match(Draft202012Validator(schema).iter_errors(config))
+        if error is None:
+            _check_chains(config)
+            check_names("fig13", config["fig13"], scenes_with_theta(config))
+            return
+    except ValueError as problem:
+        raise ValueError(_short(f"configuration: {problem}")) from None
+    where = error.json_path.removeprefix("$").lstrip(".") or "top level"
+    message = error.message
+    if "description" in error.schema:
+        is_table = isinstance(error.instance, dict)
+        given = list(error.instance) if is_table else error.instance
+        message = f"{given!r} must {error.schema['description']}"
+    with suppress(ValueError):
+        if isinstance(error.instance, str) and math.isfinite(float(error.instance)):
+            message += ": this is text; write a number without quotes, as 2.5e+9 and not as 2.5e9"
+    file = _file_with([*error.absolute_path], error.instance, files or {})
+    raise ValueError(_short(f"{file}: {where}: {message}"))
+
+
+def check_sections(config: Config, studies: Config) -> None:
+    """Refuse a section, or a key of one, that neither the workflow nor a study has;
+    `studies` has all sections of studies.
+
+    The ValueError is one line.
+    """
+    for name, section in config.items():
+        if name in OLD_SECTIONS:
+            raise ValueError(
+                f"configuration: {name}: its keys stand in sections of their own now, with their values in "
+                f"workflow/studies.yaml: {OLD_SECTIONS[name]}"
+            )
+        check_names("configuration:", [name], [*SECTIONS, *studies])
+        if isinstance(section, dict) and isinstance(studies.get(name), dict):
+            check_names(f"configuration: {name}", section, studies[name])
+
+
+def _file_with(path: list[Any], value: Any, files: Mapping[str, Config]) -> str:
+    """The most important file that has the value at the path."""
+    found = "configuration"
+    for file, content in files.items():
+        there: Any = content
+        with suppress(LookupError, TypeError):
+            for key in path:
+                there = there[key]
+            found = file if there == value else found
+    return found
 
 
 def _short(message: str) -> str:
@@ -132,34 +186,16 @@ def _check_chains(config: Config) -> None:
         for name in config["scenes"]:
             where = f"scenes.{name}"
             Chain.from_slider(**scene_slider(config, name))
-        for name, values in config["accuracy"]["proved"].items():
-            where = f"accuracy.proved.{name}"
-            Chain.from_slider(
-                **{key: value for key, value in values.items() if key != "duration"}
-            )
-        where = "theta in reproduction"
-        for theta in config["reproduction"]["theta"]:
-            parse_theta(theta)
     except OSError as error:
         raise ValueError(f"{where}: {error.filename}: {error.strerror}") from None
     except (ValueError, OverflowError) as error:
         raise ValueError(f"{where}: {error}") from None
 
 
-def _check_names_and_lengths(config: Config) -> None:
-    """Refuse names of nothing, and lists that do not fit each other."""
-    accuracy = config["accuracy"]
-    for where, names, known in (
-        ("fig13", config["fig13"], scenes_with_theta(config)),
-        ("accuracy.compared", accuracy["compared"], accuracy["proved"]),
-    ):
-        for name in names:
-            if name not in known:
-                raise ValueError(
-                    f"{where} holds {name!r}, but must hold names of {', '.join(known)}"
-                )
-    resolution = config["ensembles"]["resolution"]
-    if len(resolution["runs"]) != len(resolution["n_blocks"]):
-        raise ValueError(
-            "ensembles.resolution.runs must have one number for each of n_blocks"
-        )
+def check_names(where: str, names: Iterable[str], known: Iterable[str]) -> None:
+    """Refuse a name of nothing."""
+    for name in names:
+        if name not in known:
+            raise ValueError(
+                f"{where} holds {name!r}, but must hold names of {', '.join(known)}"
+            )

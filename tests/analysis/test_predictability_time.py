@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 from analysis.random_runs import random_chain
 from chains import SLIDER, first_transitions, held_out
 from reference import read_held_out
+from settings import CONFIG
 
-from maegawa2010.studies.horizon.solver_vs_proof import error_table, summary, validate
+from maegawa2010.studies.horizon.tables import error_table, summary, validate
 from precursors import simulate
 from precursors.analysis import horizon as module
 from precursors.analysis.horizon import (
@@ -25,7 +25,7 @@ from precursors.proof import Certificate
 
 ROOT = Path(__file__).parents[2]
 CERTIFICATES = ROOT / "workflow" / "certificates"
-CHAINS = yaml.safe_load((ROOT / "config.yaml").read_text())["accuracy"]["proved"]
+CHAINS = CONFIG["horizon"]["proved"]
 TOLERANCES = [1e-15, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5]  # s
 # An actual error may be so many times the one predicted: 0.7 is the largest known.
 OPTIMISM = 2.0

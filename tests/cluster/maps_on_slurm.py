@@ -24,7 +24,7 @@ CORES = int(os.environ.get("CORES", "2"))
 MAP = "map_theta_friction_ratio"
 TABLE = f"results/tables/{MAP}.csv"
 CHUNKS = 12
-SMALL = {"ensembles": {"chunks": CHUNKS, "map": {"points": 4000}}}
+SMALL = {"chunks": CHUNKS, "friction_map": {"points": 4000}}
 # What a machine of one node need not wait for; and a failed job shall stay failed until
 # the next call.
 IMPATIENT = [

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 from explorer.explorer_sessions import GOLDEN, THETAS
+from settings import CONFIG
 
 from maegawa2010.explorer.page import proved_slider
 from maegawa2010.scenes import scene_slider
@@ -101,11 +101,8 @@ def test_fifty_random_sliders_move_as_in_the_kernel(page):
 def test_the_chains_that_are_called_proved_move_as_in_the_kernel_up_to_the_first_global_slip(
     page,
 ):
-    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
-    sliders = [
-        proved_slider(values) for values in config["accuracy"]["proved"].values()
-    ]
-    assert all(scene_slider(config, scene) in sliders for scene in THETAS)
+    sliders = [proved_slider(values) for values in CONFIG["horizon"]["proved"].values()]
+    assert all(scene_slider(CONFIG, scene) in sliders for scene in THETAS)
     runs = [
         simulate(Chain.from_slider(**slider), until="global slip").transitions
         for slider in sliders

@@ -14,11 +14,11 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import yaml
 from audit.falsified import audits
 from benchmark.made_up import go_on, proof_of
 from methods.kept_runs import kept_runs
-from studies.made import PAPER, study_of
+from settings import CONFIG
+from studies.made import MAP, PAPER, study_of
 
 from maegawa2010.methods import METHODS
 from maegawa2010.paper.definitions import definitions_table
@@ -29,19 +29,15 @@ from maegawa2010.studies.failures.tables import FAILURE_MODES, Failure, curve_ta
 from maegawa2010.studies.larger.cycles import cycle_tables
 from maegawa2010.studies.larger.first_slips import larger_tables
 from maegawa2010.studies.members import gather, run_members
-from maegawa2010.studies.models.compare_models import compare_models
+from maegawa2010.studies.models.tables import compare_models
 from maegawa2010.studies.noise import tables as noise
 from maegawa2010.studies.printed_digits.tables import digits_tables
-from maegawa2010.studies.registry import MAP
 from maegawa2010.studies.resolution import tables as resolution
 from precursors import Chain, simulate
 from precursors.larger.chain import LargerChain
 from precursors.proof import ExactChain
 
 SMALL = Path(__file__).parent / "small"
-CONFIG = yaml.safe_load(
-    (Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8")
-)
 SCENES: dict[str, dict[str, str | float]] = {
     "lead": {"theta": "5/6"},
     "even": {"theta": 0.0},
@@ -253,7 +249,7 @@ def larger_runs() -> pd.DataFrame:
 
 def small_larger_tables() -> dict[str, pd.DataFrame]:
     """The tables of the larger chain for a few blocks."""
-    settings = CONFIG["hierarchy"]["larger"] | {
+    settings = CONFIG["larger"]["first_slips"] | {
         "nucleation": {
             "n_blocks": [20],
             "theta": ["-5/6", 0],
@@ -279,7 +275,7 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
             },
         },
     }
-    cycles = CONFIG["hierarchy"]["cycles"] | {
+    cycles = CONFIG["larger"]["cycles"] | {
         "pasts": [[0.001, 0], [0.01, 0], [0.03, 0], [0.1, 0]]
         + [[0, part / 4] for part in range(1, 5)],
         "map": {

@@ -5,14 +5,13 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-import yaml
+from settings import CONFIG, FULL
 from studies.made import study_of
 
 from maegawa2010.studies.event_law.tables import event_law_table, predicted_events
 from maegawa2010.studies.members import chain_of, run_members
 
 ROOT = Path(__file__).parents[2]
-CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
 # Tables are written with all digits; sums differ by roundings.
 ROUNDING = 1e-12
 
@@ -30,8 +29,8 @@ def test_the_law_of_each_chain_is_that_of_the_library():
 
 
 def test_the_runs_of_few_blocks_are_those_of_the_library():
-    full = yaml.safe_load((ROOT / "workflow/full.yaml").read_text(encoding="utf-8"))
-    study = study_of("event_law_members", full["ensembles"]["event_law"])
+    settings = CONFIG["event_law"] | FULL["event_law"]
+    study = study_of("event_law_members", settings)
     few = study.members[
         (study.members["n_blocks"] <= 10) & (study.members["theta"] == 0.0)
     ]

@@ -1,24 +1,35 @@
-"""The configuration of the workflow, and a small study of each kind."""
+"""A small study of each kind, of the scenes of the configuration."""
 
-from pathlib import Path
-
-import yaml
+from settings import CONFIG
 
 from maegawa2010 import printed
+from maegawa2010.scenes import scene_slider
+from maegawa2010.studies.event_law.tables import event_law_study
+from maegawa2010.studies.friction_map.tables import map_study
 from maegawa2010.studies.members import Study
-from maegawa2010.studies.registry import make_study, study_arguments
+from maegawa2010.studies.noise.tables import noise_study
+from maegawa2010.studies.printed_digits.tables import digits_study
+from maegawa2010.studies.resolution.tables import resolution_study
+from maegawa2010.studies.theta_window.tables import theta_window_study
 
-CONFIG = yaml.safe_load(
-    (Path(__file__).parents[2] / "config.yaml").read_text(encoding="utf-8")
-)
 PAPER = {scene: printed.SCENES[scene] for scene in CONFIG["fig13"]}
+SLIDERS = {scene: scene_slider(CONFIG, scene) for scene in CONFIG["fig13"]}
+MAP = "map_theta_friction_ratio"
+OF_SCENES = {
+    "noise_members": noise_study,
+    "digits_members": digits_study,
+    "theta_window_members": theta_window_study,
+    "resolution_members": resolution_study,
+}
 
 
 def study_of(name: str, settings: dict[str, object]) -> Study:
     """A study of the configuration with other settings of its own."""
-    section = "map" if name.startswith("map_") else name.removesuffix("_members")
-    ensembles = {**CONFIG["ensembles"], section: settings}
-    return make_study(name, study_arguments({**CONFIG, "ensembles": ensembles}, name))
+    if name == MAP:
+        return map_study(CONFIG["chain"], **settings)
+    if name == "event_law_members":
+        return event_law_study(CONFIG["chain"], settings)
+    return OF_SCENES[name](SLIDERS, CONFIG["duration"], settings)
 
 
 def noise_of(runs: int = 3) -> Study:

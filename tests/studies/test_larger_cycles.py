@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 from chains import SLIDER
 from pandas.testing import assert_frame_equal
+from settings import CONFIG, FULL
 
 from maegawa2010.studies.larger.cycles import (
     cycles_table,
@@ -38,8 +38,6 @@ from precursors.larger.chain import (
 from precursors.larger.steps import SETTLED, period_of
 
 ROOT = Path(__file__).parents[2]
-CONFIG = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
-FULL = yaml.safe_load((ROOT / "workflow/full.yaml").read_text(encoding="utf-8"))
 COARSE, FINE = 50, 100
 # A run that ends when it has settled is this near [F_Z] to one that goes on.
 GOES_ON = 3 * SETTLED
@@ -115,8 +113,8 @@ def test_a_study_may_have_a_step():
 
 
 def test_no_full_study_of_long_chains_has_a_coarse_step():
-    for part in ("larger", "cycles"):
-        here, full = (of["hierarchy"][part]["studies"] for of in (CONFIG, FULL))
+    for part in ("first_slips", "cycles"):
+        here, full = (of["larger"][part]["studies"] for of in (CONFIG, FULL))
         for name, study in full.items():
             step = (here.get(name, {}) | study).get("step", STEP)
             assert step <= (0.1 if max(study["n_blocks"]) >= 200 else 0.25)
@@ -186,9 +184,9 @@ def test_a_logger_takes_two_events_within_its_sample_for_one():
 
 
 def test_the_committed_runs_of_few_blocks_are_those_of_the_library():
-    common = CONFIG["hierarchy"]["larger"]
+    common = CONFIG["larger"]["first_slips"]
     study = (
-        common["studies"]["counts"] | FULL["hierarchy"]["larger"]["studies"]["counts"]
+        common["studies"]["counts"] | FULL["larger"]["first_slips"]["studies"]["counts"]
     )
     study = {**study, "pairs": [[0.2, 2e-4]], "n_blocks": [COARSE]}
     runs = run_studies(CONFIG["chain"], {"counts": study}, partial(run_draw, common))
@@ -201,10 +199,10 @@ def test_the_committed_runs_of_few_blocks_are_those_of_the_library():
 
 
 def test_the_committed_cycles_are_those_of_the_library():
-    full = FULL["hierarchy"]["cycles"]
-    study = CONFIG["hierarchy"]["cycles"]["studies"]["grid"] | full["studies"]["grid"]
+    full = FULL["larger"]["cycles"]
+    study = CONFIG["larger"]["cycles"]["studies"]["grid"] | full["studies"]["grid"]
     study = {**study, "pairs": [[0.3, 2e-4]], "n_blocks": [COARSE], "theta": [0]}
-    common = {**CONFIG["hierarchy"]["cycles"], **full, "pasts": full["pasts"][:2]}
+    common = {**CONFIG["larger"]["cycles"], **full, "pasts": full["pasts"][:2]}
     grid = {"grid": {**study, "runs": 1}}
     runs = run_studies(CONFIG["chain"], grid, partial(run_past, common), 2)
     there = committed("larger_cycles").query(

@@ -12,12 +12,6 @@ import yaml
 from golden.small_tables import SCENES, assert_kept, model_comparison
 
 from maegawa2010.studies.models import quasistatic
-from maegawa2010.studies.models.compare_models import (
-    DRAWS,
-    QUESTIONS,
-    SHORTEST,
-    compare_models,
-)
 from maegawa2010.studies.models.models import MODELS, UNITS, scene_answers
 from maegawa2010.studies.models.quasistatic import (
     ENERGY_CONSERVED,
@@ -30,6 +24,12 @@ from maegawa2010.studies.models.rigid import (
     slip_load,
 )
 from maegawa2010.studies.models.statics import law_answers
+from maegawa2010.studies.models.tables import (
+    DRAWS,
+    QUESTIONS,
+    SHORTEST,
+    compare_models,
+)
 from precursors import Chain, simulate
 from precursors.model.statics import balance_matrix, load_bound
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
-from studies.made import CONFIG
+from settings import CONFIG
 
 from maegawa2010.studies.resolution import tables as resolution
 

@@ -24,7 +24,7 @@ for module in (
     "jsonschema",
     "nbformat",
     "maegawa2010.config",
-    "maegawa2010.studies.registry",
+    "maegawa2010.entries",
     "precursors.proof",
     "smart_open",
     "snakemake.report",
@@ -168,6 +168,10 @@ def copy_workflow(path: Path) -> Workspace:
     unneeded = shutil.ignore_patterns("__pycache__", "*.png", "results")
     for name in ("workflow", "src", "paper", "profiles", "benchmarks", "docs"):
         shutil.copytree(ROOT / name, path / name, ignore=unneeded)
+    # Of a job with a message Snakemake prints neither the rule nor the outputs.
+    for file in (path / "workflow").rglob("*.smk"):
+        text = file.read_text(encoding="utf-8")
+        file.write_text(re.sub(r"\n +message:\n.+", "", text), encoding="utf-8")
     return Workspace(path)
 
 

@@ -23,7 +23,7 @@ from precursors import Run
         (
             "scenes:",
             "scenes:\n  horizon: {title: a, theta: 0}",
-            "scenes.horizon has the name of a target",
+            "horizon is the name of two scenes, tables or figures",
         ),
         (
             "  mu_k: 0.45",

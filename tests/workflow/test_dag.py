@@ -13,7 +13,7 @@ from maegawa2010.studies.models.models import scene_answers
 PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all
 # lists of jobs.
-ON_DEMAND = {"benchmark", "certify_scene", "prove_again", "write_provenance"}
+ON_DEMAND = {"write_benchmark", "certify_scene", "prove_again", "write_provenance"}
 # The paper shows nearly all tables and figures, and is set again when one of them may
 # change.
 PAPER = {"write_paper"}
@@ -86,7 +86,7 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(
         )
     assert clone.would_run() == set()
     clone.edit("src/maegawa2010/studies/theta_window/figure.py", "", CODE)
-    assert clone.would_run() == {"draw_ensembles"} | PAPER
+    assert clone.would_run() == {"draw_sensitivity"} | PAPER
 
 
 @pytest.mark.parametrize(
@@ -212,7 +212,7 @@ def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_to
 ):
     grid, noise = "map_theta_friction_ratio", "noise_members"
     tables = [f"results/tables/{study}.csv" for study in (grid, noise)]
-    workspace.edit("config.yaml", "chunks: 1", "chunks: 2")
+    workspace.edit("workflow/studies.yaml", "chunks: 1", "chunks: 2")
     assert workspace.pretend(*tables).code == 0
     next((workspace.path / "results/ensembles" / grid).iterdir()).unlink()
     (workspace.path / tables[0]).unlink()
@@ -222,7 +222,7 @@ def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_to
         ("points: 2000", "points: 2001", {grid: 2, noise: 2}),
         ("chunks: 2", "chunks: 7", {grid: 7, noise: 7}),
     ):
-        workspace.edit("config.yaml", old, new)
+        workspace.edit("workflow/studies.yaml", old, new)
         made = workspace.run("-n", *tables).made
         assert (
             Counter(name.split("/")[2] for name in made if "/ensembles/" in name)

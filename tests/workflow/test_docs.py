@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 
@@ -27,7 +28,7 @@ def blocks(section):
         yield language, named and named[1], code[named.end() :] if named else code
 
 
-SECTIONS = ("A scene", "A figure", "A model", "A method", "Within another workflow")
+SECTIONS = ("A scene", "A study", "A model", "A method", "Within another workflow")
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +46,7 @@ def documented(tmp_path_factory):
             )
             workspace.edit(name, old, new)
         elif name:
-            (workspace.path / name).parent.mkdir(exist_ok=True)
+            (workspace.path / name).parent.mkdir(parents=True, exist_ok=True)
             (workspace.path / name).write_text(code, encoding="utf-8")
     return workspace
 
@@ -57,15 +58,18 @@ def command(section):
     return found[1:]
 
 
-def test_the_scene_and_the_figure_shown_are_made(documented):
+def test_the_scene_and_the_study_shown_are_made(documented):
     assert {"simulate_scene steep", "draw_reproduction"} <= documented.run(
         "-n", *command("A scene")
     ).jobs
-    outcome = documented.run(*command("A figure"))
+    documented.pretend("results/tables/fig10_slips.csv")
+    slips = ROOT / "tests/golden/fig10_slips.csv"
+    shutil.copy(slips, documented.path / "results/tables/fig10_slips.csv")
+    documented.run("-c1", "--touch", "results/tables/fig10_slips.csv")
+    outcome = documented.run(*command("A study"))
     assert outcome.code == 0, outcome.text
-    assert (
-        (documented.path / command("A figure")[-1]).read_bytes().startswith(b"\x89PNG")
-    )
+    assert (documented.path / "results/figures/durations.svg").is_file()
+    assert "draw_mine" in documented.run("-n", "--forceall", "all").jobs
 
 
 # A chart of the method shown, its points in it, and the colours of its line and of other methods.

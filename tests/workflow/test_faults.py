@@ -70,7 +70,7 @@ def test_after_kills_the_same_command_ends_with_the_same_bytes(tmp_path: Path) -
     # Spaces and letters of any script are odd, but allowed.
     project = copy_workflow(tmp_path / "Vorläufer des Gleitens")
     project.edit("config.yaml", "duration: 10.0", "duration: 2.0")
-    project.edit("config.yaml", "points: 2000", "points: 40")
+    project.edit("workflow/studies.yaml", "points: 2000", "points: 40")
     right = finish(project)
     clean(project)
     rng = np.random.default_rng(SEED)

@@ -23,12 +23,13 @@ import pytest
 from conftest import ROOT
 from matplotlib import image
 from matplotlib.figure import Figure
+from studies.made import MAP
 
+from maegawa2010.entries import Figure as Drawn
 from maegawa2010.studies.failures import tables as failures
 from maegawa2010.studies.failures.common import Threshold
 from maegawa2010.studies.horizon.lyapunov import lyapunov_table
-from maegawa2010.studies.horizon.solver_vs_proof import proof_tables
-from maegawa2010.studies.registry import MAP
+from maegawa2010.studies.horizon.tables import proof_tables
 from maegawa2010.studies.work_precision import tables as work_precision
 from precursors import Record, Run, simulate
 from precursors.analysis.load_curve import load_trace
@@ -139,22 +140,22 @@ def test_each_figure_is_drawn_from_its_tables_into_its_own_files(tmp_path, monke
     module.draw = draw
     (tmp_path / "a.csv").write_text("x\n1\n2\n")
     table, look = str(tmp_path / "a.csv"), style.Look(font_size=9.0)
+    drawn = Drawn(section="mine", function="precursors.figures.ours:draw", shows="some")
     figures = {
-        "ours": {
-            "shows": "one table",
-            "module": "precursors.figures.ours",
-            "tables": {"table": table},
-            "options": {"title": "one"},
-            "look": {},
-        },
-        "two": {
-            "shows": "a list of tables",
-            "module": "precursors.figures.ours",
-            "tables": {"table": [table]},
-            "options": {"title": "two"},
-        },
+        "ours": dataclasses.asdict(
+            dataclasses.replace(
+                drawn, tables={"table": table}, options={"title": "one"}
+            )
+        ),
+        "two": dataclasses.asdict(
+            dataclasses.replace(
+                drawn,
+                tables={"table": [table]},
+                options={"title": "two"},
+                look={"font_size": 9.0},
+            )
+        ),
     }
-    figures["two"]["look"] = {"font_size": 9.0}
     output = Named(
         *(tmp_path / f"{name}.{kind}" for name in figures for kind in ("svg", "png"))
     )
@@ -178,7 +179,10 @@ def test_a_chunk_of_a_study_has_every_nth_member(tmp_path):
     arguments = {"slider": {"mu_s": 0.7, "n_blocks": 2}, "points": 4}
     job = {
         "wildcards": Named(study=MAP, chunk="2of3"),
-        "params": Named(arguments=arguments),
+        "params": Named(
+            function="maegawa2010.studies.friction_map.tables:map_study",
+            options=arguments,
+        ),
     }
     run_script("run_chunk", tmp_path, output=output, **job)
     chunk = pd.read_csv(output.chunk)

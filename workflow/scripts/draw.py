@@ -1,4 +1,4 @@
-"""Draw the figures of a section, as the list in workflow/rules/figures.smk has them."""
+"""Draw the figures of a section."""
 
 import gc
 from pathlib import Path
@@ -12,10 +12,10 @@ from precursors.figures import style
 gc.disable()
 with job() as snakemake:
     for name, figure in snakemake.params.figures.items():
-        asked = {"look": style.Look(**figure["look"])} if figure.get("look") else {}
-        draw = resolve_name(f"{figure['module']}:draw")
-        tables = read(figure.get("tables", {}), snakemake.params.readers)
-        drawn = draw(**tables, **figure.get("options", {}), **asked)
+        asked = {"look": style.Look(**figure["look"])} if figure["look"] else {}
+        draw = resolve_name(figure["function"])
+        tables = read(figure["tables"], snakemake.params.readers)
+        drawn = draw(**tables, **figure["options"], **asked)
         for output in snakemake.output:
             if Path(output).stem == name:
                 style.save(drawn, output, **asked, title=figure["shows"])

@@ -1,5 +1,6 @@
-"""Make the tables of an entry of the list TABLES, or of one that is like it."""
+"""Make the tables of an entry of TABLES."""
 
+from pathlib import Path
 from pkgutil import resolve_name
 
 from job import job, read
@@ -16,5 +17,6 @@ with job() as snakemake:
     }
     # A function, "package.module:name", returns a table, or tables by their names.
     found = resolve_name(params.function)(**arguments, **params.options)
-    for name, path in zip(params.names, snakemake.output, strict=True):
-        write_table(found if isinstance(found, pd.DataFrame) else found[name], path)
+    for path in snakemake.output:
+        table = found if isinstance(found, pd.DataFrame) else found[Path(path).stem]
+        write_table(table, path)

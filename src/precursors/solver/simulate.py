@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Protocol, overload, runtime_checkable
+from typing import Protocol, overload, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -41,9 +41,23 @@ class OwnSolver(Protocol):
 
 
 @overload
-def simulate(chain: Chain, *how: Any, **more: Any) -> Run: ...
+def simulate(
+    chain: Chain,
+    duration: float = 10.0,
+    until: Until = None,
+    start_positions: ArrayLike | None = None,
+    start_velocities: ArrayLike | None = None,
+    max_transitions: int | None = None,
+    longest_slip: float | None = None,
+) -> Run: ...
 @overload
-def simulate(chain: OwnSolver, *how: Any, **more: Any) -> LargerRun: ...
+def simulate(
+    chain: OwnSolver,
+    duration: float = 10.0,
+    until: Until = None,
+    *,
+    max_transitions: int | None = None,
+) -> LargerRun: ...
 def simulate(
     chain: Chain | OwnSolver,
     duration: float = 10.0,

@@ -11,6 +11,7 @@ import pandas as pd
 
 from maegawa2010.scenes import scene_as_written
 from precursors.larger.additions import ADDITIONS
+from precursors.model.chain import Chain
 from precursors.proof.certificate import Certificate
 from precursors.proof.exact_chain import ExactChain
 
@@ -18,15 +19,24 @@ from precursors.proof.exact_chain import ExactChain
 PROVED_FOR = 10.0
 
 
-def exact_chain(values: Mapping[str, Any]) -> ExactChain:
-    """A chain of the configuration's `accuracy.proved`, from the values it states."""
-    return ExactChain.from_slider(
-        **{name: x for name, x in values.items() if name != "duration"}
-    )
+def exact_chain(name: str, values: Mapping[str, Any]) -> ExactChain:
+    """A chain of the configuration's `horizon.proved`, from the values it states.
+
+    Raises
+    ------
+    ValueError
+        If they are not those of a slider.
+    """
+    slider = {key: x for key, x in values.items() if key != "duration"}
+    try:
+        Chain.from_slider(**slider)
+    except (ValueError, OverflowError) as error:
+        raise ValueError(f"horizon.proved.{name}: {error}") from None
+    return ExactChain.from_slider(**slider)
 
 
 def chain_duration(values: Mapping[str, Any]) -> float:
-    """Duration of the proof of a chain of the configuration's `accuracy.proved` [s]."""
+    """Duration of the proof of a chain of the configuration's `horizon.proved` [s]."""
     return float(values.get("duration", PROVED_FOR))
 
 

@@ -1,0 +1,19 @@
+"""The configuration of the workflow, as Snakemake puts it together."""
+
+from pathlib import Path
+
+from snakemake.utils import update_config
+
+from maegawa2010.config import read_file
+
+ROOT = Path(__file__).parents[1]
+STUDIES = read_file(ROOT / "workflow/studies.yaml")
+FULL = read_file(ROOT / "workflow/full.yaml")
+CONFIG = {**STUDIES, **read_file(ROOT / "config.yaml")}
+
+
+def full() -> dict:
+    """The configuration with the larger studies."""
+    config = read_file(ROOT / "workflow/studies.yaml")
+    update_config(config, FULL)
+    return {**CONFIG, **config}

@@ -1,0 +1,26 @@
+# Chains with a length
+
+TABLES["larger"] = Table(
+    function="maegawa2010.studies.larger.first_slips:larger_tables",
+    message="running chains with a length to their first global slip",
+    options={"slider": config["chain"], "settings": config["larger"]["first_slips"]},
+    beside=["larger_means", "larger_nucleation"],
+    threads=4,
+    seconds=600 if config["full"] else 2,
+)
+TABLES["larger_cycles"] = Table(
+    function="maegawa2010.studies.larger.cycles:cycle_tables",
+    message="running chains with a length until their motion repeats",
+    options={"slider": config["chain"], "settings": config["larger"]["cycles"]},
+    beside=["larger_peaks", "larger_verdicts"],
+    threads=4,
+    seconds=3600 if config["full"] else 2,
+)
+FIGURES["larger"] = Figure(
+    section="hierarchy",
+    function="maegawa2010.studies.larger.figure:draw",
+    shows="a chain with a length",
+    tables={
+        name: str(ROOT / f"paper/tables/larger_{name}_full.csv") for name in ("nucleation", "peaks", "cycles")
+    },
+)

@@ -1,0 +1,32 @@
+# Accuracy against computing time
+
+proved = {
+    chain: abs(parse_theta(config["horizon"]["proved"][chain].get("theta", 0)))
+    for chain in config["horizon"]["compared"]
+}
+EVEN = min(proved, key=proved.get)  # the chain with the most even load
+
+TABLES["work_precision"] = Table(
+    function="maegawa2010.studies.work_precision.tables:work_precision_table",
+    message="timing all methods on a proved chain",
+    inputs={"certificate": CERTIFICATES[EVEN]},
+    options={"scene": EVEN, "full": config["full"]},
+    also=[f"{PAPERS}/methods/methods.csv"],
+    seconds=100 if config["full"] else 4,
+)
+FIGURES["work_precision"] = Figure(
+    section="accuracy",
+    function="maegawa2010.studies.work_precision.figure:draw",
+    shows="what accuracy costs, in time and in evaluations",
+    tables={"table": "results/tables/work_precision.csv"},
+    options={"works": ["seconds", "evaluations"]},
+)
+FIGURES["speed"] = Figure(
+    section="accuracy",
+    function="maegawa2010.studies.work_precision.figure:draw",
+    shows="what accuracy costs, as published",
+    tables={
+        "table": str(ROOT / "paper/tables/work_precision_full.csv"),
+        "sessions": str(ROOT / "paper/tables/beside_heyoka.csv"),
+    },
+)
