@@ -26,13 +26,8 @@ SECTIONS = (
     "figure",
     "figure_formats",
 )
-# Where the sections of former configurations went.
-OLD_SECTIONS = {
-    "reproduction": "definitions",
-    "accuracy": "horizon",
-    "hierarchy": "larger, with first_slips and cycles",
-    "ensembles": "chunks, noise, printed_digits, theta_window, resolution, event_law, friction_map",
-}
+# Sections of former configurations, whose keys stand elsewhere now.
+OLD_SECTIONS = ("reproduction", "accuracy", "hierarchy", "ensembles")
 LARGEST_FILE = 100_000  # bytes, which are read in a second
 # YAML reads 010 as 8, and 1:30 as 90; .nan and .inf are no number to compute with.
 NOT_PLAIN = re.compile(
@@ -152,8 +147,8 @@ def check_sections(config: Config, studies: Config) -> None:
     for name, section in config.items():
         if name in OLD_SECTIONS:
             raise ValueError(
-                f"configuration: {name}: its keys stand in sections of their own now, with their values in "
-                f"workflow/studies.yaml: {OLD_SECTIONS[name]}"
+                f"configuration: {name}: its keys stand in sections of their own now: "
+                "see workflow/studies.yaml"
             )
         check_names("configuration:", [name], [*SECTIONS, *studies])
         if isinstance(section, dict) and isinstance(studies.get(name), dict):
