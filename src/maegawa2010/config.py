@@ -151,8 +151,13 @@ def check_sections(config: Config, studies: Config) -> None:
                 "see workflow/studies.yaml"
             )
         check_names("configuration:", [name], [*SECTIONS, *studies])
-        if isinstance(section, dict) and isinstance(studies.get(name), dict):
-            check_names(f"configuration: {name}", section, studies[name])
+        default = studies.get(name)
+        if isinstance(default, list) and not isinstance(section, list):
+            raise ValueError(
+                f"configuration: {name} must be a list, but is {section!r}"
+            )
+        if isinstance(default, dict) and isinstance(section, dict):
+            check_names(f"configuration: {name}", section, default)
 
 
 def _file_with(path: list[Any], value: Any, files: Mapping[str, Config]) -> str:

@@ -21,10 +21,14 @@ from cluster.single_node import SlurmNode, slurm_node
 
 ROOT = Path(__file__).parents[2]
 CORES = int(os.environ.get("CORES", "2"))
-MAP = "map_theta_friction_ratio"
+MAP = "grid"
 TABLE = f"results/tables/{MAP}.csv"
 CHUNKS = 12
-SMALL = {"chunks": CHUNKS, "friction_map": {"points": 4000}}
+AXES = [
+    {"key": "theta", "from": -0.95, "to": 0.95, "points": 64},
+    {"key": "mu_k/mu_s", "from": 0.1, "to": 0.95, "points": 63},
+]
+SMALL = {"chunks": CHUNKS, "grid": AXES}
 # What a machine of one node need not wait for; and a failed job shall stay failed until
 # the next call.
 IMPATIENT = [

@@ -14,7 +14,7 @@ from matplotlib import image
 from maegawa2010.paper import chain_schematic
 from maegawa2010.studies.event_law import figure as event_law
 from maegawa2010.studies.failures import figure as failure_gallery
-from maegawa2010.studies.friction_map import figure as friction_map
+from maegawa2010.studies.grid import figure as grid
 from maegawa2010.studies.horizon import figure as horizon
 from maegawa2010.studies.larger import figure as larger
 from maegawa2010.studies.noise import figure as noise
@@ -227,8 +227,9 @@ def numbers_by_n():
 
 
 def map_of_friction():
-    table = read(SMALL / "map.csv")
-    return friction_map.draw(table.assign(reached=table.index > 0), [(0.25, 0.5)])
+    table = read(SMALL / "grid.csv")
+    axes = [{"key": "theta"}, {"key": "mu_k/mu_s"}]
+    return grid.draw(table.assign(reached=table.index > 0), axes, [(0.25, 0.5)])
 
 
 # By the names of the modules.
@@ -261,7 +262,7 @@ PICTURES = {
     "resolution": numbers_by_n,
     "noise": lambda: noise.draw(read(SMALL / "noise_amplitudes.csv")),
     "event_law": lambda: event_law.draw(read(SMALL / "event_law.csv")),
-    "friction_map": map_of_friction,
+    "grid": map_of_friction,
     "larger": lambda: larger.draw(
         read(SMALL / "larger_nucleation.csv"),
         read(SMALL / "larger_peaks.csv"),

@@ -37,6 +37,10 @@ from precursors import Chain, simulate
 from precursors.larger.chain import LargerChain
 from precursors.proof import ExactChain
 
+AXES: list[dict[str, object]] = [
+    {"key": "theta", "from": -0.95, "to": 0.95, "points": 4},
+    {"key": "mu_k/mu_s", "from": 0.1, "to": 0.95, "points": 3},
+]
 SMALL = Path(__file__).parent / "small"
 SCENES: dict[str, dict[str, str | float]] = {
     "lead": {"theta": "5/6"},
@@ -171,7 +175,7 @@ def studies() -> dict[str, pd.DataFrame]:
             few, tables["noise_members"], CONFIG["chain"], "fig10", 2
         ),
         **event_law_tables(law, CONFIG["chain"]),
-        "map": gather(chunks(MAP, points=12)),
+        "grid": gather(chunks(MAP, axes=AXES)),
     }
 
 
@@ -184,7 +188,6 @@ def members() -> pd.DataFrame:
         "theta_window_members": {"window": 0.2, "points": 3},  # up to -1 and 1
         "resolution_members": {"seed": 1, "n_blocks": [2, 10, 12], "runs": [6, 9, 3]},
         "event_law_members": {"seed": 1, "runs": 6, "n_blocks": [3, 4], "middle": 4},
-        MAP: {"points": 12},
     }
     rows = []
     for name, own in settings.items():
@@ -318,7 +321,7 @@ TABLES: dict[str, Callable[[], pd.DataFrame]] = {
                 "counts_by_n",
                 "resolution_limits",
             ),
-            *("event_law", "map"),
+            *("event_law", "grid"),
         )
     },
     "members": members,

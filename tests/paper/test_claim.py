@@ -242,9 +242,9 @@ def grown(*speedup: float) -> dict[str, pd.DataFrame]:
 
 def map_of(largest: float, smallest: float) -> dict[str, pd.DataFrame]:
     counts = pd.DataFrame(
-        {"friction_ratio": [0.2, 0.5, 0.9], "events_counted": [smallest, 99.0, largest]}
+        {"mu_k/mu_s": [0.2, 0.5, 0.9], "events_counted": [smallest, 99.0, largest]}
     )
-    return {"map_theta_friction_ratio": counts}
+    return {"grid": counts}
 
 
 def lyapunov(exponent: float) -> dict[str, pd.DataFrame]:

@@ -5,7 +5,7 @@ from settings import CONFIG
 from maegawa2010 import printed
 from maegawa2010.scenes import scene_slider
 from maegawa2010.studies.event_law.tables import event_law_study
-from maegawa2010.studies.friction_map.tables import map_study
+from maegawa2010.studies.grid.tables import grid_study
 from maegawa2010.studies.members import Study
 from maegawa2010.studies.noise.tables import noise_study
 from maegawa2010.studies.printed_digits.tables import digits_study
@@ -14,7 +14,7 @@ from maegawa2010.studies.theta_window.tables import theta_window_study
 
 PAPER = {scene: printed.SCENES[scene] for scene in CONFIG["fig13"]}
 SLIDERS = {scene: scene_slider(CONFIG, scene) for scene in CONFIG["fig13"]}
-MAP = "map_theta_friction_ratio"
+MAP = "grid"
 OF_SCENES = {
     "noise_members": noise_study,
     "digits_members": digits_study,
@@ -26,7 +26,7 @@ OF_SCENES = {
 def study_of(name: str, settings: dict[str, object]) -> Study:
     """A study of the configuration with other settings of its own."""
     if name == MAP:
-        return map_study(CONFIG["chain"], **settings)
+        return grid_study(CONFIG["chain"], settings["axes"])
     if name == "event_law_members":
         return event_law_study(CONFIG["chain"], settings)
     return OF_SCENES[name](SLIDERS, CONFIG["duration"], settings)

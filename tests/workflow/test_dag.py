@@ -210,7 +210,7 @@ def test_the_answer_of_a_model_is_computed(workspace):
 def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(
     workspace,
 ):
-    grid, noise = "map_theta_friction_ratio", "noise_members"
+    grid, noise = "grid", "noise_members"
     tables = [f"results/tables/{study}.csv" for study in (grid, noise)]
     workspace.edit("workflow/studies.yaml", "chunks: 1", "chunks: 2")
     assert workspace.pretend(*tables).code == 0
@@ -219,7 +219,7 @@ def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_to
     for old, new, expected in (
         ("chunks: 2", "chunks: 2", {grid: 1}),
         ("seed: 2010", "seed: 2011", {grid: 1, noise: 2}),
-        ("points: 2000", "points: 2001", {grid: 2, noise: 2}),
+        ("points: 44", "points: 43", {grid: 2, noise: 2}),
         ("chunks: 2", "chunks: 7", {grid: 7, noise: 7}),
     ):
         workspace.edit("workflow/studies.yaml", old, new)

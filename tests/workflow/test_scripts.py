@@ -176,11 +176,15 @@ def test_each_figure_is_drawn_from_its_tables_into_its_own_files(tmp_path, monke
 
 def test_a_chunk_of_a_study_has_every_nth_member(tmp_path):
     output = Named(chunk=tmp_path / "2of3.csv")
-    arguments = {"slider": {"mu_s": 0.7, "n_blocks": 2}, "points": 4}
+    axes = [
+        {"key": "theta", "from": -0.95, "to": 0.95, "points": 2},
+        {"key": "mu_k", "from": 0.1, "to": 0.5, "points": 2},
+    ]
+    arguments = {"slider": {"mu_s": 0.7, "n_blocks": 2}, "axes": axes}
     job = {
         "wildcards": Named(study=MAP, chunk="2of3"),
         "params": Named(
-            function="maegawa2010.studies.friction_map.tables:map_study",
+            function="maegawa2010.studies.grid.tables:grid_study",
             options=arguments,
         ),
     }

@@ -270,8 +270,10 @@ def short_events(t: Tables) -> Finding:
 def static_and_kinetic_friction(t: Tables) -> Finding:
     """Median of the events counted over theta, where mu_k/mu_s is largest and
     smallest."""
-    counts = t["map_theta_friction_ratio"].dropna(subset=["events_counted"])
-    medians = counts.groupby("friction_ratio")["events_counted"].median()
+    counts = t["grid"].dropna(subset=["events_counted"])
+    if "mu_k/mu_s" not in counts:  # the user's grid is over other values
+        return Finding([], None)
+    medians = counts.groupby("mu_k/mu_s")["events_counted"].median()
     largest, smallest = medians.iloc[[-1, 0]]
     return Finding([largest, smallest], largest > smallest)
 

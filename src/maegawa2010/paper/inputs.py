@@ -16,6 +16,6 @@ CLAIM_TABLES = (
     "digits_members",
     "lyapunov",
     "model_comparison",
-    "map_theta_friction_ratio",
+    "grid",
 )
 POINT_TABLES = (*SLIPS, "eq15", "measures", "reproduction")

@@ -1,1 +1,0 @@
-"""mu_sapp over theta and mu_k/mu_s."""

@@ -1,0 +1,52 @@
+"""The two axes of a grid: `key`, a value of the chain, `from` and `to`, `points`, and
+`scale` ("linear" or "log")."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from precursors.model.chain import SLIDER, Chain, FloatArray
+
+RATIO = "mu_k/mu_s"
+KEYS = (*(key for key in SLIDER if key != "weights"), RATIO)
+Axis = Mapping[str, Any]
+
+
+def check_axes(slider: Mapping[str, Any], axes: Sequence[Axis]) -> None:
+    """Refuse axes that are not two values of the chain, or lead to no chain.
+
+    The ValueError is one line.
+    """
+    keys = [axis["key"] for axis in axes]
+    if len(set(keys)) != 2 or len(axes) != 2 or not {*keys} <= {*KEYS}:
+        raise ValueError(
+            f"grid must have two axes with a key each of {', '.join(KEYS)}, but has {', '.join(keys)}"
+        )
+    for corner in product(*([axis["from"], axis["to"]] for axis in axes)):
+        values = dict(zip(keys, corner, strict=True))
+        try:
+            Chain.from_slider(**chain_values({**slider, **values}))
+        except (ValueError, OverflowError) as error:
+            where = ", ".join(f"{key} = {value:g}" for key, value in values.items())
+            raise ValueError(f"grid, {where}: {error}") from None
+
+
+def chain_values(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Arguments of `Chain.from_slider` from values of which one may be mu_k/mu_s."""
+    slider = {key: value for key, value in values.items() if key != RATIO}
+    if RATIO in values:
+        slider["mu_k"] = values["mu_s"] * values[RATIO]
+    return slider
+
+
+def points_of(axis: Axis) -> FloatArray:
+    """Values of an axis; whole ones of blocks."""
+    spaced = np.geomspace if axis.get("scale") == "log" else np.linspace
+    points = spaced(axis["from"], axis["to"], axis["points"])
+    return (
+        np.unique(np.rint(points).astype(int)) if axis["key"] == "n_blocks" else points
+    )
