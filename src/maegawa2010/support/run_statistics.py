@@ -3,9 +3,8 @@ median."""
 
 from __future__ import annotations
 
-import math
+from typing import Any
 
-import numpy as np
 import pandas as pd
 import scipy
 from numpy.typing import ArrayLike
@@ -13,7 +12,6 @@ from numpy.typing import ArrayLike
 # Two intervals of this confidence hold both medians in 95 % of cases or more
 # (Bonferroni).
 EACH_OF_TWO = 0.975
-TAIL = (1.0 - 0.95) / 2.0  # on each side of a 95 % interval
 # Relative noise in the normal loads of an ensemble: a tenth of what an experiment knows
 # of them, and well above rounding.
 NOISE = 1e-3
@@ -27,18 +25,9 @@ def nine_tenths(values: pd.Series) -> dict[str, float]:
 
 def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, float]:
     """Interval that holds the median of what the values were drawn from, in at least
-    this share of cases.
-
-    Its ends are two of the values. Each value lies below the median with probability
-    one half, so that the number of those that do is binomial for any distribution. NaN
-    where even the smallest and the largest value are too near: for 95 %, below six
-    values.
-    """
-    values = np.sort(np.asarray(values, float))
-    left_out = int(scipy.stats.binom.ppf((1.0 - share) / 2.0, len(values), 0.5))
-    if not left_out:
-        return math.nan, math.nan
-    return float(values[left_out - 1]), float(values[-left_out])
+    this share of cases; NaN of too few values (below six for 95 %)."""
+    found: Any = scipy.stats.quantile_test(values, p=0.5).confidence_interval(share)
+    return float(found.low), float(found.high)
 
 
 def median_difference(values: pd.Series, others: pd.Series) -> tuple[float, float]:
@@ -59,6 +48,5 @@ def compared(low: float, high: float, tolerance: float) -> str:
 def share_interval(hits: int, of: int) -> tuple[float, float]:
     """95 % interval of a probability of which so many hits were seen (Clopper and
     Pearson): never too short."""
-    low = scipy.stats.beta.ppf(TAIL, hits, of - hits + 1) if hits else 0.0
-    high = scipy.stats.beta.ppf(1.0 - TAIL, hits + 1, of - hits) if hits < of else 1.0
-    return float(low), float(high)
+    found = scipy.stats.binomtest(hits, of).proportion_ci()
+    return float(found.low), float(found.high)
