@@ -66,7 +66,7 @@ HEAVY = (
     "flint", "h5py", "jsonschema", "matplotlib.pyplot", "numba", "pandas",
     "scipy.integrate", "scipy.linalg", "scipy.optimize", "scipy.stats", "snakemake.cli", "sympy", "yaml",
 )  # fmt: skip
-SHARE = 0.85
+SHARE = 0.80
 # Processor time of the tests that a fault meets, when they have no fault.
 SECONDS = 20.0
 # Of one test [s]: beside so many times what it costs without a fault; more where it may

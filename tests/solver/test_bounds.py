@@ -96,10 +96,8 @@ def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
 def test_the_rest_of_a_series_is_within_its_bound(length):
     """Of terms from the ninth on, of all that is watched; they come from the equations
     of motion."""
-    shares, factor = (
-        [],
-        [max(n - 6, 0) * length**n / math.factorial(n) for n in range(ORDER + 1)],
-    )
+    shares = []
+    factor = [max(n - 6, 0) * length**n / math.factorial(n) for n in range(ORDER + 1)]
     for seed in range(200):
         random = np.random.default_rng(seed)
         n = int(random.choice([1, 2, 5, 12]))
@@ -117,7 +115,8 @@ def test_the_rest_of_a_series_is_within_its_bound(length):
         state = np.concatenate(
             [10 ** random.uniform(-2, 2) * random.normal(size=n), modes * 0.1, [1.0]]
         )
-        velocities, forces = [], []
+        velocities = []
+        forces = []
         for _ in range(ORDER + 2):
             velocities.append(state[n:-1] / units.speed)
             forces.append(state[:n] - np.append(state[1:n], 0.0))
@@ -135,7 +134,8 @@ def rate_of(chain: Chain, modes: np.ndarray) -> np.ndarray:
     """Matrix of d/dt (T, v, 1): spring forces and velocities, with the blocks in their
     modes (Eqs. 2-6)."""
     n = chain.n_blocks
-    bonds, rate = np.eye(n) - np.eye(n, k=-1), np.zeros((2 * n + 1, 2 * n + 1))
+    bonds = np.eye(n) - np.eye(n, k=-1)
+    rate = np.zeros((2 * n + 1, 2 * n + 1))
     rate[:n, n:-1] = -chain.springs[:, None] * bonds
     rate[0, -1] = chain.loading_rate
     rate[n:-1, :n] = abs(modes)[:, None] * bonds.T / chain.mass
