@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from precursors import Chain
-from precursors.solver.kernel import roots
+from precursors.solver.kernel import proof, roots
 from precursors.solver.kernel.layout import ORDER, WINDOW
 from precursors.solver.kernel.proof import TAIL
 from precursors.solver.kernel.units import parameters, set_up
@@ -20,6 +20,8 @@ ROUNDING = 1e-12  # of a window; numpy.roots knows a simple root to some roundin
 # A bound that is far too small costs time. In a typical window one step reaches this
 # part of the way to the root.
 ONE_STEP = 0.3
+# How much farther apart the bounds of a window are than the values. Less is better.
+BERNSTEIN = 1.57
 # Safe steps to the first roots of all windows. Less is better: write it down here.
 ROOT_STEPS = 1667
 
@@ -80,6 +82,29 @@ def test_the_search_ends_at_the_first_root_or_proves_that_there_is_none(windows,
     assert progress.root_steps == pytest.approx(
         ROOT_STEPS, rel=0.002
     )  # fused products may round one
+
+
+def test_a_function_stays_within_the_bounds_of_its_window_which_are_not_far_too_wide(
+    monkeypatch,
+):
+    """Terms up to u^5, the value at the end, and a rest that does the worst it may."""
+    lanes = SimpleNamespace(smaller=np.minimum, larger=np.maximum)
+    monkeypatch.setattr(proof, "lanes", lanes)
+    random = np.random.default_rng(6)
+    terms = random.normal(size=(6, 2000))
+    at_end = random.normal(size=2000)
+    rest = 10 ** random.uniform(-2.0, 3.0, 2000)
+    binomials = np.array([math.comb(6, k) for k in range(6)])[:, None]
+    low, high = proof.enclose.py_func(*terms / binomials, at_end, rest)
+    u = np.linspace(0.0, 1.0, 200)[:, None]
+    middle = sum(terms[k] * u**k for k in range(6))
+    middle = middle + (at_end - terms.sum(axis=0)) * u**6
+    reach = u**6 * (1.0 - u) * rest
+    least = (middle - reach).min(axis=0)
+    largest = (middle + reach).max(axis=0)
+    assert (np.minimum(low, at_end) <= least + ROUNDING).all()
+    assert (largest <= high + ROUNDING).all()
+    assert np.median((high - low) / (largest - least)) < BERNSTEIN
 
 
 def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
