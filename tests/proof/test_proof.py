@@ -27,7 +27,7 @@ from precursors.proof import (
     certify,
     verify,
 )
-from precursors.proof.motion import tail, time_unit
+from precursors.proof.motion import EnclosedState, tail, time_unit
 from precursors.proof.tube import Proof
 
 # An enclosure is at least so good [s], [N].
@@ -193,6 +193,17 @@ def proofs(
 def fraction(x: arb) -> Fraction:
     mantissa, exponent = x.man_exp()
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy() -> None:
+    """sum T_i^2 / c_i + u_i^2, for two blocks."""
+    constants: Any = SimpleNamespace(coupling=[arb(c) for c in (0, 0.25, 4, 0)])
+    state = EnclosedState([], [], [0] * 4, arb(1))
+    forces = [arb(0), arb(5, 3), arb(6, 4), arb(0)]
+    rates = [arb(0), arb(7, 5), arb(8, 6), arb(0)]
+    state.absorb(constants, forces, rates)
+    expected = 1 + math.sqrt(9 / 0.25 + 16 / 4 + 25 + 36)
+    assert float(state.distance) == pytest.approx(expected)
 
 
 @pytest.mark.parametrize("derivative", [0, 1, 2])
