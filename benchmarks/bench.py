@@ -1,5 +1,5 @@
 """The exact solver compared with heyoka.py and DOP853 in time, each with its error
-against 40 digits.
+against proofs.
 
     make bench                 everything, in a minute or two
     make speed                 five times, for paper/tables/beside_heyoka.csv
@@ -23,12 +23,10 @@ os.environ |= dict.fromkeys(
 
 # isort: split
 import argparse
-import csv
 import sys
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack, suppress
-from fractions import Fraction
-from functools import cache, partial
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from statistics import median
@@ -49,7 +47,8 @@ from maegawa2010.studies.work_precision.tables import (
 )
 from maegawa2010.support import timing
 from precursors import Chain, Record, simulate, simulate_many
-from precursors.benchmark.compare import Truth, compare
+from precursors.benchmark.compare import compare
+from precursors.benchmark.score import solution
 from precursors.model.checks import Until
 from precursors.model.statics import maximal_strain_positions
 from precursors.solver.simulate import TransitionLimitError
@@ -60,7 +59,7 @@ TABLE = ROOT / "results" / "tables" / "bench.csv"
 DURATION = 10.0  # s, the limit where a run ends by itself
 HEYOKA_TOLERANCE = 0.0  # its default, rounding
 DOP853_TOLERANCE = 1e-13
-SCENES = {"0": "fig10", "-5/6": "fig11", "5/6": "fig12"}
+PROBLEMS = {"0": "uniform", "-5/6": "trailing", "5/6": "leading"}
 ENDS: dict[str, Until] = {"to the first global slip": "global slip", "10 s": None}
 ENSEMBLE, HEYOKA_ENSEMBLE = 2000, 100
 # A strained chain is driven so fast that it goes on slipping over its whole length.
@@ -142,7 +141,7 @@ def main() -> None:
 def one_method(name: str, rounds: int) -> pd.DataFrame:
     """Measure a method, the exact solver and heyoka.py at theta = 0 to the end of the
     first global slip."""
-    truth = reference("0").until_global_slip()
+    truth = solution("uniform").until_global_slip()
     quick = charted_values(full=False)
     values = {
         other: settings[-1:]
@@ -159,7 +158,7 @@ def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:
     if not find_spec("heyoka"):
         print("heyoka.py is not installed: left out", file=sys.stderr)
         return
-    for theta in SCENES:
+    for theta in PROBLEMS:
         for name, until in ENDS.items():
             solve = partial(
                 solve_heyoka,
@@ -194,7 +193,9 @@ def compared(
         "exact": partial(simulate, chain, DURATION, until),
         other: lambda: solve().run,
     }
-    truth = reference(theta) if until is None else reference(theta).until_global_slip()
+    truth = solution(PROBLEMS[theta])
+    if until is not None:
+        truth = truth.until_global_slip()
     timings = measure(tasks)
     wall, cpu = timings["exact"].times_faster_than(timings[other])
     row = partial(_row, other, f"theta = {theta}, {end}")
@@ -342,23 +343,6 @@ def _row(benchmark: str, case: str, quantity: str, unit: str, value: float) -> R
         "unit": unit,
         "value": value,
     }
-
-
-@cache
-def reference(theta: str) -> Truth:
-    """The transitions of a scene with 40 digits."""
-    path = ROOT / "tests" / "golden" / f"reference_{SCENES[theta]}.csv"
-    with path.open(encoding="utf-8", newline="") as file:
-        rows = [
-            (
-                Fraction(row["time_s"]),
-                int(row["block"]),
-                int(row["mode"]),
-                Fraction(row["tangential_load_N"]),
-            )
-            for row in csv.DictReader(file)
-        ]
-    return Truth.exact(Chain.from_slider(theta=theta), DURATION, rows)
 
 
 if __name__ == "__main__":

@@ -1,20 +1,21 @@
 """Chains and starts that several numerical tests use."""
 
 import math
-from fractions import Fraction
-from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import ArrayLike
-from reference import HeldOut
 
 from precursors import Chain, Run, TransitionLimitError, simulate
 from precursors.audit import audit
 from precursors.audit.report import Audit
+from precursors.benchmark.score import solution
 from precursors.model.statics import balance_matrix, positions_from_compressions
 from precursors.solver import plain
 
 SLIDER = Chain.from_slider
+# Theta of the paper's three scenes, by the names of their proved lists.
+SCENES = {"uniform": "0", "trailing": "-5/6", "leading": "5/6"}
 
 
 def first_transitions(chain: Chain, most: int, **options) -> Run:
@@ -44,18 +45,10 @@ def by_plain(
     return np.array(rows, float).reshape(-1, 5), end
 
 
-def held_out(case: HeldOut) -> dict[str, Any]:
-    """Arguments of `simulate` for a chain of the reference, rounded to double
-    precision."""
-    names = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k")
-    numbers = {name: float(getattr(case.chain, name)) for name in names}
-    chain = Chain(weights=[float(w) for w in case.chain.weights], **numbers)
-    start = case.start_positions and [float(x) for x in case.start_positions]
-    return {
-        "chain": chain,
-        "duration": float(Fraction(case.duration)),
-        "start_positions": start,
-    }
+def proved(problem: str) -> pd.DataFrame:
+    """The proved transitions of a reference problem, rounded to doubles: time, block,
+    mode, tangential_load."""
+    return pd.DataFrame(solution(problem).run.transitions)
 
 
 def audited(run: Run) -> Audit:
@@ -87,10 +80,8 @@ def lone_slip(chain: Chain) -> tuple[float, float]:
     the stop the net force is the mirror image of that at the release about mu_k w_1.
     """
     stiffness = chain.drive_stiffness + (chain.stiffness if chain.n_blocks > 1 else 0.0)
-    drop, omega = (
-        (chain.mu_s - chain.mu_k) * chain.weights[0],
-        math.sqrt(stiffness / chain.mass),
-    )
+    drop = (chain.mu_s - chain.mu_k) * chain.weights[0]
+    omega = math.sqrt(stiffness / chain.mass)
     seconds = (math.pi + 2 * math.atan(chain.loading_rate / (drop * omega))) / omega
     return seconds, (2 * drop + chain.loading_rate * seconds) / stiffness
 

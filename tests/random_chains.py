@@ -41,11 +41,9 @@ def any_chain(rng: Generator) -> Trial:
     """All parameters over many decades, in any units; weights with zeros; prestressed
     and moving starts."""
     n = int(rng.integers(1, 61))
-    force, stiffness, mass = (
-        decades(rng, -9, 9),
-        decades(rng, -6, 12),
-        decades(rng, -12, 6),
-    )
+    force = decades(rng, -9, 9)
+    stiffness = decades(rng, -6, 12)
+    mass = decades(rng, -12, 6)
     spread = rng.choice([0.0, 1.0, 3.0])
     weights = force * 10.0 ** rng.uniform(-spread, spread, n)
     if rng.random() < 0.4:
@@ -108,10 +106,8 @@ def mild_chain(rng: Generator) -> Trial:
     moving."""
     n = int(rng.integers(1, 13))
     mu_s = rng.uniform(0.3, 1.0)
-    weights, drive_stiffness = (
-        rng.uniform(1.0, 100.0, n),
-        25e6 * 10 ** rng.uniform(-3.0, 1.0),
-    )
+    weights = rng.uniform(1.0, 100.0, n)
+    drive_stiffness = 25e6 * 10 ** rng.uniform(-3.0, 1.0)
     mass = 1e-3
     duration = 10 ** rng.uniform(2.0, 3.5) * np.sqrt(mass / max(25e6, drive_stiffness))
     velocity = rng.uniform(0.1, 3.0) * weights.sum() / (duration * drive_stiffness)
@@ -190,15 +186,6 @@ KINDS: dict[str, tuple[float, Callable[[Generator], Trial]]] = {
     "whole numbers": (0.15, even_chain),
     "absurd": (0.05, absurd_chain),
 }
-
-
-def trial_kind(number: int) -> str:
-    """The kind of the trial with a number."""
-    return str(
-        np.random.default_rng([SEED, number]).choice(
-            list(KINDS), p=[share for share, _ in KINDS.values()]
-        )
-    )
 
 
 def trial(number: int) -> tuple[str, Trial]:

@@ -9,8 +9,6 @@ from dataclasses import replace
 
 import numpy as np
 import pandas as pd
-from chains import first_transitions
-from random_chains import SEED, trial
 
 from precursors import Chain, Run, simulate
 from precursors.audit import ROUNDINGS, audit
@@ -23,9 +21,6 @@ STRAINED = 1e-5 * np.sin(np.arange(10.0))
 ENERGY_ROUNDING = 1e-13
 # A number with a unit, in a sentence of the auditor.
 NUMBER = r"-?[\d.]+(?:e[-+]\d+)?(?= (?:N|m/s|s)\b)"
-# What is done to a run of a random chain, and by how much: a part of an interval, and
-# of mu_k.
-WAYS, WRONG = ("shifted", "dropped", "swapped", "turned", "mu_k"), 1e-6
 
 
 def without(run: Run, *removed: int) -> Run:
@@ -65,13 +60,8 @@ def with_chain(run: Run, name: str, factor: float) -> Run:
 
 def next_of_block(run: Run, k: int) -> int:
     """Number of the next transition of the block of transition k."""
-    return (
-        k
-        + 1
-        + int(
-            np.argmax(run.transitions["block"][k + 1 :] == run.transitions["block"][k])
-        )
-    )
+    block = run.transitions["block"]
+    return k + 1 + int(np.argmax(block[k + 1 :] == block[k]))
 
 
 def first_backward(run: Run, old: int) -> int:
@@ -107,7 +97,9 @@ def falsified() -> Iterator[tuple[str, Run]]:
     # strained start too.
     uniform = simulate(slider(), until="global slip")
     sticks = np.flatnonzero(uniform.transitions["mode"] == 0)
-    stop, stick, n = int(sticks[0]), int(sticks[4]), len(uniform.transitions)
+    stop = int(sticks[0])
+    stick = int(sticks[4])
+    n = len(uniform.transitions)
     for seconds in (SHIFT, -SHIFT):
         yield f"first release {seconds:+g} s", shifted(uniform, 0, seconds)
         yield f"first stop {seconds:+g} s", shifted(uniform, stop, seconds)
@@ -207,48 +199,3 @@ def audits() -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
-
-
-def spoiled(run: Run, way: str, rng: np.random.Generator) -> Run | None:
-    """The run with one mistake by chance; None where there is nothing to spoil."""
-    transitions, intervals, chain = run.transitions, run.intervals, run.chain
-    block, mode = transitions["block"], transitions["mode"]
-    if way == "shifted":
-        chosen = (intervals[:-1] > 0) & (intervals[1:] > WRONG * intervals[:-1])
-    elif way == "swapped":
-        # Two that come nearly together may come in either order.
-        soon = WRONG * np.sqrt(chain.mass / max(chain.stiffness, chain.drive_stiffness))
-        chosen = (intervals[1:-1] > soon) & (block[1:] != block[:-1])
-    elif way == "mu_k":
-        # Friction leaves a trace where a block that has weight moves and stops.
-        chosen = (mode == 0) & (chain.kinetic_friction[block - 1] > 0)
-    else:
-        chosen = block > 0
-    if not chosen.any():
-        return None
-    k = int(rng.choice(np.flatnonzero(chosen)))
-    match way:
-        case "shifted":
-            return shifted(run, k, WRONG * intervals[k])
-        case "dropped":
-            return without(run, k)
-        case "swapped":
-            swapped = transitions.copy()
-            swapped[["block", "mode"]][[k, k + 1]] = transitions[["block", "mode"]][
-                [k + 1, k]
-            ]
-            return replace(run, transitions=swapped)
-        case "turned":
-            return changed(
-                run, k, mode=rng.choice([new for new in (-1, 0, 1) if new != mode[k]])
-            )
-    return with_chain(run, "mu_k", 1 - WRONG)
-
-
-def seen(number: int, way: str) -> bool | None:
-    """Whether the auditor sees that the run of a trial was spoiled; None where there is
-    nothing to spoil."""
-    case = trial(number)[1]
-    run = first_transitions(case.chain, case.most, duration=case.duration, **case.start)
-    wrong = spoiled(run, way, np.random.default_rng([SEED, number, WAYS.index(way)]))
-    return None if wrong is None else not audit(wrong).ok

@@ -11,15 +11,12 @@ from audit.falsified import (
     ENERGY_ROUNDING,
     SHIFT,
     STRAINED,
-    WAYS,
     audits,
     changed,
-    seen,
     shifted,
 )
 from chains import first_transitions, positions_under
 from golden import small_tables
-from random_chains import trial_kind
 
 from precursors import Chain, Run, simulate
 from precursors.audit import ROUNDINGS, audit
@@ -105,7 +102,8 @@ def test_a_dip_that_lies_between_all_first_probes_is_found(dip, is_motion):
 def test_the_bound_on_fourth_derivatives_holds():
     """From random states: slopes are the derivatives of the values, and none bends more
     than the bound."""
-    chain, generator = SLIDER(n_blocks=7), np.random.default_rng(2010)
+    chain = SLIDER(n_blocks=7)
+    generator = np.random.default_rng(2010)
     run = simulate(chain, duration=1e-3)
     step = 0.02 / math.sqrt(4 * chain.stiffness / chain.mass)
     seconds = step * np.arange(20_000)
@@ -131,8 +129,10 @@ def test_the_bound_on_fourth_derivatives_holds():
 def test_no_function_is_below_its_bound_in_a_cell_and_one_with_a_constant_fourth_derivative_reaches_it():
     """A cubic, known by its values and slopes at both ends, less M s^2 (d - s)^2 /
     24."""
-    cells, width = np.random.default_rng(4).normal(size=(4, 2000)), 0.3
-    cells[:, 0], fourth = 0.0, 1e4
+    cells = np.random.default_rng(4).normal(size=(4, 2000))
+    cells[:, 0] = 0.0
+    width = 0.3
+    fourth = 1e4
     s = np.linspace(0.0, 1.0, 101)[:, None]
     slopes = 3.0 * np.diff(cells, axis=0)[[0, 2]] / width
     bound = lower_bound(np.array(width), cells[[0, 3]], slopes, np.array(fourth))
@@ -170,24 +170,6 @@ def test_each_kind_of_mistake_is_found_and_told_as_it_was():
     small_tables.assert_kept("audits", audits())
 
 
-# Of each kind some with much rounding, and some as they come.
-SPOILED = {
-    "any chain": (154, 112, 1034, 3787, 7035, 12177, *range(40, 60)),
-    "slider": range(160),
-    "whole numbers": range(150),
-}
-
-
-@pytest.mark.parametrize("kind", SPOILED)
-def test_nearly_every_mistake_by_chance_is_found_in_runs_of_random_chains(kind):
-    """docs/reliability.md says which cannot be found."""
-    numbers = [n for n in SPOILED[kind] if trial_kind(n) == kind]
-    for way in WAYS:
-        answers = [answer for n in numbers if (answer := seen(n, way)) is not None]
-        assert len(answers) >= 4
-        assert sum(answers) >= 0.75 * len(answers), way
-
-
 def test_sixteen_roundings_of_a_load_are_allowed_and_1e_12_of_a_time(uniform):
     load = uniform.transitions["tangential_load"][100]
     one = (
@@ -216,30 +198,16 @@ def test_a_caller_sets_the_tolerance_for_an_approximate_run(uniform):
         audit(run, roundings=0.0)
 
 
-@pytest.mark.parametrize("more", range(4))
-def test_positions_far_from_zero_are_known_to_their_rounding(more):
+def test_positions_far_from_zero_are_known_to_their_rounding():
     """Blocks 1 and 4 start at their limits; the soft drive is so far away that rounding
     moves them beyond."""
     chain = SLIDER(n_blocks=5, drive_stiffness=25.0)
-    pushes = 0.1 + 0.01 * more * np.arange(5)
-    pushes[[0, 3]] = chain.strength[0], -chain.strength[3]
+    pushes = 0.1 + 0.01 * np.arange(5)
+    pushes[[0, 3]] = chain.strength[[0, 3]] * [1, -1]
     run = simulate(chain, duration=0.01, start_positions=positions_under(chain, pushes))
     audit(run).raise_if_failed()
     moved = run.start_positions * np.r_[1.0, 1.0, 1.0 + 1e-11, 1.0, 1.0]
     assert not audit(replace(run, start_positions=moved)).ok
-
-
-def test_the_work_of_a_stiff_drive_keeps_its_digits():
-    """Three blocks swing without friction about a drive that moves on for 1e4 radians
-    of its own spring."""
-    chain = SLIDER(
-        n_blocks=3, mu_s=0.0, mu_k=0.0, drive_stiffness=7.5e12, drive_velocity=1e-2
-    )
-    duration = 1e4 / math.sqrt(chain.drive_stiffness / chain.mass)
-    run = simulate(chain, duration=duration, start_velocities=[1.3e-2, 1e-2, 8e-3])
-    report = audit(run)
-    report.raise_if_failed()
-    assert report.energy_residual < ENERGY_ROUNDING
 
 
 def test_arrays_that_do_not_fit_are_one_problem_and_no_crash(uniform):
@@ -249,14 +217,9 @@ def test_arrays_that_do_not_fit_are_one_problem_and_no_crash(uniform):
             "216 transitions need 217 intervals",
         ),
         (
-            replace(uniform, intervals=-uniform.intervals),
-            "an interval is negative or not finite",
-        ),
-        (
             changed(uniform, 7, block=11),
             "transition 7 has block 11, mode 1: there is no such block or mode",
         ),
-        (changed(uniform, 7, mode=-128), "mode -128: there is no such block or mode"),
     ):
         (found,) = audit(run).problems
         assert problem in found

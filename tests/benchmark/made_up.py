@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cache
 
 from precursors import Chain, Record
 from precursors.benchmark.compare import Comparison
@@ -43,6 +44,7 @@ def has_all_transitions(found: Comparison) -> bool:
     return found.transitions_right == found.transitions_found == found.transitions_true
 
 
+@cache
 def tied_certificate() -> Certificate:
     """A proof that ends with a tie."""
     return certify(

@@ -11,19 +11,13 @@ from benchmark.made_up import (
     CHAIN,
     DURATION,
     TRUE,
-    has_all_transitions,
     made_up,
     tied_certificate,
 )
-from reference import read_golden
 
 from precursors import Chain, simulate
 from precursors.benchmark.compare import Truth, compare
 
-ONSETS = [0, 2, 6]
-# What doubles reach up to the first global slip [s], ten times what the exact solver's
-# error is.
-ROUNDING = 1e-14
 NONE = math.nan
 
 
@@ -155,16 +149,6 @@ def test_the_truth_until_the_global_slip_is_what_a_run_until_it_has():
     for rows in (TRUE[:6], TRUE[:10]):
         unfinished = Truth.of_run(made_up(rows))
         assert unfinished.until_global_slip() is unfinished
-
-
-def test_the_exact_solver_has_every_transition_of_the_reference():
-    truth = Truth.exact(Chain.from_slider(), 10.0, read_golden("fig10"))
-    assert has_all_transitions(compare(simulate(Chain.from_slider()), truth))
-    found = compare(
-        simulate(Chain.from_slider(), 10.0, "global slip"), truth.until_global_slip()
-    )
-    assert has_all_transitions(found)
-    assert 0.0 < found.time_error < ROUNDING
 
 
 def test_a_proof_that_ends_with_a_tie_is_the_truth_up_to_there():

@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from precursors import simulate
-from precursors.analysis.slips import find_slips, first_global
+from precursors.analysis.slips import find_slips
 from precursors.benchmark.score import problems, score, solution
 from precursors.proof import Certificate
 
@@ -146,30 +145,14 @@ def test_rows_after_the_duration_are_ignored_and_costs_are_those_of_the_last(sco
     assert math.isnan(without["evaluations"])
 
 
-def test_the_exact_solver_is_right_up_to_its_predictability_time(scored):
-    truth = solution("fast_drive")
-    run = simulate(truth.run.chain, truth.run.duration)
-    rows = [",".join(map(repr, row.item())) for row in run.transitions]
-    found = scored(HEADER, *rows, problem="fast_drive")
-    slips = find_slips(truth.run)
-    onset = slips["onset"].iloc[first_global(slips)]
-    first_wrong = float(found["should_be"].split()[-2])
-    assert onset < first_wrong < truth.run.duration
-
-
 ROW = "0.35,1,1,28"
 WRONG = {
-    "empty": ([], "mine.csv: time_s must be once in the header, not 0 times"),
     "no header": ([ROW], "mine.csv: time_s must be once in the header, not 0 times"),
     "no modes": (
         ["time_s,block,tangential_load_N"],
         "mode must be once in the header, not 0 times",
     ),
     "milliseconds": (["time_ms,block,mode,tangential_load_N"], "time_s must be once"),
-    "two columns of blocks": (
-        ["time_s,block,block_from_0,mode,tangential_load_N"],
-        "block must be once in the header, not 2 times",
-    ),
     "a short row": (
         [HEADER, ROW, "0.4,1,0"],
         "line 3: it must have 4 cells",
@@ -179,13 +162,11 @@ WRONG = {
         [HEADER, "# t", "soon,1,1,28"],
         "line 3: time_s must be a finite number, but is",
     ),
-    "not finite": ([HEADER, "nan,1,1,28"], "line 2: time_s must be a finite number"),
     "block 0": ([HEADER, "0.35,0,1,28"], "line 2: block must be 1 to 10"),
     "block 10 from 0": (
         [HEADER.replace("block", "block_from_0"), "0.35,10,1,28"],
         "line 2: block must be 0 to 9",
     ),
-    "half a block": ([HEADER, "0.35,1.5,1,28"], "line 2: block must be 1 to 10"),
     "mode 2": ([HEADER, "0.35,1,2,28"], "line 2: mode must be -1, 0 or 1, but is 2"),
     "mode twice": ([HEADER, ROW, ROW], "line 3: block 1 is in mode 1 already"),
     "sticks first": ([HEADER, "0.1,4,0,1"], "line 2: block 4 is in mode 0 already"),
@@ -193,8 +174,6 @@ WRONG = {
         [HEADER, ROW, "0.34,1,0,27"],
         "line 3: time_s must not fall",
     ),
-    "before the start": ([HEADER, "-1,1,1,28"], "line 2: time_s must not fall"),
-    "binary": (["\x00\x01\x89PNG"], "time_s must be once in the header, not 0 times"),
 }
 
 

@@ -216,16 +216,6 @@ def test_a_run_that_meets_its_limit_is_kept_in_the_file_that_was_asked_for(
     assert not (tmp_path / "slips.csv").exists()
 
 
-def test_a_command_whose_output_is_closed_ends_without_a_traceback():
-    told = subprocess.run(
-        f"{shlex.join(COMMAND)} --version >&-",
-        shell=True,
-        capture_output=True,
-        text=True,
-    )
-    assert (told.returncode, told.stderr) == (0, "")
-
-
 # slips
 
 SLIPS = """\
@@ -264,10 +254,11 @@ def test_slips_of_a_chain_may_be_those_of_fig_13_only_and_go_to_a_file(cli, tmp_
     assert pd.read_csv(path)["counted"].tolist() == [True] * 14
 
 
-@pytest.mark.parametrize("arguments", [["slips", "--theta", "5/6"], ["--version"]])
-def test_a_reader_that_has_enough_is_no_error(arguments):
+def test_a_reader_that_has_enough_is_no_error():
     with subprocess.Popen(
-        [*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        [*COMMAND, "slips", "--theta", "5/6"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
     ) as command:
         command.stdout.close()
         assert command.stderr.read() == b""
@@ -299,11 +290,9 @@ def test_plot_draws_what_the_library_draws_as_it_is_told_to(
     Path("loads.csv").write_text("t;F\n0;0\n1,5;120,5\n")
     Path("lengths.csv").write_text("F;L\n100;0,5\n")
     run = Run.load(run_file)
-    slips, trace, look = (
-        slip_table(run),
-        load_trace(run),
-        style.Look(85.0, 9.0, "DejaVu Serif"),
-    )
+    slips = slip_table(run)
+    trace = load_trace(run)
+    look = style.Look(85.0, 9.0, "DejaVu Serif")
     asked = ["--width=85", "--font-size=9", "--font=DejaVu Serif", "--title=Mine"]
     measured = {
         "data": np.array([[0.0, 0.0], [1.5, 120.5]]),
@@ -441,7 +430,6 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
             2,
             "needed is one of simulate, slips, plot, audit, score (see precursors --help)",
         ),
-        ("fly", 2, "'fly'"),
         ("simulat", 2, "did you mean simulate? (see precursors --help)"),
         (
             "simulate --font 9",
@@ -454,24 +442,18 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
             2,
             "did you mean lengths? (see precursors plot --help)",
         ),
-        ("plot --figure 1e9", 2, "'lengths') (see precursors plot --help)"),
         (
             "simulate --output /dev/null/run.h5 --duration 1e9",
             3,
             "/dev/null is not a directory",
         ),
-        ("slips --output / --duration 1e9", 3, "cannot write /: it is a directory"),
         (
             "plot --duration 1e9 --output figure.doc",
             2,
             "must end in .png, .svg, .pdf or .eps",
         ),
         ("plot --duration 1e9 --width 8.5", 2, "between 40 and 400 mm, but is 8.5"),
-        ("plot --duration 1e9 --font-size 90", 2, "between 4 and 24 pt, but is 90"),
         ("plot --duration 1e9 --font Helvetia", 2, "'Helvetia' is not installed"),
-        ("plot --duration 1e9 --data missing.csv", 3, "missing.csv: No such file"),
-        ("plot --duration 0.1 --title 'a\x01b'", 2, "must have no control characters"),
-        ("plot --output .png", 2, ".png must end in .png, .svg, .pdf or .eps"),
         ("simulate --theta 2", 2, "theta must be a number between -1 and 1"),
         ("simulate --blocks 2.5", 2, "invalid int value: '2.5'"),
         (
@@ -479,19 +461,12 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
             2,
             "argument --counted: takes no value, but has 'yes' (see",
         ),
-        ("simulate --blocks 0", 2, "n_blocks must be a whole number from 1 to 100000"),
         ("simulate --mu-s 1/0", 2, "'1/0' is not a number"),
-        ("simulate --duration -1", 2, "duration must be above 0 s"),
-        ("simulate --drive-velocity nan", 2, "'nan' is not a number"),
         ("simulate --weights w.csv --theta 0", 2, WEIGHTS),
-        ("simulate --weights w.csv --blocks 3", 2, WEIGHTS),
-        ("simulate --weights w.csv --normal-load 1", 2, WEIGHTS),
         ("simulate --weights missing.csv", 3, "missing.csv: No such file"),
         ("slips missing.h5", 3, "missing.h5: no such file"),
         (f"slips {__file__}", 1, "run file"),
         ("slips run.h5 --duration 0", 2, WITH_A_FILE),
-        ("plot run.h5 --weights w.csv", 2, WITH_A_FILE),
-        ("plot run.h5 --until-global-slip", 2, WITH_A_FILE),
     ],
 )
 def test_an_error_is_one_line_that_names_what_is_wrong(cli, arguments, code, about):
@@ -508,9 +483,7 @@ def test_an_error_is_one_line_that_names_what_is_wrong(cli, arguments, code, abo
         (Refused("two\nlines"), 1, "two lines"),
         (ModuleNotFoundError("no 'flint'"), 4, "no 'flint': install it to use this"),
         (MemoryError(), 2, "not enough memory for so many blocks or runs"),
-        (MemoryError("1 TB is needed"), 2, "1 TB is needed"),
         (OSError(28, "No space left", "run.h5"), 3, "run.h5: No space left"),
-        (OSError("cannot write run.h5"), 3, "cannot write run.h5"),
     ],
 )
 def test_what_goes_wrong_in_a_command_is_one_line_and_an_exit_code(
@@ -565,7 +538,7 @@ def test_an_interrupt_stops_compiled_code():
     assert err == "precursors simulate: interrupted\n"
 
 
-@pytest.mark.parametrize("fraction", ["-5/6", "5/6", "-.5", "-0.25", "1e-1"])
+@pytest.mark.parametrize("fraction", ["-5/6", "-.5", "1e-1"])
 def test_theta_may_be_negative_and_a_fraction(cli, fraction, tmp_path):
     code, *_ = cli(
         "simulate",

@@ -62,7 +62,8 @@ def draw_scene(events: pd.DataFrame, duration: float = 10.0, **how: object):
 def crowded_scene():
     """Many events, one of which the end of the run cuts off, and a measurement below
     zero."""
-    first, times = slips("fig12"), ["onset_s", "end_s"]
+    first = slips("fig12")
+    times = ["onset_s", "end_s"]
     again = first.assign(**(first[times] + 10.0))
     small = first[first["onset_s"] < 2.8].assign(
         **(first[times] + 0.012), is_global=False

@@ -38,7 +38,8 @@ def drawn(**columns) -> ElementTree.Element:
 
 
 def test_the_kept_picture_is_that_of_the_run():
-    kept, made = ROOT / "tests/golden/wave.svg", ROOT / "results/figures/wave.svg"
+    kept = ROOT / "tests/golden/wave.svg"
+    made = ROOT / "results/figures/wave.svg"
     assert kept.read_text("utf-8") == made.read_text("utf-8")
     assert kept.stat().st_size < 400_000
 

@@ -4,14 +4,16 @@ they fail."""
 from importlib.util import find_spec
 
 import pytest
-from reference.goldens import SCENES, read_golden
+from chains import SCENES
 
 from maegawa2010.methods.cvode_events import solve_cvode
 from maegawa2010.methods.dop853 import solve_dop853
 from maegawa2010.methods.events import EventMotion
 from maegawa2010.methods.heyoka_events import solve_heyoka
 from maegawa2010.methods.scipy_events import solve_scipy
-from precursors import Chain, Run
+from precursors import Chain
+from precursors.benchmark.compare import compare
+from precursors.benchmark.score import solution
 
 FIRST_SLIP = 216  # transitions of theta = 0 to the end of the first global slip
 # Errors of a step add up and grow in 2.7 s: measured were 7e-10 (SciPy) and more.
@@ -24,20 +26,6 @@ ROUNDING_GROWN = 1e-7  # s
 @pytest.fixture(scope="module")
 def uniform() -> Chain:
     return Chain.from_slider()
-
-
-def right_and_error(run: Run, golden: list) -> tuple[int, float]:
-    """Transitions before the first wrong one, and the largest error of their times
-    [s]."""
-    right, error = 0, 0.0
-    for found, true in zip(run.transitions, golden, strict=False):
-        if (found["block"], found["mode"]) != (true.block, true.mode):
-            break
-        right, error = (
-            right + 1,
-            max(error, abs(float(found["time"] - float(true.time)))),
-        )
-    return right, error
 
 
 def needs(package: str) -> pytest.MarkDecorator:
@@ -65,20 +53,19 @@ def test_a_method_makes_every_transition_of_the_first_global_slip(
     """At a tight tolerance; compiled DOP853 also at that where SciPy's misses two
     roots."""
     result = solve(uniform, 10.0, tolerance, "global slip")
-    right, error = right_and_error(result.run, read_golden("fig10"))
-    assert right == len(result.run.transitions) == FIRST_SLIP
-    assert error < allowed
+    found = compare(result.run, solution("uniform").until_global_slip())
+    assert found.transitions_right == found.transitions_found == FIRST_SLIP
+    assert found.time_error < allowed
     assert result.evaluations > 10 * FIRST_SLIP
 
 
 @needs("heyoka")
 @pytest.mark.parametrize("scene", SCENES)
 def test_heyoka_makes_every_transition_of_ten_seconds_at_its_default_tolerance(scene):
-    golden = read_golden(scene)
     result = solve_heyoka(Chain.from_slider(theta=SCENES[scene]), 10.0, 0.0)
-    right, error = right_and_error(result.run, golden)
-    assert right == len(result.run.transitions) == len(golden)
-    assert error < ROUNDING_GROWN
+    found = compare(result.run, solution(scene))
+    assert found.transitions_right == found.transitions_found == found.transitions_true
+    assert found.time_error < ROUNDING_GROWN
 
 
 def test_blocks_that_stop_at_the_same_instant_to_rounding_both_stop():

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from reference.goldens import SCENES
+from chains import SCENES
 
 from precursors import Chain
 from precursors.model.statics import (
@@ -61,7 +61,8 @@ def test_the_largest_load_at_rest_is_mu_s_F_Z_and_has_the_state_of_eq_12(chain):
 
 
 @pytest.mark.parametrize(
-    ("scene", "load"), [("fig11", 2527 / 6), ("fig10", 1127.0), ("fig12", 10997 / 6)]
+    ("scene", "load"),
+    [("trailing", 2527 / 6), ("uniform", 1127.0), ("leading", 10997 / 6)],
 )
 def test_eq_12_as_printed_gives_1127_n_instead_of_280_n(scene, load):
     chain = Chain.from_slider(theta=SCENES[scene])

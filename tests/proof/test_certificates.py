@@ -3,7 +3,6 @@ are not."""
 
 from __future__ import annotations
 
-import csv
 import dataclasses
 import gzip
 import json
@@ -14,8 +13,6 @@ from pathlib import Path
 
 import pytest
 from benchmark.made_up import tied_certificate
-from reference import Transition
-from reference.goldens import GOLDEN, SCENE_DIGITS, SCENES, csv_rows
 from settings import CONFIG
 
 from maegawa2010.studies.horizon.chains import (
@@ -38,29 +35,7 @@ CHAINS = CONFIG["horizon"]["proved"]
 # A committed certificate is smaller [bytes].
 LARGEST_FILE = 300_000
 COMMITTED = Path(__file__).parents[2] / "workflow" / "certificates"
-# The chains of the three scenes in horizon.proved of the configuration.
-PROVED_SCENES = {"fig10": "uniform", "fig11": "trailing", "fig12": "leading"}
 SLIDER = ExactChain.from_slider
-
-
-@pytest.mark.parametrize(("scene", "chain"), PROVED_SCENES.items())
-def test_the_golden_tables_are_the_proof_rounded_digit_for_digit(
-    scene: str, chain: str
-) -> None:
-    certificate = Certificate.load(COMMITTED / f"{chain}.json.gz")
-    assert certificate.chain == SLIDER(theta=SCENES[scene])
-    assert certificate.proved_until == 10
-    with (GOLDEN / f"reference_{scene}.csv").open(newline="") as file:
-        _, *golden = csv.reader(file)
-    # Both ends of every enclosure round to the digits of the golden table.
-    for end in ("lower", "upper"):
-        ends = [
-            Transition(
-                getattr(t.time, end), t.block, t.mode, getattr(t.tangential_load, end)
-            )
-            for t in certificate.transitions
-        ]
-        assert csv_rows(ends, SCENE_DIGITS) == golden
 
 
 @pytest.mark.parametrize("name", CHAINS)
@@ -101,15 +76,11 @@ def test_a_foreign_or_damaged_file_is_refused_in_one_line(small, tmp_path) -> No
     damaged = {
         b"": "Expecting value",
         b"no gzip": "Not a gzipped file",
-        gzip.compress(b"{}"): "'format'",
         gzip.compress(b"[1, 2]"): "list indices must be integers",
-        gzip.compress(b"[" * 100_000): "maximum recursion depth exceeded",
         gzip.compress(
             b'{"format": "else"}'
         ): "its format must be 'precursors certificate 2', but is 'else'",
         whole[: len(whole) // 2]: "Compressed file ended",
-        whole[:-1]: "Compressed file ended",
-        whole[:500] + bytes([whole[500] ^ 1]) + whole[501:]: "",
     }
     for content, why in damaged.items():
         path.write_bytes(content)
@@ -141,16 +112,13 @@ def moved(enclosure: Enclosure, shift: Fraction, shrink: int = 1) -> Enclosure:
     return Enclosure(enclosure.midpoint + shift, enclosure.radius / shrink)
 
 
-WRONG_TIME, OTHER = (
-    "its time is not proved within",
-    "block 2 goes to mode .1, which is not what is stated",
-)
+WRONG_TIME = "its time is not proved within"
+OTHER = "block 2 goes to mode .1, which is not what is stated"
 SPOILED: dict[str, tuple[Callable[[CertifiedTransition], CertifiedTransition], str]] = {
     "narrower": (
         lambda t: t._replace(time=moved(t.time, Fraction(0), shrink=1000)),
         WRONG_TIME,
     ),
-    "digit 2": (lambda t: t._replace(time=moved(t.time, Fraction(1, 100))), WRONG_TIME),
     "digit 43": (
         lambda t: t._replace(time=moved(t.time, Fraction(1, 10**43))),
         WRONG_TIME,
@@ -252,19 +220,15 @@ def test_one_block_has_the_whole_load_whatever_theta_is():
     ("slider", "argument", "message"),
     [
         ({"theta": "7/6"}, {}, "theta"),
-        ({"theta": 1 + Fraction(1, 10**30)}, {}, "weights"),
         ({"mu_s": "0.4"}, {}, "mu_k"),
         (
             {"theta": "1e999999999"},
             {},
             'theta must be a finite number, or one in quotes as "5/6", but is ',
         ),
-        ({"normal_load": float("nan")}, {}, "normal_load must be a finite number"),
-        ({"n_blocks": 0}, {}, "n_blocks"),
         ({}, {"duration": 0}, "duration must be above 0 s, but is 0 s"),
         ({}, {"width": 0}, "width must be above 0 s, but is 0 s"),
         ({}, {"until": "slip"}, "until"),
-        ({}, {"start_positions": ["0"]}, "start_positions must have one value"),
         (
             {},
             {"start_velocities": [0] * 9},

@@ -17,13 +17,14 @@ from precursors.proof.event_roots import (
     Undecided,
     event_functions,
     first_root,
-    newton,
 )
 from precursors.proof.exact_chain import ExactChain
 from precursors.proof.motion import Constants, EnclosedState, time_unit
 from precursors.proof.tube import Proof
 
-BITS, END, VALID = 64, 1.0, 1.125
+BITS = 64
+END = 1.0
+VALID = 1.125
 # How closely a root is isolated: Newton's method has stopped to halve the enclosure.
 ISOLATED = 1e-15
 # NumPy's roots of random polynomials of degree 5 are good to so much.
@@ -39,7 +40,8 @@ def function(
 ):
     """An event function from its coefficients, known to within some width."""
     u = arb_poly(value)
-    slope, around = u.derivative(), arb(0, width)
+    slope = u.derivative()
+    around = arb(0, width)
     return EventFunction(
         block, way, fresh, u + around, slope + around, slope.derivative() + around
     )
@@ -88,7 +90,8 @@ def test_the_first_root_is_found_and_no_other(of, back, root):
 
 
 def test_random_polynomials_have_the_first_root_that_numpy_finds():
-    generator, n_roots = np.random.default_rng(7), 0
+    generator = np.random.default_rng(7)
+    n_roots = 0
     for _ in range(200):
         coefficients = generator.normal(size=6)
         coefficients[0] = abs(coefficients[0])
@@ -160,37 +163,12 @@ def test_what_cannot_be_decided_is_asked(functions, back, question, blocks):
     )
 
 
-@pytest.mark.parametrize("bits", [64, 128])
-def test_a_double_root_is_given_up_at_a_width_that_follows_from_the_bits(bits):
-    with pytest.raises(Undecided) as asked:
-        find(through(0.375, 0.375), bits=bits)
-    assert (
-        2.0 ** -(bits // 2 + 8) / 2
-        <= float(asked.value.time.rad())
-        < 2.0 ** -(bits // 2 + 8)
-    )
-
-
-@pytest.mark.parametrize("bits", [64, 256, 1024])
-def test_newtons_method_gives_as_many_digits_as_are_asked_for_and_no_more(bits):
-    u = arb_poly([0.5, 0, -1])
-    _, root = find(function([0.5, 0, -1]))
-    with ctx.workprec(bits + 32):
-        x = newton(u, root, bits)
-        wrong = abs(x - arb(0.5).sqrt())
-        assert x.rad() == 0
-        assert wrong < arb(2) ** -bits
-        assert wrong > arb(2) ** (-bits - 24)
-
-
 def equations(of: Constants, mode: list[int]) -> np.ndarray:
     """The matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1); blocks with
     mode 0 do not move."""
-    n, c, friction = (
-        len(mode) - 2,
-        list(map(float, of.coupling)),
-        list(map(float, of.friction)),
-    )
+    n = len(mode) - 2
+    c = list(map(float, of.coupling))
+    friction = list(map(float, of.friction))
     matrix = np.zeros((2 * n + 1, 2 * n + 1))
     matrix[0, -1] = c[1] * float(of.drive)
     for i in range(1, n + 1):
@@ -213,7 +191,9 @@ def exact_rows(
 ) -> list[np.ndarray]:
     """The event function and its derivatives, as far as it has any, as rows that
     multiply y."""
-    n, i, way = proof.chain.n_blocks, function.block, function.direction
+    n = proof.chain.n_blocks
+    i = function.block
+    way = function.direction
     row = np.zeros(2 * n + 1)
     if way == 0:
         row[n + i - 1] = proof.state.mode[i]
@@ -254,16 +234,15 @@ def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_t
     """Beside the matrix exponential, with so few bits that the remainder of the series
     is seen."""
     functions = functions_of(sliding, 0.0, 12, valid)
-    matrix, closest = (
-        equations(sliding.bounds, sliding.state.mode),
-        dict.fromkeys(CLOSEST, 0.0),
-    )
+    matrix = equations(sliding.bounds, sliding.state.mode)
+    closest = dict.fromkeys(CLOSEST, 0.0)
     for t in (-valid, -valid / 2, valid / 2, valid):
         flow = expm(matrix * t) @ vector(sliding.state)
         for of in functions:
             for k, row in enumerate(exact_rows(sliding, of, matrix)):
                 found = (of.value, of.slope, of.bend)[k](arb(t))
-                wrong, radius = abs(float(found.mid()) - row @ flow), float(found.rad())
+                wrong = abs(float(found.mid()) - row @ flow)
+                radius = float(found.rad())
                 assert wrong <= radius
                 key = k, abs(of.direction)
                 closest[key] = max(closest[key], wrong / radius)
@@ -275,7 +254,9 @@ def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no
 ):
     """At the start, where a function and its derivatives are linear in T_i / sqrt c_i
     and u_i."""
-    n, distance, mode = sliding.chain.n_blocks, 1e-6, sliding.state.mode
+    n = sliding.chain.n_blocks
+    distance = 1e-6
+    mode = sliding.state.mode
     matrix = equations(sliding.bounds, [0, *[1] * n, 0])
     scale = np.append(
         np.sqrt([float(c) for c in sliding.bounds.coupling[1:-1]]), np.ones(n)
@@ -323,7 +304,8 @@ def test_no_net_force_changes_by_more_than_its_bound(
 ):
     """Beside the matrix exponential; a run may have the velocity, or be as far as that
     from the state."""
-    chain, gap = ExactChain.from_slider(**slider), 0.5
+    chain = ExactChain.from_slider(**slider)
+    gap = 0.5
     state = EnclosedState(
         [*map(arb, (0, *force, 0))],
         [*map(arb, (0, *rate, 0))],
@@ -331,7 +313,8 @@ def test_no_net_force_changes_by_more_than_its_bound(
         arb(distance),
     )
     constants = Constants.of(chain, time_unit(chain))
-    matrix, y = equations(constants, state.mode), vector(state)
+    matrix = equations(constants, state.mode)
+    y = vector(state)
     changes = [
         (expm(matrix * t) @ y - y)[: len(mode)]
         for t in np.linspace(-2 * gap, 2 * gap, 41)

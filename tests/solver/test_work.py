@@ -21,7 +21,8 @@ UNIFORM = [216, 416, 59608, 9, 665]
 @pytest.fixture
 def counted(monkeypatch):
     """Run a chain, and return what the kernel counted."""
-    calls, run_batch = [], kernel.run_batch
+    calls = []
+    run_batch = kernel.run_batch
 
     def watched(batch, limits, progress, *others):
         calls.append(progress.view(kernel.PROGRESS)[0, 0])

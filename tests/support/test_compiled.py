@@ -48,7 +48,8 @@ class Small:
     own."""
 
     def __init__(self, directory: Path) -> None:
-        self.directory, self.package = directory, directory / "small"
+        self.directory = directory
+        self.package = directory / "small"
         self.package.mkdir(parents=True)
         shutil.copy(KERNEL / "decorators.py", self.package)
         self.write("__init__.py", "")

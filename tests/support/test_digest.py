@@ -44,7 +44,8 @@ def root(tmp_path):
     return tmp_path
 
 
-SCRIPT_FILE, SUMS_FILE = "workflow/scripts/script.py", "src/precursors/room/sums.py"
+SCRIPT_FILE = "workflow/scripts/script.py"
+SUMS_FILE = "src/precursors/room/sums.py"
 
 
 @pytest.mark.parametrize(

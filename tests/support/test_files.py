@@ -46,7 +46,8 @@ def test_where_there_is_no_room_the_old_file_stays_and_one_line_says_so(
 ):
     path = tmp_path / name
     WRITERS[name](path)
-    old, (soft, hard) = path.read_bytes(), resource.getrlimit(resource.RLIMIT_FSIZE)
+    old = path.read_bytes()
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (len(old) - missing, hard))
     try:
         with pytest.raises(OSError, match=rf"^cannot write {path}: File too large$"):
