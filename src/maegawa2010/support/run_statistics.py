@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import scipy
 from numpy.typing import ArrayLike
@@ -26,7 +27,9 @@ def nine_tenths(values: pd.Series) -> dict[str, float]:
 def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, float]:
     """Interval that holds the median of what the values were drawn from, in at least
     this share of cases; NaN of too few values (below six for 95 %)."""
-    found: Any = scipy.stats.quantile_test(values, p=0.5).confidence_interval(share)
+    found: Any = scipy.stats.quantile_test(
+        np.asarray(values, float), p=0.5
+    ).confidence_interval(share)
     return float(found.low), float(found.high)
 
 
