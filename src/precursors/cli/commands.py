@@ -5,19 +5,34 @@ from __future__ import annotations
 import json
 import sys
 from argparse import Namespace
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from importlib.metadata import version as installed_version
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from precursors.cli import Refused
-from precursors.cli.options import LARGER, RUN, SLIDER_OPTIONS
-from precursors.model.chain import Chain
+from precursors.cli.options import DATA, LARGER, MEASURED, RUN, SLIDER_OPTIONS
+from precursors.model.chain import (
+    CELL_SPACING,
+    SLIDER,
+    Chain,
+    theta_from_load_cells,
+)
+from precursors.model.checks import positive
 from precursors.solver.run import Record, Run, RunFileError
 from precursors.support.files import write_table
 from precursors.support.provenance import git_state
-from precursors.support.spreadsheet import read_columns, read_weights
+from precursors.support.spreadsheet import (
+    LOAD,
+    TIME,
+    read_columns,
+    read_profile,
+    read_weights,
+)
 
 FOUND = "{events_counted} events counted in Fig. 13, of {events} "
 FIRST_SLIP = """\
@@ -77,7 +92,7 @@ def slips(arguments: Namespace) -> None:
     if arguments.counted:
         table = table[table["counted"]]
     if arguments.output:
-        write_table(table, arguments.output)
+        write_table(table, arguments.output, arguments.decimal)
     if arguments.json:
         found = table.astype(object).where(table.notna(), None)
         print(json.dumps(found.to_dict(orient="records"), indent=1))
@@ -102,15 +117,36 @@ def plot(arguments: Namespace) -> None:
     how = given(arguments, ("figure", "title", "inset"))
     axes = AXES[arguments.figure]
     if arguments.data:
-        how["data"] = data = read_columns(arguments.data, axes)
+        how["data"] = data = _measured(arguments, axes)
         ranges = [
             f"{name} {min(values):g} to {max(values):g}"
             for name, values in zip(axes, data.T, strict=True)
         ]
         tell(f"{arguments.data}: {len(data)} points, {', '.join(ranges)}")
+    elif unused := given(arguments, DATA):
+        raise ValueError(f"{', '.join(map(_option, unused))}: needs --data")
     run = run_of(arguments)
     save(plot(run, look=look, **how), arguments.output, look)
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
+
+
+def _measured(arguments: Namespace, axes: Sequence[str]) -> NDArray[np.float64]:
+    """Measured values of a file, from the start of the run on, without the offset of
+    F_X."""
+    rate = arguments.sample_rate
+    start = arguments.data_start
+    if TIME not in axes and given(arguments, ("sample_rate", "data_start")):
+        raise ValueError("--sample-rate and --data-start need --figure load")
+    if rate is not None:
+        positive("--sample-rate", rate, "Hz")
+    data = read_columns(arguments.data, axes, rate, arguments.columns or ())
+    data[:, axes.index(LOAD)] -= arguments.data_offset or 0
+    if start is None:
+        return data
+    data[:, 0] -= start
+    if data[-1, 0] < 0:
+        raise ValueError(f"{arguments.data} ends before --data-start")
+    return data[data[:, 0] >= 0]
 
 
 def audit(arguments: Namespace) -> None:
@@ -173,7 +209,7 @@ def run_of(arguments: Namespace) -> Record:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
         return run_of_options(arguments)
-    if given(arguments, ("weights", *SLIDER_OPTIONS, *LARGER, *RUN)):
+    if given(arguments, (*MEASURED, *SLIDER_OPTIONS, *LARGER, *RUN)):
         raise ValueError(
             f"{arguments.file}: a run file cannot be combined with options of a chain"
         )
@@ -189,17 +225,18 @@ def run_of_options(arguments: Namespace) -> Record:
 
     event.register("numba:compile", Announcement())  # the first run takes long
     slider = given(arguments, SLIDER_OPTIONS)
-    if arguments.weights is not None:
-        if slider.keys() & {"theta", "n_blocks", "normal_load"}:
+    measured = given(arguments, MEASURED)
+    for name in measured:
+        for other in sorted((slider | measured).keys() & MEASURED[name]):
             raise ValueError(
-                "--weights cannot be combined with --theta, --blocks or --normal-load"
+                f"{_option(name)} cannot be combined with {_option(other)}"
             )
-        slider["weights"] = read_weights(arguments.weights)
-    chain: Any = Chain.from_slider(**slider)
-    if arguments.weights is not None:
+    chain: Any = _chain(slider, **measured)
+    for name, source in measured.items():
         loads = chain.weights
+        told = source if isinstance(source, str) else _option(name)
         tell(
-            f"{arguments.weights}: {chain.n_blocks} blocks, {loads.min():g} to "
+            f"{told}: {chain.n_blocks} blocks, {loads.min():g} to "
             f"{loads.max():g} N, F_Z = {chain.normal_load:g} N"
         )
     added = given(arguments, LARGER)
@@ -214,6 +251,29 @@ def run_of_options(arguments: Namespace) -> Record:
             raise Refused(str(error)) from error
         error.run.save(arguments.output)
         raise Refused(f"{error}; the run so far is in {arguments.output}") from error
+
+
+def _option(name: str) -> str:
+    return f"--{name.removeprefix('n_').replace('_', '-')}"
+
+
+def _chain(
+    slider: dict[str, Any],
+    weights: str | None = None,
+    profile: str | None = None,
+    load_cells: Sequence[float] | None = None,
+    cell_spacing: float = CELL_SPACING,
+) -> Chain:
+    """The chain of a slider whose loads were measured, or of its options alone."""
+    if weights:
+        return Chain.from_slider(weights=read_weights(weights), **slider)
+    if profile:
+        return Chain.from_profile(read_profile(profile), **slider)
+    if load_cells:
+        length = slider.get("length", SLIDER["length"])
+        theta = theta_from_load_cells(*load_cells, cell_spacing, length)
+        slider |= {"theta": float(theta), "normal_load": sum(load_cells)}
+    return Chain.from_slider(**slider)
 
 
 def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:

@@ -54,6 +54,19 @@ LARGER = {
     "push_height": "height of the push above the interface [m]",
 }
 RUN = ("duration", "until", "max_transitions")
+# Measured loads, and the options that each replaces.
+MEASURED = {
+    "weights": {"theta", "n_blocks", "normal_load", "profile", "load_cells"},
+    "profile": {"theta", "load_cells"},
+    "load_cells": {"theta", "normal_load"},
+    "cell_spacing": {"theta", "weights", "profile"},
+}
+DATA = {
+    "columns": "names of the two columns",
+    "sample_rate": "samples per second [Hz] of a file of F_X alone",
+    "data_start": "time in the file at which the run starts [s] (0)",
+    "data_offset": "F_X in the file at no load [N] (0)",
+}
 SLIDER_OPTIONS = ("theta", "n_blocks", *CHAIN)
 
 
@@ -156,7 +169,15 @@ def add_options(command: Parser, name: str) -> Parser:
         )
     if name == "slips":
         add("--counted", action="store_true", help="only the events counted in Fig. 13")
-        add("--output", help="write the table with every digit (CSV)", type=Path)
+        add("--output", help="write every digit of it (CSV or TSV)", type=Path)
+        add(
+            "--decimal-comma",
+            dest="decimal",
+            action="store_const",
+            const=",",
+            default=".",
+            help="write decimal commas",
+        )
     elif name == "plot":
         file = Path("precursors.png")
         add("--output", default=file, help=f"PNG, SVG, PDF or EPS ({file})", type=Path)
@@ -169,7 +190,7 @@ def add_options(command: Parser, name: str) -> Parser:
 
 def _add_chain(command: Parser) -> None:
     """Add the options of a chain and of its run."""
-    from precursors.model.chain import SLIDER
+    from precursors.model.chain import CELL_SPACING, SLIDER
 
     add = command.add_argument_group(
         "the chain", "the defaults are the paper's"
@@ -184,6 +205,19 @@ def _add_chain(command: Parser) -> None:
         "--weights",
         help="normal loads [N]; replaces --theta, --blocks and --normal-load",
     )
+    add(
+        "--profile",
+        metavar="FILE",
+        help="shape of the normal load, a line for each position from the drive on",
+    )
+    add(
+        "--load-cells",
+        nargs=2,
+        type=_number,
+        metavar=("A", "B"),
+        help="readings [N], A at the drive; replaces --theta and --normal-load",
+    )
+    add("--cell-spacing", type=_number, help=f"between them [m] ({CELL_SPACING:g})")
     for name, meaning in CHAIN.items():
         add(
             f"--{name.replace('_', '-')}",
@@ -222,6 +256,9 @@ def _add_look(command: Parser) -> None:
         "--data",
         help="measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it",
     )
+    for name, meaning in DATA.items():
+        is_text = {"nargs": "+"} if name == "columns" else {"type": _number}
+        add(f"--{name.replace('_', '-')}", help=meaning, **is_text)
     add(
         "--width",
         dest="width_mm",
