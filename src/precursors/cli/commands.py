@@ -124,7 +124,7 @@ def plot(arguments: Namespace) -> None:
         ]
         tell(f"{arguments.data}: {len(data)} points, {', '.join(ranges)}")
     elif unused := given(arguments, DATA):
-        raise ValueError(f"{', '.join(map(_option, unused))}: needs --data")
+        raise ValueError(f"{min(unused)} needs --data")
     run = run_of(arguments)
     save(plot(run, look=look, **how), arguments.output, look)
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
@@ -139,7 +139,7 @@ def _measured(arguments: Namespace, axes: Sequence[str]) -> NDArray[np.float64]:
         raise ValueError("--sample-rate and --data-start need --figure load")
     if rate is not None:
         positive("--sample-rate", rate, "Hz")
-    data = read_columns(arguments.data, axes, rate, arguments.columns or ())
+    data = read_columns(arguments.data, axes, rate)
     data[:, axes.index(LOAD)] -= arguments.data_offset or 0
     if start is None:
         return data
@@ -225,19 +225,12 @@ def run_of_options(arguments: Namespace) -> Record:
 
     event.register("numba:compile", Announcement())  # the first run takes long
     slider = given(arguments, SLIDER_OPTIONS)
-    measured = given(arguments, MEASURED)
-    for name in measured:
-        for other in sorted((slider | measured).keys() & MEASURED[name]):
-            raise ValueError(
-                f"{_option(name)} cannot be combined with {_option(other)}"
-            )
-    chain: Any = _chain(slider, **measured)
-    for name, source in measured.items():
+    chain: Any = _chain(slider, **given(arguments, MEASURED))
+    if source := arguments.weights or arguments.profile or arguments.load_cells:
         loads = chain.weights
-        told = source if isinstance(source, str) else _option(name)
         tell(
-            f"{told}: {chain.n_blocks} blocks, {loads.min():g} to "
-            f"{loads.max():g} N, F_Z = {chain.normal_load:g} N"
+            f"{source}: {chain.n_blocks} blocks, {loads.min():g} to {loads.max():g} N, "
+            f"F_Z = {chain.normal_load:g} N"
         )
     added = given(arguments, LARGER)
     if any(added.values()):
@@ -253,26 +246,25 @@ def run_of_options(arguments: Namespace) -> Record:
         raise Refused(f"{error}; the run so far is in {arguments.output}") from error
 
 
-def _option(name: str) -> str:
-    return f"--{name.removeprefix('n_').replace('_', '-')}"
-
-
 def _chain(
     slider: dict[str, Any],
-    weights: str | None = None,
-    profile: str | None = None,
-    load_cells: Sequence[float] | None = None,
-    cell_spacing: float = CELL_SPACING,
+    weights: str = "",
+    profile: str = "",
+    load_cells: Sequence[float] = (),
+    cell_spacing: float | None = None,
 ) -> Chain:
-    """The chain of a slider whose loads were measured, or of its options alone."""
+    """The chain of a slider, whose loads may be measured."""
     if weights:
         return Chain.from_slider(weights=read_weights(weights), **slider)
     if profile:
         return Chain.from_profile(read_profile(profile), **slider)
     if load_cells:
+        a, b = load_cells
         length = slider.get("length", SLIDER["length"])
-        theta = theta_from_load_cells(*load_cells, cell_spacing, length)
-        slider |= {"theta": float(theta), "normal_load": sum(load_cells)}
+        theta = theta_from_load_cells(a, b, cell_spacing or CELL_SPACING, length)
+        slider = {"normal_load": a + b} | slider | {"theta": float(theta)}
+    elif cell_spacing:
+        raise ValueError("--cell-spacing needs --load-cells")
     return Chain.from_slider(**slider)
 
 

@@ -54,15 +54,9 @@ LARGER = {
     "push_height": "height of the push above the interface [m]",
 }
 RUN = ("duration", "until", "max_transitions")
-# Measured loads, and the options that each replaces.
-MEASURED = {
-    "weights": {"theta", "n_blocks", "normal_load", "profile", "load_cells"},
-    "profile": {"theta", "load_cells"},
-    "load_cells": {"theta", "normal_load"},
-    "cell_spacing": {"theta", "weights", "profile"},
-}
+# Of measured loads, and of measured values drawn over a run.
+MEASURED = ("weights", "profile", "load_cells", "cell_spacing")
 DATA = {
-    "columns": "names of the two columns",
     "sample_rate": "samples per second [Hz] of a file of F_X alone",
     "data_start": "time in the file at which the run starts [s] (0)",
     "data_offset": "F_X in the file at no load [N] (0)",
@@ -192,30 +186,29 @@ def _add_chain(command: Parser) -> None:
     """Add the options of a chain and of its run."""
     from precursors.model.chain import CELL_SPACING, SLIDER
 
-    add = command.add_argument_group(
-        "the chain", "the defaults are the paper's"
-    ).add_argument
+    chain = command.add_argument_group("the chain", "the defaults are the paper's")
+    add = chain.add_argument
     add("--blocks", dest="n_blocks", type=int, help="number of blocks (10)")
-    add(
+    add_one = chain.add_mutually_exclusive_group().add_argument
+    add_one(
         "--theta",
         type=str.strip,
         help='non-uniformity of the normal loading, for example "5/6" (0)',
     )
-    add(
+    add_one(
         "--weights",
-        help="normal loads [N]; replaces --theta, --blocks and --normal-load",
+        help="file of normal loads [N]; replaces --blocks and --normal-load, too",
     )
-    add(
+    add_one(
         "--profile",
-        metavar="FILE",
-        help="shape of the normal load, a line for each position from the drive on",
+        help="file with the shape of the normal load, a line a position, from the drive",
     )
-    add(
+    add_one(
         "--load-cells",
         nargs=2,
         type=_number,
         metavar=("A", "B"),
-        help="readings [N], A at the drive; replaces --theta and --normal-load",
+        help="readings [N], A at the drive; --normal-load is their sum",
     )
     add("--cell-spacing", type=_number, help=f"between them [m] ({CELL_SPACING:g})")
     for name, meaning in CHAIN.items():
@@ -257,8 +250,7 @@ def _add_look(command: Parser) -> None:
         help="measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it",
     )
     for name, meaning in DATA.items():
-        is_text = {"nargs": "+"} if name == "columns" else {"type": _number}
-        add(f"--{name.replace('_', '-')}", help=meaning, **is_text)
+        add(f"--{name.replace('_', '-')}", help=meaning, type=_number)
     add(
         "--width",
         dest="width_mm",

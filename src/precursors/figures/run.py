@@ -3,15 +3,13 @@ workflow."""
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from os import PathLike
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
@@ -24,7 +22,6 @@ from precursors.support.spreadsheet import LENGTH, LOAD, TIME, read_columns
 
 # The axes of each figure, which are the columns of measured data.
 AXES = {"load": (TIME, LOAD), "lengths": (LOAD, LENGTH)}
-LEAST_SHARED = 0.1  # of the range of measured and computed values
 
 
 def plot(
@@ -68,27 +65,7 @@ def plot(
         raise ValueError(f"data must have two columns, but have shape {points.shape}")
     slips = slip_table(run)
     if figure == "lengths":
-        lengths = slips["front"] / slips["n_blocks"]
-        _warn_if_apart(AXES[figure], points, slips["load_before_N"], lengths)
         return precursor_lengths.draw([slips], points, title or "", look)
     title = f"N = {run.chain.n_blocks}" if title is None else title
     trace = load_trace(run)
-    _warn_if_apart(AXES[figure], points, trace["time_s"], trace["tangential_load_N"])
     return scene.draw(slips, trace, title, data=points, inset=inset, look=look)
-
-
-def _warn_if_apart(
-    axes: Sequence[str], data: NDArray[np.float64], *computed: pd.Series
-) -> None:
-    """Warn of measured values in another unit than the computed ones."""
-    for name, measured, values in zip(axes, data.T, computed, strict=True):
-        if len(set(measured)) < 2 or not len(values):
-            continue
-        both = np.append(measured, values)
-        shared = np.ptp(measured) + np.ptp(values) - np.ptp(both)
-        if shared < LEAST_SHARED * np.ptp(both):
-            warnings.warn(
-                f"{name} is measured from {min(measured):g} to {max(measured):g}, "
-                f"and computed from {min(values):g} to {max(values):g}: is this the unit?",
-                stacklevel=3,
-            )

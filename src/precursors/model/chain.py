@@ -16,7 +16,6 @@ from precursors.model.checks import (
     LARGEST,
     MOST_BLOCKS,
     SMALLEST,
-    knows_its_arguments,
     not_negative,
     number,
     number_array,
@@ -105,7 +104,6 @@ class Chain:
             )
 
     @classmethod
-    @knows_its_arguments
     def from_slider(
         cls,
         n_blocks: int = N_BLOCKS,
