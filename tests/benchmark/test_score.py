@@ -120,6 +120,8 @@ def test_files_are_read_as_solvers_write_them(scored):
         "decimal commas": [
             row.replace(",", ";").replace(".", ",") for row in (HEADER, *rows)
         ],
+        "tabs": [*(row.replace(",", "\t") for row in (HEADER, *rows)), "\t\t\t"],
+        "a last row of commas": (HEADER, *rows, ",,,"),
         "another order": (
             'mode, time_s, "remark", tangential_load_N, block',
             *[f"{m}, {t}, mine, {load}, {b}" for t, b, m, load in columns],
@@ -160,6 +162,7 @@ def test_the_exact_solver_is_right_up_to_its_predictability_time(scored):
 ROW = "0.35,1,1,28"
 WRONG = {
     "empty": ([], "mine.csv: time_s must be once in the header, not 0 times"),
+    "no rows": ([HEADER], "mine.csv: no transition stands below the header"),
     "no header": ([ROW], "mine.csv: time_s must be once in the header, not 0 times"),
     "no modes": (
         ["time_s,block,tangential_load_N"],

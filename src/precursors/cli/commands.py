@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import sys
 from argparse import Namespace
 from collections.abc import Iterable, Mapping, Sequence
@@ -113,6 +114,7 @@ def plot(arguments: Namespace) -> None:
     from precursors.figures.run import AXES, plot
     from precursors.figures.style import Look, save
 
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of fonts
     look = Look(**given(arguments, ("width_mm", "font_size", "font")))
     how = given(arguments, ("figure", "title", "inset"))
     axes = AXES[arguments.figure]
@@ -124,7 +126,7 @@ def plot(arguments: Namespace) -> None:
         ]
         tell(f"{arguments.data}: {len(data)} points, {', '.join(ranges)}")
     elif unused := given(arguments, DATA):
-        raise ValueError(f"{min(unused)} needs --data")
+        raise ValueError(f"--data is needed with {', '.join(unused)}")
     run = run_of(arguments)
     save(plot(run, look=look, **how), arguments.output, look)
     show_values({"output": str(arguments.output.resolve())}, arguments.json)

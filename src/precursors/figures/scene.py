@@ -86,7 +86,7 @@ def draw(
             axes[0].plot(*data[times <= end].T, **MEASURED)
             axes[2].set_xlabel("Time $t$ [s]")
             for panel in axes:
-                panel.set_xlim(min(0, *times), end)
+                panel.set_xlim(min([0, *times]), end)
                 panel.tick_params(labelbottom=panel is axes[2])
                 panel.axvline(first_s, **FIRST_GLOBAL)
         for axes in columns[:rows]:
