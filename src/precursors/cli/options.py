@@ -1,11 +1,10 @@
-"""The options of the command line, and what a mistake in them probably meant."""
+"""The options of the command line."""
 
 from __future__ import annotations
 
 import argparse
 import re
 from collections.abc import Sequence
-from difflib import get_close_matches
 from fractions import Fraction
 from pathlib import Path
 from typing import NoReturn
@@ -65,25 +64,11 @@ SLIDER_OPTIONS = ("theta", "n_blocks", *CHAIN)
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser that says in one line what is wrong, and what was probably
-    meant."""
+    """An argument parser that says in one line what is wrong."""
 
     def error(self, message: str) -> NoReturn:
         """Exit with one line on standard error."""
-        wrong = re.search(r"(?:arguments: |choice: ')([\w-]+)", message)
-        given = wrong[1] if wrong else ""
-        helps = {name: add_options(Parser(), name).format_help() for name in COMMANDS}
-        choices = re.findall(r"\w+", message.partition("choose from")[2])
-        known = choices or re.findall(r"--[a-z][a-z-]+", " ".join(helps.values()))
-        near = get_close_matches(given, known, 1)
-        hint = "".join(f"; did you mean {option}?" for option in near)
-        if near == [given]:
-            owners = [name for name, text in helps.items() if f" {given} " in text]
-            hint = f", which is an option of {' and '.join(owners)}"
-        message = message.replace(
-            "ignored explicit argument", "takes no value, but has"
-        )
-        self.exit(WRONG_USE, f"{self.prog}: {message}{hint} (see {self.prog} --help)\n")
+        self.exit(WRONG_USE, f"{self.prog}: {message} (see {self.prog} --help)\n")
 
 
 class ListProblems(argparse.Action):

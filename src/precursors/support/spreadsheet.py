@@ -108,6 +108,8 @@ def read_columns(
     kept = [row for row in rows if all(row)]
     if missing := len(rows) - len(kept):
         warnings.warn(f"{table.path}: rows without a value: {missing}", stacklevel=2)
+    if not kept:
+        raise ValueError(f"{table.path} has no numbers")
     lines, *columns = zip(*kept, strict=True)
     numbers = _numbers(table._replace(lines=lines, columns=columns), wanted)
     if sample_rate is None:
@@ -223,7 +225,7 @@ def _start(path: str, lines: Sequence[str], needed: Sequence[str]) -> int:
     for remark in filter(OF_UNITS.match, lines[:start]):
         _, *given = re.split(r"\s*[;,\t:]\s*", remark)
         for unit in filter(None, given):
-            if all(factors(f"[{unit}]", kind) != {1.0} for kind in needed):
+            if needed and all(factors(f"[{unit}]", k) != {1.0} for k in needed):
                 raise ValueError(
                     f"{path}: {unit!r} is not a unit of {' or '.join(needed)}"
                 )
