@@ -119,6 +119,8 @@ def test_files_are_read_as_solvers_write_them(scored):
         "decimal commas": [
             row.replace(",", ";").replace(".", ",") for row in (HEADER, *rows)
         ],
+        "tabs": [*(row.replace(",", "\t") for row in (HEADER, *rows)), "\t\t\t"],
+        "a last row of commas": (HEADER, *rows, ",,,"),
         "another order": (
             'mode, time_s, "remark", tangential_load_N, block',
             *[f"{m}, {t}, mine, {load}, {b}" for t, b, m, load in columns],
@@ -147,6 +149,7 @@ def test_rows_after_the_duration_are_ignored_and_costs_are_those_of_the_last(sco
 
 ROW = "0.35,1,1,28"
 WRONG = {
+    "no rows": ([HEADER], "mine.csv: no transition stands below the header"),
     "no header": ([ROW], "mine.csv: time_s must be once in the header, not 0 times"),
     "no modes": (
         ["time_s,block,tangential_load_N"],

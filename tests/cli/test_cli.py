@@ -9,7 +9,6 @@ import shlex
 import signal
 import subprocess
 import sys
-import warnings
 from dataclasses import replace
 from fractions import Fraction
 from importlib import import_module
@@ -254,6 +253,17 @@ def test_slips_of_a_chain_may_be_those_of_fig_13_only_and_go_to_a_file(cli, tmp_
     assert pd.read_csv(path)["counted"].tolist() == [True] * 14
 
 
+def test_slips_may_have_decimal_commas_and_tabs(cli, tmp_path):
+    for name, comma, how in (
+        ("a.csv", ["--decimal-comma"], {"sep": ";", "decimal": ","}),
+        ("b.tsv", [], {"sep": "\t"}),
+    ):
+        cli("slips", "--duration=1", *comma, "--output", tmp_path / name)
+        read = pd.read_csv(tmp_path / name, **how)
+        slips = slip_table(simulate(Chain.from_slider(), 1.0))
+        assert read["onset_s"].tolist() == pytest.approx(slips["onset_s"].tolist())
+
+
 def test_a_reader_that_has_enough_is_no_error():
     with subprocess.Popen(
         [*COMMAND, "slips", "--theta", "5/6"],
@@ -319,6 +329,17 @@ def test_plot_draws_what_the_library_draws_as_it_is_told_to(
         assert Path("a.svg").read_bytes() == Path("b.svg").read_bytes()
 
 
+def test_plot_takes_measured_values_from_a_file_or_a_frame(run_file, tmp_path):
+    frame = pd.DataFrame({"F_X [N]": [0.0, 120.5], "t [s]": [0.0, 15.0]})
+    frame.to_csv(tmp_path / "F.csv", index=False)
+    for data in (frame, tmp_path / "F.csv", [[0.0, 0.0], [15.0, 120.5]]):
+        axes = plot(Run.load(run_file), data=data).axes[0]
+        assert axes.lines[1].get_xydata().tolist() == [[0.0, 0.0], [15.0, 120.5]]
+        assert axes.get_xlim() == (0.0, 15.0)  # the run ends at 3 s
+    with pytest.raises(ValueError, match="data must have two columns"):
+        plot(Run.load(run_file), data=[1.0, 2.0])
+
+
 def test_plot_runs_a_chain_and_draws_into_a_file_of_its_own_name(
     cli, tmp_path, monkeypatch
 ):
@@ -330,23 +351,39 @@ def test_plot_runs_a_chain_and_draws_into_a_file_of_its_own_name(
     assert Path("precursors.png").read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.filterwarnings("always")
-def test_measured_values_in_another_unit_are_drawn_with_a_warning(
+def test_measured_loads_begin_with_the_run_and_without_an_offset(
     cli, run_file, tmp_path, monkeypatch
 ):
-    def show(message, category, *place):  # pytest keeps warnings to itself
-        sys.stderr.write(warnings.formatwarning(message, category, *place))
-
-    monkeypatch.setattr(warnings, "showwarning", show)
     monkeypatch.chdir(tmp_path)
-    Path("kN.csv").write_text("time,load\n0,0\n1500,0.12\n3000,0.2\n")
-    code, _, err = cli("plot", run_file, "--data=kN.csv", "--output=kN.svg")
-    assert (code, err) == (
-        0,
-        "kN.csv: 3 points, t [s] 0 to 3000, F_X [N] 0 to 0.2\n"
-        "precursors: t [s] is measured from 0 to 3000, and computed from 0 to 3: is this the unit?\n"
-        "precursors: F_X [N] is measured from 0 to 0.2, and computed from 0 to 194.305: is this the unit?\n",
-    )
+    Path("F.csv").write_text("F_X [N]\n5\n5\n6\n7\n")
+    told = "F.csv: 2 points, t [s] 0 to 0.5, F_X [N] 1 to 2\n"
+    shift = ("--sample-rate=2", "--data-start=1", "--data-offset=5")
+    assert cli("plot", run_file, "--data=F.csv", *shift)[::2] == (0, told)
+    code, _, err = cli("plot", run_file, "--data=F.csv", *shift[:1], "--data-start=9")
+    assert (code, err) == (2, "precursors plot: F.csv ends before --data-start\n")
+
+
+@pytest.mark.parametrize(
+    ("options", "same"),
+    [
+        (["--load-cells", 100, 300], ["--theta", "5/6"]),
+        (
+            ["--load-cells", 300, 100, "--cell-spacing=0.1", "--normal-load=200"],
+            ["--theta=-0.5", "--normal-load=200"],
+        ),
+        (
+            ["--profile=p.csv", "--blocks=4", "--normal-load=120"],
+            ["--weights=w.csv"],
+        ),
+    ],
+)
+def test_loads_come_from_cells_and_profiles(cli, tmp_path, monkeypatch, options, same):
+    monkeypatch.chdir(tmp_path)
+    Path("p.csv").write_text("0;1\n2;3\n1;1\n0;4\n")
+    Path("w.csv").write_text("10\n50\n20\n40\n")
+    for chain, file in ((options, "a.h5"), (same, "b.h5")):
+        assert cli("simulate", *chain, "--duration=0.1", "--output", file)[0] == 0
+    assert Run.load("a.h5").chain == Run.load("b.h5").chain
 
 
 def test_measured_loads_are_echoed_and_so_named_in_the_figures(
@@ -418,7 +455,6 @@ def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monke
 
 # Errors
 
-WEIGHTS = "--weights cannot be combined with --theta, --blocks or --normal-load"
 WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
 
 
@@ -430,23 +466,24 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
             2,
             "needed is one of simulate, slips, plot, audit, score (see precursors --help)",
         ),
-        ("simulat", 2, "did you mean simulate? (see precursors --help)"),
+        ("simulat", 2, "invalid choice: 'simulat'"),
         (
             "simulate --font 9",
             2,
-            "arguments: --font 9, which is an option of plot (see precursors --help)",
+            "unrecognized arguments: --font 9 (see precursors --help)",
         ),
-        ("slips --thta 0", 2, "did you mean --theta? (see precursors --help)"),
+        ("slips --thta 0", 2, "unrecognized arguments: --thta"),
         (
             "plot --figure length",
             2,
-            "did you mean lengths? (see precursors plot --help)",
+            "invalid choice: 'length'",
         ),
         (
             "simulate --output /dev/null/run.h5 --duration 1e9",
             3,
             "/dev/null is not a directory",
         ),
+        ("slips --output a.xlsx --duration 1e9", 2, "must end in .csv or .tsv"),
         (
             "plot --duration 1e9 --output figure.doc",
             2,
@@ -459,10 +496,19 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
         (
             "slips --counted=yes",
             2,
-            "argument --counted: takes no value, but has 'yes' (see",
+            "argument --counted: ignored explicit argument 'yes'",
         ),
         ("simulate --mu-s 1/0", 2, "'1/0' is not a number"),
-        ("simulate --weights w.csv --theta 0", 2, WEIGHTS),
+        (
+            "simulate --weights w.csv --theta 0",
+            2,
+            "not allowed with argument --weights",
+        ),
+        ("slips --load-cells 9 9 --profile p.csv", 2, "not allowed with argument"),
+        ("simulate --load-cells 0 0", 2, "must be above 0 N, but both are 0 N"),
+        ("simulate --cell-spacing 1", 2, "--cell-spacing needs --load-cells"),
+        ("plot --data-start 1", 2, "--data is needed with data_start"),
+        ("plot --figure lengths --data d.csv --data-start 1", 2, "need --figure load"),
         ("simulate --weights missing.csv", 3, "missing.csv: No such file"),
         ("slips missing.h5", 3, "missing.h5: no such file"),
         (f"slips {__file__}", 1, "run file"),

@@ -94,7 +94,17 @@ def test_every_failure_mode_has_a_panel_and_every_theta_of_the_law_a_marker():
 # Told apart by all readers; a step of 2 can just be seen by eyes that are trained.
 DISTANCE_IN_CIELAB = 20.0
 MEANINGS = (
-    ["PUSHED_END", "EVEN", "FAR_END", "PARTIAL", "GLOBAL", "BACKWARD", "BLACK", "GREY"],
+    [
+        "PUSHED_END",
+        "EVEN",
+        "FAR_END",
+        "PARTIAL",
+        "GLOBAL",
+        "BACKWARD",
+        "MEASURED",
+        "BLACK",
+        "GREY",
+    ],
     ["BLACK", "GREY", *range(len(style.OTHERS))],
 )
 

@@ -206,9 +206,12 @@ def test_a_chain_knows_theta_until_its_weights_may_be_others():
     assert math.isnan(Chain.from_slider(weights=chain.weights).theta)
 
 
-def test_an_unknown_argument_is_refused_with_the_one_that_was_probably_meant():
-    with pytest.raises(TypeError) as refused:
-        Chain.from_slider(blocks=5)
-    assert str(refused.value) == (
-        "from_slider has no argument 'blocks'; did you mean n_blocks?"
-    )
+def test_a_profile_is_integrated_over_each_block():
+    chain = Chain.from_profile([0.0, 0.0, 3.0, 1.0, 2.0], n_blocks=2, normal_load=60.0)
+    assert chain.weights.tolist() == [15.0, 45.0]
+    film = Chain.from_profile(np.eye(5)[:, 1:], n_blocks=20, mu_k=0.4)
+    assert film.weights.tolist() == [0.0] * 4 + [25.0] * 16
+    assert film.mu_k == 0.4
+    for wrong in ([], [0.0, 0.0], [1.0, -1.0], [1.0, np.nan], [[[1.0]]]):
+        with pytest.raises(ValueError, match="profile must be"):
+            Chain.from_profile(wrong)

@@ -1,18 +1,34 @@
 """Tables as people have them are read as they are meant, or refused in one line."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from precursors.support.spreadsheet import (
+    LENGTH,
     LOAD,
     TIME,
     read_columns,
+    read_profile,
     read_weights,
 )
 
 LOADS = [20.0, 30.5]
 ROWS = [[0.0, 0.0], [0.5, 40.25]]
 NEEDED = "needed: normal load of each block"
+LABVIEW = """\
+LabVIEW Measurement\t
+Time\t12:30:01.123
+***End_of_Header***\t
+\t
+Channels\t1\t
+Y_Unit_Label\tNewton\t
+X_Dimension\tTime\t
+***End_of_Header***\t\t
+X_Value\tKanal 1\tComment
+0.0\t0.0
+0.5\t40.25
+"""
 
 
 @pytest.fixture
@@ -64,7 +80,10 @@ def test_the_load_of_each_block_is_read_as_spreadsheets_write_it(file, text):
             "line 3: '1,018.00' has a separator of thousands",
         ),
         ("Force (N)\n1\u202f018,00\n30,5\n", "has a separator of thousands"),
-        ("Normalkraft [kN]\n0,020\n0,030\n", "the column 'Normalkraft [kN]' is in kN"),
+        ("Normalkraft [lbs]\n20\n30\n", "the column 'Normalkraft [lbs]' is in lbs"),
+        ("Load, gf\n20.5\n30.5\n", "is in gf"),
+        ("Load\nlbs\n20\n30\n", "is in lbs"),
+        ("b1 [N];b2 [kN];b3 [N]\n20;30;40\n", "is in N, kN, N"),
         ("Normalkraft;x\n1.5;\n2,5;\n", "has decimal commas and decimal points"),
         ("Normalkraft [N]\n#N/A\n30,5\n", "line 2: '#N/A' is not a number"),
         ("Block;Normalkraft [N]\n1;20,0\n2;\n", "line 3: '' is not a number"),
@@ -92,26 +111,85 @@ def test_loads_that_may_be_others_are_refused_in_one_line(file, text, about):
         "Zeit;Kraft\ns;N\n0;0\n0,5;40,25\n",
         "F_X [N],t [s]\n0.0,0.0\n40.25,0.5\n",
         "t [s];Weg [mm];F_X [N]\n0;1;0\n0,5;2;40,25\n",
+        "Time (s),F_X (N),F_Y (N)\n0.0,0.0,9\n0.5,40.25,9\n",
+        "Time (Sekunden),Force (Newtons)\n0.0,0.0\n0.5,40.25\n",
+        "Operator: N. N.\nDate;1.5.2024\nTime;Force\ns;N\n0;0\n0,5;40,25\n",
+        "Zeit;Kraft\n1.5.2024 23:59:59,6;0\n2.5.2024 0:00:00,1;40,25\n",
+        "Time [hh:mm:ss],Force [N]\n12:30:01.5,0.0\n12:30:02,40.25\n",
+        LABVIEW,
     ],
 )
 def test_columns_are_found_by_unit_by_name_or_in_order(file, text):
     np.testing.assert_array_equal(read_columns(file(text), [TIME, LOAD]), ROWS)
 
 
+@pytest.mark.filterwarnings("always")
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("t [ms];F [kN]\n0;0\n500;0,04025\n", ["t [ms]", "F [kN]"]),
+        (
+            "F_X_mN,Time (minutes)\n0.0,0.0\n40250,0.00833333333333333333\n",
+            ["minutes", "mN"],
+        ),
+        ("Time,Load\nmsec,kN\n0,0.0\n500,0.04025\n", ["msec", "kN"]),
+        ("# time (ms), load (N)\n0.0,0.0\n500.0,40.25\n", ["time (ms)"]),
+        ("t;F\n0;0\n0,25;\n0,5;40,25\n", ["rows without a value: 1"]),
+        (pd.DataFrame({"F [kN]": [0, 0.04025], "t [s]": [0, 0.5]}), ["F [kN]"]),
+        (pd.DataFrame(ROWS), []),
+    ],
+)
+def test_what_is_converted_or_left_out_is_told(file, text, told, recwarn):
+    table = file(text) if isinstance(text, str) else text
+    read = read_columns(table, [TIME, LOAD])
+    np.testing.assert_allclose(read, ROWS, rtol=1e-15)
+    assert len(recwarn) == len(told)
+    for warning, words in zip(recwarn, told, strict=True):
+        assert words in str(warning.message)
+
+
+def test_a_column_of_loads_has_the_times_of_its_sample_rate(file):
+    read = read_columns(file("F\n1,5\n\n2,5\n"), [TIME, LOAD], 10.0)
+    assert read.tolist() == [[0.0, 1.5], [0.2, 2.5]]
+
+
+def test_a_profile_is_a_column_or_a_matrix_without_positions(file):
+    assert read_profile(file("p [MPa]\n1\n2\n")).tolist() == [[1.0], [2.0]]
+    assert read_profile(file("0;1\n0;2\n")).tolist() == [[0.0, 1.0], [0.0, 2.0]]
+    for text in ("x;p\n1;1\n2;0\n", "1;1\n2;0\n3;0\n"):
+        refuses(read_profile, file(text), "without names and positions")
+
+
+@pytest.mark.filterwarnings("ignore:.* is converted")
+@pytest.mark.parametrize("name", ["L_p/L [1];F_X [N]\n0,5", "L_p [%];F_X [N]\n50"])
+def test_lengths_are_shares(file, name):
+    table = file(f"{name};100\n")
+    assert read_columns(table, [LOAD, LENGTH]).tolist() == [[100.0, 0.5]]
+
+
 @pytest.mark.parametrize(
     ("text", "about"),
     [
         ("0,0\n1,500\n", "decimal comma"),
-        ("t [ms];F [N]\n1;2\n", "the column 't [ms]' is in ms; needed: t [s]"),
-        ("t_s,F_X_kN\n1,2\n", "is in kN"),
-        ("t [s];Signal [V]\n0;0\n", "the column 'Signal [V]' is in V"),
-        ("t [ms] F [kN]\n0;0\n", "columns: 2; needed: t [s], F_X [N]"),
-        ("t [s];F_X [N];F_Y [N]\n0;1;0\n", "line 2: columns: 3"),
+        ("t [s];Signal [V]\n0;0\n", "the column 'Signal [V]' is in V; needed: F_X [N]"),
+        ("Time (s),Force (mV)\n0,1.5\n", "is in mV"),
+        ("Time,Load\nsec,g\n0,1.5\n", "is in g"),
+        ("t_h,F_lbf\n0,1.5\n", "is in h"),
+        ("t (s);Druck (MPa)\n0;1\n", "is in MPa"),
+        ("t \uff08s\uff09,F \uff08千克\uff09\n0,1.5\n", "is in 千克"),
+        ("時間(s),荷重(N)\n0,1.5\n".encode("cp932"), "is not UTF-8"),
+        (
+            LABVIEW.replace("Newton", "Volts"),
+            "'Volts' is not a unit of t [s] or F_X [N]",
+        ),
+        ("t [s];Force A [N];Force B [N]\n0;1;0\n", "line 2: columns: 3"),
+        ("Time;F\n1.5.2024 0:00:00;1\n3.5.2024 0:00:00;1\n", "half a day"),
+        (f"t;F\n0;1\n{'1' * 140_000};2\n", "field larger than field limit"),
+        ("0;1;0\n", "line 1: columns: 3"),
         ("1;2\n3;x\n", "line 2: 'x' is not a number"),
         ("1;2\n3;1.234,5\n", "line 2: '1.234,5' has a separator of thousands"),
         ("nan;1\n", "line 1: 'nan' is not a number"),
         ("1;1e999\n", "line 1: '1e999' is not a number"),
-        ("1;2\n3\n", "line 2: '' is not a number"),
         ("1\n2\n", "line 1: columns: 1"),
         ("t;F\n", "has no numbers"),
         ("", "has no numbers"),

@@ -113,11 +113,11 @@ def in_true_order(found: Rows, true: Rows, ties: Decimal) -> Rows:
 def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
     """Read the rows of a result file, with blocks from 1."""
     text = Path(path).read_text(encoding="utf-8-sig", errors="replace")
-    separator = ";" if re.search("(?m)^[^#\n]*;", text) else ","
+    separator = next((s for s in ";\t" if re.search(f"(?m)^[^#\n]*{s}", text)), ",")
     lines = {
         number: [cell.strip('" ') for cell in line.split(separator)]
         for number, line in enumerate(text.splitlines(), 1)
-        if line.strip() and line[0] != "#"
+        if line.strip(' ,;\t"') and line[0] != "#"
     }
     header = lines.pop(min(lines)) if lines else []
     first = 0 if "block_from_0" in header else 1
@@ -128,6 +128,7 @@ def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
         require(
             times == 1, path, f"{name} must be once in the header, not {times} times"
         )
+    require(bool(lines), path, "no transition stands below the header")
     modes: dict[Any, Any] = dict.fromkeys(range(first, last + 1), 0)
     rows: list[dict[str, Any]] = []
     time = Decimal(0)

@@ -19,6 +19,7 @@ REFUSED = 1
 FILE = 3
 NOT_INSTALLED = 4
 INTERRUPTED = 130
+ENDINGS = {"plot": (".png", ".svg", ".pdf", ".eps"), "slips": (".csv", ".tsv")}
 
 
 class Refused(Exception):
@@ -35,9 +36,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = read_options(sys.argv[1:] if argv is None else argv)
     try:
         if getattr(arguments, "output", None):
-            is_figure = arguments.command == "plot"
-            endings = (".png", ".svg", ".pdf", ".eps") if is_figure else ()
-            check_writable(arguments.output, endings)
+            check_writable(arguments.output, ENDINGS.get(arguments.command, ()))
         from precursors.cli import commands
 
         getattr(commands, arguments.command)(arguments)

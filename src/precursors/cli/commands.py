@@ -3,21 +3,37 @@
 from __future__ import annotations
 
 import json
+import logging
 import sys
 from argparse import Namespace
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from importlib.metadata import version as installed_version
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from precursors.cli import Refused
-from precursors.cli.options import LARGER, RUN, SLIDER_OPTIONS
-from precursors.model.chain import Chain
+from precursors.cli.options import DATA, LARGER, MEASURED, RUN, SLIDER_OPTIONS
+from precursors.model.chain import (
+    CELL_SPACING,
+    SLIDER,
+    Chain,
+    theta_from_load_cells,
+)
+from precursors.model.checks import positive
 from precursors.solver.run import Record, Run, RunFileError
 from precursors.support.files import write_table
 from precursors.support.provenance import git_state
-from precursors.support.spreadsheet import read_columns, read_weights
+from precursors.support.spreadsheet import (
+    LOAD,
+    TIME,
+    read_columns,
+    read_profile,
+    read_weights,
+)
 
 FOUND = "{events_counted} events counted in Fig. 13, of {events} "
 FIRST_SLIP = """\
@@ -77,7 +93,7 @@ def slips(arguments: Namespace) -> None:
     if arguments.counted:
         table = table[table["counted"]]
     if arguments.output:
-        write_table(table, arguments.output)
+        write_table(table, arguments.output, arguments.decimal)
     if arguments.json:
         found = table.astype(object).where(table.notna(), None)
         print(json.dumps(found.to_dict(orient="records"), indent=1))
@@ -98,19 +114,41 @@ def plot(arguments: Namespace) -> None:
     from precursors.figures.run import AXES, plot
     from precursors.figures.style import Look, save
 
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of fonts
     look = Look(**given(arguments, ("width_mm", "font_size", "font")))
     how = given(arguments, ("figure", "title", "inset"))
     axes = AXES[arguments.figure]
     if arguments.data:
-        how["data"] = data = read_columns(arguments.data, axes)
+        how["data"] = data = _measured(arguments, axes)
         ranges = [
             f"{name} {min(values):g} to {max(values):g}"
             for name, values in zip(axes, data.T, strict=True)
         ]
         tell(f"{arguments.data}: {len(data)} points, {', '.join(ranges)}")
+    elif unused := given(arguments, DATA):
+        raise ValueError(f"--data is needed with {', '.join(unused)}")
     run = run_of(arguments)
     save(plot(run, look=look, **how), arguments.output, look)
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
+
+
+def _measured(arguments: Namespace, axes: Sequence[str]) -> NDArray[np.float64]:
+    """Measured values of a file, from the start of the run on, without the offset of
+    F_X."""
+    rate = arguments.sample_rate
+    start = arguments.data_start
+    if TIME not in axes and given(arguments, ("sample_rate", "data_start")):
+        raise ValueError("--sample-rate and --data-start need --figure load")
+    if rate is not None:
+        positive("--sample-rate", rate, "Hz")
+    data = read_columns(arguments.data, axes, rate)
+    data[:, axes.index(LOAD)] -= arguments.data_offset or 0
+    if start is None:
+        return data
+    data[:, 0] -= start
+    if data[-1, 0] < 0:
+        raise ValueError(f"{arguments.data} ends before --data-start")
+    return data[data[:, 0] >= 0]
 
 
 def audit(arguments: Namespace) -> None:
@@ -173,7 +211,7 @@ def run_of(arguments: Namespace) -> Record:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
         return run_of_options(arguments)
-    if given(arguments, ("weights", *SLIDER_OPTIONS, *LARGER, *RUN)):
+    if given(arguments, (*MEASURED, *SLIDER_OPTIONS, *LARGER, *RUN)):
         raise ValueError(
             f"{arguments.file}: a run file cannot be combined with options of a chain"
         )
@@ -189,18 +227,12 @@ def run_of_options(arguments: Namespace) -> Record:
 
     event.register("numba:compile", Announcement())  # the first run takes long
     slider = given(arguments, SLIDER_OPTIONS)
-    if arguments.weights is not None:
-        if slider.keys() & {"theta", "n_blocks", "normal_load"}:
-            raise ValueError(
-                "--weights cannot be combined with --theta, --blocks or --normal-load"
-            )
-        slider["weights"] = read_weights(arguments.weights)
-    chain: Any = Chain.from_slider(**slider)
-    if arguments.weights is not None:
+    chain: Any = _chain(slider, **given(arguments, MEASURED))
+    if source := arguments.weights or arguments.profile or arguments.load_cells:
         loads = chain.weights
         tell(
-            f"{arguments.weights}: {chain.n_blocks} blocks, {loads.min():g} to "
-            f"{loads.max():g} N, F_Z = {chain.normal_load:g} N"
+            f"{source}: {chain.n_blocks} blocks, {loads.min():g} to {loads.max():g} N, "
+            f"F_Z = {chain.normal_load:g} N"
         )
     added = given(arguments, LARGER)
     if any(added.values()):
@@ -214,6 +246,28 @@ def run_of_options(arguments: Namespace) -> Record:
             raise Refused(str(error)) from error
         error.run.save(arguments.output)
         raise Refused(f"{error}; the run so far is in {arguments.output}") from error
+
+
+def _chain(
+    slider: dict[str, Any],
+    weights: str = "",
+    profile: str = "",
+    load_cells: Sequence[float] = (),
+    cell_spacing: float | None = None,
+) -> Chain:
+    """The chain of a slider, whose loads may be measured."""
+    if weights:
+        return Chain.from_slider(weights=read_weights(weights), **slider)
+    if profile:
+        return Chain.from_profile(read_profile(profile), **slider)
+    if load_cells:
+        a, b = load_cells
+        length = slider.get("length", SLIDER["length"])
+        theta = theta_from_load_cells(a, b, cell_spacing or CELL_SPACING, length)
+        slider = {"normal_load": a + b} | slider | {"theta": float(theta)}
+    elif cell_spacing:
+        raise ValueError("--cell-spacing needs --load-cells")
+    return Chain.from_slider(**slider)
 
 
 def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:

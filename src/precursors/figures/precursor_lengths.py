@@ -64,7 +64,9 @@ def draw(
         draw_lengths(axes, slips)
         _add_coefficient(axes, slips)
         if len(data):
-            axes.plot(*data.T, "+", color=style.BLACK, markersize=5, label="measured")
+            axes.plot(
+                *data.T, "+", color=style.MEASURED, markersize=5, label="measured"
+            )
         if has_key:
             style.draw_key(figure, axes.get_legend_handles_labels()[0], ncols=1)
     return figure

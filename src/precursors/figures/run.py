@@ -3,31 +3,31 @@ workflow."""
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from os import PathLike
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
 from precursors.figures import precursor_lengths, scene
 from precursors.figures.style import LOOK, NO_DATA, Look
+from precursors.model.checks import number_array
 from precursors.solver.run import Record
-from precursors.support.spreadsheet import LENGTH, LOAD, TIME
+from precursors.support.files import AnyPath
+from precursors.support.spreadsheet import LENGTH, LOAD, TIME, read_columns
 
 # The axes of each figure, which are the columns of measured data.
 AXES = {"load": (TIME, LOAD), "lengths": (LOAD, LENGTH)}
-LEAST_SHARED = 0.1  # of the range of measured and computed values
 
 
 def plot(
     run: Record,
     figure: str = "load",
-    data: NDArray[np.float64] = NO_DATA,
+    data: ArrayLike | pd.DataFrame | AnyPath = NO_DATA,
     title: str | None = None,
     inset: bool = True,
     look: Look | Mapping[str, Any] = LOOK,
@@ -41,7 +41,7 @@ def plot(
         The run, also of a larger chain.
     figure : "load" or "lengths"
         As Figs. 10-12, or as Fig. 13.
-    data : array, shape (n, 2), optional
+    data : array, shape (n, 2), DataFrame or path of a table, optional
         Measured t [s] and F_X [N], or F_X [N] and L_p/L, which are drawn over it.
     title : str, optional
         By default the number of blocks, or nothing above lengths.
@@ -58,29 +58,14 @@ def plot(
     if figure not in AXES:
         raise ValueError(f"figure must be one of {', '.join(AXES)}, but is {figure!r}")
     look = Look(**look) if isinstance(look, Mapping) else look
+    if isinstance(data, (str, PathLike, pd.DataFrame)):
+        data = read_columns(data, AXES[figure])
+    points = number_array("data", data, "SI units")
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise ValueError(f"data must have two columns, but have shape {points.shape}")
     slips = slip_table(run)
     if figure == "lengths":
-        lengths = slips["front"] / slips["n_blocks"]
-        _warn_if_apart(AXES[figure], data, slips["load_before_N"], lengths)
-        return precursor_lengths.draw([slips], data, title or "", look)
+        return precursor_lengths.draw([slips], points, title or "", look)
     title = f"N = {run.chain.n_blocks}" if title is None else title
     trace = load_trace(run)
-    _warn_if_apart(AXES[figure], data, trace["time_s"], trace["tangential_load_N"])
-    return scene.draw(slips, trace, title, data=data, inset=inset, look=look)
-
-
-def _warn_if_apart(
-    axes: Sequence[str], data: NDArray[np.float64], *computed: pd.Series
-) -> None:
-    """Warn of measured values in another unit than the computed ones."""
-    for name, measured, values in zip(axes, data.T, computed, strict=True):
-        if len(set(measured)) < 2 or not len(values):
-            continue
-        both = np.append(measured, values)
-        shared = np.ptp(measured) + np.ptp(values) - np.ptp(both)
-        if shared < LEAST_SHARED * np.ptp(both):
-            warnings.warn(
-                f"{name} is measured from {min(measured):g} to {max(measured):g}, "
-                f"and computed from {min(values):g} to {max(values):g}: is this the unit?",
-                stacklevel=3,
-            )
+    return scene.draw(slips, trace, title, data=points, inset=inset, look=look)

@@ -46,7 +46,7 @@ TO_THE_EDGE: Options = {
 UNFINISHED: Options = {"color": style.pale(style.BLACK, 0.2), "linewidth": 6}
 LABELS = ("$F_X$ [N]", "$K x_1$ [N]", "$L_p$ [mm]")
 STAIRCASE = "$K x_1 = K V t - F_X$: a step for each slip"
-MEASURED: Options = {"color": style.GREY, "zorder": 1.8, "label": "measured"}
+MEASURED: Options = {"color": style.MEASURED, "zorder": 1.8, "label": "measured"}
 
 
 def draw(
@@ -68,7 +68,8 @@ def draw(
     width_mm = look.width_mm or style.PAGE_MM
     slips = _with_kinds(slips)
     first_s = slips.loc[slips["is_global"], "onset_s"].min()
-    ends = [np.fmax(trace["time_s"].iloc[-1], ZOOM_END * first_s)]
+    times, _ = data.T
+    ends = [np.nanmax([trace["time_s"].iloc[-1], ZOOM_END * first_s, *times])]
     if inset and first_s > 0:
         ends.append(ZOOM_END * first_s)
     n = len(ends)
@@ -82,10 +83,10 @@ def draw(
         for axes, end in zip(columns, ends, strict=True):
             _draw_loads(axes, slips, trace, end)
             _draw_events(axes[2], slips[slips["onset_s"] <= end], trace)
-            axes[0].plot(*data.T, **MEASURED)
+            axes[0].plot(*data[times <= end].T, **MEASURED)
             axes[2].set_xlabel("Time $t$ [s]")
             for panel in axes:
-                panel.set_xlim(0, end)
+                panel.set_xlim(min([0, *times]), end)
                 panel.tick_params(labelbottom=panel is axes[2])
                 panel.axvline(first_s, **FIRST_GLOBAL)
         for axes in columns[:rows]:

@@ -37,6 +37,7 @@ PARTIAL = "#45BBFF"  # the kinds of slip
 GLOBAL = "#A7000E"
 BACKWARD = "#BB5EB5"
 BLACK = "#000000"  # the exact solution
+MEASURED = "#6200FF"
 GREY = "#8C8C8C"  # everything else
 # Solvers of others, in the charts that compare solvers; each has its name beside it.
 OTHERS = ("#4B1FA8", "#36B3D6", "#6B5200", "#BFA800", "#84294F")

@@ -16,7 +16,6 @@ from precursors.model.checks import (
     LARGEST,
     MOST_BLOCKS,
     SMALLEST,
-    knows_its_arguments,
     not_negative,
     number,
     number_array,
@@ -33,6 +32,7 @@ FASTEST = 1e20
 N_BLOCKS = 10
 THETA = 0.0
 NORMAL_LOAD = 400.0
+CELL_SPACING = 0.06  # of its two load cells [m]
 _POSITIVE = {
     "mass": "kg",
     "stiffness": "N/m",
@@ -104,7 +104,6 @@ class Chain:
             )
 
     @classmethod
-    @knows_its_arguments
     def from_slider(
         cls,
         n_blocks: int = N_BLOCKS,
@@ -167,6 +166,49 @@ class Chain:
             length=length,
         )
         return chain if weights is not None else remember_theta(chain, theta)
+
+    @classmethod
+    def from_profile(
+        cls,
+        profile: ArrayLike,
+        n_blocks: int = N_BLOCKS,
+        normal_load: float = NORMAL_LOAD,
+        **slider: Any,
+    ) -> Chain:
+        """Cut a slider into N blocks whose loads have the shape of a measured profile.
+
+        The profile is constant over each of its M equal cells. It is integrated over
+        each block and scaled to the total load.
+
+        Parameters
+        ----------
+        profile : array_like, shape (M,) or (M, width)
+            Pressure or load of each cell, in any unit, not negative, from the trailing
+            edge on; a matrix is summed over the width.
+        n_blocks : int
+            Number N of blocks.
+        normal_load : float
+            Total normal load F_Z [N].
+        **slider
+            Other arguments of `from_slider`.
+        """
+        cells = number_array("profile", profile, "any unit")
+        if cells.ndim not in (1, 2) or not (
+            np.isfinite(cells).all() and cells.min(initial=0) >= 0 < cells.sum()
+        ):
+            raise ValueError(
+                "profile must be a column or matrix of numbers of at least 0, not all 0"
+            )
+        shape = cells if cells.ndim == 1 else cells.sum(axis=1)
+        n = whole("n_blocks", n_blocks, MOST_BLOCKS)
+        cell, part = np.divmod(np.arange(n + 1) * len(shape), n)
+        up_to_edge = (
+            np.append(0, shape.cumsum())[cell] + part / n * np.append(shape, 0)[cell]
+        )
+        loads = np.diff(up_to_edge) / up_to_edge[-1]
+        return cls.from_slider(
+            weights=positive("normal_load", normal_load, "N") * loads, **slider
+        )
 
     @property
     def n_blocks(self) -> int:

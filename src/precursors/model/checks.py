@@ -3,20 +3,14 @@ parameter."""
 
 from __future__ import annotations
 
-import inspect
 import math
-from collections.abc import Callable
 from contextlib import suppress
-from difflib import get_close_matches
-from functools import wraps
 from numbers import Integral, Real
-from typing import Literal, ParamSpec, TypeVar
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-P = ParamSpec("P")
-R = TypeVar("R")
 # Where a run ends before its duration is over.
 Until = Literal["global slip"] | None
 
@@ -24,21 +18,6 @@ Until = Literal["global slip"] | None
 SMALLEST = 1e-60
 LARGEST = 1e60
 MOST_BLOCKS = 100_000
-
-
-def knows_its_arguments(function: Callable[P, R]) -> Callable[P, R]:
-    """Decorator for a function that says which argument was probably meant."""
-    known = inspect.signature(function).parameters
-
-    @wraps(function)
-    def call(*arguments: P.args, **named: P.kwargs) -> R:
-        for name in named.keys() - known.keys():
-            near = get_close_matches(name, known, 1)
-            hint = "".join(f"; did you mean {argument}?" for argument in near)
-            raise TypeError(f"{function.__name__} has no argument {name!r}{hint}")
-        return function(*arguments, **named)
-
-    return call
 
 
 def number(name: str, value: object, unit: str) -> float:

@@ -7,7 +7,7 @@ import os
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -75,9 +75,17 @@ def write_text(path: AnyPath, text: str) -> None:
     write_whole(path, text.encode())
 
 
-def write_table(table: pd.DataFrame, path: AnyPath) -> None:
-    """Write a table as CSV with every digit of its numbers."""
-    write_text(path, table.to_csv(index=False, lineterminator="\n"))
+def write_table(
+    table: pd.DataFrame, path: AnyPath, decimal: Literal[".", ","] = "."
+) -> None:
+    """Write a table with every digit of its numbers: as TSV if the name ends so, else
+    as CSV, which has semicolons beside decimal commas."""
+    is_tsv = Path(path).suffix.lower() == ".tsv"
+    separator = "\t" if is_tsv else ";" if decimal == "," else ","
+    text = table.to_csv(
+        index=False, lineterminator="\n", sep=separator, decimal=decimal
+    )
+    write_text(path, text)
 
 
 def read_table(path: AnyPath, **how: Any) -> pd.DataFrame:

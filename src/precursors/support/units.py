@@ -1,0 +1,84 @@
+"""Columns of measured tables: words that name them, and units that are read."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Sequence
+
+# The columns,
+TIME = "t [s]"
+LOAD = "F_X [N]"
+LENGTH = "L_p/L [-]"
+NORMAL_LOAD = "normal load of each block [N]"
+# their own names and words for them,
+_LOADS = r"f|load|force|fuerza|forza|last|[^\W\d_]*kraft"
+WORDS = {
+    TIME: ("t|x_value", "time(?:stamp)?|zeit(?:stempel)?|temps|tiempo|tempo"),
+    LOAD: ("f_?x|tangential[a-z]*|friction", _LOADS),
+    LENGTH: ("l_?p", "l|length|länge|longueur"),
+    NORMAL_LOAD: ("w", _LOADS),
+}
+# and how many of the unit above their units are.
+_NEWTONS = {"N|(?i:newtons?)": 1.0, "kN": 1e3, "mN": 1e-3}
+UNITS = {
+    TIME: {
+        r"s|(?i:secs?|seconds?|sekunden?|secondes?|segundos?|second[io])": 1.0,
+        r"ms|(?i:msecs?|milliseconds?|millisekunden?)": 1e-3,
+        r"[uμ]s|(?i:usecs?|microseconds?)": 1e-6,
+        r"min|(?i:mins|minut[eo]s?|minuten|minuti)": 60.0,
+    },
+    LOAD: _NEWTONS,
+    LENGTH: {"1|-": 1.0, "%": 0.01},
+    NORMAL_LOAD: _NEWTONS,
+}
+BRACKET = re.compile(r"[\[({]\s*([^\])}]*?)\s*[\])}]")
+# Units without a bracket. A single letter after an underscore is a name, as in Load_A.
+_OTHER = (
+    "MN|daN|kgf?|gf|grams?|lbs?|lbf|N/mm2|Nm|[hkM]?Pa|psi|m?bar|[uμm]V|volts?|[cmuμ]?m"
+)
+_BARE = "|".join([*UNITS[TIME], *_NEWTONS, "h", _OTHER])
+BARE = re.compile(rf"(?:^|[\s_,/])({_BARE})(?=$|[\s_,])|(?:^|[,/])\s*([gAV])$")
+
+
+def has_word(name: str, words: str) -> bool:
+    """Whether a name has one of these words."""
+    return bool(re.search(rf"(?i)(?<![^\W\d_])({words})(?![^\W\d_])", name))
+
+
+def units(name: str) -> list[str]:
+    """Whatever stands as a unit in a name: in brackets, or else a known unit."""
+    name = unicodedata.normalize("NFKC", name)
+    bare = [found[1] or found[2] for found in BARE.finditer(name)]
+    return list(filter(None, BRACKET.findall(name))) or bare
+
+
+def factors(name: str, kind: str) -> set[float]:
+    """How many of the unit of a column the units in a name are."""
+    return {
+        factor
+        for unit in units(name)
+        for pattern, factor in UNITS[kind].items()
+        if re.fullmatch(pattern, unit)
+    }
+
+
+def candidates(names: Sequence[str], kind: str) -> list[int]:
+    """Which names may be those of a column: by its unit, its own name, a word for
+    it."""
+    places: list[int] = []
+    for fit in (
+        [i for i, name in enumerate(names) if factors(name, kind)],
+        *(
+            [i for i, name in enumerate(names) if has_word(name, words)]
+            for words in WORDS[kind]
+        ),
+    ):
+        places = [i for i in places or fit if i in fit] or places
+    return places
+
+
+def is_named(names: Sequence[str]) -> bool:
+    """Whether a line names any column by a word."""
+    words = "|".join(sum(WORDS.values(), ()))
+    return any(has_word(BRACKET.sub("", name), words) for name in names)
