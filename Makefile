@@ -74,7 +74,7 @@ docs: $(DEV)
 	$(BIN)/pdoc -o results/docs -d numpy precursors precursors.analysis.horizon maegawa2010.methods docs/guide.py
 
 bench: $(READY)
-	$(BIN)/python benchmarks/bench.py $(if $(METHOD),--method $(METHOD))
+	$(BIN)/python benchmarks/bench.py $(if $(filter-out undefined,$(origin METHOD)),--method "$(METHOD)")
 
 # The published medians and ranges, in some minutes with nothing else running.
 speed: $(READY)

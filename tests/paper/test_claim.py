@@ -21,13 +21,13 @@ from maegawa2010.paper.claim import (
     in_words,
 )
 from maegawa2010.paper.claims import (
-    CLAIMS,
     count_grows_with_theta,
     differences,
     evaluate,
     friction_independent_of_loading,
     growth_falls_with_theta,
     lengths_tend_to_increase,
+    stated_claims,
     waves,
 )
 from maegawa2010.paper.inputs import SCENES
@@ -320,6 +320,6 @@ def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
     ],
 )
 def test_a_claim_holds_up_to_its_limit_and_not_beyond(name, meets, misses):
-    find = next(claim.find for claim in CLAIMS if claim.name == name)
+    find = next(claim.find for claim in stated_claims() if claim.name == name)
     assert find(meets).holds
     assert not find(misses).holds

@@ -104,8 +104,10 @@ def read_record(path: str | PathLike[str]) -> dict[str, Any]:
         raise FileNotFoundError(
             f"{path} is not a file" if Path(path).exists() else f"{path}: no such file"
         )
+    # A file system may have no locks, which HDF5 asks for.
+    memory = BytesIO(Path(path).read_bytes())
     try:
-        with h5py.File(path, "r") as file:
+        with h5py.File(memory, "r") as file:
             _require(
                 _text(file, "format") == FORMAT,
                 f"its format is not {FORMAT!r}, which is read here",
