@@ -462,6 +462,8 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
             "argument --counted: takes no value, but has 'yes' (see",
         ),
         ("simulate --mu-s 1/0", 2, "'1/0' is not a number"),
+        ("simulate --length 1e999999999", 2, "is not a number"),
+        (f"slips --duration 1e9 --output {'a' * 250}", 3, "more than 240 bytes"),
         ("simulate --weights w.csv --theta 0", 2, WEIGHTS),
         ("simulate --weights missing.csv", 3, "missing.csv: No such file"),
         ("slips missing.h5", 3, "missing.h5: no such file"),

@@ -21,6 +21,7 @@ from maegawa2010.paper.claim import (
     in_words,
 )
 from maegawa2010.paper.claims import (
+    FINDINGS,
     count_grows_with_theta,
     differences,
     evaluate,
@@ -183,6 +184,16 @@ def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_
         evaluate({"noise_members": pd.DataFrame({"scene": ["fig10"], "draw": [0]})})
     with pytest.raises(IndexError, match="0 rows have x = 1: needed is one"):
         one(pd.DataFrame({"x": [2]}), "x", x=1)
+
+
+def test_a_claim_without_a_function_or_of_an_unknown_kind_is_one_clear_line(
+    monkeypatch,
+):
+    with pytest.raises(ValueError, match="claim a: its kind must be one of readings, "):
+        Claim("a", "Sect. 1", "rumour", "", "", "1", waves)
+    monkeypatch.delitem(FINDINGS, "waves")
+    with pytest.raises(ValueError, match="claim waves: it has no function"):
+        stated_claims()
 
 
 def test_differences_are_claims_that_are_new_gone_or_of_another_verdict():
