@@ -105,7 +105,7 @@ def test_the_wheel_has_every_file_of_the_package_and_nothing_else(tmp_path):
     wanted = {
         str(path.relative_to(ROOT / "src"))
         for path in paths
-        if path.parent.name != "__pycache__"
+        if "__pycache__" not in path.parts
     }
     proofs = {path.name for path in (ROOT / "workflow/certificates").iterdir()}
     assert found == wanted | {f"precursors/certificates/{name}" for name in proofs}
