@@ -80,8 +80,13 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(
 ):
     clone = copy_workflow(tmp_path / "clone")
     shutil.copy(finished.path / "config.yaml", clone.path)
-    results = clone.path / "results"
-    shutil.copytree(finished.path / "results", results, copy_function=shutil.copyfile)
+    assert clone.would_run()
+    shutil.copytree(
+        finished.path / "results",
+        clone.path / "results",
+        copy_function=shutil.copyfile,
+        dirs_exist_ok=True,
+    )
     assert clone.would_run() == set()
     clone.edit("src/maegawa2010/studies/theta_window/figure.py", "", CODE)
     assert clone.would_run() == {"draw_sensitivity"} | PAPER
