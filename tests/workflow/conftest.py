@@ -9,6 +9,7 @@ import re
 import shutil
 import sys
 import time
+import warnings
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -166,6 +167,8 @@ def _run_snakemake(
         os.dup2(file.fileno(), 1)
         os.dup2(file.fileno(), 2)
         sys.stdout = sys.stderr = os.fdopen(1, "w", buffering=1, encoding="utf-8")
+        # Snakemake leaves a temporary directory for Python to remove, which warns.
+        warnings.simplefilter("ignore", ResourceWarning)
         if "--touch" in arguments:  # of which Snakemake waits 0.1 s a job
             time.sleep = lambda seconds: None
         snakemake.cli.main(list(arguments))
