@@ -36,16 +36,10 @@ mutants: results $(DEV)
 test-cluster: $(DEV)
 	@CORES=$(CORES) tests/cluster/run
 
-results: $(READY) .snakemake/metadata
+results: $(READY)
 	@$(BIN)/snakemake --quiet rules host -c$(CORES) all || { status=$$?; [ -z "$$(ls .snakemake/locks 2>/dev/null)" ] || \
 	  echo "make: another run is at work here, or one was killed. If none is: $(BIN)/snakemake --unlock && make $(MAKECMDGOALS)" >&2; \
 	  exit $$status; }
-
-# Snakemake's records of the jobs lie beside the results, so that both are copied together: what fits the code of another
-# clone is not made again there.
-.snakemake/metadata:
-	mkdir -p .snakemake results/records
-	ln -s ../results/records $@
 
 # Checks the existing results without recomputing them.
 check: $(READY)
@@ -56,7 +50,7 @@ report: results
 	$(BIN)/snakemake --report results/report.html --report-stylesheet workflow/report/report.css -- all
 
 # The reference problems of docs/benchmark.md as plain files in one archive, for a release.
-benchmark: $(READY) .snakemake/metadata
+benchmark: $(READY)
 	@$(BIN)/snakemake --quiet rules host -c1 results/benchmark.zip
 
 # What codecheck.yml lists, made again from nothing and compared with tests/golden.
@@ -74,7 +68,7 @@ docs: $(DEV)
 	$(BIN)/pdoc -o results/docs -d numpy precursors precursors.analysis.horizon maegawa2010.methods docs/guide.py
 
 bench: $(READY)
-	$(BIN)/python benchmarks/bench.py $(if $(METHOD),--method $(METHOD))
+	$(BIN)/python benchmarks/bench.py $(if $(filter-out undefined,$(origin METHOD)),--method "$(METHOD)")
 
 # The published medians and ranges, in some minutes with nothing else running.
 speed: $(READY)

@@ -1,4 +1,6 @@
 import os
+import shlex
+import sys
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -6,8 +8,17 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version, update_config
 
+from maegawa2010.support.installed import check_installed
+
+# As seen from the working directory; `workflow.basedir` would be another workflow's that uses this one as a module.
+ROOT = Path(os.path.relpath(workflow.current_basedir.get_path_or_uri(secret_free=True)))
+try:
+    check_installed(ROOT / "src")
+except ValueError as error:
+    raise WorkflowError(str(error)) from None
+
 from maegawa2010 import printed
-from maegawa2010.config import check_config, check_sections, read_file, read_numbers
+from maegawa2010.config import check_config, check_sections, place_weights, read_file, read_numbers
 from maegawa2010.entries import Ensemble, Entries, Figure, Table
 from maegawa2010.scenes import (
     scene_additions,
@@ -21,8 +32,6 @@ from precursors.model.chain import parse_theta
 
 min_version("9.20")
 
-# As seen from the working directory; `workflow.basedir` would be another workflow's that uses this one as a module.
-ROOT = Path(os.path.relpath(workflow.current_basedir.get_path_or_uri(secret_free=True)))
 PAPERS = ROOT / "src/maegawa2010"
 PROOFS = ROOT / "workflow/certificates"  # committed
 # What a script computes: its rule has it as a parameter, and its jobs run again when it changes.
@@ -44,6 +53,8 @@ configfile: "config.yaml"
 report: "workflow/report/workflow.rst"
 
 
+for path, content in reversed(settings.items()):
+    place_weights(config, path, content)
 if "chain" in config:
     config["chain"] = read_numbers(config["chain"])
 try:
@@ -60,6 +71,15 @@ except ValueError as error:
     raise WorkflowError(str(error)) from None
 if not os.access("results" if os.path.exists("results") else ".", os.W_OK | os.X_OK):
     raise WorkflowError("results must be a directory that can be written to")
+if not workflow.modifier.skip_configfile:
+    # Snakemake's records of the jobs lie beside the results, so that both are copied together: what fits the code of
+    # another clone is not made again there.
+    os.makedirs("results/records", exist_ok=True)
+    os.makedirs(".snakemake", exist_ok=True)
+    if not os.path.lexists(".snakemake/metadata"):
+        os.symlink("../results/records", ".snakemake/metadata")
+if os.path.exists(sys.executable):  # and not yet in quotes
+    sys.executable = shlex.quote(sys.executable)  # Snakemake's commands have it as it is
 
 SCENES = scenes_with(config, "run")
 ASKED = scenes_with(config, "answers")

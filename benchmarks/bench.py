@@ -41,6 +41,7 @@ from maegawa2010.methods.common import Result
 from maegawa2010.methods.heyoka_events import solve_heyoka
 from maegawa2010.methods.scipy_events import solve_scipy
 from maegawa2010.studies.work_precision.tables import (
+    LONGEST,
     ROUNDS,
     charted_values,
     measure_methods,
@@ -52,6 +53,7 @@ from precursors.benchmark.score import solution
 from precursors.model.checks import Until
 from precursors.model.statics import maximal_strain_positions
 from precursors.solver.simulate import TransitionLimitError
+from precursors.support.compiled import untyped
 from precursors.support.files import write_table
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -149,7 +151,15 @@ def one_method(name: str, rounds: int) -> pd.DataFrame:
         if other in ("exact", "heyoka")
     }
     values[name] = quick[name] or charted_values(full=True)[name]
-    return measure_methods(truth, DURATION, values, rounds)
+    table = measure_methods(truth, DURATION, values, rounds)
+    left = sorted({*values[name]} - {*table.loc[table["method"] == name, "value"]})
+    if left:
+        print(
+            f"{name}: given up at {METHODS[name].setting} = {left[-1]:g}, where a call "
+            f"takes longer than {LONGEST:g} s",
+            file=sys.stderr,
+        )
+    return table
 
 
 def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:
@@ -217,7 +227,7 @@ def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
     """First-slip runs of theta = 0 per second, by `simulate_many` on one thread and
     more."""
     chains = [Chain.from_slider()] * (20 if quick else ENSEMBLE)
-    threads = sorted({1, 2, len(os.sched_getaffinity(0))})
+    threads = sorted({1, 2, untyped.config.NUMBA_DEFAULT_NUM_THREADS})
     tasks = {
         str(n): partial(simulate_many, chains, DURATION, "global slip", threads=n)
         for n in threads

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
@@ -91,6 +92,20 @@ def read_file(path: AnyPath) -> dict[str, Any]:
     return config
 
 
+def place_weights(config: dict[str, Any], path: AnyPath, content: Config) -> None:
+    """Files of normal loads lie beside the file that names them, whose content is
+    given."""
+    # What is no scene is refused by the schema.
+    with suppress(AttributeError, LookupError, TypeError):
+        for name, scene in content["scenes"].items():
+            file = scene.get("weights")
+            merged = config["scenes"][name]
+            # Unless another file or the command line names another one.
+            if isinstance(file, str) and merged["weights"] == file:
+                beside = os.path.join(os.path.dirname(path) or os.curdir, file)
+                merged["weights"] = beside
+
+
 def read_numbers(values: Any) -> Any:
     """Numbers of a section, also given as text, as by --config chain='{mu_k: 0.46}'."""
     if not isinstance(values, dict):
@@ -133,7 +148,10 @@ def check_config(
         message = f"{given!r} must {error.schema['description']}"
     with suppress(ValueError):
         if isinstance(error.instance, str) and math.isfinite(float(error.instance)):
-            message += ": this is text; write a number without quotes, as 2.5e+9 and not as 2.5e9"
+            message += (
+                ": this is text; write a number as 2.5e+9 and not as 2.5e9 or in quotes "
+                "(within braces, --config has numbers as text)"
+            )
     file = _file_with([*error.absolute_path], error.instance, files or {})
     raise ValueError(_short(f"{file}: {where}: {message}"))
 

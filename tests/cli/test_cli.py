@@ -509,6 +509,8 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
         ("simulate --cell-spacing 1", 2, "--cell-spacing needs --load-cells"),
         ("plot --data-start 1", 2, "--data is needed with data_start"),
         ("plot --figure lengths --data d.csv --data-start 1", 2, "need --figure load"),
+        ("simulate --length 1e999999999", 2, "is not a number"),
+        (f"slips --duration 1e9 --output {'a' * 250}.csv", 3, "more than 240 bytes"),
         ("simulate --weights missing.csv", 3, "missing.csv: No such file"),
         ("slips missing.h5", 3, "missing.h5: no such file"),
         (f"slips {__file__}", 1, "run file"),

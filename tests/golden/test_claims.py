@@ -14,7 +14,7 @@ import pytest
 from golden.regenerate import GOLDEN
 
 from maegawa2010.paper.claim import HOLDS, READINGS
-from maegawa2010.paper.claims import CLAIMS, claims_tables, evaluate
+from maegawa2010.paper.claims import claims_tables, evaluate, stated_claims
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
 from precursors.support.files import read_table
 from precursors.support.provenance import checksums
@@ -72,7 +72,9 @@ def test_no_claim_stays_the_same_on_other_numbers(true):
     for name, table in false.items():
         for key in {"draw", "scene"} & set(table):
             table[key] = true[name][key]
-    assert [claim.name for claim in CLAIMS if claim.row(true) == claim.row(false)] == []
+    assert [
+        claim.name for claim in stated_claims() if claim.row(true) == claim.row(false)
+    ] == []
 
 
 def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_another(
@@ -83,7 +85,7 @@ def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_a
     assert printed == CHECKED.read_text(encoding="utf-8").rstrip("\n")
     check_claims.main(RESULTS)
     assert capsys.readouterr().out.splitlines()[-4:] == printed.splitlines()[-4:]
-    with pytest.raises(SystemExit, match=r"^check: .*No such file.*_slips\.csv'$"):
+    with pytest.raises(SystemExit, match=r"_slips\.csv is missing: run make all"):
         check_claims.main(tmp_path)
     for name in CLAIM_TABLES:
         shutil.copy(RESULTS / f"{name}.csv", tmp_path)

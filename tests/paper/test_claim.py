@@ -21,13 +21,14 @@ from maegawa2010.paper.claim import (
     in_words,
 )
 from maegawa2010.paper.claims import (
-    CLAIMS,
+    FINDINGS,
     count_grows_with_theta,
     differences,
     evaluate,
     friction_independent_of_loading,
     growth_falls_with_theta,
     lengths_tend_to_increase,
+    stated_claims,
     waves,
 )
 from maegawa2010.paper.inputs import SCENES
@@ -185,6 +186,16 @@ def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_
         one(pd.DataFrame({"x": [2]}), "x", x=1)
 
 
+def test_a_claim_without_a_function_or_of_an_unknown_kind_is_one_clear_line(
+    monkeypatch,
+):
+    with pytest.raises(ValueError, match="claim a: its kind must be one of readings, "):
+        Claim("a", "Sect. 1", "rumour", "", "", "1", waves)
+    monkeypatch.delitem(FINDINGS, "waves")
+    with pytest.raises(ValueError, match="claim waves: it has no function"):
+        stated_claims()
+
+
 def test_differences_are_claims_that_are_new_gone_or_of_another_verdict():
     def table(**verdicts):
         return pd.DataFrame(verdicts.items(), columns=["claim", "verdict"])
@@ -320,6 +331,6 @@ def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
     ],
 )
 def test_a_claim_holds_up_to_its_limit_and_not_beyond(name, meets, misses):
-    find = next(claim.find for claim in CLAIMS if claim.name == name)
+    find = next(claim.find for claim in stated_claims() if claim.name == name)
     assert find(meets).holds
     assert not find(misses).holds

@@ -1,6 +1,8 @@
 """A run knows the motion at every time, and its file gives back every bit or is
 refused."""
 
+import fcntl
+
 import h5py
 import numpy as np
 import pytest
@@ -200,6 +202,13 @@ def refused(path, words="") -> None:
 def test_a_file_that_is_no_whole_run_is_refused(path, damaged):
     path.write_bytes(damaged(path.read_bytes()))
     refused(path, "not a run file")
+
+
+def test_a_file_that_cannot_be_locked_is_read(run, path):
+    """As on some file systems of clusters."""
+    with path.open("rb") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        np.testing.assert_array_equal(Run.load(path).transitions, run.transitions)
 
 
 def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, path):

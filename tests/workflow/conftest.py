@@ -9,6 +9,7 @@ import re
 import shutil
 import sys
 import time
+import warnings
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -80,16 +81,17 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Workspace:
-    """A directory with a copy of the workflow."""
+    """A directory with a copy of the workflow, and where its library is installed."""
 
     path: Path
+    library: str = "src"
 
     def run(self, *arguments: str) -> Outcome:
         """Run Snakemake in the directory."""
         parse_the_code()
         output = self.path.with_name(f"{self.path.name}.txt")
         process = multiprocessing.get_context("fork").Process(
-            target=_run_snakemake, args=(self.path, output, arguments)
+            target=_run_snakemake, args=(self.path, self.library, output, arguments)
         )
         process.start()
         process.join()
@@ -126,8 +128,14 @@ class Workspace:
         self.edit("config.yaml", "\nfig13: [", f"{scenes}\nfig13: [")
 
     def results(self) -> dict[str, tuple[int, bytes]]:
-        """Time of change and content of every file in results."""
-        files = [path for path in (self.path / "results").rglob("*") if path.is_file()]
+        """Time of change and content of every file in results, without Snakemake's
+        records."""
+        everything = (self.path / "results").rglob("*")
+        files = [
+            path
+            for path in everything
+            if path.is_file() and path.parent.name != "records"
+        ]
         return {
             str(file.relative_to(self.path)): (
                 file.stat().st_mtime_ns,
@@ -149,13 +157,18 @@ def parse_the_code() -> None:
         digest_code(ROOT, script.stem, *names)
 
 
-def _run_snakemake(directory: Path, output: Path, arguments: tuple[str, ...]) -> None:
+def _run_snakemake(
+    directory: Path, library: str, output: Path, arguments: tuple[str, ...]
+) -> None:
     os.chdir(directory)
-    os.environ["PYTHONPATH"] = str((directory / "src").resolve())
+    os.environ["PYTHONPATH"] = str((directory / library).resolve())
+    sys.path.insert(0, os.environ["PYTHONPATH"])
     with output.open("w", encoding="utf-8") as file:
         os.dup2(file.fileno(), 1)
         os.dup2(file.fileno(), 2)
         sys.stdout = sys.stderr = os.fdopen(1, "w", buffering=1, encoding="utf-8")
+        # Snakemake leaves a temporary directory for Python to remove, which warns.
+        warnings.simplefilter("ignore", ResourceWarning)
         if "--touch" in arguments:  # of which Snakemake waits 0.1 s a job
             time.sleep = lambda seconds: None
         snakemake.cli.main(list(arguments))
@@ -202,5 +215,5 @@ def untouched(tmp_path_factory: pytest.TempPathFactory) -> tuple[Workspace, Outc
 def finished(_finished: Workspace, tmp_path: Path) -> Workspace:
     """A copy of the workflow with MORE_SCENES, run to the end with stand-ins for what
     the scripts compute."""
-    shutil.copytree(_finished.path, tmp_path / "copy")
+    shutil.copytree(_finished.path, tmp_path / "copy", symlinks=True)
     return Workspace(tmp_path / "copy")

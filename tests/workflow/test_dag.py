@@ -6,7 +6,7 @@ from collections import Counter
 
 import pandas as pd
 import pytest
-from conftest import ROOT, copy_workflow
+from conftest import ROOT, Workspace, copy_workflow
 
 from maegawa2010.studies.models.models import scene_answers
 
@@ -45,7 +45,7 @@ def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
     assert rules - {"simulate_scene"} - ON_DEMAND <= outcome.jobs
     assert outcome.jobs >= PAPERS
     assert not ON_DEMAND & outcome.jobs
-    assert not (workspace.path / "results").exists()
+    assert workspace.results() == {}
 
 
 def test_words_format_and_touch_run_nothing_again(finished):
@@ -80,13 +80,27 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(
 ):
     clone = copy_workflow(tmp_path / "clone")
     shutil.copy(finished.path / "config.yaml", clone.path)
-    for name in ("results", ".snakemake/metadata"):
-        shutil.copytree(
-            finished.path / name, clone.path / name, copy_function=shutil.copyfile
-        )
+    assert clone.would_run()
+    shutil.copytree(
+        finished.path / "results",
+        clone.path / "results",
+        copy_function=shutil.copyfile,
+        dirs_exist_ok=True,
+    )
     assert clone.would_run() == set()
     clone.edit("src/maegawa2010/studies/theta_window/figure.py", "", CODE)
     assert clone.would_run() == {"draw_sensitivity"} | PAPER
+
+
+def test_an_installed_library_must_be_that_of_the_checkout(workspace):
+    """A job would compute with the one, and be recorded with the other."""
+    shutil.copytree(workspace.path / "src", workspace.path / "site")
+    installed = Workspace(workspace.path, "site")
+    assert installed.run("-n", "fig13").code == 0
+    workspace.edit("src/precursors/analysis/slips.py", "", CODE)
+    outcome = installed.run("-n", "fig13")
+    assert outcome.code != 0
+    assert "site/precursors/analysis/slips.py differs from src/" in outcome.text
 
 
 @pytest.mark.parametrize(

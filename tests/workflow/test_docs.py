@@ -114,7 +114,7 @@ def test_the_model_and_the_method_shown_give_what_is_shown_and_the_method_has_a_
 
 
 def test_the_workflow_shown_uses_this_one_as_a_module(documented):
-    outer = type(documented)(documented.path / "elsewhere")
+    outer = type(documented)(documented.path / "elsewhere", "../src")
     outcome = outer.run("-n", "precursors_all")
     assert outcome.code == 0, outcome.text
     assert {"precursors_simulate_scene soft", "precursors_write_paper"} <= outcome.jobs

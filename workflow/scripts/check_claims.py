@@ -47,6 +47,8 @@ def main(
         found = evaluate(
             {name: read_table(Path(tables, f"{name}.csv")) for name in CLAIM_TABLES}
         )
+    except FileNotFoundError as error:
+        sys.exit(f"check: {error.filename} is missing: run make all first")
     except (OSError, ValueError) as error:
         sys.exit(f"check: {error}")
     print(printed(found))

@@ -27,6 +27,7 @@ READINGS = "readings"
 RESULT = "result"
 EXPERIMENT = "experiment"
 CHECK = "check"
+KINDS = (READINGS, RESULT, EXPERIMENT, CHECK)
 # A claim that holds and one that fails, in words.
 IN_WORDS = {EXPERIMENT: ("agrees", "differs"), CHECK: ("passes", "fails")}
 # A claim that holds in the run must hold in this share of an ensemble, too.
@@ -105,6 +106,12 @@ class Claim:
     rule: str
     unit: str
     find: Find
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise ValueError(
+                f"claim {self.name}: its kind must be one of {', '.join(KINDS)}, but is {self.kind!r}"
+            )
 
     def row(self, tables: Tables) -> dict[str, Any]:
         """The claim's row of claims.csv; a run without an event that a claim is about

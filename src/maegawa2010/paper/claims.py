@@ -322,8 +322,19 @@ def slip_duration_of_the_experiment(t: Tables) -> Finding:
     )
 
 
-STATED = read_table(Path(__file__).with_name("claims.csv"), dtype=str)
-CLAIMS = [Claim(**said, find=FINDINGS[said["name"]]) for _, said in STATED.iterrows()]
+def stated_claims() -> list[Claim]:
+    """The claims of claims.csv, with their functions.
+
+    Raises
+    ------
+    ValueError
+        In one line, if a claim has no function or is of an unknown kind.
+    """
+    stated = read_table(Path(__file__).with_name("claims.csv"), dtype=str)
+    for name in stated["name"]:
+        if name not in FINDINGS:
+            raise ValueError(f"claim {name}: it has no function in claims.py")
+    return [Claim(**said, find=FINDINGS[said["name"]]) for _, said in stated.iterrows()]
 
 
 def claims_tables(tables: Tables) -> dict[str, pd.DataFrame]:
@@ -333,7 +344,7 @@ def claims_tables(tables: Tables) -> dict[str, pd.DataFrame]:
 
 def evaluate(tables: Tables) -> pd.DataFrame:
     """Compare every claim with the tables: one row per claim, see `Claim.row`."""
-    return pd.DataFrame([claim.row(tables) for claim in CLAIMS])
+    return pd.DataFrame([claim.row(tables) for claim in stated_claims()])
 
 
 def differences(found: pd.DataFrame, expected: pd.DataFrame) -> list[str]:

@@ -61,7 +61,7 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
 
     def number(which: NDArray[np.bool_]) -> NDArray[np.int64]:
         """Number of such events in each run."""
-        return np.bincount(events["run"], which, minlength=len(runs))
+        return np.bincount(events["run"][which], minlength=len(runs))
 
     summaries["n_all_events"] = number(np.ones(len(events), bool))
     summaries["n_global"] = number(events["is_global"])

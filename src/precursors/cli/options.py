@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 from collections.abc import Sequence
 from fractions import Fraction
@@ -256,8 +257,12 @@ def _add_look(command: Parser) -> None:
 def _number(text: str) -> float:
     """Read a number, or a fraction such as 5/6."""
     try:
-        return float(Fraction(text))
+        # Not Fraction("1e999999999"), which writes all digits.
+        value = float(Fraction(text) if "/" in text else text)
+        if math.isfinite(value):
+            return value
     except (ValueError, ArithmeticError):
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is not a number or a fraction such as 5/6"
-        ) from None
+        pass
+    raise argparse.ArgumentTypeError(
+        f"{text!r} is not a number or a fraction such as 5/6"
+    )

@@ -10,8 +10,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from precursors.model.chain import Chain
-from precursors.model.checks import Until, checked_until
+from precursors.model.checks import Until, checked_until, whole
 from precursors.proof.certificate import (
+    MOST_BITS,
     Certificate,
     CertificateError,
     CertifiedTransition,
@@ -98,6 +99,7 @@ def certify(
         exact_start("start_velocities", exact_chain, start_velocities, "m/s"),
     )
     until = checked_until(until)
+    max_bits = whole("max_bits", max_bits, MOST_BITS)
     bits = min(FIRST_BITS, max_bits)
     while True:
         certificate = Certificate(

@@ -8,6 +8,7 @@ import os
 import platform
 import re
 import subprocess
+import warnings
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
 from importlib.metadata import distributions
@@ -93,9 +94,10 @@ def git_state(root: Path) -> dict[str, str | bool] | None:
     None where git does not know the sources. The identifiers (SWHID) are git's own
     hashes.
     """
-    if not _git(root, "ls-files", "Snakefile"):
+    is_known = _git(root, "ls-files", "Snakefile")
+    if not is_known or not (told := _git(root, "show", "-s", "--format=%H %T")):
         return None
-    commit, tree = _git(root, "show", "-s", "--format=%H %T").split()
+    commit, tree = told.split()
     return {
         "commit": commit,
         "swh_revision": f"swh:1:rev:{commit}",
@@ -105,11 +107,17 @@ def git_state(root: Path) -> dict[str, str | bool] | None:
 
 
 def _git(root: Path, *command: str) -> str:
-    """Output of a git command, or nothing where it fails."""
+    """Output of a git command, or nothing where it fails; in a checkout with a
+    warning."""
     try:
         answer = subprocess.run(
             ["git", "-C", root, *command], capture_output=True, text=True
         )
     except OSError:
         return ""
-    return "" if answer.returncode else answer.stdout.strip()
+    if answer.returncode == 0:
+        return answer.stdout.strip()
+    if (root / ".git").exists():  # of another user, or without a commit
+        why = answer.stderr.partition("\n")[0]
+        warnings.warn(f"the commit is unknown: git says {why!r}", stacklevel=2)
+    return ""

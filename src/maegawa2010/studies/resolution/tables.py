@@ -87,7 +87,10 @@ def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
         for count in COUNTS:
             row[count] = own[count].median()
             row[f"{count}_over_uniform"] = own[count].median() / even[count].median()
-            row[f"{count}_p"] = mannwhitneyu(own[count], even[count]).pvalue
+            # Equal counts have no variance: newer SciPy gives nan for them.
+            is_equal = len({*own[count], *even[count]}) == 1
+            p = 1.0 if is_equal else mannwhitneyu(own[count], even[count]).pvalue
+            row[f"{count}_p"] = p
         rows.append(row)
     return pd.DataFrame(rows).sort_values(["n_blocks", "theta"], ignore_index=True)
 
