@@ -11,8 +11,7 @@ from time import perf_counter
 
 import pandas as pd
 
-from maegawa2010.methods import METHODS
-from maegawa2010.methods.attempt import attempt
+from maegawa2010.methods import METHODS, attempt
 from precursors.benchmark.score import problems
 from precursors.proof import Certificate
 from precursors.support.files import write_table

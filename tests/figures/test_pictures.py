@@ -148,15 +148,8 @@ def swept_steps():
 
 
 def gallery_of_failures():
-    """The same curves in all panels; thresholds from 1.25, predicted ones from 3.75,
-    for 10 blocks."""
+    """The same curves in all panels."""
     panels = read(PANELS)
-    limits = panels.dropna(subset="fails")
-    thresholds = limits.assign(method=limits["methods"].str.split()).explode("method")
-    thresholds = thresholds[["fails", "method", "scale"]].assign(n_blocks=10)
-    place = np.arange(len(thresholds))
-    thresholds["measured"] = (place + 1.25) / thresholds["scale"]
-    thresholds["predicted"] = (place + 3.75) / thresholds["scale"]
     roles = {
         ("exact", "exact"): 1,
         ("dt = 1e-07 s", "failing"): 2,
@@ -175,8 +168,7 @@ def gallery_of_failures():
             )
             for (name, role), n in roles.items()
         ]
-    limits = pd.concat([thresholds, thresholds.assign(n_blocks=2, measured=0.0)])
-    return failure_gallery.draw(limits, pd.concat(curves), panels)
+    return failure_gallery.draw(pd.concat(curves), panels)
 
 
 def predicted_errors():

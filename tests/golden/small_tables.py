@@ -16,16 +16,12 @@ import numpy as np
 import pandas as pd
 from audit.falsified import audits
 from benchmark.made_up import go_on, proof_of
-from methods.kept_runs import kept_runs
 from settings import CONFIG
 from studies.made import MAP, PAPER, study_of
 
-from maegawa2010.methods import METHODS
 from maegawa2010.paper.definitions import definitions_table
 from maegawa2010.paper.scene_numbers import measures_table
 from maegawa2010.studies.event_law.tables import event_law_tables
-from maegawa2010.studies.failures.stability import NO_GLOBAL_SLIP, thresholds
-from maegawa2010.studies.failures.tables import FAILURE_MODES, Failure, curve_table
 from maegawa2010.studies.larger.cycles import cycle_tables
 from maegawa2010.studies.larger.first_slips import larger_tables
 from maegawa2010.studies.members import gather, run_members
@@ -50,45 +46,11 @@ SCENES: dict[str, dict[str, str | float]] = {
 # are their statistics. A method with steps is off by the roundings of some 1e6 steps, a
 # bisection by none or by a step of its own.
 ROUNDING, STEPS = 1e-8, 1e-6
-RELATIVE = dict.fromkeys(
-    ("failure_curves", "limits", "definitions", "enclosures"), STEPS
-)
+RELATIVE = dict.fromkeys(("definitions", "enclosures"), STEPS)
 RELATIVE["audits"] = 1e-2  # deviations as printed, with three digits
 # Errors relative to the paper's chain are differences of numbers near one.
 # What the energy of a larger chain lacks is of the size of roundings in some runs.
 ABSOLUTE = {"model_comparison": 1e-12, "larger_runs": 1e-12}
-# Beyond its limit RK4 multiplies roundings without bound: where its runs end differs
-# with the processor.
-CHAOTIC = "silent_instability"
-
-
-def limits(measured: Callable[[str], Failure]) -> pd.DataFrame:
-    """All thresholds; how a run beyond a limit ends with friction differs with the
-    processor, too."""
-    of_modes = [measured(mode).threshold for mode in FAILURE_MODES]
-    table = pd.DataFrame([*thresholds(), *filter(None, of_modes)])
-    is_sure = table["fails"] != NO_GLOBAL_SLIP
-    return table.assign(measured=table["measured"].where(is_sure, 0.0))
-
-
-def failure_curves(measured: Callable[[str], Failure]) -> pd.DataFrame:
-    """Of each of their curves the number of points; of both columns the ends, the mean
-    and the largest."""
-    rows = []
-    points = curve_table({m: measured(m) for m in FAILURE_MODES if m != CHAOTIC})
-    keys = ["failure_mode", "curve", "role", "x_is", "y_is"]
-    for key, of_curve in points.groupby(keys, sort=False):
-        row = dict(zip(keys, key, strict=True)) | {"n": len(of_curve)}
-        for axis in "xy":
-            values = of_curve[axis].to_numpy()
-            row |= {
-                f"{axis}_first": values[0],
-                f"{axis}_last": values[-1],
-                f"{axis}_mean": values.mean(),
-                f"{axis}_largest": values.max(),
-            }
-        rows.append(row)
-    return pd.DataFrame(rows)
 
 
 def definitions() -> pd.DataFrame:
@@ -336,8 +298,6 @@ TABLES: dict[str, Callable[[], pd.DataFrame]] = {
 ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
     "audits": audits,
     "enclosures": enclosures,
-    "failure_curves": lambda: failure_curves(_measured),
-    "limits": lambda: limits(_measured),
     "model_comparison": model_comparison,
     "larger_runs": larger_runs,
     **{
@@ -347,13 +307,7 @@ ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
             *("larger_verdicts", "larger_peaks"),
         )
     },
-    "methods": lambda: pd.concat(map(kept_runs, METHODS)),
 }
-
-
-@cache
-def _measured(name: str) -> Failure:
-    return FAILURE_MODES[name]()
 
 
 def write(table: pd.DataFrame, path: Path) -> None:

@@ -7,9 +7,9 @@ import pytest
 from chains import SCENES
 
 from maegawa2010.methods.cvode_events import solve_cvode
-from maegawa2010.methods.dop853 import solve_dop853
 from maegawa2010.methods.events import EventMotion
 from maegawa2010.methods.heyoka_events import solve_heyoka
+from maegawa2010.methods.runge_kutta import solve_dop853
 from maegawa2010.methods.scipy_events import solve_scipy
 from precursors import Chain
 from precursors.benchmark.compare import compare

@@ -3,17 +3,17 @@ those of theory."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from maegawa2010.methods import SMOOTH, karnopp, moreau_jean
+from maegawa2010.methods import SMOOTH, moreau_jean
 from maegawa2010.methods.columns import FORCE, VELOCITY, sliding_forward
 from maegawa2010.methods.march import slide
 from maegawa2010.methods.stability import (
-    bisect,
     energy_left,
     highest_frequency,
     highest_mode,
@@ -21,12 +21,13 @@ from maegawa2010.methods.stability import (
     largest_stable_step,
     without_friction,
 )
+from maegawa2010.methods.tableaus import DOP853, RK4
 from maegawa2010.studies.failures.regularised_friction import (
     STRIBECK,
     creep_velocity,
     measured_creep,
 )
-from precursors import Chain, simulate
+from precursors import Chain
 
 UNSTABLE = [name for name, smooth in SMOOTH.items() if 0.0 < smooth.limit < np.inf]
 # So much beyond RK4's limit energy becomes a millionfold within 4000 steps; a wrong
@@ -34,6 +35,7 @@ UNSTABLE = [name for name, smooth in SMOOTH.items() if 0.0 < smooth.limit < np.i
 LIMIT_TOLERANCE = 5e-4
 # Of a factor per step: rounding of some tens of steps, and of the frequency.
 FACTOR_TOLERANCE = 1e-9
+INTERPOLATION = 1e-12
 ORDERS = {
     "rk4": 4,
     "rk4_skip": 4,
@@ -127,30 +129,43 @@ def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(
     )
 
 
-def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(free):
+@pytest.mark.parametrize(("theta", "unstable"), [(0.498, True), (0.502, False)])
+def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(
+    free, theta, unstable
+):
+    """Below one half, energy rises by 4 (1/2 - theta) a step."""
     step = 100 / highest_frequency(free)
-
-    def is_unstable_at(theta: float) -> bool:
-        # Below one half, energy rises by 4 (1/2 - theta) a step: 1e6 within 4000 steps
-        # from 0.499 on.
-        method = partial(moreau_jean.run_moreau_jean, theta=theta)
-        return is_unstable(free, partial(slide, method), step)
-
-    assert bisect(is_unstable_at, 0.6, 0.4) == pytest.approx(0.5, rel=2e-3)
+    method = partial(moreau_jean.run_moreau_jean, theta=theta)
+    assert is_unstable(free, partial(slide, method), step) == unstable
 
 
-@pytest.mark.parametrize("dead_zone", [1e-5, 1e-4, 1e-3])
-def test_karnopps_block_leaves_its_dead_zone_late_by_the_delay_of_theory(dead_zone):
-    chain, step = Chain.from_slider(n_blocks=1, drive_velocity=1e-2), 1e-7
-    late = karnopp.solve(chain, 0.04, step, dead_zone=dead_zone).run.transitions[
-        "time"
-    ][0]
-    exact = simulate(chain, 0.04).transitions["time"][0]
-    # The block is seen to slide at the end of a step; the springs resist its way a
-    # little.
-    assert late - exact == pytest.approx(
-        karnopp.release_delay(chain, dead_zone), abs=step, rel=1e-3
-    )
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            {"weights": np.array([1.0, 2.0, 2.0, 2.0]) / 6.0},
+            r"h\^1 in a step must be 1/1!",
+        ),
+        ({"stages": 1.01 * RK4.stages}, r"h\^2 in a step must be 1/2!"),
+        ({"stages": RK4.stages.T}, "needs a rate after it"),
+        ({"order": 5}, r"h\^5"),
+    ],
+)
+def test_coefficients_that_are_not_those_of_their_order_are_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        replace(RK4, **change)
+
+
+@pytest.mark.parametrize("tableau", [RK4, DOP853])
+def test_the_interpolation_of_a_step_has_the_values_and_rates_of_both_ends(tableau):
+    s = len(tableau.weights)
+    powers = tableau.powers
+    n = np.arange(1, len(powers) + 1)
+    np.testing.assert_allclose(powers.sum(0), tableau.shares[s], atol=INTERPOLATION)
+    rate_at_start = np.eye(len(tableau.shares))[0]
+    rate_at_end = np.eye(len(tableau.shares))[s]
+    np.testing.assert_allclose(powers[0], rate_at_start, atol=INTERPOLATION)
+    np.testing.assert_allclose(n @ powers, rate_at_end, atol=INTERPOLATION)
 
 
 @pytest.mark.parametrize(("ratio", "width"), [(0.1, 1e-6), (0.5, 1e-8), (0.9, 1e-6)])

@@ -26,8 +26,6 @@ from matplotlib.figure import Figure
 from studies.made import MAP
 
 from maegawa2010.entries import Figure as Drawn
-from maegawa2010.studies.failures import tables as failures
-from maegawa2010.studies.failures.common import Threshold
 from maegawa2010.studies.horizon.lyapunov import lyapunov_table
 from maegawa2010.studies.horizon.tables import proof_tables
 from maegawa2010.studies.work_precision import tables as work_precision
@@ -391,26 +389,6 @@ def test_methods_are_measured_to_the_first_global_slip(monkeypatch):
     assert exact["transitions_right"] == exact["transitions_true"]
     assert 0 < exact["transitions_true"] < len(certificate.transitions)
     assert 0 < exact["error_time_s"] < fine["error_time_s"] < coarse["error_time_s"]
-
-
-def test_failure_modes_are_tabulated_with_their_curves_and_thresholds(monkeypatch):
-    two = {
-        name: failures.FAILURE_MODES[name]
-        for name in ("stiffness", "dead_zone_too_large")
-    }
-    monkeypatch.setattr(failures, "FAILURE_MODES", two)
-    monkeypatch.setattr(
-        failures,
-        "thresholds",
-        lambda: [Threshold("a", 2, "fails", "b", 2.0, 3.0)],
-    )
-    tables = failures.failure_tables()
-    assert tables["thresholds"]["n_blocks"].tolist() == [2, 10]
-    assert tables["thresholds"]["ratio"].tolist() == [1.5, pytest.approx(1.0, rel=0.02)]
-    curves = tables["failure_curves"]
-    of_stiffness = curves[curves["failure_mode"] == "stiffness"]
-    assert list(of_stiffness["role"].value_counts()[["theory", "reference"]]) == [11, 2]
-    assert set(of_stiffness["x_is"]) == {"width_m_per_s"}
 
 
 def test_a_scene_without_an_exponent_has_an_empty_row():

@@ -4,7 +4,7 @@ TABLES["failures"] = Table(
     function="maegawa2010.studies.failures.tables:failure_tables",
     message="making every method fail",
     also=[f"{PAPERS}/methods/methods.csv"],
-    tables=["thresholds"],
+    tables=["stability_limits"],
     beside=["failure_curves"],
     seconds=3,
 )
@@ -13,7 +13,6 @@ FIGURES["failure_gallery"] = Figure(
     function="maegawa2010.studies.failures.figure:draw",
     shows="nine ways in which methods fail",
     tables={
-        "thresholds": "results/tables/thresholds.csv",
         "curves": "results/tables/failure_curves.csv",
         "panels": f"{PAPERS}/studies/failures/failure_gallery.csv",
     },

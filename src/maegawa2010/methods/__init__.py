@@ -9,7 +9,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 
-from maegawa2010.methods.common import DivergedError, Method, Result
+from maegawa2010.methods.common import DivergedError, Method, Result, attempt
 
 with Path(__file__).with_name("methods.csv").open(encoding="utf-8") as _file:
     ROWS = {
@@ -27,4 +27,4 @@ def _method(name: str, module: str) -> Method:
 METHODS = {name: _method(name, row["module"]) for name, row in ROWS.items()}
 SMOOTH = {name: method.smooth for name, method in METHODS.items() if method.smooth}
 
-__all__ = ["METHODS", "ROWS", "SMOOTH", "DivergedError", "Method", "Result"]
+__all__ = ["METHODS", "ROWS", "SMOOTH", "DivergedError", "Method", "Result", "attempt"]

@@ -1,4 +1,4 @@
-"""The chain in columns: what every method knows of it.
+"""The chain in columns: the arrays that all methods share.
 
 The state is the force T_i in the spring behind each block and the block's velocity v_i.
 Unlike positions, these numbers do not grow with the drive, so their rounding does not
@@ -18,26 +18,13 @@ from numpy.typing import ArrayLike
 
 from precursors.model.chain import Chain, FloatArray
 
-# Rows of a system, which stay: the spring behind each column [N/m], 1/m, mu_s w and
-# mu_k w [N]; the largest forces [N] that do not release a stuck block backward and do
-# not turn a stopping block round; the velocity [m/s] up to which Karnopp's method takes
-# a block for one that rests.
-SPRING, INVERSE_MASS, STRENGTH, KINETIC, BACKWARD, TURNING, DEAD_ZONE = range(7)
+# Rows of `system`, constant during a run: the spring behind each column [N/m], 1/m,
+# mu_s w and mu_k w [N].
+SPRING, INVERSE_MASS, STRENGTH, KINETIC = range(4)
 # Rows of a state, which change: spring force [N], velocity [m/s], mode, 1/m where a
 # block slides, mode_i mu_k w_i [N]. The first two are also those of its rates, and of
 # states that a method tries.
 FORCE, VELOCITY, MODE, MOBILITY, FRICTION = range(5)
-
-# Rules of when a block that stops sticks, which Eqs. 4 and 5 leave open: where |F| <=
-# mu_s w, which is ours; where |F| <= mu_k w; always, and none slides backward. A
-# rule names the rows that BACKWARD and TURNING are copies of; with the last, both stay
-# infinite.
-COULOMB = "static"
-SWITCHING_RULES = {
-    COULOMB: [STRENGTH, STRENGTH],
-    "kinetic": [STRENGTH, KINETIC],
-    "forward_only": [BACKWARD, TURNING],
-}
 
 
 def time_unit(chain: Chain) -> float:
@@ -45,20 +32,16 @@ def time_unit(chain: Chain) -> float:
     return math.sqrt(chain.mass / float(chain.springs.max()))
 
 
-def at_rest(
-    chain: Chain, rule: str = COULOMB, scaled: bool = False
-) -> tuple[FloatArray, FloatArray]:
+def at_rest(chain: Chain, scaled: bool = False) -> tuple[FloatArray, FloatArray]:
     """System and state of a chain whose blocks all stick, springs at natural length;
     `scaled`: in tau."""
-    system = np.zeros((7, chain.n_blocks + 2))
+    system = np.zeros((4, chain.n_blocks + 2))
     state = np.zeros((5, chain.n_blocks + 2))
     blocks = system[:, 1:-1]
     blocks[SPRING] = chain.springs
     blocks[INVERSE_MASS] = 1.0 / chain.mass
     blocks[STRENGTH] = chain.strength
     blocks[KINETIC] = chain.kinetic_friction
-    blocks[[BACKWARD, TURNING]] = np.inf
-    blocks[[BACKWARD, TURNING]] = blocks[SWITCHING_RULES[rule]]
     state[VELOCITY, 0] = chain.drive_velocity
     if scaled:
         blocks[SPRING] /= chain.springs.max()
@@ -86,6 +69,6 @@ def sliding_forward(
     system, state = at_rest(chain)
     set_modes(system, state, 1.0)
     state[MODE] = 0.0
-    system[[STRENGTH, BACKWARD]] = np.inf
+    system[STRENGTH] = np.inf
     state[VELOCITY, 1:-1] = velocities
     return system, state

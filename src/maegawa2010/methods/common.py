@@ -1,11 +1,14 @@
-"""The interface of the methods: their result, their kind, the error of a diverged run."""
+"""The interface of the methods: their result, their kind, the error of a diverged
+run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from precursors.solver.run import Record
+from precursors.solver.simulate import TransitionLimitError
 
 
 @dataclass(frozen=True)
@@ -57,3 +60,11 @@ class DivergedError(RuntimeError):
     def __init__(self, message: str, run: Record) -> None:
         super().__init__(message)
         self.run = run
+
+
+def attempt(solve: Callable[..., Result], *arguments: Any, **options: Any) -> Result:
+    """Result of a method; of a run that breaks off, what there is."""
+    try:
+        return solve(*arguments, **options)
+    except (DivergedError, TransitionLimitError) as error:
+        return Result(error.run, 0)

@@ -16,12 +16,12 @@ from precursors.support.compiled import entry
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
 apart = njit(**OPTIONS, locals={"first": int64})
 inner = njit(**OPTIONS, forceinline=True)
-# Written into its only caller before that is compiled, not compiled for itself as well.
+# Numba inlines it into its only caller.
 template = njit(inline="always")
 # Python calls these; their code is kept until one of these files is edited.
 NAMES = (
-    "columns compiled dop853 equations events fixed_step karnopp leapfrog moreau_jean "
-    "rk4 rk4_located"
+    "columns compiled equations events fixed_step karnopp leapfrog moreau_jean "
+    "runge_kutta tableaus"
 )
 COMPILED = [f"{name}.py" for name in NAMES.split()]
 outer = entry(Path(__file__).parent, COMPILED, **OPTIONS, nogil=True)

@@ -9,7 +9,6 @@ with c = K, k, k, ... and v_0 = V, in the arrays of `columns`.
 from __future__ import annotations
 
 from maegawa2010.methods.columns import (
-    BACKWARD,
     FORCE,
     FRICTION,
     INVERSE_MASS,
@@ -109,8 +108,7 @@ def event_function(system, state, y, i):
     velocity along the mode, or its margin [N]."""
     if state[MODE, i] != 0.0:
         return state[MODE, i] * y[VELOCITY, i]
-    net = net_force(y, i)
-    return min(system[STRENGTH, i] - net, system[BACKWARD, i] + net)
+    return system[STRENGTH, i] - abs(net_force(y, i))
 
 
 @inner

@@ -1,5 +1,4 @@
-"""A chain in motion for the solvers of others: its state, its equations and event
-functions, the switching.
+"""State, equations and event functions for third-party solvers, and the switching.
 
 Such a solver gets y = (T_1..T_N, v_1..v_N) in N and N/tau, without the columns of the
 drive and of the free end, which would count in its error norm. Its relative tolerance
@@ -20,7 +19,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from maegawa2010.methods.columns import (
-    BACKWARD,
     FORCE,
     MOBILITY,
     MODE,
@@ -187,7 +185,7 @@ def event_functions(y, system, state, result):
         result[2 * i - 2] = (
             state[MODE, i] * state[VELOCITY, i] if slides else system[STRENGTH, i] - net
         )
-        result[2 * i - 1] = 1.0 if slides else system[BACKWARD, i] + net
+        result[2 * i - 1] = 1.0 if slides else system[STRENGTH, i] + net
 
 
 def jacobian_of(system: FloatArray, state: FloatArray) -> FloatArray:

@@ -14,11 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from maegawa2010.methods.columns import (
-    COULOMB,
     FORCE,
     MODE,
     STRENGTH,
-    TURNING,
     VELOCITY,
     at_rest,
     time_unit,
@@ -82,7 +80,6 @@ def motion_from_rest(
     chain: Chain,
     duration: float,
     until: str | None,
-    rule: str = COULOMB,
     scaled: bool = False,
     waits: bool = True,
 ) -> SteppedMotion:
@@ -95,7 +92,7 @@ def motion_from_rest(
     progress["remaining"] = progress["duration"] / progress["unit"]
     progress["waits"] = waits
     return SteppedMotion(
-        *at_rest(chain, rule, scaled),
+        *at_rest(chain, scaled),
         progress,
         np.empty(FIRST_ROOM + chain.n_blocks, RECORD),
     )
@@ -141,15 +138,15 @@ def record_transition(motion, i, new):
 
 @apart
 def change_state(motion, i):
-    """Release a stuck block in the direction of its force, or stop a sliding one: by
-    the rule of switching it sticks, or slides on along the force."""
+    """Release a stuck block in the direction of its force, or stop a sliding one, which
+    slides on along a force larger than mu_s w (Eq. 5)."""
     state = motion.state
     net = net_force(state, i)
     old = int(state[MODE, i])
     new = int(np.sign(net))
     if old != 0:
         state[VELOCITY, i] = 0.0
-        if not abs(net) > motion.system[TURNING, i]:
+        if not abs(net) > motion.system[STRENGTH, i]:
             new = 0
     if new != old:
         change_mode(motion, i, new)
@@ -234,17 +231,16 @@ def obstacle(motion):
 
 
 @apart
-def begin_leg(motion, can_rest=True, releases=True):
+def begin_leg(motion):
     """Whether to make the steps of another leg; `status` says why not.
 
-    Where all blocks stick and `can_rest`, it waits and, if it `releases`, lets block 1
-    slide.
+    Where all blocks stick, it waits and lets block 1 slide.
     """
     progress = motion.progress[0]
     status = obstacle(motion) if progress.legs != LEGS_PER_CALL else PAUSED
-    if status == MOVING and progress.sliding == 0 and can_rest:
+    if status == MOVING and progress.sliding == 0:
         status = rest(motion)
-        if status == MOVING and progress.waits and releases:
+        if status == MOVING and progress.waits:
             change_mode(motion, 1, 1)
     if status == MOVING and progress.remaining <= progress.elapsed:
         status = FINISHED

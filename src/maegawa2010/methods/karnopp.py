@@ -1,49 +1,35 @@
-"""Friction as a part of the right-hand side, by Karnopp's dead zone or Eq. 4 as
-printed, with RK4's steps.
+"""Friction as a function of the velocity, in the steps of RK4: Karnopp's dead zone, and
+Eq. 4 as printed.
 
 Karnopp: a block slower than a small velocity dv counts as resting. It does not stretch
 the springs, and its friction balances their force up to mu_s w; outside, friction is
-mu_k w against the velocity. There are no modes: the law is evaluated four times a step
-(D. Karnopp, J. Dyn. Syst. Meas. Control 107, 1985, 100-103).
-
-Eq. 4 taken literally is the same with dv = 0: friction is static where the velocity is
-exactly zero, and nowhere else. A velocity that crosses zero between two evaluations is
-never exactly zero, so a block that has once slid never sticks again: it trembles about
-zero by what a step changes its velocity, and creeps in proportion. With the paper's
-drive the load then never exceeds mu_s w_1 at steps from 1e-7 s on (theta <= 0); at
-finer ones it rises past it, without slips."""
+mu_k w against the velocity (D. Karnopp, J. Dyn. Syst. Meas. Control 107, 1985,
+100-103). Eq. 4 taken literally is the same with dv = 0: a velocity that crosses zero
+between two evaluations is never exactly zero, so a block that has once slid never
+sticks again.
+"""
 
 from __future__ import annotations
 
 import math
-from functools import partial
-from typing import Any
+from collections.abc import Iterator
+
+import numpy as np
 
 from maegawa2010.methods.columns import (
-    DEAD_ZONE,
+    FORCE,
     INVERSE_MASS,
     KINETIC,
-    MODE,
     STRENGTH,
     VELOCITY,
+    at_rest,
 )
-from maegawa2010.methods.common import Method, Result
 from maegawa2010.methods.compiled import inner, outer
-from maegawa2010.methods.fixed_step import (
-    STEPS_IN_LEG,
-    all_keep_their_modes,
-    begin_leg,
-    record_transition,
-    step_length,
-)
-from maegawa2010.methods.march import march
-from maegawa2010.methods.rk4 import room, step_of_law
+from maegawa2010.methods.runge_kutta import step_of
+from maegawa2010.methods.tableaus import RK4
 from precursors.model.chain import Chain
-from precursors.model.checks import not_negative, positive
 
-# Part of the width that is certainly safe, found by trial: below 0.1 blocks jump over
-# the zone, above 0.2 the error grows for nothing.
-PART_OF_SAFE_WIDTH = 0.15
+DEAD_ZONE = 4  # a further row of the system [m/s]
 
 
 def safe_width(chain: Chain, step: float) -> float:
@@ -58,29 +44,8 @@ def safe_width(chain: Chain, step: float) -> float:
 
 def release_delay(chain: Chain, dead_zone: float) -> float:
     """Time [s] for which block 1, alone at its limit, creeps in the dead zone: m dv = K
-    V t^2 / 2.
-
-    The error of Karnopp's method is this delay's, of the order of the square root of
-    the width.
-    """
+    V t^2 / 2."""
     return math.sqrt(2.0 * chain.mass * dead_zone / chain.loading_rate)
-
-
-def solve(
-    chain: Chain,
-    duration: float,
-    step: float,
-    until: str | None = None,
-    dead_zone: float | None = None,
-    **limits: Any,
-) -> Result:
-    """Integrate with a dead zone of some velocity [m/s], by default
-    `PART_OF_SAFE_WIDTH` of `safe_width`."""
-    if dead_zone is None:
-        dead_zone = PART_OF_SAFE_WIDTH * safe_width(chain, positive("step", step, "s"))
-    width = not_negative("dead_zone", dead_zone, "m/s")
-    method = partial(run_karnopp, dead_zone=width)
-    return march(method, chain, duration, step, until, **limits)
 
 
 @inner
@@ -93,50 +58,26 @@ def by_velocity(system, _state, i, net, velocity):
     return velocity, system[INVERSE_MASS, i] * (net - friction)
 
 
+step_by_velocity = step_of(RK4, by_velocity)
+
+
 @outer
 def slide(system, state, h, n_steps):
-    """Make n steps of the whole chain, with nothing recorded."""
+    """Make n steps of the whole chain."""
     n = state.shape[1] - 2
-    work = room(state)
+    k = np.zeros((4, 2, n + 2))
     for _ in range(n_steps):
-        step_of_law(by_velocity, system, state, n, h, work)
+        step_by_velocity(system, state, n, h, k)
 
 
-@inner
-def record_modes(motion, dead_zone):
-    """Record the blocks that have entered, left or crossed the dead zone in a step;
-    whether there are any."""
-    state = motion.state
-    progress = motion.progress[0]
-    known = progress.transitions
-    for i in range(1, state.shape[1] - 1):
-        old = state[MODE, i]
-        velocity = state[VELOCITY, i]
-        new = 0.0 if abs(velocity) <= dead_zone else math.copysign(1.0, velocity)
-        if new != old:
-            state[MODE, i] = new
-            progress.sliding += int(abs(new) - abs(old))
-            record_transition(motion, i, int(new))
-    return progress.transitions > known
-
-
-@outer
-def run_karnopp(motion, step, dead_zone):
-    """Run in steps with the law in each evaluation."""
-    system = motion.system
-    state = motion.state
-    progress = motion.progress[0]
-    n = state.shape[1] - 2
-    work = room(state)
-    system[DEAD_ZONE] = dead_zone
-    # No block is released: its velocity decides.
-    while begin_leg(motion, all_keep_their_modes(system, state, n), False):
-        for _ in range(STEPS_IN_LEG):
-            h = step_length(progress, step)
-            progress.evaluations += step_of_law(by_velocity, system, state, n, h, work)
-            progress.elapsed += h
-            if record_modes(motion, dead_zone) or h < step or progress.sliding == 0:
-                break
-
-
-METHODS = (Method("karnopp", "step [s]", solve),)
+def from_limit(
+    chain: Chain, dead_zone: float, step: float, n_steps: int = 1
+) -> Iterator[tuple[float, float]]:
+    """F_X [N] and the velocity of block 1 [m/s] after every n steps [s] from the
+    instant at which it has reached its limit, without end."""
+    system, state = at_rest(chain)
+    system = np.vstack([system, np.full_like(system[:1], dead_zone)])
+    state[FORCE, 1] = chain.strength[0]
+    while True:
+        slide(system, state, step, n_steps)
+        yield float(state[FORCE, 1]), float(state[VELOCITY, 1])

@@ -7,7 +7,6 @@ from functools import partial
 
 import numpy as np
 
-from maegawa2010.methods.columns import COULOMB
 from maegawa2010.methods.common import DivergedError, Method, Result, Smooth
 from maegawa2010.methods.fixed_step import (
     DIVERGED,
@@ -33,16 +32,14 @@ def march(
     setting: float,
     until: str | None = None,
     max_transitions: int = MAX_TRANSITIONS,
-    rule: str = COULOMB,
     scaled: bool = False,
     waits: bool = True,
 ) -> Result:
     """Run a compiled method from rest: `method` is (motion, setting).
 
     `setting` is a step [s] or, where the method meets the numbers of solvers with a
-    tolerance (`scaled`, see `columns`), a tolerance. `rule` is a key of
-    `SWITCHING_RULES`. A method `waits` in closed form while all blocks stick, or makes
-    each step then as well. The others are those of `precursors.simulate`.
+    tolerance (`scaled`, see `columns`), a tolerance. `waits`: whether rests are skipped in closed
+    form or stepped through. Other arguments: see `precursors.simulate`.
 
     Raises
     ------
@@ -51,7 +48,7 @@ def march(
         `max_transitions`.
     """
     positive("tolerance" if scaled else "step", setting, "1" if scaled else "s")
-    motion = motion_from_rest(chain, duration, until, rule, scaled, waits)
+    motion = motion_from_rest(chain, duration, until, scaled, waits)
     status = PAUSED
     while status == PAUSED and motion.progress["transitions"][0] < max_transitions:
         motion = with_room(motion)

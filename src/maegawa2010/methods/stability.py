@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
@@ -24,6 +23,7 @@ from precursors.model.statics import balance_matrix
 UNBOUNDED = 1e6
 STEPS = 4000
 BISECTIONS = 20
+BOUNDS = 1e-2, 1e2  # of omega dt
 # A drive so slow does no work in a test; `Chain` has none that rests.
 AT_REST = float(np.finfo(float).eps)  # m/s
 
@@ -81,30 +81,13 @@ def is_unstable(chain: Chain, slide: Slide, step: float) -> bool:
     return not energy_left(chain, slide, step, STEPS, velocities) < UNBOUNDED
 
 
-def bisect(
-    fails: Callable[[float], bool],
-    works: float,
-    broken: float,
-    bisections: int = BISECTIONS,
-) -> float:
-    """Limit between a value that works and one that does not, on a logarithmic scale.
-
-    Raises
-    ------
-    ValueError
-        If the first does not work, or the second does.
-    """
-    if fails(works) or not fails(broken):
-        raise ValueError(
-            f"there is no limit: {works!r} must work and {broken!r} must fail"
-        )
-    for _ in range(bisections):
-        middle = math.sqrt(works * broken)
-        works, broken = (works, middle) if fails(middle) else (middle, broken)
-    return broken
-
-
 def largest_stable_step(chain: Chain, slide: Slide) -> float:
     """Step [s] above which the energy of a chain without friction has no limit."""
-    omega = highest_frequency(chain)
-    return bisect(partial(is_unstable, chain, slide), 1e-2 / omega, 1e2 / omega)
+    stable, unstable = np.array(BOUNDS) / highest_frequency(chain)
+    for _ in range(BISECTIONS):
+        middle = math.sqrt(stable * unstable)
+        if is_unstable(chain, slide, middle):
+            unstable = middle
+        else:
+            stable = middle
+    return float(unstable)

@@ -7,12 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from maegawa2010 import printed
-from maegawa2010.methods.columns import COULOMB
-from maegawa2010.methods.march import march
-from maegawa2010.methods.rk4_located import run_located
 from precursors.analysis.slip_rows import SHORT_EVENTS
 from precursors.analysis.slips import (
     FRONTS,
@@ -23,14 +21,14 @@ from precursors.analysis.slips import (
     slip_table,
 )
 from precursors.model.chain import Chain, parse_theta
+from precursors.solver import plain
 from precursors.solver.run import Record, Run
-from precursors.solver.simulate import simulate
+from precursors.solver.simulate import MAX_TRANSITIONS, simulate
 
 # The size of theta where it is that of the scenes.
 OF_SCENES = "scenes"
-# Of the method for other rules of switching [s]; mu_sapp is right to 1e-5.
-STEP = 1e-7
 SIGNS = (-1, 0, 1)
+COULOMB = "static"
 SWITCHING = {
     COULOMB: "sticks if |F| <= mu_s w",
     "kinetic": "sticks if |F| <= mu_k w",
@@ -113,8 +111,7 @@ def definitions_table(
                 chain = Chain.from_slider(**{**slider, "theta": theta})
             run: Record = of_scene
             if reading.switching != COULOMB:
-                rule = reading.switching
-                run = march(run_located, chain, duration, STEP, rule=rule).run
+                run = run_switching(chain, duration, reading.switching)
             elif chain is not of_scene.chain:
                 run = simulate(chain, duration)
             row = asdict(reading)
@@ -124,6 +121,27 @@ def definitions_table(
     of_reading = table.groupby(table.index // len(SIGNS))
     within = of_reading["numbers_within_a_digit"].transform("sum")
     return table.assign(numbers_within_a_digit=within)
+
+
+def run_switching(chain: Chain, duration: float, rule: str) -> Record:
+    """Run a chain up to its first global slip under another rule of switching."""
+    sticks_within = {
+        "kinetic": chain.kinetic_friction,
+        "forward_only": np.full(chain.n_blocks, np.inf),
+    }
+    switching = plain.Switching(sticks_within[rule], rule != "forward_only")
+    rest = np.zeros(chain.n_blocks)
+    rows, end = plain.find_transitions(
+        chain,
+        plain.at_start(chain, rest, rest),
+        duration,
+        until_global=True,
+        longest_slip=math.inf,
+        most=MAX_TRANSITIONS,
+        switching=switching,
+    )
+    time, _, block, mode, load = np.array(rows, dtype=float).T
+    return Record.from_columns(chain, end, time, block, mode, load)
 
 
 def numbers(

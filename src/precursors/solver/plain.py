@@ -45,6 +45,17 @@ BINOMIAL = np.array(
 EXPONENT = np.maximum(N[None, :] - N[:, None], 0)
 
 
+class Switching(NamedTuple):
+    """When a block that stops sticks, and whether blocks can slide backward.
+
+    A block sticks where |F| <= `sticks_within` [N], shape (N,); the model's is mu_s w
+    (Eq. 5).
+    """
+
+    sticks_within: Floats
+    backward: bool = True
+
+
 class State(NamedTuple):
     """Velocities [m/s], spring forces [N] and modes; column 0 is the drive, N + 1 the
     free end."""
@@ -137,7 +148,7 @@ def first_root(series: Floats, zero: float, limit: float) -> float:
 
 
 def next_transition(
-    chain: Chain, state: State, window: float, eps: float
+    chain: Chain, switching: Switching, state: State, window: float, eps: float
 ) -> tuple[float, int, int, State]:
     """(s, block, new mode) of the first transition in the window, and the state at s;
     (1, 0, 0) if none."""
@@ -149,7 +160,7 @@ def next_transition(
     first = 1.0
     block = 0
     new = 0
-    for side in (1, -1):
+    for side in (1, -1) if switching.backward else (1,):
         margin = (
             np.concatenate([[chain.strength], np.zeros((ORDER, chain.n_blocks))])
             - side * net
@@ -169,7 +180,7 @@ def next_transition(
         net_force = state.force[block] - state.force[block + 1]
         new = (
             0
-            if abs(net_force) <= (chain.strength + zero)[block - 1]
+            if abs(net_force) <= (switching.sticks_within + zero)[block - 1]
             else int(np.sign(net_force))
         )
     return first, block, new, state
@@ -182,9 +193,11 @@ def find_transitions(
     until_global: bool,
     longest_slip: float,
     most: int,
+    switching: Switching | None = None,
 ) -> tuple[list[tuple[float, float, int, int, float]], float]:
     """Transitions (time, time since the last, block, mode, load), and the time of the
-    end."""
+    end; by default the model's switching."""
+    switching = switching or Switching(chain.strength)
     rows = [
         (0.0, 0.0, int(i), int(state.mode[i]), state.force[1])
         for i in np.flatnonzero(state.mode)
@@ -215,7 +228,9 @@ def find_transitions(
         else:
             roundings = ROUNDINGS * 2.0 ** (at_once // (4 * chain.n_blocks))
             span = min(window, left, longest_slip - elapsed)
-            s, block, new, state = next_transition(chain, state, span, roundings)
+            s, block, new, state = next_transition(
+                chain, switching, state, span, roundings
+            )
             elapsed = elapsed + s * span
             since = since + s * span
             at_once = at_once + 1 if s == 0.0 else 0

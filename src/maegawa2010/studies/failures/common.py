@@ -1,4 +1,4 @@
-"""The curves and thresholds of a failure mode."""
+"""The curves of a failure mode."""
 
 from __future__ import annotations
 
@@ -6,25 +6,6 @@ from dataclasses import dataclass
 from typing import Literal
 
 from numpy.typing import ArrayLike
-
-# The first five slips of theta = 0, with 30 transitions [s].
-FIVE_SLIPS = 1.25
-
-
-@dataclass(frozen=True)
-class Threshold:
-    """A step [s] from which a method fails, predicted and measured.
-
-    Both are infinite if it never fails. `method` and `fails` (what happens there) are
-    keys, and `theory` is the formula that predicts the step.
-    """
-
-    method: str
-    n_blocks: int
-    fails: str
-    theory: str
-    predicted: float
-    measured: float
 
 
 @dataclass(frozen=True)
@@ -43,12 +24,8 @@ class Curve:
 
 @dataclass(frozen=True)
 class Failure:
-    """A failure, measured: its curves and its thresholds.
-
-    `x` and `y` name the quantities of the curves, with units.
-    """
+    """A failure, measured: its curves, and the quantities on their axes with units."""
 
     x: str
     y: str
     curves: list[Curve]
-    threshold: Threshold | None = None

@@ -15,44 +15,28 @@ from precursors.figures.style import Options
 
 HEIGHT_MM = 148.0
 THEORY: Options = {"color": style.GREY, "linewidth": 0.6}
-PREDICTED: Options = {"color": style.GREY, "linewidth": 0.6, "linestyle": "--"}
 LOOKS: dict[str, Options] = {
     "exact": {"color": style.BLACK},
     "reference": {"color": style.BLACK, "linewidth": 0.6},
 }
-CHARTED_BLOCKS = 10
 
 
-def draw(
-    thresholds: pd.DataFrame, curves: pd.DataFrame, panels: pd.DataFrame
-) -> Figure:
-    """Draw the failure modes, from thresholds.csv and failure_curves.csv.
+def draw(curves: pd.DataFrame, panels: pd.DataFrame) -> Figure:
+    """Draw the failure modes of failure_curves.csv.
 
     A row of `panels` (failure_gallery.csv) is a panel: its title and its axes, of which
     `log` names the logarithmic ones and `scale` is from the table's x to the axis; how
-    points of a failing curve look, and where the key stands. The thresholds at which
-    `methods` fail in a way are marked on the x axis.
+    points of a failing curve look, and where the key stands.
     """
-    panels = panels.fillna({"log": "", "methods": ""})
-    limits = thresholds[thresholds["n_blocks"] == CHARTED_BLOCKS].set_index(
-        ["fails", "method"]
-    )
+    panels = panels.fillna({"log": ""})
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         grid = figure.subplots(3, 3).flat
         rows: Any = panels.itertuples()
         for letter, axes, panel in zip("abcdefghi", grid, rows, strict=True):
             _draw_curves(axes, panel, curves[curves["failure_mode"] == panel.mode])
-            for method in panel.methods.split():
-                limit = limits.loc[(panel.fails, method)]
-                axes.axvline(panel.scale * limit["predicted"], **PREDICTED)
-                axes.axvline(panel.scale * limit["measured"], **style.DOTTED)
             axes.set_title(f"$\\bf{{{letter}}}$  {panel.title}", fontsize="small")
-        entries = [
-            style.mark("theory, in the colour of the dots", **THEORY),
-            style.mark("threshold, predicted", **PREDICTED),
-            style.mark("threshold, measured", **style.DOTTED),
-        ]
-        style.draw_key(figure, entries)
+        theory = style.mark("theory, in the colour of the dots", **THEORY)
+        style.draw_key(figure, [theory])
     return figure
 
 

@@ -5,19 +5,19 @@ from collections.abc import Callable, Mapping
 import pandas as pd
 
 from maegawa2010.studies.failures.common import Failure
-from maegawa2010.studies.failures.dead_zone import (
-    dead_zone_too_large,
-    dead_zone_too_small,
-)
 from maegawa2010.studies.failures.energy import (
     numerical_damping,
     silent_instability,
+    stability_limits,
     unstable,
 )
-from maegawa2010.studies.failures.literal_friction import literal_friction
 from maegawa2010.studies.failures.missed_roots import missed_roots
 from maegawa2010.studies.failures.regularised_friction import creep, stiffness
-from maegawa2010.studies.failures.stability import thresholds
+from maegawa2010.studies.failures.velocity_friction import (
+    dead_zone_too_large,
+    dead_zone_too_small,
+    literal_friction,
+)
 
 # By name, in the order of the gallery.
 FAILURE_MODES: dict[str, Callable[[], Failure]] = {
@@ -35,23 +35,17 @@ FAILURE_MODES: dict[str, Callable[[], Failure]] = {
     )
 }
 
-__all__ = ["FAILURE_MODES", "Failure"]
-
 
 def failure_tables() -> dict[str, pd.DataFrame]:
-    """Curves and thresholds of all failure modes: failure_curves and thresholds.
+    """failure_curves, the points of all failure modes, and stability_limits.
 
-    A row of failure_curves is a point: mode, curve, role (see `common.Curve`), x, y,
-    and the names of both quantities with their units (x_is, y_is).
+    A row of failure_curves is a point: failure_mode, curve, role (see `common.Curve`),
+    x, y, and the names of both quantities with their units (x_is, y_is).
     """
     found = {mode: measure() for mode, measure in FAILURE_MODES.items()}
-    of_modes = [failure.threshold for failure in found.values() if failure.threshold]
-    limits = pd.DataFrame([*thresholds(), *of_modes])
     return {
         "failure_curves": curve_table(found),
-        "thresholds": limits.assign(
-            unit="s", ratio=limits["measured"] / limits["predicted"]
-        ),
+        "stability_limits": pd.DataFrame(stability_limits()),
     }
 
 

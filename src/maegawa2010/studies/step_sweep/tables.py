@@ -8,8 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 import pandas as pd
 
-from maegawa2010.methods import METHODS
-from maegawa2010.methods.attempt import attempt
+from maegawa2010.methods import METHODS, attempt
 from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
 from precursors.benchmark.compare import Truth, transitions_right
 from precursors.model.chain import FloatArray

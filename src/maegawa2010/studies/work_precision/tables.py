@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from maegawa2010.methods import METHODS, ROWS, Method, Result
-from maegawa2010.methods.attempt import attempt
+from maegawa2010.methods import METHODS, ROWS, Method, Result, attempt
 from maegawa2010.support import timing
 from precursors.benchmark.compare import Truth, compare
 
