@@ -134,10 +134,9 @@ def one_length():
 def swept_steps():
     points = [
         ("exact", np.nan, 5, 10),
-        ("rk4_skip", 1e-5, 7, 3),
-        ("rk4_skip", 1e-7, 5, 10),
-        ("rk4_skip", 1e-6, 6, 4),
-        ("rk4", 1e-5, 8, 2),
+        ("rk4", 1e-5, 7, 3),
+        ("rk4", 1e-7, 5, 10),
+        ("rk4", 1e-6, 6, 4),
     ]
     rows = pd.DataFrame(
         points, columns=["method", "step_s", "events_counted", "transitions_right"]

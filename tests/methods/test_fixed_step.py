@@ -17,7 +17,7 @@ from precursors.benchmark.compare import transitions_right
 ORDERS = {
     # A transition within a step is an error of its length.
     **dict.fromkeys(
-        ("rk4_skip", "leapfrog", "moreau_jean_half", "moreau_jean_one"),
+        ("rk4", "leapfrog", "moreau_jean_half", "moreau_jean_one"),
         (1.0, 5e-8, 5e-9),
     ),
     "rk4_located": (4.0, 8e-7, 2e-7),

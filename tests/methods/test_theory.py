@@ -38,7 +38,6 @@ FACTOR_TOLERANCE = 1e-9
 INTERPOLATION = 1e-12
 ORDERS = {
     "rk4": 4,
-    "rk4_skip": 4,
     "leapfrog": 2,
     "moreau_jean_half": 2,
     "moreau_jean_one": 1,

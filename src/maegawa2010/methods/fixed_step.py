@@ -45,7 +45,6 @@ PROGRESS = np.dtype(
         ("unit", "f8"),  # [s]
         ("duration", "f8"),  # of the run [s]
         ("loading_rate", "f8"),  # K V [N/s]
-        ("waits", "i8"),  # in closed form while all blocks stick, or by steps
         ("until_global", "i8"),  # whether the run ends with the first global slip
         ("onset", "f8"),  # of the slip event [s]
         ("remaining", "f8"),  # from the onset to the end of the run [unit]
@@ -81,7 +80,6 @@ def motion_from_rest(
     duration: float,
     until: str | None,
     scaled: bool = False,
-    waits: bool = True,
 ) -> SteppedMotion:
     """A chain at the start of its run, see `march`."""
     progress = np.zeros(1, PROGRESS)
@@ -90,7 +88,6 @@ def motion_from_rest(
     progress["unit"] = time_unit(chain) if scaled else 1.0
     progress["loading_rate"] = chain.loading_rate
     progress["remaining"] = progress["duration"] / progress["unit"]
-    progress["waits"] = waits
     return SteppedMotion(
         *at_rest(chain, scaled),
         progress,
@@ -202,19 +199,17 @@ def rest(motion):
     progress = motion.progress[0]
     if progress.was_global and progress.until_global:
         return GLOBAL_SLIP
-    if progress.noted > 0.0 or progress.waits:  # count the time from now on
-        progress.onset += progress.elapsed * progress.unit
-        progress.waited += (progress.elapsed - progress.noted) * progress.unit
-        progress.elapsed = progress.noted = 0.0
-    wait = 0.0
-    if progress.waits:
-        limit = state[FORCE, 2] + motion.system[STRENGTH, 1]
-        wait = max((limit - state[FORCE, 1]) / progress.loading_rate, 0.0)
-        remaining = max(progress.duration - progress.onset, 0.0)
-        if wait >= remaining:
-            progress.elapsed = remaining / progress.unit
-            return FINISHED
-        state[FORCE, 1] = limit
+    # Count the time from now on.
+    progress.onset += progress.elapsed * progress.unit
+    progress.waited += (progress.elapsed - progress.noted) * progress.unit
+    progress.elapsed = progress.noted = 0.0
+    limit = state[FORCE, 2] + motion.system[STRENGTH, 1]
+    wait = max((limit - state[FORCE, 1]) / progress.loading_rate, 0.0)
+    remaining = max(progress.duration - progress.onset, 0.0)
+    if wait >= remaining:
+        progress.elapsed = remaining / progress.unit
+        return FINISHED
+    state[FORCE, 1] = limit
     progress.onset += wait
     progress.waited += wait
     progress.remaining = (progress.duration - progress.onset) / progress.unit
@@ -240,7 +235,7 @@ def begin_leg(motion):
     status = obstacle(motion) if progress.legs != LEGS_PER_CALL else PAUSED
     if status == MOVING and progress.sliding == 0:
         status = rest(motion)
-        if status == MOVING and progress.waits:
+        if status == MOVING:
             change_mode(motion, 1, 1)
     if status == MOVING and progress.remaining <= progress.elapsed:
         status = FINISHED

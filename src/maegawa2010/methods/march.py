@@ -33,13 +33,12 @@ def march(
     until: str | None = None,
     max_transitions: int = MAX_TRANSITIONS,
     scaled: bool = False,
-    waits: bool = True,
 ) -> Result:
     """Run a compiled method from rest: `method` is (motion, setting).
 
     `setting` is a step [s] or, where the method meets the numbers of solvers with a
-    tolerance (`scaled`, see `columns`), a tolerance. `waits`: whether rests are skipped in closed
-    form or stepped through. Other arguments: see `precursors.simulate`.
+    tolerance (`scaled`, see `columns`), a tolerance. Other arguments: see
+    `precursors.simulate`.
 
     Raises
     ------
@@ -48,7 +47,7 @@ def march(
         `max_transitions`.
     """
     positive("tolerance" if scaled else "step", setting, "1" if scaled else "s")
-    motion = motion_from_rest(chain, duration, until, scaled, waits)
+    motion = motion_from_rest(chain, duration, until, scaled)
     status = PAUSED
     while status == PAUSED and motion.progress["transitions"][0] < max_transitions:
         motion = with_room(motion)
@@ -116,15 +115,14 @@ def fixed_step(
     name: str,
     method: Callable[..., None],
     smooth: tuple[float, Callable[[float], float]] | None = None,
-    waits: bool = True,
 ) -> Method:
     """Make a compiled fixed-step method.
 
-    `method` and `waits` are those of `march`; `smooth` is the rest of `Smooth`.
+    `method` is that of `march`; `smooth` is the rest of `Smooth`.
     """
     return Method(
         name,
         "step [s]",
-        partial(march, method, waits=waits),
+        partial(march, method),
         smooth=Smooth(partial(slide, method), *smooth) if smooth else None,
     )

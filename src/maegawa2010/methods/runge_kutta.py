@@ -4,14 +4,13 @@ By steps, stick and slip are switched at the end of each step. Located, a step e
 where the first event function becomes zero: on the interpolation of the step it is a
 polynomial, whose first root `first_root` finds, also of two that are close together.
 
-Each row of a tableau is compiled into a loop of its own, in which its zeros are left
-out.
+A loop over the blocks serves all stages. Written out for each stage of a short tableau,
+the compiler puts its coefficients into it.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import partial, reduce
 from typing import Any
 
@@ -31,6 +30,8 @@ from maegawa2010.methods.fixed_step import (
 from maegawa2010.methods.march import fixed_step, march
 from maegawa2010.methods.tableaus import DOP853, RK4, Tableau
 
+# A loop over more stages than these keeps compiling short.
+WRITTEN_OUT = 5
 # Of a step that adapts: caution, exponent of the error and largest growth, as in SciPy;
 # the first over tolerance^(1/8).
 SAFETY = 0.9
@@ -39,7 +40,6 @@ LONGER = 10.0
 FIRST_STEP = 3.0
 TINY = float(np.finfo(float).tiny)  # so that an error is not 0/0
 # Of a root: a step of the search that ends it, and the most there are.
-WRITTEN_OUT = 4
 CLOSE = 1e-15
 SEARCHES = 200
 NEVER = 2.0  # a part of the step beyond its end
@@ -63,10 +63,8 @@ def sums_of(tableau: Tableau) -> Any:
     return combine
 
 
-def stages_of(
-    tableau: Tableau, first: int, end: int, law: Callable[..., Any] = by_mode
-) -> Any:
-    """Rates of the states of stages first..end - 1, under a law of friction (see
+def stages_of(tableau: Tableau, end: int, law: Any = by_mode) -> Any:
+    """Rates of the states of stages 1..end - 1, under a law of friction (see
     `equations.rates`)."""
     combine = sums_of(tableau)
 
@@ -94,17 +92,15 @@ def stages_of(
         return stages
 
     @template
-    def nothing(_system, _state, _last, _h, _k):
+    def no_stage(_system, _state, _last, _h, _k):
         pass
 
     @inner
-    def in_a_loop(system, state, last, h, k):
-        for number in range(first, end):
+    def looped(system, state, last, h, k):
+        for number in range(1, end):
             stage(number, system, state, last, h, k)
 
-    if end - first > WRITTEN_OUT:
-        return in_a_loop
-    return reduce(then, range(first, end), nothing)
+    return looped if end > WRITTEN_OUT else reduce(then, range(1, end), no_stage)
 
 
 def end_of(tableau: Tableau) -> Any:
@@ -125,10 +121,10 @@ def end_of(tableau: Tableau) -> Any:
     return finish
 
 
-def step_of(tableau: Tableau, law: Callable[..., Any] = by_mode) -> Any:
+def step_of(tableau: Tableau, law: Any = by_mode) -> Any:
     """A whole step of blocks 1..last, whose evaluations it returns."""
     s = len(tableau.weights)
-    stages = stages_of(tableau, 1, s, law)
+    stages = stages_of(tableau, s, law)
     finish = end_of(tableau)
 
     @inner
@@ -212,7 +208,7 @@ def located(tableau: Tableau) -> Any:
     s = len(tableau.weights)
     n_rates = s + 1 + len(tableau.extra)
     evaluations = n_rates - 1
-    stages = stages_of(tableau, 1, n_rates)
+    stages = stages_of(tableau, n_rates)
     finish = end_of(tableau)
     adapts = len(tableau.errors) > 0
     error_of_step = error_of(tableau) if adapts else no_error
@@ -220,17 +216,19 @@ def located(tableau: Tableau) -> Any:
     degree = len(powers)
 
     @inner
-    def event(state, i, h, k, c):
-        """Polynomial `c` of an event function but for its constant: the velocity along
-        the mode, or less the net force."""
+    def event(system, state, i, side, h, k, c):
+        """Polynomial of an event function of block i: its velocity along the mode, or
+        its margin mu_s w - F on a side."""
         mode = state[MODE, i]
+        c[0] = mode * state[VELOCITY, i]
+        if mode == 0.0:
+            c[0] = system[STRENGTH, i] - side * net_force(state, i)
         for n in range(degree):
             c[n + 1] = 0.0
         for stage in range(n_rates):
-            if mode != 0.0:
-                rate = mode * k[stage, VELOCITY, i]
-            else:
-                rate = k[stage, FORCE, i + 1] - k[stage, FORCE, i]
+            rate = mode * k[stage, VELOCITY, i]
+            if mode == 0.0:
+                rate = -side * (k[stage, FORCE, i] - k[stage, FORCE, i + 1])
             for n in range(degree):
                 c[n + 1] += h * powers[n, stage] * rate
 
@@ -240,24 +238,13 @@ def located(tableau: Tableau) -> Any:
         first = 1.0
         block = 0
         for i in range(1, feels(state, last) + 1):
-            event(state, i, h, k, c)
-            net = net_force(state, i)
-            mode = state[MODE, i]
-            c[0] = (
-                mode * state[VELOCITY, i] if mode != 0.0 else system[STRENGTH, i] - net
-            )
-            x = first_root(c, first)
-            if x < first:
-                first = x
-                block = i
-            if mode == 0.0:
-                c[0] = system[STRENGTH, i] + net
-                for n in range(degree):
-                    c[n + 1] = -c[n + 1]
-                x = first_root(c, first)
-                if x < first:
-                    first = x
-                    block = i
+            for side in (1.0, -1.0):
+                if side > 0.0 or state[MODE, i] == 0.0:
+                    event(system, state, i, side, h, k, c)
+                    x = first_root(c, first)
+                    if x < first:
+                        first = x
+                        block = i
         return first, block
 
     @apart
@@ -348,8 +335,7 @@ def run_dop853(motion, tolerance):
 SMOOTH = (2.0 * math.sqrt(2.0), RK4.energy_factor)
 solve_dop853 = partial(march, run_dop853, scaled=True)
 METHODS = (
-    fixed_step("rk4", run_rk4, waits=False, smooth=SMOOTH),
-    fixed_step("rk4_skip", run_rk4, smooth=SMOOTH),
+    fixed_step("rk4", run_rk4, smooth=SMOOTH),
     fixed_step("rk4_located", run_rk4_located),
     Method("dop853", "relative tolerance", solve_dop853),
 )

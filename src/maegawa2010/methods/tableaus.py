@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import DOP853 as OF_SCIPY
@@ -11,11 +12,6 @@ from scipy.integrate import DOP853 as OF_SCIPY
 from precursors.model.chain import FloatArray
 
 ROUNDING = 1e-13
-
-
-def none(*shape: int) -> FloatArray:
-    """Coefficients that a method does not have."""
-    return np.zeros(shape)
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,12 +30,12 @@ class Tableau:
         Row by row the shares of the rates in the state of a stage.
     weights : array, shape (s,)
         The shares in the state at the end.
-    extra : array, shape (e, s + 1 + e)
+    extra : sequence of e arrays, shape (s + 1 + e,)
         The shares in the states of the extra stages.
-    dense : array, shape (d, s + 1 + e)
+    dense : sequence of d arrays, shape (s + 1 + e,)
         What the interpolation adds to the cubic through values and rates at both ends,
         see `powers`.
-    errors : array, shape (2, s) or (0, s)
+    errors : sequence of 2 arrays, shape (s,), or of none
         Estimates of the error, see `runge_kutta.error_of`; without them the step is
         fixed.
 
@@ -53,9 +49,9 @@ class Tableau:
     order: int
     stages: FloatArray
     weights: FloatArray
-    extra: FloatArray = field(default_factory=lambda: none(0, 0))
-    dense: FloatArray = field(default_factory=lambda: none(0, 0))
-    errors: FloatArray = field(default_factory=lambda: none(0, 0))
+    extra: Sequence[FloatArray] = ()
+    dense: Sequence[FloatArray] = ()
+    errors: Sequence[FloatArray] = ()
 
     def __post_init__(self) -> None:
         if np.triu(self.stages).any():
@@ -70,10 +66,10 @@ class Tableau:
 
     @property
     def series(self) -> FloatArray:
-        """Coefficients of the powers of h in a step of y' = y, shape (s + 1,)."""
+        """Coefficients of the powers of h in a step of y' = y."""
         rates = np.ones(len(self.weights))
         found = [1.0]
-        for _ in self.weights:
+        for _ in range(max(self.order, len(rates))):
             found.append(float(self.weights @ rates))
             rates = self.stages @ rates
         return np.array(found)
@@ -86,8 +82,8 @@ class Tableau:
         found = np.zeros((n, n))
         found[:s, :s] = self.stages
         found[s, :s] = self.weights
-        if len(self.extra):
-            found[s + 1 :] = self.extra
+        for number, row in enumerate(self.extra, start=s + 1):
+            found[number] = row
         return found
 
     @property
@@ -108,7 +104,7 @@ class Tableau:
         basis = np.polynomial.Polynomial([0.0, 1.0])
         found = np.zeros((len(rows), len(change)))
         for number, row in enumerate(rows):
-            found[: number + 1] += np.outer(basis.coef[1:], row)
+            found[: number + 1] += np.outer(np.array(basis.coef[1:], dtype=float), row)
             basis *= np.polynomial.Polynomial([[1.0, -1.0], [0.0, 1.0]][number % 2])
         return found
 
@@ -137,7 +133,7 @@ DOP853 = Tableau(
     order=8,
     stages=OF_SCIPY.A,
     weights=OF_SCIPY.B,
-    extra=OF_SCIPY.A_EXTRA,
-    dense=OF_SCIPY.D,
-    errors=np.array([OF_SCIPY.E5, OF_SCIPY.E3])[:, : len(OF_SCIPY.B)],
+    extra=tuple(OF_SCIPY.A_EXTRA),
+    dense=tuple(OF_SCIPY.D),
+    errors=(OF_SCIPY.E5[:-1], OF_SCIPY.E3[:-1]),
 )

@@ -23,11 +23,11 @@ from precursors.solver.simulate import simulate
 
 # Steps over which the factor per step is an average: more for leapfrog, whose energy
 # also swings, fewer for RK4, which damps the mode below the rounding of the others.
-UNSTABLE_STEPS = {"rk4_skip": 20, "leapfrog": 200}
+UNSTABLE_STEPS = {"rk4": 20, "leapfrog": 200}
 SIZES = (1, 2, 10, 50)  # blocks of the chains whose limits are measured
 POINTS = 21
 # With friction: omega dt from RK4's limit on, and where its runs end.
-BEYOND = SMOOTH["rk4_skip"].limit * np.linspace(1.0, 1.25, 51)[1:]
+BEYOND = SMOOTH["rk4"].limit * np.linspace(1.0, 1.25, 51)[1:]
 END = 10.0  # s
 # Time of a short slip [s], and the steps with which Moreau-Jean time stepping goes
 # through it.
@@ -84,7 +84,7 @@ def silent_instability() -> Failure:
     mu_sapp = []
     for step in steps:
         try:
-            run = METHODS["rk4_skip"].solve(chain, END, step, "global slip").run
+            run = METHODS["rk4"].solve(chain, END, step, "global slip").run
         except DivergedError:
             break
         if np.isnan(friction := apparent_friction(run)):

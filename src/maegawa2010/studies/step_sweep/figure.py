@@ -12,7 +12,6 @@ from precursors.figures import style
 from precursors.figures.style import Options
 
 HEIGHT_MM = 88.0
-EVERY_STEP: Options = {"marker": "+", "markersize": 6, "color": style.GREY}
 RIGHT: Options = {"marker": "o", "markersize": 3, "color": style.GREY}
 WRONG = RIGHT | {"markeredgewidth": 0.8, "markerfacecolor": "white"}
 QUANTITIES = {
@@ -52,11 +51,10 @@ def _draw_numbers(axes: Axes, rows: pd.DataFrame, quantity: str) -> None:
     is_right = rows["percentage"] == 100
     exact = rows.loc[method == "exact", quantity].iloc[0]
     axes.axhline(exact, color=style.BLACK, label="exact", zorder=1)
-    waits = method == "rk4_skip"
+    steps = method == "rk4"
     for label, chosen, look in (
-        ("RK4, every step", method == "rk4", EVERY_STEP),
-        ("RK4, waits in closed form: some transition wrong", waits & ~is_right, WRONG),
-        ("all transitions right", waits & is_right, RIGHT),
+        ("RK4, some transition wrong", steps & ~is_right, WRONG),
+        ("RK4, all transitions right", steps & is_right, RIGHT),
     ):
         points = rows[chosen]
         axes.plot(

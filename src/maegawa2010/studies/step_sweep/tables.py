@@ -14,27 +14,19 @@ from precursors.benchmark.compare import Truth, transitions_right
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Record, Run
 
-# Steps [s] from the coarsest to the finest. RK4 that also makes every step while
-# nothing slides ends earlier.
-COARSEST = 1e-5
+COARSEST = 1e-5  # s
 FINEST = 1e-9
 
 
-def charted_steps(full: bool = False) -> dict[str, FloatArray]:
-    """Steps of the default chart or the full one [s], by name of the method, evenly
-    spaced by logarithm."""
-    per_decade, finest_every_step = (24, 1e-7) if full else (6, 1e-6)
-    finest = {"rk4_skip": FINEST, "rk4": finest_every_step}
-    return {
-        name: np.geomspace(
-            COARSEST, last, round(per_decade * math.log10(COARSEST / last)) + 1
-        )
-        for name, last in finest.items()
-    }
+def charted_steps(full: bool = False) -> FloatArray:
+    """Steps of the default chart or the full one [s], evenly spaced by logarithm."""
+    per_decade = 24 if full else 6
+    decades = math.log10(COARSEST / FINEST)
+    return np.geomspace(COARSEST, FINEST, round(per_decade * decades) + 1)
 
 
 def step_sweep_table(runs: Mapping[str, Run], full: bool) -> pd.DataFrame:
-    """One row per scene, method and step; see `row`."""
+    """One row per scene and step; see `row`."""
     return pd.DataFrame(
         {"scene": scene, "theta": run.chain.theta, **row}
         for scene, run in runs.items()
@@ -42,23 +34,20 @@ def step_sweep_table(runs: Mapping[str, Run], full: bool) -> pd.DataFrame:
     )
 
 
-def sweep(
-    exact: Run, steps: Mapping[str, Iterable[float]]
-) -> Iterator[dict[str, object]]:
-    """The exact solver's numbers up to the end of the first global slip, then each
-    method's at each step [s].
+def sweep(exact: Run, steps: Iterable[float]) -> Iterator[dict[str, object]]:
+    """The exact solver's numbers up to the end of the first global slip, then those of
+    RK4 at each step [s].
 
     The duration of the exact run, to the first global slip or longer, limits the other
     runs. Rows: see `row`.
     """
     truth = Truth.of_run(exact).until_global_slip().run
     yield row("exact", math.nan, truth, truth)
-    for method, values in steps.items():
-        for step in values:
-            result = attempt(
-                METHODS[method].solve, exact.chain, exact.duration, step, "global slip"
-            )
-            yield row(method, step, result.run, truth)
+    for step in steps:
+        result = attempt(
+            METHODS["rk4"].solve, exact.chain, exact.duration, step, "global slip"
+        )
+        yield row("rk4", step, result.run, truth)
 
 
 def row(method: str, step: float, run: Record, truth: Record) -> dict[str, object]:

@@ -26,7 +26,7 @@ NAMES: dict[str, tuple[str, tuple[float, float], str]] = {
     "scipy_dop853": ("DOP853,\nSciPy", (0, -19), "center"),
     "cvode_adams": ("CVODE", (-5, -5), "right"),
     "rk4_located": ("RK4,\nlocated", (5, -6), "left"),
-    "rk4_skip": ("RK4", (8, -8), "left"),
+    "rk4": ("RK4", (8, -8), "left"),
 }
 SHOWN_TIME_S = 2.7  # doubles near the first global slip are np.spacing of this apart
 
