@@ -174,7 +174,10 @@ def first_root(c, limit):
 
 
 def error_of(tableau: Tableau) -> Any:
-    """Error of a step, where 1 is allowed: the norm of II.10 in Hairer et al."""
+    """Error of a step, where 1 is allowed: the norm of II.10 in Hairer et al.; 0 of a
+    fixed step."""
+    if not tableau.errors:
+        return template(lambda _state, _last, _end, _h, _k, _tolerance: 0.0)
     fifth_order, third_order = tableau.errors
     s = len(fifth_order)
 
@@ -197,28 +200,16 @@ def error_of(tableau: Tableau) -> Any:
     return error
 
 
-@inner
-def no_error(_state, _last, _end, _h, _k, _tolerance):
-    """Of a fixed step none is known."""
-    return 0.0
-
-
-def located(tableau: Tableau) -> Any:
-    """Run in steps that end where a block changes its state: (motion, setting)."""
-    s = len(tableau.weights)
-    n_rates = s + 1 + len(tableau.extra)
-    evaluations = n_rates - 1
-    stages = stages_of(tableau, n_rates)
-    finish = end_of(tableau)
-    adapts = len(tableau.errors) > 0
-    error_of_step = error_of(tableau) if adapts else no_error
+def events_of(tableau: Tableau) -> tuple[Any, Any]:
+    """The first event within a step, and the state at a part of it, by its
+    interpolation."""
     powers = tableau.powers
-    degree = len(powers)
+    degree, n_rates = powers.shape
 
     @inner
     def event(system, state, i, side, h, k, c):
-        """Polynomial of an event function of block i: its velocity along the mode, or
-        its margin mu_s w - F on a side."""
+        """Event function of block i as a polynomial `c` in the part of the step: the
+        velocity along the mode, or the margin mu_s w - F on a side."""
         mode = state[MODE, i]
         c[0] = mode * state[VELOCITY, i]
         if mode == 0.0:
@@ -257,6 +248,21 @@ def located(tableau: Tableau) -> Any:
             for row in range(2):
                 for i in range(1, last + 2):
                     state[row, i] += h * share * k[stage, row, i]
+
+    return first_event, go_to
+
+
+def located(tableau: Tableau) -> Any:
+    """Run in steps that end where a block changes its state: (motion, setting)."""
+    s = len(tableau.weights)
+    n_rates = s + 1 + len(tableau.extra)
+    evaluations = n_rates - 1
+    stages = stages_of(tableau, n_rates)
+    finish = end_of(tableau)
+    adapts = len(tableau.errors) > 0
+    error_of_step = error_of(tableau)
+    first_event, go_to = events_of(tableau)
+    degree = len(tableau.powers)
 
     @inner
     def run(motion, setting):
