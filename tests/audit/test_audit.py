@@ -16,7 +16,7 @@ from audit.falsified import (
     shifted,
 )
 from chains import first_transitions, positions_under
-from golden import small_tables
+from golden import kept
 
 from precursors import Chain, Run, simulate
 from precursors.audit import ROUNDINGS, audit
@@ -167,7 +167,7 @@ def test_energy_that_goes_astray_is_found(uniform):
 
 
 def test_each_kind_of_mistake_is_found_and_told_as_it_was():
-    small_tables.assert_kept("audits", audits())
+    kept.assert_table("audits", audits())
 
 
 def test_sixteen_roundings_of_a_load_are_allowed_and_1e_12_of_a_time(uniform):

@@ -9,14 +9,12 @@ import matplotlib
 import numpy as np
 import pytest
 from colorspacious import cspace_convert
-from figures.test_pictures import PANELS, PICTURES, read, slips
+from figures.test_pictures import PICTURES, slips
+from golden.kept import kept
 from matplotlib import image
 from matplotlib.colors import to_rgb
 
 from maegawa2010.methods import ROWS
-from maegawa2010.studies.event_law.figure import MARKERS
-from maegawa2010.studies.event_law.tables import THETAS
-from maegawa2010.studies.failures.tables import FAILURE_MODES
 from precursors.figures import precursor_lengths, style
 
 
@@ -86,11 +84,6 @@ def test_every_method_with_a_line_has_a_marker_of_its_own_and_the_colour_of_its_
     assert set(colors.values()) == {style.GREY, *style.OTHERS}
 
 
-def test_every_failure_mode_has_a_panel_and_every_theta_of_the_law_a_marker():
-    assert list(read(PANELS)["mode"]) == list(FAILURE_MODES)
-    assert len(MARKERS) == len(THETAS)
-
-
 # Told apart by all readers; a step of 2 can just be seen by eyes that are trained.
 DISTANCE_IN_CIELAB = 20.0
 MEANINGS = (
@@ -130,7 +123,8 @@ def test_every_reader_tells_two_meanings_apart(sight, names):
 def test_no_figure_has_transparent_colours_which_eps_does_not_know(
     name, tmp_path, caplog
 ):
-    figure = PICTURES[name]()
+    how = kept("PICTURES")[name]
+    figure = how[0]() if isinstance(how, tuple) else how()
     # Fonts of type 3 hold the letters that are drawn, and take a twentieth of the time.
     with matplotlib.rc_context({"ps.fonttype": 3}):
         figure.savefig(tmp_path / "figure.eps")

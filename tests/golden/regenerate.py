@@ -7,8 +7,9 @@ from pathlib import Path
 
 import check_claims
 from explorer import explorer_sessions
-from figures import test_pictures
-from golden import benchmark_page, small_tables
+from golden import benchmark_page
+from golden.kept import kept, write_picture, write_table
+from golden.small_tables import TABLES_OF_SECONDS
 
 from precursors.support.files import read_table, write_text, write_whole
 
@@ -39,10 +40,10 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
         f"{check_claims.printed(claims)}\n",
     )
     benchmark_page.write(read_table(results / "tables/benchmark.csv"))
-    for name, make in {**small_tables.TABLES, **small_tables.ELSEWHERE}.items():
-        small_tables.write(make(), golden / f"small/{name}.csv")
-    for name in test_pictures.PICTURES:
-        test_pictures.save_small(name, golden / f"small/{name}.png")
+    for name, make in {**kept("TABLES"), **TABLES_OF_SECONDS}.items():
+        write_table(name, make())
+    for name, how in kept("PICTURES").items():
+        write_picture(golden / f"small/{name}.png", how)
     explorer_sessions.recorded().to_csv(golden / "small/explorer.csv", index=False)
     write_whole(ROOT / "docs/explorer.png", explorer_sessions.picture())
 

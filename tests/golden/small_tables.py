@@ -1,70 +1,26 @@
-"""The tables of the studies at a small size, made by the library's own functions,
-without costs and times.
-
-`regenerate.py` writes them to `small/`; tests compare what the functions give with what
-is kept there. Runs end with the first global slip, after which errors have grown by
-1e7.
-"""
+"""Small tables of runs that take seconds: compared where other tests need them, too."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache, partial
-from pathlib import Path
+from functools import partial
 
-import numpy as np
 import pandas as pd
 from audit.falsified import audits
 from benchmark.made_up import go_on, proof_of
 from settings import CONFIG
-from studies.made import MAP, PAPER, study_of
 
-from maegawa2010.paper.definitions import definitions_table
-from maegawa2010.paper.scene_numbers import measures_table
-from maegawa2010.studies.event_law.tables import event_law_tables
 from maegawa2010.studies.larger.cycles import cycle_tables
 from maegawa2010.studies.larger.first_slips import larger_tables
-from maegawa2010.studies.members import gather, run_members
 from maegawa2010.studies.models.tables import compare_models
-from maegawa2010.studies.noise import tables as noise
-from maegawa2010.studies.printed_digits.tables import digits_tables
-from maegawa2010.studies.resolution import tables as resolution
 from precursors import Chain, simulate
 from precursors.larger.chain import LargerChain
 from precursors.proof import ExactChain
 
-AXES: list[dict[str, object]] = [
-    {"key": "theta", "from": -0.95, "to": 0.95, "points": 4},
-    {"key": "mu_k/mu_s", "from": 0.1, "to": 0.95, "points": 3},
-]
-SMALL = Path(__file__).parent / "small"
 SCENES: dict[str, dict[str, str | float]] = {
     "lead": {"theta": "5/6"},
     "even": {"theta": 0.0},
 }
-# Times and loads of a run are right to 1e-9 s and 1e-6 N whatever the processor, and so
-# are their statistics. A method with steps is off by the roundings of some 1e6 steps, a
-# bisection by none or by a step of its own.
-ROUNDING, STEPS = 1e-8, 1e-6
-RELATIVE = dict.fromkeys(("definitions", "enclosures"), STEPS)
-RELATIVE["audits"] = 1e-2  # deviations as printed, with three digits
-# Errors relative to the paper's chain are differences of numbers near one.
-# What the energy of a larger chain lacks is of the size of roundings in some runs.
-ABSOLUTE = {"model_comparison": 1e-12, "larger_runs": 1e-12}
-
-
-def definitions() -> pd.DataFrame:
-    """Readings for one other size of theta, with one drop of the load."""
-    slider, paper = (
-        CONFIG["chain"],
-        [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)],
-    )
-    runs = [
-        simulate(Chain.from_slider(**slider, theta=theta), 3.0)
-        for theta in ("-5/6", 0, "5/6")
-    ]
-    return definitions_table(runs, slider, 3.0, [0.833], [5.0], paper)
-
 
 # Chain, start [m, m/s], and number of transitions.
 PROVED = {
@@ -114,63 +70,6 @@ def enclosures() -> pd.DataFrame:
             done = len(proof.transitions)
             steps += 1
             go_on(proof)
-    return pd.DataFrame(rows)
-
-
-@cache
-def studies() -> dict[str, pd.DataFrame]:
-    """The tables of small studies: few runs of few blocks, with an octave and all cases
-    of the law."""
-
-    def chunks(name: str, **settings: object) -> list[pd.DataFrame]:
-        return [
-            run_members(study_of(name, settings)).rename_axis("member").reset_index()
-        ]
-
-    tables = noise.noise_tables(chunks("noise_members", seed=1, runs=8))
-    few = chunks("resolution_members", seed=1, n_blocks=[2, 4], runs=[6, 6])
-    law = chunks("event_law_members", seed=1, runs=6, n_blocks=[3, 4], middle=4)
-    return {
-        **tables,
-        **digits_tables(chunks("digits_members", seed=1, draws=8), PAPER),
-        **resolution.resolution_tables(
-            few, tables["noise_members"], CONFIG["chain"], "fig10", 2
-        ),
-        **event_law_tables(law, CONFIG["chain"]),
-        "grid": gather(chunks(MAP, axes=AXES)),
-    }
-
-
-def members() -> pd.DataFrame:
-    """Every column of the members of each study: the sum of its squares, and its
-    product with 0, 1, 2, ..."""
-    settings: dict[str, dict[str, object]] = {
-        "noise_members": {"seed": 1, "runs": 8},
-        "digits_members": {"seed": 1, "draws": 8},
-        "theta_window_members": {"window": 0.2, "points": 3},  # up to -1 and 1
-        "resolution_members": {"seed": 1, "n_blocks": [2, 10, 12], "runs": [6, 9, 3]},
-        "event_law_members": {"seed": 1, "runs": 6, "n_blocks": [3, 4], "middle": 4},
-    }
-    rows = []
-    for name, own in settings.items():
-        study = study_of(name, own)
-        for column, values in study.members.items():
-            is_text = not pd.api.types.is_numeric_dtype(values)
-            numbers = values.factorize()[0] if is_text else values.to_numpy(float)
-            sums = {
-                "squares": numbers @ numbers,
-                "in_order": numbers @ np.arange(len(numbers)),
-            }
-            rows.append({"study": name, "column": column, "n": len(numbers), **sums})
-        rows.append(
-            {
-                "study": name,
-                "column": "seed",
-                "n": 1,
-                "squares": study.seed,
-                "in_order": 0.0,
-            }
-        )
     return pd.DataFrame(rows)
 
 
@@ -269,33 +168,7 @@ def model_comparison() -> pd.DataFrame:
     return compare_models(SCENES, rounds=1)
 
 
-TABLES: dict[str, Callable[[], pd.DataFrame]] = {
-    "definitions": definitions,
-    **{
-        name: partial(lambda name: studies()[name], name)
-        for name in (
-            *(
-                "noise",
-                "noise_differences",
-                "noise_amplitudes",
-                "digits",
-                "resolution",
-                "counts_by_n",
-                "resolution_limits",
-            ),
-            *("event_law", "grid"),
-        )
-    },
-    "members": members,
-    "measures": lambda: measures_table(
-        {
-            theta: simulate(Chain.from_slider(theta=theta), until="global slip")
-            for theta in ("-5/6", "5/6")
-        }
-    ),
-}
-# These take seconds and are compared where other tests need them, too.
-ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
+TABLES_OF_SECONDS: dict[str, Callable[[], pd.DataFrame]] = {
     "audits": audits,
     "enclosures": enclosures,
     "model_comparison": model_comparison,
@@ -308,39 +181,3 @@ ELSEWHERE: dict[str, Callable[[], pd.DataFrame]] = {
         )
     },
 }
-
-
-def write(table: pd.DataFrame, path: Path) -> None:
-    """Keep a table, without its costs, with all digits that matter."""
-    kept = table.drop(columns=[column for column in table if column.startswith("cost")])
-    kept.to_csv(path, index=False, float_format="%.12g")
-
-
-def assert_kept(name: str, table: pd.DataFrame) -> None:
-    """The table is the one that is kept: words and counts exactly, numbers within a
-    tolerance."""
-    kept = pd.read_csv(SMALL / f"{name}.csv")
-    found = table.drop(
-        columns=[column for column in table if column.startswith("cost")]
-    )
-    assert list(found.columns) == list(kept.columns)
-    assert len(found) == len(kept)
-    for column in kept:
-        if any(
-            pd.api.types.is_float_dtype(numbers)
-            for numbers in (found[column], kept[column])
-        ):
-            numbers = found[column].astype(float)
-            np.testing.assert_allclose(
-                numbers,
-                kept[column],
-                RELATIVE.get(name, ROUNDING),
-                ABSOLUTE.get(name, 0.0),
-                err_msg=column,
-            )
-        else:
-            texts = [
-                column_of[column].fillna("").astype(str).tolist()
-                for column_of in (found, kept)
-            ]
-            assert texts[0] == texts[1], column

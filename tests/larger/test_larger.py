@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 import pytest
 from chains import SLIDER
-from golden.small_tables import assert_kept, larger_runs, small_larger_tables
+from golden.kept import assert_table
+from golden.small_tables import larger_runs, small_larger_tables
 from scipy.integrate import solve_ivp
 
 from precursors import (
@@ -273,7 +274,7 @@ def test_runs_balance_energy_and_they_and_the_tables_of_the_study_are_those_that
     runs = larger_runs()
     assert (abs(runs["energy_error"]) < ENERGY).all()
     for name, table in {"larger_runs": runs, **small_larger_tables()}.items():
-        assert_kept(name, table)
+        assert_table(name, table)
 
 
 def test_a_run_survives_its_file_and_knows_its_transitions_only(tmp_path):

@@ -2,6 +2,7 @@
 
 import pandas as pd
 import pytest
+from settings import CONFIG
 
 from maegawa2010.paper.definitions import OF_SCENES, definitions_table
 from precursors import Chain, simulate
@@ -72,3 +73,19 @@ def test_a_reading_without_a_global_slip_has_empty_numbers():
     few = tabulate(0.4, [], [{}, {}, {}])
     assert few["mu_sapp"].isna().all()
     assert not few["numbers_within_a_digit"].any()
+
+
+def small_definitions() -> pd.DataFrame:
+    """Readings for one other size of theta, with one drop of the load."""
+    slider, paper = (
+        CONFIG["chain"],
+        [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)],
+    )
+    runs = [
+        simulate(Chain.from_slider(**slider, theta=theta), 3.0)
+        for theta in ("-5/6", 0, "5/6")
+    ]
+    return definitions_table(runs, slider, 3.0, [0.833], [5.0], paper)
+
+
+TABLES = {"definitions": small_definitions}

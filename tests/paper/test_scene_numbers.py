@@ -4,10 +4,15 @@ import math
 
 import pandas as pd
 import pytest
-from golden.small_tables import SMALL
+from golden.kept import SMALL
 
 from maegawa2010 import printed
-from maegawa2010.paper.scene_numbers import reproduction_table, residual_strain
+from maegawa2010.paper import chain_schematic
+from maegawa2010.paper.scene_numbers import (
+    measures_table,
+    reproduction_table,
+    residual_strain,
+)
 from precursors import Chain, find_slips, simulate
 from precursors.analysis.slips import slip_table
 from precursors.model.statics import maximal_strain_positions
@@ -50,3 +55,14 @@ def test_the_papers_numbers_follow_from_the_slip_tables_that_are_kept():
     found = reproduction_table(slips, printed.SCENES)
     kept = read_table(golden / "reproduction.csv")
     pd.testing.assert_frame_equal(found.astype(kept.dtypes), kept, rtol=ROUNDING)
+
+
+TABLES = {
+    "measures": lambda: measures_table(
+        {
+            theta: simulate(Chain.from_slider(theta=theta), until="global slip")
+            for theta in ("-5/6", "5/6")
+        }
+    )
+}
+PICTURES = {"chain_schematic": chain_schematic.draw}

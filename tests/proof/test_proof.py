@@ -15,7 +15,7 @@ import pytest
 from benchmark.made_up import SYMMETRIC_START, go_on, proof_of
 from chains import SCENES
 from flint import arb, ctx
-from golden import small_tables
+from golden import kept, small_tables
 
 from precursors import simulate
 from precursors.benchmark.compare import Truth, compare
@@ -234,7 +234,7 @@ def test_the_bound_of_the_remainder_is_its_first_terms_where_blocks_oscillate(
 
 
 def test_the_enclosures_grow_as_those_that_are_kept() -> None:
-    small_tables.assert_kept("enclosures", small_tables.enclosures())
+    kept.assert_table("enclosures", small_tables.enclosures())
 
 
 def test_what_is_published_holds_what_is_proved_and_is_hardly_wider() -> None:

@@ -1,11 +1,35 @@
 """The law for the number of events: by hand, and from the state that it assumes."""
 
 import numpy as np
+import pandas as pd
 import pytest
+from golden.kept import SMALL
+from settings import CONFIG
+from studies.made import chunks_of
 
-from maegawa2010.studies.event_law.tables import added_load, predicted_events
+from maegawa2010.studies.event_law import figure
+from maegawa2010.studies.event_law.tables import (
+    THETAS,
+    added_load,
+    event_law_tables,
+    predicted_events,
+)
 from maegawa2010.studies.members import loaded
 from precursors import Chain
+
+
+def event_law() -> pd.DataFrame:
+    """All cases of the law, for few blocks."""
+    runs = chunks_of("event_law_members", seed=1, runs=6, n_blocks=[3, 4], middle=4)
+    return event_law_tables(runs, CONFIG["chain"])["event_law"]
+
+
+TABLES = {"event_law": event_law}
+PICTURES = {"event_law": lambda: figure.draw(pd.read_csv(SMALL / "event_law.csv"))}
+
+
+def test_every_theta_of_the_law_has_a_marker():
+    assert len(figure.MARKERS) == len(THETAS)
 
 
 def test_the_law_by_hand_of_two_blocks():

@@ -2,13 +2,16 @@
 predicts."""
 
 from functools import cache
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.integrate import solve_ivp
 
 from maegawa2010.methods.scipy_events import watched
 from maegawa2010.methods.stability import highest_frequency
+from maegawa2010.studies.failures import figure
 from maegawa2010.studies.failures import tables as failures
 from maegawa2010.studies.failures.energy import stability_limits
 from maegawa2010.studies.failures.missed_roots import motion_after
@@ -107,3 +110,37 @@ def test_the_curves_of_all_modes_are_one_table(monkeypatch):
     stiffness = table[table["failure_mode"] == "stiffness"]
     assert list(stiffness["role"].value_counts()[["theory", "reference"]]) == [11, 2]
     assert set(stiffness["x_is"]) == {"width_m_per_s"}
+
+
+PANELS = Path(figure.__file__).with_name("failure_gallery.csv")
+
+
+def gallery_of_failures():
+    """The same curves in all panels."""
+    panels = pd.read_csv(PANELS)
+    roles = {
+        ("exact", "exact"): 1,
+        ("dt = 1e-07 s", "failing"): 2,
+        ("dt = 1e-07 s", "theory"): 3,
+        ("theta = -1", "failing"): 4,
+        ("1.2e-10 s", "failing"): 5,
+        ("theory", "theory"): 6,
+    }
+    curves = []
+    for mode, scale in zip(panels["mode"], panels["scale"], strict=True):
+        y = np.array([0.1, 0.2, 0.4])
+        x = y / scale
+        curves += [
+            pd.DataFrame({"curve": name, "role": role, "x": x, "y": n * y}).assign(
+                failure_mode=mode
+            )
+            for (name, role), n in roles.items()
+        ]
+    return figure.draw(pd.concat(curves), panels)
+
+
+PICTURES = {"failure_gallery": gallery_of_failures}
+
+
+def test_every_failure_mode_has_a_panel():
+    assert list(pd.read_csv(PANELS)["mode"]) == list(FAILURE_MODES)

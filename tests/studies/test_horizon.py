@@ -5,11 +5,12 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
+import pandas as pd
 import pytest
 import scipy
 from chains import SLIDER
 
-from maegawa2010.studies.horizon import lyapunov
+from maegawa2010.studies.horizon import figure, lyapunov
 from maegawa2010.studies.horizon.lyapunov import lyapunov_exponent
 from precursors import simulate
 
@@ -86,3 +87,15 @@ def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):
         ValueError, match="more than 20 slip events after its transient, but has 20"
     ):
         exponent_of(np.arange(22), np.arange(22.0), np.arange(22.0))
+
+
+def predicted_errors():
+    errors = {"time_s": [0.05, 0.1, 0.15], "predicted_error_s": [1e-16, 1e-12, np.nan]}
+    errors |= {"actual_error_s": [1e-17, 1e-13, 1e-10]}
+    thetas = {"trailing": -5 / 6, "steep": 0.9}
+    tables = [pd.DataFrame(errors).assign(chain=name) for name in thetas]
+    exponents = pd.DataFrame({"theta": [-5 / 6, 0.0], "exponent_per_s": [50.0, 0.7]})
+    return figure.draw(pd.concat(tables), exponents, thetas, 1e-9)
+
+
+PICTURES = {"horizon": predicted_errors}

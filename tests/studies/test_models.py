@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
-from golden.small_tables import SCENES, assert_kept, model_comparison
+from golden.kept import assert_table
+from golden.small_tables import SCENES, model_comparison
 
 from maegawa2010.studies.models import quasistatic
 from maegawa2010.studies.models.models import MODELS, UNITS, scene_answers
@@ -262,7 +263,7 @@ def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(
 
 
 def test_every_answer_is_the_one_that_is_kept() -> None:
-    assert_kept("model_comparison", model_comparison())
+    assert_table("model_comparison", model_comparison())
 
 
 def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(

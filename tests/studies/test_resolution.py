@@ -1,11 +1,42 @@
 """Each number is tabulated for every N, and extrapolated to infinite N."""
 
+from functools import cache
+
 import numpy as np
 import pandas as pd
 import pytest
+from golden.kept import SMALL
 from settings import CONFIG
+from studies.made import chunks_of, noise_made
 
+from maegawa2010.studies.resolution import figure
 from maegawa2010.studies.resolution import tables as resolution
+
+
+@cache
+def small() -> dict[str, pd.DataFrame]:
+    """The tables of few runs of few blocks."""
+    few = chunks_of("resolution_members", seed=1, n_blocks=[2, 4], runs=[6, 6])
+    noise = noise_made()["noise_members"]
+    return resolution.resolution_tables(few, noise, CONFIG["chain"], "fig10", 2)
+
+
+def numbers_by_n():
+    foreseen = {
+        "scene": "fig10",
+        "n_blocks": [2, 4],
+        "horizon_s": 2.5,
+        "predictable": [True, False],
+    }
+    table = pd.read_csv(SMALL / "resolution.csv")
+    return figure.draw(table, pd.DataFrame(foreseen), papers_n=12, mu_k=0.45)
+
+
+TABLES = {
+    name: lambda name=name: small()[name]
+    for name in ("resolution", "counts_by_n", "resolution_limits")
+}
+PICTURES = {"resolution": numbers_by_n}
 
 
 def test_an_exact_law_is_found_from_the_runs_with_noise_and_a_global_slip():

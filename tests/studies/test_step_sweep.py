@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from maegawa2010.studies.step_sweep import figure
 from maegawa2010.studies.step_sweep.tables import charted_steps, sweep
 from precursors import Chain, simulate
 
@@ -39,3 +40,21 @@ def test_a_step_far_beyond_the_limit_makes_a_global_slip_of_the_first_event():
     assert (broken.events_counted, broken.transitions_right) == (1, 1)
     assert broken.mu_sapp == pytest.approx(28.0 / 400.0, rel=1e-9)
     assert exact.events_counted == 9
+
+
+def swept_steps():
+    points = [
+        ("exact", np.nan, 5, 10),
+        ("rk4", 1e-5, 7, 3),
+        ("rk4", 1e-7, 5, 10),
+        ("rk4", 1e-6, 6, 4),
+    ]
+    rows = pd.DataFrame(
+        points, columns=["method", "step_s", "events_counted", "transitions_right"]
+    )
+    rows = rows.assign(mu_sapp=0.1 * rows["events_counted"], transitions_true=10)
+    scenes = [rows.assign(scene=f"{theta}", theta=theta) for theta in (0.5, 0.0)]
+    return figure.draw(pd.concat(scenes, ignore_index=True))
+
+
+PICTURES = {"step_sweep": swept_steps}

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
+import pandas as pd
 import pytest
 from benchmark.made_up import (
     DURATION,
@@ -12,6 +14,7 @@ from benchmark.made_up import (
 )
 
 from maegawa2010.methods import METHODS, ROWS, Method, Result
+from maegawa2010.studies.work_precision import figure
 from maegawa2010.studies.work_precision.tables import (
     SHORTEST,
     charted_values,
@@ -109,3 +112,16 @@ def test_a_run_that_breaks_off_is_a_row_with_what_there_is(fake):
     (row,) = measured(CALL)
     assert row["transitions_right"] == 3
     assert math.isnan(row["evaluations"])
+
+
+PUBLISHED = Path(__file__).parents[2] / "paper/tables"
+PICTURES = {
+    "work_precision": lambda: figure.draw(
+        pd.read_csv(PUBLISHED / "work_precision_full.csv"),
+        works=["seconds", "evaluations"],
+    ),
+    "speed": lambda: figure.draw(
+        pd.read_csv(PUBLISHED / "work_precision_full.csv"),
+        pd.read_csv(PUBLISHED / "beside_heyoka.csv"),
+    ),
+}

@@ -140,7 +140,7 @@ def run_switching(chain: Chain, duration: float, rule: str) -> Record:
         most=MAX_TRANSITIONS,
         switching=switching,
     )
-    time, _, block, mode, load = np.array(rows, dtype=float).T
+    time, _, block, mode, load = np.array(rows, dtype=float).reshape(-1, 5).T
     return Record.from_columns(chain, end, time, block, mode, load)
 
 

@@ -1,0 +1,52 @@
+"""Noise: by hand, runs without a global slip, ends of intervals."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from golden.kept import SMALL
+from studies.made import members_of, noise_made, noise_of
+
+from maegawa2010.studies.members import chain_of, noise_table
+from maegawa2010.studies.noise import figure
+from maegawa2010.support.run_statistics import NOISE, compared
+
+NAN = np.nan
+TABLES = {
+    name: lambda name=name: noise_made()[name]
+    for name in ("noise", "noise_differences", "noise_amplitudes")
+}
+PICTURES = {"noise": lambda: figure.draw(pd.read_csv(SMALL / "noise_amplitudes.csv"))}
+
+
+def test_draw_0_is_the_scene_and_the_others_have_noise_in_every_normal_load():
+    members = noise_of().members
+    for _, runs in members.groupby("scene"):
+        scene, *noisy = (
+            chain_of(member, 1).weights for member in runs.to_dict("records")
+        )
+        for weights in noisy:
+            change = weights / scene - 1
+            assert (change != 0).all()
+            assert (np.abs(change) <= NOISE).all()
+
+
+def test_a_distribution_is_that_of_the_noisy_runs_with_a_global_slip():
+    row = noise_table(
+        members_of([5] * 13, a=[0.9, NAN, *np.linspace(0.4, 0.5, 11)])
+    ).iloc[0]
+    assert (row["without_noise"], row["runs"], row["reached"]) == (0.9, 12, 11)
+    assert (row["q50"], row["q05"], row["q95"]) == pytest.approx((0.45, 0.405, 0.495))
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "verdict"),
+    [
+        (-0.01, 0.01, "same"),
+        (0.0, 0.011, "undecided"),
+        (0.011, 0.02, "different"),
+        (-0.3, -0.2, "different"),
+        (-0.3, 0.3, "undecided"),
+    ],
+)
+def test_the_whole_interval_decides(low, high, verdict):
+    assert compared(low, high, 0.01) == verdict

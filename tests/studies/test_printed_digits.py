@@ -1,0 +1,75 @@
+"""Sliders with the same printed inputs: what is drawn, and agreement by hand."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from golden.kept import GOLDEN
+from studies.made import PAPER, chunks_of, members_of, study_of
+
+from maegawa2010.studies.printed_digits import figure
+from maegawa2010.studies.printed_digits.tables import (
+    HALF_A_DIGIT,
+    digits_table,
+    digits_tables,
+)
+
+NAN = np.nan
+SCENES = ("fig11", "fig10", "fig12")
+
+
+def alike_sliders():
+    """Three loadings; of one a slider has no global slip."""
+    members = pd.DataFrame({"draw": range(30)})
+    members["mu_sapp"] = np.linspace(0.46, 0.53, 30) ** 2 * 2
+    members.loc[0, "mu_sapp"] = 0.485
+    sliders = [
+        members.assign(scene=scene, theta=theta)
+        for scene, theta in zip(SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
+    ]
+    sliders[0].loc[3, "mu_sapp"] = np.nan
+    slips = [pd.read_csv(GOLDEN / f"{scene}_slips.csv") for scene in SCENES]
+    shares = pd.DataFrame({"scene": SCENES, "share": [0.1, 0.25, 0.3], "n": 29})
+    shares = shares.assign(q05=0.45, q50=0.48, q95=0.54)
+    shares = shares.assign(quantity="mu_sapp", question="as_printed")
+    return figure.draw(slips, pd.concat(sliders), shares)
+
+
+TABLES = {
+    "digits": lambda: digits_tables(
+        chunks_of("digits_members", seed=1, draws=8), PAPER
+    )["digits"]
+}
+PICTURES = {"hero": alike_sliders}
+
+
+def test_every_draw_prints_as_the_paper_does():
+    members = study_of("digits_members", {"seed": 1, "draws": 50}).members
+    draws = members[members["draw"] > 0]
+    assert (
+        draws["theta"].abs() - 0.833 * (draws["scene"] != "fig10")
+    ).abs().max() <= 0.0005
+    for name, printed in {"mu_s": 0.70, "mu_k": 0.45, "drive_velocity": 1e-4}.items():
+        assert 0.9 < draws[name].sub(printed).abs().max() / HALF_A_DIGIT[name] <= 1.0
+    assert draws.groupby("draw")["drive_stiffness"].nunique().eq(1).all()
+
+
+def test_agreement_by_hand():
+    """Draw 4 has no global slip in one scene, draw 5 in none: they do not agree. Draw 1
+    has all numbers."""
+    mu = {
+        "a": [0.5, 0.50, 0.50, 0.50, NAN, NAN],
+        "b": [0.5, 0.504, 0.52, 0.491, 0.5, NAN],
+    }
+    paper = {scene: {"events_counted": 3, "mu_sapp": 0.5} for scene in mu}
+    table = digits_table(members_of([3, 3, 3, 4, 3, 3], **mu), paper)
+    table = table.set_index(["scene", "quantity", "question"])
+    hits = table["k"]
+    assert hits["a", "mu_sapp", "as_printed"] == 3
+    assert hits["b", "mu_sapp", "as_printed"] == 3
+    assert hits["b", "events_counted", "as_printed"] == 4
+    assert hits["all", "mu_sapp", "same_mu_sapp"] == 2
+    assert hits["all", "all", "all_six"] == 1
+    of_b = table.loc[("b", "mu_sapp", "as_printed")]
+    assert of_b[["q05", "q50", "q95"]].tolist() == pytest.approx(
+        [0.49235, 0.502, 0.5176]
+    )
