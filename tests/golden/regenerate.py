@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import check_claims
-from explorer import explorer_sessions
+from explorer import example
 from figures import test_pictures
 from golden import benchmark_page, small_tables
 
@@ -43,8 +43,7 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
         small_tables.write(make(), golden / f"small/{name}.csv")
     for name in test_pictures.PICTURES:
         test_pictures.save_small(name, golden / f"small/{name}.png")
-    explorer_sessions.recorded().to_csv(golden / "small/explorer.csv", index=False)
-    write_whole(ROOT / "docs/explorer.png", explorer_sessions.picture())
+    write_whole(ROOT / "docs/explorer.png", example.picture())
 
 
 if __name__ == "__main__":

@@ -244,7 +244,7 @@ function drawPush(context, { weights, forces, before, added, friction, highest, 
   stroke(context, steps(forces));
   for (let i = 0, left = load; i < weights.length && left > 0; i++) {
     const share = Math.min(left / (friction * weights[i]), 1);
-    left -= share * friction * weights[i];
+    left = share < 1 ? 0 : left - friction * weights[i];
     line.push([edges[i] + share * (edges[i + 1] - edges[i]), y(left)]);
   }
   context.setLineDash([5, 4]);

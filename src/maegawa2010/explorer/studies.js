@@ -27,7 +27,7 @@ const STUDIES = {
       const texts = TILTS.map((scene, t) => {
         const of = points.filter((_, i) => i % TILTS.length === t), inside = of.filter(({ value }) => value >= BAND[0] && value <= BAND[1]);
         if (scene.mu_sapp) mark(context, "ring", figure.x(scene.mu_sapp), figure.y(t + 0.4), 6, palette.ink);
-        return `${loadingOf(scene)}: ${Math.round((100 * inside.length) / (of.length || 1))} % of ${of.length} in the band`;
+        return `${loadingOf(scene)}: ${Math.round((100 * inside.length) / (of.length || 1))} % of ${of.length} inside`;
       });
       context.textAlign = "left";
       context.fillStyle = palette.ink;
