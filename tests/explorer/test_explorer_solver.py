@@ -21,7 +21,7 @@ MOST_TRANSITIONS = 200
 SOLVE = """(() => {
   %s
   return %s.map(([slider, most]) => {
-    const run = newRun(chainOf(slider), 1000);
+    const run = newRun(chainOf(slider), 1e9);
     for (const _ of solve(run)) if (run.time.length >= most) break;
     return [run.time, run.block, run.mode].map((column) => column.slice(0, most));
   });
@@ -53,7 +53,7 @@ def first_transitions(slider):
 def test_random_sliders_and_those_that_are_called_proved_move_as_in_the_kernel(page):
     rng = np.random.default_rng(2010)
     random = [random_slider(rng) for _ in range(50)]
-    proved = [proved_slider(values) for values in CONFIG["accuracy"]["proved"].values()]
+    proved = [proved_slider(values) for values in CONFIG["horizon"]["proved"].values()]
     assert all(scene_slider(CONFIG, scene) in proved for scene in THETAS)
     runs = [first_transitions(slider) for slider in random]
     for slider in proved:
