@@ -101,7 +101,7 @@ function timeTicks(start, end, width) {
 function showStairs() {
   const { start, end } = view(), [context, width, height] = clear(element("stairs")), isWhole = isWide(start, end);
   const { drive_stiffness: K, drive_velocity: V } = run.slider, last = firstGlobal(), one = event(), motion = motions.get(state.event);
-  let { time, load } = run.arrays;
+  let [time, load] = [run.arrays.time, run.arrays.load].map((column) => column.subarray(0, lowerBound(run.arrays.time, end) + 1));
   if (!isWhole && motion) [time, load] = [[start, ...motion.time, end], [one.before, ...motion.forces.filter((_, i) => i % (run.n + 2) === 1), one.after]];
   const releasedIn = (time, load) => Array.from(load, (force, i) => K * V * time[i] - force), released = releasedIn(time, load);
   // Up to the global slip, whose step is the largest, the axis ends above the last precursor.
@@ -115,7 +115,7 @@ function showStairs() {
     if (from < to) curve(context, figure, time, values, from, to);
   };
   context.setLineDash([5, 4]);
-  if (isWhole && twin) draw(twin.arrays.time, releasedIn(twin.arrays.time, twin.arrays.load), "unsure", known, end);
+  if (isWhole && twin && known < end) draw(twin.arrays.time, releasedIn(twin.arrays.time, twin.arrays.load), "unsure", known, end);
   context.setLineDash([]);
   draw(time, released, "ink", start, known);
   draw(time, released, "unsure", known, end);
