@@ -126,9 +126,10 @@ class Page:
             "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
         )
 
-    def picture(self) -> bytes:
-        """What the window shows, as a PNG."""
-        data: str = self.call("Page.captureScreenshot", format="png")["data"]
+    def picture(self, **clip: float) -> bytes:
+        """What the window shows, or a part of it, as a PNG."""
+        part = {"clip": clip} if clip else {}
+        data: str = self.call("Page.captureScreenshot", format="png", **part)["data"]
         return base64.b64decode(data)
 
     def prefer(self, **features: str) -> None:

@@ -487,7 +487,7 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
         (
             "plot --duration 1e9 --output figure.doc",
             2,
-            "must end in .png, .svg, .pdf or .eps",
+            "must end in .png or .svg or .pdf or .eps",
         ),
         ("plot --duration 1e9 --width 8.5", 2, "between 40 and 400 mm, but is 8.5"),
         ("plot --duration 1e9 --font Helvetia", 2, "'Helvetia' is not installed"),

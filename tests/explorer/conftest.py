@@ -2,7 +2,7 @@
 
 import pytest
 from browser import browser, find_browser
-from explorer.explorer_sessions import write_example
+from explorer.example import write_example
 
 
 @pytest.fixture(scope="module")

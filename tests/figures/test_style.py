@@ -8,11 +8,10 @@ from itertools import combinations
 import matplotlib
 import numpy as np
 import pytest
-from colorspacious import cspace_convert
+from colours import SIGHTS, TOLD_APART, in_cielab
 from figures.test_pictures import PICTURES, slips
 from golden.kept import kept
 from matplotlib import image
-from matplotlib.colors import to_rgb
 
 from maegawa2010.methods import ROWS
 from precursors.figures import precursor_lengths, style
@@ -84,8 +83,6 @@ def test_every_method_with_a_line_has_a_marker_of_its_own_and_the_colour_of_its_
     assert set(colors.values()) == {style.GREY, *style.OTHERS}
 
 
-# Told apart by all readers; a step of 2 can just be seen by eyes that are trained.
-DISTANCE_IN_CIELAB = 20.0
 MEANINGS = (
     [
         "PUSHED_END",
@@ -102,21 +99,17 @@ MEANINGS = (
 )
 
 
-@pytest.mark.parametrize("sight", [None, "protanomaly", "deuteranomaly"])
+@pytest.mark.parametrize("sight", SIGHTS)
 @pytest.mark.parametrize("names", MEANINGS)
 def test_every_reader_tells_two_meanings_apart(sight, names):
     colors = {
         name: style.OTHERS[name] if isinstance(name, int) else getattr(style, name)
         for name in names
     }
-    seen = np.array([to_rgb(color) for color in colors.values()])
-    if sight:
-        space = {"name": "sRGB1+CVD", "cvd_type": sight, "severity": 100}
-        seen = np.clip(cspace_convert(seen, space, "sRGB1"), 0.0, 1.0)
-    places = dict(zip(colors, cspace_convert(seen, "sRGB1", "CIELab"), strict=True))
+    places = in_cielab(colors, sight)
     for one, other in combinations(places, 2):
         distance = np.linalg.norm(places[one] - places[other])
-        assert distance >= DISTANCE_IN_CIELAB, (one, other)
+        assert distance >= TOLD_APART, (one, other)
 
 
 @pytest.mark.parametrize("name", ["precursor_lengths", "resolution"])

@@ -1,4 +1,4 @@
-"""The looping picture shows what the run does."""
+"""The movie shows what the run does."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from precursors import Chain, plot, simulate
 from precursors.figures import style, wave
 
 ROOT = Path(__file__).parents[2]
@@ -32,9 +33,10 @@ class TwoBlocks:
 
 
 def drawn(**columns) -> ElementTree.Element:
-    event = {"onset_s": 1.0, "end_s": 3.0, "front": 2, "is_global": True}
-    slips = pd.DataFrame([{**event, "length_m": 0.1, **columns}])
-    return ElementTree.fromstring(wave.draw(TwoBlocks(), slips))
+    event = {"onset_s": 1.0, "end_s": 3.0, "front": 2, "load_before_N": 9.0}
+    event |= {"n_blocks": 2, "length_m": 0.1, "counted": True, "is_global": True}
+    slips = pd.DataFrame([event | columns])
+    return ElementTree.fromstring(wave.draw(TwoBlocks(), slips).svg)
 
 
 def test_the_kept_picture_is_that_of_the_run():
@@ -78,3 +80,16 @@ def test_the_colour_of_a_block_changes_when_it_slides():
 
 def test_a_run_without_a_slip_says_so():
     assert "no slip event" in "".join(drawn(end_s=np.nan).itertext())
+
+
+def test_any_run_is_a_movie_of_two_precursors_and_the_global_slip(tmp_path):
+    run = simulate(Chain.from_slider(), until="global slip")
+    movie = plot(run, "wave")
+    words = "".join(ElementTree.fromstring(movie.svg).itertext())
+    for name in ("blocks 1 to 4", "blocks 1 to 9", "global slip: all blocks at once"):
+        assert words.count(name) == 2  # above the row, and in its panel
+    movie.savefig(tmp_path / "wave.svg")
+    with pytest.raises(ValueError, match=r"must end in \.svg"):
+        movie.savefig(tmp_path / "wave.gif")
+    with pytest.raises(ValueError, match="takes no data, title, inset or look"):
+        plot(run, "wave", title="mine")

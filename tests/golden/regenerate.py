@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import check_claims
-from explorer import explorer_sessions
+from explorer import example
 from golden import benchmark_page
 from golden.kept import kept, write_picture, write_table
 from golden.small_tables import TABLES_OF_SECONDS
@@ -44,8 +44,7 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
         write_table(name, make())
     for name, how in kept("PICTURES").items():
         write_picture(golden / f"small/{name}.png", how)
-    explorer_sessions.recorded().to_csv(golden / "small/explorer.csv", index=False)
-    write_whole(ROOT / "docs/explorer.png", explorer_sessions.picture())
+    write_whole(ROOT / "docs/explorer.png", example.picture())
 
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ FIGURES["fig13"] = Figure(
     look=config["figure"],
 )
 
-# The scene whose first global slip is shown in slow motion: that in the middle.
+# The scene whose slips are shown in slow motion: that in the middle.
 SHOWN = FIG13[len(FIG13) // 2]
 
 
@@ -67,7 +67,7 @@ rule write_wave:
             "results/figures/wave.svg",
             caption="../report/wave.rst",
             category="Reproduction",
-            labels={"figure": "wave: the first global slip, in slow motion"},
+            labels={"figure": "wave: two precursors and the global slip, in slow motion"},
         ),
     log:
         "results/logs/write_wave.log",

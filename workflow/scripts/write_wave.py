@@ -1,12 +1,12 @@
-"""Write the looping picture of a global slip, from a run."""
+"""Write the animated picture of two precursors and the global slip, from a run."""
 
 from job import job
 
 from precursors.figures import wave
 from precursors.solver.run import Run
-from precursors.support.files import read_table, write_text
+from precursors.support.files import read_table
 
 with job() as snakemake:
     run = Run.load(snakemake.input.run)
     slips = read_table(snakemake.input.slips)
-    write_text(snakemake.output[0], wave.draw(run, slips))
+    wave.draw(run, slips).savefig(snakemake.output[0])

@@ -3,6 +3,7 @@
 
 const FONT = "12px system-ui, 'DejaVu Sans', sans-serif";
 const KINDS = ["partial", "global", "backward", "unsure"];
+const NAMES = ["partial slip", "global slip", "backward slip", "not predictable"];
 const TILT_COLOURS = ["pushed", "even", "far"];
 let palette = {};
 
@@ -42,6 +43,13 @@ function stroke(context, ...lines) {
   context.beginPath();
   for (const points of lines) points.forEach((point, i) => (i ? context.lineTo(...point) : context.moveTo(...point)));
   context.stroke();
+}
+
+function area(context, points, colour) {
+  context.fillStyle = colour;
+  context.beginPath();
+  points.forEach((point) => context.lineTo(...point));
+  context.fill();
 }
 
 // About `count` round numbers from low to high, and their decimals.
@@ -88,46 +96,26 @@ function lowerBound(values, x) {
   return low;
 }
 
-// Least and largest value of a curve inside [start, end], with the values at both ends.
-function extent(time, value, start, end) {
-  const from = lowerBound(time, start), to = lowerBound(time, end);
-  let [low, high] = [Infinity, -Infinity];
-  const see = (v) => ([low, high] = [Math.min(low, v), Math.max(high, v)]);
-  for (const [at, t] of [[from, start], [to, end]]) {
-    if (at > 0 && at < time.length) see(value[at - 1] + ((value[at] - value[at - 1]) * (t - time[at - 1])) / (time[at] - time[at - 1] || 1));
+// A curve inside the box, without points that cannot be told from the one before.
+function curve(context, { x, y, box }, time, value, start, end) {
+  const points = [];
+  for (let i = Math.max(lowerBound(time, start) - 1, 0), to = lowerBound(time, end); i <= to && i < time.length; i++) {
+    const [across, up] = [x(time[i]), y(value[i])], [lastAcross, lastUp] = points.at(-1) ?? [];
+    if (!(Math.abs(across - lastAcross) + Math.abs(up - lastUp) < 0.5)) points.push([across, up]);
   }
-  for (let i = from; i < to; i++) see(value[i]);
-  return [low, high];
-}
-
-// A curve: of the points in one column of pixels only the first, the extremes and the last are drawn.
-function curve(context, figure, time, value, start, end) {
-  const from = Math.max(lowerBound(time, start) - 1, 0), to = Math.min(lowerBound(time, end) + 1, time.length);
-  const { box } = figure;
   context.save();
   context.beginPath();
   context.rect(box.left, box.top - 6, box.right - box.left, box.bottom - box.top + 7);
   context.clip();
-  const points = [];
-  for (let i = from; i < to; ) {
-    const column = Math.round(figure.x(time[i]));
-    let low = i, high = i, last = i;
-    for (; i < to && Math.round(figure.x(time[i])) === column; last = i++) {
-      if (value[i] < value[low]) low = i;
-      if (value[i] > value[high]) high = i;
-      if (i === last) points.push(i);
-    }
-    points.push(...(low < high ? [low, high, last] : [high, low, last]));
-  }
-  stroke(context, points.map((i) => [figure.x(time[i]), figure.y(value[i])]));
+  stroke(context, points);
   context.restore();
 }
 
 // Slides of the blocks as a picture with two pixels for each block and column, which is as fast for any number of slides.
-// A backward slip has the lower one alone. Slips that are not predictable are grey.
+// A backward slip has the lower one alone. Slips that are not predictable are grey. Returns the kinds that are there.
 function slideBars(context, { box }, { n, events, arrays, known }, start, end) {
   const columns = Math.max(Math.round(box.right - box.left), 1), scale = columns / (end - start);
-  const picture = new ImageData(columns, 2 * n), pixels = new Uint32Array(picture.data.buffer);
+  const picture = new ImageData(columns, 2 * n), pixels = new Uint32Array(picture.data.buffer), kinds = new Set();
   const colours = KINDS.map((kind) => {
     const [r, g, b] = channels(palette[kind]);
     return (255 << 24) | (b << 16) | (g << 8) | r;
@@ -137,10 +125,11 @@ function slideBars(context, { box }, { n, events, arrays, known }, start, end) {
     const since = []; // the transition with which each block began to slide
     const fill = (block, time) => {
       const j = since[block], from = Math.max(Math.floor((arrays.time[j] - start) * scale), 0), to = Math.max(Math.ceil((time - start) * scale), from + 2);
-      const isBackward = arrays.mode[j] < 0, colour = colours[onset >= known ? 3 : isBackward ? 2 : Number(isGlobal)];
+      const isBackward = arrays.mode[j] < 0, kind = onset >= known ? 3 : isBackward ? 2 : Number(isGlobal);
+      kinds.add(KINDS[kind]);
       for (const half of isBackward ? [1] : [0, 1]) {
         const row = (2 * (n - block) + half) * columns;
-        pixels.fill(colour, row + from, row + Math.min(to, columns));
+        pixels.fill(colours[kind], row + from, row + Math.min(to, columns));
       }
     };
     for (let j = first + 1; j <= last; j++) {
@@ -159,14 +148,14 @@ function slideBars(context, { box }, { n, events, arrays, known }, start, end) {
   context.lineWidth = n > 25 ? 0.5 : 1.5;
   const borders = Array.from({ length: n + 1 }, (_, i) => box.top + (i * (box.bottom - box.top)) / n);
   stroke(context, ...borders.map((y) => [[box.left, y], [box.right, y]]));
+  return kinds;
 }
 
 // A mark at a point in pixels: dot, ring or cross.
 function mark(context, shape, x, y, size, colour) {
   context.strokeStyle = context.fillStyle = colour;
   context.lineWidth = 2;
-  const [left, right, top, bottom] = [x - size, x + size, y - size, y + size];
-  if (shape === "cross") return stroke(context, [[left, top], [right, bottom]], [[left, bottom], [right, top]]);
+  if (shape === "cross") return stroke(context, [[x - size, y - size], [x + size, y + size]], [[x - size, y + size], [x + size, y - size]]);
   context.beginPath();
   context.arc(x, y, size, 0, 2 * Math.PI);
   if (shape === "dot") context.fill();
@@ -184,16 +173,17 @@ function arrow(context, x, from, to, y = null) {
   stroke(context, [point(from, 0), point(to, 0)], [point(to - way, -3.5), point(to, 0), point(to - way, 3.5)]);
 }
 
-// The row as in Fig. 9, and below each block the net force of its springs against the limits of static friction.
-// `shifts` [m] are displacements in view of the camera, `magnified` so many times; `pushed` is the share of the drive's
-// spring that is pressed.
-function drawRow(canvas, { weights, strength, net, modes, shifts, magnified, length, pushed, isGlobal, ground }) {
+// The row as in Fig. 9; below each block the net force of its springs against the limits of static friction; and below
+// these the push along the row. `shifts` [m] are displacements in view of the camera, `magnified` so many times; `pushed`
+// is the share of the drive's spring that is pressed.
+function drawRow(canvas, frame) {
+  const { weights, strength, forces, modes, shifts, magnified, length, pushed, isGlobal, ground } = frame;
   const [context, width, height] = clear(canvas), n = weights.length;
   const left = Math.max(70, 0.13 * width), pitch = (width - left - Math.max(24, 0.1 * width)) / n;
   const perMetre = (pitch * n) / length, size = Math.min(0.58 * pitch, 42);
-  const floor = Math.round(0.52 * height), middle = Math.round(0.79 * height), tallest = 0.28 * height - 8, half = height - middle - 18;
+  const floor = Math.round(0.28 * height), middle = Math.round(0.42 * height), tallest = 0.28 * height - size - 16, half = 0.07 * height, top = Math.round(0.56 * height);
   const heaviest = Math.max(...weights), strongest = Math.max(...strength) || 1;
-  const centre = (i) => left + (i + 0.5) * pitch + shifts[i] * magnified * perMetre;
+  const centres = shifts.map((shift, i) => left + (i + 0.5) * pitch + shift * magnified * perMetre);
   const y = floor - size / 2;
   context.strokeStyle = palette.line;
   stroke(context, [[0, floor + 1.5], [width, floor + 1.5]]);
@@ -202,9 +192,9 @@ function drawRow(canvas, { weights, strength, net, modes, shifts, magnified, len
 
   context.strokeStyle = palette.soft;
   context.lineWidth = 1.5;
-  const pushedSide = centre(0) - size / 2, plate = pushedSide - 0.8 * left * (1 - 0.65 * pushed);
+  const pushedSide = centres[0] - size / 2, plate = pushedSide - 0.8 * left * (1 - 0.65 * pushed);
   spring(context, plate, pushedSide, y, 5);
-  for (let i = 1; i < n; i++) spring(context, centre(i - 1) + size / 2, centre(i) - size / 2, y, pitch > 30 ? 3 : 1);
+  for (let i = 1; i < n; i++) spring(context, centres[i - 1] + size / 2, centres[i] - size / 2, y, pitch > 30 ? 3 : 1);
   context.fillStyle = palette.ink;
   context.fillRect(plate - 5, floor - 1.5 * size - 2, 5, 1.5 * size + 2);
   context.strokeStyle = palette.ink;
@@ -212,34 +202,56 @@ function drawRow(canvas, { weights, strength, net, modes, shifts, magnified, len
 
   context.textAlign = "center";
   context.textBaseline = "middle";
-  for (let i = 0; i < n; i++) {
-    const x = centre(i), lean = 0.22 * size * modes[i], way = modes[i];
+  centres.forEach((x, i) => {
+    const lean = 0.22 * size * modes[i], way = modes[i];
     context.strokeStyle = palette.soft;
     if (weights[i] > 0) arrow(context, x, floor - size - 6 - (tallest * weights[i]) / heaviest, floor - size - 3);
     const colour = palette[way === 0 ? "stuck" : way < 0 ? "backward" : isGlobal ? "global" : "partial"];
-    context.fillStyle = colour;
-    context.beginPath();
-    context.moveTo(x - size / 2, floor), context.lineTo(x + size / 2, floor);
-    context.lineTo(x + size / 2 + lean, floor - size), context.lineTo(x - size / 2 + lean, floor - size);
-    context.fill();
+    area(context, [[x - size / 2, floor], [x + size / 2, floor], [x + size / 2 + lean, floor - size], [x - size / 2 + lean, floor - size]], colour);
     context.fillStyle = inkOn(colour);
     if (size >= 18) context.fillText(i + 1, x + lean / 2, y);
 
-    const limit = (half * strength[i]) / strongest, share = (half * net[i]) / strongest, bar = Math.min(0.5 * pitch, 26), foot = left + (i + 0.5) * pitch;
+    const limit = (half * strength[i]) / strongest, share = (half * (forces[i] - forces[i + 1])) / strongest, bar = Math.min(0.5 * pitch, 26);
     context.strokeStyle = palette.line;
     context.lineWidth = 1;
-    context.strokeRect(foot - bar / 2, middle - limit, bar, 2 * limit);
+    context.strokeRect(x - bar / 2, middle - limit, bar, 2 * limit);
     context.fillStyle = colour;
-    context.fillRect(foot - bar / 2, Math.min(middle, middle - share), bar, Math.abs(share));
+    context.fillRect(x - bar / 2, Math.min(middle, middle - share), bar, Math.abs(share));
     context.strokeStyle = palette.ink;
-    stroke(context, [[foot - bar / 2 - 2, middle], [foot + bar / 2 + 2, middle]]);
+    stroke(context, [[x - bar / 2 - 2, middle], [x + bar / 2 + 2, middle]]);
     context.lineWidth = 1.5;
-  }
+  });
+  // The edges of the parts of the row that the blocks stand for.
+  const edges = [centres[0] - pitch / 2, ...centres.slice(1).map((x, i) => (centres[i] + x) / 2), centres.at(-1) + pitch / 2];
+  drawPush(context, frame, edges, centres, top, height - 22);
   context.fillStyle = palette.soft;
   context.textAlign = "left";
-  context.fillText("normal load", 4, 14);
-  context.fillText("drive", 4, floor - 1.5 * size - 14);
-  context.fillText("spring", 4, middle - 15), context.fillText("force and", 4, middle), context.fillText("limit", 4, middle + 15);
-  const factor = `Displacements are drawn ${magnified.toLocaleString("en")} times as large`;
-  context.fillText(width < 500 ? factor : `${factor}; the drive’s spring has its own scale.`, 4, height - 7);
+  const factor = `Displacements are drawn ${magnified.toLocaleString("en")} times as large${width < 500 ? "" : "; the drive’s spring has its own scale."}`;
+  const names = [["normal load", 8], ["drive", floor - 1.5 * size - 12], ["net force", middle - 8], ["and limit", middle + 8], ["push in each spring", top - 8], [factor, height - 7]];
+  names.forEach(([text, y]) => context.fillText(text, 4, y));
+  context.textAlign = "right";
+  context.fillText(`dashed: ${width < 500 ? "" : "what sliding friction leaves of it, "}Fₓ − μₖ W`, width - 4, top - 8);
+}
+
+// The push that each spring carries: what the events before left in it, and what the last one added. The dashed line is
+// what sliding friction leaves of the load: F_X less mu_k times the normal load from the pushed end.
+function drawPush(context, { weights, forces, before, added, friction, highest, load }, edges, centres, top, bottom) {
+  const y = (force) => bottom - ((bottom - top) * force) / highest, springs = [edges[0], ...centres, edges.at(-1)], line = [[edges[0], y(load)]];
+  const steps = (values) => [[edges[0], bottom], ...Array.from(values, (force, i) => [[springs[i], y(force)], [springs[i + 1], y(force)]]).flat()];
+  area(context, steps(forces), added);
+  area(context, steps(forces.map((force, i) => (i ? Math.min(before[i], force) : force))), palette.band);
+  context.strokeStyle = palette.ink;
+  stroke(context, steps(forces));
+  for (let i = 0, left = load; i < weights.length && left > 0; i++) {
+    const share = Math.min(left / (friction * weights[i]), 1);
+    left = share < 1 ? 0 : left - friction * weights[i];
+    line.push([edges[i] + share * (edges[i + 1] - edges[i]), y(left)]);
+  }
+  context.setLineDash([5, 4]);
+  context.lineWidth = 2;
+  stroke(context, line);
+  context.setLineDash([]);
+  context.fillStyle = palette.ink;
+  context.textAlign = "right";
+  context.fillText("Fₓ", edges[0] - 6, y(load));
 }

@@ -3,7 +3,7 @@
 
 const element = (id) => document.getElementById(id);
 const PACE = 4000; // s of film for a second of slip: 1 ms takes 4 s
-const LONGEST = 20; // s of film for one event
+const EVENT = [3, 20]; // s of film for one event, shortest where it is alone, and longest
 const GAP = [0.4, 1.2]; // s of film for the time between two events, shortest and longest
 const STALE = 300; // ms for which a slider may move on before the twin has been heard again
 const TWIN = 10; // how much further apart a run and its twin are than rounding errors: see ROUNDINGS
@@ -15,6 +15,7 @@ let asked = 0, current = null, waiting = null, told = [], heardTwin = 0;
 const workers = [];
 
 const same = (slider) => !state.slider.weights && Object.keys(slider).every((name) => slider[name] === state.slider[name]);
+const isCalm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 const event = () => (state.event === null ? null : run?.events[state.event]);
 const firstGlobal = (of = run) => of.events.find((event) => event.isGlobal);
 const apparentIn = (of) => Math.max(0, ...of.counted.map((event) => event.before)) / of.weights.reduce((sum, load) => sum + load);
@@ -43,7 +44,7 @@ function post(isTwin) {
 function hear(isTwin, data) {
   if (data.kind === "motion") {
     if (data.id === run?.id) motions.set(data.event, data);
-    return redraw("row", "load", "stairs");
+    return redraw("row", "stairs");
   }
   if (data.id !== current.id) return;
   if (data.kind === "progress") return isTwin || (element("progress").value = data.share);
@@ -82,7 +83,7 @@ function show(next, other) {
   showLoads();
   showStep();
   redraw(...Object.keys(DRAW));
-  if (isToPlay && !matchMedia("(prefers-reduced-motion: reduce)").matches) play();
+  if (isToPlay && !isCalm()) play();
   isToPlay = false;
 }
 
@@ -100,11 +101,12 @@ function filmOf({ events, end }) {
   const add = (time, lasts) => (knots.time.push(time), knots.wall.push((wall += lasts)));
   for (const one of events) {
     add(one.onset, Math.min(Math.max(2 * (one.onset - before), GAP[0]), GAP[1]));
-    add((before = one.end), Math.min((one.end - one.onset) * PACE, LONGEST));
+    add((before = one.end), secondsOf(one));
   }
   add(end, GAP[1]);
   return knots;
 }
+const secondsOf = ({ onset, end }) => Math.min(Math.max((end - onset) * PACE, state.view === "event" ? EVENT[0] : 0), EVENT[1]);
 function along(from, to, x) {
   const i = Math.min(Math.max(lowerBound(from, x), 1), from.length - 1), span = from[i] - from[i - 1];
   return to[i - 1] + (to[i] - to[i - 1]) * Math.min(Math.max((x - from[i - 1]) / (span || 1), 0), 1);
@@ -138,8 +140,8 @@ function magnify(of) {
   of.magnified = power * [5, 4, 3, 2, 1.5, 1].find((factor) => factor * power <= most);
 }
 
-const DRAW = { load: showLoad, stairs: showStairs, slips: showSlips, lengths: showLengths, row: showRow };
-// Draw in the next frame: one figure in a task, so that no task is long.
+const DRAW = { stairs: showStairs, slips: showSlips, lengths: showLengths, row: showRow };
+// Draw in the next frame.
 function redraw(...names) {
   if (!dirty.size) requestAnimationFrame(drawDirty);
   names.forEach((name) => dirty.add(name));
@@ -156,7 +158,7 @@ function showAnswers() {
   const slip = firstGlobal(), word = (name) => explained("answers", name), isLost = slip ? slip.onset >= run.known : run.known <= run.end;
   const stopped = run.stopped ? `Stopped at ${quantity(run.end, "s")}, after very many transitions. ` : "";
   const result = slip
-    ? `${counts(run.counted.length, "event")} counted in ${word("fig13")} · ${word("apparent")} = ${ratio()} · first global slip at ${quantity(slip.onset, "s")}`
+    ? `${counts(run.counted.length, "event")}, counted as in ${word("fig13")} · ${word("apparent")} = ${ratio()} · first global slip at ${quantity(slip.onset, "s")}`
     : `No global slip ${run.stopped ? "until then" : run.end < DURATION ? "so far" : `in ${DURATION} s`} · largest load ${ratio()} F<sub>Z</sub>`;
   const isProved = slip && PROVED.some((one) => same(one.slider) && slip.end <= one.duration);
   const until = Math.min(run.known, run.end), reach = run.known < run.end ? `until ${quantity(until, "s")}, where rounding errors take over` : `for all of its ${quantity(until, "s")}`;
@@ -187,7 +189,11 @@ function showStep() {
     element(id).classList.toggle("seen", isSeen);
     if (isSeen || !shown[id]) setHtml(id, `<h2>${title}</h2><p>${text((name) => explained(id, name))}</p>`);
   }
-  setHtml("lengths-key", study()?.key ?? LENGTHS_KEY);
+  for (const button of document.querySelectorAll("[data-theta]")) {
+    const theta = Number(button.dataset.theta), { value } = found.tilts[THETAS.indexOf(theta)] ?? {};
+    button.setAttribute("aria-pressed", state.slider.theta === theta && !state.slider.weights);
+    button.textContent = `θ = ${fraction(theta)}\n${value?.toFixed(4) ?? "…"}`;
+  }
 }
 
 function goToStep(number) {
@@ -219,12 +225,13 @@ function showLoads() {
   });
 }
 
-// Choose an event and look at its onset.
+// Choose an event and look at its onset; alone, it is played.
 function choose(number) {
   stop();
   Object.assign(state, { event: number, pick: null, time: run.events[number].onset });
   if (state.view === "first" && state.time > view().end) state.view = "all";
   setView(state.view);
+  if (state.view === "event" && !isCalm()) play();
 }
 function move(by) {
   const { events } = run;
@@ -232,6 +239,7 @@ function move(by) {
 }
 function setView(next) {
   state.view = next;
+  film = run && filmOf(run);
   showParameters();
   redraw(...Object.keys(DRAW));
 }
@@ -239,20 +247,19 @@ function setView(next) {
 function play() {
   if (playing) return stop();
   state.pick = null;
-  let { end } = view(), before = performance.now(), wall = along(film.time, film.wall, Math.max(state.time, view().start));
-  if (state.time >= Math.min(end, run.end) - 1e-12) wall = along(film.time, film.wall, view().start);
-  const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  const { start, end } = played();
+  let before = performance.now(), wall = along(film.time, film.wall, state.time < end - 1e-12 ? Math.max(state.time, start) : start);
   const frame = (now) => {
     const passed = Math.min(Math.max(now - before, 0), 100) / 1000, at = lowerBound(film.wall, wall);
     // Less motion: from the onset of an event to its end and on to the next, a second each.
-    if (isCalm && now - before < 1000) return (playing = requestAnimationFrame(frame));
+    if (isCalm() && now - before < 1000) return (playing = requestAnimationFrame(frame));
     before = now;
-    wall = isCalm ? film.wall[Math.min(at + (film.wall[at] <= wall ? 1 : 0), film.wall.length - 1)] : wall + passed;
+    wall = isCalm() ? film.wall[Math.min(at + (film.wall[at] <= wall ? 1 : 0), film.wall.length - 1)] : wall + passed;
     const next = Math.floor((lowerBound(film.wall, wall) - 1) / 2);
     if (run.events[next]) askMotion(next);
     state.time = Math.min(along(film.wall, film.time, wall), end);
     redraw("row");
-    if (state.time >= Math.min(end, run.end) || wall >= film.wall.at(-1)) return stop();
+    if (state.time >= end || wall >= film.wall.at(-1)) return stop();
     playing = requestAnimationFrame(frame);
   };
   playing = requestAnimationFrame(frame);
@@ -302,7 +309,6 @@ function listen() {
   const on = (id, type, does) => element(id).addEventListener(type, does);
   on("sliders", "input", ({ target }) => (setSlider(target.id, Number(target.value)), solve(true)));
   on("sliders", "change", () => solve());
-  on("sliders", "submit", (happened) => happened.preventDefault());
   on("loads", "input", ({ target }) => {
     state.slider.weights = run.weights.with(target.dataset.load, Number(target.value));
     solve(true);
@@ -315,13 +321,13 @@ function listen() {
   on("next", "click", () => move(1));
   on("play", "click", play);
   on("scrubber", "input", ({ target }) => {
-    const { start, end } = view(), [low, high] = [start, end].map((t) => along(film.time, film.wall, t));
+    const [low, high] = [played().start, played().end].map((t) => along(film.time, film.wall, t));
     stop();
     Object.assign(state, { pick: null, time: along(film.wall, film.time, low + ((high - low) * target.value) / 1000) });
   });
   for (const button of document.querySelectorAll("[data-view]")) button.addEventListener("click", () => setView(button.dataset.view));
   const closeUp = (number) => ((state.view = "event"), choose(number));
-  for (const id of ["load", "stairs", "slips"]) {
+  for (const id of ["stairs", "slips"]) {
     on(id, "click", ({ offsetX }) => {
       const { start, end } = view(), perPixel = (end - start) / (shares.box.right - shares.box.left), time = start + (offsetX - shares.box.left) * perPixel;
       const far = run.events.map(({ onset, end }) => Math.max(onset - time, time - end, 0)), best = far.indexOf(Math.min(...far));

@@ -13,6 +13,12 @@ function view() {
   return { start: 0, end: state.view === "first" && last ? Math.min(1.04 * last.end, DURATION) : stopped && end < DURATION ? 1.04 * end || DURATION : DURATION };
 }
 
+// The part of the view that is played: of an event all of it, and no more.
+function played() {
+  const { start, end } = state.view === "event" && event() ? { start: event().onset, end: event().end } : view();
+  return { start, end: Math.min(end, run.end) };
+}
+
 // The state of the row at a time: forces of the springs, modes, and displacements [m].
 function frameAt(time) {
   const { events, arrays, n, k, weights, strength } = run, { drive_stiffness: K, drive_velocity: V, length } = run.slider;
@@ -39,14 +45,12 @@ function frameAt(time) {
   const ease = now === null && at >= 0 ? Math.min((time - events[at].end) / (0.3 * ((events[next]?.onset ?? run.end) - events[at].end) || 1), 1) : 0;
   const seen = camera + (x[n - 1] - camera) * ease * ease * (3 - 2 * ease);
   return {
-    weights, strength: strength.slice(1), net: Array.from({ length: n }, (_, i) => forces[i + 1] - forces[i + 2]), modes: modes.slice(1, n + 1), shifts: x.map((value) => value - seen),
+    weights, strength: strength.slice(1), forces: forces.slice(1), before: restForces(Math.max(at, 0)).slice(1), friction: run.slider.mu_k, highest: run.highest, added: palette[at < 0 ? "partial" : kindOf(events[at])], modes: modes.slice(1, n + 1), shifts: x.map((value) => value - seen),
     magnified: run.magnified, length, pushed: Math.max(forces[1], 0) / run.highest, isGlobal: now !== null && events[now].isGlobal, ground: seen, now, at, load: forces[1],
   };
 }
 // Spring forces at the onset of an event.
-function restForces(number) {
-  return run.arrays.forces.slice(number * (run.n + 2), (number + 1) * (run.n + 2));
-}
+const restForces = (number) => run.arrays.forces.slice(number * (run.n + 2), (number + 1) * (run.n + 2));
 
 function showRow() {
   const frame = frameAt(state.time), { now, at } = frame;
@@ -56,11 +60,11 @@ function showRow() {
   const { start: from, end: to } = view(), share = (state.time - from) / (to - from);
   element("cursor").style.transform = shares ? `translateX(${shares.box.left + share * (shares.box.right - shares.box.left)}px)` : "";
   element("cursor").hidden = share < 0 || share > 1;
-  const [low, high] = [from, to].map((t) => along(film.time, film.wall, t));
+  const [low, high] = [played().start, played().end].map((t) => along(film.time, film.wall, t));
   element("scrubber").value = (1000 * (along(film.time, film.wall, state.time) - low)) / (high - low || 1);
-  const one = run.events[now], pace = one && Math.min(PACE, LONGEST / (one.end - one.onset)) / 1000;
+  const one = run.events[now], pace = one && secondsOf(one) / (one.end - one.onset) / 1000;
   const clock = one ? `${quantity(one.onset, "s")}${state.time > one.onset ? ` + ${quantity(state.time - one.onset, "s")}` : ", block 1 lets go"}` : `${quantity(state.time, "s")}, all blocks stuck`;
-  const speed = !playing ? "" : one ? ` – slow motion: 1 ms takes ${pace.toPrecision(1)} s` : " – time lapse";
+  const speed = !playing ? "" : one ? ` – slow motion: 1 ms takes ${Number(pace.toPrecision(1))} s` : " – time lapse";
   element("scrubber").setAttribute("aria-valuetext", clock);
   element("moment").textContent = `${clock}, Fₓ = ${quantity(frame.load, "N")}${state.time < run.known ? "" : ", not predictable"}${speed}`;
   showReadout();
@@ -82,9 +86,7 @@ function showReadout() {
 }
 
 // What is heard of a figure.
-function setName(id, text) {
-  element(id).setAttribute("aria-label", text);
-}
+const setName = (id, text) => element(id).setAttribute("aria-label", text);
 
 const isWide = (start, end) => end - start > 0.02; // s: the time of the run, not that of an event
 function timeTicks(start, end, width) {
@@ -94,32 +96,38 @@ function timeTicks(start, end, width) {
   return [{ values: values.map((value) => zero + value * unit), names: values.map((value) => value.toFixed(decimals)) }, `Time since the onset of the event [${name}]`];
 }
 
-// A curve over time, grey from where it is not predictable. There the twin goes another way, which is dashed.
-function drawOverTime(id, label, valueOf, count) {
-  const { start, end } = view(), [context, width, height] = clear(element(id)), isWhole = isWide(start, end);
-  const { time, load } = isWhole ? run.arrays : withMotion(run.arrays, motions.get(state.event)), known = Math.min(Math.max(run.known, start), end);
-  const values = load.map((force, i) => valueOf(time[i], force)), [low, high] = extent(time, values, start, end), span = high - low || 1;
-  const range = !Number.isFinite(low) ? [0, 1] : isWhole ? [0, 1.06 * Math.max(high, 1e-9)] : [low - 0.08 * span, high + 0.08 * span];
-  const figure = axes(context, width, height, [start, end], range, [null, label], timeTicks(start, end, width)[0], ticks(...range, count));
+// K x_1: the load without its trend, which climbs one step in each slip. It is grey from where it is not predictable, and
+// there the twin goes another way, which is dashed.
+function showStairs() {
+  const { start, end } = view(), [context, width, height] = clear(element("stairs")), isWhole = isWide(start, end);
+  const { drive_stiffness: K, drive_velocity: V } = run.slider, last = firstGlobal(), one = event(), motion = motions.get(state.event);
+  let [time, load] = [run.arrays.time, run.arrays.load].map((column) => column.subarray(0, lowerBound(run.arrays.time, end) + 1));
+  if (!isWhole && motion) [time, load] = [[start, ...motion.time, end], [one.before, ...motion.forces.filter((_, i) => i % (run.n + 2) === 1), one.after]];
+  const releasedIn = (time, load) => Array.from(load, (force, i) => K * V * time[i] - force), released = releasedIn(time, load);
+  // Up to the global slip, whose step is the largest, the axis ends above the last precursor.
+  const until = state.view === "first" && last && last !== run.events[0] ? last.onset : end, seen = released.filter((_, i) => time[i] >= start && time[i] <= until);
+  const high = seen.reduce((a, b) => Math.max(a, b), 1e-9), low = isWhole ? 0 : seen.reduce((a, b) => Math.min(a, b), high), room = 0.1 * (high - low || 1);
+  const figure = axes(context, width, height, [start, end], [isWhole ? 0 : low - room, high + room], [null, "K x₁ = K V t − Fₓ: the load that slips have released [N]"], timeTicks(start, end, width)[0]);
+  const known = Math.min(Math.max(run.known, start), end);
   const draw = (time, values, colour, from, to) => {
     context.strokeStyle = palette[colour];
     context.lineWidth = 1.5;
     if (from < to) curve(context, figure, time, values, from, to);
   };
   context.setLineDash([5, 4]);
-  if (isWhole && twin) draw(twin.arrays.time, twin.arrays.load.map((force, i) => valueOf(twin.arrays.time[i], force)), "unsure", known, end);
+  if (isWhole && twin && known < end) draw(twin.arrays.time, releasedIn(twin.arrays.time, twin.arrays.load), "unsure", known, end);
   context.setLineDash([]);
-  draw(time, values, "ink", start, known);
-  draw(time, values, "unsure", known, end);
-  showLimit(context, figure, id === "load" && "not predictable");
-  return { context, figure };
-}
-// Times and loads of a run, with those of the motion in one event in their place.
-function withMotion({ time, load }, motion) {
-  if (!motion) return { time, load };
-  const from = lowerBound(time, motion.time[0]), to = lowerBound(time, motion.time.at(-1));
-  const around = (values, inside) => [...values.subarray(0, from), ...inside, ...values.subarray(to)];
-  return { time: around(time, motion.time), load: around(load, motion.forces.filter((_, i) => i % (run.n + 2) === 1)) };
+  draw(time, released, "ink", start, known);
+  draw(time, released, "unsure", known, end);
+  const slips = run.events.filter((one) => one.onset >= start && one.end <= end);
+  context.lineWidth = 3;
+  for (const one of isWhole && slips.length <= 60 ? slips : []) {
+    context.strokeStyle = palette[kindOf(one)];
+    stroke(context, [[one.onset, one.before], [one.end, one.after]].map(([t, force]) => [figure.x(t), Math.max(figure.y(K * V * t - force), figure.box.top - 6)]));
+  }
+  showLimit(context, figure, "not predictable");
+  shares = figure;
+  setName("stairs", `The load that slips have released, K x1, against time: a step up in each of ${counts(run.events.length, "event")}. ${plain(shown.answers)}. ${plain(shown.trust)}`);
 }
 // The line from which the run is not predictable.
 function showLimit(context, { x, box }, text) {
@@ -136,50 +144,39 @@ function showLimit(context, { x, box }, text) {
 }
 const kindOf = (one) => (one.onset >= run.known ? "unsure" : one.isGlobal ? "global" : "partial");
 
-function showLoad() {
-  const { context, figure } = drawOverTime("load", "Load Fₓ [N]", (time, load) => load, 4), { start, end } = view();
-  const seen = run.events.filter((one) => one.onset >= start && one.onset <= end), size = seen.length > 60 ? 2 : 3;
-  for (const one of seen) if (size > 2 || one.isGlobal) mark(context, "dot", figure.x(one.onset), figure.y(one.before), size, palette[kindOf(one)]);
-  shares = figure;
-  setName("load", `Load against time: ${plain(shown.answers)}. ${plain(shown.trust)}`);
-}
-
-// K x_1: the load without its trend, which climbs one step in each slip.
-function showStairs() {
-  const rate = run.slider.drive_stiffness * run.slider.drive_velocity, { start, end } = view();
-  const { context, figure } = drawOverTime("stairs", "K x₁ = K V t − Fₓ [N]", (time, load) => rate * time - load, 4);
-  const seen = run.events.filter((one) => one.onset >= start && one.end <= end);
-  context.lineWidth = 3;
-  for (const one of isWide(start, end) && seen.length <= 60 ? seen : []) {
-    context.strokeStyle = palette[kindOf(one)];
-    stroke(context, [[figure.x(one.onset), figure.y(rate * one.onset - one.before)], [figure.x(one.end), figure.y(rate * one.end - one.after)]]);
-  }
-  setName("stairs", `The load that slips have released, K x1, against time: a step up in each of ${counts(run.events.length, "event")}`);
-}
-
 function showSlips() {
   const { start, end } = view(), [context, width, height] = clear(element("slips")), { n } = run;
-  const every = Math.ceil(n / 6), values = Array.from({ length: Math.ceil(n / every) }, (_, i) => n - i * every);
+  const every = Math.ceil(n / 4), values = Array.from({ length: Math.ceil(n / every) }, (_, i) => n - i * every);
   const [along, label] = timeTicks(start, end, width);
   const figure = axes(context, width, height, [start, end], [0.5, n + 0.5], [label, "Block"], along, { values, decimals: 0 });
-  slideBars(context, figure, run, start, end);
+  const kinds = slideBars(context, figure, run, start, end);
+  setHtml("slips-key", KINDS.map((kind, i) => (kinds.has(kind) ? keyTo("box", kind, NAMES[i]) : "")).join(" "));
   showLimit(context, figure);
   setName("slips", "Slips over time: one line for each block, coloured while it slides");
 }
 
 let marks = []; // of the figure of front lengths: [x, y, number of the event]
 function showLengths() {
-  marks = [];
-  if (study()) return setName("lengths", study().draw(...clear(element("lengths")), found[study().name]));
-  const [context, width, height] = clear(element("lengths")), last = firstGlobal();
+  const { draw, name, keyOf } = study() ?? {}, last = firstGlobal();
   const events = last ? run.events.slice(0, run.events.indexOf(last) + 1) : run.events;
-  const highest = Math.max(1e-9, ...events.map((e) => e.before));
+  marks = [];
+  if (draw) return setHtml("lengths-key", keyOf(found[name])), setName("lengths", draw(...clear(element("lengths")), found[name]));
+  const [context, width, height] = clear(element("lengths")), highest = Math.max(1e-9, ...events.map((e) => e.before));
   const figure = axes(context, width, height, [0, 1.06 * highest], [0, 1.08], ["Load Fₓ [N]", "Front length Lₚ / L"]);
+  let friction = 0;
+  context.strokeStyle = context.fillStyle = palette.ink;
+  context.setLineDash([5, 4]);
+  stroke(context, [[figure.x(0), figure.y(0)], ...run.weights.map((load, i) => [figure.x((friction += run.slider.mu_k * load)), figure.y((i + 1) / run.n)])]);
+  context.setLineDash([]);
+  context.textAlign = "left";
+  context.fillText("dashed: Fₓ = μₖ W(Lₚ)", figure.box.left + 6, figure.box.top + 10);
   marks = events.map((one, i) => {
     const x = figure.x(one.before), y = figure.y(one.front / run.n), isCounted = run.counted.includes(one);
     mark(context, isCounted ? "dot" : "cross", x, y, 4, palette[isCounted ? kindOf(one) : "soft"]);
     if (i === state.event) mark(context, "ring", x, y, 10, palette.ink);
     return [x, y, i];
   });
+  const kinds = new Set(run.counted.map(kindOf)), shorter = `<span><b>×</b> shorter than one before, not counted</span>`;
+  setHtml("lengths-key", KINDS.map((kind, i) => (kinds.has(kind) ? keyTo("dot", kind, NAMES[i]) : "")).join(" ") + (run.counted.length < events.length ? shorter : ""));
   setName("lengths", `Front length against load: ${run.counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`).join(", ").slice(0, 900)}`);
 }

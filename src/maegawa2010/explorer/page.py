@@ -44,7 +44,7 @@ def write_explorer(data: Mapping[str, Any], path: str | PathLike[str]) -> None:
         and largest theta, and the nearest to 0. `proved`: a `slider` and the
         `duration` [s] up to which its transitions are proved. `duration` [s] of a run;
         `tolerance` [s] of the times of a run that is called predictable;
-        `half_a_digit`: by how much sliders that are printed alike differ.
+        `half_a_digit`: by how much sliders with the same printed inputs differ.
     path
         The file that is written.
     """

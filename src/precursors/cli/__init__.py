@@ -36,7 +36,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = read_options(sys.argv[1:] if argv is None else argv)
     try:
         if getattr(arguments, "output", None):
-            check_writable(arguments.output, ENDINGS.get(arguments.command, ()))
+            is_wave = getattr(arguments, "figure", None) == "wave"
+            endings = (".svg",) if is_wave else ENDINGS.get(arguments.command, ())
+            check_writable(arguments.output, endings)
         from precursors.cli import commands
 
         getattr(commands, arguments.command)(arguments)

@@ -109,15 +109,17 @@ def slips(arguments: Namespace) -> None:
 
 
 def plot(arguments: Namespace) -> None:
-    """Draw a run: its load and slips over time, or its propagation lengths against the
-    load."""
-    from precursors.figures.run import AXES, plot
+    """Draw a run: its load and slips over time, its propagation lengths against the
+    load, or a wave."""
+    from precursors.figures.run import AXES, Movie, plot
     from precursors.figures.style import Look, save
 
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of fonts
     look = Look(**given(arguments, ("width_mm", "font_size", "font")))
     how = given(arguments, ("figure", "title", "inset"))
     axes = AXES[arguments.figure]
+    if arguments.data and not axes:
+        raise ValueError(f"{arguments.data}: a {arguments.figure} takes no data")
     if arguments.data:
         how["data"] = data = _measured(arguments, axes)
         ranges = [
@@ -128,7 +130,11 @@ def plot(arguments: Namespace) -> None:
     elif unused := given(arguments, DATA):
         raise ValueError(f"--data is needed with {', '.join(unused)}")
     run = run_of(arguments)
-    save(plot(run, look=look, **how), arguments.output, look)
+    drawn: Any = plot(run, look=look, **how)
+    if isinstance(drawn, Movie):
+        drawn.savefig(arguments.output)
+    else:
+        save(drawn, arguments.output, look)
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
 
 

@@ -104,6 +104,9 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
     # argparse takes -5/6 for an option, and " -5/6" for a value.
     values = [re.sub(r"^-(?=[\d.])", " -", argument) for argument in argv]
     arguments = top.parse_args(values)
+    if arguments.command == "plot" and not arguments.output:
+        is_wave = arguments.figure == "wave"
+        arguments.output = Path("precursors.svg" if is_wave else "precursors.png")
     if arguments.version:
         arguments.command = "version"
     elif arguments.command is None:
@@ -159,8 +162,11 @@ def add_options(command: Parser, name: str) -> Parser:
             help="write decimal commas",
         )
     elif name == "plot":
-        file = Path("precursors.png")
-        add("--output", default=file, help=f"PNG, SVG, PDF or EPS ({file})", type=Path)
+        add(
+            "--output",
+            help="PNG, SVG, PDF or EPS (precursors.png; precursors.svg of a wave)",
+            type=Path,
+        )
         _add_look(command)
     add("--json", action="store_true", help="print one JSON value")
     if name != "score":
@@ -227,9 +233,10 @@ def _add_look(command: Parser) -> None:
     add = command.add_argument
     add(
         "--figure",
-        choices=["load", "lengths"],
+        choices=["load", "lengths", "wave"],
         default="load",
-        help="load over time as in Fig. 10 (default), or lengths as in Fig. 13",
+        help="load over time as in Fig. 10 (default), lengths as in Fig. 13, or a wave: "
+        "precursors and the global slip in slow motion (SVG)",
     )
     add(
         "--data",

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from os import PathLike
-from typing import Any
+from typing import Any, Literal, overload
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -13,17 +13,29 @@ from numpy.typing import ArrayLike
 
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
-from precursors.figures import precursor_lengths, scene
+from precursors.figures import precursor_lengths, scene, wave
 from precursors.figures.style import LOOK, NO_DATA, Look
+from precursors.figures.wave import Movie
 from precursors.model.checks import number_array
-from precursors.solver.run import Record
+from precursors.solver.run import Record, Run
 from precursors.support.files import AnyPath
 from precursors.support.spreadsheet import LENGTH, LOAD, TIME, read_columns
 
 # The axes of each figure, which are the columns of measured data.
-AXES = {"load": (TIME, LOAD), "lengths": (LOAD, LENGTH)}
+AXES = {"load": (TIME, LOAD), "lengths": (LOAD, LENGTH), "wave": ()}
 
 
+@overload
+def plot(run: Record, figure: Literal["wave"]) -> Movie: ...
+@overload
+def plot(
+    run: Record,
+    figure: Literal["load", "lengths"] = "load",
+    data: ArrayLike | pd.DataFrame | AnyPath = NO_DATA,
+    title: str | None = None,
+    inset: bool = True,
+    look: Look | Mapping[str, Any] = LOOK,
+) -> Figure: ...
 def plot(
     run: Record,
     figure: str = "load",
@@ -31,16 +43,16 @@ def plot(
     title: str | None = None,
     inset: bool = True,
     look: Look | Mapping[str, Any] = LOOK,
-) -> Figure:
-    """Draw a run: its load and slips over time, or its propagation lengths against the
-    load.
+) -> Figure | Movie:
+    """Draw a run: its load and slips over time, its propagation lengths against the
+    load, or how blocks move in two precursors and the first global slip.
 
     Parameters
     ----------
     run : Run or LargerRun
         The run, also of a larger chain.
-    figure : "load" or "lengths"
-        As Figs. 10-12, or as Fig. 13.
+    figure : "load", "lengths" or "wave"
+        As Figs. 10-12, as Fig. 13, or an animated SVG, which takes no other parameter.
     data : array, shape (n, 2), DataFrame or path of a table, optional
         Measured t [s] and F_X [N], or F_X [N] and L_p/L, which are drawn over it.
     title : str, optional
@@ -52,12 +64,26 @@ def plot(
 
     Returns
     -------
-    matplotlib.figure.Figure
+    matplotlib.figure.Figure, or Movie for a wave
         `savefig` writes it; no state of pyplot is used.
+
+    Raises
+    ------
+    ValueError
+        If there is no such figure, or a wave is asked of a larger chain, whose positions
+        are not kept, or with data or a look.
     """
     if figure not in AXES:
         raise ValueError(f"figure must be one of {', '.join(AXES)}, but is {figure!r}")
     look = Look(**look) if isinstance(look, Mapping) else look
+    if figure == "wave":
+        if not isinstance(run, Run):
+            raise ValueError(
+                "a wave needs a run of the paper's chain, not of a larger one"
+            )
+        if data is not NO_DATA or title is not None or not inset or look != LOOK:
+            raise ValueError("a wave takes no data, title, inset or look")
+        return wave.draw(run, slip_table(run))
     if isinstance(data, (str, PathLike, pd.DataFrame)):
         data = read_columns(data, AXES[figure])
     points = number_array("data", data, "SI units")

@@ -1,33 +1,38 @@
-"""The wave: an animated SVG of the blocks through the first global slip."""
+"""The wave: two precursors and the global slip, block by block, as an animated SVG."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from precursors.figures import style
+from precursors.support.files import AnyPath, check_writable, write_text
 
 XMLNS = "http://www.w3.org/2000/svg"
 # Lengths are in pixels of the page that shows it.
-LEFT = 80  # of the time axis, and of the first block at rest
+LEFT = 80  # of the first panel, and of the first block at rest
 RIGHT = 980
-PLANE = 130
-BLOCK = 42
-MIDDLE = PLANE - BLOCK / 2
-FARTHEST = 44.0  # what the largest displacement is drawn as
-LANES = 170  # top of the lanes, one a block
-LANE = 16
-SECONDS = 8  # of a loop: so many pictures move, and the rest of them rest
+PLANE = 140
+BLOCK = 42  # largest side of a block
+FARTHEST = 44.0  # largest displacement
+CLOSEST = 0.8  # of the room between two blocks, by which they may come closer
+LANES = 210  # top of the lanes, one a block, with block 1 at the bottom
+LANE = 16  # largest height of a lane,
+ALL_LANES = 320  # and of all of them
+GAP = 24  # between two panels
+SECONDS = 5  # of an act: so many pictures move, and the rest of them rest
 MOVING = 80
 RESTING = 12
 PICTURES = MOVING + RESTING
 SHARES = np.minimum(np.arange(PICTURES) / (MOVING - 1), 1.0)  # of the event
-COLORS = {0: style.PALE, 1: style.GLOBAL, -1: style.BACKWARD}
-WORDS = {0: "sticks", 1: "slides forward", -1: "slides back"}
+STUCK = style.PALE
+KEY = "Coloured: the block slides; half as high: it slides back."
 STYLE = f"""
 text {{ font: 15px 'DejaVu Sans', sans-serif }}
 rect, path {{ stroke: {style.BLACK} }}
@@ -35,56 +40,136 @@ rect, path {{ stroke: {style.BLACK} }}
 .number {{ text-anchor: end }}
 .middle {{ text-anchor: middle }}
 .spring {{ stroke: {style.GREY}; stroke-width: 6; stroke-dasharray: 1 3 }}
+.reach {{ stroke-width: 2; stroke-dasharray: 5 4 }}
 .now {{ stroke-width: 3 }}
 """
-# Block, start and stop as shares of the event, mode.
-Slides = list[tuple[int, float, float, int]]
+# Block, start and stop as shares of the event, colour, whether it slides back.
+Slides = list[tuple[int, float, float, str, bool]]
 
 
-def draw(run: Any, slips: pd.DataFrame) -> str:
-    """Write the first global slip, or else the longest event, as a looping SVG.
+@dataclass(frozen=True)
+class Movie:
+    """An animated SVG; a notebook plays it."""
 
-    A row of blocks moves and changes colour; lanes below it show who slides when. Of
-    `run`, a `Run`, the transitions and the positions are drawn.
+    svg: str
+
+    def savefig(self, path: AnyPath) -> None:
+        """Write it.
+
+        Raises
+        ------
+        ValueError
+            If the name does not end in .svg.
+        """
+        check_writable(path, (".svg",))
+        write_text(path, self.svg)
+
+    def _repr_html_(self) -> str:
+        return self.svg
+
+
+@dataclass(frozen=True)
+class Act:
+    """An event that is shown: number `i` of `n_acts`, in a panel of its own."""
+
+    i: int
+    n_acts: int
+    event: Any  # its row of the slip table
+    moved: NDArray[np.float64]  # of each block in each picture [pixels]
+    scale: float  # pixels per m
+    slides: Slides
+
+    @property
+    def width(self) -> float:
+        """Width of its panel."""
+        return (RIGHT - LEFT + GAP) / self.n_acts - GAP
+
+    @property
+    def left(self) -> float:
+        """Left end of its panel."""
+        return LEFT + self.i * (self.width + GAP)
+
+    @property
+    def duration(self) -> float:
+        """How long the event lasts [s]."""
+        return float(self.event.end_s - self.event.onset_s)
+
+    @property
+    def name(self) -> str:
+        """What kind of slip it is, and of which blocks."""
+        if self.event.is_global:
+            return "global slip: all blocks at once"
+        front = self.event.front
+        return f"precursor: block{f's 1 to {front}' if front > 1 else ' 1'}"
+
+
+def draw(run: Any, slips: pd.DataFrame) -> Movie:
+    """Draw a precursor, the longest one and the first global slip, one after the other.
+
+    A row of blocks moves and changes colour, and a mark shows how far the event reaches;
+    below it each event has a panel with who slides when. Of `run`, a `Run`, the
+    transitions and the positions are drawn.
     """
-    over = slips.dropna(subset="end_s")
-    if over.empty:
-        return f'<svg xmlns="{XMLNS}"><text y="24">no slip event</text></svg>\n'
-    longest = over.sort_values(["is_global", "front"], ascending=False, kind="stable")
-    onset, end = longest[["onset_s", "end_s"]].iloc[0]
-    positions, _ = run.at(onset + SHARES * (end - onset))
+    shown = _events(slips)
+    if shown.empty:
+        return Movie(f'<svg xmlns="{XMLNS}"><text y="24">no slip event</text></svg>\n')
+    n = int(shown["n_blocks"].iloc[0])
+    pitch = (RIGHT - LEFT - FARTHEST) / n  # of the blocks
+    side = min(BLOCK, 0.6 * pitch)
+    acts = [
+        _act(run, event, i, len(shown), pitch - side)
+        for i, event in enumerate(shown.itertuples())
+    ]
+    pixels_per_m = n * pitch / shown["length_m"].iloc[0]
+    lane = min(LANE, ALL_LANES / n)
+    bottom = LANES + lane * n
+    moved = np.concatenate([act.moved for act in acts])
+    home = LEFT + pitch * np.arange(float(n))
+    slides = [act.slides for act in acts]
+    title = "How far slips reach, and how the blocks move in them"
+    return Movie(
+        "\n".join(
+            [
+                f'<svg xmlns="{XMLNS}" viewBox="0 0 1000 {bottom + 70:.0f}">',
+                f"<title>{title}</title><style>{STYLE}</style>",
+                '<rect width="100%" height="100%" style="fill: white; stroke: none"/>',
+                f'<path d="M{LEFT - 40} {PLANE}H{RIGHT}"/>',
+                *_springs(home, moved, side, len(acts)),
+                *(_block(i, home[i], moved[:, i], side, slides) for i in range(n)),
+                *(_caption(act, home, side, pixels_per_m) for act in acts),
+                *_numbers(n, lane),
+                *(line for act in acts for line in _panel(act, lane, bottom)),
+                _now(acts, bottom),
+                f'<text x="{LEFT}" y="{bottom + 46:.0f}">{KEY}</text>',
+                "</svg>\n",
+            ]
+        )
+    )
+
+
+def _events(slips: pd.DataFrame) -> pd.DataFrame:
+    """The precursor in the middle of those counted, the last, and the global slip."""
+    counted = slips[slips["counted"] & slips["end_s"].notna()]
+    partial = counted[~counted["is_global"]]
+    two = partial.iloc[sorted({(len(partial) - 1) // 2, len(partial) - 1} - {-1})]
+    return pd.concat([two, counted[counted["is_global"]]])
+
+
+def _act(run: Any, event: Any, i: int, n_acts: int, room: float) -> Act:
+    """Follow an event; `room` is what is between two blocks at rest [pixels]."""
+    duration = event.end_s - event.onset_s
+    positions, _ = run.at(event.onset_s + SHARES * duration)
     moved = positions - positions[0]
-    enlarged = FARTHEST / np.abs(moved).max()  # pixels per m
-    moved *= enlarged
-    n = moved.shape[1]
-    home = LEFT + (RIGHT - LEFT - FARTHEST - BLOCK) * np.arange(n) / max(n - 1, 1)
-    slower = SECONDS * MOVING / PICTURES / (end - onset)
-    pixels_per_m = (home[-1] - home[0]) / (slips["length_m"].iloc[0] * (1 - 1 / n))
-    title = (
-        f"A global slip runs through the row, {_rounded(slower)} times slower, "
-        f"with {_rounded(enlarged / pixels_per_m)} times the movement"
-    )
-    slides = _slides(run.transitions, onset, end)
-    bottom = LANES + LANE * n
-    return "\n".join(
-        [
-            f'<svg xmlns="{XMLNS}" viewBox="0 0 1000 {bottom + 60}">',
-            f"<title>{title}</title><style>{STYLE}</style>",
-            '<rect width="100%" height="100%" style="fill: white; stroke: none"/>',
-            f'<text x="{LEFT}" y="24" style="font-weight: bold">{title}</text>',
-            f'<path d="M{LEFT} {PLANE}H{RIGHT}"/>',
-            *_springs(home, moved),
-            *(_block(i, home[i], moved[:, i], slides) for i in range(n)),
-            *(_lane(*slide) for slide in slides),
-            *_axis(n, bottom, end - onset),
-            *_key({0, *(mode for *_, mode in slides)}, bottom),
-            "</svg>\n",
-        ]
-    )
+    closer = -np.diff(moved, axis=1).min(initial=0.0)
+    most = max(np.abs(moved).max() / FARTHEST, closer / (CLOSEST * room))
+    slides = _slides(run.transitions, event)
+    return Act(i, n_acts, event, moved / most, 1 / most, slides)
 
 
-def _slides(transitions: NDArray[Any], onset: float, end: float) -> Slides:
+def _slides(transitions: NDArray[Any], event: Any) -> Slides:
     """Which block slides from when to when, and which way."""
+    onset, end = event.onset_s, event.end_s
+    forward = style.GLOBAL if event.is_global else style.PARTIAL
     inside = (transitions["time"] >= onset) & (transitions["time"] <= end)
     found = []
     for block in np.unique(transitions["block"]):
@@ -92,84 +177,117 @@ def _slides(transitions: NDArray[Any], onset: float, end: float) -> Slides:
         shares = np.append((own["time"] - onset) / (end - onset), 1.0)
         for start, stop, mode in zip(shares, shares[1:], own["mode"], strict=False):
             if mode:
-                found.append((int(block), start, stop, int(mode)))
+                color = forward if mode > 0 else style.BACKWARD
+                found.append((int(block), start, stop, color, bool(mode < 0)))
     return found
 
 
-def _springs(home: NDArray[np.float64], moved: NDArray[np.float64]) -> Iterable[str]:
+def _springs(
+    home: NDArray[np.float64], moved: NDArray[np.float64], side: float, n_acts: int
+) -> Iterable[str]:
     """The drive's spring, whose other end rests, and those between the blocks."""
     right = home + moved
-    left = np.insert(right[:, :-1] + BLOCK, 0, LEFT - BLOCK, axis=1)
+    left = np.insert(right[:, :-1] + side, 0, LEFT - BLOCK, axis=1)
     for of_spring in np.stack([left, right], axis=2).swapaxes(0, 1):
-        paths = [f"M{x1:.1f} {MIDDLE}H{x2:.1f}" for x1, x2 in of_spring]
-        yield f'<path class="spring" d="{paths[0]}">{_animate("d", paths)}</path>'
+        paths = [f"M{x1:.1f} {PLANE - side / 2:.1f}H{x2:.1f}" for x1, x2 in of_spring]
+        moving = _animate("d", paths, n_acts)
+        yield f'<path class="spring" d="{paths[0]}">{moving}</path>'
 
 
-def _block(i: int, x: float, moved: NDArray[np.float64], slides: Slides) -> str:
+def _block(
+    i: int, x: float, moved: NDArray[np.float64], side: float, slides: list[Slides]
+) -> str:
     """A block, with its number, that moves and has the colour of what it does."""
-    colors = [COLORS[0]]
+    share = MOVING / PICTURES
+    colors = [STUCK]
     times = [0.0]
-    for block, start, stop, mode in slides:
-        if block == i + 1:
-            colors += [COLORS[mode], COLORS[0]]
-            times += [start, stop]
-    when = ";".join(f"{time * MOVING / PICTURES:.4f}" for time in times)
-    fill = _animate("fill", colors, f'calcMode="discrete" keyTimes="{when}"')
-    size = f'y="{PLANE - BLOCK}" width="{BLOCK}" height="{BLOCK}"'
-    number = f'<text class="middle" x="{x + BLOCK / 2:.1f}" y="{PLANE - BLOCK - 6}">'
+    for act, its_slides in enumerate(slides):
+        for block, start, stop, color, _ in its_slides:
+            if block == i + 1:
+                colors += [color, STUCK]
+                times += [(act + share * t) / len(slides) for t in (start, stop)]
+    key_times = ";".join(f"{time:.4f}" for time in times)
+    looks = f'calcMode="discrete" keyTimes="{key_times}"'
+    fill = _animate("fill", colors, len(slides), looks)
+    size = f'y="{PLANE - side:.1f}" width="{side:.1f}" height="{side:.1f}"'
+    middle = f'class="middle" x="{x + side / 2:.1f}" y="{PLANE - side - 6:.1f}"'
+    number = f"<text {middle}>{i + 1}</text>" if side > 20 else ""
+    rect = f'<rect x="{x:.1f}" {size} fill="{STUCK}">{fill}</rect>'
+    return f"<g>{_move(moved, len(slides))}{rect}{number}</g>"
+
+
+def _caption(
+    act: Act, home: NDArray[np.float64], side: float, pixels_per_m: float
+) -> str:
+    """What is shown, and how far it reaches, while it is shown."""
+    slower = SECONDS * MOVING / PICTURES / act.duration
+    scales = (
+        f"from F_X = {act.event.load_before_N:.4g} N, {_rounded(slower)} times slower, "
+        f"with {_rounded(act.scale / pixels_per_m)} times the movement"
+    )
+    x = home[act.event.front - 1] + side
+    looks = ["visible" if i == act.i else "hidden" for i in range(act.n_acts)]
+    showing = _animate("visibility", looks, act.n_acts, 'calcMode="discrete"')
     return (
-        f'<g>{_move(moved)}<rect x="{x:.1f}" {size}>{fill}</rect>'
-        f"{number}{i + 1}</text></g>"
+        f'<g visibility="{looks[0]}">{showing}'
+        f'<text x="{LEFT}" y="24" style="font-weight: bold">{act.name}</text>'
+        f'<text x="{LEFT}" y="46">{scales}</text>'
+        f'<path d="M{x:.1f} {PLANE + 3}l7 12h-14z"/>'
+        f'<text class="number" x="{x - 12:.1f}" y="{PLANE + 16}">reach</text></g>'
     )
 
 
-def _lane(block: int, start: float, stop: float, mode: int) -> str:
-    """When a block slides: a bar over time, half as high where it slides back."""
-    x = LEFT + start * (RIGHT - LEFT)
-    width = (stop - start) * (RIGHT - LEFT)
-    height = LANE - 3 if mode > 0 else (LANE - 3) / 2
-    return (
-        f'<rect class="lane" x="{x:.1f}" y="{LANES + LANE * (block - 1)}" '
-        f'width="{width:.1f}" height="{height}" fill="{COLORS[mode]}"/>'
-    )
-
-
-def _axis(n: int, bottom: int, duration: float) -> Iterable[str]:
-    """The lanes' blocks, time, and the moment that moves along."""
+def _numbers(n: int, lane: float) -> Iterable[str]:
     yield f'<text class="number" x="{LEFT - 8}" y="{LANES - 8}">block</text>'
-    for i in range(n):
-        y = LANES + LANE * i + 12
-        yield f'<text class="number" x="{LEFT - 8}" y="{y}">{i + 1}</text>'
-    yield f'<path d="M{LEFT} {bottom}H{RIGHT}"/>'
-    for tick in np.arange(0.0, duration * 1e3, 0.1):
-        x = LEFT + (RIGHT - LEFT) * tick / (duration * 1e3)
-        yield f'<text class="middle" x="{x:.1f}" y="{bottom + 18}">{tick:.1f}</text>'
-    yield f'<text class="number" x="{RIGHT}" y="{bottom + 18}">ms</text>'
-    now = _move((RIGHT - LEFT) * SHARES)
-    yield f'<path class="now" d="M{LEFT} {LANES - 4}V{bottom}">{now}</path>'
+    for i in range(0, n, -(-n // 10)):
+        y = LANES + lane * (n - i - 0.5) + 5
+        yield f'<text class="number" x="{LEFT - 8}" y="{y:.1f}">{i + 1}</text>'
 
 
-def _key(modes: Iterable[int], bottom: int) -> Iterable[str]:
-    for k, mode in enumerate(mode for mode in COLORS if mode in modes):
-        x = LEFT + 200 * k
-        size = 'width="14" height="14"'
-        yield f'<rect x="{x}" y="{bottom + 30}" {size} fill="{COLORS[mode]}"/>'
-        yield f'<text x="{x + 22}" y="{bottom + 43}">{WORDS[mode]}</text>'
+def _panel(act: Act, lane: float, bottom: float) -> Iterable[str]:
+    """When each block slides: a bar over time, half as high where it slides back; how
+    far the event reaches; and the time."""
+    for block, start, stop, color, is_back in act.slides:
+        x = act.left + start * act.width
+        y = bottom - lane * block
+        height = 0.8 * lane / (1 + is_back)
+        yield (
+            f'<rect class="lane" x="{x:.1f}" y="{y:.1f}" '
+            f'width="{(stop - start) * act.width:.1f}" height="{height:.1f}" '
+            f'fill="{color}"/>'
+        )
+    reach = bottom - lane * act.event.front - 3
+    yield f'<path class="reach" d="M{act.left:.1f} {reach:.1f}h{act.width:.1f}"/>'
+    yield f'<text x="{act.left:.1f}" y="{reach - 6:.1f}">{act.name}</text>'
+    yield f'<path d="M{act.left:.1f} {bottom:.1f}h{act.width:.1f}"/>'
+    end_us = 1e6 * act.duration
+    for tick in MaxNLocator(3).tick_values(0.0, 0.85 * end_us)[:-1]:
+        x = act.left + act.width * tick / end_us
+        yield f'<text class="middle" x="{x:.1f}" y="{bottom + 18:.0f}">{tick:g}</text>'
+    x = act.left + act.width
+    yield f'<text class="number" x="{x:.1f}" y="{bottom + 18:.0f}">µs</text>'
+
+
+def _now(acts: list[Act], bottom: float) -> str:
+    """The moment that moves along the panels."""
+    x = np.concatenate([act.left + act.width * SHARES for act in acts])
+    moving = _move(x - LEFT, len(acts))
+    return f'<path class="now" d="M{LEFT} {LANES - 4}V{bottom:.1f}">{moving}</path>'
 
 
 def _animate(
-    name: str, values: Iterable[str], more: str = "", tag: str = "animate"
+    name: str, values: Iterable[str], n_acts: int, more: str = "", tag: str = "animate"
 ) -> str:
     """Let an attribute take values in turn, again and again."""
-    looping = f'dur="{SECONDS}s" repeatCount="indefinite"'
+    looping = f'dur="{SECONDS * n_acts}s" repeatCount="indefinite"'
     return (
         f'<{tag} attributeName="{name}" values="{";".join(values)}" {looping} {more}/>'
     )
 
 
-def _move(pixels: NDArray[np.float64]) -> str:
+def _move(pixels: NDArray[np.float64], n_acts: int) -> str:
     values = [f"{x:.1f}" for x in pixels]
-    return _animate("transform", values, 'type="translate"', "animateTransform")
+    return _animate("transform", values, n_acts, 'type="translate"', "animateTransform")
 
 
 def _rounded(value: float) -> str:

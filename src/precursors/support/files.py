@@ -57,9 +57,7 @@ def check_writable(path: AnyPath, endings: Sequence[str] = ()) -> None:
     """
     target = Path(os.path.realpath(path))
     if endings and target.suffix.lower() not in endings:
-        raise ValueError(
-            f"{path} must end in {', '.join(endings[:-1])} or {endings[-1]}"
-        )
+        raise ValueError(f"{path} must end in {' or '.join(endings)}")
     if len(os.fsencode(target.name)) > LONGEST_NAME:
         raise OSError(
             f"cannot write {path}: its name has more than {LONGEST_NAME} bytes"
