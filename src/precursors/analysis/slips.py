@@ -60,8 +60,8 @@ def find_slips(run: Record) -> pd.DataFrame:
 def slip_table(run: Record) -> pd.DataFrame:
     """Every slip event of a run, with units in the names of the columns.
 
-    `counted` marks the rows of Fig. 13. theta, n_blocks, normal_load_N (F_Z) and
-    length_m (L) say which slider it was, the same in every row; theta is NaN where it
+    `counted` marks the rows of Fig. 13. theta, n_blocks, normal_load_N (F_Z), length_m
+    (L) and mu_k say which slider it was, the same in every row; theta is NaN where it
     is not known.
     """
     slips = find_slips(run)
@@ -71,6 +71,7 @@ def slip_table(run: Record) -> pd.DataFrame:
         n_blocks=run.chain.n_blocks,
         normal_load_N=run.chain.normal_load,
         length_m=run.chain.length,
+        mu_k=run.chain.mu_k,
     )
 
 

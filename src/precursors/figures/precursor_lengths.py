@@ -28,12 +28,14 @@ SHORT: Options = {
     "markeredgewidth": 0.5,
     "zorder": 1.5,
 }
+CARRIED: Options = {"linestyle": (0, (4, 3)), "linewidth": 0.8, "zorder": 1.2}
+CARRIED_TEXT = "dashed:\n" + r"$F_X = \mu_k W(L_p)$"
 # What a curve is: at which of its events the name stands, from which side, and how far
 # away [pt].
 NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
-    -1: ("more load at the pushed end: {}", 0.0, "left", (2.0, -7.0)),
-    0: ("even load: {}", 0.0, "center", (-2.0, -7.0)),
-    1: ("more load at\nthe far end:\n{} events", 0.65, "right", (-11.0, 17.0)),
+    -1: ("more load at the pushed end: {}", 0.0, "left", (20.0, -6.0)),
+    0: ("even load: {}", 0.0, "left", (-8.0, -6.0)),
+    1: ("more load at\nthe far end:\n{} events", 0.65, "right", (-24.0, 14.0)),
 }
 INSET = (0.05, 0.77, 0.26, 0.1)  # of the panel: above all curves
 
@@ -76,13 +78,16 @@ def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
     """Draw the events of Fig. 13 into a panel, with names along the curves.
 
     Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta >
-    0. Small crosses are the short events, which Fig. 13 does not count.
+    0. Small crosses are the short events, which Fig. 13 does not count. Dashed is the
+    load at which kinetic friction carries all of the push up to a length.
     """
     slips = [table for table in slips if len(table)]
     in_place = _are_named_in_place(slips)
     outlines = "o" * len(slips) if in_place else cycle(OUTLINES)
     for table, outline in zip(slips, outlines, strict=False):
         points = _draw_events(axes, table, outline)
+        length, load = friction_carried(table.iloc[0])
+        axes.plot(load, length, **CARRIED, color=style.theta_color(_sign(table)))
         if in_place:
             _name(axes, points, _sign(table))
     axes.set(xlim=(0, None), ylim=(-0.03, 1.06))
@@ -90,8 +95,22 @@ def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
     axes.set_ylabel("Propagation length $L_p/L$ [-]")
     if in_place and len(slips) > 1:
         _draw_last(axes, slips)
+        axes.text(0.98, 0.5, CARRIED_TEXT, transform=axes.transAxes, ha="right")
     elif not in_place:
+        axes.plot([], [], **CARRIED, color=style.GREY, label=CARRIED_TEXT)
         axes.plot([], [], **SHORT, color=style.GREY, label="short events, not counted")
+
+
+def friction_carried(
+    slider: pd.Series,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lengths L_p/L, and F_X = mu_k W(L_p) [N], the kinetic friction of the blocks up
+    to there (Eq. 7); NaN where theta is not known."""
+    n_blocks = int(slider["n_blocks"])
+    n = np.arange(n_blocks + 1)
+    tilt = slider["theta"] * n * (n - n_blocks) / max(n_blocks - 1, 1)
+    load = slider["normal_load_N"] / n_blocks * (n + tilt)
+    return n / n_blocks, slider["mu_k"] * load
 
 
 def _add_coefficient(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:

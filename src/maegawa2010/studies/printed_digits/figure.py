@@ -28,7 +28,7 @@ DOT: Options = {
     "markeredgewidth": 0,
     "linestyle": "none",
 }
-TITLE: Options = {"fontsize": 10, "fontweight": "bold", "loc": "left", "pad": 7}
+TITLE: Options = {"fontsize": 8.6, "fontweight": "bold", "loc": "left", "pad": 7}
 STAR: Options = {
     "marker": "*",
     "markersize": 11,
@@ -43,7 +43,7 @@ STAR: Options = {
 def draw(
     slips: Sequence[pd.DataFrame], members: pd.DataFrame, shares: pd.DataFrame
 ) -> Figure:
-    """Draw Fig. 13, and beside it mu_sapp of all sliders that are printed alike.
+    """Draw Fig. 13, and beside it mu_sapp of all sliders with the same printed inputs.
 
     `members` is digits_members.csv, whose draw 0 of a scene is the slider with the
     printed digits, and `shares` is digits.csv.
@@ -54,9 +54,7 @@ def draw(
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         left, right = figure.subplots(1, 2)
         draw_lengths(left, [table[table["counted"]] for table in slips])
-        left.set_title(
-            "The paper's six numbers come out \N{HORIZONTAL ELLIPSIS}", **TITLE
-        )
+        left.set_title("The paper's six numbers come out", **TITLE)
         right.axvspan(
             printed.MU_SAPP - printed.LAST_DIGIT,
             printed.MU_SAPP + printed.LAST_DIGIT,
@@ -66,10 +64,7 @@ def draw(
         )
         for place, (scene, own) in enumerate(scenes):
             _draw_strip(right, place, own, within.loc[scene])
-        n = within["n"].max()
-        right.set_title(
-            f"\N{HORIZONTAL ELLIPSIS} but they are one draw of {n}", **TITLE
-        )
+        right.set_title("Few sliders with the same printed inputs agree", **TITLE)
         right.set(
             xlabel=style.MU_SAPP_LABEL, yticks=[], ylim=(-0.45, len(scenes) - 0.31)
         )
@@ -110,7 +105,7 @@ def _draw_strip(axes: Axes, place: int, own: pd.DataFrame, summary: Any) -> None
 def _draw_key(figure: Figure) -> None:
     band = f"{printed.MU_SAPP:g} $\\pm$ {printed.LAST_DIGIT:g}, and the share inside"
     entries = [
-        style.mark("a slider whose inputs are printed alike", **DOT),
+        style.mark("a slider with the same printed inputs", **DOT),
         style.mark("median and nine tenths", marker="|", linewidth=2),
         style.mark("the slider with the printed digits", **STAR),
         style.mark(band, color=style.PALE, linewidth=6),
