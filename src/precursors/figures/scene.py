@@ -27,7 +27,7 @@ KINDS: dict[str, Options] = {
     "global slip": {"color": style.GLOBAL, "linewidth": 1.2},
 }
 FIRST_GLOBAL: Options = {
-    "color": style.BLACK,
+    "color": style.GREY,
     "linewidth": 0.7,
     "linestyle": "--",
     "zorder": 1.5,
@@ -120,7 +120,8 @@ def _draw_loads(
     axes: NDArray[Any], slips: pd.DataFrame, trace: pd.DataFrame, end: float
 ) -> None:
     """Draw F_X, and the staircase K x_1 with its risers in the colours of the events."""
-    seen = trace[trace["time_s"] <= end]
+    # One row more: the load goes on to the end of the panel.
+    seen = trace[trace["time_s"].shift(fill_value=0.0) <= end]
     for panel, column in zip(axes, ("tangential_load_N", "K_x1_N"), strict=False):
         panel.plot(seen["time_s"], seen[column], color=style.BLACK, linewidth=0.6)
     for kind, look in KINDS.items():
