@@ -28,6 +28,7 @@ def draw(table: pd.DataFrame) -> Figure:
                 [rows["difference"] - rows["low"], rows["high"] - rows["difference"]],
                 color=style.theta_color(float(str(theta))),
                 marker="s",
+                linestyle="none",
             )
         style.draw_level(axes, LAST_DIGIT, "unit of the last printed digit", "top")
         axes.set(xscale="log", ylim=(0, None), xlabel="Noise in the normal loads [%]")
