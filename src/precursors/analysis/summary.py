@@ -47,8 +47,8 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
         Up to and including the first global slip: events_to_global_slip (all slip
         events), events_counted (those of Fig. 13), records (those of them that are
         longer than all before), speedup (see `_speedup`), transitions; mu_sapp [1]
-        (Eq. 1) and the load F_X [N] that it stands for. Of the first global slip: time
-        (its onset) and end [s]. Where reached is False there was no global slip: these
+        (Eq. 1). Of the first global slip: time [s] and load F_X [N] at its onset, and
+        its end [s]. Where reached is False there was no global slip: these
         are NaN, and the counts are those of the whole run. A global slip that the end
         of the run cuts off has end NaN. n_global and n_all_events count the global
         slips and the events of the whole run.
@@ -87,7 +87,7 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
     normal_load = np.array([chain.normal_load for chain in chains])
     n_blocks = np.array([chain.n_blocks for chain in chains])
     first_global = {
-        "load": slips["largest_load"],
+        "load": slips["load_before"],
         "mu_sapp": mu_sapp(slips["largest_load"], normal_load),
         "time": slips["onset"],
         "end": slips["end"],
