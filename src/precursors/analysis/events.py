@@ -32,8 +32,10 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     """Slip events of some runs: maximal time intervals in which at least one block
     slides.
 
-    An event ends where no block slides, unless the next one releases at the same
-    instant. One that the end of its run cuts off has end and load_after NaN.
+    Of blocks without load nothing is known: a run has no transitions of them. They
+    are taken to slide where all others do, so that front, n_slid and n_simultaneous are
+    then N. An event ends where no block slides, unless the next one releases at the
+    same instant. One that the end of its run cuts off has end and load_after NaN.
 
     Returns
     -------
@@ -48,6 +50,7 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     pauses = np.concatenate([[], *(run.intervals[1:] for run in runs)])
     lengths = np.array([len(run.transitions) for run in runs], dtype=int)
     n_blocks = np.array([run.chain.n_blocks for run in runs], dtype=int)
+    n_loaded = np.array([np.count_nonzero(r.chain.weights) for r in runs], dtype=int)
     starts = np.cumsum(lengths) - lengths
     run = np.repeat(np.arange(len(runs)), lengths)
 
@@ -84,5 +87,9 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     slid = np.unique((event * n_all + block)[sliding]) // n_all
     events["n_slid"] = np.bincount(slid, minlength=len(lasts))
     events["n_simultaneous"] = np.maximum.reduceat(n_sliding, firsts)
-    events["is_global"] = events["n_simultaneous"] == n_blocks[events["run"]]
+    for name in ("n_slid", "n_simultaneous"):
+        is_all = events[name] == n_loaded[events["run"]]
+        events[name] = np.where(is_all, n_blocks[events["run"]], events[name])
+    events["is_global"] = is_all
+    events["front"] = np.where(is_all, n_blocks[events["run"]], events["front"])
     return events

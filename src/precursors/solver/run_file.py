@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from precursors.model.chain import ARGUMENTS, Chain, remember_theta
 from precursors.model.checks import not_negative
-from precursors.solver.record import COLUMNS, States
+from precursors.solver.record import COLUMNS, FREE, States
 from precursors.support.files import write_whole
 
 if TYPE_CHECKING:
@@ -202,7 +202,7 @@ def _check(found: Mapping[str, NDArray[Any]], duration: float, n_blocks: int) ->
         "transitions/block": (1, n_blocks),
         "transitions/mode": (-1, 1),
         "intervals": span,
-        "states/mode": (-1, 1),
+        "states/mode": (-1, FREE),
         "states/after": (0, n),
         "states/offset": span,
     }

@@ -41,6 +41,7 @@ from precursors.solver.kernel.series import (
     two_sum,
 )
 from precursors.solver.kernel.units import lay_out
+from precursors.solver.record import FREE
 
 
 @outer
@@ -68,7 +69,7 @@ def run_batch(batch, end, progress, record, states, memory, first, windows):
         my_record = row_address(record, used)
         my_states = row_address(states, stored)
         if is_new:
-            start = batch.positions[j], batch.velocities[j]
+            start = batch.positions[j], batch.velocities[j], batch.weights[j]
             take_start(
                 start, batch.parameters[j], chain, motion, mine, my_record, my_states
             )
@@ -94,9 +95,9 @@ def run_batch(batch, end, progress, record, states, memory, first, windows):
 
 @unfused
 def take_start(start, parameters, chain, motion, progress, record, states):
-    """Take a start at time 0. In the first state all modes are 0; blocks that move are
-    transitions."""
-    positions, velocities = start
+    """Take a start at time 0. In the first state all blocks with a load stick; those
+    that move are transitions."""
+    positions, velocities, weights = start
     mass, stiffness, spring, _, _, _ = parameters
     stiffest = farthest = before = 0.0
     for i in range(chain.n_blocks):
@@ -104,6 +105,7 @@ def take_start(start, parameters, chain, motion, progress, record, states):
         farthest = max(farthest, abs(positions[i]))
         motion.spring_force[i + 1] = spring * (before - positions[i])
         motion.velocity[i + 1] = velocities[i] * (mass / chain.tau)
+        motion.mode[i + 1] = 0 if weights[i] > 0.0 else FREE
         before = positions[i]
         spring = stiffness
     progress.tau = chain.tau
@@ -111,6 +113,11 @@ def take_start(start, parameters, chain, motion, progress, record, states):
     store_state(chain, motion, progress, states)
     for i in range(1, chain.n_blocks + 1):
         take_net_force(i, motion)
+        if motion.mode[i] == FREE:
+            progress.free += 1
+            count_sliding(1, chain, progress)
+            take_mode(i, chain, motion)
+            continue
         # A position of size x is known to its rounding: a block at its limit to within
         # that still sticks.
         rounding = ROUNDINGS * (chain.strength[i] + 4.0 * stiffest * farthest)
@@ -241,6 +248,11 @@ def note_transition(i, new, load, progress, record):
 @inner_unfused
 def slide(chain, motion, end, progress, record):
     """Go through one window, to its first transition or to its end."""
+    if progress.sliding == progress.free:
+        # Only blocks without load move, which is no event.
+        if end.until_global and progress.all_slid != 0:
+            return STOPPED
+        start_clock(0.0, progress)
     remaining = time_left(end, progress)
     left_of_slip = end.longest_slip / chain.tau - progress.elapsed
     if remaining <= 0.0:

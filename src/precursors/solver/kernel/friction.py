@@ -4,6 +4,7 @@ block at rest takes."""
 from __future__ import annotations
 
 from precursors.solver.kernel.decorators import inner, seldom
+from precursors.solver.record import FREE
 
 
 @inner
@@ -30,11 +31,11 @@ def take_mode(i, chain, motion):
 @inner
 def take_neighbours(i, chain, motion):
     """Set whether the function watched of block i changes: it or a neighbour of it
-    moves."""
+    moves. A block without load has none."""
     slides = motion.slides
     coupling = chain.coupling
     moved = slides[i] + coupling[i] * slides[i - 1] + coupling[i + 1] * slides[i + 1]
-    motion.felt[i] = 1.0 if moved > 0.0 else 0.0
+    motion.felt[i] = 1.0 if moved > 0.0 and motion.mode[i] != FREE else 0.0
 
 
 @inner
