@@ -32,10 +32,10 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     """Slip events of some runs: maximal time intervals in which at least one block
     slides.
 
-    Of blocks without load nothing is known: a run has no transitions of them. They
-    are taken to slide where all others do, so that front, n_slid and n_simultaneous are
-    then N. An event ends where no block slides, unless the next one releases at the
-    same instant. One that the end of its run cuts off has end and load_after NaN.
+    Blocks without load do not count, but are taken to slide where all others do: front,
+    n_slid and n_simultaneous are then N. An event ends where no block slides, unless
+    the next one releases at the same instant. One that the end of its run cuts off has
+    end and load_after NaN.
 
     Returns
     -------
@@ -54,7 +54,8 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     starts = np.cumsum(lengths) - lengths
     run = np.repeat(np.arange(len(runs)), lengths)
 
-    sliding = mode != 0
+    loads = [run.chain.weights[run.transitions["block"] - 1] for run in runs]
+    sliding = (mode != 0) & (np.concatenate([time[:0], *loads]) > 0.0)
     # Every block of every run has its own number, so that sorting shows what each block
     # did before.
     block = of_block + np.repeat(np.cumsum(n_blocks) - n_blocks, lengths)
@@ -92,4 +93,4 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
         events[name] = np.where(is_all, n_blocks[events["run"]], events[name])
     events["is_global"] = is_all
     events["front"] = np.where(is_all, n_blocks[events["run"]], events["front"])
-    return events
+    return events[events["n_slid"] > 0]

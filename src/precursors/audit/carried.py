@@ -8,7 +8,7 @@ from functools import lru_cache, partial
 import numpy as np
 
 from precursors.audit.motion import ModalMotion, modes_of_all, normal_modes
-from precursors.model.chain import FloatArray
+from precursors.model.chain import FREE, FloatArray
 from precursors.solver.run import Run
 
 _UNIT = 2.0**-53  # a rounding, relative
@@ -37,7 +37,7 @@ class CarriedState:
         self.springs = chain.springs
         self.strength = chain.strength
         self.friction = chain.kinetic_friction
-        self.mode = np.zeros(chain.n_blocks, dtype=np.int64)
+        self.mode = np.where(chain.weights > 0.0, 0, FREE)
         self.velocity = run.start_velocities.copy()
         # the force of the spring behind each block, and a zero ahead of block N
         stretch = -np.diff(positions, prepend=0.0)

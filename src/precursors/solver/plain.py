@@ -19,8 +19,8 @@ linearly in time. With the force T_i in the spring behind each block, its stiffn
 4. A block that stops sticks if |T_i - T_{i+1}| <= mu_s w_i, and otherwise follows that
   force. A block that lets go slides in the direction of the force.
 5. Where all blocks stick, only T_1 grows, by K V in a second, until block 1 lets go.
-6. A block without load has no friction and no transitions: it always moves. An event
-  is over where all others stick.
+6. A block without load has no friction and no transitions: once pushed, it moves for
+  ever. An event is over where all others stick.
 """
 
 from __future__ import annotations
@@ -31,8 +31,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.model.chain import Chain
-from precursors.solver.record import FREE
+from precursors.model.chain import FREE, Chain
 
 Floats = NDArray[np.floating]
 REAL = np.longdouble  # more digits, where the machine has them
@@ -86,6 +85,15 @@ def at_start(chain: Chain, positions: Floats, velocities: Floats) -> State:
     )
 
 
+def is_at_rest(state: State) -> bool:
+    """Whether nothing moves but the drive: all blocks stick, or bear no load and were
+    never pushed."""
+    moved = (state.velocity[1:-1] != 0.0) | (np.diff(state.force[1:]) != 0.0)
+    moved[0] = True
+    mode = state.mode[1:-1]
+    return not ((abs(mode) == 1) | ((mode == FREE) & moved)).any()
+
+
 def expand(chain: Chain, state: State, window: float) -> tuple[Floats, Floats]:
     """Taylor series of velocities and spring forces, row n times s^n, with s = 1 at the
     end of the window."""
@@ -102,7 +110,7 @@ def expand(chain: Chain, state: State, window: float) -> tuple[Floats, Floats]:
             - force[n, 2 : last + 2]
             - (friction if n == 0 else 0.0)
         )
-        v[n + 1, 1 : last + 1] = window / (n + 1) * abs(mode) * pull / chain.mass
+        v[n + 1, 1 : last + 1] = window / (n + 1) * (mode != 0) * pull / chain.mass
         force[n + 1, 1 : last + 1] = (
             window / (n + 1) * springs * (v[n, :last] - v[n, 1 : last + 1])
         )
@@ -220,7 +228,7 @@ def find_transitions(
             elapsed = 0.0
         if elapsed >= longest_slip:
             break
-        if not state.mode.any():
+        if is_at_rest(state):
             margin = chain.strength[0] - state.force[1] + state.force[2]
             wait = max(margin / chain.loading_rate, 0.0)
             onset = onset + min(wait, left)

@@ -15,9 +15,6 @@ TRANSITION = np.dtype(
     [("time", "f8"), ("block", "i4"), ("mode", "i1"), ("tangential_load", "f8")]
 )
 COLUMNS = list(TRANSITION.names or ())
-# Mode, in a state, of a block that bears no load: it moves without friction, so that it
-# neither sticks nor slips and has no transitions.
-FREE = 2
 
 
 class States(NamedTuple):

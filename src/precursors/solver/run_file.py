@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.model.chain import ARGUMENTS, Chain, remember_theta
+from precursors.model.chain import ARGUMENTS, FREE, Chain, remember_theta
 from precursors.model.checks import not_negative
-from precursors.solver.record import COLUMNS, FREE, States
+from precursors.solver.record import COLUMNS, States
 from precursors.support.files import write_whole
 
 if TYPE_CHECKING:

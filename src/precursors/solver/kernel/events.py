@@ -3,6 +3,7 @@ record."""
 
 from __future__ import annotations
 
+from precursors.model.chain import FREE
 from precursors.solver.kernel.arrays import ROW, progress_at
 from precursors.solver.kernel.decorators import (
     inner,
@@ -13,6 +14,7 @@ from precursors.solver.kernel.decorators import (
 )
 from precursors.solver.kernel.friction import (
     farthest_sliding,
+    is_at_rest,
     mode_at_rest,
     set_mode,
     take_mode,
@@ -41,7 +43,6 @@ from precursors.solver.kernel.series import (
     two_sum,
 )
 from precursors.solver.kernel.units import lay_out
-from precursors.solver.record import FREE
 
 
 @outer
@@ -152,7 +153,8 @@ def find_transitions(chain, motion, end, limits, progress, record, states):
         progress.windows += 1
         if progress.transitions >= progress.stride * progress.stored:
             store_state(chain, motion, progress, states)
-        if progress.sliding == 0:
+        no_event = progress.sliding == progress.free
+        if no_event and (progress.free == 0 or is_at_rest(chain, motion)):
             status = rest(chain, motion, end, progress, record)
         else:
             status = slide(chain, motion, end, progress, record)
@@ -182,7 +184,7 @@ def time_left(end, progress):
 
 @inner_unfused
 def rest(chain, motion, end, progress, record):
-    """All blocks stick: end the run, or wait in closed form until block 1 lets go."""
+    """Nothing moves: end the run, or wait in closed form until block 1 lets go."""
     if end.until_global and progress.all_slid != 0:
         return STOPPED
     force = motion.spring_force
@@ -199,7 +201,6 @@ def rest(chain, motion, end, progress, record):
     take_net_force(block_1, motion)
     start_clock(wait, progress)
     set_mode(block_1, block_1, chain, motion)
-    progress.farthest = 1
     count_sliding(1, chain, progress)
     note_transition(block_1, block_1, force[1], progress, record)
     return PAUSED

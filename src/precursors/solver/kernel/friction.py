@@ -3,8 +3,8 @@ block at rest takes."""
 
 from __future__ import annotations
 
+from precursors.model.chain import FREE
 from precursors.solver.kernel.decorators import inner, seldom
-from precursors.solver.record import FREE
 
 
 @inner
@@ -45,6 +45,20 @@ def mode_at_rest(force, limit):
     if abs(force) <= limit:
         return 0
     return 1 if force > 0.0 else -1
+
+
+@seldom
+def is_at_rest(chain, motion):
+    """Whether nothing moves but the drive: all blocks stick, or bear no load and were
+    never pushed."""
+    force = motion.spring_force
+    rest = motion.force_rest
+    for i in range(1, chain.n_blocks + 1):
+        is_pushed = force[i] != force[i + 1] or rest[i] != rest[i + 1]
+        is_moved = motion.velocity[i] != 0.0 or is_pushed or i == 1
+        if abs(motion.mode[i]) == 1 or (motion.mode[i] == FREE and is_moved):
+            return False
+    return True
 
 
 @seldom

@@ -9,7 +9,12 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.solver.kernel.arrays import memory_for
 from precursors.solver.kernel.decorators import inner, outer, unfused
 from precursors.solver.kernel.events import last_column
-from precursors.solver.kernel.friction import farthest_sliding, set_mode, take_mode
+from precursors.solver.kernel.friction import (
+    farthest_sliding,
+    is_at_rest,
+    set_mode,
+    take_mode,
+)
 from precursors.solver.kernel.layout import WINDOW
 from precursors.solver.kernel.series import (
     begin,
@@ -89,7 +94,7 @@ def go_through(
         since = times[q] - instants[done]
         # Whole windows are gone through once, so that many times in one slip cost no
         # more than the slip.
-        is_moving = motion.mode[farthest_sliding(chain.n_blocks, motion.mode)] != 0
+        is_moving = not is_at_rest(chain, motion)
         while since - offset > WINDOW * chain.tau and is_moving:
             propagate(WINDOW, chain, motion)
             offset += WINDOW * chain.tau
@@ -116,12 +121,10 @@ def take_state(row, states, chain, motion):
 def propagate(span, chain, motion):
     """Advance a state by `span`, within which no mode changes."""
     force = motion.spring_force
-    n_blocks = chain.n_blocks
-    farthest = farthest_sliding(n_blocks, motion.mode)
-    if motion.mode[farthest] == 0:
+    if is_at_rest(chain, motion):
         force[1] += chain.coupling[1] * chain.drive_velocity * span
         return
-    end = last_column(chain, farthest)
+    end = last_column(chain, farthest_sliding(chain.n_blocks, motion.mode))
     first_row = 2
     for i in range(1, end + 1):
         take_net_force(i, motion)
