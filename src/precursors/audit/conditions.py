@@ -34,7 +34,7 @@ class Conditions:
         self.motion = motion
         self.mode = state.mode.copy()
         self.computed = 0
-        moves = state.mode != 0
+        moves = state.moves()
         near = moves.copy()
         near[0] = True
         near[1:] |= moves[:-1]

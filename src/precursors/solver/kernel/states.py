@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import FREE, Chain, FloatArray
 from precursors.solver.kernel.arrays import memory_for
 from precursors.solver.kernel.decorators import inner, outer, unfused
 from precursors.solver.kernel.events import last_column
@@ -25,6 +25,10 @@ from precursors.solver.kernel.series import (
 )
 from precursors.solver.kernel.units import lay_out, parameters
 from precursors.solver.record import States
+
+# Speed [m/s] of a block at the very instant of its release, which tells its direction:
+# a run that starts there has it slide from time 0.
+JUST_RELEASED = 1e-200
 
 
 def evaluate(
@@ -103,6 +107,9 @@ def go_through(
         for i in range(chain.n_blocks):
             found[0, q, i] = motion.spring_force[i + 1]
             found[1, q, i] = motion.velocity[i + 1] * chain.speed
+            mode = motion.mode[i + 1]
+            if found[1, q, i] == 0.0 and mode != 0 and mode != FREE:
+                found[1, q, i] = mode * JUST_RELEASED
         state[:] = before
 
 
