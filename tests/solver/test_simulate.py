@@ -201,13 +201,6 @@ def test_a_run_that_starts_at_a_release_has_it_at_time_0_and_goes_on_alike():
     assert again["time"][0] == 0.0
 
 
-def test_a_start_off_balance_by_less_than_a_rounding_moves_as_the_model_does():
-    """Without friction; 1e-30 m are 1e-24 N, less than a rounding of what the drive
-    adds in 1e-8 s."""
-    chain = SLIDER(2, mu_s=0.0, mu_k=0.0)
-    audited(simulate(chain, duration=1e-3, start_positions=[1e-30, 0.0]))
-
-
 def test_a_chain_of_many_blocks_has_a_lower_limit_of_transitions():
     for n, given, most in ((500, None, 10**7), (501, None, 10**6), (501, 2, 2)):
         assert checked_end([SLIDER(n)], 1.0, None, given, None).most == most
