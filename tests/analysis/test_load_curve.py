@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from precursors import Chain, find_slips, simulate
+from precursors.analysis import load_curve as module
 from precursors.analysis.load_curve import TOLERANCE_N, load_curve, load_trace
 
 # Some thirty points on the shortest wiggle of a slip.
@@ -41,6 +42,18 @@ def test_they_do_so_for_other_chains_and_tolerances_with_no_more_points_than_bef
     times, loads = load_curve(run, tolerance)
     assert tolerance / 100 < worst_in_slips(run, times, loads) <= tolerance
     assert len(times) == n_points
+
+
+def test_a_block_1_without_load_is_drawn_as_it_moves_with_a_bounded_number_of_points(
+    monkeypatch,
+):
+    run = simulate(Chain.from_slider(theta=1), 0.01)
+    times, loads = load_curve(run)
+    between = np.linspace(0.0, run.duration, 10_000)
+    apart = abs(np.interp(between, times, loads) - run.tangential_load(between))
+    assert apart.max() <= TOLERANCE_N
+    monkeypatch.setattr(module, "MOST_POINTS", 100)
+    assert len(load_curve(run)[0]) < 110 + len(run.transitions)
 
 
 def test_a_run_that_ends_within_a_slip_is_drawn_to_its_end():

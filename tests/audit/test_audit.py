@@ -166,6 +166,12 @@ def test_energy_that_goes_astray_is_found(uniform):
     assert "out of balance" in stopped.found.problems[0]
 
 
+def test_a_transition_of_a_block_without_load_is_none():
+    run = simulate(SLIDER(theta=-1), 1.0)
+    report = audit(changed(run, 0, block=10))
+    assert "block 10 bears no load" in report.problems[0]
+
+
 def test_each_kind_of_mistake_is_found_and_told_as_it_was():
     kept.assert_table("audits", audits())
 

@@ -55,6 +55,7 @@ def test_random_sliders_and_those_that_are_called_proved_move_as_in_the_kernel(p
     random = [random_slider(rng) for _ in range(50)]
     proved = [proved_slider(values) for values in CONFIG["horizon"]["proved"].values()]
     assert all(scene_slider(CONFIG, scene) in proved for scene in THETAS)
+    proved.append({"theta": -1.0})  # whose last block bears no load
     runs = [first_transitions(slider) for slider in random]
     for slider in proved:
         run = simulate(Chain.from_slider(**slider), until="global slip")

@@ -338,7 +338,9 @@ HARD = [
 )
 def test_blocks_without_friction_move_with_the_drive(slider, added):
     run = simulate_larger(LargerChain(SLIDER(**slider), **added), 1e-3)
-    assert run.transitions[0].tolist() == (0.0, 1, 1, 0.0)
+    # A block without load has no transitions.
+    released = [] if slider is WEIGHTLESS else [(0.0, 1, 1, 0.0)]
+    assert run.transitions[:1].tolist() == released
     assert abs(run.larger["energy_error"]) < ENERGY
 
 

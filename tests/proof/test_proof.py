@@ -84,11 +84,12 @@ def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(
     assert stop.tangential_load.radius <= LOAD_RADIUS
 
 
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("theta", [*SCENES.values(), "-1"])
 def test_a_scene_is_proved_up_to_its_global_slip_as_the_solver_finds_it(
-    scene: str,
+    theta: str,
 ) -> None:
-    chain = ExactChain.from_slider(theta=SCENES[scene])
+    """Or, at theta = -1, a chain with a block that bears no load."""
+    chain = ExactChain.from_slider(theta=theta)
     truth = Truth.proved(certify(chain, 10, until="global slip"))
     found = compare(simulate(chain.to_chain(), until="global slip"), truth)
     assert found.transitions_right == found.transitions_found == found.transitions_true

@@ -7,10 +7,15 @@ import h5py
 import numpy as np
 import pytest
 from chains import SLIDER, first_transitions
+from numba import njit
 from random_chains import mild_chain
 
 from precursors import Record, Run, RunFileError, simulate
 from precursors.model.statics import maximal_strain_positions
+from precursors.solver.kernel.arrays import memory_for
+from precursors.solver.kernel.friction import take_mode
+from precursors.solver.kernel.states import propagate
+from precursors.solver.kernel.units import lay_out, parameters
 from precursors.solver.run import LargerRun
 
 # A transition's own time is known to 4e-16 s only, and F_X changes by up to 1e6 N/s
@@ -97,6 +102,24 @@ def test_a_run_that_goes_on_from_its_state_at_any_time_has_the_transitions_of_th
 def test_times_outside_the_run_or_that_are_no_numbers_are_refused(run, times, words):
     with pytest.raises(ValueError, match="^times must be " + words):
         run.at(times)
+
+
+def test_a_spring_ahead_of_all_that_moves_keeps_its_force_in_both_doubles():
+    """The first beyond the group of four blocks in which block 1 slides."""
+    spring = 5
+    force = 1.0, 1e-20
+
+    @njit
+    def after_a_window(parameters, weights, memory):
+        chain, motion = lay_out(parameters, weights, memory)
+        motion.mode[1] = 1
+        take_mode(1, chain, motion)
+        motion.spring_force[spring], motion.force_rest[spring] = force
+        propagate(1.0, chain, motion)
+        return motion.spring_force[spring], motion.force_rest[spring]
+
+    chain = SLIDER(8)
+    assert after_a_window(parameters(chain), chain.weights, memory_for(8)) == force
 
 
 def test_at_time_0_a_run_is_where_it_began():

@@ -5,6 +5,7 @@ The closest transitions of two blocks in golden/worst_cases.jsonl are 2e-11/omeg
 omega being the bound of the largest frequency. Pairs called grazing differ by 1e-9 in
 their drive, and a block stops in one of them only. Times were proved; where there is a
 tie, they were computed to 70 digits by a method that shared no code with the solver.
+Blocks without load have no transitions.
 """
 
 from __future__ import annotations

@@ -58,19 +58,20 @@ def test_where_there_is_no_room_the_old_file_stays_and_one_line_says_so(
     assert os.listdir(tmp_path) == [name]
 
 
-def test_the_file_is_not_there_before_it_is_whole_and_a_killed_writer_leaves_nothing(
+def test_the_file_is_not_there_before_it_is_whole_and_each_writer_has_its_own_until_then(
     tmp_path, monkeypatch
 ):
     def killed(temporary, target):
-        assert os.listdir(tmp_path) == [".partial.table.csv"]
+        (name,) = os.listdir(tmp_path)
+        assert name not in names
+        names.append(name)
         raise KeyboardInterrupt
 
-    (tmp_path / ".partial.table.csv").write_text(
-        "what one left that could not clean up"
-    )
+    names = ["table.csv"]
     monkeypatch.setattr(os, "replace", killed)
-    with pytest.raises(KeyboardInterrupt):
-        write_text(tmp_path / "table.csv", "new")
+    for _ in range(2):
+        with pytest.raises(KeyboardInterrupt):
+            write_text(tmp_path / "table.csv", "new")
     assert os.listdir(tmp_path) == []
 
 

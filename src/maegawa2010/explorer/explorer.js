@@ -130,8 +130,8 @@ function placeTime() {
 function askMotion(number) {
   if (motions.has(number) || number === wanted) return;
   wanted = number;
-  const { onset, end } = run.events[number];
-  workers[0].postMessage({ id: run.id, slider: run.slider, duration: DURATION, event: number, onset, end, force: restForces(number) });
+  const { onset, end, start } = run.events[number];
+  workers[0].postMessage({ id: run.id, slider: run.slider, duration: DURATION, event: number, onset, end, start, force: restForces(number) });
 }
 
 function magnify(of) {

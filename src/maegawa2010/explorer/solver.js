@@ -7,6 +7,7 @@
 
 const WINDOW = 0.6875; // length of a Taylor window [tau]
 const ORDER = 24; // (2 WINDOW)^ORDER / ORDER! is below 1e-19
+const FREE = 2; // mode of a block without load: it moves without friction and has no transitions
 const MOST_TRANSITIONS = 200000;
 const MOST_WINDOWS = 2000000;
 
@@ -54,6 +55,7 @@ function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms
   };
   setTerms(terms, end);
   for (let i = 1; i <= last; i++) {
+    if (mode[i] === FREE) continue;
     if (mode[i]) {
       let least = 0;
       for (let r = ORDER; r >= 0; r--) {
@@ -118,17 +120,23 @@ function advance({ n, c, drive }, rows, force, last, t, terms, slip) {
   for (let i = 1; i <= Math.min(last + 1, n); i++) force[i] += c[i] * (slip[i - 1] - slip[i]);
 }
 
-// Follow one slip event from its onset, at which block 1 lets go, and pause after every window;
+// Follow the motion from where a block lets go, block 1 if all are at rest, until nothing moves, and pause after every window;
 // `note(t, block, mode, force, velocity)` hears every transition and window (block 0). The result is the duration [tau].
-function* slipEvent(chain, force, longest, note, window = WINDOW) {
-  const { n, c, strength, drive } = chain;
+// It is one slip event, unless blocks without load go on moving after it.
+const FROM_REST = { block: 1, way: 1, velocity: [] };
+function* motionFrom(chain, force, longest, note, window = WINDOW, { block: first, way: side, velocity } = FROM_REST) {
+  const { n, c, strength, weights, drive } = chain;
   const rows = new Float64Array(c.length + ORDER * c.length), slip = new Float64Array(c.length);
   const mode = new Int8Array(c.length), terms = [], series = [];
+  rows.set(velocity);
   rows[0] = drive;
-  let sliding = 1, farthest = 1, elapsed = 0;
-  mode[1] = 1;
-  note(0, 1, 1, force, rows);
-  while (sliding && elapsed < longest) {
+  weights.forEach((w, j) => (mode[j + 1] = w ? 0 : FREE));
+  const isReleased = !mode[first];
+  if (isReleased) mode[first] = side;
+  let moving = 0, farthest = 0, elapsed = 0;
+  mode.forEach((m, i) => m && (moving++, (farthest = i)));
+  if (isReleased) note(0, first, side, force, rows);
+  while (moving && elapsed < longest) {
     const last = Math.min(farthest + 1, n);
     expand(chain, rows, force, mode, last);
     const [t, block, way] = firstTransition(chain, rows, force, mode, last, Math.min(window, longest - elapsed), terms, series);
@@ -139,10 +147,10 @@ function* slipEvent(chain, force, longest, note, window = WINDOW) {
       rows[block] = 0;
       // The switching rule: it lets go in the direction of the force, or sticks where the force is below the limit.
       const next = way || Math.sign(Math.trunc(net / strength[block]));
-      sliding += Math.abs(next) - Math.abs(mode[block]);
+      moving += Math.abs(next) - Math.abs(mode[block]);
       mode[block] = next;
       farthest = Math.max(farthest, block);
-      while (sliding && !mode[farthest]) farthest--;
+      while (moving && !mode[farthest]) farthest--;
     }
     note(elapsed, block, mode[block], force, rows);
     yield elapsed;
@@ -155,7 +163,8 @@ const newRun = (chain, duration) => ({ chain, duration, time: [], block: [], mod
 
 // Solve a run, and pause with the time [s] in it after every window. A run that meets a limit is `stopped` at its `end`.
 function* solve(run) {
-  const { chain, duration, force } = run, { n, c, tau, strength, drive } = chain;
+  const { chain, duration, force } = run, { n, c, tau, strength, weights, drive } = chain;
+  const loaded = weights.filter((w) => w > 0).length;
   let windows = 0;
   for (;;) {
     const wait = ((strength[1] - (force[1] - force[2])) / (c[1] * drive)) * tau, onset = run.end + wait;
@@ -165,24 +174,32 @@ function* solve(run) {
       return;
     }
     force[1] = force[2] + strength[1];
-    const event = { onset, force: force.slice(), first: run.time.length, before: force[1], front: 1, mostSliding: 1 };
     const states = new Int8Array(c.length);
-    let sliding = 0, elapsed = 0;
-    const slip = slipEvent(chain, force, (duration - onset) / tau, (t, i, m, forces) => {
+    const longest = (duration - onset) / tau;
+    let event = null, sliding = 0, elapsed = 0;
+    const end = () => {
+      run.end = elapsed < longest ? onset + elapsed * tau : duration;
+      if (!event) return;
+      const isGlobal = event.mostSliding === loaded, front = isGlobal ? n : event.front;
+      run.events.push({ ...event, front, end: run.end, after: force[1], last: run.time.length, isGlobal });
+      event = null;
+    };
+    const motion = motionFrom(chain, force, longest, (t, i, m, forces, rows) => {
       elapsed = t;
       if (!i) return;
+      event ??= { onset: onset + t * tau, force: force.slice(), start: { block: i, way: m, velocity: rows.slice(0, c.length) }, first: run.time.length, before: force[1], front: 1, mostSliding: 0 };
       run.time.push(onset + t * tau), run.block.push(i), run.mode.push(m), run.load.push(forces[1]);
       sliding += Math.abs(m) - Math.abs(states[i]);
       states[i] = m;
       event.front = Math.max(event.front, i);
       event.mostSliding = Math.max(event.mostSliding, sliding);
+      if (!sliding) end();
     });
-    while (!slip.next().done && !run.stopped) {
+    while (!motion.next().done && !run.stopped) {
       run.stopped = run.time.length >= MOST_TRANSITIONS || ++windows >= MOST_WINDOWS;
       yield onset + elapsed * tau;
     }
-    run.end = onset + elapsed * tau;
-    run.events.push(Object.assign(event, { end: run.end, after: force[1], last: run.time.length, isGlobal: event.mostSliding === n }));
-    if (run.stopped) return;
+    end();
+    if (run.stopped || elapsed >= longest) return;
   }
 }

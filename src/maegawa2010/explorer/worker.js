@@ -73,17 +73,17 @@ function send() {
 }
 
 // The motion in an event from the spring forces at its onset: times, forces and modes at the ends of small steps.
-function* follow({ id, slider, duration, event, onset, end, force }) {
+function* follow({ id, slider, duration, event, onset, end, force, start }) {
   const chain = chainOf(slider), modes = new Int8Array(chain.n + 2);
   const length = (end - onset) / chain.tau, window = Math.min(Math.max(FINE, length / MOST_STATES), WINDOW);
   const states = { time: [], forces: [], modes: [] };
   let due = 0;
-  const steps = slipEvent(chain, force, (duration - onset) / chain.tau, (t, i, mode, forces) => {
+  const steps = motionFrom(chain, force, (duration - onset) / chain.tau, (t, i, mode, forces) => {
     if (i) modes[i] = mode;
     if (t < due && !(i && length < MOST_STATES * FINE)) return;
     due = t + length / MOST_STATES;
     states.time.push(onset + t * chain.tau), states.forces.push(...forces), states.modes.push(...modes);
-  }, window);
+  }, window, start);
   for (const t of steps) {
     if (t > length) break;
     yield t;

@@ -32,8 +32,10 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     """Slip events of some runs: maximal time intervals in which at least one block
     slides.
 
-    An event ends where no block slides, unless the next one releases at the same
-    instant. One that the end of its run cuts off has end and load_after NaN.
+    Blocks without load do not count, but are taken to slide where all others do: front,
+    n_slid and n_simultaneous are then N. An event ends where no block slides, unless
+    the next one releases at the same instant. One that the end of its run cuts off has
+    end and load_after NaN.
 
     Returns
     -------
@@ -48,10 +50,12 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     pauses = np.concatenate([[], *(run.intervals[1:] for run in runs)])
     lengths = np.array([len(run.transitions) for run in runs], dtype=int)
     n_blocks = np.array([run.chain.n_blocks for run in runs], dtype=int)
+    n_loaded = np.array([np.count_nonzero(r.chain.weights) for r in runs], dtype=int)
     starts = np.cumsum(lengths) - lengths
     run = np.repeat(np.arange(len(runs)), lengths)
 
-    sliding = mode != 0
+    loads = [run.chain.weights[run.transitions["block"] - 1] for run in runs]
+    sliding = (mode != 0) & (np.concatenate([time[:0], *loads]) > 0.0)
     # Every block of every run has its own number, so that sorting shows what each block
     # did before.
     block = of_block + np.repeat(np.cumsum(n_blocks) - n_blocks, lengths)
@@ -84,5 +88,9 @@ def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
     slid = np.unique((event * n_all + block)[sliding]) // n_all
     events["n_slid"] = np.bincount(slid, minlength=len(lasts))
     events["n_simultaneous"] = np.maximum.reduceat(n_sliding, firsts)
-    events["is_global"] = events["n_simultaneous"] == n_blocks[events["run"]]
-    return events
+    for name in ("n_slid", "n_simultaneous"):
+        is_all = events[name] == n_loaded[events["run"]]
+        events[name] = np.where(is_all, n_blocks[events["run"]], events[name])
+    events["is_global"] = is_all
+    events["front"] = np.where(is_all, n_blocks[events["run"]], events["front"])
+    return events[events["n_slid"] > 0]

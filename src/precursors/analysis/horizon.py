@@ -2,8 +2,10 @@
 
 Runs whose parameters and start differ from those of the run by a few roundings show how
 far it may be off: their spread in time is the error of a transition's time, and the
-order of transitions is known as long as all of them agree. It is an estimate; `certify`
-gives a proof.
+order of transitions is known as long as all of them agree. Rounding on the way, which
+counts where a slip is long or ends with hardly any slope, is seen in runs with all
+forces times a factor: the same motion, rounded otherwise at every step. It is an
+estimate; `certify` gives a proof.
 """
 
 from __future__ import annotations
@@ -27,13 +29,19 @@ N_NEIGHBOURS = 16
 # EPS / 2: more than the solver takes for zero, so that neighbours disagree on a
 # transition that rounding decides.
 ROUNDINGS = 64.0
-# The error is estimated as so many times the spread by one rounding, a factor that also
-# covers rounding during the run.
+# The error is estimated as so many times the spread by one rounding.
 SIGMAS = 6.0
+# Runs with other roundings at every step, and how many times their spread the error is.
+N_ROUNDED = 8
+SIGMAS_ROUNDED = 4.0
+# A smaller drop of friction, relative to mu_s, is lost in what the solver takes for zero.
+NO_DROP = 1e-10
 # Neighbours run a little longer than the run, so that none lacks a transition that
 # comes just before the end.
 LONGER = 1.0 + 1e-6
 SEED = 2010
+# Parameters in N or kg: with all of them times a factor, the motion is the same.
+FORCES = ("weights", "mass", "stiffness", "drive_stiffness")
 # Parameters that neighbours change, beside their weights and starts.
 NUMBERS = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k")
 
@@ -75,10 +83,12 @@ def predicted_errors(run: Run) -> PredictedErrors:
     transitions is unknown.
 
     The neighbours are drawn from a fixed seed. A run and its continuation have the same
-    errors as far as both go. The work is that of `N_NEIGHBOURS` runs.
+    errors as far as both go. The work is that of `N_NEIGHBOURS` + `N_ROUNDED` runs.
     """
     time = run.transitions["time"].astype(np.float64)
-    others = neighbours(run)
+    changed = neighbours(run)
+    rounded = rounded_otherwise(run)
+    others = [*changed, *rounded]
     changes = ["block", "mode"]
     n = min(
         agreeing(run.transitions[changes], other.transitions[changes])
@@ -88,16 +98,16 @@ def predicted_errors(run: Run) -> PredictedErrors:
         one.transitions["time"][n] for one in (run, *others) if len(one.transitions) > n
     ]
     unknown = min(following, default=np.inf)
-    if run.chain.mu_s - run.chain.mu_k < ROUNDINGS * EPS:
+    if run.chain.mu_s - run.chain.mu_k < NO_DROP * run.chain.mu_s:
         # A block released from rest then comes back to standstill and only touches it:
         # it may stop or not.
         released = time[(run.transitions["mode"] != 0) & (time > 0.0)]
         unknown = min(unknown, released.min(initial=np.inf))
     shifts = np.array([other.transitions["time"][:n] for other in others]) - time[:n]
+    by_change = SIGMAS / ROUNDINGS * rms(shifts[: len(changed)])
+    by_rounding = SIGMAS_ROUNDED * rms(shifts[len(changed) :])
     error = np.full(len(time), np.inf)
-    error[:n] = (
-        SIGMAS / ROUNDINGS * np.sqrt(np.mean(shifts**2, axis=0)) + EPS * time[:n]
-    )
+    error[:n] = np.maximum(by_change, by_rounding) + EPS * time[:n]
     error[time >= unknown] = np.inf
     return PredictedErrors(
         time, error, run.duration, unknown if unknown < run.duration else np.inf
@@ -136,6 +146,26 @@ def neighbours(run: Run) -> list[Run]:
         start_positions=list(run.start_positions * (1 + positions)),
         start_velocities=list(run.start_velocities * (1 + velocities)),
     )
+
+
+def rounded_otherwise(run: Run) -> list[Run]:
+    """Runs of the same motion, a little longer, with other roundings at every step."""
+    factors = np.random.default_rng(SEED).uniform(1.0, 2.0, N_ROUNDED)
+    chains = [
+        replace(run.chain, **{name: f * getattr(run.chain, name) for name in FORCES})
+        for f in factors
+    ]
+    return simulate_many(
+        chains,
+        run.duration * LONGER,
+        start_positions=[run.start_positions] * N_ROUNDED,
+        start_velocities=[run.start_velocities] * N_ROUNDED,
+    )
+
+
+def rms(values: FloatArray) -> FloatArray:
+    """Root of the mean of the squares over the first axis."""
+    return np.sqrt(np.mean(values**2, axis=0))
 
 
 def agreeing(mine: NDArray[Any], theirs: NDArray[Any]) -> int:

@@ -14,6 +14,10 @@ TOLERANCE_N = 1e-4
 # between.
 PHASE_PER_STEP = np.pi / 4
 MOST_HALVINGS = 30
+# Points that a block 1 without load, which never rests, is given at most.
+MOST_POINTS = 200_000
+# In an array: bounds the memory on long chains.
+NUMBERS_AT_ONCE = 2_000_000
 
 
 def load_curve(
@@ -26,26 +30,30 @@ def load_curve(
     slides, intervals are halved until they are straight. Between two points the cubic
     through both loads and slopes stands for the curve. It leaves the chord by no more
     than a quarter of the interval times the larger difference between the chord's slope
-    and another. A larger chain's run has its points already.
+    and another. A block 1 that slides nearly all the time is drawn with no more than
+    some `MOST_POINTS`. A larger chain's run has its points already.
     """
     if isinstance(run, LargerRun):
         return run.load_points[:, 0], run.load_points[:, 1]
     if not isinstance(run, Run):
         raise TypeError(f"a load curve needs a Run, but this is {type(run).__name__}")
     of_first = run.transitions[run.transitions["block"] == 1]
-    slides = of_first["mode"] != 0
-    ends = np.append(of_first["time"], run.duration)[1:]
-    step = PHASE_PER_STEP / run.chain.fastest_frequency_bound
+    slides = np.append(run.chain.weights[0] == 0.0, of_first["mode"] != 0)
+    edges = np.concatenate([[0.0], of_first["time"], [run.duration]])
+    step = max(
+        PHASE_PER_STEP / run.chain.fastest_frequency_bound,
+        np.diff(edges)[slides].sum() / MOST_POINTS,
+    )
     coarse = [
         np.linspace(start, end, int(np.ceil((end - start) / step)) + 1)
-        for start, end in zip(of_first["time"][slides], ends[slides], strict=True)
+        for start, end in zip(edges[:-1][slides], edges[1:][slides], strict=True)
     ]
     times = np.unique(
         np.concatenate([[0.0, run.duration], run.transitions["time"], *coarse])
     )
     loads, slopes = _loads_and_slopes(run, times)
     before = np.searchsorted(of_first["time"], times[:-1], side="right")
-    begin = np.flatnonzero(np.append(False, slides)[before])
+    begin = np.flatnonzero(slides[before])
     for _ in range(MOST_HALVINGS):
         interval = times[begin + 1] - times[begin]
         chord = (loads[begin + 1] - loads[begin]) / interval
@@ -53,7 +61,7 @@ def load_curve(
             np.abs(slopes[begin] - chord), np.abs(slopes[begin + 1] - chord)
         )
         begin = begin[interval * turn / 4 > tolerance]
-        if not len(begin):
+        if not len(begin) or len(times) > MOST_POINTS:
             break
         middle = (times[begin] + times[begin + 1]) / 2
         load, slope = _loads_and_slopes(run, middle)
@@ -81,7 +89,9 @@ def load_trace(run: Record) -> pd.DataFrame:
 
 def _loads_and_slopes(run: Run, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """F_X [N] and dF_X/dt = K (V - v_1) [N/s] at some times."""
-    forces, velocities = run.forces_and_velocities(times)
-    return forces[:, 0], run.chain.drive_stiffness * (
-        run.chain.drive_velocity - velocities[:, 0]
-    )
+    parts = 1 + times.size * run.chain.n_blocks // NUMBERS_AT_ONCE
+    states = [run.forces_and_velocities(part) for part in np.array_split(times, parts)]
+    loads = np.concatenate([forces[:, 0] for forces, _ in states])
+    velocities = np.concatenate([velocity[:, 0] for _, velocity in states])
+    chain = run.chain
+    return loads, chain.drive_stiffness * (chain.drive_velocity - velocities)

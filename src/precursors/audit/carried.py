@@ -6,9 +6,10 @@ import math
 from functools import lru_cache, partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from precursors.audit.motion import ModalMotion, modes_of_all, normal_modes
-from precursors.model.chain import FloatArray
+from precursors.model.chain import FREE, FloatArray
 from precursors.solver.run import Run
 
 _UNIT = 2.0**-53  # a rounding, relative
@@ -37,7 +38,7 @@ class CarriedState:
         self.springs = chain.springs
         self.strength = chain.strength
         self.friction = chain.kinetic_friction
-        self.mode = np.zeros(chain.n_blocks, dtype=np.int64)
+        self.mode = np.where(chain.weights > 0.0, 0, FREE)
         self.velocity = run.start_velocities.copy()
         # the force of the spring behind each block, and a zero ahead of block N
         stretch = -np.diff(positions, prepend=0.0)
@@ -74,6 +75,13 @@ class CarriedState:
         2-4)."""
         return self.spring_force[:-1] - self.spring_force[1:]
 
+    def moves(self) -> NDArray[np.bool_]:
+        """Which blocks move, shape (N,): those without load too, unless all is at rest."""
+        moves = self.mode != 0
+        pushed = (self.velocity != 0.0) | (self.net_force() != 0.0)
+        pushed[0] = True
+        return moves & ((abs(self.mode) == 1) | (moves & pushed)).any()
+
     def energy(self) -> float:
         """Kinetic energy of the blocks and elastic energy of the springs [J]."""
         kinetic = 0.5 * self.chain.mass * (self.velocity @ self.velocity)
@@ -82,8 +90,8 @@ class CarriedState:
 
     def motion(self) -> ModalMotion:
         """Motion of the blocks that slide."""
-        modes = modes_of_all(self.mode, self.modes_of_row)
-        slides = self.mode != 0
+        slides = self.moves()
+        modes = modes_of_all(slides, self.modes_of_row)
         force = (self.net_force() - self.mode * self.friction)[slides]
         # The drive loads block 1 only.
         loads_first = modes.shapes[0] if slides[0] else np.zeros(len(force))
@@ -110,7 +118,7 @@ class CarriedState:
         """Move by the motion; return the sum of the terms of work and heat [J]."""
         chain = self.chain
         shapes = motion.modes.shapes
-        slides = self.mode != 0
+        slides = self.moves()
         loading_rate = chain.loading_rate
         impulses = (
             self.spring_force[0] * duration,

@@ -8,6 +8,7 @@ import numpy as np
 from precursors.audit.carried import CarriedState
 from precursors.audit.conditions import Conditions, TooLongError
 from precursors.audit.report import Audit
+from precursors.model.chain import FREE
 from precursors.model.checks import positive
 from precursors.solver.run import Run
 from precursors.support.waiting import tell
@@ -133,6 +134,9 @@ class Auditor:
             )
         elif old == 0:
             self.check_release(block, mode, at_start)
+        elif old == FREE:
+            self.report(f"block {block} bears no load and has no transitions")
+            return
         else:
             self.check_stop(block, mode)
         state.mode[block - 1] = mode

@@ -34,15 +34,17 @@ class Conditions:
         self.motion = motion
         self.mode = state.mode.copy()
         self.computed = 0
-        moves = state.mode != 0
+        moves = state.moves()
         near = moves.copy()
         near[0] = True
         near[1:] |= moves[:-1]
         near[:-1] |= moves[1:]
-        self.sliding = np.flatnonzero(moves)
+        slides = abs(state.mode) == 1
+        self.sliding = np.flatnonzero(slides)
         self.stuck = np.flatnonzero(near & ~moves)
         springs = motion.modes.spring_shapes
-        self.to_speed = motion.modes.shapes.T * state.mode[self.sliding]
+        shapes = motion.modes.shapes[slides[moves]]
+        self.to_speed = shapes.T * state.mode[self.sliding]
         self.to_force = (springs[self.stuck + 1] - springs[self.stuck]).T
         self.force = state.net_force()[self.stuck]
         self.strength = state.strength[self.stuck]

@@ -52,13 +52,15 @@ def normal_modes(chain: Chain, first: int, last: int) -> Modes:
     )
 
 
-def modes_of_all(mode: np.ndarray, modes_of_row: Callable[[int, int], Modes]) -> Modes:
+def modes_of_all(
+    slides: np.ndarray, modes_of_row: Callable[[int, int], Modes]
+) -> Modes:
     """Normal modes of all blocks that slide, and of all springs; each row of neighbours
     has its own."""
-    edges = np.flatnonzero(np.diff(mode != 0, prepend=False, append=False))
-    n = np.count_nonzero(mode)
+    edges = np.flatnonzero(np.diff(slides, prepend=False, append=False))
+    n = np.count_nonzero(slides)
     done = 0
-    modes = Modes(np.zeros(n), np.zeros((n, n)), np.zeros((len(mode) + 1, n)))
+    modes = Modes(np.zeros(n), np.zeros((n, n)), np.zeros((len(slides) + 1, n)))
     for first, end in edges.reshape(-1, 2).tolist():
         row = modes_of_row(first, end - 1)
         columns = slice(done, done + len(row.frequencies))

@@ -316,6 +316,8 @@ def note(m, s, record, watched, load_before, time, h):
     event = record.event
     ended = False
     for i in range(watched):
+        if m.weights[i] == 0.0:
+            continue
         speed = abs(s.velocity[i])
         way = s.mode[i] if speed > slow or slow == 0.0 else 0
         if way == s.seen[i]:
@@ -331,7 +333,7 @@ def note(m, s, record, watched, load_before, time, h):
         load = load_before + at * (s.force[0] - load_before)
         rows.append((time - (1.0 - at) * h, i + 1.0, float(way), load))
         n_fast = np.count_nonzero(s.seen)
-        event[IS_GLOBAL] |= n_fast == len(m.weights)
+        event[IS_GLOBAL] |= n_fast == np.count_nonzero(m.weights)
         if n_fast == 0:
             onset = rows[event[BEGIN]][3]
             if onset - s.force[0] < smallest_drop:

@@ -33,6 +33,9 @@ N_BLOCKS = 10
 THETA = 0.0
 NORMAL_LOAD = 400.0
 CELL_SPACING = 0.06  # of its two load cells [m]
+# Mode of a block without load in a state: it moves without friction, so that it neither
+# sticks nor slips and has no transitions.
+FREE = 2
 _POSITIVE = {
     "mass": "kg",
     "stiffness": "N/m",

@@ -63,7 +63,8 @@ class CertifiedTransition(NamedTuple):
 
     `slope` is the least rate at which its event function falls through zero: the margin
     of a block that is released [N/s], the speed of one that stops or turns [m/s^2]. It
-    is 0 for a block that moves from the start, and above 0 else: none only grazes.
+    is 0 for a block that moves from the start, and above 0 else: none only grazes. A
+    block without load has no friction and no transitions.
     """
 
     time: Enclosure

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from flint import arb, arb_poly, ctx
 
+from precursors.model.chain import FREE
 from precursors.proof.motion import Constants, EnclosedState, expand, force_rate
 
 
@@ -70,6 +71,8 @@ def event_functions(
         reach = constants.force_reach[i] * distance
         rate_reach = constants.force_rate_reach[i] * distance
         mode = state.mode[i]
+        if mode == FREE:
+            continue
         if mode:
             function = mode * polynomials[i]
             curves = []

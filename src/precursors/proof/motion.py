@@ -108,8 +108,8 @@ class EnclosedState:
     """A centre, exact, and a bound of the distance [N] within which every run of the
     model is from it.
 
-    The lists have T_i and u_i [N] and the mode of each block; index 0 and N + 1 are the
-    drive and the free end, kept at zero.
+    The lists have T_i and u_i [N] and the mode of each block, FREE of those without
+    load; index 0 and N + 1 are the drive and the free end, kept at zero.
     """
 
     force: list[arb]

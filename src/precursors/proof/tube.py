@@ -32,6 +32,7 @@ from typing import NamedTuple
 
 from flint import arb, ctx
 
+from precursors.model.chain import FREE
 from precursors.proof.certificate import Certificate
 from precursors.proof.event_roots import (
     EventFunction,
@@ -99,7 +100,7 @@ class Proof:
         self.fresh = {
             i
             for i, v in enumerate(certificate.start_velocities, 1)
-            if self.state.mode[i] and not v
+            if self.state.mode[i] in (1, -1) and not v
         }
         self.all_slid = False
 
@@ -129,6 +130,9 @@ class Proof:
         state.absorb(constants, [ball(f) for f in exact], [ball(u) for u in rate])
         for i in range(1, n + 1):
             force = exact[i] - exact[i + 1]
+            if chain.weights[i - 1] == 0:
+                state.mode[i] = FREE if rate[i] or force or i == 1 else 0
+                continue
             push = rate[i] or (
                 force if abs(force) > chain.mu_s * chain.weights[i - 1] else 0
             )
@@ -137,7 +141,15 @@ class Proof:
                 self.transitions.append(
                     Proved(arb(0), i, state.mode[i], ball(exact[1]), arb(0))
                 )
+        self.free_neighbours(state)
         return state
+
+    def free_neighbours(self, state: EnclosedState) -> None:
+        """Let blocks without load move once one beside them does."""
+        blocks = range(1, self.chain.n_blocks + 1)
+        for i in (*blocks, *reversed(blocks)):
+            if self.chain.weights[i - 1] == 0 and any(state.mode[i - 1 : i + 2]):
+                state.mode[i] = FREE
 
     def constants(self) -> Constants:
         """The chain in balls of the working precision."""
@@ -158,11 +170,12 @@ class Proof:
             "proving", count(), lambda: float((self.clock / self.duration).mid())
         ):
             self.all_slid = self.all_slid or all(self.state.mode[1:-1])
-            sliding = any(self.state.mode)
-            if not sliding and self.until and self.all_slid:
-                break
+            if not {1, -1} & {*self.state.mode}:
+                if self.until and self.all_slid:
+                    break
+                self.all_slid = False
             try:
-                if not (self.slide() if sliding else self.load()):
+                if not (self.slide() if any(self.state.mode) else self.load()):
                     break
             except Undecided as undecided:
                 with ctx.workprec(self.bits + GUARD_BITS):
@@ -174,7 +187,6 @@ class Proof:
         """Load the resting chain until block 1 is released: no other block feels the
         drive."""
         state = self.state
-        self.all_slid = False
         with ctx.workprec(self.precision()):
             constants = self.constants()
             loading_rate = constants.coupling[1] * constants.drive
@@ -194,6 +206,7 @@ class Proof:
             self.gap = arb(0)
             slope = loading_rate / self.unit
         state.mode[1] = 1
+        self.free_neighbours(state)
         self.fresh = {1}
         return self.record(1, slope)
 
@@ -302,6 +315,7 @@ class Proof:
             (state.distance**2 + (excess * self.gap) ** 2).sqrt().abs_upper()
         )
         state.mode[i] = way
+        self.free_neighbours(state)
         self.fresh = {i}
 
     def stop(self, event: EventFunction, root: arb) -> None:

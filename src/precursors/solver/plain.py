@@ -19,6 +19,8 @@ linearly in time. With the force T_i in the spring behind each block, its stiffn
 4. A block that stops sticks if |T_i - T_{i+1}| <= mu_s w_i, and otherwise follows that
   force. A block that lets go slides in the direction of the force.
 5. Where all blocks stick, only T_1 grows, by K V in a second, until block 1 lets go.
+6. A block without load has no friction and no transitions: once pushed, it moves for
+  ever. An event is over where all others stick.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.model.chain import Chain
+from precursors.model.chain import FREE, Chain
 
 Floats = NDArray[np.floating]
 REAL = np.longdouble  # more digits, where the machine has them
@@ -75,11 +77,21 @@ def at_start(chain: Chain, positions: Floats, velocities: Floats) -> State:
     )
     pushed = np.where(abs(net) > chain.strength + rounding, np.sign(net), 0.0)
     mode = np.where(velocities != 0.0, np.sign(velocities), pushed)
+    mode[chain.weights == 0.0] = FREE
     return State(
         np.r_[chain.drive_velocity, velocities, REAL(0)],
         force,
         np.pad(mode.astype(np.int64), 1),
     )
+
+
+def is_at_rest(state: State) -> bool:
+    """Whether nothing moves but the drive: all blocks stick, or bear no load and were
+    never pushed."""
+    moved = (state.velocity[1:-1] != 0.0) | (np.diff(state.force[1:]) != 0.0)
+    moved[0] = True
+    mode = state.mode[1:-1]
+    return not ((abs(mode) == 1) | ((mode == FREE) & moved)).any()
 
 
 def expand(chain: Chain, state: State, window: float) -> tuple[Floats, Floats]:
@@ -98,7 +110,7 @@ def expand(chain: Chain, state: State, window: float) -> tuple[Floats, Floats]:
             - force[n, 2 : last + 2]
             - (friction if n == 0 else 0.0)
         )
-        v[n + 1, 1 : last + 1] = window / (n + 1) * abs(mode) * pull / chain.mass
+        v[n + 1, 1 : last + 1] = window / (n + 1) * (mode != 0) * pull / chain.mass
         force[n + 1, 1 : last + 1] = (
             window / (n + 1) * springs * (v[n, :last] - v[n, 1 : last + 1])
         )
@@ -168,7 +180,8 @@ def next_transition(
         g = np.where(sliding, sliding * v[:, 1:-1], margin)
         below = np.where(sliding, zero * window / chain.mass, zero)
         may = g[0] + np.minimum(g[1:], 0.0).sum(axis=0) <= below
-        for i in np.flatnonzero(may & ((sliding == 0) | (side == 1))):
+        watched = (sliding == 0) | ((sliding != FREE) & (side == 1))
+        for i in np.flatnonzero(may & watched):
             s = first_root(g[:, i], float(below[i]), first)
             if s < first:
                 first = s
@@ -200,25 +213,25 @@ def find_transitions(
     switching = switching or Switching(chain.strength)
     rows = [
         (0.0, 0.0, int(i), int(state.mode[i]), state.force[1])
-        for i in np.flatnonzero(state.mode)
+        for i in np.flatnonzero(abs(state.mode) == 1)
     ]
     window = WINDOW / chain.fastest_frequency_bound
     is_global = False
     at_once = 0
     onset = elapsed = since = 0.0
-    while (
-        len(rows) < most
-        and elapsed < longest_slip
-        and (left := duration - onset - elapsed) > 0.0
-    ):
+    while len(rows) < most and (left := duration - onset - elapsed) > 0.0:
         is_global = is_global or bool(state.mode[1:-1].all())
-        if not state.mode.any():
+        if not (abs(state.mode) == 1).any():
             if until_global and is_global:
                 break
+            onset = onset + elapsed
+            elapsed = 0.0
+        if elapsed >= longest_slip:
+            break
+        if is_at_rest(state):
             margin = chain.strength[0] - state.force[1] + state.force[2]
             wait = max(margin / chain.loading_rate, 0.0)
-            onset = onset + elapsed + min(wait, left)
-            elapsed = 0.0
+            onset = onset + min(wait, left)
             since = since + min(wait, left)
             if wait >= left:
                 break

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.model.chain import ARGUMENTS, Chain, remember_theta
+from precursors.model.chain import ARGUMENTS, FREE, Chain, remember_theta
 from precursors.model.checks import not_negative
 from precursors.solver.record import COLUMNS, States
 from precursors.support.files import write_whole
@@ -202,7 +202,7 @@ def _check(found: Mapping[str, NDArray[Any]], duration: float, n_blocks: int) ->
         "transitions/block": (1, n_blocks),
         "transitions/mode": (-1, 1),
         "intervals": span,
-        "states/mode": (-1, 1),
+        "states/mode": (-1, FREE),
         "states/after": (0, n),
         "states/offset": span,
     }

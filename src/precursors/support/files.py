@@ -8,6 +8,7 @@ import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
+from uuid import uuid4
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -18,11 +19,10 @@ LEAST_ROOM = 10_000_000  # bytes; a run of 10 s and its figure take less
 
 
 def write_whole(path: AnyPath, content: bytes) -> None:
-    """Write a file under a temporary name beside `path`, and rename it: it is complete
-    or as it was before.
+    """Write a file under a temporary name of its own beside `path`, and rename it: it is
+    complete or as it was before.
 
-    What a killed process leaves behind is overwritten by the next one. Missing parent
-    directories are made.
+    Missing parent directories are made.
 
     Raises
     ------
@@ -30,7 +30,7 @@ def write_whole(path: AnyPath, content: bytes) -> None:
         In one line that names `path`, if it cannot be written.
     """
     target = Path(os.path.realpath(path))  # a link is followed, and stays a link
-    temporary = target.with_name(f".partial.{target.name}")
+    temporary = target.with_name(f".partial.{uuid4().hex}")
     try:
         if target.exists() and not target.is_file():
             raise OSError(errno.EINVAL, "it exists and is not a file")

@@ -103,8 +103,8 @@ class End(NamedTuple):
 
 
 # Where a run is: tau [s]; time of the event's onset in two doubles [s], time since then
-# and since the last transition [tau]; numbers of transitions, sliding blocks, stored
-# states, transitions between two of these, windows, derivatives of single blocks,
+# and since the last transition [tau]; numbers of transitions, moving blocks, those of
+# them without load, stored states, transitions between two of these, windows, derivatives of single blocks,
 # searches of a function and steps to roots; whether all blocks slid at once; how it
 # ended; a block beyond which none slides; windows on end in which time stood still.
 PROGRESS = np.dtype(
@@ -114,6 +114,7 @@ PROGRESS = np.dtype(
         for name in (
             "transitions",
             "sliding",
+            "free",
             "stored",
             "stride",
             "windows",

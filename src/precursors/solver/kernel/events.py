@@ -3,6 +3,7 @@ record."""
 
 from __future__ import annotations
 
+from precursors.model.chain import FREE
 from precursors.solver.kernel.arrays import ROW, progress_at
 from precursors.solver.kernel.decorators import (
     inner,
@@ -13,6 +14,7 @@ from precursors.solver.kernel.decorators import (
 )
 from precursors.solver.kernel.friction import (
     farthest_sliding,
+    is_at_rest,
     mode_at_rest,
     set_mode,
     take_mode,
@@ -68,7 +70,7 @@ def run_batch(batch, end, progress, record, states, memory, first, windows):
         my_record = row_address(record, used)
         my_states = row_address(states, stored)
         if is_new:
-            start = batch.positions[j], batch.velocities[j]
+            start = batch.positions[j], batch.velocities[j], batch.weights[j]
             take_start(
                 start, batch.parameters[j], chain, motion, mine, my_record, my_states
             )
@@ -94,9 +96,9 @@ def run_batch(batch, end, progress, record, states, memory, first, windows):
 
 @unfused
 def take_start(start, parameters, chain, motion, progress, record, states):
-    """Take a start at time 0. In the first state all modes are 0; blocks that move are
-    transitions."""
-    positions, velocities = start
+    """Take a start at time 0. In the first state all blocks with a load stick; those
+    that move are transitions."""
+    positions, velocities, weights = start
     mass, stiffness, spring, _, _, _ = parameters
     stiffest = farthest = before = 0.0
     for i in range(chain.n_blocks):
@@ -104,6 +106,7 @@ def take_start(start, parameters, chain, motion, progress, record, states):
         farthest = max(farthest, abs(positions[i]))
         motion.spring_force[i + 1] = spring * (before - positions[i])
         motion.velocity[i + 1] = velocities[i] * (mass / chain.tau)
+        motion.mode[i + 1] = 0 if weights[i] > 0.0 else FREE
         before = positions[i]
         spring = stiffness
     progress.tau = chain.tau
@@ -111,6 +114,11 @@ def take_start(start, parameters, chain, motion, progress, record, states):
     store_state(chain, motion, progress, states)
     for i in range(1, chain.n_blocks + 1):
         take_net_force(i, motion)
+        if motion.mode[i] == FREE:
+            progress.free += 1
+            count_sliding(1, chain, progress)
+            take_mode(i, chain, motion)
+            continue
         # A position of size x is known to its rounding: a block at its limit to within
         # that still sticks.
         rounding = ROUNDINGS * (chain.strength[i] + 4.0 * stiffest * farthest)
@@ -145,7 +153,8 @@ def find_transitions(chain, motion, end, limits, progress, record, states):
         progress.windows += 1
         if progress.transitions >= progress.stride * progress.stored:
             store_state(chain, motion, progress, states)
-        if progress.sliding == 0:
+        no_event = progress.sliding == progress.free
+        if no_event and (progress.free == 0 or is_at_rest(chain, motion)):
             status = rest(chain, motion, end, progress, record)
         else:
             status = slide(chain, motion, end, progress, record)
@@ -175,7 +184,7 @@ def time_left(end, progress):
 
 @inner_unfused
 def rest(chain, motion, end, progress, record):
-    """All blocks stick: end the run, or wait in closed form until block 1 lets go."""
+    """Nothing moves: end the run, or wait in closed form until block 1 lets go."""
     if end.until_global and progress.all_slid != 0:
         return STOPPED
     force = motion.spring_force
@@ -192,7 +201,6 @@ def rest(chain, motion, end, progress, record):
     take_net_force(block_1, motion)
     start_clock(wait, progress)
     set_mode(block_1, block_1, chain, motion)
-    progress.farthest = 1
     count_sliding(1, chain, progress)
     note_transition(block_1, block_1, force[1], progress, record)
     return PAUSED
@@ -241,6 +249,11 @@ def note_transition(i, new, load, progress, record):
 @inner_unfused
 def slide(chain, motion, end, progress, record):
     """Go through one window, to its first transition or to its end."""
+    if progress.sliding == progress.free:
+        # Only blocks without load move, which is no event.
+        if end.until_global and progress.all_slid != 0:
+            return STOPPED
+        start_clock(0.0, progress)
     remaining = time_left(end, progress)
     left_of_slip = end.longest_slip / chain.tau - progress.elapsed
     if remaining <= 0.0:

@@ -3,6 +3,7 @@ block at rest takes."""
 
 from __future__ import annotations
 
+from precursors.model.chain import FREE
 from precursors.solver.kernel.decorators import inner, seldom
 
 
@@ -30,11 +31,11 @@ def take_mode(i, chain, motion):
 @inner
 def take_neighbours(i, chain, motion):
     """Set whether the function watched of block i changes: it or a neighbour of it
-    moves."""
+    moves. A block without load has none."""
     slides = motion.slides
     coupling = chain.coupling
     moved = slides[i] + coupling[i] * slides[i - 1] + coupling[i + 1] * slides[i + 1]
-    motion.felt[i] = 1.0 if moved > 0.0 else 0.0
+    motion.felt[i] = 1.0 if moved > 0.0 and motion.mode[i] != FREE else 0.0
 
 
 @inner
@@ -44,6 +45,20 @@ def mode_at_rest(force, limit):
     if abs(force) <= limit:
         return 0
     return 1 if force > 0.0 else -1
+
+
+@seldom
+def is_at_rest(chain, motion):
+    """Whether nothing moves but the drive: all blocks stick, or bear no load and were
+    never pushed."""
+    force = motion.spring_force
+    rest = motion.force_rest
+    for i in range(1, chain.n_blocks + 1):
+        is_pushed = force[i] != force[i + 1] or rest[i] != rest[i + 1]
+        is_moved = motion.velocity[i] != 0.0 or is_pushed or i == 1
+        if abs(motion.mode[i]) == 1 or (motion.mode[i] == FREE and is_moved):
+            return False
+    return True
 
 
 @seldom

@@ -5,11 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import FREE, Chain, FloatArray
 from precursors.solver.kernel.arrays import memory_for
 from precursors.solver.kernel.decorators import inner, outer, unfused
 from precursors.solver.kernel.events import last_column
-from precursors.solver.kernel.friction import farthest_sliding, set_mode, take_mode
+from precursors.solver.kernel.friction import (
+    farthest_sliding,
+    is_at_rest,
+    set_mode,
+    take_mode,
+)
 from precursors.solver.kernel.layout import WINDOW
 from precursors.solver.kernel.series import (
     begin,
@@ -20,6 +25,10 @@ from precursors.solver.kernel.series import (
 )
 from precursors.solver.kernel.units import lay_out, parameters
 from precursors.solver.record import States
+
+# Speed [m/s] of a block at the very instant of its release, which tells its direction:
+# a run that starts there has it slide from time 0.
+JUST_RELEASED = 1e-200
 
 
 def evaluate(
@@ -89,7 +98,7 @@ def go_through(
         since = times[q] - instants[done]
         # Whole windows are gone through once, so that many times in one slip cost no
         # more than the slip.
-        is_moving = motion.mode[farthest_sliding(chain.n_blocks, motion.mode)] != 0
+        is_moving = not is_at_rest(chain, motion)
         while since - offset > WINDOW * chain.tau and is_moving:
             propagate(WINDOW, chain, motion)
             offset += WINDOW * chain.tau
@@ -98,6 +107,9 @@ def go_through(
         for i in range(chain.n_blocks):
             found[0, q, i] = motion.spring_force[i + 1]
             found[1, q, i] = motion.velocity[i + 1] * chain.speed
+            mode = motion.mode[i + 1]
+            if found[1, q, i] == 0.0 and mode != 0 and mode != FREE:
+                found[1, q, i] = mode * JUST_RELEASED
         state[:] = before
 
 
@@ -116,12 +128,10 @@ def take_state(row, states, chain, motion):
 def propagate(span, chain, motion):
     """Advance a state by `span`, within which no mode changes."""
     force = motion.spring_force
-    n_blocks = chain.n_blocks
-    farthest = farthest_sliding(n_blocks, motion.mode)
-    if motion.mode[farthest] == 0:
+    if is_at_rest(chain, motion):
         force[1] += chain.coupling[1] * chain.drive_velocity * span
         return
-    end = last_column(chain, farthest)
+    end = last_column(chain, farthest_sliding(chain.n_blocks, motion.mode))
     first_row = 2
     for i in range(1, end + 1):
         take_net_force(i, motion)
