@@ -28,7 +28,7 @@ def table_path(run: Run) -> dict[str, float]:
         if reached
         else np.nan,
         "mu_sapp": friction.mu_sapp if friction else np.nan,
-        "load": slips.largest_load[friction.event - 1] if friction else np.nan,
+        "load": slips.load_before[friction.event - 1] if friction else np.nan,
         "time": start,
         "end": end,
         "transitions": int((run.transitions["time"] < later).sum()),

@@ -169,6 +169,7 @@ def test_the_example_gives_what_it_shows(tmp_path, monkeypatch, capsys):
         "study.png",
         "run.png",
         "lengths.pdf",
+        "wave.svg",
         "larger.png",
     }
 

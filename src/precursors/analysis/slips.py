@@ -57,6 +57,10 @@ def find_slips(run: Record) -> pd.DataFrame:
     return pd.DataFrame(slip_events([run]))[COLUMNS]
 
 
+# Columns of `slip_table` that say which slider it was.
+SLIDER_COLUMNS = ["theta", "n_blocks", "normal_load_N", "length_m", "mu_k"]
+
+
 def slip_table(run: Record) -> pd.DataFrame:
     """Every slip event of a run, with units in the names of the columns.
 

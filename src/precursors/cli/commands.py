@@ -85,7 +85,7 @@ def simulate(arguments: Namespace) -> None:
 
 def slips(arguments: Namespace) -> None:
     """List the slip events of a run file, or of a chain that is run."""
-    from precursors.analysis.slips import slip_table
+    from precursors.analysis.slips import SLIDER_COLUMNS, slip_table
 
     run = run_of(arguments)
     table = slip_table(run)
@@ -102,7 +102,7 @@ def slips(arguments: Namespace) -> None:
     elif table.empty:
         print("no slip event")
     else:
-        shown = table.drop(columns=["theta", "n_blocks", "normal_load_N", "length_m"])
+        shown = table.drop(columns=SLIDER_COLUMNS)
         shown.columns = shown.columns.str.replace("load_|is_|n_", "", regex=True)
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
     tell_accuracy(run, first_global_slip)
