@@ -43,9 +43,6 @@ from precursors.support.waiting import in_threads
 # scenes up to the first global slip, in order.
 STEP = 0.1
 STEP_OF_COULOMB = 5e-4
-# Creep is leapt over where falling friction exceeds viscosity by less than this part of
-# the excess at which it runs away; -inf: nowhere.
-LEAP = 0.5
 # Of `critical_length`: steps along the chain, and growth rates from 1e-5 to 1 times the
 # largest. With both doubled, l_c changes by less than 1e-3.
 LENGTH_STEPS = 2000
@@ -77,6 +74,13 @@ class LargerChain:
             raise ValueError(
                 "viscosity must not be given beside relaxation_time, which is viscosity / k"
             )
+
+    @property
+    def fall(self) -> float:
+        """Fall (mu_s - mu_k)/v_c of the friction coefficient with velocity [s/m]; 0 for
+        Coulomb friction, which jumps."""
+        drop = self.chain.mu_s - self.chain.mu_k
+        return drop / self.weakening_velocity if self.weakening_velocity else 0.0
 
     def simulate(
         self, duration: float, until: Until = None, **limits: int
@@ -120,7 +124,7 @@ def critical_length(larger: LargerChain) -> float:
     block = chain.length / chain.n_blocks
     rigidity = chain.stiffness * block  # E S
     inertia = chain.mass / block
-    fall = (chain.mu_s - chain.mu_k) * chain.weights / larger.weakening_velocity / block
+    fall = larger.fall * chain.weights / block
     viscous = larger.relaxation_time + larger.viscosity / chain.stiffness
     dx = chain.length / LENGTH_STEPS
     x = dx * (np.arange(LENGTH_STEPS) + 1.0)
@@ -250,22 +254,25 @@ def model_of(larger: LargerChain) -> CompiledChain:
         mu_s=chain.mu_s,
         mu_k=chain.mu_k,
         weakening_velocity=larger.weakening_velocity * (chain.mu_k < chain.mu_s),
+        fall=larger.fall,
         drive_velocity=chain.drive_velocity,
-        leap=LEAP,
     )
 
 
 def longest_steps(m: CompiledChain, chain: Chain, step: float) -> FloatArray:
     """Steps [s] while nothing slides ahead of block 1..N; `step` is that of
-    `simulate_larger`."""
-    steps = np.full(chain.n_blocks, 2.0 / chain.fastest_frequency_bound * step)
-    if m.weakening_velocity:
-        largest = m.weights + abs(m.tilt) * m.mu_s * chain.normal_load
-        fall = np.maximum.accumulate((m.mu_s - m.mu_k) * largest)
-        with np.errstate(divide="ignore"):  # weightless blocks have no such time
-            growth = m.mass * m.weakening_velocity / fall
-        steps = np.minimum(steps, growth * step)
-    return steps
+    `simulate_larger`.
+
+    The growth rate is that of falling friction, less the viscosity of the gravest mode
+    of the stretch: a quarter of a wave, or even if the whole chain slides.
+    """
+    n = chain.n_blocks
+    largest = m.weights + abs(m.tilt) * m.mu_s * chain.normal_load
+    fall = m.fall * np.maximum.accumulate(largest)
+    shape = (2.0 * np.sin(0.5 * math.pi / (2.0 * np.arange(1, n + 1) + 1.0))) ** 2
+    shape[-1] = 0.0
+    growth = np.maximum(fall - m.dashpots.max() * shape, 0.0) / m.mass
+    return step / np.maximum(chain.fastest_frequency_bound / 2.0, growth)
 
 
 def stored_energy(chain: Chain, state: State) -> float:
