@@ -9,9 +9,10 @@ while block i slides. It sticks while |G_i| <= mu_s w_i. docs/models.md has the
 equations, and what is found.
 
 Steps are those of the implicit midpoint rule, with springs, dashpots and falling
-friction all implicit: one tridiagonal solution, stable however stiff the dashpots are,
-and energy is balanced to rounding. A step ends at the first release or stop in it.
-Rests are left out in closed form, and so is creep that is stable.
+friction all implicit: one tridiagonal solution over the blocks up to the last that
+slides, stable however stiff the dashpots are, and energy is balanced to rounding. A
+step ends at the first release or stop in it. A complete rest is one step; nothing is
+left out while a block moves.
 """
 
 from __future__ import annotations
@@ -38,9 +39,9 @@ from precursors.solver.run import LargerRun
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 from precursors.support.waiting import in_threads
 
-# Of the shorter of sqrt(m/k) and the time in which falling friction multiplies a
-# velocity by e. With friction that jumps, this gives all transitions of the paper's
-# scenes up to the first global slip, in order.
+# Of the shorter of sqrt(m/k) and the time in which falling friction, less viscosity,
+# multiplies a velocity by e. With friction that jumps, the second gives all transitions
+# of the paper's scenes up to the first global slip, in order.
 STEP = 0.1
 STEP_OF_COULOMB = 5e-4
 # Of `critical_length`: steps along the chain, and growth rates from 1e-5 to 1 times the
@@ -185,7 +186,7 @@ def simulate_larger(
 
     `until` may be "settled", too: the run ends when the loads at which global slips
     begin come again (see `period_of`). `step` is in the shorter of sqrt(m/k) and the
-    time in which falling friction multiplies a velocity by e, by default `STEP` or
+    time in which creep that runs away grows by e, by default `STEP` or
     `STEP_OF_COULOMB`. `start_forces` are those of the springs [N], F_X first, by
     default 0.
 
