@@ -14,9 +14,7 @@ from settings import CONFIG, FULL
 
 from maegawa2010.studies.larger.cycles import (
     cycles_table,
-    peaks_of,
     run_past,
-    settled,
     verdict_of,
     with_past,
 )
@@ -35,6 +33,7 @@ from precursors.larger.chain import (
     simulate_larger,
     weakening_velocity,
 )
+from precursors.larger.settled import peaks_of, settled
 from precursors.larger.steps import SETTLED, period_of
 
 ROOT = Path(__file__).parents[2]
@@ -145,7 +144,7 @@ def test_cycles_are_told_apart_and_counted():
     point = dict.fromkeys(POINT, 0)
     values = [0.48, 0.481, 0.482, 0.51]
     runs = pd.DataFrame([point | {"coefficient": value} for value in values])
-    runs = runs.assign(period=[1, 2, 0, 1], state_error=0.0, theory=0.5)
+    runs = runs.assign(period=[1, 2, 0, 1], state_error=0.0, theory=0.5, precursors=0)
     table = cycles_table(runs)
     assert table["share"].tolist() == [0.75, 0.25]
     assert table["coefficient"].tolist() == [0.481, 0.51]
