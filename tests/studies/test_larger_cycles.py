@@ -73,9 +73,9 @@ def test_the_period_is_that_of_the_last_peaks(peaks, period):
 def test_a_settled_run_ends_early_with_the_peaks_of_one_that_goes_on(theta):
     larger = chain_of(20, 0.3, 2e-4, theta)
     early = simulate_larger(larger, 20.0, "settled", 0.25)
-    late = peaks_of(simulate_larger(larger, 20.0, step=0.25))
-    found = settled(early)
-    assert early.duration < 10.0
+    late = peaks_of(simulate_larger(larger, 20.0, step=0.25), 0.3)
+    found = settled(early, 0.3)
+    assert early.duration < 15.0
     assert found["period"] > 0
     later_half = late.loc[late["onset"] > 10.0, "peak"]
     assert later_half.mean() == pytest.approx(found["coefficient"], abs=GOES_ON)
@@ -83,7 +83,7 @@ def test_a_settled_run_ends_early_with_the_peaks_of_one_that_goes_on(theta):
 
 
 def test_without_enough_global_slips_nothing_settles():
-    found = settled(simulate_larger(chain_of(10, 0.2, 2e-4), 1.0))
+    found = settled(simulate_larger(chain_of(10, 0.2, 2e-4), 1.0), 0.2)
     assert len(found["peaks"]) == found["period"] == 0
     assert np.isnan(found["coefficient"])
 

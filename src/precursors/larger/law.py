@@ -124,17 +124,21 @@ def law_of(larger: LargerChain) -> Law:
     lag = q * speed / chain.length * t_v
     for fails, reason in (
         (v_c == 0.0 or chain.mu_k == chain.mu_s, "friction does not weaken"),
-        (nucleus > LONGEST, f"l_c is above {LONGEST:g} L"),
-        (nucleus * chain.n_blocks < FEWEST_BLOCKS, f"l_c has < {FEWEST_BLOCKS} blocks"),
-        (chain.drive_velocity > SLOW_DRIVE * v_c, f"V is above {SLOW_DRIVE:g} v_c"),
-        (drive > STIFF_DRIVE, f"K is above {STIFF_DRIVE:g} E S/L"),
+        (lag < LAGS[0], f"omega t_v = {lag:.2g} is below {LAGS[0]:g}"),
+        (lag > LAGS[1], f"omega t_v = {lag:.2g} is above {LAGS[1]:g}"),
+        (drive > STIFF_DRIVE, f"K = {drive:.2g} E S/L is above {STIFF_DRIVE:g} E S/L"),
         (
-            not LAGS[0] <= lag <= LAGS[1],
-            f"t_v is not {LAGS[0]:g} to {LAGS[1]:g} periods/2 pi of the slip",
+            chain.drive_velocity > SLOW_DRIVE * v_c,
+            f"V = {chain.drive_velocity:g} m/s is above {SLOW_DRIVE:g} v_c",
+        ),
+        (nucleus > LONGEST, f"l_c = {nucleus:.2g} L is above {LONGEST:g} L"),
+        (
+            nucleus * chain.n_blocks < FEWEST_BLOCKS,
+            f"l_c is shorter than {FEWEST_BLOCKS} blocks",
         ),
     ):
         if fails:
-            raise ValueError(f"the law of the settled coefficient does not hold: {reason}")
+            raise ValueError(f"the law of the settled coefficient fails: {reason}")
     shares = np.append(0.0, np.cumsum(chain.weights)) / chain.normal_load
     ends = np.linspace(0.0, 1.0, chain.n_blocks + 1)
     places = np.linspace(nucleus, 1.0, PLACES)

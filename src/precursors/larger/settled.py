@@ -16,18 +16,22 @@ from precursors.model.chain import FloatArray
 from precursors.solver.run import LargerRun, Record
 
 
-def settled(run: Record) -> dict[str, Any]:
+# Of l_c: an event whose front stops before is creep that trembles, and no precursor.
+PAST = 1.1
+
+
+def settled(run: Record, nucleus: float) -> dict[str, Any]:
     """Stick-slip into which a run has settled.
 
     peaks are the F_X/F_Z at which global slips begin, and period is the number of slips
     after which they come again; 0 if they do not, and then the later half of the run
-    counts. coefficient is their mean. precursors is the mean number of slip events
-    between two of these slips: of a larger chain, events in which F_X falls by
-    `SMALLEST_DROP` F_Z or more. state_error is the largest difference [F_Z] of a load
+    counts. coefficient is their mean, and precursors the mean number of slip events
+    before each, since the last global slip, whose fronts go beyond `PAST` l_c; `nucleus`
+    is l_c/L. state_error is the largest difference [F_Z] of a load
     at which a block changed its state, from one period to the next; NaN if different
     blocks did.
     """
-    slips = peaks_of(run)
+    slips = peaks_of(run, nucleus)
     peaks = slips["peak"]
     period = period_of(peaks.to_numpy(), SETTLED)
     is_late = slips["onset"] > 0.5 * run.duration
@@ -41,10 +45,12 @@ def settled(run: Record) -> dict[str, Any]:
     }
 
 
-def peaks_of(run: Record) -> pd.DataFrame:
+def peaks_of(run: Record, nucleus: float) -> pd.DataFrame:
     """Onset [s] of each global slip, F_X/F_Z there, and the number of precursors since
-    the global slip before."""
+    the global slip before: see `settled`."""
     slips = find_slips(run)
+    is_past = slips["front"] > PAST * nucleus * run.chain.n_blocks
+    slips = slips[is_past | slips["is_global"]]
     places = np.flatnonzero(slips["is_global"])
     peaks = slips["load_before"] / run.chain.weights.sum()
     between = np.diff(places, prepend=-1) - 1
@@ -80,7 +86,7 @@ def beside_law(run: LargerRun) -> dict[str, Any]:
     """
     added = {name: run.larger[name] for name in ADDITIONS}
     law = law_of(LargerChain(run.chain, **added))
-    found = settled(run)
+    found = settled(run, law.nucleus)
     has_settled = len(found["peaks"]) >= REPEATS
     n = found["precursors"] if has_settled else min(law.possible, default=np.nan)
     return {
