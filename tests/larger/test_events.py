@@ -10,7 +10,7 @@ import pytest
 from chains import SLIDER
 
 from precursors.larger.chain import LargerChain, simulate_larger, weakening_velocity
-from precursors import find_slips, simulate
+from precursors import find_slips
 
 LOAD = 0.5  # N
 # Until the first global slip, or 0.95 s. By RK4 with located transitions and steps of
@@ -47,14 +47,3 @@ def test_events_are_those_of_small_steps(case):
     np.testing.assert_allclose(
         slips["load_before"], expected["load_before"], rtol=0, atol=LOAD
     )
-
-
-def test_a_run_tells_what_half_the_step_changes():
-    run = simulate(TOLD, 1.0)
-    assert run.larger["halved_events"] == 0
-    assert run.larger["halved_load_N"] < 0.01
-    coarse, fine = (
-        find_slips(simulate_larger(TOLD, 1.0, step=step))["load_before"]
-        for step in (0.1, 0.05)
-    )
-    assert run.larger["halved_load_N"] == abs(coarse - fine).max()

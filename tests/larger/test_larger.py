@@ -326,13 +326,8 @@ def test_blocks_without_friction_move_with_the_drive(slider, added):
     assert abs(run.larger["energy_error"]) < ENERGY
 
 
-def test_a_weightless_block_creeps_with_the_drive():
-    larger = LargerChain(SLIDER(**WEIGHTLESS), weakening_velocity=0.02)
-    assert simulate_larger(larger, 0.1, max_steps=1000).duration == 0.1
-
-
 @pytest.mark.parametrize(("slider", "added", "duration"), HARD)
 def test_what_is_out_of_reach_ends_with_a_line(monkeypatch, slider, added, duration):
-    monkeypatch.setattr("precursors.larger.chain.PATIENCE", 40_000_000)
+    monkeypatch.setattr("precursors.larger.chain.PATIENCE", 1_000_000)
     with pytest.raises(TransitionLimitError, match=r"^the larger chain [^\n]+ at t = "):
         simulate(LargerChain(SLIDER(**slider), **added), duration)

@@ -131,7 +131,11 @@ def test_a_run_tells_the_law_beside_its_own_coefficient():
     told = beside_law(run)
     assert told["critical_length_m"] == critical_length(larger)
     assert told["law_coefficient"] == settled_coefficient(larger, told["precursors"])
-    assert told["settled_coefficient"] == pytest.approx(told["law_coefficient"], abs=0.01)
+    assert told["settled_coefficient"] == pytest.approx(
+        told["law_coefficient"], abs=0.01
+    )
     early = beside_law(simulate_larger(larger, 0.1, step=STEP))
     assert np.isnan(early["settled_coefficient"])
-    assert early["law_coefficient"] == settled_coefficient(larger, min(law_of(larger).possible))
+    assert early["law_coefficient"] == settled_coefficient(
+        larger, min(law_of(larger).possible)
+    )

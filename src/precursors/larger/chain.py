@@ -48,10 +48,8 @@ STEP_OF_COULOMB = 5e-4
 # largest. With both doubled, l_c changes by less than 1e-3.
 LENGTH_STEPS = 2000
 GROWTH_RATES = 300
-MAX_STEPS = 100_000_000  # ten times those of the longest run of the studies
-# Steps times blocks, of which any step has so many: some 7 s of work.
-PATIENCE = 500_000_000
-BLOCKS_OF_A_STEP = 30
+MAX_STEPS = 1_000_000_000  # of a run of a study, minutes; ten seconds need some 1e8
+PATIENCE = 100_000_000  # of `simulate`: ten seconds of work with some ten blocks moving
 
 
 @dataclass(frozen=True)
@@ -91,11 +89,10 @@ class LargerChain:
 
         These are the largest change of a load at which an event of Fig. 13 begins [N],
         of as many events as both runs have, and the change of their number. `limits`
-        are those of `simulate_larger`; max_steps is by default that of `PATIENCE`, and
+        are those of `simulate_larger`; max_steps is by default `PATIENCE`, and
         half the step may take twice as many.
         """
-        steps = PATIENCE // (BLOCKS_OF_A_STEP + self.chain.n_blocks)
-        limits = {"max_steps": steps, **limits}
+        limits = {"max_steps": PATIENCE, **limits}
         run = simulate_larger(self, duration, until, **limits)
         half = run.larger["step"] / 2.0
         limits["max_steps"] *= 2

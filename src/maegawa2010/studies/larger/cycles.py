@@ -66,7 +66,11 @@ def run_past(
     chain = larger.chain
     share = load_part(chain, point["critical_length"])
     theory = chain.mu_k + (chain.mu_s - chain.mu_k) * share
-    return point | {"past": index, "theory": theory} | settled(run, point["critical_length"])
+    return (
+        point
+        | {"past": index, "theory": theory}
+        | settled(run, point["critical_length"])
+    )
 
 
 def with_past(
