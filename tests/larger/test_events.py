@@ -9,8 +9,8 @@ import pandas as pd
 import pytest
 from chains import SLIDER
 
-from precursors.larger.chain import LargerChain, simulate_larger, weakening_velocity
 from precursors import find_slips
+from precursors.larger.chain import LargerChain, simulate_larger, weakening_velocity
 
 LOAD = 0.5  # N
 # Until the first global slip, or 0.95 s. By RK4 with located transitions and steps of

@@ -17,7 +17,6 @@ from precursors import (
     RunFileError,
     TransitionLimitError,
     audit,
-    find_slips,
     simulate,
 )
 from precursors.analysis.load_curve import load_curve

@@ -69,8 +69,9 @@ class Law:
     places: FloatArray
     need: FloatArray
 
-    def coefficient(self, precursors: int = 0) -> float:
-        """Peak of F_X/F_Z with so many precursors between two global slips."""
+    def coefficient(self, precursors: float = 0) -> float:
+        """Peak of F_X/F_Z with so many precursors between two global slips; a mean if
+        cycles alternate."""
         excess = (1.0 + precursors * self.refill) * self.load
         excess /= 1.0 + self.rebound * (1.0 - self.nucleus)
         return self.mu_k + (self.mu_s - self.mu_k) * excess
@@ -160,7 +161,7 @@ def law_of(larger: LargerChain) -> Law:
     )
 
 
-def settled_coefficient(larger: LargerChain, precursors: int = 0) -> float:
+def settled_coefficient(larger: LargerChain, precursors: float = 0) -> float:
     """F_X/F_Z at which global slips begin in settled stick-slip, by the law.
 
     `precursors` is their number between two global slips; see `law_of` for the errors

@@ -15,7 +15,6 @@ from precursors.larger.steps import REPEATS, SETTLED, period_of
 from precursors.model.chain import FloatArray
 from precursors.solver.run import LargerRun, Record
 
-
 # Of l_c: an event whose front stops before is creep that trembles, and no precursor.
 PAST = 1.1
 
