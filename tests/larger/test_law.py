@@ -106,13 +106,13 @@ EVENLY = chain_of(EVEN, 0.2, 1e-4)
         (replace(EVENLY, relaxation_time=0.0), "omega t_v = 0 is below 0.05"),
         (chain_of(EVEN, 0.2, 1e-3), "omega t_v = 7.8 is above 4"),
         (
-            chain_of(EVEN, 0.08, 1e-4, drive_velocity=1e-5),
-            "l_c is shorter than 5 blocks",
+            chain_of(EVEN, 0.05, 1e-4, drive_velocity=1e-5),
+            "l_c is shorter than 3 blocks",
         ),
         (replace(EVENLY, weakening_velocity=1.0), "l_c = inf L is above 0.7 L"),
         (
             chain_of(EVEN, 0.2, 1e-4, drive_velocity=0.01),
-            "V = 0.01 m/s is above 0.1 v_c",
+            "V = 0.01 m/s is above 0.3 v_c",
         ),
         (
             chain_of(EVEN, 0.2, 1e-4, drive_stiffness=5e6),

@@ -30,6 +30,12 @@ stress follows while it runs: phi = 1 - exp(-L/(c t_v)).
 *Where fronts stop (no constant).* A steady front with weakening friction and viscosity
 needs a force of w/q, and k precursors push with `push`; a front stops where the push is
 less. n is possible if it carries to the end, and n - 1 does not.
+
+Of 154 settled runs on chains drawn at random (50 to 200 blocks; tilts, parabolas, steps;
+other K, mu_k, F_Z, V and heights of the push), with n counted in the run, the peaks are
+within 0.005 in 90 % and within 0.01 in 99 %, rms 0.0031. `possible` holds n in 88 %. It
+is weak where omega t_v > 2 and more load is at the far end: peaks are higher by 0.007,
+and n is lower than it says.
 """
 
 from __future__ import annotations
@@ -44,9 +50,9 @@ from precursors.larger.chain import LargerChain, critical_length
 from precursors.model.chain import FloatArray
 
 # Limits within which the law was compared with runs.
-FEWEST_BLOCKS = 5  # in l_c
+FEWEST_BLOCKS = 3  # in l_c
 LONGEST = 0.7  # l_c/L
-SLOW_DRIVE = 0.1  # V/v_c
+SLOW_DRIVE = 0.3  # V/v_c
 STIFF_DRIVE = 1.3  # K L/(E S)
 LAGS = (0.05, 4.0)  # omega t_v
 MOST_PRECURSORS = 12
