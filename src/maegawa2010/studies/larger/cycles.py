@@ -48,7 +48,7 @@ def run_past(
     settings: Mapping[str, Any],
     point: dict[str, Any],
     larger: LargerChain,
-    step: float | None,
+    step: float,
     index: int,
 ) -> dict[str, Any]:
     """Run a chain from one of many pasts until it settles: point, index of the past,
