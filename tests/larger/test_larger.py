@@ -18,7 +18,6 @@ from precursors import (
     RunFileError,
     TransitionLimitError,
     audit,
-    find_slips,
     simulate,
 )
 from precursors.analysis.load_curve import load_curve
@@ -34,8 +33,6 @@ from precursors.larger.steps import SLOW
 # Tolerances beside the cases are two to three times what is measured at the default
 # step.
 ENERGY = 1e-6  # of the work of the drive; 3.6e-7 is measured
-# Leaps neglect inertia: 3e-4 of the loads is measured.
-LEAP = 1e-3
 PAIR = {"weakening_velocity": 0.01, "relaxation_time": 5e-6}  # l_c = 0.089 L
 SLIP = "global slip"
 
@@ -257,19 +254,6 @@ def test_creep_of_a_chain_that_hardly_weakens_does_not_run_away():
     assert critical_length(LargerChain(SLIDER())) == 0.0
 
 
-def test_leaps_over_stable_creep_change_no_event(monkeypatch):
-    larger = LargerChain(
-        SLIDER(20), weakening_velocity=0.03, relaxation_time=5e-6
-    )  # l_c = 0.21 L
-    leapt = find_slips(simulate_larger(larger, 1.5))
-    monkeypatch.setattr("precursors.larger.chain.LEAP", -np.inf)
-    stepped = find_slips(simulate_larger(larger, 1.5))
-    assert len(leapt) == 3
-    assert leapt["front"].tolist() == stepped["front"].tolist()
-    np.testing.assert_allclose(leapt["load_before"], stepped["load_before"], rtol=LEAP)
-    assert (leapt["load_before"] != stepped["load_before"]).any()
-
-
 def test_runs_balance_energy_and_they_and_the_tables_of_the_study_are_those_that_are_kept():
     runs = larger_runs()
     assert (abs(runs["energy_error"]) < ENERGY).all()
@@ -344,13 +328,8 @@ def test_blocks_without_friction_move_with_the_drive(slider, added):
     assert abs(run.larger["energy_error"]) < ENERGY
 
 
-def test_a_weightless_block_creeps_with_the_drive():
-    larger = LargerChain(SLIDER(**WEIGHTLESS), weakening_velocity=0.02)
-    assert simulate_larger(larger, 0.1, max_steps=1000).duration == 0.1
-
-
 @pytest.mark.parametrize(("slider", "added", "duration"), HARD)
 def test_what_is_out_of_reach_ends_with_a_line(monkeypatch, slider, added, duration):
-    monkeypatch.setattr("precursors.larger.chain.PATIENCE", 40_000_000)
+    monkeypatch.setattr("precursors.larger.chain.PATIENCE", 1_000_000)
     with pytest.raises(TransitionLimitError, match=r"^the larger chain [^\n]+ at t = "):
         simulate(LargerChain(SLIDER(**slider), **added), duration)

@@ -24,7 +24,7 @@ from precursors.model.chain import (
     theta_from_load_cells,
 )
 from precursors.model.checks import positive
-from precursors.solver.run import Record, Run, RunFileError
+from precursors.solver.run import LargerRun, Record, Run, RunFileError
 from precursors.support.files import write_table
 from precursors.support.provenance import git_state
 from precursors.support.spreadsheet import (
@@ -72,7 +72,7 @@ def simulate(arguments: Namespace) -> None:
         "global_slip_s": found["time"],
         "global_slip_end_s": found["end"],
     }
-    values |= accuracy(run)
+    values |= accuracy(run) | law_of_run(run)
     if arguments.output:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
@@ -292,6 +292,20 @@ def accuracy(run: Record) -> dict[str, float]:
     """Of a larger chain, what half the step changes, and the energy that is lacking."""
     larger = getattr(run, "larger", {})
     return {name: larger[name] for name in MOST_WRONG if name in larger}
+
+
+def law_of_run(run: Record) -> dict[str, Any]:
+    """Of a larger chain, its settled coefficient by the law and in the run; a line says
+    why not."""
+    if not isinstance(run, LargerRun):
+        return {}
+    from precursors.larger.settled import beside_law
+
+    try:
+        return beside_law(run)
+    except ValueError as error:
+        tell(str(error))
+        return {}
 
 
 def tell_accuracy(run: Record, first_global_slip: float) -> None:

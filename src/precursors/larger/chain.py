@@ -9,9 +9,10 @@ while block i slides. It sticks while |G_i| <= mu_s w_i. docs/models.md has the
 equations, and what is found.
 
 Steps are those of the implicit midpoint rule, with springs, dashpots and falling
-friction all implicit: one tridiagonal solution, stable however stiff the dashpots are,
-and energy is balanced to rounding. A step ends at the first release or stop in it.
-Rests are left out in closed form, and so is creep that is stable.
+friction all implicit: one tridiagonal solution over the blocks up to the last that
+slides, stable however stiff the dashpots are, and energy is balanced to rounding. A
+step ends at the first release or stop in it. A complete rest is one step; nothing is
+left out while a block moves.
 """
 
 from __future__ import annotations
@@ -38,22 +39,17 @@ from precursors.solver.run import LargerRun
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 from precursors.support.waiting import in_threads
 
-# Of the shorter of sqrt(m/k) and the time in which falling friction multiplies a
-# velocity by e. With friction that jumps, this gives all transitions of the paper's
-# scenes up to the first global slip, in order.
+# Of the shorter of sqrt(m/k) and the time in which falling friction, less viscosity,
+# multiplies a velocity by e. With friction that jumps, the second gives all transitions
+# of the paper's scenes up to the first global slip, in order.
 STEP = 0.1
 STEP_OF_COULOMB = 5e-4
-# Creep is leapt over where falling friction exceeds viscosity by less than this part of
-# the excess at which it runs away; -inf: nowhere.
-LEAP = 0.5
 # Of `critical_length`: steps along the chain, and growth rates from 1e-5 to 1 times the
 # largest. With both doubled, l_c changes by less than 1e-3.
 LENGTH_STEPS = 2000
 GROWTH_RATES = 300
-MAX_STEPS = 100_000_000  # ten times those of the longest run of the studies
-# Steps times blocks, of which any step has so many: some 7 s of work.
-PATIENCE = 500_000_000
-BLOCKS_OF_A_STEP = 30
+MAX_STEPS = 1_000_000_000  # of a run of a study, minutes; ten seconds need some 1e8
+PATIENCE = 100_000_000  # of `simulate`: ten seconds of work with some ten blocks moving
 
 
 @dataclass(frozen=True)
@@ -78,6 +74,13 @@ class LargerChain:
                 "viscosity must not be given beside relaxation_time, which is viscosity / k"
             )
 
+    @property
+    def fall(self) -> float:
+        """Fall (mu_s - mu_k)/v_c of the friction coefficient with velocity [s/m]; 0 for
+        Coulomb friction, which jumps."""
+        drop = self.chain.mu_s - self.chain.mu_k
+        return drop / self.weakening_velocity if self.weakening_velocity else 0.0
+
     def simulate(
         self, duration: float, until: Until = None, **limits: int
     ) -> LargerRun:
@@ -86,11 +89,10 @@ class LargerChain:
 
         These are the largest change of a load at which an event of Fig. 13 begins [N],
         of as many events as both runs have, and the change of their number. `limits`
-        are those of `simulate_larger`; max_steps is by default that of `PATIENCE`, and
+        are those of `simulate_larger`; max_steps is by default `PATIENCE`, and
         half the step may take twice as many.
         """
-        steps = PATIENCE // (BLOCKS_OF_A_STEP + self.chain.n_blocks)
-        limits = {"max_steps": steps, **limits}
+        limits = {"max_steps": PATIENCE, **limits}
         run = simulate_larger(self, duration, until, **limits)
         half = run.larger["step"] / 2.0
         limits["max_steps"] *= 2
@@ -120,7 +122,7 @@ def critical_length(larger: LargerChain) -> float:
     block = chain.length / chain.n_blocks
     rigidity = chain.stiffness * block  # E S
     inertia = chain.mass / block
-    fall = (chain.mu_s - chain.mu_k) * chain.weights / larger.weakening_velocity / block
+    fall = larger.fall * chain.weights / block
     viscous = larger.relaxation_time + larger.viscosity / chain.stiffness
     dx = chain.length / LENGTH_STEPS
     x = dx * (np.arange(LENGTH_STEPS) + 1.0)
@@ -181,7 +183,7 @@ def simulate_larger(
 
     `until` may be "settled", too: the run ends when the loads at which global slips
     begin come again (see `period_of`). `step` is in the shorter of sqrt(m/k) and the
-    time in which falling friction multiplies a velocity by e, by default `STEP` or
+    time in which creep that runs away grows by e, by default `STEP` or
     `STEP_OF_COULOMB`. `start_forces` are those of the springs [N], F_X first, by
     default 0.
 
@@ -250,22 +252,25 @@ def model_of(larger: LargerChain) -> CompiledChain:
         mu_s=chain.mu_s,
         mu_k=chain.mu_k,
         weakening_velocity=larger.weakening_velocity * (chain.mu_k < chain.mu_s),
+        fall=larger.fall,
         drive_velocity=chain.drive_velocity,
-        leap=LEAP,
     )
 
 
 def longest_steps(m: CompiledChain, chain: Chain, step: float) -> FloatArray:
     """Steps [s] while nothing slides ahead of block 1..N; `step` is that of
-    `simulate_larger`."""
-    steps = np.full(chain.n_blocks, 2.0 / chain.fastest_frequency_bound * step)
-    if m.weakening_velocity:
-        largest = m.weights + abs(m.tilt) * m.mu_s * chain.normal_load
-        fall = np.maximum.accumulate((m.mu_s - m.mu_k) * largest)
-        with np.errstate(divide="ignore"):  # weightless blocks have no such time
-            growth = m.mass * m.weakening_velocity / fall
-        steps = np.minimum(steps, growth * step)
-    return steps
+    `simulate_larger`.
+
+    The growth rate is that of falling friction, less the viscosity of the gravest mode
+    of the stretch: a quarter of a wave, or even if the whole chain slides.
+    """
+    n = chain.n_blocks
+    largest = m.weights + abs(m.tilt) * m.mu_s * chain.normal_load
+    fall = m.fall * np.maximum.accumulate(largest)
+    shape = (2.0 * np.sin(0.5 * math.pi / (2.0 * np.arange(1, n + 1) + 1.0))) ** 2
+    shape[-1] = 0.0
+    growth = np.maximum(fall - m.dashpots.max() * shape, 0.0) / m.mass
+    return step / np.maximum(chain.fastest_frequency_bound / 2.0, growth)
 
 
 def stored_energy(chain: Chain, state: State) -> float:

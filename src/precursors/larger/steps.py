@@ -12,7 +12,6 @@ from precursors.model.chain import FloatArray
 from precursors.solver.record import IntArray
 from precursors.support.compiled import entry
 
-BALANCED = 1e-3  # of mu_s w_i: a smaller net force does not end creep
 SLOW = 0.1  # of v_c: a block that is slower counts as one that sticks
 # Of F_Z: an event in which F_X falls by less is left out where friction falls.
 SMALLEST_DROP = 1e-4
@@ -23,13 +22,14 @@ SETTLED = 1e-4
 REPEATS = 4
 LONGEST_PERIOD = 4
 MOST_STALLED = 4  # times the number of blocks: steps that end where they begin
-BEGIN, IS_GLOBAL = range(2)  # of an event: first row, whether it is a global slip
+# Of an event: first row, whether it is a global slip, blocks that are fast now.
+BEGIN, IS_GLOBAL, FAST = range(3)
 
 compiled = entry(Path(__file__).parent, ["steps.py"], error_model="numpy", nogil=True)
 
 
 class CompiledChain(NamedTuple):
-    """A chain as the compiled functions take it; `leap` is `larger.LEAP`.
+    """A chain as the compiled functions take it; `fall` is that of `LargerChain`.
 
     Springs and dashpots, like all arrays of the state, end with a 0: nothing is ahead
     of block N.
@@ -43,8 +43,8 @@ class CompiledChain(NamedTuple):
     mu_s: float
     mu_k: float
     weakening_velocity: float
+    fall: float
     drive_velocity: float
-    leap: float
 
 
 class State(NamedTuple):
@@ -85,28 +85,17 @@ class End(NamedTuple):
 
 
 @compiled
+def friction(m, speed):
+    """Friction coefficient mu(v) = rest - fall v about a speed: rest, fall [s/m]."""
+    if speed < m.weakening_velocity:
+        return m.mu_s, m.fall
+    return m.mu_k, 0.0
+
+
+@compiled
 def weight(m, load, i):
     """Normal load w_i [N] while F_X is `load`."""
     return m.weights[i] + m.tilt[i] * load
-
-
-@compiled
-def strength(m, load, i):
-    """Largest static friction mu_s w_i [N]."""
-    return m.mu_s * weight(m, load, i)
-
-
-@compiled
-def slope(m, w):
-    """Fall of the friction of a normal load w with the velocity [N s/m]."""
-    return (m.mu_s - m.mu_k) * w / m.weakening_velocity
-
-
-@compiled
-def copy(target, source):
-    """Copy an array; a slice would compile two seconds longer."""
-    for i in range(source.shape[0]):
-        target[i] = source[i]
 
 
 @compiled
@@ -117,135 +106,74 @@ def net_force(m, force, velocity, i):
 
 
 @compiled
-def find_mean_velocities(m, s, last, h, leaps):
-    """Mean velocities over a step h of the blocks up to `last` (Thomas' algorithm).
+def margin(m, force, velocity, i, side):
+    """What static friction on block i could bear beyond a net force to one side [N]."""
+    return m.mu_s * weight(m, force[0], i) - side * net_force(m, force, velocity, i)
 
-    They balance the forces in the middle of the step. In a leap there is no inertia,
-    and the forces at its end are balanced at the friction of the velocities before.
+
+@compiled
+def find_mean_velocities(m, s, last, h):
+    """Mean velocities in a step h of the blocks up to `last` (Thomas' algorithm).
+
+    They balance the forces in the middle of the step.
     """
-    reach = h if leaps else 0.5 * h
-    inertia = 0.0 if leaps else 2.0 * m.mass / h
-    behind = reach * m.springs[0]
+    inertia = 2.0 * m.mass / h
+    behind = 0.5 * h * m.springs[0]
     load = s.force[0] + behind * (m.drive_velocity - s.velocity[0])
-    s.mean[last + 1] = 0.0
-    u_behind = m.drive_velocity
-    r_behind = 0.0
+    mean_behind = m.drive_velocity
+    ratio_behind = 0.0
     for i in range(last + 1):
-        ahead = reach * m.springs[i + 1] + m.dashpots[i + 1]
-        if s.mode[i] == 0:
-            s.mean[i] = s.ratio[i] = 0.0
-        else:
+        ahead = 0.5 * h * m.springs[i + 1] + m.dashpots[i + 1]
+        mean = ratio = 0.0
+        if s.mode[i] != 0:
             w = weight(m, load, i)
-            pivot = inertia + behind + ahead - behind * r_behind
+            rest, fall = friction(m, abs(s.velocity[i]))
             push = inertia * s.velocity[i] + s.force[i] - s.force[i + 1]
-            if abs(s.velocity[i]) < m.weakening_velocity:
-                fall = slope(m, w)
-                fallen = fall * s.velocity[i] if leaps else 0.0
-                push -= s.mode[i] * m.mu_s * w - fallen
-                pivot -= 0.0 if leaps else fall
-            else:
-                push -= s.mode[i] * m.mu_k * w
-            s.mean[i] = (push + behind * u_behind) / pivot
-            s.ratio[i] = ahead / pivot
+            push -= s.mode[i] * rest * w
+            pivot = inertia - fall * w + ahead + behind * (1.0 - ratio_behind)
+            mean = (push + behind * mean_behind) / pivot
+            ratio = ahead / pivot
+        s.mean[i] = mean_behind = mean
+        s.ratio[i] = ratio_behind = ratio
         behind = ahead
-        u_behind = s.mean[i]
-        r_behind = s.ratio[i]
+    s.mean[last + 1] = 0.0
     for i in range(last - 1, -1, -1):
         s.mean[i] += s.ratio[i] * s.mean[i + 1]
 
 
 @compiled
-def try_step(m, s, last, watched, h, leaps, holds):
+def try_step(m, s, last, watched, h, holds):
     """Find the state at the end of a step h; return the part of it at which a block
     first stops or, unless the step `holds` those at rest, is released, and which."""
-    find_mean_velocities(m, s, last, h, leaps)
-    copy(s.new_force, s.force)
-    copy(s.new_velocity, s.velocity)
+    find_mean_velocities(m, s, last, h)
+    moved_behind = m.drive_velocity
     for i in range(last + 2):
         moved = s.mean[i]
-        behind = s.mean[i - 1] if i > 0 else m.drive_velocity
-        s.new_force[i] += h * m.springs[i] * (behind - moved)
-        if s.mode[i] != 0:
-            s.new_velocity[i] = moved if leaps else 2.0 * moved - s.velocity[i]
+        s.new_force[i] = s.force[i] + h * m.springs[i] * (moved_behind - moved)
+        s.new_velocity[i] = 2.0 * moved - s.velocity[i]
+        moved_behind = moved
+    for i in range(last + 2, watched + 1):
+        s.new_force[i] = s.force[i]
+        s.new_velocity[i] = 0.0
     part = 2.0
     block = -1
     for i in range(watched):
-        if holds and s.mode[i] == 0:
+        if s.mode[i] != 0:
+            before = s.mode[i] * s.velocity[i]
+            after = s.mode[i] * s.new_velocity[i]
+        elif holds:
             continue
-        at = part_until_change(m, s, i)
-        if at < part:
-            part = at
+        else:
+            net = net_force(m, s.new_force, s.new_velocity, i)
+            side = 1.0 if net > 0.0 else -1.0
+            after = margin(m, s.new_force, s.new_velocity, i, side)
+            before = 0.0
+            if after < 0.0:
+                before = max(margin(m, s.force, s.velocity, i, side), 0.0)
+        if after < 0.0 and before < part * (before - after):
+            part = before / (before - after)
             block = i
     return part, block
-
-
-@compiled
-def part_until_change(m, s, i):
-    """Part of the step at which block i stops or is released, so that its velocity or
-    what it could bear beyond its net force becomes zero; 2 if neither does."""
-    way = s.mode[i]
-    if way != 0:
-        before = way * s.velocity[i]
-        after = way * s.new_velocity[i]
-    else:
-        net = net_force(m, s.new_force, s.new_velocity, i)
-        side = 1.0 if net > 0.0 else -1.0
-        after = strength(m, s.new_force[0], i) - side * net
-        net = net_force(m, s.force, s.velocity, i)
-        before = strength(m, s.force[0], i) - side * net
-    if after >= 0.0:
-        return 2.0
-    before = max(before, 0.0)
-    return before / (before - after)
-
-
-@compiled
-def is_stable(m, load, p):
-    """Whether blocks 1..p may creep: well below the length at which creep runs away
-    (see docs/models.md).
-
-    The gravest mode of the stretch is a quarter of a wave; each normal load counts by
-    its square.
-    """
-    if m.weakening_velocity == 0.0:
-        return False
-    whole = p == m.weights.shape[0]
-    angle = math.pi / (2 * p + 1)
-    mean_weight = 0.0
-    for i in range(p):
-        wave = math.cos((i + 0.5) * angle) ** 2 * 4.0 / (2 * p + 1)
-        share = 1.0 / p if whole else wave
-        mean_weight += share * weight(m, load, i)
-    shape = (2.0 * math.sin(0.5 * angle)) ** 2
-    stiffness = m.springs[0] / p if whole else m.springs[p] * shape
-    excess = slope(m, mean_weight) - m.dashpots[p] * shape
-    return excess < m.leap * 2.0 * math.sqrt(m.mass * stiffness)
-
-
-@compiled
-def is_calm(m, s, last):
-    """Whether blocks 1..last + 1 are as slow as in creep, and their forces balanced."""
-    for i in range(last + 1):
-        velocity = s.velocity[i]
-        share = 1.0 - (1.0 - m.mu_k / m.mu_s) * velocity / m.weakening_velocity
-        net = net_force(m, s.force, s.velocity, i)
-        excess = net / strength(m, s.force[0], i) - share
-        if abs(velocity) > m.drive_velocity or abs(excess) > BALANCED:
-            return False
-    return True
-
-
-@compiled
-def heat_of_step(m, s, load, last, h):
-    """Heat of friction and of dashpots in a step [J]."""
-    heat = 0.0
-    for i in range(last + 1):
-        mu = m.mu_k
-        if abs(s.velocity[i]) < m.weakening_velocity:
-            mu = m.mu_s - (m.mu_s - m.mu_k) * abs(s.mean[i]) / m.weakening_velocity
-        heat += h * mu * weight(m, load, i) * s.mode[i] * s.mean[i]
-        heat += h * m.dashpots[i + 1] * (s.mean[i] - s.mean[i + 1]) ** 2
-    return heat
 
 
 @compiled
@@ -254,38 +182,45 @@ def switch(m, s, i, pull):
     if it stops, and stick if it does not start."""
     was_still = s.velocity[i] == 0.0
     s.velocity[i] = 0.0
-    net = net_force(m, s.force, s.velocity, i)
-    holds = was_still or abs(net) <= strength(m, s.force[0], i)
     if s.mode[i] == 0:
         s.mode[i] = 1 if pull > 0.0 else -1
-    else:
-        s.mode[i] = 0 if holds else (1 if net > 0.0 else -1)
+        return
+    net = net_force(m, s.force, s.velocity, i)
+    side = 1 if net > 0.0 else -1
+    holds = was_still or margin(m, s.force, s.velocity, i, side) >= 0.0
+    s.mode[i] = 0 if holds else side
 
 
 @compiled
-def take_step(m, s, last, watched, h, leaps, holds):
-    """Move on by h [s], or to the first stop or release before; return the time
-    moved."""
-    copy(s.velocity_before, s.velocity)
-    part, block = try_step(m, s, last, watched, h, leaps, holds)
-    pull = 0.0
-    if block >= 0:
-        # At its end: a block without weight is released by no force at all.
-        pull = net_force(m, s.new_force, s.new_velocity, block)
-        h *= part
-        if leaps:
-            copy(s.velocity, s.new_velocity)
-        if h > 0.0:
-            try_step(m, s, last, watched, h, leaps, holds)
-    if h > 0.0:
-        load = 0.5 * (s.force[0] + s.new_force[0])
-        s.energy[0] += h * load * m.drive_velocity
-        s.energy[1] += heat_of_step(m, s, load, last, h)
-        copy(s.force, s.new_force)
-        copy(s.velocity, s.new_velocity)
-    if block >= 0:
-        switch(m, s, block, pull)
-    return h
+def accept(m, s, last, h):
+    """Move on to the end of a step h, with its work and heat; return whether a block
+    became faster or slower than `SLOW` v_c."""
+    load = 0.5 * (s.force[0] + s.new_force[0])
+    slow = SLOW * m.weakening_velocity
+    heat = 0.0
+    changes = False
+    for i in range(last + 1):
+        rest, fall = friction(m, abs(s.velocity[i]))
+        speed = s.mode[i] * s.mean[i]
+        heat += (rest - fall * speed) * weight(m, load, i) * speed
+        heat += m.dashpots[i + 1] * (s.mean[i] - s.mean[i + 1]) ** 2
+        changes |= (abs(s.new_velocity[i]) > slow) != (s.seen[i] != 0)
+        s.velocity_before[i] = s.velocity[i]
+        s.velocity[i] = s.new_velocity[i]
+        s.force[i] = s.new_force[i]
+    s.force[last + 1] = s.new_force[last + 1]
+    s.energy[0] += h * load * m.drive_velocity
+    s.energy[1] += h * heat
+    return changes
+
+
+@compiled
+def farthest(mode):
+    """Last block that slides; -1: all stick."""
+    last = len(mode) - 1
+    while last >= 0 and mode[last] == 0:
+        last -= 1
+    return last
 
 
 @compiled
@@ -310,8 +245,8 @@ def note(m, s, record, watched, load_before, time, h):
     """Note which blocks became faster or slower than `SLOW` v_c in a step that ends at
     `time`; return whether a global slip ended in it."""
     slow = SLOW * m.weakening_velocity
-    total = m.weights.sum()
-    smallest_drop = SMALLEST_DROP * total if slow > 0.0 else -math.inf
+    bearing = np.count_nonzero(m.weights)
+    smallest_drop = SMALLEST_DROP * m.weights.sum() if slow > 0.0 else -math.inf
     rows = record.rows
     event = record.event
     ended = False
@@ -322,27 +257,25 @@ def note(m, s, record, watched, load_before, time, h):
         way = s.mode[i] if speed > slow or slow == 0.0 else 0
         if way == s.seen[i]:
             continue
-        if not s.seen.any():
+        if event[FAST] == 0:
             event[BEGIN] = len(rows)
             event[IS_GLOBAL] = 0
+        event[FAST] += abs(way) - abs(s.seen[i])
         s.seen[i] = way
         at = 1.0  # part of the step
         speed_before = abs(s.velocity_before[i])
-        if speed != speed_before:
+        if slow > 0.0 and speed != speed_before:
             at = (slow - speed_before) / (speed - speed_before)
         load = load_before + at * (s.force[0] - load_before)
         rows.append((time - (1.0 - at) * h, i + 1.0, float(way), load))
-        n_fast = np.count_nonzero(s.seen)
-        event[IS_GLOBAL] |= n_fast == np.count_nonzero(m.weights)
-        if n_fast == 0:
+        event[IS_GLOBAL] |= event[FAST] == bearing
+        if event[FAST] == 0:
             onset = rows[event[BEGIN]][3]
             if onset - s.force[0] < smallest_drop:
                 del rows[event[BEGIN] :]
             elif event[IS_GLOBAL] == 1:
                 record.peaks.append(onset)
                 ended = True
-    if abs(s.force[0] - record.points[-1][1]) > POINTS * total:
-        record.points.append((time, s.force[0]))
     return ended
 
 
@@ -354,43 +287,49 @@ def march(m, s, end, step, now):
     `step` [s] is that while nothing slides ahead of each block. The time reached is in
     `now` for those who wait.
     """
-    n = m.weights.shape[0]
-    tolerance = SETTLED * m.weights.sum()
-    event = np.zeros(2, np.int64)
+    n = len(m.weights)
+    total = m.weights.sum()
+    event = np.zeros(3, np.int64)
     record = Record([(0.0, 0.0, 0.0, 0.0)], [(0.0, s.force[0])], [0.0], event)
     del record.peaks[:]
     time = 0.0
-    leaps = True
     steps = 0
     stalled = 0  # steps since the clock went on
-    creeping = -1
-    stable = False
+    last = -1
     ended = False
     while not ended:
-        last = n - 1
         steps += 1
-        while last >= 0 and s.mode[last] == 0:
-            last -= 1
         watched = n if m.tilt[0] != 0.0 else min(n, last + 2)
-        if last != creeping:
-            creeping = last
-            stable = last >= 0 and is_stable(m, s.force[0], last + 1)
-        # A block exactly at its limit may be released and stop at once, in turn, where
-        # the next step would leap if it stuck. It is held for a step that does not.
+        # A block exactly at its limit may be released and stop at once, in turn. It is
+        # held for a step.
         holds = stalled > MOST_STALLED * n
-        creeps = stable and not holds and (s.mode[: last + 1] == 1).all()
-        leaps = last < 0 or (creeps and (leaps or is_calm(m, s, last)))
-        load_before = s.force[0]
         h = end.duration - time
-        h = h if leaps else min(step[last], h)
-        h = take_step(m, s, last, watched, h, leaps, holds)
+        if last >= 0:
+            h = min(step[last], h)
+        load_before = s.force[0]
+        pull = 0.0
+        part, block = try_step(m, s, last, watched, h, holds)
+        if block >= 0:
+            # At its end: a block without weight is released by no force at all.
+            pull = net_force(m, s.new_force, s.new_velocity, block)
+            h *= part
+            if h > 0.0:
+                try_step(m, s, last, watched, h, holds)
+        notable = block >= 0
+        if h > 0.0:
+            notable |= accept(m, s, last, h)
+        if block >= 0:
+            switch(m, s, block, pull)
+            last = farthest(s.mode)
         stalled = 0 if time + h > time else stalled + 1
         time += h
         now[0] = time
         ended = time >= end.duration or s.force[0] > end.lifting_load
-        if note(m, s, record, watched, load_before, time, h):
-            settled = period_of(record.peaks, tolerance) > 0
+        if notable and note(m, s, record, watched, load_before, time, h):
+            settled = period_of(record.peaks, SETTLED * total) > 0
             ended |= end.at_global_slip or (end.when_settled and settled)
+        if abs(s.force[0] - record.points[-1][1]) > POINTS * total:
+            record.points.append((time, s.force[0]))
         ended |= len(record.rows) - 1 > end.most or steps > end.most_steps
     record.points.append((time, s.force[0]))
     return np.array(record.rows)[1:], np.array(record.points), time, steps

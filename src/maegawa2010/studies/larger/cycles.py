@@ -19,16 +19,14 @@ from maegawa2010.studies.larger.first_slips import (
     load_part,
     run_studies,
 )
-from precursors.analysis.slips import find_slips
 from precursors.larger.chain import LargerChain, simulate_larger
-from precursors.larger.steps import SETTLED, period_of
+from precursors.larger.settled import settled
 from precursors.model.chain import FloatArray
-from precursors.solver.run import Record
 
 APART = 0.003  # two cycles whose mean peaks [F_Z] are closer are one
 # Of the straight lines from which the net forces of a strained start are made.
 NODES = 8
-MEDIANS = ["coefficient", "period", "state_error", "theory"]
+MEDIANS = ["coefficient", "precursors", "period", "state_error", "theory"]
 
 
 def cycle_tables(
@@ -50,7 +48,7 @@ def run_past(
     settings: Mapping[str, Any],
     point: dict[str, Any],
     larger: LargerChain,
-    step: float | None,
+    step: float,
     index: int,
 ) -> dict[str, Any]:
     """Run a chain from one of many pasts until it settles: point, index of the past,
@@ -68,7 +66,11 @@ def run_past(
     chain = larger.chain
     share = load_part(chain, point["critical_length"])
     theory = chain.mu_k + (chain.mu_s - chain.mu_k) * share
-    return point | {"past": index, "theory": theory} | settled(run)
+    return (
+        point
+        | {"past": index, "theory": theory}
+        | settled(run, point["critical_length"])
+    )
 
 
 def with_past(
@@ -93,56 +95,11 @@ def with_past(
     return replace(larger, chain=replace(larger.chain, weights=noisy)), forces
 
 
-def settled(run: Record) -> dict[str, Any]:
-    """Stick-slip into which a run has settled.
-
-    peaks are the F_X/F_Z at which global slips begin, and period is the number of slips
-    after which they come again; 0 if they do not, and then the later half of the run
-    counts. coefficient is their mean. state_error is the largest difference [F_Z] of a
-    load at which a block changed its state, from one period to the next; NaN if
-    different blocks did.
-    """
-    slips = peaks_of(run)
-    peaks = slips["peak"]
-    period = period_of(peaks.to_numpy(), SETTLED)
-    is_late = slips["onset"] > 0.5 * run.duration
-    late = peaks.tail(period) if period else peaks[is_late]
-    return {
-        "peaks": peaks.to_numpy(),
-        "period": period,
-        "coefficient": late.mean(),
-        "state_error": state_error(run, slips["onset"].to_numpy(), period),
-    }
-
-
-def peaks_of(run: Record) -> pd.DataFrame:
-    """Onset [s] of each global slip, and F_X/F_Z there."""
-    slips = find_slips(run)
-    slips = slips[slips["is_global"]]
-    return slips.assign(peak=slips["load_before"] / run.chain.weights.sum())
-
-
-def state_error(run: Record, onsets: FloatArray, period: int) -> float:
-    """See `settled`."""
-    if not period:
-        return np.nan
-    ends = onsets[[-1 - 2 * period, -1 - period, -1]]
-    rows = run.transitions
-    before, after = (
-        np.sort(of_period, order="block")
-        for of_period in np.split(rows, np.searchsorted(rows["time"], ends))[1:3]
-    )
-    if not np.array_equal(before["block"], after["block"]):
-        return np.nan
-    change = abs(after["tangential_load"] - before["tangential_load"])
-    return float(change.max() / run.chain.weights.sum())
-
-
 def cycles_table(runs: pd.DataFrame) -> pd.DataFrame:
     """All cycles of each point with their shares: a row for each cycle.
 
     Runs whose coefficients are a chain of values less than `APART` apart have one
-    cycle. Its coefficient, period and state_error are medians over its runs; share is
+    cycle. Its coefficient, precursors, period and state_error are medians over its runs; share is
     that of the point's `pasts` runs, and periodic the share of its runs that settled.
     theory is mu_k + (mu_s - mu_k) W(l_c)/F_Z, which for an even load is mu_k + (mu_s -
     mu_k) l_c/L.

@@ -27,6 +27,9 @@ from precursors.solver.simulate import simulate
 from precursors.support.compiled import untyped
 from precursors.support.waiting import in_threads
 
+# Of `simulate_larger`, for chains of up to 100 blocks whose friction weakens: half of it
+# changes settled peaks by less than 1e-3.
+STEP = 0.25
 # Fall of F_X, over F_X, that ends smooth growth: creep that trembles lets it fall by
 # less.
 SEEN = 0.002
@@ -76,12 +79,12 @@ def run_studies(
 ) -> pd.DataFrame:
     """Run every point of some studies, on all threads: a row for each point and draw.
 
-    A study is that of `points`; it may have the step of `simulate_larger`, and the
+    A study is that of `points`; it may have a step other than `STEP`, and the
     number of `runs` (by default one), each of them repeated so many times. `run`
     (point, chain, step, number of the draw) returns a row.
     """
     tasks = [
-        partial(run, point, larger, study.get("step"), draw)
+        partial(run, point, larger, study.get("step", STEP), draw)
         for name, study in studies.items()
         for point, larger in points(slider, name, study)
         for draw in range(repeats * study.get("runs", 1))
@@ -104,7 +107,7 @@ def larger_tables(
 
 
 def run_creep(
-    point: dict[str, Any], larger: LargerChain, step: float | None, _: int
+    point: dict[str, Any], larger: LargerChain, step: float, _: int
 ) -> dict[str, Any]:
     """Length at which smooth growth ends: a row of larger_nucleation.csv.
 
@@ -137,7 +140,7 @@ def run_draw(
     settings: Mapping[str, Any],
     point: dict[str, Any],
     larger: LargerChain,
-    step: float | None,
+    step: float,
     draw: int,
 ) -> dict[str, Any]:
     """Run a chain to its first global slip: point, and `numbers` of the run.
@@ -159,7 +162,7 @@ def run_draw(
     return point | found
 
 
-def run_to_slip(larger: LargerChain, step: float | None) -> Any:
+def run_to_slip(larger: LargerChain, step: float) -> Any:
     """Run to the end of the first global slip; the paper's chain by its own solver,
     which is faster."""
     limit = longest_run(larger.chain) / 4.0
