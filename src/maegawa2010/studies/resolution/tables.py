@@ -3,7 +3,7 @@ into blocks."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from maegawa2010.studies.members import (
     stack,
     with_noise,
 )
+from maegawa2010.studies.noise.tables import differences_table
 from precursors.analysis.horizon import horizon
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
@@ -56,9 +57,14 @@ def resolution_tables(
     slider: Mapping[str, Any],
     uniform: str,
     extrapolate_from: int,
+    finer: Sequence[pd.DataFrame] = (),
 ) -> dict[str, pd.DataFrame]:
     """The tables of the study, by file name; `noise` has the members with the scenes'
-    own N."""
+    own N.
+
+    `finer` has differences from a larger study, which take the place of those with the
+    same N.
+    """
     gathered = gather(chunks)
     members = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
     limits = limits_table(members, extrapolate_from, slider["mu_k"])
@@ -67,7 +73,25 @@ def resolution_tables(
         "resolution": noise_table(members, POINT, QUANTITIES),
         "counts_by_n": counts_table(members, uniform),
         "resolution_limits": limits,
+        "resolution_differences": with_finer(differences_by_n(members), finer),
     }
+
+
+def differences_by_n(members: pd.DataFrame) -> pd.DataFrame:
+    """Differences of mu_sapp between loadings, as in `differences_table`, for each N."""
+    tables = {
+        n: differences_table(runs).query("quantity == 'mu_sapp'")
+        for n, runs in members.groupby("n_blocks")
+    }
+    return pd.concat(tables, names=["n_blocks"]).reset_index("n_blocks")
+
+
+def with_finer(table: pd.DataFrame, finer: Iterable[pd.DataFrame]) -> pd.DataFrame:
+    """The table with rows of others, instead of its own with the same N."""
+    for other in finer:
+        own = table[~table["n_blocks"].isin(other["n_blocks"])]
+        table = pd.concat([own, other]).sort_values("n_blocks", kind="stable")
+    return table
 
 
 def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
