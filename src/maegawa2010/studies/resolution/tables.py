@@ -12,13 +12,13 @@ from scipy.stats import mannwhitneyu
 
 from maegawa2010.studies.members import (
     Study,
+    differences_table,
     draws,
     gather,
     noise_table,
     stack,
     with_noise,
 )
-from maegawa2010.studies.noise.tables import differences_table
 from precursors.analysis.horizon import horizon
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
