@@ -97,9 +97,9 @@ def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(
     assert finding.note == "The values of the three runs agree: they differ by 0."
     coarse = pd.DataFrame({"n_blocks": [80], "verdict": "different", "difference": 1.0})
     by_n = pd.concat([found.assign(n_blocks=160), coarse])
-    assert friction_independent_of_loading({"resolution_differences": by_n}).verdict == (
-        verdict
-    )
+    assert friction_independent_of_loading(
+        {"resolution_differences": by_n}
+    ).verdict == (verdict)
 
 
 def test_the_values_of_three_runs_agree_to_a_unit_of_the_last_digit():

@@ -3,7 +3,7 @@ agrees."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -165,12 +165,6 @@ def in_draws(
         drawn = agree[agree.index > 0]
         shares[name] = Share(int(drawn.sum()), len(drawn))
     return Finding(numbers.loc[0], bool(agree.loc[0]), expected, shares)
-
-
-def listed(parts: Iterable[Any]) -> str:
-    """Parts of a sentence: a, b and c."""
-    *first, last = map(str, parts)
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def shown(values: ArrayLike) -> str:

@@ -19,7 +19,7 @@ import pandas as pd
 import scipy
 
 from maegawa2010 import printed
-from maegawa2010.paper.claim import Claim, Find, Finding, in_draws, listed, shown
+from maegawa2010.paper.claim import Claim, Find, Finding, in_draws, shown
 from maegawa2010.paper.inputs import LEADING, SCENES, TRAILING, UNIFORM
 from maegawa2010.paper.open_points import open_points_table
 from maegawa2010.paper.tables import Tables, before_global, one, rows
@@ -216,13 +216,9 @@ def friction_independent_of_loading(t: Tables) -> Finding:
     """The same differences for a row that is cut finely, as a slider has no blocks."""
     pairs = t["resolution_differences"]
     fine = pairs[pairs["n_blocks"] >= CUT_FINELY]
-    numbers = listed(sorted(fine["n_blocks"].unique()))
-    return Finding(
-        fine["difference"],
-        all_same(fine),
-        printed.LAST_DIGIT,
-        note=f"Numbers of blocks: {numbers}.",
-    )
+    numbers = fine["n_blocks"].astype(str).unique()
+    note = f"Numbers of blocks: {', '.join(numbers)}."
+    return Finding(fine["difference"], all_same(fine), printed.LAST_DIGIT, note=note)
 
 
 def all_same(pairs: pd.DataFrame) -> bool | None:
@@ -289,8 +285,9 @@ def short_events(t: Tables) -> Finding:
 
     for_all = in_draws(t, short, lambda n: n > 0)
     for_one = in_draws(t, short, lambda n: (n > 0).any(axis=1).to_frame())
-    shares = listed(f"{100 * s.k / s.n:.0f} %" for s in for_one.shares.values())
-    return replace(for_all, note=f"For one loading or more: {shares}.")
+    shares = [f"{100 * s.k / s.n:.0f} %" for s in for_one.shares.values()]
+    note = f"For one loading or more: {', '.join(shares)}."
+    return replace(for_all, note=note)
 
 
 @of_claim
