@@ -21,8 +21,8 @@ FAILS = "fails"
 UNDECIDED = "undecided"
 VERDICTS = (HOLDS, EXACT, FAILS, UNDECIDED)
 # Kinds: the six printed numbers by which the readings of the paper's words were chosen;
-# what was found after; statements on PMMA, which say nothing of the model; and what
-# cannot fail in practice, which counts as no claim.
+# what was found after; statements on PMMA, which say nothing of the model; and checks
+# that cannot fail in practice, which are not counted as claims.
 READINGS = "readings"
 RESULT = "result"
 EXPERIMENT = "experiment"

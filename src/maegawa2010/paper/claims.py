@@ -97,8 +97,8 @@ def chaos(t: Tables) -> Finding:
 
 
 def line_of_lengths(slips: pd.DataFrame, along: str) -> FloatArray:
-    """Slope and offset of the straight line through the lengths along a column; needed
-    are two events."""
+    """Slope and offset of the straight line through the lengths along a column. Needs
+    two events."""
     slips.iloc[1]
     return np.polyfit(slips[along], slips["front"], 1)
 
