@@ -17,12 +17,8 @@ TABLES["resolution"] = Table(
         # many runs of the paper's slider with 160 and 320 blocks
         "finer": [] if config["full"] or not IS_PAPERS else [f"{COMMITTED}/resolution_differences_full.csv"],
     },
-    options={
-        "slider": config["chain"],
-        "uniform": min(SLIDERS, key=lambda scene: abs(SLIDERS[scene]["theta"])),
-        "extrapolate_from": config["resolution"]["extrapolate_from"],
-    },
-    tables=["resolution", "resolution_differences", "counts_by_n", "resolution_limits"],
+    options={"uniform": min(SLIDERS, key=lambda scene: abs(SLIDERS[scene]["theta"]))},
+    tables=["resolution", "resolution_differences", "counts_by_n"],
     beside=["resolution_members"],
 )
 TABLES["predictability"] = Table(

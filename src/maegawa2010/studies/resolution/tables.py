@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from scipy.stats import mannwhitneyu
 
@@ -54,9 +53,7 @@ def resolution_study(
 def resolution_tables(
     chunks: Iterable[pd.DataFrame],
     noise: pd.DataFrame,
-    slider: Mapping[str, Any],
     uniform: str,
-    extrapolate_from: int,
     finer: Sequence[pd.DataFrame] = (),
 ) -> dict[str, pd.DataFrame]:
     """The tables of the study, by file name; `noise` has the members with the scenes'
@@ -67,12 +64,10 @@ def resolution_tables(
     """
     gathered = gather(chunks)
     members = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
-    limits = limits_table(members, extrapolate_from, slider["mu_k"])
     return {
         "resolution_members": gathered,
         "resolution": noise_table(members, POINT, QUANTITIES),
         "counts_by_n": counts_table(members, uniform),
-        "resolution_limits": limits,
         "resolution_differences": with_finer(differences_by_n(members), finer),
     }
 
@@ -147,25 +142,4 @@ def predictability_table(
             rows.append(
                 {"scene": scene, "n_blocks": n, **found, "predictable": predictable}
             )
-    return pd.DataFrame(rows)
-
-
-def limits_table(
-    members: pd.DataFrame, from_n_blocks: int, mu_k: float
-) -> pd.DataFrame:
-    """mu_sapp of many blocks as a + b/N with a = mu_k, by least squares over the
-    medians.
-
-    Chains with fewer than `from_n_blocks` blocks are left out. One row per scene has b,
-    misfit, the largest distance of a median from the law, and how many N took part.
-    """
-    large = with_noise(members[members["n_blocks"] >= from_n_blocks])
-    rows = []
-    for scene, own in large.groupby("scene", sort=False):
-        above = own.groupby("n_blocks")["mu_sapp"].median() - mu_k
-        inverse = 1.0 / above.index.to_numpy(float)
-        b = inverse @ above / (inverse @ inverse)
-        row = {"scene": scene, "a": mu_k, "b": b}
-        misfit = np.abs(above - b * inverse).max()
-        rows.append(row | {"misfit": misfit, "n_points": len(above)})
     return pd.DataFrame(rows)
