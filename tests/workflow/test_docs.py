@@ -170,6 +170,7 @@ def test_the_example_gives_what_it_shows(tmp_path, monkeypatch, capsys):
         "run.png",
         "lengths.pdf",
         "larger.png",
+        "wave.svg",
     }
 
 
