@@ -20,6 +20,7 @@ except ValueError as error:
 from maegawa2010 import printed
 from maegawa2010.config import check_config, check_sections, place_weights, read_file, read_numbers
 from maegawa2010.entries import Ensemble, Entries, Figure, Table
+from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
 from maegawa2010.scenes import (
     scene_additions,
     scene_duration,
@@ -28,12 +29,13 @@ from maegawa2010.scenes import (
     scenes_with_theta,
 )
 from maegawa2010.support.digest import digest_code
-from precursors.model.chain import parse_theta
+from precursors.model.chain import SLIDER, parse_theta
 
 min_version("9.20")
 
 PAPERS = ROOT / "src/maegawa2010"
 PROOFS = ROOT / "workflow/certificates"  # committed
+COMMITTED = ROOT / "paper/tables"  # of long studies of the paper's slider
 # What a script computes: its rule has it as a parameter, and its jobs run again when it changes.
 digest = partial(digest_code, ROOT)
 
@@ -87,6 +89,10 @@ FIG13 = config["fig13"]
 # Formats of the figures; the paper and the report show SVG.
 FORMATS = ["svg", *[name for name in config["figure_formats"] if name != "svg"]]
 SLIDERS = {scene: scene_slider(config, scene) for scene in FIG13}
+PAPERS_SLIDERS = {
+    scene: SLIDER | {"theta": theta} for scene, theta in zip(PAPERS_SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
+}
+IS_PAPERS = PAPERS_SLIDERS == {scene: {"weights": None} | SLIDERS.get(scene, {}) for scene in PAPERS_SCENES}
 RUNS = {scene: f"results/runs/{scene}.h5" for scene in FIG13}
 CERTIFICATES = {
     chain: f"results/certificates/chains/{chain}.json.gz" for chain in config["horizon"]["proved"]

@@ -7,6 +7,7 @@ PAGES = (
     "customise",
     "example",
     "numbers",
+    "proof",
     "adding",
     "models",
     "field",

@@ -113,7 +113,7 @@ def test_the_check_names_a_result_that_changed_on_disk_with_its_time_kept(tmp_pa
 
 
 def test_claims_that_hold_in_every_draw_hold(true):
-    """All sliders that are printed alike give the run's numbers: the six hold."""
+    """All sliders with the same printed inputs give the run's numbers: the six hold."""
     alike = dict(true)
     for name in ("noise_members", "digits_members"):
         run = true[name][true[name]["draw"] == 0].set_index("scene")

@@ -9,7 +9,8 @@ from settings import CONFIG, FULL
 from studies.made import study_of
 
 from maegawa2010.studies.event_law.tables import event_law_table, predicted_events
-from maegawa2010.studies.members import chain_of, run_members
+from maegawa2010.studies.members import chain_of, noise_table, run_members
+from maegawa2010.studies.resolution.tables import POINT, QUANTITIES
 
 ROOT = Path(__file__).parents[2]
 # Tables are written with all digits; sums differ by roundings.
@@ -40,4 +41,13 @@ def test_the_runs_of_few_blocks_are_those_of_the_library():
     assert len(again) > 1
     keys = ["varied", "loading", "theta", "n_blocks"]
     there = committed("event_law_full").merge(again[keys], on=keys)
+    pd.testing.assert_frame_equal(there, again, rtol=1e-6)
+
+
+def test_medians_with_twenty_blocks_are_those_of_the_library():
+    study = study_of("resolution_members", CONFIG["resolution"] | FULL["resolution"])
+    few = study.members[study.members["n_blocks"] == 20]
+    runs = run_members(type(study)(few, seed=study.seed))
+    again = noise_table(runs, POINT, QUANTITIES)
+    there = committed("resolution_full").merge(again[[*POINT, "quantity"]])
     pd.testing.assert_frame_equal(there, again, rtol=1e-6)

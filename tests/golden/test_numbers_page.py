@@ -30,6 +30,13 @@ def table(name: str, *index: str) -> pd.DataFrame:
     return found.set_index(list(index)) if index else found
 
 
+def medians(quantity: str) -> pd.DataFrame:
+    """Medians of the committed study, a row per scene and a column per N."""
+    found = pd.read_csv(ROOT / "paper/tables/resolution_full.csv")
+    own = found[found["quantity"] == quantity]
+    return own.pivot_table(index="scene", columns="n_blocks", values="q50")
+
+
 def test_lyapunov_exponents_and_times_of_growth_and_errors_at_ten_seconds():
     lyapunov = table("lyapunov")
     least, most = said(r"exponents are ([\d.]+) to ([\d.]+) per second")
@@ -86,16 +93,21 @@ def test_medians_with_noise_are_the_same_at_two_loadings_and_differ_at_the_third
 
 
 def test_the_apparent_friction_approaches_mu_k_with_the_number_of_blocks():
-    friction = table("resolution", "quantity", "n_blocks")["q50"]["mu_sapp"]
+    friction = medians("mu_sapp")
     n, near = said(r"with (\d+) blocks it is within ([\d.]+) of it")
     assert ((friction[n] - 0.45).abs() < near).all()
     assert (friction[10] - 0.45).min() > near
+    (fine,) = said(r"agree to 0.01, interval included, from (\d+) blocks on")
+    verdicts = table("resolution_differences").groupby("n_blocks")["verdict"]
+    same = verdicts.agg(lambda of_n: set(of_n) == {"same"})
+    assert same[same.index >= fine].all()
+    assert not same[10]
 
 
 def test_the_counts_of_two_loadings_draw_near_with_the_number_of_blocks():
-    more = table("counts_by_n", "n_blocks", "scene")["events_counted_over_uniform"]
-    coarse, fine = said(r"counts (\d+) % more .* ten blocks, and (\d+) % more with 160")
-    found = [100 * (more[n, "fig12"] - 1) for n in (10, 160)]
+    counts = medians("events_counted")
+    coarse, fine = said(r"counts (\d+) % more .* ten blocks, and (\d+) % more with 320")
+    found = [100 * (counts[n]["fig12"] / counts[n]["fig10"] - 1) for n in (10, 320)]
     assert found == pytest.approx([coarse, fine], abs=0.5)
 
 

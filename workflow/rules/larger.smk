@@ -19,7 +19,7 @@ TABLES["larger_cycles"] = Table(
 FIGURES["larger"] = Figure(
     section="hierarchy",
     function="maegawa2010.studies.larger.figure:draw",
-    shows="a chain with a length",
+    shows="a chain with a length, cut from the paper's slider",
     tables={
         name: str(ROOT / f"paper/tables/larger_{name}_full.csv") for name in ("nucleation", "peaks", "cycles")
     },

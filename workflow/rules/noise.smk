@@ -14,6 +14,6 @@ TABLES["noise"] = Table(
 FIGURES["noise"] = Figure(
     section="sensitivity",
     function="maegawa2010.studies.noise.figure:draw",
-    shows="mu_sapp is larger at +5/6, however small the noise",
+    shows="how much mu_sapp differs between loadings, against the noise",
     tables={"table": "results/tables/noise_amplitudes.csv"},
 )

@@ -3,16 +3,10 @@
 import sys
 
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
-from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
 from maegawa2010.paper.shown import results_shown
-from precursors.model.chain import SLIDER
 
 PAPER_SOURCE = ROOT / "paper"
 # The article is about the paper's slider, and is not made for another.
-PAPERS_SLIDERS = {
-    scene: SLIDER | {"theta": theta} for scene, theta in zip(PAPERS_SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
-}
-IS_PAPERS = PAPERS_SLIDERS == {scene: {"weights": None} | SLIDERS.get(scene, {}) for scene in PAPERS_SCENES}
 PAPER = ["results/paper.pdf", "results/supplement.pdf"] if IS_PAPERS else []
 
 TABLES["eq15"] = Table(

@@ -11,13 +11,14 @@ TABLES["digits"] = Table(
     options={"paper": {scene: PAPER_PRINTS[scene] for scene in FIG13}},
     beside=["digits_members"],
 )
-FIGURES["hero"] = Figure(
-    section="sensitivity",
-    function="maegawa2010.studies.printed_digits.figure:draw",
-    shows="the paper's six numbers, and mu_sapp of the sliders with the same printed inputs",
-    tables={
-        "slips": collect("results/tables/{scene}_slips.csv", scene=FIG13),
-        "members": "results/tables/digits_members.csv",
-        "shares": "results/tables/digits.csv",
-    },
-)
+if IS_PAPERS:
+    FIGURES["hero"] = Figure(
+        section="sensitivity",
+        function="maegawa2010.studies.printed_digits.figure:draw",
+        shows="the paper's six numbers, and mu_sapp of the sliders with the same printed inputs",
+        tables={
+            "slips": collect("results/tables/{scene}_slips.csv", scene=FIG13),
+            "members": "results/tables/digits_members.csv",
+            "shares": "results/tables/digits.csv",
+        },
+    )

@@ -49,7 +49,7 @@ for scene in SCENES:
 FIGURES["fig13"] = Figure(
     section="reproduction",
     function="precursors.figures.precursor_lengths:draw",
-    shows="lengths of precursors against the load: 6, 9 and 14 are counted",
+    shows="lengths of precursors against the load",
     tables={"slips": SLIPS},
     look=config["figure"],
 )

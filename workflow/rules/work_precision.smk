@@ -24,9 +24,9 @@ FIGURES["work_precision"] = Figure(
 FIGURES["speed"] = Figure(
     section="accuracy",
     function="maegawa2010.studies.work_precision.figure:draw",
-    shows="what accuracy costs, as published",
+    shows="what accuracy costs, as published for the paper's slider",
     tables={
-        "table": str(ROOT / "paper/tables/work_precision_full.csv"),
-        "sessions": str(ROOT / "paper/tables/beside_heyoka.csv"),
+        "table": f"{COMMITTED}/work_precision_full.csv",
+        "sessions": f"{COMMITTED}/beside_heyoka.csv",
     },
 )

@@ -34,7 +34,10 @@ HEADINGS = {
     EXPERIMENT: "Beside the experiment",
     CHECK: "Checks that cannot fail in practice",
 }
-RUNS = {"noise": "runs with 0.1 % noise", "digits": "sliders printed alike"}
+RUNS = {
+    "noise": "runs with 0.1 % noise",
+    "digits": "sliders with the same printed inputs",
+}
 
 
 def main(

@@ -14,15 +14,15 @@ from numpy.typing import ArrayLike
 from maegawa2010.paper.tables import Tables
 from maegawa2010.support.run_statistics import share_interval
 
-# Verdicts: EXACT is one that holds for exactly these inputs.
+# Verdicts: EXACT is a claim that holds in the run, but in too few draws around it.
 HOLDS = "holds"
 EXACT = "exact"
 FAILS = "fails"
 UNDECIDED = "undecided"
 VERDICTS = (HOLDS, EXACT, FAILS, UNDECIDED)
 # Kinds: the six printed numbers by which the readings of the paper's words were chosen;
-# what was found after; statements on PMMA, which say nothing of the model; and what
-# cannot fail in practice, which counts as no claim.
+# what was found after; statements on PMMA, which say nothing of the model; and checks
+# that cannot fail in practice, which are not counted as claims.
 READINGS = "readings"
 RESULT = "result"
 EXPERIMENT = "experiment"
@@ -32,8 +32,8 @@ KINDS = (READINGS, RESULT, EXPERIMENT, CHECK)
 IN_WORDS = {EXPERIMENT: ("agrees", "differs"), CHECK: ("passes", "fails")}
 # A claim that holds in the run must hold in this share of an ensemble, too.
 ENOUGH = 0.95
-# Ensembles around the run: noise of 0.1 % in the normal loads, and sliders whose inputs
-# are printed alike. Draw 0 is the run itself.
+# Ensembles around the run: noise of 0.1 % in the normal loads, and sliders with the same
+# printed inputs. Draw 0 is the run itself.
 ENSEMBLES = {"noise": "noise_members", "digits": "digits_members"}
 
 
@@ -86,8 +86,7 @@ SAID = ("section", "kind", "statement", "rule", "unit")
 def in_words(kind: str, verdict: str) -> str:
     """The verdict on a claim of some kind, in words."""
     holds, fails = IN_WORDS.get(kind, ("holds", "does not hold"))
-    exact = f"{holds} only for exactly these inputs"
-    words = (holds, exact, fails, "cannot be decided")
+    words = (holds, "not robust", fails, "cannot be decided")
     return words[VERDICTS.index(verdict)]
 
 
@@ -138,7 +137,11 @@ class Claim:
             row[f"{name}_share"] = share.k / share.n
             row |= {f"{name}_low": low, f"{name}_high": high}
         row |= {"note": finding.note, "verdict": finding.verdict}
-        return row | {"verdict_text": in_words(self.kind, finding.verdict)}
+        words = in_words(self.kind, finding.verdict)
+        if finding.verdict == EXACT:
+            least = min(share.k / share.n for share in finding.shares.values())
+            words += f" ({100 * least:.0f} %)"
+        return row | {"verdict_text": words}
 
 
 def in_draws(

@@ -37,6 +37,8 @@ CHANCE = 0.05
 # "Approximately" 200 N and 2 ms.
 NEAR_LOAD = 0.05
 NEAR_TIME = 0.25
+# Blocks from which a row stands for a slider: mu_sapp is then near mu_k.
+CUT_FINELY = 160
 # A length is a whole number of blocks: a straight line passes it by half a block at
 # most.
 HALF_A_BLOCK = 0.5
@@ -95,8 +97,8 @@ def chaos(t: Tables) -> Finding:
 
 
 def line_of_lengths(slips: pd.DataFrame, along: str) -> FloatArray:
-    """Slope and offset of the straight line through the lengths along a column; needed
-    are two events."""
+    """Slope and offset of the straight line through the lengths along a column. Needs
+    two events."""
     slips.iloc[1]
     return np.polyfit(slips[along], slips["front"], 1)
 
@@ -189,7 +191,7 @@ def growth_falls_with_theta(t: Tables) -> Finding:
 
 
 @of_claim
-def friction_independent_of_loading(t: Tables) -> Finding:
+def friction_independent_with_ten_blocks(t: Tables) -> Finding:
     """Differences of the medians of mu_sapp in the noise ensemble, each with a verdict
     of its interval; the note and the shares are of the three mu_sapp of one draw."""
     by_draw = in_draws(
@@ -199,16 +201,32 @@ def friction_independent_of_loading(t: Tables) -> Finding:
         printed.LAST_DIGIT,
     )
     pairs = rows(t["noise_differences"], quantity="mu_sapp")
-    verdicts = set(pairs["verdict"])
-    holds = not pairs.empty and "different" not in verdicts
     agree = "agree" if by_draw.holds else "do not agree"
     return replace(
         by_draw,
         ours=pairs["difference"],
-        holds=None if holds and "undecided" in verdicts else holds,
+        holds=all_same(pairs),
         note=f"The values of the three runs {agree}: they differ by"
         f" {shown(by_draw.ours)}.",
     )
+
+
+@of_claim
+def friction_independent_of_loading(t: Tables) -> Finding:
+    """The same differences for a row that is cut finely, as a slider has no blocks."""
+    pairs = t["resolution_differences"]
+    fine = pairs[pairs["n_blocks"] >= CUT_FINELY]
+    numbers = fine["n_blocks"].astype(str).unique()
+    note = f"Numbers of blocks: {', '.join(numbers)}."
+    return Finding(fine["difference"], all_same(fine), printed.LAST_DIGIT, note=note)
+
+
+def all_same(pairs: pd.DataFrame) -> bool | None:
+    """Whether every difference is within the tolerance, interval included; None if one
+    interval crosses it."""
+    verdicts = set(pairs["verdict"])
+    holds = not pairs.empty and "different" not in verdicts
+    return None if holds and "undecided" in verdicts else holds
 
 
 def spread_of_friction(runs: pd.DataFrame) -> pd.DataFrame:
@@ -219,7 +237,7 @@ def spread_of_friction(runs: pd.DataFrame) -> pd.DataFrame:
 
 @of_claim
 def friction_underestimated(t: Tables) -> Finding:
-    """mu_sapp against the smallest mu_s that is printed alike."""
+    """mu_sapp against the smallest mu_s that is printed as 0.70."""
     return in_draws(t, drawn("mu_sapp"), lambda friction: friction < MU_S, MU_S)
 
 
@@ -261,9 +279,15 @@ def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
 @of_claim
 def short_events(t: Tables) -> Finding:
     """Events before the first global slip that Fig. 13 leaves out."""
-    every = drawn("events_to_global_slip")
-    counted = drawn("events_counted")
-    return in_draws(t, lambda runs: every(runs) - counted(runs), lambda n: n > 0)
+
+    def short(runs: pd.DataFrame) -> pd.DataFrame:
+        return drawn("events_to_global_slip")(runs) - drawn("events_counted")(runs)
+
+    for_all = in_draws(t, short, lambda n: n > 0)
+    for_one = in_draws(t, short, lambda n: (n > 0).any(axis=1).to_frame())
+    shares = [f"{100 * s.k / s.n:.0f} %" for s in for_one.shares.values()]
+    note = f"For one loading or more: {', '.join(shares)}."
+    return replace(for_all, note=note)
 
 
 @of_claim
@@ -295,9 +319,10 @@ def no_rapid_growth(t: Tables) -> Finding:
         drawn("speedup"),
         lambda speedup: (speedup <= 1.0).any(axis=1).to_frame(),
     )
-    alike = t["digits_members"].query("draw > 0").groupby("scene")["speedup"]
-    medians = shown(alike.median()[list(SCENES)])
-    return replace(by_draw, note=f"Medians of the sliders printed alike: {medians}.")
+    others = t["digits_members"].query("draw > 0").groupby("scene")["speedup"]
+    medians = shown(others.median()[list(SCENES)])
+    note = f"Medians of the sliders with the same printed inputs: {medians}."
+    return replace(by_draw, note=note)
 
 
 @of_claim

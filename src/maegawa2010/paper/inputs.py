@@ -13,6 +13,7 @@ CLAIM_TABLES = (
     *(f"{scene}_trace" for scene in SCENES),
     "noise_members",
     "noise_differences",
+    "resolution_differences",
     "digits_members",
     "lyapunov",
     "model_comparison",

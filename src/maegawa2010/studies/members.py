@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from maegawa2010 import printed
-from maegawa2010.support.run_statistics import NOISE, nine_tenths
+from maegawa2010.support.run_statistics import (
+    NOISE,
+    compared,
+    median_difference,
+    nine_tenths,
+)
 from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
 from precursors.model.chain import SLIDER, Chain, FloatArray
 from precursors.solver.many import simulate_many
@@ -169,6 +175,42 @@ def noise_table(
             labels = dict(zip(point, values, strict=True)) | {"quantity": quantity}
             labels["without_noise"] = alone[quantity].item()
             rows.append(labels | number | nine_tenths(runs[quantity]))
+    return pd.DataFrame(rows)
+
+
+def differences_table(members: pd.DataFrame) -> pd.DataFrame:
+    """Whether two loadings have the same median.
+
+    Returns
+    -------
+    DataFrame
+        One row per quantity and pair of scenes: difference of the medians, scene less
+        other, with an interval low to high that holds it in at least 95 % of cases;
+        tolerance; verdict of `compared`.
+    """
+    runs = with_noise(members)
+    scenes = runs.drop_duplicates("scene").set_index("scene")["theta"].items()
+    pairs = list(combinations(scenes, 2))
+    rows = []
+    for quantity, tolerance in TOLERANCES.items():
+        values: dict[Any, pd.Series] = dict(
+            iter(runs.groupby("scene", sort=False)[quantity])
+        )
+        for (other, other_theta), (scene, theta) in pairs:
+            low, high = median_difference(values[scene], values[other])
+            row = {
+                "quantity": quantity,
+                "scene": scene,
+                "theta": theta,
+                "other": other,
+                "other_theta": other_theta,
+                "difference": values[scene].median() - values[other].median(),
+                "low": low,
+                "high": high,
+                "tolerance": tolerance,
+                "verdict": compared(low, high, tolerance),
+            }
+            rows.append(row)
     return pd.DataFrame(rows)
 
 

@@ -4,26 +4,21 @@ cent only."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from itertools import combinations
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from maegawa2010.studies.members import (
-    TOLERANCES,
     Study,
+    differences_table,
     draws,
     gather,
     noise_table,
     stack,
     with_noise,
 )
-from maegawa2010.support.run_statistics import (
-    NOISE,
-    compared,
-    median_difference,
-)
+from maegawa2010.support.run_statistics import NOISE
 
 # Other noise, with so many runs for one with NOISE: the difference of two mu_sapp grows
 # with it.
@@ -61,42 +56,6 @@ def noise_tables(chunks: Iterable[pd.DataFrame]) -> dict[str, pd.DataFrame]:
         "noise_differences": differences_table(members),
         "noise_amplitudes": amplitudes_table(gathered),
     }
-
-
-def differences_table(members: pd.DataFrame) -> pd.DataFrame:
-    """Whether two loadings have the same median.
-
-    Returns
-    -------
-    DataFrame
-        One row per quantity and pair of scenes: difference of the medians, scene less
-        other, with an interval low to high that holds it in at least 95 % of cases;
-        tolerance; verdict of `compared`.
-    """
-    runs = with_noise(members)
-    scenes = runs.drop_duplicates("scene").set_index("scene")["theta"].items()
-    pairs = list(combinations(scenes, 2))
-    rows = []
-    for quantity, tolerance in TOLERANCES.items():
-        values: dict[Any, pd.Series] = dict(
-            iter(runs.groupby("scene", sort=False)[quantity])
-        )
-        for (other, other_theta), (scene, theta) in pairs:
-            low, high = median_difference(values[scene], values[other])
-            row = {
-                "quantity": quantity,
-                "scene": scene,
-                "theta": theta,
-                "other": other,
-                "other_theta": other_theta,
-                "difference": values[scene].median() - values[other].median(),
-                "low": low,
-                "high": high,
-                "tolerance": tolerance,
-                "verdict": compared(low, high, tolerance),
-            }
-            rows.append(row)
-    return pd.DataFrame(rows)
 
 
 def amplitudes_table(members: pd.DataFrame) -> pd.DataFrame:

@@ -1,5 +1,5 @@
-"""The paper's numbers over all values that are printed alike: mu_s = 0.70 is anything
-from 0.695 to 0.705."""
+"""The paper's numbers over all sliders with the same printed inputs: mu_s = 0.70 is
+anything from 0.695 to 0.705."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def digits_study(
     duration: float,
     settings: Mapping[str, Any],
 ) -> Study:
-    """Sliders printed alike. Draw i is the same slider in each scene, draw 0 is the
+    """Sliders with the same printed inputs. Draw i is the same slider in each scene, draw 0 is the
     scene as it is."""
     random = np.random.default_rng(settings["seed"])
     changes = {

@@ -3,15 +3,15 @@ into blocks."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from scipy.stats import mannwhitneyu
 
 from maegawa2010.studies.members import (
     Study,
+    differences_table,
     draws,
     gather,
     noise_table,
@@ -53,21 +53,40 @@ def resolution_study(
 def resolution_tables(
     chunks: Iterable[pd.DataFrame],
     noise: pd.DataFrame,
-    slider: Mapping[str, Any],
     uniform: str,
-    extrapolate_from: int,
+    finer: Sequence[pd.DataFrame] = (),
 ) -> dict[str, pd.DataFrame]:
     """The tables of the study, by file name; `noise` has the members with the scenes'
-    own N."""
+    own N.
+
+    `finer` has differences from a larger study, which take the place of those with the
+    same N.
+    """
     gathered = gather(chunks)
     members = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
-    limits = limits_table(members, extrapolate_from, slider["mu_k"])
     return {
         "resolution_members": gathered,
         "resolution": noise_table(members, POINT, QUANTITIES),
         "counts_by_n": counts_table(members, uniform),
-        "resolution_limits": limits,
+        "resolution_differences": with_finer(differences_by_n(members), finer),
     }
+
+
+def differences_by_n(members: pd.DataFrame) -> pd.DataFrame:
+    """Differences of mu_sapp between loadings, as in `differences_table`, for each N."""
+    tables = {
+        n: differences_table(runs).query("quantity == 'mu_sapp'")
+        for n, runs in members.groupby("n_blocks")
+    }
+    return pd.concat(tables, names=["n_blocks"]).reset_index("n_blocks")
+
+
+def with_finer(table: pd.DataFrame, finer: Iterable[pd.DataFrame]) -> pd.DataFrame:
+    """The table with rows of others, instead of its own with the same N."""
+    for other in finer:
+        own = table[~table["n_blocks"].isin(other["n_blocks"])]
+        table = pd.concat([own, other]).sort_values("n_blocks", kind="stable")
+    return table
 
 
 def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
@@ -123,25 +142,4 @@ def predictability_table(
             rows.append(
                 {"scene": scene, "n_blocks": n, **found, "predictable": predictable}
             )
-    return pd.DataFrame(rows)
-
-
-def limits_table(
-    members: pd.DataFrame, from_n_blocks: int, mu_k: float
-) -> pd.DataFrame:
-    """mu_sapp of many blocks as a + b/N with a = mu_k, by least squares over the
-    medians.
-
-    Chains with fewer than `from_n_blocks` blocks are left out. One row per scene has b,
-    misfit, the largest distance of a median from the law, and how many N took part.
-    """
-    large = with_noise(members[members["n_blocks"] >= from_n_blocks])
-    rows = []
-    for scene, own in large.groupby("scene", sort=False):
-        above = own.groupby("n_blocks")["mu_sapp"].median() - mu_k
-        inverse = 1.0 / above.index.to_numpy(float)
-        b = inverse @ above / (inverse @ inverse)
-        row = {"scene": scene, "a": mu_k, "b": b}
-        misfit = np.abs(above - b * inverse).max()
-        rows.append(row | {"misfit": misfit, "n_points": len(above)})
     return pd.DataFrame(rows)
