@@ -176,8 +176,10 @@ TABLES_OF_SECONDS: dict[str, Callable[[], pd.DataFrame]] = {
     **{
         name: partial(lambda name: small_larger_tables()[name], name)
         for name in (
-            *("larger", "larger_means", "larger_nucleation", "larger_cycles"),
-            *("larger_verdicts", "larger_peaks"),
+            "larger",
+            "larger_nucleation",
+            "larger_cycles",
+            "larger_peaks",
         )
     },
 }

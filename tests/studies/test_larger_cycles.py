@@ -9,20 +9,17 @@ import numpy as np
 import pandas as pd
 import pytest
 from chains import SLIDER
-from pandas.testing import assert_frame_equal
 from settings import CONFIG, FULL
 
 from maegawa2010.studies.larger.cycles import (
     cycles_table,
     run_past,
-    verdict_of,
     with_past,
 )
 from maegawa2010.studies.larger.first_slips import (
     POINT,
     STEP,
     as_logged,
-    means_table,
     medians_table,
     run_draw,
     run_studies,
@@ -150,21 +147,6 @@ def test_cycles_are_told_apart_and_counted():
     assert table["periodic"].tolist() == pytest.approx([2 / 3, 1.0])
 
 
-@pytest.mark.parametrize(
-    ("within", "apart", "of_all", "verdict"),
-    [
-        (0.0, 0.02, 0.02, "differ"),
-        (0.03, 0.02, 0.05, "undecided"),
-        (0.0, 0.005, 0.009, "do not"),
-        (0.0, 0.009, 0.02, "undecided"),
-    ],
-)
-def test_loadings_differ_if_they_are_further_apart_than_the_cycles_of_one(
-    within, apart, of_all, verdict
-):
-    assert verdict_of(within, apart, of_all) == verdict
-
-
 def test_a_logger_takes_two_events_within_its_sample_for_one():
     slips = pd.DataFrame(
         {
@@ -237,19 +219,6 @@ def test_counts_settle_for_every_loading():
     assert (change <= 0.1 * counts[100] + 1).all()
 
 
-def test_the_means_over_many_lengths_are_those_of_the_committed_runs():
-    means = committed("larger_means")
-    assert_frame_equal(means_table(committed("larger")), means, rtol=1e-12)
-    sawtooth = means.query("study == 'sawtooth'").set_index(["n_blocks", "theta"])
-    by_hand = committed("larger").query("study == 'sawtooth' and n_blocks == 200")
-    by_theta = by_hand.pivot_table(index="length", columns="theta", values="mu_sapp")
-    differences = by_theta[5 / 6] - by_theta[0]
-    assert len(differences) == 40
-    mean, half = sawtooth.loc[(200, 5 / 6), ["mean", "half"]]
-    assert mean == pytest.approx(differences.mean())
-    assert half == pytest.approx(1.96 * differences.std() / np.sqrt(40))
-
-
 def cycles_of(study, n):
     """Peaks and shares of all cycles of a study at N, by pair and loading."""
     table = committed("larger_cycles").query(f"study == '{study}' and n_blocks == {n}")
@@ -282,18 +251,6 @@ def test_cycles_of_well_resolved_chains_do_not_depend_on_the_number_of_blocks():
 
 def test_half_the_step_leaves_the_cycles_where_they_are():
     assert moved(cycles_of("half_step", COARSE), cycles_of("grid", COARSE)).max() < 1e-3
-
-
-def test_loadings_differ_in_some_chains_and_not_in_others_at_two_numbers_of_blocks():
-    table = committed("larger_verdicts")
-    verdicts = table[table["study"] == "grid"].pivot_table(
-        index=["length", "relaxation_time"],
-        columns="n_blocks",
-        values="verdict",
-        aggfunc="first",
-    )
-    agreed = verdicts.loc[verdicts[COARSE] == verdicts[FINE], FINE]
-    assert agreed.value_counts().to_dict() == {"undecided": 6, "differ": 3, "do not": 1}
 
 
 def test_the_settled_peak_falls_with_the_normal_load():

@@ -1,20 +1,17 @@
 """Stick-slip of the larger chain after its first slips: the cycles into which it
-settles, and whether they depend on the loading."""
+settles."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from itertools import combinations
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from maegawa2010.printed import LAST_DIGIT
 from maegawa2010.studies.larger.first_slips import (
-    LOADINGS,
     POINT,
     load_part,
     run_studies,
@@ -32,14 +29,11 @@ MEDIANS = ["coefficient", "precursors", "period", "state_error", "theory"]
 def cycle_tables(
     slider: Mapping[str, Any], settings: Mapping[str, Any]
 ) -> dict[str, pd.DataFrame]:
-    """Cycles of every point, what they say about the loadings, and the peaks of some
-    runs, by file name."""
+    """Cycles of every point, and the peaks of some runs, by file name."""
     run = partial(run_past, settings)
     runs = run_studies(slider, settings["studies"], run, len(settings["pasts"]))
-    cycles = cycles_table(runs)
     return {
-        "larger_cycles": cycles,
-        "larger_verdicts": verdicts_table(cycles),
+        "larger_cycles": cycles_table(runs),
         "larger_peaks": peaks_table(runs, settings),
     }
 
@@ -98,9 +92,10 @@ def with_past(
 def cycles_table(runs: pd.DataFrame) -> pd.DataFrame:
     """All cycles of each point with their shares: a row for each cycle.
 
-    Runs whose coefficients are a chain of values less than `APART` apart have one
-    cycle. Its coefficient, precursors, period and state_error are medians over its runs; share is
-    that of the point's `pasts` runs, and periodic the share of its runs that settled.
+    Sorted coefficients are split where neighbours differ by more than `APART`; each
+    group is a cycle. Its coefficient, precursors, period and state_error are medians
+    over its runs; share is that of the point's `pasts` runs, and periodic the share of
+    its runs that settled.
     theory is mu_k + (mu_s - mu_k) W(l_c)/F_Z, which for an even load is mu_k + (mu_s -
     mu_k) l_c/L.
     """
@@ -127,36 +122,3 @@ def peaks_table(runs: pd.DataFrame, settings: Mapping[str, Any]) -> pd.DataFrame
     first = of_chain.head(len(settings["pasts"]))
     table = first.rename(columns={"peaks": "peak"}).explode("peak")
     return table[[*chain.index, "past", "peak"]].astype({"peak": float})
-
-
-def verdicts_table(cycles: pd.DataFrame) -> pd.DataFrame:
-    """Whether the loadings differ by more than the cycles of one loading: a row for
-    each point with several, without its theta.
-
-    within is the largest difference of two cycles of one loading. apart is the largest
-    gap between two loadings: between the nearest cycles of the two. The loadings
-    "differ" if apart is above within and above a unit of the last printed digit, and
-    "do not" if all cycles of all loadings are within it.
-    """
-    rows = []
-    for point, of_point in cycles.groupby(LOADINGS, sort=False):
-        values = [
-            group.to_numpy() for _, group in of_point.groupby("theta")["coefficient"]
-        ]
-        if len(values) < 2:
-            continue
-        within = max(np.ptp(each) for each in values)
-        apart = max(
-            abs(np.subtract.outer(a, b)).min() for a, b in combinations(values, 2)
-        )
-        verdict = verdict_of(within, apart, np.ptp(of_point["coefficient"]))
-        row = dict(zip(LOADINGS, point, strict=True))
-        rows.append(row | {"within": within, "apart": apart, "verdict": verdict})
-    return pd.DataFrame(rows)
-
-
-def verdict_of(within: float, apart: float, of_all: float) -> str:
-    """See `verdicts_table`."""
-    if apart > max(within, LAST_DIGIT):
-        return "differ"
-    return "do not" if of_all <= LAST_DIGIT else "undecided"

@@ -46,7 +46,6 @@ POINT = [
     "n_blocks",
     "critical_length",
 ]
-LOADINGS = [name for name in POINT if name not in ("theta", "critical_length")]
 
 
 def points(
@@ -97,11 +96,9 @@ def larger_tables(
 ) -> dict[str, pd.DataFrame]:
     """First slips, and where creep runs away, by file name."""
     runs = run_studies(slider, settings["studies"], partial(run_draw, settings))
-    medians = medians_table(runs)
     creep = {"nucleation": settings["nucleation"]}
     return {
-        "larger": medians,
-        "larger_means": means_table(medians),
+        "larger": medians_table(runs),
         "larger_nucleation": run_studies(slider, creep, run_creep),
     }
 
@@ -210,13 +207,3 @@ def medians_table(runs: pd.DataFrame) -> pd.DataFrame:
     medians = of_point.median()
     medians.insert(0, "runs", of_point["mu_sapp"].count())
     return medians.reset_index()
-
-
-def means_table(medians: pd.DataFrame) -> pd.DataFrame:
-    """Excess of mu_sapp over that of an even load: for each study, number of blocks and
-    theta, its mean over the study's chains and half of the mean's 95 % interval."""
-    even = medians[medians["theta"] == 0]
-    pairs = medians.merge(even, on=LOADINGS, suffixes=("", "_even"))
-    pairs["excess"] = pairs["mu_sapp"] - pairs["mu_sapp_even"]
-    groups = pairs.groupby(["study", "n_blocks", "theta"])["excess"]
-    return groups.agg(mean="mean", half=lambda x: 1.96 * x.sem()).reset_index()
