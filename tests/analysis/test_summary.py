@@ -23,7 +23,6 @@ def table_path(run: Run) -> dict[str, float]:
     return {
         "events_to_global_slip": len(up_to),
         "events_counted": len(find_precursors(slips)),
-        "records": find_precursors(slips)["front"].nunique(),
         "speedup": speedup(find_precursors(slips), run.chain.n_blocks)
         if reached
         else np.nan,

@@ -13,7 +13,6 @@ QUANTITIES = {
     "time_s": "time of the first global slip",
     "load_N": "load at the first global slip",
     "events": "all events up to the first global slip",
-    "records": "events longer than all before",
 }
 
 

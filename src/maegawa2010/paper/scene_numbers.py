@@ -22,7 +22,6 @@ UNITS = {
     "time_s": "s",
     "load_N": "N",
     "events": "1",
-    "records": "1",
 }
 
 
@@ -84,11 +83,7 @@ def reproduction_table(
 
 def quantities(slips: pd.DataFrame) -> dict[str, float]:
     """Numbers of a scene by quantity; only the counts without a global slip."""
-    counted = slips.loc[slips["counted"].astype(bool), "front"]
-    found: dict[str, float] = {
-        "events_counted": len(counted),
-        "records": counted.nunique(),
-    }
+    found: dict[str, float] = {"events_counted": int(slips["counted"].sum())}
     slip = first_global_slip(slips)
     if slip is None:
         return found

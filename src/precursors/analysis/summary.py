@@ -18,7 +18,6 @@ SUMMARY = np.dtype(
     [
         ("events_to_global_slip", "i8"),
         ("events_counted", "i8"),
-        ("records", "i8"),
         ("speedup", "f8"),
         ("mu_sapp", "f8"),
         ("load", "f8"),
@@ -45,8 +44,7 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
     -------
     DataFrame, one row per run
         Up to and including the first global slip: events_to_global_slip (all slip
-        events), events_counted (those of Fig. 13), records (those of them that are
-        longer than all before), speedup (see `_speedup`), transitions; mu_sapp [1]
+        events), events_counted (those of Fig. 13), speedup (see `_speedup`), transitions; mu_sapp [1]
         (Eq. 1). Of the first global slip: time [s] and load F_X [N] at its onset, and
         its end [s]. Where reached is False there was no global slip: these
         are NaN, and the counts are those of the whole run. A global slip that the end
@@ -80,7 +78,6 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
     is_counted = until_global & counted(front)
     summaries["events_to_global_slip"] = number(until_global)
     summaries["events_counted"] = number(is_counted)
-    summaries["records"] = number(until_global & counted(front, "not longer"))
 
     slips = events[last_counted[reached]]
     chains = [runs[i].chain for i in reached]

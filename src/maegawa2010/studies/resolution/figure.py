@@ -18,7 +18,6 @@ EXACT: Options = {"linestyle": "none", "marker": ".", "markersize": 4}
 # The other counts beside those of Fig. 13.
 COUNTS: dict[str, Options] = {
     "events_to_global_slip": {"linestyle": "--", "label": "median, all events"},
-    "records": {"linewidth": 0.5, "label": "median, strict records"},
 }
 EXPERIMENT: Options = {"linestyle": "none", "marker": "<", "markersize": 5}
 BAND = 0.18  # share of a colour in a band, the rest is white
