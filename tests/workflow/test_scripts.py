@@ -239,7 +239,6 @@ fig10 0                    apparent static friction coefficient mu_sapp  1   0.4
 fig10 0                                   time of the first global slip  s      -    2.739     
 fig10 0                                   load at the first global slip  N      -    194.3     
 fig10 0                          all events up to the first global slip  1      -       16     
-fig10 0                                   events longer than all before  1      -        9     
 """  # noqa: W291
 
 
