@@ -105,7 +105,7 @@ def larger_runs() -> pd.DataFrame:
                 "transitions": len(run.transitions),
                 **sums,
                 **points,
-                **run.larger,
+                **run.numbers,
             }
         )
     return pd.DataFrame(rows)

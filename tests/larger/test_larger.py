@@ -265,11 +265,11 @@ def test_a_run_survives_its_file_and_knows_its_transitions_only(tmp_path):
     run = simulate_larger(LargerChain(SLIDER(3), **PAIR), 0.5)
     run.save(tmp_path / "run.h5")
     again = Record.load(tmp_path / "run.h5")
-    assert again.larger == run.larger
+    assert again.numbers == run.numbers
     np.testing.assert_array_equal(np.transpose(load_curve(again)), run.load_points)
-    with pytest.raises(RunFileError, match="holds a LargerRun and not a Run: Record"):
+    with pytest.raises(RunFileError, match="holds a SteppedRun and not a Run: Record"):
         Run.load(tmp_path / "run.h5")
-    with pytest.raises(TypeError, match="must be a Run, but is LargerRun"):
+    with pytest.raises(TypeError, match="must be a Run, but is SteppedRun"):
         audit(run)
 
 
@@ -325,7 +325,7 @@ def test_blocks_without_friction_move_with_the_drive(slider, added):
     # A block without load has no transitions.
     released = [] if slider is WEIGHTLESS else [(0.0, 1, 1, 0.0)]
     assert run.transitions[:1].tolist() == released
-    assert abs(run.larger["energy_error"]) < ENERGY
+    assert abs(run.numbers["energy_error"]) < ENERGY
 
 
 @pytest.mark.parametrize(("slider", "added", "duration"), HARD)

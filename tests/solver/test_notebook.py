@@ -25,4 +25,4 @@ def test_a_calm_run_and_a_larger_one_have_a_page_as_well():
     calm = simulate(Chain.from_slider(), 0.1)._repr_html_()
     assert ET.fromstring(calm).find(".//polyline").get("points") == f"0.0,{HEIGHT}.0"
     larger = simulate(LargerChain(Chain.from_slider(), 0.02), 1.0)
-    assert re.search(r"LargerRun of 1 s: \d+ transitions", larger._repr_html_())
+    assert re.search(r"SteppedRun of 1 s: \d+ transitions", larger._repr_html_())

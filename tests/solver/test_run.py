@@ -11,12 +11,12 @@ from numba import njit
 from random_chains import mild_chain
 
 from precursors import Record, Run, RunFileError, simulate
+from precursors.larger.run import LargerRun
 from precursors.model.statics import maximal_strain_positions
 from precursors.solver.kernel.arrays import memory_for
 from precursors.solver.kernel.friction import take_mode
 from precursors.solver.kernel.states import propagate
 from precursors.solver.kernel.units import lay_out, parameters
-from precursors.solver.run import LargerRun
 
 # A transition's own time is known to 4e-16 s only, and F_X changes by up to 1e6 N/s
 # [N].
@@ -270,10 +270,14 @@ def test_a_larger_run_whose_numbers_are_no_table_of_numbers_is_refused(run, path
     columns = [run.transitions[name] for name in run.transitions.dtype.names]
     points = np.zeros((2, 2))
     larger = LargerRun.from_columns(
-        run.chain, run.duration, *columns, larger={"step": 1.0}, load_points=points
+        run.chain, run.duration, *columns, numbers={"step": 1.0}, load_points=points
     )
     larger.save(path)
-    assert Record.load(path).larger == {"step": 1.0}
+    assert Record.load(path).numbers == {"step": 1.0}
+    with h5py.File(path, "r+") as file:  # the name in older files
+        file.attrs["larger"] = file.attrs["numbers"]
+        del file.attrs["numbers"]
+    assert Record.load(path).numbers == {"step": 1.0}
     with h5py.File(path, "r+") as file:
         file.attrs["larger"] = np.bytes_(text)
     refused(path, "not a run file")

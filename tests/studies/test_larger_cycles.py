@@ -131,7 +131,7 @@ def test_energy_of_a_strained_start_is_counted():
     larger = chain_of(10, 0.2, 1e-4)
     forces = with_past(larger, (0.0, 1.0), np.random.default_rng(1))[1]
     run = simulate_larger(larger, 2.0, step=0.1, start_forces=forces)
-    assert abs(run.larger["energy_error"]) < 1e-6
+    assert abs(run.numbers["energy_error"]) < 1e-6
     with pytest.raises(ValueError, match="shape"):
         simulate_larger(larger, 2.0, start_forces=[0.0, 0.0])
 

@@ -33,8 +33,8 @@ from precursors import Record, Run, simulate
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
 from precursors.figures import style
+from precursors.larger.run import LargerRun
 from precursors.proof import Certificate, ExactChain, certify
-from precursors.solver.run import LargerRun
 from precursors.support.files import read_table
 
 READERS = {".csv": "precursors.support.files:read_table"}

@@ -11,8 +11,9 @@ from job import job
 
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
+from precursors.larger.run import LargerRun
 from precursors.model.chain import Chain
-from precursors.solver.run import LargerRun, Run
+from precursors.solver.run import Run
 from precursors.solver.simulate import TransitionLimitError, simulate
 from precursors.support.files import write_table
 

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from precursors.model.chain import FloatArray
-from precursors.solver.run import LargerRun, Record, Run
+from precursors.solver.run import Record, Run, SteppedRun
 
 # A fiftieth of a pixel where a slip of 1 N fills 200 pixels.
 TOLERANCE_N = 1e-4
@@ -33,7 +33,7 @@ def load_curve(
     and another. A block 1 that slides nearly all the time is drawn with no more than
     some `MOST_POINTS`. A larger chain's run has its points already.
     """
-    if isinstance(run, LargerRun):
+    if isinstance(run, SteppedRun):
         return run.load_points[:, 0], run.load_points[:, 1]
     if not isinstance(run, Run):
         raise TypeError(f"a load curve needs a Run, but this is {type(run).__name__}")

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from precursors.cli import Refused
 from precursors.cli.options import DATA, LARGER, MEASURED, RUN, SLIDER_OPTIONS
+from precursors.larger.run import LargerRun
 from precursors.model.chain import (
     CELL_SPACING,
     SLIDER,
@@ -24,7 +25,7 @@ from precursors.model.chain import (
     theta_from_load_cells,
 )
 from precursors.model.checks import positive
-from precursors.solver.run import LargerRun, Record, Run, RunFileError
+from precursors.solver.run import Record, Run, RunFileError
 from precursors.support.files import write_table
 from precursors.support.provenance import git_state
 from precursors.support.spreadsheet import (
@@ -290,7 +291,7 @@ def tell(line: str) -> None:
 
 def accuracy(run: Record) -> dict[str, float]:
     """Of a larger chain, what half the step changes, and the energy that is lacking."""
-    larger = getattr(run, "larger", {})
+    larger = getattr(run, "numbers", {})
     return {name: larger[name] for name in MOST_WRONG if name in larger}
 
 

@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike
 
 from precursors.analysis.slips import find_precursors, find_slips
 from precursors.larger.additions import ADDITIONS
+from precursors.larger.run import LargerRun
 from precursors.larger.steps import (
     CompiledChain,
     End,
@@ -35,7 +36,6 @@ from precursors.larger.steps import (
 )
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until, checked_span, not_negative, number_array
-from precursors.solver.run import LargerRun
 from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
 from precursors.support.waiting import in_threads
 
@@ -94,7 +94,7 @@ class LargerChain:
         """
         limits = {"max_steps": PATIENCE, **limits}
         run = simulate_larger(self, duration, until, **limits)
-        half = run.larger["step"] / 2.0
+        half = run.numbers["step"] / 2.0
         limits["max_steps"] *= 2
         finer = simulate_larger(self, duration, until, half, **limits)
         a, b = (
@@ -106,7 +106,7 @@ class LargerChain:
             "halved_load_N": float(abs(a[:n] - b[:n]).max(initial=0.0)),
             "halved_events": len(b) - len(a),
         }
-        return replace(run, larger=run.larger | found)
+        return replace(run, numbers=run.numbers | found)
 
 
 def critical_length(larger: LargerChain) -> float:
@@ -227,7 +227,7 @@ def simulate_larger(
     numbers = {name: getattr(larger, name) for name in ADDITIONS}
     numbers |= {"step": step, "energy_error": lacking / work if work else 0.0}
     run = LargerRun.from_columns(
-        chain, time, *rows.T, larger=numbers, load_points=points
+        chain, time, *rows.T, numbers=numbers, load_points=points
     )
     if len(rows) > max_transitions or steps > max_steps:
         raise TransitionLimitError(

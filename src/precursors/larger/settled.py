@@ -11,9 +11,10 @@ from precursors.analysis.slips import find_slips
 from precursors.larger.additions import ADDITIONS
 from precursors.larger.chain import LargerChain
 from precursors.larger.law import law_of
+from precursors.larger.run import LargerRun
 from precursors.larger.steps import REPEATS, SETTLED, period_of
 from precursors.model.chain import FloatArray
-from precursors.solver.run import LargerRun, Record
+from precursors.solver.run import Record
 
 # Of l_c: an event whose front stops before is creep that trembles, and no precursor.
 PAST = 1.1
@@ -83,7 +84,7 @@ def beside_law(run: LargerRun) -> dict[str, Any]:
     ValueError
         If the chain is outside the limits of the law.
     """
-    added = {name: run.larger[name] for name in ADDITIONS}
+    added = {name: run.numbers[name] for name in ADDITIONS}
     law = law_of(LargerChain(run.chain, **added))
     found = settled(run, law.nucleus)
     has_settled = len(found["peaks"]) >= REPEATS

@@ -99,7 +99,7 @@ class Record:
         if "states" in content:
             kind = Run
         elif "load_points" in content:
-            kind = LargerRun
+            kind = SteppedRun
         if not issubclass(kind, cls):
             raise RunFileError(
                 f"{path} holds a {kind.__name__} and not a {cls.__name__}: "
@@ -109,18 +109,18 @@ class Record:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class LargerRun(Record):
-    """The record of a larger chain, with its load between transitions.
+class SteppedRun(Record):
+    """A record made with steps, with its load between transitions.
 
     Attributes
     ----------
-    larger : dict
-        Numbers of the chain, and the accuracy of the run (see `precursors.larger.chain`).
+    numbers : dict
+        Numbers of the chain beyond those of a `Chain`, and the accuracy of the run.
     load_points : array, shape (n, 2)
         Times [s] and F_X [N] between which straight lines draw the load.
     """
 
-    larger: dict[str, float]
+    numbers: dict[str, float]
     load_points: FloatArray
 
 

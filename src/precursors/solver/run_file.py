@@ -70,8 +70,8 @@ def write_record(record: Record, path: str | PathLike[str]) -> None:
             datasets |= {
                 f"states/{column}": of for column, of in value._asdict().items()
             }
-        elif name == "larger":
-            texts["larger"] = json.dumps(value)
+        elif name == "numbers":
+            texts["numbers"] = json.dumps(value)
         elif isinstance(value, np.ndarray):
             datasets[name] = value
         elif name != "chain":
@@ -144,12 +144,13 @@ def _content(file: h5py.File) -> dict[str, Any]:
         evaluations = _scalar(file, "evaluations")
         content["evaluations"] = not_negative("evaluations", evaluations, "1")
     if "load_points" in found:
-        larger = json.loads(_text(file, "larger"))
+        # "larger" is the name in files written so far.
+        numbers = json.loads(_text(file, "numbers") or _text(file, "larger"))
         _require(
-            all(isinstance(value, int | float) for value in larger.values()),
-            "larger is not a table of numbers",
+            all(isinstance(value, int | float) for value in numbers.values()),
+            "numbers is not a table of numbers",
         )
-        content["larger"] = larger
+        content["numbers"] = numbers
     return content | found
 
 

@@ -20,7 +20,7 @@ from precursors.model.checks import (
 )
 from precursors.solver.batch import TransitionLimitError, run_batch
 from precursors.solver.kernel import End
-from precursors.solver.run import LargerRun, Run
+from precursors.solver.run import Run, SteppedRun
 
 __all__ = ["MAX_TRANSITIONS", "TransitionLimitError", "simulate"]
 
@@ -34,9 +34,9 @@ MAX_WINDOWS = 1_000_000_000
 
 @runtime_checkable
 class OwnSolver(Protocol):
-    """A chain that is not solved here, such as `LargerChain`."""
+    """A chain that is not solved here, but by a method of its own."""
 
-    def simulate(self, duration: float, until: Until, **limits: int) -> LargerRun:
+    def simulate(self, duration: float, until: Until, **limits: int) -> SteppedRun:
         """Run it from rest."""
 
 
@@ -57,7 +57,7 @@ def simulate(
     until: Until = None,
     *,
     max_transitions: int | None = None,
-) -> LargerRun: ...
+) -> SteppedRun: ...
 def simulate(
     chain: Chain | OwnSolver,
     duration: float = 10.0,
@@ -66,7 +66,7 @@ def simulate(
     start_velocities: ArrayLike | None = None,
     max_transitions: int | None = None,
     longest_slip: float | None = None,
-) -> Run | LargerRun:
+) -> Run | SteppedRun:
     """Run a chain from rest, or from a given start, through all its transitions (Eqs.
     2-6).
 
@@ -91,7 +91,7 @@ def simulate(
 
     Returns
     -------
-    Run or LargerRun
+    Run or SteppedRun
         The transitions and the states between them; of a larger chain, its load and
         what half the step changes.
 

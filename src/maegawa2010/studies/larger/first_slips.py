@@ -154,7 +154,7 @@ def run_draw(
     run = run_to_slip(drawn, step)
     found = numbers(run)
     if draw == 0 and larger.weakening_velocity:
-        finer = apparent_friction(run_to_slip(drawn, run.larger["step"] / 2.0))
+        finer = apparent_friction(run_to_slip(drawn, run.numbers["step"] / 2.0))
         found["halved_mu_sapp"] = abs(finer - found["mu_sapp"])
     return point | found
 
