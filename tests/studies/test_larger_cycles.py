@@ -163,7 +163,7 @@ def test_a_logger_takes_two_events_within_its_sample_for_one():
     assert logged["load_after"].tolist() == [3.0, 5.5]
 
 
-@pytest.mark.xfail(reason="the tables were made with leaps over creep")
+@pytest.mark.xfail(reason="the tables were made with leaps over creep", run=False)
 def test_the_committed_runs_of_few_blocks_are_those_of_the_library():
     common = CONFIG["larger"]["first_slips"]
     study = (
