@@ -24,11 +24,12 @@ from precursors.analysis.load_curve import load_curve
 from precursors.larger.chain import (
     LargerChain,
     critical_length,
+    model_of,
     simulate_larger,
     tilt,
     weakening_velocity,
 )
-from precursors.larger.steps import SLOW
+from precursors.larger.steps import SLOW, State, try_step
 
 # Tolerances beside the cases are two to three times what is measured at the default
 # step.
@@ -294,6 +295,14 @@ def test_bad_input_gets_one_line(added, message):
         simulate_larger(LargerChain(SLIDER(theta="5/6"), **added), 10.0)
     with pytest.raises(TypeError, match=r"^chain must be a Chain, but is 'x'$"):
         LargerChain("x")
+
+
+def test_a_block_that_moves_against_its_mode_stops_at_once():
+    """Its velocity is of the size of an error; the clock must not run backwards."""
+    larger = LargerChain(SLIDER(), **PAIR)
+    state = State(*np.zeros((7, 11)), *np.zeros((2, 11), np.int64), np.zeros(2))
+    state.mode[0], state.velocity[0] = 1, -1e-9
+    assert try_step(model_of(larger), state, 0, 2, 1e-7, False) == (0.0, 0)
 
 
 def test_a_limit_that_is_met_keeps_the_run_so_far():

@@ -159,7 +159,7 @@ def try_step(m, s, last, watched, h, holds):
     block = -1
     for i in range(watched):
         if s.mode[i] != 0:
-            before = s.mode[i] * s.velocity[i]
+            before = max(s.mode[i] * s.velocity[i], 0.0)
             after = s.mode[i] * s.new_velocity[i]
         elif holds:
             continue
