@@ -513,7 +513,7 @@ WITH_A_FILE = "run.h5: a run file cannot be combined with options of a chain"
         (f"slips --duration 1e9 --output {'a' * 250}.csv", 3, "more than 240 bytes"),
         ("simulate --weights missing.csv", 3, "missing.csv: No such file"),
         ("slips missing.h5", 3, "missing.h5: no such file"),
-        (f"slips {__file__}", 1, "run file"),
+        (f"slips {shlex.quote(__file__)}", 1, "run file"),
         ("slips run.h5 --duration 0", 2, WITH_A_FILE),
     ],
 )
