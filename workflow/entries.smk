@@ -57,6 +57,7 @@ rule run_chunk:
     params:
         function=lambda wildcards: ENSEMBLES[wildcards.study].function,
         options=lambda wildcards: ENSEMBLES[wildcards.study].options,
+        run=lambda wildcards: ENSEMBLES[wildcards.study].run,
         code=lambda wildcards: digest("run_chunk", ENSEMBLES[wildcards.study].function.split(":")[0]),
     message:
         "{wildcards.study}: running chunk {wildcards.chunk} of its chains"

@@ -116,10 +116,13 @@ class Ensemble:
         "package.module:name"; it returns a `maegawa2010.studies.members.Study`.
     options : mapping
         Its arguments.
+    run : str
+        "package.module:name"; it runs the members of a study, and returns a row of each.
     seconds : int
         Time that a job takes.
     """
 
     function: str
     options: Mapping[str, Any]
+    run: str = "maegawa2010.studies.members:run_members"
     seconds: int = 2

@@ -8,15 +8,18 @@ if config["full"]:
         options={"slider": config["chain"], "settings": config["larger"]["first_slips"]},
         beside=["larger_nucleation"],
         threads=4,
-        seconds=600,
+        seconds=1200,
     )
-    TABLES["larger_cycles"] = Table(
-        function="maegawa2010.studies.larger.cycles:cycle_tables",
-        message="running chains with a length until their motion repeats",
-        options={"slider": config["chain"], "settings": config["larger"]["cycles"]},
-        beside=["larger_peaks"],
-        threads=4,
-        seconds=3600,
+    ENSEMBLES["larger_members"] = Ensemble(
+        function="maegawa2010.studies.larger.cycles:settled_study",
+        run="maegawa2010.studies.larger.cycles:run_settled",
+        options={"slider": config["chain"], "settings": config["larger"]["settled"]},
+        seconds=1200,
+    )
+    TABLES["larger_settled"] = Table(
+        function="maegawa2010.studies.larger.cycles:settled_table",
+        message="gathering the settled runs of chains with a length",
+        inputs={"chunks": chunks_of(study="larger_members")},
     )
 # Drawn from what is committed, which is about the paper's slider.
 if IS_PAPERS:

@@ -6,11 +6,10 @@ from pkgutil import resolve_name
 from job import job
 
 # isort: split
-from maegawa2010.studies.members import run_members
 from precursors.support.files import write_table
 
 with job() as snakemake:
     params = snakemake.params
     study = resolve_name(params.function)(**params.options)
-    found = run_members(study.chunk(*map(int, snakemake.wildcards.chunk.split("of"))))
+    found = resolve_name(params.run)(study.chunk(*map(int, snakemake.wildcards.chunk.split("of"))))
     write_table(found.rename_axis("member").reset_index(), snakemake.output.chunk)

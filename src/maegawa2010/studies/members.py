@@ -147,10 +147,13 @@ def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
     )
     if (together["member"] != together.index).any():
         raise ValueError("the chunks are not all members of their study, each once")
-    constant = [
-        name for name in LEFT_OUT & set(together) if len(set(together[name])) == 1
-    ]
-    return together.drop(columns=["member", *constant])
+    return varied(together.drop(columns="member"))
+
+
+def varied(table: pd.DataFrame) -> pd.DataFrame:
+    """A table without the columns of `LEFT_OUT` that are the same for all rows."""
+    constant = [name for name in LEFT_OUT & set(table) if len(set(table[name])) == 1]
+    return table.drop(columns=constant)
 
 
 def noise_table(

@@ -1,9 +1,9 @@
-"""Stick-slip of the larger chain after its first slips: the cycles into which it
-settles."""
+"""Stick-slip of the larger chain after its first slips: the coefficient into which it
+settles, beside its law."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -11,65 +11,114 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from maegawa2010.studies.larger.first_slips import (
-    POINT,
-    load_part,
-    run_studies,
-)
-from precursors.larger.chain import LargerChain, simulate_larger
-from precursors.larger.settled import settled
-from precursors.model.chain import FloatArray
+from maegawa2010.studies.larger.first_slips import larger_of, points
+from maegawa2010.studies.members import LOADINGS, Study, gather
+from precursors.larger.chain import LargerChain, simulate_larger, weakening_velocity
+from precursors.larger.law import Law, law_of
+from precursors.larger.settled import events_of, settled
+from precursors.model.chain import Chain, FloatArray
+from precursors.solver.run import Record
+from precursors.solver.simulate import TransitionLimitError
+from precursors.support.waiting import in_threads
 
-APART = 0.003  # two cycles whose mean peaks [F_Z] are closer are one
 # Of the straight lines from which the net forces of a strained start are made.
 NODES = 8
-MEDIANS = ["coefficient", "precursors", "period", "state_error", "theory"]
+# Ranges of the numbers of chains that are drawn: l_c/L for an even load, t_v [s], theta
+# or another loading, and factors of the slider's own.
+DRAWN = {
+    "even_length": (0.08, 0.4),
+    "relaxation_time": (1e-5, 2.5e-4),
+    "theta": (-0.9, 0.9),
+    "normal_load": (0.25, 1.0),
+    "drive_stiffness": (0.3, 4.0),
+    "mu_k": (0.6, 1.3),
+}
+CHANGE = 1e-3  # of a peak [F_Z], from which the change after it says how it alternates
+PLACED = 0.1  # L, within which the place is right at which a front stops
 
 
-def cycle_tables(
-    slider: Mapping[str, Any], settings: Mapping[str, Any]
-) -> dict[str, pd.DataFrame]:
-    """Cycles of every point, and the peaks of some runs, by file name."""
-    run = partial(run_past, settings)
-    runs = run_studies(slider, settings["studies"], run, len(settings["pasts"]))
-    return {
-        "larger_cycles": cycles_table(runs),
-        "larger_peaks": peaks_table(runs, settings),
-    }
+def settled_study(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> Study:
+    """Chains within the limits of the law, each from several pasts.
 
-
-def run_past(
-    settings: Mapping[str, Any],
-    point: dict[str, Any],
-    larger: LargerChain,
-    step: float,
-    index: int,
-) -> dict[str, Any]:
-    """Run a chain from one of many pasts until it settles: point, index of the past,
-    theory (see `cycles_table`), and `settled`.
-
-    `settings` has the seed, the duration [s], and pasts: pairs of noise in the normal
-    loads and of strain at the start.
+    A past is noise in the normal loads and strain at the start. `drawn` chains have
+    numbers within `DRAWN` and one past each, its second number being the most.
     """
-    past = settings["pasts"][index % len(settings["pasts"])]
-    random = np.random.default_rng([settings["seed"], index])
-    drawn, forces = with_past(larger, past, random)
-    run = simulate_larger(
-        drawn, settings["duration"], "settled", step, start_forces=forces
-    )
-    chain = larger.chain
-    share = load_part(chain, point["critical_length"])
-    theory = chain.mu_k + (chain.mu_s - chain.mu_k) * share
-    return (
-        point
-        | {"past": index, "theory": theory}
-        | settled(run, point["critical_length"])
-    )
+    members = [
+        {**point, "past": i, "noise": noise, "strain": strain}
+        for name, study in settings["studies"].items()
+        for point in points(slider, name, study)
+        if law_or_none(larger_of(point))
+        for i, (noise, strain) in enumerate(study["pasts"])
+    ]
+    random = np.random.default_rng(settings["seed"])
+    drawn = draw_points(slider, random)
+    for study in settings["drawn"]:
+        for i in range(study["chains"]):
+            point = next(drawn) | {name: study[name] for name in ("n_blocks", "step")}
+            strain = random.uniform()
+            members.append({**point, "past": i, "noise": 1e-3, "strain": strain})
+    table = pd.DataFrame(members).fillna({"loading": "linear"})
+    # A slower drive brings its slips later.
+    slower = slider["drive_stiffness"] / table["drive_stiffness"]
+    return Study(table.assign(duration=settings["duration"] * slower), settings["seed"])
+
+
+def draw_points(
+    slider: Mapping[str, Any], random: np.random.Generator
+) -> Iterator[dict[str, Any]]:
+    """Points like those of `points`, drawn at random within the limits of the law."""
+    while True:
+        values = {name: random.uniform(*ends) for name, ends in DRAWN.items()}
+        for name in ("normal_load", "drive_stiffness", "mu_k"):
+            values[name] *= slider[name]
+        point = {**slider, **values, "study": "drawn", "push_height": 0.0}
+        point["loading"] = random.choice(["linear", *LOADINGS])
+        own = {name: point[name] for name in slider}
+        point["weakening_velocity"] = weakening_velocity(
+            Chain.from_slider(**own), point["even_length"], point["relaxation_time"]
+        )
+        if law_or_none(larger_of(point | {"n_blocks": 50})):
+            yield point
+
+
+def law_or_none(larger: LargerChain) -> Law | None:
+    """Law of a chain; none outside its limits."""
+    try:
+        return law_of(larger)
+    except ValueError:
+        return None
+
+
+def run_settled(study: Study) -> pd.DataFrame:
+    """Run every member until it settles: the members, each with `numbers_beside_law`."""
+    members = study.members.to_dict("records")
+    rows = in_threads("running", [partial(run_past, study.seed, at) for at in members])
+    return study.members.join(pd.DataFrame(rows, study.members.index))
+
+
+def run_past(seed: int, member: Mapping[Any, Any]) -> dict[str, float]:
+    """Run a member until it settles, or as far as the limit of work lets it."""
+    random = np.random.default_rng([seed, member["past"]])
+    past = (member["noise"], member["strain"])
+    larger = larger_of(member)
+    chain, forces = with_past(larger.chain, past, random)
+    run: Record
+    try:
+        run = simulate_larger(
+            replace(larger, chain=chain),
+            member["duration"],
+            "settled",
+            member["step"],
+            start_forces=forces,
+        )
+    except TransitionLimitError as limit:
+        run = limit.run
+    return numbers_beside_law(run, law_of(larger))
 
 
 def with_past(
-    larger: LargerChain, past: tuple[float, float], random: np.random.Generator
-) -> tuple[LargerChain, FloatArray]:
+    chain: Chain, past: tuple[float, float], random: np.random.Generator
+) -> tuple[Chain, FloatArray]:
     """A chain with noise in its normal loads, whose sum stays, and spring forces at
     which it rests strained.
 
@@ -78,47 +127,73 @@ def with_past(
     chains of any number of blocks have the same.
     """
     noise, strain = past
-    weights = larger.chain.weights
+    weights = chain.weights
     places = np.linspace(0.0, 1.0, len(weights))
     net = np.interp(places, np.linspace(0.0, 1.0, NODES), random.uniform(-1, 1, NODES))
     net -= (net @ weights) / weights.sum()  # F_X is 0
-    net *= strain * larger.chain.strength / abs(net).max()
+    net *= strain * chain.strength / abs(net).max()
     noisy = weights * (1.0 + noise * random.uniform(-1.0, 1.0, len(weights)))
     noisy *= weights.sum() / noisy.sum()
     forces = np.append(0.0, -np.cumsum(net)[:-1])
-    return replace(larger, chain=replace(larger.chain, weights=noisy)), forces
+    return replace(chain, weights=noisy), forces
 
 
-def cycles_table(runs: pd.DataFrame) -> pd.DataFrame:
-    """All cycles of each point with their shares: a row for each cycle.
+def numbers_beside_law(run: Record, law: Law) -> dict[str, float]:
+    """Settled coefficient, precursors and period of a run (see `settled`), and what the
+    law says.
 
-    Sorted coefficients are split where neighbours differ by more than `APART`; each
-    group is a cycle. Its coefficient, precursors, period and state_error are medians
-    over its runs; share is that of the point's `pasts` runs, and periodic the share of
-    its runs that settled.
-    theory is mu_k + (mu_s - mu_k) W(l_c)/F_Z, which for an even load is mu_k + (mu_s -
-    mu_k) l_c/L.
+    law is its coefficient with the precursors counted in the run; critical_length is
+    l_c/L, and least to most are the possible precursors (NaN: none). slope is the
+    change from one peak to the next over the one before, and law_slope that of the law.
     """
-    rows = []
-    for point, of_point in runs.groupby(POINT, sort=False):
-        found = of_point.dropna(subset="coefficient").sort_values("coefficient")
-        number = (found["coefficient"].diff() > APART).cumsum()
-        for _, of_cycle in found.groupby(number):
-            shares = {
-                "pasts": len(of_point),
-                "share": len(of_cycle) / len(of_point),
-                "periodic": (of_cycle["period"] > 0).mean(),
-            }
-            medians = of_cycle[MEDIANS].median().to_dict()
-            rows.append(dict(zip(POINT, point, strict=True)) | shares | medians)
-    return pd.DataFrame(rows)
+    found = settled(run, law.nucleus)
+    peaks = found.pop("peaks")
+    possible: list[float] = [*law.possible] or [np.nan]
+    return {
+        "critical_length": law.nucleus,
+        **found,
+        "law": law.coefficient(found["precursors"]),
+        "least": min(possible),
+        "most": max(possible),
+        "slope": slope_of(peaks),
+        "law_slope": -law.rebound * (1.0 - law.nucleus),
+        **fronts(run, law),
+    }
 
 
-def peaks_table(runs: pd.DataFrame, settings: Mapping[str, Any]) -> pd.DataFrame:
-    """Peaks of F_X/F_Z at the global slips of the chain `map`, in order, from one run
-    of each past, in the first study that has it."""
-    chain = pd.Series(settings["map"])
-    of_chain = runs[(runs[chain.index] == chain).all(axis=1)]
-    first = of_chain.head(len(settings["pasts"]))
-    table = first.rename(columns={"peaks": "peak"}).explode("peak")
-    return table[[*chain.index, "past", "peak"]].astype({"peak": float})
+def slope_of(peaks: FloatArray) -> float:
+    """Median ratio of the changes of successive peaks; NaN if they hardly change."""
+    changes = np.diff(peaks)
+    is_large = abs(changes[:-1]) > CHANGE
+    ratios = changes[1:][is_large] / changes[:-1][is_large]
+    return float(np.median(ratios)) if len(ratios) else np.nan
+
+
+def fronts(run: Record, law: Law) -> dict[str, int]:
+    """Events in whole cycles of the later half of a run, and how many of them the law
+    tells rightly.
+
+    stopped are those whose front stops on the way; told those of which the law says
+    rightly whether it does; placed the stopped ones whose front is right to `PLACED`.
+    """
+    events = events_of(run, law.nucleus)
+    cycle = events["is_global"].shift(fill_value=False).cumsum()
+    n = events.groupby(cycle)["precursors"].transform("max")
+    is_whole = cycle < events["is_global"].sum()
+    late = events.assign(n=n)[is_whole & (events["onset"] > 0.5 * run.duration)]
+    said = np.array(
+        [law.front(*of) for of in zip(late["precursors"], late["n"], strict=True)]
+    )
+    stops = ~late["is_global"].to_numpy()
+    places = late["front"].to_numpy() / run.chain.n_blocks
+    return {
+        "events": len(late),
+        "stopped": int(stops.sum()),
+        "told": int((stops == (said < 1.0)).sum()),
+        "placed": int((abs(said - places) < PLACED)[stops].sum()),
+    }
+
+
+def settled_table(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
+    """All runs of the study."""
+    return gather(chunks).drop(columns=["duration", "push_height"])
