@@ -123,8 +123,6 @@ PICTURES = {
     "precursor_lengths_others": (other_lengths, NARROW),
     "precursor_lengths_one": one_length,
     "larger": lambda: larger.draw(
-        read(SMALL / "larger_nucleation.csv"),
-        read(SMALL / "larger_peaks.csv"),
-        read(SMALL / "larger_cycles.csv"),
+        *(read(COMMITTED / f"larger_{name}_full.csv") for name in ("nucleation", "settled"))
     ),
 }

@@ -10,7 +10,11 @@ from audit.falsified import audits
 from benchmark.made_up import go_on, proof_of
 from settings import CONFIG
 
-from maegawa2010.studies.larger.cycles import cycle_tables
+from maegawa2010.studies.larger.cycles import (
+    run_settled,
+    settled_study,
+    settled_table,
+)
 from maegawa2010.studies.larger.first_slips import larger_tables
 from maegawa2010.studies.models.tables import compare_models
 from precursors import Chain, simulate
@@ -21,6 +25,9 @@ SCENES: dict[str, dict[str, str | float]] = {
     "lead": {"theta": "5/6"},
     "even": {"theta": 0.0},
 }
+
+# Of a chain with a length.
+STUDY = {"even_length": [0.3], "relaxation_time": [2e-4], "theta": ["-5/6", 0]}
 
 # Chain, start [m, m/s], and number of transitions.
 PROVED = {
@@ -113,54 +120,25 @@ def larger_runs() -> pd.DataFrame:
 
 def small_larger_tables() -> dict[str, pd.DataFrame]:
     """The tables of the larger chain for a few blocks."""
-    settings = CONFIG["larger"]["first_slips"] | {
-        "nucleation": {
-            "n_blocks": [20],
-            "theta": ["-5/6", 0],
-            "pairs": [[0.1, 0], [0.2, 2e-4]],
-            "step": 0.25,
-        },
+    first = CONFIG["larger"]["first_slips"] | {
+        "nucleation": STUDY | {"n_blocks": [20]},
         "studies": {
-            "counts": {
-                "pairs": [[0, 0], [0.2, 2e-4]],
-                "n_blocks": [10],
-                "normal_load": [300],
-                "theta": [0, "5/6"],
-                "runs": 7,
-                "step": 0.25,
-            },
-            "height": {
-                "pairs": [[0, 0]],
-                "push_height": [0.005],
-                "n_blocks": [4],
-                "theta": [0],
-                "runs": 7,
-                "step": 0.01,
-            },
+            "counts": STUDY | {"n_blocks": [10], "runs": 7},
+            "height": STUDY
+            | {"even_length": [0], "relaxation_time": [0], "push_height": [0.005]}
+            | {"n_blocks": [4], "runs": 7, "step": 0.01},
         },
     }
-    cycles = CONFIG["larger"]["cycles"] | {
-        "pasts": [[0.001, 0], [0.01, 0], [0.03, 0], [0.1, 0]]
-        + [[0, part / 4] for part in range(1, 5)],
-        "map": {
-            "length": 0.3,
-            "relaxation_time": 1e-4,
-            "theta": 0,
-            "n_blocks": 10,
-        },
-        "studies": {
-            "grid": {
-                "pairs": [[0.3, 1e-4], [0.3, 2e-4]],
-                "n_blocks": [10],
-                "theta": ["-5/6", 0],
-                "runs": 1,
-                "step": 0.25,
-            },
-        },
+    pasts = {"pasts": [[0.1, 0], [0, 0.5]], "step": 0.5}
+    settled = CONFIG["larger"]["settled"] | {
+        "studies": {"map": STUDY | pasts | {"n_blocks": [12]}},
+        "drawn": [{"chains": 2, "n_blocks": 10, "step": 0.5}],
     }
-    return larger_tables(CONFIG["chain"], settings) | cycle_tables(
-        CONFIG["chain"], cycles
-    )
+    members = run_settled(settled_study(CONFIG["chain"], settled))
+    chunk = members.rename_axis("member").reset_index()
+    return larger_tables(CONFIG["chain"], first) | {
+        "larger_settled": settled_table([chunk])
+    }
 
 
 def model_comparison() -> pd.DataFrame:
@@ -178,8 +156,7 @@ TABLES_OF_SECONDS: dict[str, Callable[[], pd.DataFrame]] = {
         for name in (
             "larger",
             "larger_nucleation",
-            "larger_cycles",
-            "larger_peaks",
+            "larger_settled",
         )
     },
 }

@@ -2,35 +2,23 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 from chains import SLIDER
-from settings import CONFIG, FULL
+from settings import CONFIG
 
-from maegawa2010.studies.larger.cycles import (
-    cycles_table,
-    run_past,
-    with_past,
-)
-from maegawa2010.studies.larger.first_slips import (
-    POINT,
-    STEP,
-    as_logged,
-    medians_table,
-    run_draw,
-    run_studies,
-)
+from maegawa2010.studies.larger.cycles import run_past, settled_study, with_past
+from maegawa2010.studies.larger.first_slips import points, run_draw
 from precursors import TransitionLimitError
 from precursors.larger.chain import (
     LargerChain,
     simulate_larger,
     weakening_velocity,
 )
-from precursors.larger.settled import peaks_of, settled
+from precursors.larger.settled import events_of, settled
 from precursors.larger.steps import SETTLED, period_of
 
 ROOT = Path(__file__).parents[2]
@@ -70,13 +58,12 @@ def test_the_period_is_that_of_the_last_peaks(peaks, period):
 def test_a_settled_run_ends_early_with_the_peaks_of_one_that_goes_on(theta):
     larger = chain_of(20, 0.3, 2e-4, theta)
     early = simulate_larger(larger, 20.0, "settled", 0.25)
-    late = peaks_of(simulate_larger(larger, 20.0, step=0.25), 0.3)
+    late = events_of(simulate_larger(larger, 20.0, step=0.25), 0.3).query("is_global")
     found = settled(early, 0.3)
     assert early.duration < 15.0
     assert found["period"] > 0
     later_half = late.loc[late["onset"] > 10.0, "peak"]
     assert later_half.mean() == pytest.approx(found["coefficient"], abs=GOES_ON)
-    assert found["state_error"] < 10 * SETTLED
 
 
 def test_without_enough_global_slips_nothing_settles():
@@ -86,42 +73,22 @@ def test_without_enough_global_slips_nothing_settles():
 
 
 def test_a_strained_chain_rests_and_loads_with_noise_keep_their_sum():
-    larger = chain_of(30, 0.2, 1e-4, "5/6")
-    drawn, forces = with_past(larger, (0.1, 1.0), np.random.default_rng(1))
+    chain = SLIDER(30, theta="5/6")
+    drawn, forces = with_past(chain, (0.1, 1.0), np.random.default_rng(1))
     net = forces - np.append(forces[1:], 0.0)
     assert forces[0] == 0.0
-    assert abs(net).max() > 0.5 * abs(larger.chain.strength).min()
-    assert (abs(net) <= larger.chain.strength * (1.0 + 1e-12)).all()
-    weights = larger.chain.weights
-    assert drawn.chain.weights.sum() == pytest.approx(weights.sum(), rel=1e-12)
-    assert abs(drawn.chain.weights / weights - 1.0).max() > 0.05
-
-
-def test_a_study_may_have_a_step():
-    study = {"pairs": [[0.2, 1e-4]], "theta": [0], "n_blocks": [10]}
-    for step, expected in (({}, STEP), ({"step": 0.125}, 0.125)):
-        rows = run_studies(
-            CONFIG["chain"],
-            {"some": study | step},
-            lambda point, larger, step, draw: {"step": step},
-        )
-        assert rows["step"].tolist() == [expected]
-
-
-def test_no_full_study_of_long_chains_has_a_coarse_step():
-    for part in ("first_slips", "cycles"):
-        here, full = (of["larger"][part]["studies"] for of in (CONFIG, FULL))
-        for name, study in full.items():
-            step = (here.get(name, {}) | study).get("step", STEP)
-            assert step <= (0.1 if max(study["n_blocks"]) >= 200 else 0.25)
-            assert step <= 0.01 or min(study["pairs"])[0] > 0
+    assert abs(net).max() > 0.5 * abs(chain.strength).min()
+    assert (abs(net) <= chain.strength * (1.0 + 1e-12)).all()
+    assert drawn.weights.sum() == pytest.approx(chain.weights.sum(), rel=1e-12)
+    assert abs(drawn.weights / chain.weights - 1.0).max() > 0.05
 
 
 def test_a_block_exactly_at_its_limit_does_not_stop_the_clock():
     """It would be released and stop before it moves: in turn, without end."""
-    v_c = weakening_velocity(SLIDER(), 0.3, 2e-5)
-    larger = LargerChain(SLIDER(n_blocks=100), v_c, 2e-5)
-    drawn, forces = with_past(larger, (0.01, 0.0), np.random.default_rng([2018, 1]))
+    larger = chain_of(100, 0.3, 2e-5)
+    random = np.random.default_rng([2018, 1])
+    chain, forces = with_past(larger.chain, (0.01, 0.0), random)
+    drawn = replace(larger, chain=chain)
     with pytest.raises(TransitionLimitError, match="limit of work") as stopped:
         simulate_larger(drawn, 20.0, step=0.25, max_transitions=30, start_forces=forces)
     assert stopped.value.run.duration > 1.0
@@ -129,70 +96,57 @@ def test_a_block_exactly_at_its_limit_does_not_stop_the_clock():
 
 def test_energy_of_a_strained_start_is_counted():
     larger = chain_of(10, 0.2, 1e-4)
-    forces = with_past(larger, (0.0, 1.0), np.random.default_rng(1))[1]
+    forces = with_past(larger.chain, (0.0, 1.0), np.random.default_rng(1))[1]
     run = simulate_larger(larger, 2.0, step=0.1, start_forces=forces)
     assert abs(run.numbers["energy_error"]) < 1e-6
     with pytest.raises(ValueError, match="shape"):
         simulate_larger(larger, 2.0, start_forces=[0.0, 0.0])
 
 
-def test_cycles_are_told_apart_and_counted():
-    point = dict.fromkeys(POINT, 0)
-    values = [0.48, 0.481, 0.482, 0.51]
-    runs = pd.DataFrame([point | {"coefficient": value} for value in values])
-    runs = runs.assign(period=[1, 2, 0, 1], state_error=0.0, theory=0.5, precursors=0)
-    table = cycles_table(runs)
-    assert table["share"].tolist() == [0.75, 0.25]
-    assert table["coefficient"].tolist() == [0.481, 0.51]
-    assert table["periodic"].tolist() == pytest.approx([2 / 3, 1.0])
+def test_chains_outside_the_limits_of_the_law_are_left_out():
+    study = {"theta": [0], "n_blocks": [50], "pasts": [[0, 0.5]]}
+    study |= {"even_length": [0.05, 0.2], "relaxation_time": [4e-4]}
+    settings = {"seed": 1, "duration": 20, "studies": {"map": study}, "drawn": []}
+    members = settled_study(CONFIG["chain"], settings).members
+    assert members["even_length"].tolist() == [0.2]
 
 
-def test_a_logger_takes_two_events_within_its_sample_for_one():
-    slips = pd.DataFrame(
-        {
-            "onset": [1.0, 1.0015, 2.0],
-            "end": [1.001, 1.002, 2.001],
-            "load_before": [5.0, 4.0, 6.0],
-            "load_after": [4.0, 3.0, 5.5],
-            "front": [3, 4, 2],
-            "is_global": [False, True, False],
-        }
+def test_drawn_chains_with_a_soft_drive_run_longer():
+    settings = {"seed": 1, "duration": 20, "studies": {}}
+    drawn = [{"chains": 9, "n_blocks": 50, "step": 0.5}]
+    members = settled_study(CONFIG["chain"], settings | {"drawn": drawn}).members
+    rise = members["duration"] * members["drive_stiffness"]
+    np.testing.assert_allclose(rise, 20 * CONFIG["chain"]["drive_stiffness"])
+    assert members["loading"].nunique() > 1
+
+
+def test_the_committed_first_slips_are_those_of_the_library():
+    settings = CONFIG["larger"]["first_slips"]
+    study = settings["studies"]["counts"]
+    study = {**study, "even_length": [0.3], "n_blocks": [COARSE]}
+    again = pd.DataFrame(
+        [
+            run_draw(settings, point, 0)
+            for point in points(CONFIG["chain"], "counts", study)
+        ]
     )
-    logged = as_logged(slips)
-    assert logged["front"].tolist() == [4, 2]
-    assert logged["load_after"].tolist() == [3.0, 5.5]
-
-
-@pytest.mark.xfail(reason="the tables were made with leaps over creep", run=False)
-def test_the_committed_runs_of_few_blocks_are_those_of_the_library():
-    common = CONFIG["larger"]["first_slips"]
-    study = (
-        common["studies"]["counts"] | FULL["larger"]["first_slips"]["studies"]["counts"]
-    )
-    study = {**study, "pairs": [[0.2, 2e-4]], "n_blocks": [COARSE]}
-    runs = run_studies(CONFIG["chain"], {"counts": study}, partial(run_draw, common))
-    again = medians_table(runs)
-    keys = ["study", "length", "relaxation_time", "theta", "n_blocks"]
+    keys = ["study", "even_length", "relaxation_time", "theta", "n_blocks"]
     there = again[keys].merge(committed("larger"), on=keys)
-    assert len(there) == 3
+    assert len(there) == 6
     assert there["events_counted"].tolist() == again["events_counted"].tolist()
     np.testing.assert_allclose(there["mu_sapp"], again["mu_sapp"], rtol=MACHINE)
 
 
-def test_the_committed_cycles_are_those_of_the_library():
-    full = FULL["larger"]["cycles"]
-    study = CONFIG["larger"]["cycles"]["studies"]["grid"] | full["studies"]["grid"]
-    study = {**study, "pairs": [[0.3, 2e-4]], "n_blocks": [COARSE], "theta": [0]}
-    common = {**CONFIG["larger"]["cycles"], **full, "pasts": full["pasts"][:2]}
-    grid = {"grid": {**study, "runs": 1}}
-    runs = run_studies(CONFIG["chain"], grid, partial(run_past, common), 2)
-    there = committed("larger_cycles").query(
-        "study == 'grid' and length == 0.3 and relaxation_time == 2e-4"
-        f" and theta == 0 and n_blocks == {COARSE}"
+def test_the_committed_coefficients_are_those_of_the_library():
+    study = settled_study(CONFIG["chain"], CONFIG["larger"]["settled"])
+    chosen = study.members.query(
+        "study == 'map' and even_length == 0.31 and relaxation_time == 2.4e-4"
+        " and past == 2"
     )
-    again = runs["coefficient"].to_numpy()
-    distance = np.subtract.outer(again, there["coefficient"].to_numpy())
-    assert abs(distance).min(axis=1).max() < MACHINE
+    there = committed("larger_settled").loc[chosen.index]
+    assert len(there) == 3
+    again = [run_past(study.seed, of)["coefficient"] for of in chosen.to_dict("records")]
+    np.testing.assert_allclose(there["coefficient"], again, atol=MACHINE)
 
 
 @pytest.mark.parametrize("n", [COARSE, FINE])

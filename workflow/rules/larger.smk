@@ -29,6 +29,6 @@ if IS_PAPERS:
         shows="a chain with a length, cut from the paper's slider",
         tables={
             name: str(ROOT / f"paper/tables/larger_{name}_full.csv")
-            for name in ("nucleation", "peaks", "cycles")
+            for name in ("nucleation", "settled")
         },
     )

@@ -1,4 +1,5 @@
-"""A chain with a length of its own: where creep runs away, and how it settles."""
+"""A chain with a length of its own: where creep runs away, and the coefficient into
+which it settles."""
 
 from __future__ import annotations
 
@@ -10,87 +11,105 @@ from matplotlib.figure import Figure
 from precursors.figures import style
 from precursors.figures.style import Options
 
-HEIGHT_MM = 70.0
-WIDTHS = (1.0, 0.85, 2.3)
+HEIGHT_MM = 74.0
+RARE = 0.05  # share of runs, below which their n is not in the title
+# Loadings, and share of their colour in a mark, by precursors before a global slip.
 MARKERS = {-1: "v", 0: "o", 1: "^"}  # by the sign of theta
-SIDE = 0.22  # from one loading to the next, in units of one pair
-RARE = 0.05
+FILLS = {0: 0.0, 1: 0.45, 2: 1.0}
+# Places of the four pasts about a point of the map: factors of l_c, and of t_v.
+PASTS = [(x, y) for y in (0.92, 1.09) for x in (0.975, 1.025)]
 
 
-def draw(nucleation: pd.DataFrame, peaks: pd.DataFrame, cycles: pd.DataFrame) -> Figure:
-    """Draw l_c against its theory, each peak against the one before, and all cycles.
+def draw(nucleation: pd.DataFrame, settled: pd.DataFrame) -> Figure:
+    """Draw l_c and the settled peaks against their theories, and the precursors.
 
-    The tables are larger_nucleation.csv, larger_peaks.csv and larger_cycles.csv, of
-    which the study "grid" is drawn. Cycles into which no more than `RARE` of the pasts
-    lead have small marks.
+    The tables are larger_nucleation.csv and larger_settled.csv; runs that do not settle
+    are left out. Precursors are drawn for the study "map", with the border beyond which
+    the law says that none is needed.
     """
+    settled = settled[settled["period"] > 0]
+    marks = settled.assign(fill=settled["precursors"].round().clip(upper=2))
+    on_map = marks[marks["study"] == "map"]
+    thetas = sorted(on_map["theta"].unique())
+    x = on_map["critical_length"]
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        lengths, steps, settled = figure.subplots(1, 3, width_ratios=WIDTHS)
-        two_finest = sorted(nucleation["n_blocks"].unique())[-2:]
-        _draw_lengths(lengths, nucleation[nucleation["n_blocks"].isin(two_finest)])
-        _draw_map(steps, peaks)
-        _draw_cycles(settled, cycles[cycles["study"] == "grid"])
-        look = {"linestyle": "none"}
+        lengths, peaks, *maps = figure.subplots(
+            1, 2 + len(thetas), width_ratios=[1.3, 1.3, *[1] * len(thetas)]
+        )
+        finest = nucleation["n_blocks"].max()
+        _draw_lengths(lengths, nucleation[nucleation["n_blocks"] == finest])
+        _draw_peaks(peaks, marks)
+        for axes, theta in zip(maps, thetas, strict=True):
+            _draw_precursors(axes, on_map[on_map["theta"] == theta])
+            axes.set(xlim=(0.8 * x.min(), 1.25 * x.max()), ylim=(7, 600))
+            axes.tick_params(labelleft=axes is maps[0])
+        maps[0].set_ylabel("$t_v$ [µs]")
+        none: Options = {"linestyle": "none"}
         entries = [
-            style.mark(text, marker=MARKERS[s], color=style.theta_color(s), **look)
-            for s, text in style.LOADINGS.items()
+            style.mark(
+                text, marker=MARKERS[sign], color=style.theta_color(sign), **none
+            )
+            for sign, text in style.LOADINGS.items()
         ]
-        open_marks = {"marker": "o", "color": style.GREY, "markerfacecolor": "none"}
-        entries.append(style.mark("open: fewer blocks", **look, **open_marks))
-        style.draw_key(figure, entries)
+        entries += [
+            style.mark(
+                text, marker="o", color=style.GREY, **none, **_fill(n, style.GREY)
+            )
+            for n, text in zip(FILLS, ("$n = 0$", "1", "2 or more"), strict=True)
+        ]
+        entries.append(style.mark("least $n$ by theory changes", linewidth=0.8))
+        style.draw_key(figure, entries, ncols=4)
     return figure
 
 
-def _look(rows: pd.DataFrame, finest: int) -> Options:
-    """Mark of rows with one theta and one number of blocks."""
-    first = rows.iloc[0]
-    color = style.theta_color(first["theta"])
-    return {
-        "linestyle": "none",
-        "marker": MARKERS[int(np.sign(first["theta"]))],
-        "color": color,
-        "markerfacecolor": color if first["n_blocks"] == finest else "none",
-    }
+def _fill(n: float, color: str) -> Options:
+    return {"markerfacecolor": style.pale(color, FILLS[int(n)])}
 
 
 def _draw_lengths(axes: Axes, nucleation: pd.DataFrame) -> None:
-    finest = nucleation["n_blocks"].max()
-    for _, rows in nucleation.groupby(["theta", "n_blocks"]):
-        look = _look(rows, finest)
-        axes.plot(rows["critical_length"], rows["measured"], **look)
-    ends = [0.0, 1.1 * nucleation["critical_length"].max()]
-    axes.axline((0, 0), slope=1, color=style.GREY)
-    low, high = np.outer([0.9, 1.1], ends)
-    axes.fill_between(ends, low, high, color=style.PALE)
-    axes.set(xlim=ends, ylim=ends)
-    axes.set(xlabel=r"$l_c/L$, theory", ylabel="length that crept, over $L$")
+    for theta, rows in nucleation.groupby("theta"):
+        x, y = rows["critical_length"], rows["measured"]
+        color = style.theta_color(float(theta))
+        axes.plot(x, y, MARKERS[int(np.sign(theta))], color=color)
+    axes.axline((0, 0), slope=1, color=style.GREY, zorder=1)
+    ends = (0.0, 1.1 * nucleation["measured"].max())
+    axes.set(xlim=ends, ylim=ends, title="Creep runs away at $l_c$")
+    axes.set(xlabel="$l_c/L$, theory", ylabel="length that crept, over $L$")
 
 
-def _draw_map(axes: Axes, peaks: pd.DataFrame) -> None:
-    for _, run in peaks.groupby("past"):
-        before = run["peak"].to_numpy()
-        axes.plot(before[:-1], before[1:], ".", color=style.BLACK, markersize=3)
-    middle = peaks["peak"].median()
-    axes.axline((middle, middle), slope=1, color=style.GREY)
-    axes.set(xlabel=r"peak of $F_X/F_Z$", ylabel="next peak")
+def _draw_peaks(axes: Axes, marks: pd.DataFrame) -> None:
+    for (theta, n), rows in marks.groupby([np.sign(marks["theta"]), "fill"]):
+        color = style.theta_color(theta)
+        look = {"color": color, "markersize": 2.2, "markeredgewidth": 0.3}
+        axes.plot(
+            rows["law"],
+            rows["coefficient"],
+            MARKERS[int(theta)],
+            **look,
+            **_fill(n, color),
+        )
+    axes.axline((0.5, 0.5), slope=1, color=style.BLACK, linewidth=0.6)
+    axes.set(title="The formula gives the peak")
+    axes.set(xlabel="$F_X/F_Z$ by the formula", ylabel="settled peak of $F_X/F_Z$")
 
 
-def _draw_cycles(axes: Axes, cycles: pd.DataFrame) -> None:
-    pairs = cycles.groupby(["length", "relaxation_time"])
-    places = pd.Series(range(pairs.ngroups), pairs.size().index)
-    finest = cycles["n_blocks"].max()
-    for i, (_, of_pair) in enumerate(pairs):
-        theory = of_pair.loc[of_pair["theta"] == 0, "theory"].iloc[0]
-        axes.hlines(theory, i - 0.4, i + 0.4, color=style.GREY)
-        is_rare = of_pair["share"] <= RARE
-        for _, rows in of_pair.groupby(["theta", "n_blocks", is_rare]):
-            x = i + SIDE * np.sign(rows["theta"])
-            size = 2.0 if rows["share"].max() <= RARE else 4.5
-            look = _look(rows, finest) | {"markersize": size}
-            axes.plot(x, rows["coefficient"], **look)
-    axes.set_xticks(places, [f"{1e6 * time:g}" for _, time in places.index])
-    axes.set(xlabel="$t_v$ [µs]", ylabel=r"settled peak of $F_X/F_Z$")
-    middles = places.groupby("length").mean()
-    lengths = axes.secondary_xaxis("top")
-    lengths.set_xticks(middles, [f"$l_c = {length:g}\\,L$" for length in middles.index])
-    lengths.tick_params(length=0)
+def _draw_precursors(axes: Axes, of_loading: pd.DataFrame) -> None:
+    theta = of_loading["theta"].iloc[0]
+    color = style.theta_color(theta)
+    for (past, n), rows in of_loading.groupby(["past", "fill"]):
+        right, up = PASTS[int(past)]
+        look = {"color": color, "markersize": 1.8, "markeredgewidth": 0.3}
+        x, y = rows["critical_length"], 1e6 * rows["relaxation_time"]
+        axes.plot(right * x, up * y, "o", **look, **_fill(n, color))
+    least = of_loading.pivot_table("least", "relaxation_time", "even_length")
+    x = of_loading.pivot_table("critical_length", "relaxation_time", "even_length")
+    y = np.broadcast_to(1e6 * least.index.to_numpy()[:, None], least.shape)
+    x = x.interpolate(axis=1, limit_direction="both")
+    axes.contour(x, y, least, [0.5, 1.5], colors=style.BLACK, linewidths=0.8)
+    shares = of_loading["precursors"].round().value_counts(normalize=True)
+    common = shares.index[shares > RARE]
+    ends = dict.fromkeys([f"{common.min():g}", f"{common.max():g}"])
+    axes.set_title(f"{style.theta_text(theta)}: $n = ${' to '.join(ends)}")
+    axes.set(xscale="log", yscale="log", xlabel="$l_c/L$")
+    style.set_ticks(axes.xaxis, (0.1, 0.2, 0.4))
+    style.set_ticks(axes.yaxis, (10, 20, 50, 100, 200, 400))
