@@ -37,11 +37,13 @@ __all__ = ["LENGTH", "LOAD", "TIME", "read_columns", "read_profile", "read_weigh
 NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d{1,3})?")
 GROUPED = re.compile(r"[-+]?\d{1,3}([.,'\u2019\s]\d{3})+([.,]\d+)?")
 # A date or none, hours, minutes, seconds.
-STAMP = re.compile(r"(?:(\S+)[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d*)?)Z?")
+STAMP = re.compile(
+    r"(?:(\S+)[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d*)?)(?:Z|[-+][\d:]+)?"
+)
 DAY = 86_400.0  # [s]
 # Empty lines, sep=; and comments; an error of a spreadsheet, such as #N/A or #DIV/0!, is
 # no comment.
-PASSED_OVER = re.compile(r'(?:[\t;,"]*|"?sep=."?)$|#(?!N/A|NV|[A-Z/0]+[!?])')
+PASSED_OVER = re.compile(r'(?:[\t;,"]*|"?sep=."?)$|%|#(?!N/A|NV|[A-Z/0]+[!?])')
 # A line of names begins with one, and has no number between separators; where nothing
 # but blanks separates, no number after a blank.
 NAMES = re.compile(
@@ -57,7 +59,7 @@ OF_UNITS = re.compile(r"[^;,\t:]*(unit|einheit)", re.IGNORECASE)
 # point of 1.018,00 is none.
 SEPARATING = re.compile(r"(?<=\b0)\.|\.(?!\d{3},)|,[^\S\n]|,[^,\n]*,")
 # Only accented Latin letters: in other encodings, a name or a unit is not what it seems.
-NOT_LATIN = re.compile(r"[^\x00-\x7f\xa0µÀ-ÖØ-öø-ÿ]")
+NOT_LATIN = re.compile(r"[^\x00-\x7f\xa0µÀ-ÖØ-öø-ÿ]|[À-ÖØ-öø-ÿ]{3}")
 
 
 class Table(NamedTuple):
@@ -78,7 +80,7 @@ def read_columns(
 
     A file may have lines of names, and other lines above them; commas, semicolons, tabs
     or blanks between columns; decimal commas; time stamps. Empty columns and lines, and
-    lines that begin with #, are passed over. Values are converted to the unit needed; a
+    lines that begin with # or %, are passed over. Values are converted to the unit needed; a
     warning tells this, and how many rows lack a value.
 
     Parameters
@@ -196,7 +198,9 @@ def _table(source: AnyPath | pd.DataFrame, needed: Sequence[str]) -> Table:
     except csv.Error as error:
         raise ValueError(f"{path} is not a table: {error}") from None
     columns = list(zip_longest(*rows, fillvalue=""))
-    if not heads and (comment := re.search(r"(?m)^#\s*(.*)\n(?=[-+.,\d\s\"])", text)):
+    if not heads and (
+        comment := re.search(r"(?m)^[#%]\s*(.*)\n(?=[-+.,\d\s\"])", text)
+    ):
         head = _cut(comment[1], separator)
         heads = [head] * (len(head) == len(columns))
     parts = zip_longest([""] * len(columns), *_heads(heads, len(columns)), fillvalue="")
