@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from colours import SIGHTS, alike
 from conftest import ROOT, copy_workflow
 
 from precursors import cli
@@ -109,7 +110,8 @@ def test_the_model_and_the_method_shown_give_what_is_shown_and_the_method_has_a_
     assert lines == shown.splitlines()
     points, color = drawn.split()
     assert int(points) == 2
-    assert color not in others.split()
+    for sight in SIGHTS:
+        assert alike({name: name for name in {color, *others.split()}}, sight) == []
     assert done.stderr == ""
 
 
