@@ -168,6 +168,7 @@ def test_the_example_gives_what_it_shows(tmp_path, monkeypatch, capsys):
     assert {
         path.name for path in tmp_path.iterdir() if path.stat().st_size > 10_000
     } == {
+        "map.png",
         "study.png",
         "run.png",
         "lengths.pdf",
