@@ -1,5 +1,6 @@
 """Where colours lie for a reader: two are told apart if they are far enough apart."""
 
+import math
 from collections.abc import Mapping
 from itertools import combinations
 
@@ -28,7 +29,7 @@ def alike(colors: Mapping[str, str], sight: str | None = None) -> list[tuple[str
     """Names of colours that are not told apart."""
     places = in_cielab(colors, sight)
     return [
-        (one, other)
-        for one, other in combinations(places, 2)
-        if np.linalg.norm(places[one] - places[other]) < TOLD_APART
+        pair
+        for pair in combinations(places, 2)
+        if math.dist(*(places[name] for name in pair)) < TOLD_APART
     ]

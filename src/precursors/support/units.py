@@ -18,15 +18,20 @@ WORDS = {
         "t|x_value",
         "time(?:stamp)?|zeit(?:stempel)?|temps|tiempo|tempo|время|時間",
     ),
-    LOAD: ("f_?x|tangential[a-z]*|friction", _LOADS),
+    LOAD: ("f_?x|tangential[a-z]*|friction(?! coef)", _LOADS),
     LENGTH: ("l_?p", "l|length|länge|longueur"),
     NORMAL_LOAD: ("w", _LOADS),
 }
+# words for other columns, which are not taken for them by their order,
+OTHERS = (
+    "samples?|index|n[or]|number|points?|displacement|distance|position|weg|course|変位"
+    "|pressure|druck|pression|cof|coefficient|reibwert"
+)
 # and how many of the unit above their units are.
 _NEWTONS = {"[NН]|(?i:newtons?)": 1.0, "(?i:kN|кН)": 1e3, "mN|мН": 1e-3, "[uμ]N": 1e-6}
 UNITS = {
     TIME: {
-        r"(?i:[sс秒]|secs?|seconds?|sekunden?|secondes?|segundos?|second[io]|сек)": 1.0,
+        r"(?i:[sс秒]|secs?|seconds?|sek(?:unden?)?|secondes?|seg(?:undos?)?|second[io]|сек)": 1.0,
         r"(?i:ms|msecs?|milliseconds?|millisekunden?|мс)": 1e-3,
         r"(?i:[uμ]s|usecs?|microseconds?|мкс)": 1e-6,
         r"(?i:mins?|minut[eo]s?|minuten|minuti|мин|分)": 60.0,
@@ -35,7 +40,7 @@ UNITS = {
     LENGTH: {"1|-": 1.0, "%": 0.01},
     NORMAL_LOAD: _NEWTONS,
 }
-BRACKET = re.compile(r"[\[({]\s*(?:in\s+(?=\w))?([^\])}]*?)\s*[\])}]")
+BRACKET = re.compile(r"[\[({]\s*(?:in\s+(?=\w))?([^\])}]*?)\.?\s*[\])}]")
 # Units without a bracket, in any case but for single letters: known ones, ...
 _KNOWN = "|".join([*UNITS[TIME], *_NEWTONS])
 _OTHER = (
