@@ -187,6 +187,7 @@ def test_lengths_are_shares(file, name):
         ("t;Сила, кH\n0;0\n", "is in кH"),  # the H is Latin
         ("t;Load KG\n0;0\n", "is in KG"),
         ("t;Weight g\n0;0\n", "is in g"),
+        ("t/10^-3 s;F/N\n0;0\n", "is in 10^-3 s"),
         ("t;Load %\n0;0\n", "is in %"),
         (
             LABVIEW.replace("Newton", "Volts"),

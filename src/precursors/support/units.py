@@ -49,7 +49,7 @@ _OTHER = (
 )
 BARE = re.compile(
     r"(?:^|[\s_,./:=|-]|(?<=[a-z])(?=[A-Z]|[kmu]N))"
-    rf"([NНsсhm%秒分]|N/\w+|(?=[^\W\d_]{{2}})(?i:{_KNOWN}|{_OTHER}))"
+    rf"([NНsсhm%秒分]|N/\w+|10\^\S+(?: \w+)?|(?=[^\W\d_]{{2}})(?i:{_KNOWN}|{_OTHER}))"
     r"(?=$|[\s_,:;]|\.(?!\w))"
     # letters after a comma (Load_A and Load A are names), and what is not Latin there.
     r"|(?:^|[,/]|\s(?=g))\s*([gAV])$|[,/]\s*(\S*[^\x00-\xff]\S*|[^\x00-\x7f]+)$"
