@@ -1,6 +1,7 @@
 import os
 import shlex
 import sys
+from copy import deepcopy
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -60,7 +61,7 @@ for path, content in reversed(settings.items()):
 if "chain" in config:
     config["chain"] = read_numbers(config["chain"])
 try:
-    studies = read_file(ROOT / "workflow/studies.yaml")
+    studies = deepcopy(next(iter(settings.values())))  # those of studies.yaml
     check_sections(config, studies)
     update_config(studies, config)
     config.update(studies)

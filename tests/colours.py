@@ -1,6 +1,8 @@
 """Where colours lie for a reader: two are told apart if they are far enough apart."""
 
+import math
 from collections.abc import Mapping
+from itertools import combinations
 
 import numpy as np
 from colorspacious import cspace_convert
@@ -21,3 +23,13 @@ def in_cielab(
         space = {"name": "sRGB1+CVD", "cvd_type": sight, "severity": 100}
         seen = np.clip(cspace_convert(seen, space, "sRGB1"), 0.0, 1.0)
     return dict(zip(colors, cspace_convert(seen, "sRGB1", "CIELab"), strict=True))
+
+
+def alike(colors: Mapping[str, str], sight: str | None = None) -> list[tuple[str, str]]:
+    """Names of colours that are not told apart."""
+    places = in_cielab(colors, sight)
+    return [
+        pair
+        for pair in combinations(places, 2)
+        if math.dist(*(places[name] for name in pair)) < TOLD_APART
+    ]

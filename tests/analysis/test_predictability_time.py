@@ -11,7 +11,7 @@ from chains import SLIDER, first_transitions
 from settings import CONFIG
 
 from maegawa2010.studies.horizon.tables import error_table, summary, validate
-from precursors import simulate
+from precursors import certify, simulate
 from precursors.analysis import horizon as module
 from precursors.analysis.horizon import (
     PredictedErrors,
@@ -19,7 +19,7 @@ from precursors.analysis.horizon import (
     neighbours,
     predicted_errors,
 )
-from precursors.proof import Certificate
+from precursors.proof import Certificate, ExactChain
 
 ROOT = Path(__file__).parents[2]
 CERTIFICATES = ROOT / "workflow" / "certificates"
@@ -75,6 +75,15 @@ def test_predicted_errors_are_never_too_small_on_a_proved_chain_and_not_useless(
     )
     for column in ("actual_error_s", "predicted_error_s"):
         assert (table[column].dropna().diff().dropna() >= 0).all()
+
+
+def test_predicted_errors_hold_where_stops_are_nearly_missed():
+    """Sliding block 1 nearly keeps the drive's speed, as friction hardly drops."""
+    exact = ExactChain.from_slider(
+        8, theta="0.6", drive_stiffness=19e6, drive_velocity="8e-3", mu_k="0.69973"
+    )
+    _, compared, predictions = validate(certify(exact, "3e-4"))
+    assert (compared.time_errors <= OPTIMISM * predictions.time_error).all()
 
 
 @pytest.mark.parametrize(("miss", "is_lost"), [(1e-8, True), (1e-3, False)])

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 WRONG_USE = 2
 EPILOG = """\
@@ -72,17 +72,6 @@ class Parser(argparse.ArgumentParser):
         self.exit(WRONG_USE, f"{self.prog}: {message} (see {self.prog} --help)\n")
 
 
-class ListProblems(argparse.Action):
-    """An option that lists the reference problems."""
-
-    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
-        """Print their names, and end."""
-        from precursors.benchmark.score import problems
-
-        print(*problems(), sep="\n")
-        parser.exit()
-
-
 def read_options(argv: Sequence[str]) -> argparse.Namespace:
     """Read the command and its options."""
     top = Parser(
@@ -130,9 +119,9 @@ def add_options(command: Parser, name: str) -> Parser:
         add(
             "--problem",
             required=True,
-            help="which of its problems they solve, for example uniform",
+            help="which of its problems they solve, for example uniform; any other word "
+            "lists them",
         )
-        add("--list", action=ListProblems, nargs=0, help="list them")
         add(
             "--ties",
             type=_number,
@@ -203,17 +192,11 @@ def _add_chain(command: Parser) -> None:
         help="readings [N], A at the drive; --normal-load is their sum",
     )
     add("--cell-spacing", type=_number, help=f"between them [m] ({CELL_SPACING:g})")
-    for name, meaning in CHAIN.items():
-        add(
-            f"--{name.replace('_', '-')}",
-            help=f"{meaning} ({SLIDER[name]:g})",
-            type=_number,
-        )
+    _add_numbers(add, {name: f"{CHAIN[name]} ({SLIDER[name]:g})" for name in CHAIN})
     add = command.add_argument_group(
         "a larger chain", "each adds to the paper's chain; 0 by default"
     ).add_argument
-    for name, meaning in LARGER.items():
-        add(f"--{name.replace('_', '-')}", help=meaning, type=_number)
+    _add_numbers(add, LARGER)
     add = command.add_argument_group(
         "the run", "from rest, with every spring at its natural length"
     ).add_argument
@@ -242,8 +225,7 @@ def _add_look(command: Parser) -> None:
         "--data",
         help="measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it",
     )
-    for name, meaning in DATA.items():
-        add(f"--{name.replace('_', '-')}", help=meaning, type=_number)
+    _add_numbers(add, DATA)
     add(
         "--width",
         dest="width_mm",
@@ -259,6 +241,12 @@ def _add_look(command: Parser) -> None:
         action="store_false",
         help="without the magnified view",
     )
+
+
+def _add_numbers(add: Callable[..., Any], meanings: Mapping[str, str]) -> None:
+    """Add options that take a number, by their names."""
+    for name, meaning in meanings.items():
+        add(f"--{name.replace('_', '-')}", help=meaning, type=_number)
 
 
 def _number(text: str) -> float:

@@ -22,9 +22,11 @@ from precursors.support.units import (
     LENGTH,
     LOAD,
     NORMAL_LOAD,
+    OTHERS,
     TIME,
     candidates,
     factors,
+    has_word,
     is_named,
     units,
 )
@@ -35,13 +37,14 @@ if TYPE_CHECKING:
 __all__ = ["LENGTH", "LOAD", "TIME", "read_columns", "read_profile", "read_weights"]
 
 NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d{1,3})?")
-GROUPED = re.compile(r"[-+]?\d{1,3}([.,'\u2019\s]\d{3})+([.,]\d+)?")
 # A date or none, hours, minutes, seconds.
-STAMP = re.compile(r"(?:(\S+)[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d*)?)Z?")
+STAMP = re.compile(
+    r"(?:(\S+)[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d*)?)(?:Z|[-+][\d:]+)?"
+)
 DAY = 86_400.0  # [s]
 # Empty lines, sep=; and comments; an error of a spreadsheet, such as #N/A or #DIV/0!, is
 # no comment.
-PASSED_OVER = re.compile(r'(?:[\t;,"]*|"?sep=."?)$|#(?!N/A|NV|[A-Z/0]+[!?])')
+PASSED_OVER = re.compile(r'(?:[\t;,"]*|"?sep=."?)$|%|#(?!N/A|NV|[A-Z/0]+[!?])')
 # A line of names begins with one, and has no number between separators; where nothing
 # but blanks separates, no number after a blank.
 NAMES = re.compile(
@@ -57,7 +60,7 @@ OF_UNITS = re.compile(r"[^;,\t:]*(unit|einheit)", re.IGNORECASE)
 # point of 1.018,00 is none.
 SEPARATING = re.compile(r"(?<=\b0)\.|\.(?!\d{3},)|,[^\S\n]|,[^,\n]*,")
 # Only accented Latin letters: in other encodings, a name or a unit is not what it seems.
-NOT_LATIN = re.compile(r"[^\x00-\x7f\xa0µÀ-ÖØ-öø-ÿ]")
+NOT_LATIN = re.compile(r"[^\x00-\x7f\xa0µÀ-ÖØ-öø-ÿ]|[À-ÖØ-öø-ÿ]{3}")
 
 
 class Table(NamedTuple):
@@ -78,7 +81,7 @@ def read_columns(
 
     A file may have lines of names, and other lines above them; commas, semicolons, tabs
     or blanks between columns; decimal commas; time stamps. Empty columns and lines, and
-    lines that begin with #, are passed over. Values are converted to the unit needed; a
+    lines that begin with # or %, are passed over. Values are converted to the unit needed; a
     warning tells this, and how many rows lack a value.
 
     Parameters
@@ -106,12 +109,12 @@ def read_columns(
     table = _chosen(_table(source, wanted), wanted)
     rows = list(zip(table.lines, *table.columns, strict=True))
     kept = [row for row in rows if all(row)]
-    if missing := len(rows) - len(kept):
-        warnings.warn(f"{table.path}: rows without a value: {missing}", stacklevel=2)
     if not kept:
         raise ValueError(f"{table.path} has no numbers")
     lines, *columns = zip(*kept, strict=True)
     numbers = _numbers(table._replace(lines=lines, columns=columns), wanted)
+    if missing := len(rows) - len(kept):
+        warnings.warn(f"{table.path}: rows without a value: {missing}", stacklevel=2)
     if sample_rate is None:
         return numbers
     return np.column_stack([(np.array(lines) - rows[0][0]) / sample_rate, numbers])
@@ -134,9 +137,8 @@ def read_weights(path: AnyPath) -> list[float]:
                 "alone or after the number of its block, 1, 2, 3, ..."
             )
         table = Table(name, lines, names[1:], columns[1:])
-    return list(
-        map(float, _numbers(_chosen(table, [NORMAL_LOAD]), [NORMAL_LOAD])[:, 0])
-    )
+    loads = _numbers(_chosen(table, [NORMAL_LOAD]), [NORMAL_LOAD])
+    return [float(load) for [load] in loads]
 
 
 def read_profile(path: AnyPath) -> NDArray[np.float64]:
@@ -196,9 +198,11 @@ def _table(source: AnyPath | pd.DataFrame, needed: Sequence[str]) -> Table:
     except csv.Error as error:
         raise ValueError(f"{path} is not a table: {error}") from None
     columns = list(zip_longest(*rows, fillvalue=""))
-    if not heads and (comment := re.search(r"(?m)^#\s*(.*)\n(?=[-+.,\d\s\"])", text)):
-        head = _cut(comment[1], separator)
-        heads = [head] * (len(head) == len(columns))
+    if not heads:  # two comments may be names and units
+        comments = re.findall(r"(?m)^[#%][^\S\n]*(\S.*)", text)
+        heads = [_cut(line, separator) for line in comments]
+        heads = [head for head in heads if len(head) == len(columns)]
+        heads = heads[-min(len(columns), 2) :]
     parts = zip_longest([""] * len(columns), *_heads(heads, len(columns)), fillvalue="")
     names = (" ".join(filter(None, part)) for part in parts)
     named = [
@@ -210,8 +214,9 @@ def _table(source: AnyPath | pd.DataFrame, needed: Sequence[str]) -> Table:
 
 
 def _start(path: str, lines: Sequence[str], needed: Sequence[str]) -> int:
-    """Where a table begins: below LabVIEW's header, or at the lines of names around the
-    first that names what is needed, if only remarks stand above it."""
+    """Where a table begins: below LabVIEW's headers, of the file and its first segment,
+    or at the lines of names around the first that names what is needed, if only remarks
+    stand above it."""
     ends = [i for i, line in enumerate(lines, 1) if line.startswith(END_OF_HEADER)]
     named = (
         i
@@ -219,7 +224,7 @@ def _start(path: str, lines: Sequence[str], needed: Sequence[str]) -> int:
         if NAMES.match(line)
         and all(candidates(re.split(r"[;,\t]", line), kind) for kind in needed)
     )
-    start = ends[-1] if ends else next(named, 0)
+    start = ends[:2][-1] if ends else next(named, 0)
     while start and NAMES.match(lines[start - 1]):
         start -= 1
     for remark in filter(OF_UNITS.match, lines[:start]):
@@ -253,7 +258,7 @@ def _separator(path: str, above: Sequence[str], rows: Sequence[str]) -> str:
         if separator in "".join((*above, *rows)):
             return separator
     plain = re.sub(r'"[^"\n]*"', '""', "\n".join(rows))
-    if "," not in plain:
+    if "," not in plain or re.search(r"\d,\d+[^\S\n]+[-+]?\d", plain):
         return " " if re.search(r"[^\S\n]", plain) else ";"
     names = max((line.split(",") for line in above), key=len, default=[])
     is_separating = SEPARATING.search(plain)
@@ -281,7 +286,8 @@ def _chosen(table: Table, needed: Sequence[str]) -> Table:
     path, lines, names, columns = table
     places = [candidates(names, kind) for kind in needed]
     if len(names) == len(needed):
-        others = iter(sorted(set(range(len(needed))).difference(*places)))
+        free = sorted(set(range(len(needed))).difference(*places))
+        others = (i for i in free if units(names[i]) or not has_word(names[i], OTHERS))
         places = [found or list(islice(others, 1)) for found in places]
     chosen = [i for found in places for i in found]
     if not len(chosen) == len(set(chosen)) == len(needed) == sum(map(bool, places)):
@@ -338,6 +344,7 @@ def _number(path: str, line: int, field: str) -> float:
     value = field.replace(",", ".")
     if NUMBER.fullmatch(field) and math.isfinite(float(value)):
         return float(value)
-    is_grouped = GROUPED.fullmatch(field)
-    why = "has a separator of thousands" if is_grouped else "is not a number"
-    raise ValueError(f"{path}, line {line}: {field[:40]!r} {why}")
+    raise ValueError(
+        f"{path}, line {line}: {field[:40]!r} is not a number "
+        "(write it without a unit and separators of thousands)"
+    )

@@ -12,33 +12,48 @@ LOAD = "F_X [N]"
 LENGTH = "L_p/L [-]"
 NORMAL_LOAD = "normal load of each block [N]"
 # their own names and words for them,
-_LOADS = r"f|load|force|fuerza|forza|last|[^\W\d_]*kraft"
+_LOADS = r"f|load|force|fuerza|forza|last|[^\W\d_]*kraft|сила|нагрузка|荷重"
 WORDS = {
-    TIME: ("t|x_value", "time(?:stamp)?|zeit(?:stempel)?|temps|tiempo|tempo"),
-    LOAD: ("f_?x|tangential[a-z]*|friction", _LOADS),
+    TIME: (
+        "t|x_value",
+        "time(?:stamp)?|zeit(?:stempel)?|temps|tiempo|tempo|время|時間",
+    ),
+    LOAD: ("f_?x|tangential[a-z]*|friction(?! coef)", _LOADS),
     LENGTH: ("l_?p", "l|length|länge|longueur"),
     NORMAL_LOAD: ("w", _LOADS),
 }
+# words for other columns, which are not taken for them by their order,
+OTHERS = (
+    "samples?|index|n[or]|number|points?|displacement|distance|position|weg|course|変位"
+    "|pressure|druck|pression|cof|coefficient|reibwert"
+)
 # and how many of the unit above their units are.
-_NEWTONS = {"N|(?i:newtons?)": 1.0, "kN": 1e3, "mN": 1e-3}
+_NEWTONS = {"[NН]|(?i:newtons?)": 1.0, "(?i:kN|кН)": 1e3, "mN|мН": 1e-3, "[uμ]N": 1e-6}
 UNITS = {
     TIME: {
-        r"s|(?i:secs?|seconds?|sekunden?|secondes?|segundos?|second[io])": 1.0,
-        r"ms|(?i:msecs?|milliseconds?|millisekunden?)": 1e-3,
-        r"[uμ]s|(?i:usecs?|microseconds?)": 1e-6,
-        r"min|(?i:mins|minut[eo]s?|minuten|minuti)": 60.0,
+        r"(?i:[sс秒]|secs?|seconds?|sek(?:unden?)?|secondes?|seg(?:undos?)?|second[io]|сек)": 1.0,
+        r"(?i:ms|msecs?|milliseconds?|millisekunden?|мс)": 1e-3,
+        r"(?i:[uμ]s|usecs?|microseconds?|мкс)": 1e-6,
+        r"(?i:mins?|minut[eo]s?|minuten|minuti|мин|分)": 60.0,
     },
     LOAD: _NEWTONS,
     LENGTH: {"1|-": 1.0, "%": 0.01},
     NORMAL_LOAD: _NEWTONS,
 }
-BRACKET = re.compile(r"[\[({]\s*([^\])}]*?)\s*[\])}]")
-# Units without a bracket. A single letter after an underscore is a name, as in Load_A.
+BRACKET = re.compile(r"[\[({]\s*(?:in\s+(?=\w))?([^\])}]*?)\.?\s*[\])}]")
+# Units without a bracket, in any case but for single letters: known ones, ...
+_KNOWN = "|".join([*UNITS[TIME], *_NEWTONS])
 _OTHER = (
-    "MN|daN|kgf?|gf|grams?|lbs?|lbf|N/mm2|Nm|[hkM]?Pa|psi|m?bar|[uμm]V|volts?|[cmuμ]?m"
+    "MN|daN|kgf?|gf|tf|grams?|lbs?|k?lbf|kips?|oz|dyn|Nm|[hkM]?Pa|psi|m?bar|[uμm]V|volts?"
+    "|[cmuμ]m|ns|hrs?|hours?|days?|кгс?"
 )
-_BARE = "|".join([*UNITS[TIME], *_NEWTONS, "h", _OTHER])
-BARE = re.compile(rf"(?:^|[\s_,/])({_BARE})(?=$|[\s_,])|(?:^|[,/])\s*([gAV])$")
+BARE = re.compile(
+    r"(?:^|[\s_,./:=|-]|(?<=[a-z])(?=[A-Z]|[kmu]N))"
+    rf"([NНsсhm%秒分]|N/\w+|10\^\S+(?: \w+)?|(?=[^\W\d_]{{2}})(?i:{_KNOWN}|{_OTHER}))"
+    r"(?=$|[\s_,:;]|\.(?!\w))"
+    # letters after a comma (Load_A and Load A are names), and what is not Latin there.
+    r"|(?:^|[,/]|\s(?=g))\s*([gAV])$|[,/]\s*(\S*[^\x00-\xff]\S*|[^\x00-\x7f]+)$"
+)
 
 
 def has_word(name: str, words: str) -> bool:
@@ -49,7 +64,7 @@ def has_word(name: str, words: str) -> bool:
 def units(name: str) -> list[str]:
     """Whatever stands as a unit in a name: in brackets, or else a known unit."""
     name = unicodedata.normalize("NFKC", name)
-    bare = [found[1] or found[2] for found in BARE.finditer(name)]
+    bare = ["".join(filter(None, found)) for found in BARE.findall(name)]
     return list(filter(None, BRACKET.findall(name))) or bare
 
 

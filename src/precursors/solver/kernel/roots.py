@@ -51,18 +51,18 @@ def first_root(count, zero, series, progress):
     A root at the start was dealt with already: it is divided out. Where the function
     then falls, the root is at once. `series` is used up.
     """
+    resolved = 0
+    while resolved < count and abs(series[resolved]) <= zero:
+        resolved += 1
+    if resolved == count:
+        return np.inf
+    count -= resolved
+    if resolved > 0:
+        for n in range(count):
+            series[n] = series[n + resolved]
     start = 0.0
     span = 1.0
     while True:
-        resolved = 0
-        while resolved < count and abs(series[resolved]) <= zero:
-            resolved += 1
-        if resolved == count:
-            return np.inf
-        count -= resolved
-        if resolved > 0:
-            for n in range(count):
-                series[n] = series[n + resolved]
         if series[0] < 0.0:
             return start
         least = series[0]
@@ -88,8 +88,6 @@ def first_root(count, zero, series, progress):
         move_series(x, count, series)
         start = start + x * span
         span = span * (1.0 - x)
-        if series[0] <= zero:
-            return start
 
 
 @inner
