@@ -131,8 +131,8 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
     }
     pasts = {"pasts": [[0.1, 0], [0, 0.5]], "step": 0.5}
     settled = CONFIG["larger"]["settled"] | {
-        "studies": {"map": STUDY | pasts | {"n_blocks": [12]}},
-        "drawn": [{"chains": 2, "n_blocks": 10, "step": 0.5}],
+        "studies": {"map": STUDY | pasts | {"n_blocks": [16]}},
+        "drawn": [],
     }
     members = run_settled(settled_study(CONFIG["chain"], settled))
     chunk = members.rename_axis("member").reset_index()

@@ -196,4 +196,5 @@ def fronts(run: Record, law: Law) -> dict[str, int]:
 
 def settled_table(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
     """All runs of the study."""
-    return gather(chunks).drop(columns=["duration", "push_height"])
+    runs = gather(chunks)
+    return runs.drop(columns=["duration", "push_height"], errors="ignore")
