@@ -56,7 +56,7 @@ def draw(
         for axes, work in zip(panels, works, strict=True):
             factor, words = WORKS[work]
             of_work = rows.assign(work=factor * rows[work])
-            _draw_panel(axes, of_work, axes is panels[0])
+            _draw_panel(axes, of_work)
             axes.set_xlabel(words)
         panels[0].set_ylabel("Largest error of a transition's time [s]")
         panels[0].set_title("ticks: wrong sequence of transitions", fontsize="small")
@@ -65,7 +65,7 @@ def draw(
     return figure
 
 
-def _draw_panel(axes: Axes, rows: pd.DataFrame, with_names: bool) -> None:
+def _draw_panel(axes: Axes, rows: pd.DataFrame) -> None:
     wrong = rows[~rows["is_right"]]
     top = axes.get_xaxis_transform()
     axes.vlines(
@@ -84,10 +84,9 @@ def _draw_panel(axes: Axes, rows: pd.DataFrame, with_names: bool) -> None:
             markeredgewidth=0,
             zorder=3,
         )
-        if with_names:
-            _name(axes, first)
+        _name(axes, first)
     axes.set(xscale="log", yscale="log")
-    axes.margins(x=0.14, y=0.1)
+    axes.margins(x=0.2, y=0.1)
     style.draw_level(axes, np.spacing(SHOWN_TIME_S), "spacing of doubles", "top")
     axes.tick_params(which="minor", left=False, labelbottom=False)
 
