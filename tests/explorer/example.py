@@ -39,7 +39,8 @@ def write_example(path: Path) -> None:
 
 
 def picture() -> bytes:
-    """The fourth step in the middle of a precursor, without the sliders, as a PNG."""
+    """The fourth step in the middle of a precursor, without the sliders, as a small
+    PNG."""
     path = find_browser()
     if path is None:
         raise FileNotFoundError("no Chromium or Chrome here")
@@ -58,4 +59,4 @@ def picture() -> bytes:
         page.evaluate("redraw('row')")
         page.settle()
         bottom = page.evaluate("element('sliders').getBoundingClientRect().top")
-        return page.picture(x=0, y=0, width=LAPTOP[0], height=bottom, scale=1)
+        return page.picture(x=0, y=0, width=LAPTOP[0], height=bottom, scale=0.75)

@@ -111,7 +111,6 @@ def one_length():
 
 # By the names of the modules.
 PICTURES = {
-    "scene": lambda: draw_scene(slips(), title="uniform", key=False),
     "scene_crowded": (crowded_scene, NARROW),
     "scene_endless": endless_scene,
     "scene_partial": partial_scene,

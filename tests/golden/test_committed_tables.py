@@ -22,7 +22,7 @@ def committed(name: str) -> pd.DataFrame:
 
 
 def test_the_law_of_each_chain_is_that_of_the_library():
-    """It is an upper bound within a tenth."""
+    """No median exceeds it by a tenth."""
     for row in committed("event_law_full").to_dict("records"):
         chain = chain_of({**CONFIG["chain"], **row})
         assert row["law"] == pytest.approx(predicted_events(chain), rel=ROUNDING)

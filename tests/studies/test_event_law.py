@@ -9,7 +9,6 @@ from studies.made import chunks_of
 
 from maegawa2010.studies.event_law import figure
 from maegawa2010.studies.event_law.tables import (
-    THETAS,
     added_load,
     event_law_tables,
     predicted_events,
@@ -26,10 +25,6 @@ def event_law() -> pd.DataFrame:
 
 TABLES = {"event_law": event_law}
 PICTURES = {"event_law": lambda: figure.draw(pd.read_csv(SMALL / "event_law.csv"))}
-
-
-def test_every_theta_of_the_law_has_a_marker():
-    assert len(figure.MARKERS) == len(THETAS)
 
 
 def test_the_law_by_hand_of_two_blocks():

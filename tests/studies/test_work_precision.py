@@ -121,7 +121,6 @@ PICTURES = {
         works=["seconds", "evaluations"],
     ),
     "speed": lambda: figure.draw(
-        pd.read_csv(PUBLISHED / "work_precision_full.csv"),
-        pd.read_csv(PUBLISHED / "beside_heyoka.csv"),
+        pd.read_csv(PUBLISHED / "work_precision_full.csv"), compared="heyoka"
     ),
 }

@@ -27,8 +27,6 @@ if IS_PAPERS:
         section="accuracy",
         function="maegawa2010.studies.work_precision.figure:draw",
         shows="what accuracy costs, as published for the paper's slider",
-        tables={
-            "table": f"{COMMITTED}/work_precision_full.csv",
-            "sessions": f"{COMMITTED}/beside_heyoka.csv",
-        },
+        tables={"table": f"{COMMITTED}/work_precision_full.csv"},
+        options={"compared": "heyoka"},
     )

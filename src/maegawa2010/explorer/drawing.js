@@ -33,6 +33,7 @@ function clear(canvas) {
   context.fillStyle = palette.paper;
   context.fillRect(0, 0, width, height);
   context.font = FONT;
+  context.textBaseline = "middle";
   context.lineWidth = 1;
   context.setLineDash([]);
   return [context, width, height];
@@ -72,7 +73,6 @@ function axes(context, width, height, x, y, labels, xTicks, yTicks) {
   context.fillStyle = palette.soft;
   stroke(context, ...xTicks.values.map((value) => [[toX(value), box.top], [toX(value), box.bottom]]));
   stroke(context, ...yTicks.values.map((value) => [[box.left, toY(value)], [box.right, toY(value)]]));
-  context.textBaseline = "middle";
   context.textAlign = "right";
   for (const value of yTicks.values) context.fillText(value.toFixed(yTicks.decimals), box.left - 6, toY(value));
   context.textAlign = "left";
@@ -201,7 +201,6 @@ function drawRow(canvas, frame) {
   arrow(context, null, plate - 26, plate - 8, y);
 
   context.textAlign = "center";
-  context.textBaseline = "middle";
   centres.forEach((x, i) => {
     const lean = 0.22 * size * modes[i], way = modes[i];
     context.strokeStyle = palette.soft;
@@ -250,7 +249,6 @@ function drawPush(context, { weights, forces, before, added, friction, highest, 
   context.setLineDash([5, 4]);
   context.lineWidth = 2;
   stroke(context, line);
-  context.setLineDash([]);
   context.fillStyle = palette.ink;
   context.textAlign = "right";
   context.fillText("Fₓ", edges[0] - 6, y(load));

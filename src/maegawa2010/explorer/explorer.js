@@ -1,4 +1,3 @@
-"use strict";
 // The page: its state, what is asked of the workers, and what the reader can do.
 
 const element = (id) => document.getElementById(id);
@@ -12,7 +11,6 @@ const state = { slider: { ...UNIFORM.slider }, wish: {}, step: 1, pick: "partial
 let run = null, twin = null, film = null, motions = new Map(), playing = null, isToPlay = false, shares = null, dirty = new Set(), wanted = null;
 // What is asked of the workers: the request that they work on, the one that waits for it, and what they have told.
 let asked = 0, current = null, waiting = null, told = [], heardTwin = 0;
-const workers = [];
 
 const same = (slider) => !state.slider.weights && Object.keys(slider).every((name) => slider[name] === state.slider[name]);
 const isCalm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -272,13 +270,12 @@ function stop() {
   redraw("row", "lengths");
 }
 
-const loads = () => state.slider.weights.map((load) => Number(load.toPrecision(6)));
 // The command that draws this run.
 function command() {
   const names = { theta: "theta", n_blocks: "blocks", mu_s: "mu-s", mu_k: "mu-k", normal_load: "normal-load", drive_stiffness: "drive-stiffness", drive_velocity: "drive-velocity", slider_mass: "slider-mass", youngs_modulus: "youngs-modulus", cross_section: "cross-section", length: "length" };
   const options = Object.entries(names).filter(([name]) => !(state.slider.weights && ["theta", "n_blocks", "normal_load"].includes(name)));
   const text = options.map(([name, option]) => ` --${option} ${state.slider[name]}`).join("");
-  return state.slider.weights ? `echo "${loads().join(" ")}" > loads.txt && precursors plot --weights loads.txt${text}` : `precursors plot${text}`;
+  return state.slider.weights ? `echo "${state.slider.weights.map((load) => Number(load.toPrecision(6))).join(" ")}" > loads.txt && precursors plot --weights loads.txt${text}` : `precursors plot${text}`;
 }
 async function copy(text) {
   const isCopied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
@@ -308,12 +305,11 @@ function setSlider(name, position) {
 function listen() {
   const on = (id, type, does) => element(id).addEventListener(type, does);
   on("sliders", "input", ({ target }) => (setSlider(target.id, Number(target.value)), solve(true)));
-  on("sliders", "change", () => solve());
   on("loads", "input", ({ target }) => {
     state.slider.weights = run.weights.with(target.dataset.load, Number(target.value));
     solve(true);
   });
-  on("loads", "change", () => solve());
+  for (const id of ["sliders", "loads"]) on(id, "change", () => solve());
   on("loads-part", "toggle", () => run && showLoads());
   on("steps", "click", ({ target }) => target.dataset.step && goToStep(Number(target.dataset.step)));
   on("step", "click", ({ target }) => target.dataset.theta && useSlider({ ...UNIFORM.slider, theta: Number(target.dataset.theta) }));
@@ -358,12 +354,12 @@ function listen() {
 }
 
 // Workers from a blob: a page that is opened as a file may not start one from another file.
-for (const isTwin of [false, true]) {
+const workers = [false, true].map((isTwin) => {
   const worker = new Worker(URL.createObjectURL(new Blob([element("worker").textContent], { type: "text/javascript" })));
   worker.onmessage = ({ data }) => hear(isTwin, data);
   worker.onerror = (error) => (element("answers").textContent = `The solver has stopped: ${error.message ?? "this browser does not let the page start a worker"}.`);
-  workers.push(worker);
-}
+  return worker;
+});
 readPalette();
 build();
 listen();

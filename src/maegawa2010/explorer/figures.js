@@ -1,4 +1,3 @@
-"use strict";
 // The figures of the page: what they show of the run, of its predictability and of a study.
 
 const REACH = 22; // pixels around a mark in which a click means it
@@ -103,9 +102,9 @@ function showStairs() {
   const { drive_stiffness: K, drive_velocity: V } = run.slider, last = firstGlobal(), one = event(), motion = motions.get(state.event);
   let [time, load] = [run.arrays.time, run.arrays.load].map((column) => column.subarray(0, lowerBound(run.arrays.time, end) + 1));
   if (!isWhole && motion) [time, load] = [[start, ...motion.time, end], [one.before, ...motion.forces.filter((_, i) => i % (run.n + 2) === 1), one.after]];
-  const releasedIn = (time, load) => Array.from(load, (force, i) => K * V * time[i] - force), released = releasedIn(time, load);
+  const releasedIn = (time, load) => load.map((force, i) => K * V * time[i] - force), released = releasedIn(time, load);
   // Up to the global slip, whose step is the largest, the axis ends above the last precursor.
-  const until = state.view === "first" && last && last !== run.events[0] ? last.onset : end, seen = released.filter((_, i) => time[i] >= start && time[i] <= until);
+  const until = state.view === "first" && last && last !== run.events[0] ? last.onset : end, seen = released.slice(lowerBound(time, start), lowerBound(time, until) + 1);
   const high = seen.reduce((a, b) => Math.max(a, b), 1e-9), low = isWhole ? 0 : seen.reduce((a, b) => Math.min(a, b), high), room = 0.1 * (high - low || 1);
   const figure = axes(context, width, height, [start, end], [isWhole ? 0 : low - room, high + room], [null, "K x₁ = K V t − Fₓ: the load that slips have released [N]"], timeTicks(start, end, width)[0]);
   const known = Math.min(Math.max(run.known, start), end);
@@ -138,7 +137,6 @@ function showLimit(context, { x, box }, text) {
   context.lineWidth = 1;
   context.setLineDash([2, 3]);
   stroke(context, [[at, box.top], [at, box.bottom]]);
-  context.setLineDash([]);
   context.textAlign = isLate ? "right" : "left";
   if (text) context.fillText(isLate ? `${text} →` : `→ ${text}`, at + (isLate ? -6 : 6), box.bottom - 9);
 }

@@ -1,4 +1,3 @@
-"use strict";
 // What the page says: its words, its sliders and its six steps, and how it writes numbers.
 
 const { duration: DURATION, tolerance: TOLERANCE, half_a_digit: PRINTED, scenes: SCENES, proved: PROVED } = JSON.parse(document.getElementById("data").textContent);

@@ -1,4 +1,3 @@
-"use strict";
 // Studies: sliders that are solved one after the other while the reader watches, and the dots of their mu_sapp.
 
 const BAND = [0.48, 0.5]; // the printed 0.49, give or take 0.01

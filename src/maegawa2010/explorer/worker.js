@@ -1,4 +1,3 @@
-"use strict";
 // Runs in two workers, after solver.js: one solves the chain, the other its twin. They work in short slices, so that a
 // newer request is heard in between.
 
@@ -14,16 +13,14 @@ clock.port1.onmessage = work;
 
 onmessage = ({ data }) => {
   if (data.force) motion = follow(data);
-  else begin(data);
+  else {
+    const run = newRun(data.isTwin ? twinOf(data.slider) : chainOf(data.slider), data.duration);
+    job = { ...data, run, steps: solve(run), started: performance.now(), isFirst: false, isShown: false, isDone: false };
+    if (!data.study) motion = null;
+  }
   if (idle) clock.port2.postMessage(0);
   idle = false;
 };
-
-function begin(request) {
-  const run = newRun(request.isTwin ? twinOf(request.slider) : chainOf(request.slider), request.duration);
-  job = { ...request, run, steps: solve(run), started: performance.now(), isFirst: false, isShown: false, isDone: false };
-  if (!request.study) motion = null;
-}
 
 // A slider whose numbers differ by roundings from those of another: its run shows how far rounding errors grow.
 function twinOf(slider) {
@@ -45,10 +42,7 @@ function work() {
       const isFirst = job.isFirst || Boolean(job.run.events.at(-1)?.isGlobal);
       if (job.isDone || isFirst !== job.isFirst) send();
       job.isFirst = isFirst;
-    } else {
-      idle = true;
-      return;
-    }
+    } else return (idle = true);
   } while (performance.now() < until);
   if (job && !job.study && !job.isDone && performance.now() - job.started > PATIENCE) {
     if (!job.isShown) send();

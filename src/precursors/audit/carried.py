@@ -24,10 +24,10 @@ class CarriedState:
     them by some units of 2^-53 of the largest they can be, in the norm sum f_i^2/k_i +
     m v_i^2, twice the energy. A step is a transition or a radian of the fastest motion,
     and the drive counts as a mass that moves. In this norm the difference of two
-    motions with the same transitions does not grow: springs and masses keep it, and
-    what stops loses it. So roundings add up: those of an interval one by one, as they
-    may all go the same way, those of different intervals as squares. One rounding a
-    step comes to `one` [sqrt(J)], which is `one_velocity` [m/s] of a velocity and
+    motions with the same transitions does not grow: free motion conserves it, and a
+    stop reduces it. So roundings add up: those of an interval one by one, as they may
+    all go the same way, those of different intervals as squares. One rounding a step
+    comes to `one` [sqrt(J)], which is `one_velocity` [m/s] of a velocity and
     `one_force` [N] of the net force on each block.
     """
 

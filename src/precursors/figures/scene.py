@@ -43,7 +43,6 @@ TO_THE_EDGE: Options = {
     "clip_on": False,
     "label": "reaches the far end, but not all at once",
 }
-UNFINISHED: Options = {"color": style.pale(style.BLACK, 0.2), "linewidth": 6}
 LABELS = ("$F_X$ [N]", "$K x_1$ [N]", "$L_p$ [mm]")
 STAIRCASE = "$K x_1 = K V t - F_X$: a step for each slip"
 MEASURED: Options = {"color": style.MEASURED, "zorder": 1.8, "label": "measured"}
@@ -58,8 +57,8 @@ def draw(
     key: bool = True,
     look: style.Look = style.LOOK,
 ) -> Figure:
-    """Draw F_X(t), K x_1 = K V t - F_X and all slip events; with `inset`, all of it
-    magnified up to the first global slip.
+    """Draw F_X(t), K x_1 = K V t - F_X and all slip events; with `inset`, the second
+    only up to the first global slip, where all of it is magnified.
 
     An event that goes on when the run ends is a band. The slip table may be empty; the
     trace is straight between its rows. `data`, shape (n, 2), are measured times [s] and
@@ -83,22 +82,23 @@ def draw(
         for axes, end in zip(columns, ends, strict=True):
             _draw_loads(axes, slips, trace, end)
             _draw_events(axes[2], slips[slips["onset_s"] <= end], trace)
-            axes[0].plot(*data[times <= end].T, **MEASURED)
+            if len(data):
+                axes[0].plot(*data[times <= end].T, **MEASURED)
             axes[2].set_xlabel("Time $t$ [s]")
             for panel in axes:
                 panel.set_xlim(min([0, *times]), end)
                 panel.tick_params(labelbottom=panel is axes[2])
-                panel.axvline(first_s, **FIRST_GLOBAL)
-        for axes in columns[:rows]:
+                if slips["is_global"].any():
+                    panel.axvline(first_s, **FIRST_GLOBAL)
             for panel, text in zip(axes, LABELS, strict=True):
                 panel.set_ylabel(text)
-        figure.align_ylabels()
         if n > 1:
             _magnify(columns, first_s, trace)
+        figure.align_ylabels()
         columns[-1][1].annotate(STAIRCASE, (0.02, 0.82), xycoords="axes fraction")
         columns[0][0].set_title(_title(slips, title), loc="left", pad=4, wrap=True)
         if key:
-            _draw_key(figure, slips, len(data) > 0, width_mm / look.font_size)
+            style.draw_key(figure, ncols=int(width_mm / look.font_size / KEY_WIDTH))
     return figure
 
 
@@ -107,10 +107,9 @@ def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:
     slips = slips.astype({"is_global": bool, "counted": bool})
     partial, counted, whole = KINDS
     share = slips["front"] / slips["n_blocks"]
+    kind = np.select([slips["is_global"], slips["counted"]], [whole, counted], partial)
     return slips.assign(
-        kind=np.select(
-            [slips["is_global"], slips["counted"]], [whole, counted], partial
-        ),
+        kind=pd.Categorical(kind, list(KINDS)),
         reached_mm=style.MM_PER_M * slips["length_m"] * share,
         is_at_the_edge=~slips["is_global"] & (share == 1),
     )
@@ -124,13 +123,13 @@ def _draw_loads(
     seen = trace[trace["time_s"].shift(fill_value=0.0) <= end]
     for panel, column in zip(axes, ("tangential_load_N", "K_x1_N"), strict=False):
         panel.plot(seen["time_s"], seen[column], color=style.BLACK, linewidth=0.6)
-    for kind, look in KINDS.items():
-        events = slips[(slips["kind"] == kind) & (slips["onset_s"] <= end)]
+    slips = slips[slips["onset_s"] <= end]
+    for kind, events in slips.groupby("kind", observed=True):
         low, high = (
             np.interp(times, trace["time_s"], trace["K_x1_N"])
             for times in (events["onset_s"], events["end_s"].fillna(end))
         )
-        axes[1].vlines(events["onset_s"], low, high, **look)
+        axes[1].vlines(events["onset_s"], low, high, **KINDS[str(kind)])
 
 
 def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
@@ -138,18 +137,19 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
         axes.annotate("no slip event", (0.4, 0.5), xycoords="axes fraction")
         axes.set_yticks([])
         return
-    for kind, look in KINDS.items():
-        events = slips[slips["kind"] == kind]
-        axes.vlines(events["onset_s"], 0, events["reached_mm"], **look)
-        unfinished = events[events["end_s"].isna()]
-        axes.bar(
-            unfinished["onset_s"],
-            unfinished["reached_mm"],
-            trace["time_s"].iloc[-1] - unfinished["onset_s"],
-            align="edge",
-            color=style.pale(look["color"], 0.2),
-            zorder=0.5,
-        )
+    for kind, events in slips.groupby("kind", observed=True):
+        look = KINDS[str(kind)]
+        axes.vlines(events["onset_s"], 0, events["reached_mm"], **look, label=str(kind))
+        unfinished: Any = events[events["end_s"].isna()].itertuples()
+        for event in unfinished:
+            axes.fill_between(
+                [event.onset_s, trace["time_s"].iloc[-1]],
+                event.reached_mm,
+                color=style.pale(look["color"], 0.2),
+                linewidth=0,
+                zorder=0.5,
+                label="not over when the run ends",
+            )
     edge = slips[slips["is_at_the_edge"]]
     if len(edge):  # an empty line that is not clipped upsets the layout
         axes.plot(edge["onset_s"], edge["reached_mm"], **TO_THE_EDGE)
@@ -157,8 +157,11 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
 
 
 def _magnify(columns: Any, first_s: float, trace: pd.DataFrame) -> None:
-    """Mark what is magnified, and cut the riser of the global slip, which goes far
-    beyond the others."""
+    """Mark what is magnified, keep the staircase there only, and cut the riser of the
+    global slip, which goes far beyond the others."""
+    load, staircase, _ = columns[0]
+    staircase.remove()
+    load.set_subplotspec(load.get_gridspec()[:2, 0])
     for panel in columns[0]:
         panel.axvspan(0, ZOOM_END * first_s, color=style.PALE, linewidth=0, zorder=0)
     top = np.interp(first_s, trace["time_s"], trace["K_x1_N"])
@@ -171,15 +174,3 @@ def _title(slips: pd.DataFrame, title: str) -> str:
     parts += [style.theta_text(theta) for theta in slips["theta"][:1]]
     note = " (no global slip)" if len(slips) and not slips["is_global"].any() else ""
     return ", ".join(parts) + note
-
-
-def _draw_key(
-    figure: Figure, slips: pd.DataFrame, has_data: bool, width: float
-) -> None:
-    """Draw the key; `width` is that of the page in mm per pt of the letters."""
-    entries = [style.mark(**MEASURED)] if has_data else []
-    entries += [style.mark(kind, **look) for kind, look in KINDS.items()]
-    entries += [style.mark(**TO_THE_EDGE), style.mark(**FIRST_GLOBAL)]
-    if slips["end_s"].isna().any():
-        entries.append(style.mark("not over when the run ends", **UNFINISHED))
-    style.draw_key(figure, entries, max(1, int(width / KEY_WIDTH)))

@@ -4,7 +4,7 @@ files."""
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -22,6 +22,7 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import findfont
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from precursors.support.files import write_whole
 
@@ -169,6 +170,16 @@ def save(
     write_whole(path, re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
 
 
+def columns(figure: Figure, labels: Collection[str], n: int) -> NDArray[Any]:
+    """Make rows of panels, with a label of the y axis for each, in `n` columns of one
+    x axis."""
+    grid = figure.subplots(len(labels), n, sharex=True, sharey="row", squeeze=False)
+    for axes, label in zip(grid[:, 0], labels, strict=True):
+        axes.set_ylabel(label)
+    figure.align_ylabels(grid[:, 0])
+    return grid
+
+
 def pale(color: str, share: float) -> str:
     """Mix a colour with white: EPS, which knows no transparency, shows it as the others
     do."""
@@ -219,8 +230,15 @@ def draw_level(axes: Axes, value: float, text: str, side: str = "bottom") -> Non
     axes.text(0.98, value, text, ha="right", va=side, transform=where, fontsize="small")
 
 
-def draw_key(figure: Figure, entries: Sequence[Any], ncols: int = 0) -> None:
-    """Draw a key below the panels, for marks that mean the same in all of them."""
+def draw_key(figure: Figure, entries: Sequence[Any] = (), ncols: int = 0) -> None:
+    """Draw a key below the panels, for marks that mean the same in all of them; by
+    default of all that is drawn and has a label."""
+    found = {
+        label: handle
+        for axes in figure.axes
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+    entries = entries or list(found.values())
     columns = ncols or len(entries)
     figure.legend(handles=entries, loc="outside lower center", ncols=columns)
 

@@ -78,8 +78,7 @@ def checksums(
 
 
 def processor_name() -> str:
-    """Name of the processor as Linux tells it; elsewhere, and where it does not, its
-    kind."""
+    """Processor name from /proc/cpuinfo, or else its architecture."""
     told = Path("/proc/cpuinfo")
     names = re.findall(
         r"model name\s*:\s*(.+)", told.read_text() if told.is_file() else ""

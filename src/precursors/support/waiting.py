@@ -43,10 +43,10 @@ def in_threads(
     threads: int = 1,
     done: Callable[[], float] | None = None,
 ) -> list[Result]:
-    """Results of compiled functions that hold no lock of Python; how much is done, by
-    default the part of the tasks, is told as by `tell`.
+    """Run tasks that release the GIL in threads, and report progress with `tell`: `done`,
+    by default the share of finished tasks.
 
-    Ctrl-C and errors do not wait for what is at work, and nothing begins after them.
+    After Ctrl-C or an error no task is started, and running ones are not waited for.
     """
     found: list[Future[Result]] = [Future() for _ in tasks]
     left = deque(zip(tasks, found, strict=True))

@@ -18,10 +18,10 @@ of events is
 
 A soft drive (K much below E S/L) and many blocks leave n = mu_k F_Z / ((mu_s - mu_k)
 w_1). The number belongs to the block: w_1 goes down as 1/N. In a real interface the
-load on the length that can slip alone stands for w_1.
+load on the length that can slip alone takes the place of w_1.
 
-Assumption 2 is the weak one. A block that slides alone swings through: it stops under
-(2 mu_k - mu_s) w_1, and the next event takes 2 (mu_s - mu_k) w_1. Waves of longer
+Assumption 2 is the weak one. A block that slides alone overshoots its balance: it
+stops under (2 mu_k - mu_s) w_1, and the next event takes 2 (mu_s - mu_k) w_1. Waves of longer
 events leave it near mu_k w_1. So there are fewer events than by the law where many
 events are of one block: few blocks, or a small load at the leading edge.
 """

@@ -57,8 +57,9 @@ def _draw_curves(axes: Axes, panel: Any, curves: pd.DataFrame) -> None:
         )
     axes.set_xscale("log" if "x" in panel.log else "linear")
     axes.set_yscale("log" if "y" in panel.log else "linear")
-    # On an axis of less than two decades, some numbers between them have a label.
+    # On a y axis of less than two decades, some numbers between them have a label.
     axes.yaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(2, 1)))
+    axes.tick_params(axis="x", which="minor", labelbottom=False)
     if pd.notna(panel.bottom):
         axes.set_ylim(bottom=panel.bottom)
     axes.set_xlabel(panel.x, fontsize="small")

@@ -56,7 +56,7 @@ def lyapunov_exponent(run: Run) -> LyapunovExponent:
     et al. 1980).
 
     A run in double precision follows the exact one only for a while. After that it is
-    another typical run, which serves a mean as well. The uncertainty comes from the
+    another typical run, which is enough for a mean. The uncertainty comes from the
     means over stretches of equally many events, by Student's t.
 
     Raises

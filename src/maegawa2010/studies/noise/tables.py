@@ -20,8 +20,7 @@ from maegawa2010.studies.members import (
 )
 from maegawa2010.support.run_statistics import NOISE
 
-# Other noise, with so many runs for one with NOISE: the difference of two mu_sapp grows
-# with it.
+# Other amplitudes of noise, each with runs / FEWER runs.
 AMPLITUDES = (1e-4, 1e-2, 3e-2)
 FEWER = 5
 

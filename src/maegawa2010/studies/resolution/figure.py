@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 
 from maegawa2010 import printed
 from precursors.figures import style
@@ -15,12 +14,10 @@ from precursors.figures.style import Options
 HEIGHT_MM = 84.0
 BEYOND = 1.35  # where marks stand beyond the last N, in units of it
 EXACT: Options = {"linestyle": "none", "marker": ".", "markersize": 4}
-# The other counts beside those of Fig. 13.
-COUNTS: dict[str, Options] = {
-    "events_to_global_slip": {"linestyle": "--", "label": "median, all events"},
-}
 EXPERIMENT: Options = {"linestyle": "none", "marker": "<", "markersize": 5}
-BAND = 0.18  # share of a colour in a band, the rest is white
+MEDIAN: Options = {"linewidth": 1.2}
+ALL_EVENTS: Options = {"linestyle": "--"}
+LIMIT: Options = {"linestyle": "none", "marker": "_", "markersize": 5}
 
 
 def draw(
@@ -28,7 +25,7 @@ def draw(
 ) -> Figure:
     """Draw events and mu_sapp against N; dotted lines mark the paper's N and mu_k.
 
-    Of resolution.csv, medians are lines and 5 to 95 % of the runs are bands. A run
+    Of resolution.csv, medians are lines, and 5 and 95 % of the runs are ticks. A run
     without noise is a dot where it is predictable up to its global slip
     (predictability.csv).
     """
@@ -41,24 +38,35 @@ def draw(
             _draw_numbers(counts, rows["events_counted"])
             _draw_numbers(frictions, rows["mu_sapp"])
             color = style.theta_color(of_scene["theta"].iloc[0])
-            for quantity, look in COUNTS.items():
-                of_runs = rows[quantity]
-                counts.plot(of_runs["n_blocks"], of_runs["q50"], color=color, **look)
+            every = rows["events_to_global_slip"]
+            counts.plot(every["n_blocks"], every["q50"], color=color, **ALL_EVENTS)
         beyond = BEYOND * table["n_blocks"].max()
         for sign, count in printed.EVENTS_OF_EXPERIMENT.items():
             counts.plot(beyond, count, **EXPERIMENT, color=style.theta_color(sign))
         counts.set(ylabel="Events up to the first global slip [-]", yscale="log")
         style.set_ticks(counts.yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000])
         frictions.set_ylabel(style.MU_SAPP_LABEL)
-        words = f"paper, experiment: {printed.MU_SAPP:g}"
-        style.draw_level(frictions, printed.MU_SAPP, words)
-        style.draw_level(frictions, mu_k, r"$\mu_k$", "top")
+        levels = {r"$\mu_k$": mu_k, "paper": printed.MU_SAPP}
+        for level in levels.values():
+            frictions.axhline(level, **style.DOTTED)
+        right = frictions.secondary_yaxis("right")
+        right.set_yticks(list(levels.values()), levels)
         for axes in (counts, frictions):
             axes.set(xscale="log", xlabel=style.BLOCKS_LABEL)
             axes.axvline(papers_n, **style.DOTTED)
             style.set_ticks(axes.xaxis, [2, 5, 10, 20, 50, 100, 200])
-        _draw_key(figure, papers_n)
+        counts.set_title(_finding(table, "events_counted"))
+        frictions.set_title(_finding(table, "mu_sapp"))
+        frictions.legend(labelcolor="linecolor")
+        _draw_key(figure)
     return figure
+
+
+def _finding(table: pd.DataFrame, quantity: str) -> str:
+    """From where to where the medians of the loadings go, with most blocks."""
+    of_quantity = table[table["quantity"] == quantity].groupby("n_blocks")["q50"]
+    least, most = of_quantity.agg(["min", "max"]).iloc[-1]
+    return f"{least:.3g} to {most:.3g} with {table['n_blocks'].max()} blocks"
 
 
 def _draw_numbers(axes: Axes, rows: pd.DataFrame) -> None:
@@ -66,29 +74,19 @@ def _draw_numbers(axes: Axes, rows: pd.DataFrame) -> None:
     theta = rows["theta"].iloc[0]
     color = style.theta_color(theta)
     n = rows["n_blocks"]
-    band = {
-        "color": style.pale(color, BAND),
-        "linewidth": 0,
-        "zorder": 0.5 - 0.1 * theta,
-    }
-    axes.fill_between(n, rows["q05"], rows["q95"], **band)
-    axes.plot(n, rows[["q05", "q95"]], color=style.pale(color, 0.5), linewidth=0.4)
-    axes.plot(n, rows["q50"], color=color, linewidth=1.2)
+    axes.plot(n, rows[["q05", "q95"]], color=color, **LIMIT)
+    loading = style.LOADINGS[int(np.sign(theta))]
+    axes.plot(n, rows["q50"], color=color, **MEDIAN, label=loading)
     exact = rows[rows["predictable"].eq(True)]
     axes.plot(exact["n_blocks"], exact["without_noise"], color=color, **EXACT)
 
 
-def _draw_key(figure: Figure, papers_n: int) -> None:
-    entries: list[Artist] = [
-        style.mark(words, color=style.theta_color(sign), linewidth=2)
-        for sign, words in style.LOADINGS.items()
-    ]
-    entries += [
-        style.mark("median, counted in Fig. 13", linewidth=1.2),
-        *(style.mark(**look) for look in COUNTS.values()),
-        Patch(color=style.pale(style.BLACK, BAND), label="5 to 95 %"),
+def _draw_key(figure: Figure) -> None:
+    entries = [
+        style.mark("median, counted in Fig. 13", **MEDIAN),
+        style.mark("median, all events", **ALL_EVENTS),
+        style.mark("5 and 95 % of the runs", **LIMIT),
         style.mark("without noise, predictable", **EXACT),
         style.mark("experiment", **EXPERIMENT),
-        style.mark(f"$N = {papers_n}$", **style.DOTTED),
     ]
     style.draw_key(figure, entries, ncols=3)

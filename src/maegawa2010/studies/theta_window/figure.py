@@ -23,7 +23,7 @@ def draw(members: pd.DataFrame) -> Figure:
     """
     scenes = members.groupby("scene", sort=False)
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        grid = figure.subplots(2, len(scenes), sharex=True, sharey="row", squeeze=False)
+        grid = style.columns(figure, QUANTITIES.values(), len(scenes))
         for column, (_, of_scene) in zip(grid.T, scenes, strict=True):
             alone = of_scene[of_scene["point"] == 0].iloc[0]
             runs = of_scene[of_scene["point"] > 0]
@@ -34,9 +34,6 @@ def draw(members: pd.DataFrame) -> Figure:
                 axes.plot(0.0, alone[quantity], **ALONE)
             column[0].set_title(f"around {style.theta_text(alone['theta'])}")
             column[1].set_xlabel(r"Change of $\theta$ [$10^{-3}$]")
-        for axes, label in zip(grid[:, 0], QUANTITIES.values(), strict=True):
-            axes.set_ylabel(label)
-        figure.align_ylabels(grid[:, 0])
         grid[1, 0].yaxis.set_major_locator(MaxNLocator(integer=True))
         entries = [style.mark("one run", **RUN), style.mark("the scene", **ALONE)]
         style.draw_key(figure, entries)

@@ -33,53 +33,47 @@ SHOWN_TIME_S = 2.7  # doubles near the first global slip are np.spacing of this 
 
 def draw(
     table: pd.DataFrame,
-    sessions: pd.DataFrame | None = None,
     works: Sequence[str] = ("seconds",),
+    compared: str | None = None,
 ) -> Figure:
     """Draw the largest error of a transition's time against work, up to the first
     global slip.
 
-    `table` is work_precision.csv, and `works` its columns of work. Methods of one
-    colour of their own have their names beside them, the others are grey points. A tick
-    in the strip is a setting that gives a wrong sequence of transitions. An arrow shows
-    how many times as long as the exact solver heyoka takes in `sessions`
-    (beside_heyoka.csv).
+    `table` is work_precision.csv, and `works` its columns of work. A method without a
+    colour of its own, or right at one setting only, is left out. A tick at the top is a
+    setting that gives a wrong sequence of transitions. An arrow shows how many times as
+    long as the exact solver the method `compared` takes, at its last setting.
     """
     true = table["transitions_true"]
     is_right = table["transitions_right"].eq(true) & table["transitions_found"].eq(true)
-    rows = table.assign(is_right=is_right)
+    n_right = is_right.groupby(table["method"]).transform("sum")
+    is_shown = table["color"].ne(style.GREY) & n_right.gt(1)
+    is_shown |= table["method"].eq("exact")
+    rows = table.assign(is_right=is_right)[is_shown]
     width_mm = style.COLUMN_MM if len(works) == 1 else style.PAGE_MM
     with style.page(width_mm, HEIGHT_MM) as figure:
-        panels = figure.subplots(
-            2,
-            len(works),
-            sharex="col",
-            sharey="row",
-            squeeze=False,
-            height_ratios=(1, 14),
-        )
-        for (strip, axes), work in zip(panels.T, works, strict=True):
+        (panels,) = figure.subplots(1, len(works), sharey=True, squeeze=False)
+        for axes, work in zip(panels, works, strict=True):
             factor, words = WORKS[work]
             of_work = rows.assign(work=factor * rows[work])
-            _draw_panel(strip, axes, of_work, axes is panels[1, 0])
+            _draw_panel(axes, of_work)
             axes.set_xlabel(words)
-        panels[1, 0].set_ylabel("Largest error of a transition's time [s]")
-        panels[0, 0].set_title("wrong sequence of transitions", fontsize="small", pad=2)
-        if sessions is not None:
-            _draw_factor(panels[1, 0], rows, sessions)
+        panels[0].set_ylabel("Largest error of a transition's time [s]")
+        panels[0].set_title("ticks: wrong sequence of transitions", fontsize="small")
+        if compared:
+            _draw_factor(panels[0], rows, compared)
     return figure
 
 
-def _draw_panel(strip: Axes, axes: Axes, rows: pd.DataFrame, with_names: bool) -> None:
-    strip.set(yticks=[], facecolor=style.PALE, xscale="log")
-    wrong = rows.loc[~rows["is_right"], "work"]
-    strip.vlines(wrong, 0, 1, color=style.GREY, linewidth=0.6)
+def _draw_panel(axes: Axes, rows: pd.DataFrame) -> None:
+    wrong = rows[~rows["is_right"]]
+    top = axes.get_xaxis_transform()
+    axes.vlines(
+        wrong["work"], 0.96, 1.0, wrong["color"].tolist(), linewidth=0.8, transform=top
+    )
     right = rows[rows["is_right"] & (rows["error_time_s"] > 0)]
     right = right.sort_values("error_time_s")
-    is_grey = right["color"] == style.GREY
-    others = right[is_grey]
-    axes.scatter(others["work"], others["error_time_s"], 4, color=style.GREY)
-    for method, own in right[~is_grey].groupby("method", sort=False):
+    for method, own in right.groupby("method", sort=False):
         first = own.iloc[0]
         axes.plot(
             own["work"],
@@ -90,13 +84,11 @@ def _draw_panel(strip: Axes, axes: Axes, rows: pd.DataFrame, with_names: bool) -
             markeredgewidth=0,
             zorder=3,
         )
-        if with_names:
-            _name(axes, first)
-    axes.set(yscale="log")
-    axes.margins(x=0.14, y=0.1)
+        _name(axes, first)
+    axes.set(xscale="log", yscale="log")
+    axes.margins(x=0.2, y=0.1)
     style.draw_level(axes, np.spacing(SHOWN_TIME_S), "spacing of doubles", "top")
-    for panel in (strip, axes):
-        panel.minorticks_off()
+    axes.tick_params(which="minor", left=False, labelbottom=False)
 
 
 def _name(axes: Axes, first: pd.Series) -> None:
@@ -113,16 +105,12 @@ def _name(axes: Axes, first: pd.Series) -> None:
     )
 
 
-def _draw_factor(axes: Axes, rows: pd.DataFrame, sessions: pd.DataFrame) -> None:
-    """Draw an arrow as long as the factor in processor time between heyoka and the
-    exact solver, both in one process."""
-    case = sessions["case"].eq("theta = 0, to the first global slip")
-    case &= sessions["quantity"].eq("processor time of heyoka / exact")
-    factor = sessions[case].iloc[0]
-    exact = rows[rows["method"] == "exact"].iloc[0]
-    start = 1e3 * exact["seconds"]
-    height = 6.0 * exact["error_time_s"]
-    ends = (start, height), (start * factor["value"], height)
-    arrow = {"arrowstyle": "->", "linewidth": 0.7, "shrinkA": 0, "shrinkB": 0}
-    axes.annotate("", ends[1], ends[0], arrowprops=arrow)
-    axes.text(start, 1.5 * height, f"  {factor['value']:.0f} times", fontsize="small")
+def _draw_factor(axes: Axes, rows: pd.DataFrame, compared: str) -> None:
+    """Draw an arrow from the exact solver's point to the last one of a method."""
+    of_method = rows.groupby("method")[["seconds", "error_time_s"]].last()
+    start, end = of_method.loc[["exact", compared]].to_numpy() * (1e3, 1)
+    arrow = {"arrowstyle": "->", "linewidth": 0.7, "shrinkA": 8, "shrinkB": 3}
+    axes.annotate("", end, start, arrowprops=arrow)
+    words = f"{end[0] / start[0]:.0f} times  "
+    x, y = np.sqrt(start * end)
+    axes.text(x, y, words, ha="right", va="bottom", fontsize="small")

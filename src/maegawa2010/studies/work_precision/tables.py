@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 
 UNTIL = "global slip"
 # Rounds of which a time is the median. In the default chart, a call that takes longer
-# than `LONG` [s] is timed once: it is a mean over what else the machine does, as the
-# short calls of a round together are.
+# than `LONG` [s] is timed once, as it averages over the machine's other load by itself.
 ROUNDS = 3
 ROUNDS_FULL = 5
 LONG = 0.05

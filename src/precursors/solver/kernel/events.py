@@ -49,12 +49,12 @@ from precursors.solver.kernel.units import lay_out
 def run_batch(batch, end, progress, record, states, memory, first, windows):
     """Run chain after chain, from the first that is not finished on, into one record.
 
-    Row j of `batch` is a chain with its start, row j of `progress` has the words of
-    where it is. Returns how many chains are finished, and how many rows and states they
-    took. The chain after them has not begun, as the record is half full, or is paused, as
-    record or states are full or it has gone through so many windows. Then its state is
-    in `memory`, and what it recorded follows that of the others; it goes on in a record
-    that begins with it.
+    Row j of `batch` is a chain with its start, row j of `progress` says where it is.
+    Returns how many chains are finished, and how many rows and states they took. It
+    stops before a new chain if the record is half full, and pauses the present one if
+    record or states are full or after `windows` windows. The state of a paused chain is
+    in `memory`, and its rows follow those of the others; it goes on in a record that
+    begins with them.
     """
     n_blocks = batch.weights.shape[1]
     used = stored = 0
