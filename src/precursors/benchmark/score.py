@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.slips import first_global_slip, slip_table
+from precursors.analysis.summary import summarise
 from precursors.benchmark.compare import Truth, compare
 from precursors.proof import Certificate
 from precursors.solver.run import Record
@@ -80,10 +80,10 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
         "time_error_to_global_slip_s": start.time_error,
         "load_error_to_global_slip_N": start.load_error,
     }
-    for which, run in (("", found.run), ("_true", truth.run)):
-        first = first_global_slip(slip_table(run))
-        values[f"events_counted{which}"] = first.events_counted if first else math.nan
-        values[f"mu_sapp{which}"] = first.mu_sapp if first else math.nan
+    summary = summarise([found.run, truth.run])
+    for name in ("events_counted", "mu_sapp"):
+        column = summary[name].where(summary["reached"]).tolist()
+        values[name], values[f"{name}_true"] = column
     last = rows[-1] if rows else {}
     return values | {name: float(last.get(name, math.nan)) for name in COSTS}
 

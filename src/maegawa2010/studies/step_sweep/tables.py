@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 
 from maegawa2010.methods import METHODS, attempt
-from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
+from precursors.analysis.slips import find_precursors, find_slips
+from precursors.analysis.summary import apparent_friction
 from precursors.benchmark.compare import Truth, transitions_right
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Record, Run
