@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.summary import summarise
+from precursors.analysis.slips import slip_table
+from precursors.analysis.summary import summary_of
 from precursors.benchmark.compare import Truth, compare
 from precursors.proof import Certificate
 from precursors.solver.run import Record
@@ -80,10 +81,13 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
         "time_error_to_global_slip_s": start.time_error,
         "load_error_to_global_slip_N": start.load_error,
     }
-    summary = summarise([found.run, truth.run])
-    for name in ("events_counted", "mu_sapp"):
-        column = summary[name].where(summary["reached"]).tolist()
-        values[name], values[f"{name}_true"] = column
+    for which, run in (("", found.run), ("_true", truth.run)):
+        numbers = summary_of(slip_table(run))
+        counted = numbers.events_counted if numbers.reached else math.nan
+        values |= {
+            f"events_counted{which}": counted,
+            f"mu_sapp{which}": numbers.mu_sapp,
+        }
     last = rows[-1] if rows else {}
     return values | {name: float(last.get(name, math.nan)) for name in COSTS}
 
