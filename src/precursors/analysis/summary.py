@@ -16,6 +16,8 @@ from precursors.analysis.events import slip_events
 from precursors.analysis.slips import counted, first_global, slip_columns
 from precursors.solver.run import Record
 
+# A slip table, as a DataFrame or not.
+Columns = pd.DataFrame | Mapping[str, NDArray[Any]]
 # L_p/L from which the length of the experiment's precursors grows faster (Sect. 6.1).
 KINK = 0.7
 GLOBAL_SLIPS = {
@@ -56,7 +58,7 @@ class Definition:
             return GLOBAL_SLIPS[self.global_slip]
         return f"in which F_X drops by more than {self.global_slip:g} N"
 
-    def is_global(self, slips: Mapping[str, Any]) -> NDArray[np.bool_]:
+    def is_global(self, slips: Columns) -> NDArray[np.bool_]:
         """Which events are global slips."""
         if self.global_slip == "at once":
             return np.asarray(slips["is_global"], bool)
@@ -117,7 +119,7 @@ def apparent_friction(run: Record) -> float:
     return float(summarise([run])["mu_sapp"].item())
 
 
-def summary_of(slips: Mapping[str, Any], definition: Definition = OURS) -> Summary:
+def summary_of(slips: Columns, definition: Definition = OURS) -> Summary:
     """The numbers of a run from the columns of its `slip_table`, by a definition."""
     front = np.asarray(slips[definition.front])
     is_global = definition.is_global(slips)

@@ -73,8 +73,11 @@ def simulate(arguments: Namespace) -> None:
 
     run = run_of_options(arguments)
     [found] = summarise([run]).to_dict("records")
-    values = {"n_blocks": run.chain.n_blocks, "duration_s": run.duration}
-    values |= {name: found[name] for name in SHOWN}
+    values: dict[str, Any] = {
+        "n_blocks": run.chain.n_blocks,
+        "duration_s": run.duration,
+        **{name: found[name] for name in SHOWN},
+    }
     values |= accuracy(run) | law_of_run(run)
     if arguments.output:
         run.save(arguments.output)
