@@ -90,17 +90,17 @@ def counted(
     """Which events Fig. 13 counts: see `find_precursors`."""
     front = np.asarray(front)
     farthest = np.maximum.accumulate(front)
-    is_long = {
-        "shorter": front == farthest,
-        "not longer": np.diff(farthest, prepend=0) > 0,
-        "shorter than the last": np.diff(front, prepend=0) >= 0,
-    }
-    if short not in is_long:
-        raise ValueError(
-            f"short must be one of {', '.join(map(repr, SHORT_EVENTS))}, but is {short!r}"
-        )
     is_global = np.asarray(is_global, bool)
-    return is_long[short] & (np.cumsum(is_global) - is_global == 0)
+    until_global = np.cumsum(is_global) - is_global == 0
+    if short == "shorter":
+        return until_global & (front == farthest)
+    if short == "not longer":
+        return until_global & (np.diff(farthest, prepend=0) > 0)
+    if short == "shorter than the last":
+        return until_global & (np.diff(front, prepend=0) >= 0)
+    raise ValueError(
+        f"short must be one of {', '.join(map(repr, SHORT_EVENTS))}, but is {short!r}"
+    )
 
 
 def first_global(is_global: ArrayLike) -> int | None:

@@ -97,13 +97,13 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
     -------
     DataFrame, one row per run
         events_to_global_slip (all slip events up to and including the first global
-        slip), events_counted (those of Fig. 13), events_in_all and n_global (events and
-        global slips of the whole run), reached (whether there is a global slip);
-        mu_sapp [1] (Eq. 1), largest_load_N [N] (F_X up to the first global slip); of
-        that slip global_slip_s and global_slip_end_s [s], and global_slip_load_N (F_X
-        at its onset) [N]; speedup (see `speedup`); transitions of the run. Without a
-        global slip these are NaN, and the counts are those of the whole run. A global
-        slip that the end of the run cuts off has global_slip_end_s NaN.
+        slip), events_counted (those of Fig. 13), events_in_all, n_global and
+        transitions (all of the run), reached (whether there is a global slip); mu_sapp
+        [1] (Eq. 1), largest_load_N (F_X up to the first global slip); of that slip
+        global_slip_s and global_slip_end_s, and global_slip_load_N (F_X at its onset);
+        speedup [1] (see `speedup`). Without a global slip mu_sapp and all after it are
+        NaN, and the counts are those of the whole run. A global slip that the end of
+        the run cuts off has global_slip_end_s NaN.
     """
     runs = list(runs)
     rows = [summary_of(slip_columns(slip_events(run), run.chain)) for run in runs]
