@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
+from precursors.analysis.slips import find_precursors, find_slips
+from precursors.analysis.summary import apparent_friction
 from precursors.larger.chain import (
     LargerChain,
     critical_length,
