@@ -22,12 +22,11 @@ from precursors.audit import audit  # at once, or the room would take its name
 
 if TYPE_CHECKING:
     from precursors.analysis.slips import (
-        apparent_friction,
         find_precursors,
         find_slips,
         slip_table,
     )
-    from precursors.analysis.summary import summarise
+    from precursors.analysis.summary import apparent_friction, summarise
     from precursors.figures.run import plot
     from precursors.larger.chain import LargerChain
     from precursors.larger.run import LargerRun
@@ -47,7 +46,7 @@ _MODULES = {
     "Run": "solver.run",
     "RunFileError": "solver.run",
     "TransitionLimitError": "solver.simulate",
-    "apparent_friction": "analysis.slips",
+    "apparent_friction": "analysis.summary",
     "certify": "proof",
     "find_precursors": "analysis.slips",
     "find_slips": "analysis.slips",

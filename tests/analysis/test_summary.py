@@ -1,82 +1,115 @@
-"""The summary of many runs says what the slip table of each says."""
+"""The numbers of a run follow from its slip table, under every reading of the words."""
+
+import math
 
 import numpy as np
 import pandas as pd
 import pytest
-from analysis.random_runs import random_chain, random_transitions
 
-from precursors import Chain, Run, find_precursors, find_slips, simulate
-from precursors.analysis.slips import first_global, first_global_slip, slip_table
-from precursors.analysis.summary import KINK, summarise
+from precursors import (
+    Chain,
+    Record,
+    apparent_friction,
+    simulate,
+    slip_table,
+    summarise,
+)
+from precursors.analysis.summary import Definition, speedup, summary_of
 
-
-def table_path(run: Run) -> dict[str, float]:
-    """The summary by way of the slip table."""
-    slips, table = find_slips(run), slip_table(run)
-    friction = first_global_slip(table)
-    reached = friction is not None
-    up_to = slips.iloc[: first_global(slips) + 1] if reached else slips
-    start, end = (
-        (up_to.onset.iloc[-1], up_to.end.iloc[-1]) if reached else (np.nan, np.nan)
-    )
-    later = slips.onset.iloc[len(up_to)] if len(up_to) < len(slips) else np.inf
-    return {
-        "events_to_global_slip": len(up_to),
-        "events_counted": len(find_precursors(slips)),
-        "speedup": speedup(find_precursors(slips), run.chain.n_blocks)
-        if reached
-        else np.nan,
-        "mu_sapp": friction.mu_sapp if friction else np.nan,
-        "load": slips.load_before[friction.event - 1] if friction else np.nan,
-        "time": start,
-        "end": end,
-        "transitions": int((run.transitions["time"] < later).sum()),
-        "reached": reached,
-        "n_global": int(slips.is_global.sum()),
-        "n_all_events": len(slips),
-    }
+# One quotient of doubles.
+ROUNDING = 1e-15
 
 
-def speedup(counted: pd.DataFrame, n_blocks: int) -> float:
-    """Growth of the length beyond the kink over that before it, event by event."""
-    length = (counted["front"] / n_blocks).tolist()
-    load = counted["load_before"].tolist()
-    end = length.index(1.0)
-    kink = max((i for i in range(end) if length[i] <= KINK), default=0)
-    rises = length[kink] - length[0], 1.0 - length[kink]
-    spans = load[kink] - load[0], load[end] - load[kink]
-    if rises[0] * spans[1] <= 0:
-        return np.nan
-    return (rises[1] / rises[0]) * (spans[0] / spans[1])
+def test_the_numbers_of_runs_with_and_without_events_and_global_slips():
+    chain = Chain.from_slider(theta="-5/6")
+    found = summarise(simulate(chain, duration) for duration in (0.1, 1.0, 10.0))
+    assert found["reached"].tolist() == [False, False, True]
+    assert found["events_to_global_slip"].tolist() == [0, 1, 7]
+    assert found["events_counted"].tolist() == [0, 1, 6]
+    assert found["events_in_all"].tolist() == [0, 1, 41]
+    assert found["n_global"].tolist() == [0, 0, 24]
+    assert found.loc[:1, "mu_sapp":"speedup"].isna().all(axis=None)
+    assert found["mu_sapp"].round(4)[2] == 0.4845
+    assert apparent_friction(simulate(chain, 10.0)) == found["mu_sapp"][2]
+    assert summarise([]).columns.equals(found.columns)
 
 
-def test_runs_at_random_have_the_summary_of_their_slip_table():
-    """Of chains, of any transitions, of blocks that move at the start, and without any
-    transition."""
-    rng = np.random.default_rng(4)
-    runs = [
-        simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(50)
-    ]
-    runs += [random_transitions(rng) for _ in range(120)]
-    runs.append(
-        simulate(Chain.from_slider(), duration=0.5, start_velocities=np.full(10, 0.01))
-    )
-    runs.append(simulate(Chain.from_slider(), duration=0.1))
-    runs.append(simulate(Chain.from_slider(), duration=3.0))
-    summaries = summarise(runs)
-    assert 20 < summaries["reached"].sum() < 150  # both kinds are tried
-    assert np.isnan(
-        summaries["end"][summaries["reached"]]
-    ).any()  # cut off by the end of the run
-    for (_, found), run in zip(summaries.iterrows(), runs, strict=True):
-        expected = table_path(run)
-        assert set(summaries) == set(expected)
-        for name, value in expected.items():
-            if name == "speedup":  # computed in another order here
-                assert found[name] == pytest.approx(value, rel=1e-12, nan_ok=True)
-            else:
-                np.testing.assert_equal(found[name], value, err_msg=name)
+def test_mu_sapp_is_the_largest_load_before_the_global_slip_though_an_earlier_event_reached_it():
+    """Block 1 slides backward in the first event, so that F_X is largest at its end."""
+    back = [(1, 1, -1, 90.0), (2, 1, 0, 120.0)]
+    both = [(3, 1, 1, 100.0), (4, 2, 1, 130.0), (5, 1, 0, 80.0), (6, 2, 0, 70.0)]
+    columns = zip(*back, *both, strict=True)
+    run = Record.from_columns(Chain.from_slider(2), 9.0, *columns)
+    found = summary_of(slip_table(run))
+    assert slip_table(run)["largest_load_N"].tolist() == [90.0, 120.0]
+    assert (found.largest_load_N, found.global_slip_load_N) == (120.0, 100.0)
+    assert (found.global_slip_s, found.global_slip_end_s) == (3.0, 6.0)
+    assert found.mu_sapp == pytest.approx(120.0 / 400.0, rel=ROUNDING)
 
 
-def test_no_run_has_no_row():
-    assert len(summarise([])) == 0
+def test_a_global_slip_that_the_run_cuts_off_has_no_end():
+    run = simulate(Chain.from_slider(), 10.0)
+    begin = summarise([run])["global_slip_s"].item()
+    cut = summarise([simulate(run.chain, begin + 2e-4)])
+    assert cut["reached"].item()
+    assert math.isnan(cut["global_slip_end_s"].item())
+    assert cut["mu_sapp"].item() == apparent_friction(run)
+
+
+# Front, blocks that slid, most at once, load before and after, of five events of a
+# chain of three blocks.
+EVENTS = pd.DataFrame(
+    [
+        (2, 2, 1, 9.0, 8.0),
+        (1, 1, 1, 10.0, 9.5),
+        (2, 2, 2, 11.0, 8.0),
+        (3, 3, 2, 12.0, 10.0),
+        (3, 3, 3, 11.0, 5.0),
+    ],
+    columns=["front", "n_slid", "n_simultaneous", "load_before_N", "load_after_N"],
+)
+EVENTS = EVENTS.assign(
+    onset_s=EVENTS.index,
+    end_s=EVENTS.index,
+    largest_load_N=EVENTS["load_before_N"].cummax(),
+    is_global=EVENTS["n_simultaneous"] == 3,
+    n_blocks=3,
+    normal_load_N=20.0,
+)
+
+
+@pytest.mark.parametrize(
+    ("definition", "events", "counted", "mu_sapp"),
+    [
+        (Definition(), 5, 4, 0.6),
+        (Definition("each"), 4, 3, 0.6),
+        (Definition(2.5), 3, 2, 0.55),
+        (Definition(short="not longer"), 5, 2, 0.6),
+        (Definition(short="shorter than the last"), 5, 4, 0.6),
+        (Definition(front="n_simultaneous"), 5, 5, 0.6),
+        (Definition("each", "n_simultaneous", "not longer"), 4, 2, 0.6),
+    ],
+)
+def test_a_reading_decides_which_event_is_global_and_which_are_short(
+    definition, events, counted, mu_sapp
+):
+    found = summary_of(EVENTS, definition)
+    assert (found.events_to_global_slip, found.events_counted) == (events, counted)
+    assert found.mu_sapp == pytest.approx(mu_sapp, rel=ROUNDING)
+
+
+@pytest.mark.parametrize(
+    ("fronts", "expected"),
+    [
+        ([1, 4, 7, 9, 10], (3 / 20) / (6 / 20)),
+        ([1, 4, 9, 7, 10], (3 / 10) / (6 / 30)),  # a rule that counts shorter ones
+        ([1, 4, 10, 7, 10], (6 / 10) / (3 / 10)),
+        ([1, 4, 7, 9, 9], math.nan),  # the whole length is not reached
+        ([7, 7, 7, 10, 10], math.nan),  # no rise up to the kink
+        ([8, 9, 9, 9, 10], math.nan),
+    ],
+)
+def test_growth_beyond_the_kink_is_that_of_the_events_counted(fronts, expected):
+    loads = np.arange(10.0, 60.0, 10.0)
+    found = speedup(np.array(fronts), loads, n_blocks=10)
+    assert found == pytest.approx(expected, nan_ok=True)

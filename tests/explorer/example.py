@@ -10,7 +10,7 @@ from browser import browser, find_browser
 
 from maegawa2010.explorer.page import write_explorer
 from maegawa2010.studies.printed_digits.tables import HALF_A_DIGIT
-from precursors.analysis.slips import first_global_slip
+from precursors.analysis.summary import summary_of
 from precursors.model.chain import SLIDER
 
 ROOT = Path(__file__).parents[2]
@@ -29,10 +29,9 @@ def write_example(path: Path) -> None:
     """Write a page with the paper's three scenes."""
     scenes = []
     for name, theta in THETAS.items():
-        friction = first_global_slip(pd.read_csv(GOLDEN / f"{name}_slips.csv"))
-        assert friction is not None
+        found = summary_of(pd.read_csv(GOLDEN / f"{name}_slips.csv"))
         slider = SLIDER | {"theta": theta}
-        scenes.append({"slider": slider, "mu_sapp": friction.mu_sapp})
+        scenes.append({"slider": slider, "mu_sapp": found.mu_sapp})
     proved = [{"slider": scene["slider"], "duration": 10.0} for scene in scenes]
     data = {"scenes": scenes, "proved": proved, "half_a_digit": HALF_A_DIGIT}
     write_explorer(data | {"duration": 10.0, "tolerance": TOLERANCE}, path)

@@ -71,7 +71,7 @@ def endless_scene():
         "front": 1,
         "n_blocks": 1,
         "is_global": True,
-        "length_m": 0.25,
+        "slider_length_m": 0.25,
     }
     flat = pd.DataFrame({"time_s": [0.0, 1.0], "tangential_load_N": 0.0, "K_x1_N": 0.0})
     return scene.draw(slips().iloc[[0]].assign(**event), flat)

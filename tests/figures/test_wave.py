@@ -34,7 +34,7 @@ class TwoBlocks:
 
 def drawn(**columns) -> ElementTree.Element:
     event = {"onset_s": 1.0, "end_s": 3.0, "front": 2, "load_before_N": 9.0}
-    event |= {"n_blocks": 2, "length_m": 0.1, "counted": True, "is_global": True}
+    event |= {"n_blocks": 2, "slider_length_m": 0.1, "counted": True, "is_global": True}
     slips = pd.DataFrame([event | columns])
     return ElementTree.fromstring(wave.draw(TwoBlocks(), slips).svg)
 

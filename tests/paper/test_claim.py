@@ -328,11 +328,15 @@ def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
             slips_of(is_global=[1, 0, 1, 1]),
         ),
         ("no-rapid-growth", grown(1.2, 1.0, 1.2), grown(1.2, 1.01, 1.2)),
-        ("load-of-the-experiment", members_of(load_N=209.9), members_of(load_N=210.1)),
+        (
+            "load-of-the-experiment",
+            members_of(global_slip_load_N=209.9),
+            members_of(global_slip_load_N=210.1),
+        ),
         (
             "slip-duration-of-the-experiment",
-            members_of(time_s=1.0, end_s=1.00151),
-            members_of(time_s=1.0, end_s=1.00149),
+            members_of(global_slip_s=1.0, global_slip_end_s=1.00151),
+            members_of(global_slip_s=1.0, global_slip_end_s=1.00149),
         ),
     ],
 )

@@ -2,7 +2,6 @@
 it says."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -20,12 +19,12 @@ LINEARISED = {"-5/6": 1.657, "0": 2.164, "5/6": 1.909}
 
 @pytest.fixture
 def exponent_of(monkeypatch):
-    """The exponent of made-up events: where the transitions begin them, growth, and
-    times of transitions."""
+    """The exponent of made-up events: which transitions begin them, growth, and times of
+    transitions."""
 
     def exponent(onset, growth, time):
-        monkeypatch.setattr(lyapunov, "_growth", lambda _: (onset, growth))
-        return lyapunov_exponent(SimpleNamespace(transitions={"time": time}))
+        monkeypatch.setattr(lyapunov, "_growth", lambda _: (time[onset], growth))
+        return lyapunov_exponent(None)
 
     return exponent
 

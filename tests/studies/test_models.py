@@ -167,7 +167,7 @@ def assert_dense(chain: Chain, overshoot: float) -> None:
     slips = quasistatic_slips(chain, overshoot)
     dense = np.array(dense_cascade(chain, overshoot))
     found = np.array(
-        [slips[name] for name in ("load_before", "load_after", "front", "n_slid")]
+        [slips[name] for name in ("load_before_N", "load_after_N", "front", "n_slid")]
     ).T
     np.testing.assert_array_equal(found[:, 2:], dense[:, 2:])
     np.testing.assert_allclose(found[:, :2], dense[:, :2], rtol=CASCADE_ROUNDING)
@@ -176,11 +176,11 @@ def assert_dense(chain: Chain, overshoot: float) -> None:
     before, after = dense[:, :2].T
     driven = before + np.append(0.0, np.cumsum(before - after)[:-1])
     np.testing.assert_allclose(
-        slips["onset"], driven / chain.loading_rate, rtol=CASCADE_ROUNDING
+        slips["onset_s"], driven / chain.loading_rate, rtol=CASCADE_ROUNDING
     )
-    np.testing.assert_array_equal(slips["end"], slips["onset"])
+    np.testing.assert_array_equal(slips["end_s"], slips["onset_s"])
     np.testing.assert_array_equal(
-        slips["largest_load"], np.maximum.accumulate(slips["load_before"])
+        slips["largest_load_N"], np.maximum.accumulate(slips["load_before_N"])
     )
 
 

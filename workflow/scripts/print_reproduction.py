@@ -10,9 +10,9 @@ from precursors.support.files import read_table
 QUANTITIES = {
     "events_counted": "events counted in Fig. 13, the first global slip included",
     "mu_sapp": "apparent static friction coefficient mu_sapp",
-    "time_s": "time of the first global slip",
-    "load_N": "load at the first global slip",
-    "events": "all events up to the first global slip",
+    "global_slip_s": "time of the first global slip",
+    "global_slip_load_N": "load at the first global slip",
+    "events_to_global_slip": "all events up to the first global slip",
 }
 
 

@@ -6,13 +6,13 @@ from job import job
 from maegawa2010.explorer.page import proved_slider, write_explorer
 from maegawa2010.studies.horizon.chains import chain_duration
 from maegawa2010.studies.printed_digits.tables import HALF_A_DIGIT
-from precursors.analysis.slips import first_global_slip
+from precursors.analysis.summary import summary_of
 
 with job() as snakemake:
     params = snakemake.params
-    found = [first_global_slip(pd.read_csv(slips)) for slips in snakemake.input.slips]
+    found = [summary_of(pd.read_csv(slips)) for slips in snakemake.input.slips]
     scenes = [
-        {"slider": slider, "mu_sapp": slip.mu_sapp if slip else None}
+        {"slider": slider, "mu_sapp": slip.mu_sapp if slip.reached else None}
         for slider, slip in zip(params.sliders, found, strict=True)
     ]
     proved = [

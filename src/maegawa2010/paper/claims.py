@@ -23,7 +23,7 @@ from maegawa2010.paper.claim import Claim, Find, Finding, in_draws, shown
 from maegawa2010.paper.inputs import LEADING, SCENES, TRAILING, UNIFORM
 from maegawa2010.paper.open_points import open_points_table
 from maegawa2010.paper.tables import Tables, before_global, one, rows
-from precursors.analysis.slip_rows import up_to_first_global
+from precursors.analysis.slips import up_to_first_global
 from precursors.model.chain import FloatArray
 from precursors.support.files import read_table
 
@@ -330,7 +330,7 @@ def load_of_the_experiment(t: Tables) -> Finding:
     """F_X at the first global slip."""
     return in_draws(
         t,
-        drawn("load_N", UNIFORM),
+        drawn("global_slip_load_N", UNIFORM),
         lambda load: (load / printed.FIRST_GLOBAL_SLIP_N - 1).abs() <= NEAR_LOAD,
         printed.FIRST_GLOBAL_SLIP_N,
     )
@@ -341,7 +341,7 @@ def slip_duration_of_the_experiment(t: Tables) -> Finding:
     """Duration of the first global slip."""
     return in_draws(
         t,
-        lambda runs: (runs["end_s"] - runs["time_s"])[[UNIFORM]],
+        lambda runs: (runs["global_slip_end_s"] - runs["global_slip_s"])[[UNIFORM]],
         lambda time: (time / printed.SLIP_DURATION_S - 1).abs() <= NEAR_TIME,
         printed.SLIP_DURATION_S,
     )

@@ -11,14 +11,13 @@ import numpy as np
 import pandas as pd
 
 from maegawa2010 import printed
-from precursors.analysis.slip_rows import SHORT_EVENTS
-from precursors.analysis.slips import (
+from precursors.analysis.slips import SHORT_EVENTS, slip_table
+from precursors.analysis.summary import (
     FRONTS,
     GLOBAL_SLIPS,
     OURS,
     Definition,
-    first_global_slip,
-    slip_table,
+    summary_of,
 )
 from precursors.model.chain import Chain, parse_theta
 from precursors.solver import plain
@@ -149,13 +148,12 @@ def numbers(
 ) -> dict[str, Any]:
     """Both numbers of a run, and how many of them are the paper's: mu_sapp to a unit of
     its last digit."""
-    found = first_global_slip(slip_table(run), definition)
-    counted = found.events_counted if found else math.nan
-    friction = found.mu_sapp if found else math.nan
-    off = abs(friction - of_paper.get("mu_sapp", math.nan))
+    found = summary_of(slip_table(run), definition)
+    counted = found.events_counted if found.reached else math.nan
+    off = abs(found.mu_sapp - of_paper.get("mu_sapp", math.nan))
     agree = [counted == of_paper.get("events_counted"), off <= printed.LAST_DIGIT]
     return {
         "events_counted": counted,
-        "mu_sapp": friction,
+        "mu_sapp": found.mu_sapp,
         "numbers_within_a_digit": sum(agree),
     }

@@ -16,7 +16,8 @@ import pandas as pd
 import scipy
 
 from precursors.analysis.load_curve import load_curve
-from precursors.analysis.slips import apparent_friction, find_slips
+from precursors.analysis.slips import find_slips
+from precursors.analysis.summary import apparent_friction
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import (
     compressions_as_printed,

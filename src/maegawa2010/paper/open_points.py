@@ -71,7 +71,12 @@ def theta_by_moments(t: Tables) -> Pair:
     straight line."""
     # Moments about the middle of the contact, over F_Z L: of the cells, and of the
     # loads with theta = 1.
-    cells = difference_of_cells() * printed.CELL_SPACING_M / slider(t, "length_m") / 2
+    cells = (
+        difference_of_cells()
+        * printed.CELL_SPACING_M
+        / slider(t, "slider_length_m")
+        / 2
+    )
     n = int(slider(t, "n_blocks"))
     blocks = float(linear_weights(n, 1.0, 1.0) @ ((np.arange(n) + 0.5) / n - 0.5))
     return [cells / blocks, cells / (1 / 6)], slider(t, "theta", LEADING)

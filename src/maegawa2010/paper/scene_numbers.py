@@ -8,20 +8,17 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from precursors.analysis.slip_rows import first_global
-from precursors.analysis.slips import find_slips, first_global_slip
+from precursors.analysis.summary import summarise, summary_of
 from precursors.model.statics import maximal_compressions
 from precursors.solver.run import Run
 
-# Quantities of the table of the paper's numbers: the events counted in Fig. 13 and
-# mu_sapp; of the first global slip time, load and number among all events; and the
-# events that are longer than all before, without those as long.
+# Numbers of `Summary` in the table of the paper's numbers, and their units.
 UNITS = {
     "events_counted": "1",
     "mu_sapp": "1",
-    "time_s": "s",
-    "load_N": "N",
-    "events": "1",
+    "global_slip_s": "s",
+    "global_slip_load_N": "N",
+    "events_to_global_slip": "1",
 }
 
 
@@ -51,13 +48,10 @@ def residual_strain(run: Run) -> float:
 
     NaN without a global slip, and for one block.
     """
-    slips = find_slips(run)
-    first = first_global(slips)
-    if first is None or run.chain.n_blocks == 1:
+    found = summarise([run])
+    if not found["reached"].item() or run.chain.n_blocks == 1:
         return math.nan
-    compressions = (
-        run.spring_forces(slips["onset"].iloc[[first]])[0] / run.chain.springs
-    )
+    compressions = run.spring_forces(found["global_slip_s"])[0] / run.chain.springs
     return float(compressions[1:].sum() / maximal_compressions(run.chain)[1:].sum())
 
 
@@ -71,26 +65,11 @@ def reproduction_table(
     """
     rows = []
     for scene, table in slips.items():
-        found = quantities(table)
+        found = summary_of(table)
         theta = next(iter(table["theta"]), None)
         for quantity, unit in UNITS.items():
             row = {"scene": scene, "theta": theta, "quantity": quantity, "unit": unit}
             row["paper"] = paper[scene].get(quantity)
-            row["reproduced"] = found.get(quantity)
+            row["reproduced"] = getattr(found, quantity)
             rows.append(row)
     return pd.DataFrame(rows)
-
-
-def quantities(slips: pd.DataFrame) -> dict[str, float]:
-    """Numbers of a scene by quantity; only the counts without a global slip."""
-    found: dict[str, float] = {"events_counted": int(slips["counted"].sum())}
-    slip = first_global_slip(slips)
-    if slip is None:
-        return found
-    at_onset = slips["load_before_N"].iloc[slip.event - 1]
-    return found | {
-        "mu_sapp": slip.mu_sapp,
-        "time_s": slip.time,
-        "load_N": at_onset,
-        "events": slip.event,
-    }

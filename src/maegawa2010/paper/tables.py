@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from precursors.analysis.slip_rows import first_global
+from precursors.analysis.slips import first_global
 
 Tables = Mapping[str, pd.DataFrame]
 
@@ -38,4 +38,4 @@ def before_global(tables: Tables, scene: str) -> pd.DataFrame:
     """Slip events of a scene before the first global slip: its precursors, short ones
     included."""
     slips = tables[f"{scene}_slips"]
-    return slips.iloc[: first_global(slips)]
+    return slips.iloc[: first_global(slips["is_global"])]

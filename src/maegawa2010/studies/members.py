@@ -17,7 +17,7 @@ from maegawa2010.support.run_statistics import (
     median_difference,
     nine_tenths,
 )
-from precursors.analysis.summary import SUMMARY, SUMMARY_UNITS, summarise
+from precursors.analysis.summary import summarise
 from precursors.model.chain import SLIDER, Chain, FloatArray
 from precursors.solver.many import simulate_many
 from precursors.solver.run import Record
@@ -42,9 +42,8 @@ TOLERANCES = {
     "mu_sapp": printed.LAST_DIGIT,
     "events_counted": 0.0,
     "events_to_global_slip": 0.0,
-    "time_s": 0.05,
+    "global_slip_s": 0.05,
 }
-WITH_UNITS = {name: f"{name}_{unit}" for name, unit in SUMMARY_UNITS.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,12 +115,11 @@ def run_members(study: Study) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        The members, each with the summary of its run (see `summary.SUMMARY`), units in
-        the names: load_N. A member that meets the limit of transitions is summarised as
-        far as it came.
+        The members, each with the summary of its run (see `summarise`). A member that
+        meets the limit of transitions is summarised as far as it came.
     """
     size = max(1, BLOCKS_PER_BATCH // max(study.members["n_blocks"], default=1))
-    results = [pd.DataFrame(np.empty(0, SUMMARY))]
+    results = [summarise([])]
     for _, members in study.members.groupby("duration", sort=False):
         for begin in range(0, len(members), size):
             batch = members.iloc[begin : begin + size]
@@ -130,7 +128,7 @@ def run_members(study: Study) -> pd.DataFrame:
             ]
             summary = summarise(_runs(chains, float(batch["duration"].iloc[0])))
             results.append(summary.set_index(batch.index))
-    return study.members.join(pd.concat(results).rename(columns=WITH_UNITS))
+    return study.members.join(pd.concat(results))
 
 
 def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:

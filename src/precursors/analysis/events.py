@@ -1,96 +1,131 @@
-"""The definition of a slip event, for many runs at once."""
+"""Slip events of a run: what they are, and the same faster."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from typing import NamedTuple, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.solver.record import TRANSITION
 from precursors.solver.run import Record
 
-EVENT = np.dtype(
-    [
-        ("run", "i8"),  # index of the run
-        ("first", "i8"),  # index of its first transition in the run
-        ("last", "i8"),  # and of its last one
-        ("onset", "f8"),  # [s]
-        ("end", "f8"),  # [s]
-        ("load_before", "f8"),  # F_X at the onset [N]
-        ("load_after", "f8"),  # F_X at the end [N]
-        ("largest_load", "f8"),  # largest F_X up to the onset [N]
-        ("front", "i8"),  # farthest block that slid, 1..N
-        ("n_slid", "i8"),  # blocks that slid at some time
-        ("n_simultaneous", "i8"),  # most blocks that slid at the same instant
-        ("is_global", "?"),  # all blocks slid at the same instant
-    ]
-)
+
+class Slip(NamedTuple):
+    """A slip event: a maximal time interval in which at least one block slides."""
+
+    onset_s: float
+    end_s: float
+    load_before_N: float  # F_X at the onset
+    load_after_N: float  # F_X at the end
+    largest_load_N: float  # largest F_X up to the onset
+    front: int  # farthest block that slid, 1..N
+    n_slid: int  # blocks that slid at some time
+    n_simultaneous: int  # most blocks that slid at the same instant
+    is_global: bool  # all blocks slid at the same instant
 
 
-def slip_events(runs: Sequence[Record]) -> NDArray[np.void]:
-    """Slip events of some runs: maximal time intervals in which at least one block
-    slides.
+SLIP = np.dtype(list(get_type_hints(Slip).items()))
 
-    Blocks without load do not count, but are taken to slide where all others do: front,
-    n_slid and n_simultaneous are then N. An event ends where no block slides, unless
-    the next one releases at the same instant. One that the end of its run cuts off has
-    end and load_after NaN.
 
-    Returns
-    -------
-    structured array of dtype EVENT
-        One row per event, in the order of the runs and of time.
+class Moment(NamedTuple):
+    """The state just after a transition."""
+
+    time: float
+    load: float
+    largest: float  # largest load so far
+    sliding: frozenset[int]  # blocks with load that slide
+
+
+def slips_one_by_one(run: Record) -> list[Slip]:
+    """The definition of slip events, for reading; `slip_events` finds them faster.
+
+    An event ends where no block slides, unless the next one releases at the same
+    instant. One that the end of the run cuts off has end and load_after NaN. Blocks
+    without load do not count, but are taken to slide where all others do.
     """
-    joined = [np.empty(0, TRANSITION), *(run.transitions for run in runs)]
-    time, of_block, mode, load = (
-        np.concatenate([each[name] for each in joined])
-        for name in TRANSITION.names or ()
+    bears_load = run.chain.weights > 0.0
+    events: list[list[Moment]] = []
+    sliding: frozenset[int] = frozenset()
+    largest = -math.inf
+    goes_on = False
+    for (time, block, mode, load), pause in zip(
+        run.transitions, run.intervals[1:], strict=True
+    ):
+        if mode and bears_load[block - 1]:
+            sliding |= {block}
+        else:
+            sliding -= {block}
+        largest = max(largest, load)
+        if not goes_on:
+            events.append([])
+        events[-1].append(Moment(time, load, largest, sliding))
+        goes_on = bool(sliding) or pause == 0.0
+    return [
+        slip_of(event, len(bears_load), bears_load.sum())
+        for event in events
+        if any(moment.sliding for moment in event)
+    ]
+
+
+def slip_of(event: list[Moment], n_blocks: int, n_loaded: int) -> Slip:
+    """The slip event of some moments, of a chain in which so many blocks bear load."""
+    begin = event[0]
+    end = event[-1]
+    slid = frozenset[int]().union(*(moment.sliding for moment in event))
+    at_once = max(len(moment.sliding) for moment in event)
+    is_global = at_once == n_loaded
+    return Slip(
+        onset_s=begin.time,
+        end_s=math.nan if end.sliding else end.time,
+        load_before_N=begin.load,
+        load_after_N=math.nan if end.sliding else end.load,
+        largest_load_N=begin.largest,
+        front=n_blocks if is_global else max(slid),
+        n_slid=n_blocks if len(slid) == n_loaded else len(slid),
+        n_simultaneous=n_blocks if is_global else at_once,
+        is_global=is_global,
     )
-    pauses = np.concatenate([[], *(run.intervals[1:] for run in runs)])
-    lengths = np.array([len(run.transitions) for run in runs], dtype=int)
-    n_blocks = np.array([run.chain.n_blocks for run in runs], dtype=int)
-    n_loaded = np.array([np.count_nonzero(r.chain.weights) for r in runs], dtype=int)
-    starts = np.cumsum(lengths) - lengths
-    run = np.repeat(np.arange(len(runs)), lengths)
 
-    loads = [run.chain.weights[run.transitions["block"] - 1] for run in runs]
-    sliding = (mode != 0) & (np.concatenate([time[:0], *loads]) > 0.0)
-    # Every block of every run has its own number, so that sorting shows what each block
-    # did before.
-    block = of_block + np.repeat(np.cumsum(n_blocks) - n_blocks, lengths)
-    order = np.argsort(block.astype(np.min_scalar_type(n_blocks.sum())), kind="stable")
-    same_block = block[order][1:] == block[order][:-1]
+
+def slip_events(run: Record) -> NDArray[np.void]:
+    """Slip events of a run: a row of dtype SLIP for each of `slips_one_by_one`."""
+    if not isinstance(run, Record):
+        raise TypeError(
+            f"slips are found in a Run or Record, but this is {type(run).__name__}"
+        )
+    time = run.transitions["time"]
+    block = run.transitions["block"]
+    load = run.transitions["tangential_load"]
+    n_blocks = run.chain.n_blocks
+    n_loaded = np.count_nonzero(run.chain.weights)
+    sliding = (run.transitions["mode"] != 0) & (run.chain.weights[block - 1] > 0.0)
+    # Sorting by block shows what each block did before.
+    order = np.argsort(block, kind="stable")
     was_sliding = np.zeros(len(block), dtype=bool)
-    was_sliding[order[1:]] = same_block & sliding[order][:-1]
-    total = np.append(0, np.cumsum(sliding.astype(int) - was_sliding))
-    n_sliding = total[1:] - np.repeat(total[starts], lengths)
+    was_sliding[order[1:]] = (np.diff(block[order]) == 0) & sliding[order][:-1]
+    n_sliding = np.cumsum(sliding.astype(int) - was_sliding)
 
-    ends = (n_sliding == 0) & (pauses > 0.0)
-    ends[(starts + lengths - 1)[lengths > 0]] = True
-    lasts = np.flatnonzero(ends)
-    firsts = np.append(0, lasts + 1)[:-1]
-    event = np.repeat(np.arange(len(lasts)), lasts - firsts + 1)
+    is_last = (n_sliding == 0) & (run.intervals[1:] > 0.0)
+    is_last[-1:] = True
+    last = np.flatnonzero(is_last)
+    first = np.append(0, last + 1)[:-1]
+    event = np.cumsum(is_last) - is_last
+    each_once = np.unique((event * (n_blocks + 1) + block)[sliding])
+    n_slid = np.bincount(each_once // (n_blocks + 1), minlength=len(last))
+    at_once = np.maximum.reduceat(n_sliding, first)
+    is_global = at_once == n_loaded
+    is_finished = n_sliding[last] == 0
 
-    events = np.empty(len(lasts), EVENT)
-    events["run"] = run[firsts]
-    events["first"] = firsts - starts[events["run"]]
-    events["last"] = lasts - starts[events["run"]]
-    events["onset"] = time[firsts]
-    events["load_before"] = load[firsts]
-    so_far = [np.maximum.accumulate(run.transitions["tangential_load"]) for run in runs]
-    events["largest_load"] = np.concatenate([load[:0], *so_far])[firsts]
-    finished = n_sliding[lasts] == 0
-    events["end"] = np.where(finished, time[lasts], np.nan)
-    events["load_after"] = np.where(finished, load[lasts], np.nan)
-    events["front"] = np.maximum.reduceat(sliding * of_block, firsts)
-    n_all = n_blocks.sum() + 1
-    slid = np.unique((event * n_all + block)[sliding]) // n_all
-    events["n_slid"] = np.bincount(slid, minlength=len(lasts))
-    events["n_simultaneous"] = np.maximum.reduceat(n_sliding, firsts)
-    for name in ("n_slid", "n_simultaneous"):
-        is_all = events[name] == n_loaded[events["run"]]
-        events[name] = np.where(is_all, n_blocks[events["run"]], events[name])
-    events["is_global"] = is_all
-    events["front"] = np.where(is_all, n_blocks[events["run"]], events["front"])
-    return events[events["n_slid"] > 0]
+    slips = np.empty(len(last), SLIP)
+    slips["onset_s"] = time[first]
+    slips["end_s"] = np.where(is_finished, time[last], np.nan)
+    slips["load_before_N"] = load[first]
+    slips["load_after_N"] = np.where(is_finished, load[last], np.nan)
+    slips["largest_load_N"] = np.maximum.accumulate(load)[first]
+    farthest = np.maximum.reduceat(sliding * block, first)
+    slips["front"] = np.where(is_global, n_blocks, farthest)
+    slips["n_slid"] = np.where(n_slid == n_loaded, n_blocks, n_slid)
+    slips["n_simultaneous"] = np.where(is_global, n_blocks, at_once)
+    slips["is_global"] = is_global
+    return slips[n_slid > 0]

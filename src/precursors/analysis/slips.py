@@ -1,40 +1,23 @@
-"""Slip events, precursors, the first global slip and mu_sapp (Eq. 1), under every
-reading of these words."""
+"""Slip events of a run as tables, and those that Fig. 13 counts."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike, NDArray
 
-from precursors.analysis.events import EVENT, slip_events
-from precursors.analysis.slip_rows import (
-    counted,
-    first_global,
-    up_to_first_global,
-)
+from precursors.analysis.events import SLIP, slip_events
+from precursors.model.chain import Chain
 from precursors.solver.run import Record
 
-# Without the numbers of the run and of its transitions.
-COLUMNS = list(EVENT.names or ())[3:]
-WITH_UNITS = {
-    "onset": "onset_s",
-    "end": "end_s",
-    "load_before": "load_before_N",
-    "load_after": "load_after_N",
-    "largest_load": "largest_load_N",
-}
-
-GLOBAL_SLIPS = {
-    "at once": "in which all blocks slide at the same instant",
-    "each": "in which every block slides at some time",
-}
-FRONTS = {
-    "front": "farthest block that slid",
-    "n_slid": "number of blocks that slid",
-    "n_simultaneous": "most blocks that slid at the same instant",
+# Columns of `slip_table` that say which slider it was.
+SLIDER_COLUMNS = ["theta", "n_blocks", "normal_load_N", "slider_length_m", "mu_k"]
+SHORT_EVENTS = {
+    "shorter": "shorter than one before it",
+    "not longer": "not longer than all before it",
+    "shorter than the last": "shorter than the one just before it",
 }
 
 
@@ -50,33 +33,37 @@ def find_slips(run: Record) -> pd.DataFrame:
         slid at the same instant), is_global (all N at the same instant). The event that
         the end of the run cuts off has end and load_after NaN.
     """
-    if not isinstance(run, Record):
-        raise TypeError(
-            f"slips are found in a Run or Record, but this is {type(run).__name__}"
-        )
-    return pd.DataFrame(slip_events([run]))[COLUMNS]
-
-
-# Columns of `slip_table` that say which slider it was.
-SLIDER_COLUMNS = ["theta", "n_blocks", "normal_load_N", "length_m", "mu_k"]
+    slips = pd.DataFrame(slip_events(run))
+    return slips.rename(columns=lambda name: name.removesuffix("_s").removesuffix("_N"))
 
 
 def slip_table(run: Record) -> pd.DataFrame:
     """Every slip event of a run, with units in the names of the columns.
 
-    `counted` marks the rows of Fig. 13. theta, n_blocks, normal_load_N (F_Z), length_m
+    They are those of `find_slips`, and: counted, the rows of Fig. 13;
+    propagation_length_m (L_p). theta, n_blocks, normal_load_N (F_Z), slider_length_m
     (L) and mu_k say which slider it was, the same in every row; theta is NaN where it
     is not known.
     """
-    slips = find_slips(run)
-    return slips.rename(columns=WITH_UNITS).assign(
-        counted=slips.index.isin(find_precursors(slips).index),
-        theta=run.chain.theta,
-        n_blocks=run.chain.n_blocks,
-        normal_load_N=run.chain.normal_load,
-        length_m=run.chain.length,
-        mu_k=run.chain.mu_k,
-    )
+    return pd.DataFrame(slip_columns(slip_events(run), run.chain))
+
+
+def slip_columns(slips: NDArray[np.void], chain: Chain) -> dict[str, NDArray[Any]]:
+    """Columns of `slip_table` by name, of slip events of a chain."""
+    columns = {name: slips[name] for name in SLIP.names or ()}
+    slider = {
+        "theta": chain.theta,
+        "n_blocks": chain.n_blocks,
+        "normal_load_N": chain.normal_load,
+        "slider_length_m": chain.length,
+        "mu_k": chain.mu_k,
+    }
+    return {
+        **columns,
+        "counted": counted(slips["front"], slips["is_global"]),
+        "propagation_length_m": slips["front"] * chain.length / chain.n_blocks,
+        **{name: np.full(len(slips), value) for name, value in slider.items()},
+    }
 
 
 def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame:
@@ -94,105 +81,35 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
         raise TypeError(
             f"precursors are found in the table of find_slips, but this is {given}"
         )
-    until_global = up_to_first_global(slips)
-    return until_global[counted(until_global["front"], short)]
+    return slips[counted(slips["front"], slips["is_global"], short)]
 
 
-@dataclass(frozen=True)
-class Definition:
-    """A reading of what the paper leaves open; the default is the one that gives its
-    numbers.
-
-    Attributes
-    ----------
-    global_slip : str or float
-        A key of GLOBAL_SLIPS, or the drop of F_X [N] above which an event is a global
-        slip.
-    front : str
-        The column of the slip table that is the length of an event, a key of FRONTS.
-    short : str
-        Which events Fig. 13 leaves out, a key of SHORT_EVENTS.
-    """
-
-    global_slip: str | float = "at once"
-    front: str = "front"
-    short: str = "shorter"
-
-    @property
-    def global_slip_text(self) -> str:
-        """Which event is a global slip, in words."""
-        if isinstance(self.global_slip, str):
-            return GLOBAL_SLIPS[self.global_slip]
-        return f"in which F_X drops by more than {self.global_slip:g} N"
-
-    def read(self, slips: pd.DataFrame) -> pd.DataFrame:
-        """A slip table with `front` and `is_global` in this reading."""
-        if self.global_slip == "at once":
-            is_global = slips["n_simultaneous"] == slips["n_blocks"]
-        elif self.global_slip == "each":
-            is_global = slips["n_slid"] == slips["n_blocks"]
-        else:
-            is_global = (
-                slips["load_before_N"] - slips["load_after_N"] > self.global_slip
-            )
-        return slips.assign(front=slips[self.front], is_global=is_global)
-
-
-OURS = Definition()
-
-
-def apparent_friction(run: Record) -> float:
-    """mu_sapp (Eq. 1): the largest F_X up to the first global slip over F_Z [1].
-
-    NaN without a global slip.
-    """
-    slip = first_global_slip(slip_table(run))
-    return slip.mu_sapp if slip else math.nan
-
-
-@dataclass(frozen=True)
-class FirstGlobalSlip:
-    """The first global slip, which ends the loading, and its mu_sapp.
-
-    Attributes
-    ----------
-    mu_sapp : float
-        Apparent static friction coefficient [1].
-    time : float
-        Onset of the first global slip [s].
-    event, events_counted : int
-        Number of the first global slip among all events, from 1, and among those of
-        Fig. 13.
-    """
-
-    mu_sapp: float
-    time: float
-    event: int
-    events_counted: int
-
-
-def first_global_slip(
-    slips: pd.DataFrame, definition: Definition = OURS
-) -> FirstGlobalSlip | None:
-    """The first global slip in a table of `slip_table`, by a definition; None without
-    one."""
-    slips = definition.read(slips)
-    first = first_global(slips)
-    if first is None:
-        return None
-    slip = slips.iloc[first]
-    return FirstGlobalSlip(
-        mu_sapp=float(mu_sapp(slip["largest_load_N"], slip["normal_load_N"])),
-        time=float(slip["onset_s"]),
-        event=first + 1,
-        events_counted=len(find_precursors(slips, definition.short)),
+def counted(
+    front: ArrayLike, is_global: ArrayLike, short: str = "shorter"
+) -> NDArray[np.bool_]:
+    """Which events Fig. 13 counts: see `find_precursors`."""
+    front = np.asarray(front)
+    farthest = np.maximum.accumulate(front)
+    is_global = np.asarray(is_global, bool)
+    until_global = np.cumsum(is_global) - is_global == 0
+    if short == "shorter":
+        return until_global & (front == farthest)
+    if short == "not longer":
+        return until_global & (np.diff(farthest, prepend=0) > 0)
+    if short == "shorter than the last":
+        return until_global & (np.diff(front, prepend=0) >= 0)
+    raise ValueError(
+        f"short must be one of {', '.join(map(repr, SHORT_EVENTS))}, but is {short!r}"
     )
 
 
-def mu_sapp(largest_load: Any, normal_load: Any) -> Any:
-    """Eq. 1: the largest F_X [N] up to the first global slip over F_Z [N].
+def first_global(is_global: ArrayLike) -> int | None:
+    """Number of the first event that is a global slip; None without one."""
+    is_global = np.asarray(is_global, bool)
+    return int(is_global.argmax()) if is_global.any() else None
 
-    F_X is largest where block 1 begins to slide, or sticks after it slid backward:
-    dF_X/dt = K (V - v_1). So the largest load is that of a transition, to within V.
-    """
-    return largest_load / normal_load
+
+def up_to_first_global(slips: pd.DataFrame) -> pd.DataFrame:
+    """Rows up to and including the first global slip; all without one."""
+    first = first_global(slips["is_global"])
+    return slips if first is None else slips.iloc[: first + 1]

@@ -86,7 +86,7 @@ class Truth:
 
         Without one, or if it does not end, nothing is cut.
         """
-        first = first_global(self.slips)
+        first = first_global(self.slips["is_global"])
         end = np.nan if first is None else float(self.slips["end"].iloc[first])
         if np.isnan(end):
             return self

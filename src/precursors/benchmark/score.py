@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from precursors.analysis.slips import first_global_slip, slip_table
+from precursors.analysis.slips import slip_table
+from precursors.analysis.summary import summary_of
 from precursors.benchmark.compare import Truth, compare
 from precursors.proof import Certificate
 from precursors.solver.run import Record
@@ -81,9 +82,12 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
         "load_error_to_global_slip_N": start.load_error,
     }
     for which, run in (("", found.run), ("_true", truth.run)):
-        first = first_global_slip(slip_table(run))
-        values[f"events_counted{which}"] = first.events_counted if first else math.nan
-        values[f"mu_sapp{which}"] = first.mu_sapp if first else math.nan
+        numbers = summary_of(slip_table(run))
+        counted = numbers.events_counted if numbers.reached else math.nan
+        values |= {
+            f"events_counted{which}": counted,
+            f"mu_sapp{which}": numbers.mu_sapp,
+        }
     last = rows[-1] if rows else {}
     return values | {name: float(last.get(name, math.nan)) for name in COSTS}
 

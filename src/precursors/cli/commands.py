@@ -36,11 +36,23 @@ from precursors.support.spreadsheet import (
     read_weights,
 )
 
-FOUND = "{events_counted} events counted in Fig. 13, of {events} "
+FOUND = "{events_counted} events counted in Fig. 13, of {events_to_global_slip} "
 FIRST_SLIP = """\
 up to the first global slip and {events_in_all} in {duration_s:g} s.
 mu_sapp = {mu_sapp:.3f} = {largest_load_N:.1f} N / {F_Z:g} N; first global slip at {global_slip_s:.3f} s.
 """
+# Of `summarise`, what `simulate` tells.
+SHOWN = (
+    "transitions",
+    "events_to_global_slip",
+    "events_counted",
+    "events_in_all",
+    "mu_sapp",
+    "largest_load_N",
+    "global_slip_load_N",
+    "global_slip_s",
+    "global_slip_end_s",
+)
 NO_SLIP = "in {duration_s:g} s; no global slip.\n"
 SCORE = (
     "{problem}: {transitions_right} of {transitions_true} transitions right, times "
@@ -62,16 +74,9 @@ def simulate(arguments: Namespace) -> None:
     run = run_of_options(arguments)
     [found] = summarise([run]).to_dict("records")
     values: dict[str, Any] = {
-        "blocks": run.chain.n_blocks,
+        "n_blocks": run.chain.n_blocks,
         "duration_s": run.duration,
-        "transitions": len(run.transitions),
-        "events": found["events_to_global_slip"],
-        "events_counted": found["events_counted"],
-        "events_in_all": found["n_all_events"],
-        "mu_sapp": found["mu_sapp"],
-        "largest_load_N": found["load"],
-        "global_slip_s": found["time"],
-        "global_slip_end_s": found["end"],
+        **{name: found[name] for name in SHOWN},
     }
     values |= accuracy(run) | law_of_run(run)
     if arguments.output:
@@ -81,7 +86,7 @@ def simulate(arguments: Namespace) -> None:
         text = FOUND + (FIRST_SLIP if found["reached"] else NO_SLIP)
         print(text.format(**values, F_Z=run.chain.normal_load))
     show_values(values, arguments.json)
-    tell_accuracy(run, found["time"])
+    tell_accuracy(run, found["global_slip_s"])
 
 
 def slips(arguments: Namespace) -> None:
@@ -104,7 +109,6 @@ def slips(arguments: Namespace) -> None:
         print("no slip event")
     else:
         shown = table.drop(columns=SLIDER_COLUMNS)
-        shown.columns = shown.columns.str.replace("load_|is_|n_", "", regex=True)
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
     tell_accuracy(run, first_global_slip)
 

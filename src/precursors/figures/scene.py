@@ -110,7 +110,7 @@ def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:
     kind = np.select([slips["is_global"], slips["counted"]], [whole, counted], partial)
     return slips.assign(
         kind=pd.Categorical(kind, list(KINDS)),
-        reached_mm=style.MM_PER_M * slips["length_m"] * share,
+        reached_mm=style.MM_PER_M * slips["slider_length_m"] * share,
         is_at_the_edge=~slips["is_global"] & (share == 1),
     )
 
@@ -153,7 +153,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
     edge = slips[slips["is_at_the_edge"]]
     if len(edge):  # an empty line that is not clipped upsets the layout
         axes.plot(edge["onset_s"], edge["reached_mm"], **TO_THE_EDGE)
-    axes.set_ylim(0, 1.08 * style.MM_PER_M * slips["length_m"].iloc[0])
+    axes.set_ylim(0, 1.08 * style.MM_PER_M * slips["slider_length_m"].iloc[0])
 
 
 def _magnify(columns: Any, first_s: float, trace: pd.DataFrame) -> None:

@@ -120,7 +120,7 @@ def draw(run: Any, slips: pd.DataFrame) -> Movie:
         _act(run, event, i, len(shown), pitch - side)
         for i, event in enumerate(shown.itertuples())
     ]
-    pixels_per_m = n * pitch / shown["length_m"].iloc[0]
+    pixels_per_m = n * pitch / shown["slider_length_m"].iloc[0]
     lane = min(LANE, ALL_LANES / n)
     bottom = LANES + lane * n
     moved = np.concatenate([act.moved for act in acts])

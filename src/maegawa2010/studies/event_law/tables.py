@@ -126,7 +126,7 @@ def event_law_table(members: pd.DataFrame, slider: Mapping[str, Any]) -> pd.Data
             "law": law,
             "n_runs": len(runs),
             "n_reached": len(done),
-            "events": events.median(),
+            "events_to_global_slip": events.median(),
             "ratio": (events / law).median(),
             "ratio_low": low,
             "ratio_high": high,

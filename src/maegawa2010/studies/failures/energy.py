@@ -17,7 +17,7 @@ from maegawa2010.methods.stability import (
     without_friction,
 )
 from maegawa2010.studies.failures.common import Curve, Failure
-from precursors.analysis.slips import apparent_friction
+from precursors.analysis.summary import apparent_friction
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
 

@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import scipy
-from numpy.typing import NDArray
 
 from precursors.analysis.events import slip_events
 from precursors.model.chain import Chain, FloatArray
@@ -65,8 +64,8 @@ def lyapunov_exponent(run: Run) -> LyapunovExponent:
         If the run has fewer events than stretches, or all differences die out (one
         block: every event ends in the same state).
     """
-    onset, growth = _growth(run)
-    kept = np.arange(int(TRANSIENT * len(onset)), len(onset))
+    onset_s, growth = _growth(run)
+    kept = np.arange(int(TRANSIENT * len(onset_s)), len(onset_s))
     n_each = (len(kept) - 1) // N_STRETCHES
     if n_each < 1:
         raise ValueError(
@@ -74,7 +73,7 @@ def lyapunov_exponent(run: Run) -> LyapunovExponent:
         )
     ends = kept[-1] - n_each * np.arange(N_STRETCHES, -1, -1)
     log = np.diff(growth[ends])
-    seconds = np.diff(run.transitions["time"][onset[ends]])
+    seconds = np.diff(onset_s[ends])
     rate = log.sum() / seconds.sum()
     left = (log - rate * seconds) / seconds.mean()
     quantile = scipy.stats.t.ppf((1 + CONFIDENCE) / 2, N_STRETCHES - 1)
@@ -82,9 +81,8 @@ def lyapunov_exponent(run: Run) -> LyapunovExponent:
     return LyapunovExponent(float(rate), float(half), events=N_STRETCHES * n_each)
 
 
-def _growth(run: Run) -> tuple[NDArray[np.int64], FloatArray]:
-    """Number of the first transition of each event, and the logarithm of how far a
-    difference has grown.
+def _growth(run: Run) -> tuple[FloatArray, FloatArray]:
+    """Onset of each event [s], and the logarithm of how far a difference has grown.
 
     Between two events the chain rests, and the drive changes nothing but the force in
     its own spring. So the forces in the others say what will happen. From one rest to
@@ -92,13 +90,13 @@ def _growth(run: Run) -> tuple[NDArray[np.int64], FloatArray]:
     the growth, and the direction in which it is off is the next start.
     """
     chain = run.chain
-    events = slip_events([run])
+    events = slip_events(run)
     if chain.n_blocks == 1:
         raise ValueError(
             "all differences die out: every event of one block ends in the same state"
         )
-    finished = events[np.isfinite(events["end"])]
-    rests = (finished["end"][:-1] + finished["onset"][1:]) / 2.0
+    finished = events[np.isfinite(events["end_s"])]
+    rests = (finished["end_s"][:-1] + finished["onset_s"][1:]) / 2.0
     forces = run.spring_forces(rests)
     distance = DISTANCE * chain.strength.sum()
     direction = np.random.default_rng(SEED).standard_normal(chain.n_blocks - 1)
@@ -118,7 +116,7 @@ def _growth(run: Run) -> tuple[NDArray[np.int64], FloatArray]:
                 f"all differences die out within {span:g} s: N = {chain.n_blocks}"
             )
         growth.append(np.log(factor))
-    return finished["first"][2:], np.cumsum(growth)
+    return finished["onset_s"][2:], np.cumsum(growth)
 
 
 def lyapunov_table(

@@ -92,7 +92,7 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
         "duration_s": run.duration,
         "transitions": len(run.transitions),
         "agreeing_transitions": n,
-        "time_error_to_first_global_slip_s": actual[: len(to_global_slip)].max(),
+        "time_error_to_global_slip_s": actual[: len(to_global_slip)].max(),
         "time_error_while_agreeing_s": compared.time_error,
         "right_until_s": min(*wrong[:1], compared.first_difference, run.duration),
         "horizon_s": predictions.horizon(tolerance),

@@ -14,7 +14,8 @@ import numpy as np
 import pandas as pd
 
 from maegawa2010.studies.members import chain_of, varied
-from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
+from precursors.analysis.slips import find_precursors, find_slips
+from precursors.analysis.summary import apparent_friction
 from precursors.larger.chain import (
     LargerChain,
     critical_length,

@@ -18,8 +18,8 @@ from maegawa2010.studies.models.quasistatic import (
     quasistatic_slips,
 )
 from precursors.analysis.events import slip_events
-from precursors.analysis.slip_rows import counted
-from precursors.analysis.slips import mu_sapp
+from precursors.analysis.slips import slip_columns
+from precursors.analysis.summary import summary_of
 from precursors.model.chain import Chain
 from precursors.model.statics import longest_run
 from precursors.solver.simulate import simulate
@@ -41,12 +41,14 @@ UNITS = {
 def exact_answers(chain: Chain) -> dict[str, Any]:
     """Follow the paper's chain through time to the end of its first global slip."""
     run = simulate(chain, longest_run(chain), until="global slip")
-    slips = slip_events([run])
+    slips = slip_events(run)
     last = slips[-1]
     times = np.append(0.0, run.transitions["time"])
     loads = np.append(0.0, run.transitions["tangential_load"])
     return loading_answers(chain, slips) | {
-        "slip_duration": last["end"] - last["onset"] if last["is_global"] else np.nan,
+        "slip_duration": last["end_s"] - last["onset_s"]
+        if last["is_global"]
+        else np.nan,
         "waveform": np.column_stack([times, loads]),
     }
 
@@ -59,18 +61,15 @@ def cascade_answers(chain: Chain, overshoot: float) -> dict[str, Any]:
 def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
     """A model's answers from its slip events up to the first global slip; NaN for one
     that needs a global slip and has none."""
-    last = slips[-1]
+    found = summary_of(slip_columns(slips, chain))
     blocks = np.arange(1, chain.n_blocks + 1)
     reached = np.searchsorted(np.maximum.accumulate(slips["front"]), blocks)
-    answers = {
-        "first_load": slips["load_before"][0],
-        "events_counted": np.count_nonzero(counted(slips["front"])),
-        "mu_sapp": mu_sapp(last["largest_load"], chain.normal_load),
-        "front_loads": np.append(slips["load_before"], np.nan)[reached],
+    return {
+        "first_load": slips["load_before_N"][0],
+        "events_counted": found.events_counted if found.reached else np.nan,
+        "mu_sapp": found.mu_sapp,
+        "front_loads": np.append(slips["load_before_N"], np.nan)[reached],
     }
-    if not last["is_global"]:
-        answers |= {"events_counted": np.nan, "mu_sapp": np.nan}
-    return answers
 
 
 # From the smallest to the largest: all answers about a chain, by quantity. The key is

@@ -35,8 +35,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.analysis.events import EVENT
-from precursors.analysis.slips import COLUMNS
+from precursors.analysis.events import SLIP, Slip
 from precursors.model.chain import Chain, FloatArray
 from precursors.support.compiled import entry
 
@@ -46,7 +45,6 @@ MAX_EVENTS = 1_000_000
 MAX_STAGES = 100_000  # of one event, each with less elastic energy than the one before
 ROUNDING = 1e-12  # of F_Z: a block that far beyond its strength still rests
 BEGAN, JOINED, PUT_OUT = range(3)
-SLIP = np.dtype([(name, EVENT[name]) for name in COLUMNS])
 
 compiled = entry(Path(__file__).parent, ["quasistatic.py"], error_model="numpy")
 
@@ -63,8 +61,8 @@ class Cascade(NamedTuple):
 def quasistatic_slips(
     chain: Chain, overshoot: float = ENERGY_CONSERVED, max_events: int = MAX_EVENTS
 ) -> NDArray[np.void]:
-    """Slip events of the quasi-static chain, from rest to its first global slip, as
-    `find_slips` has them.
+    """Slip events of the quasi-static chain, from rest to its first global slip: an
+    array of dtype SLIP.
 
     An event ends when it begins; `n_simultaneous` is the largest set that moves.
     `overshoot` is how far the blocks move beyond the balance with kinetic friction,
@@ -95,9 +93,9 @@ def quasistatic_slips(
     stiffness = chain.drive_stiffness
     n = chain.n_blocks
     net = np.zeros(n)
-    load = 0.0
+    load = largest = 0.0
     moved = 0.0
-    rows = []
+    slips: list[Slip] = []
     for event in range(1, max_events + 1):
         load += strength - net[0]
         net[0] = strength
@@ -108,18 +106,25 @@ def quasistatic_slips(
             )
         time = (load / stiffness + moved) / chain.drive_velocity
         before = load
+        largest = max(largest, load)
         load -= stiffness * slip[0]
         moved += slip[0]
         slid = np.flatnonzero(slip)
-        front = slid[-1] + 1
-        is_global = len(slid) == n
-        rows.append(
-            (time, time, before, load, before, front, len(slid), at_once, is_global)
+        slips.append(
+            Slip(
+                onset_s=time,
+                end_s=time,
+                load_before_N=before,
+                load_after_N=load,
+                largest_load_N=largest,
+                front=slid[-1] + 1,
+                n_slid=len(slid),
+                n_simultaneous=at_once,
+                is_global=len(slid) == n,
+            )
         )
-        if is_global:
-            slips = np.array(rows, SLIP)
-            slips["largest_load"] = np.maximum.accumulate(slips["load_before"])
-            return slips
+        if slips[-1].is_global:
+            return np.array(slips, SLIP)
     raise RuntimeError(f"no global slip within {max_events} events: raise max_events")
 
 

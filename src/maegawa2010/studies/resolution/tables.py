@@ -25,7 +25,7 @@ from precursors.solver.simulate import simulate
 # All slip events up to the first global slip, and those of Fig. 13, which are never
 # shorter than one before.
 COUNTS = ("events_to_global_slip", "events_counted")
-QUANTITIES = (*COUNTS, "mu_sapp", "time_s")
+QUANTITIES = (*COUNTS, "mu_sapp", "global_slip_s")
 POINT = ["scene", "theta", "n_blocks"]
 
 
@@ -136,7 +136,7 @@ def predictability_table(
             )
             found = {
                 "horizon_s": horizon(run, tolerance),
-                "global_slip_s": run.duration,
+                "global_slip_end_s": run.duration,
             }
             predictable = found["horizon_s"] >= run.duration
             rows.append(

@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 
 from maegawa2010.methods import METHODS, attempt
-from precursors.analysis.slips import apparent_friction, find_precursors, find_slips
+from precursors.analysis.slips import slip_table
+from precursors.analysis.summary import summary_of
 from precursors.benchmark.compare import Truth, transitions_right
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Record, Run
@@ -60,11 +61,12 @@ def row(method: str, step: float, run: Record, truth: Record) -> dict[str, objec
         events in Fig. 13; mu_sapp (Eq. 1), NaN without a global slip; transitions_right
         before the first wrong one, and transitions_true, all there are.
     """
+    found = summary_of(slip_table(run))
     return {
         "method": method,
         "step_s": step,
-        "events_counted": len(find_precursors(find_slips(run))),
-        "mu_sapp": apparent_friction(run),
+        "events_counted": found.events_counted,
+        "mu_sapp": found.mu_sapp,
         "transitions_right": transitions_right(run, truth),
         "transitions_true": len(truth.transitions),
     }
