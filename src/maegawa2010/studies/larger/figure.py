@@ -17,7 +17,7 @@ RARE = 0.05  # share of runs, below which their n is not in the title
 MARKERS = {-1: "v", 0: "o", 1: "^"}  # by the sign of theta
 FILLS = {0: 0.0, 1: 0.45, 2: 1.0}
 # Places of the four pasts about a point of the map: factors of l_c, and of t_v.
-PASTS = [(x, y) for y in (0.92, 1.09) for x in (0.975, 1.025)]
+PASTS = [(x, y) for y in (0.94, 1.06) for x in (0.98, 1.02)]
 
 
 def draw(nucleation: pd.DataFrame, settled: pd.DataFrame) -> Figure:

@@ -55,18 +55,21 @@ def draw(
             axes.set(xscale="log", xlabel=style.BLOCKS_LABEL)
             axes.axvline(papers_n, **style.DOTTED)
             style.set_ticks(axes.xaxis, [2, 5, 10, 20, 50, 100, 200])
-        counts.set_title(_finding(table, "events_counted"))
-        frictions.set_title(_finding(table, "mu_sapp"))
+        n, least, most = _ends(table, "events_counted")
+        counts.set_title(f"{least:.0f} to {most:.0f} events count at $N = {n}$")
+        n, least, most = _ends(table, "mu_sapp")
+        frictions.set_title(f"Medians from {least:.3f} to {most:.3f} at $N = {n}$")
         frictions.legend(labelcolor="linecolor")
         _draw_key(figure)
     return figure
 
 
-def _finding(table: pd.DataFrame, quantity: str) -> str:
-    """From where to where the medians of the loadings go, with most blocks."""
-    of_quantity = table[table["quantity"] == quantity].groupby("n_blocks")["q50"]
-    least, most = of_quantity.agg(["min", "max"]).iloc[-1]
-    return f"{least:.3g} to {most:.3g} with {table['n_blocks'].max()} blocks"
+def _ends(table: pd.DataFrame, quantity: str) -> tuple[int, float, float]:
+    """Largest number of blocks, and least and greatest median of the loadings there."""
+    of_quantity = table[table["quantity"] == quantity]
+    n = of_quantity["n_blocks"].max()
+    medians = of_quantity.loc[of_quantity["n_blocks"] == n, "q50"]
+    return n, medians.min(), medians.max()
 
 
 def _draw_numbers(axes: Axes, rows: pd.DataFrame) -> None:
