@@ -6,11 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from golden.kept import GOLDEN, SMALL
+from golden.kept import GOLDEN
 
 from maegawa2010.studies.larger import figure as larger
 from precursors.figures import precursor_lengths, scene, style
 
+COMMITTED = GOLDEN.parents[1] / "paper/tables"
 SCENES = ("fig11", "fig10", "fig12")
 # As a journal wants it: one column, large letters, a font whose symbols differ.
 NARROW = style.Look(85.0, 9.0, "DejaVu Serif")
@@ -122,6 +123,9 @@ PICTURES = {
     "precursor_lengths_others": (other_lengths, NARROW),
     "precursor_lengths_one": one_length,
     "larger": lambda: larger.draw(
-        *(read(COMMITTED / f"larger_{name}_full.csv") for name in ("nucleation", "settled"))
+        *(
+            read(COMMITTED / f"larger_{name}_full.csv")
+            for name in ("nucleation", "settled")
+        )
     ),
 }

@@ -26,6 +26,7 @@ ROOT = Path(__file__).parents[2]
 COARSE, FINE = 50, 100
 # A run that ends when it has settled is this near [F_Z] to one that goes on.
 GOES_ON = 3 * SETTLED
+LAW = 0.005  # of the peak, with the precursors counted in the run
 # Loads of runs of seconds differ by so much with the processor; a run in which a slip
 # goes another way differs by a whole event, 0.01.
 MACHINE = 1e-3
@@ -118,7 +119,7 @@ def test_drawn_chains_with_a_soft_drive_run_longer():
     members = settled_study(CONFIG["chain"], settings | {"drawn": drawn}).members
     rise = members["duration"] * members["drive_stiffness"]
     np.testing.assert_allclose(rise, 20 * CONFIG["chain"]["drive_stiffness"])
-    assert members["loading"].nunique() > 1
+    assert len(set(members["loading"])) > 1
 
 
 def test_the_committed_first_slips_are_those_of_the_library():
@@ -171,15 +172,14 @@ def test_counts_settle_for_every_loading_and_hardly_depend_on_the_step():
     }
     change = abs(at["counts", 200] - at["counts", 100])
     assert len(change) == 18
-    assert (change <= 0.1 * at["counts", 100] + 1).all()
+    assert change.max() <= 2
+    assert (change <= 1).sum() >= 16
     half = at["counts_half_step", COARSE] - at["counts", COARSE]
     assert abs(half).max() <= 1
 
 
-def settled_runs(study, *point):
-    """Settled runs of a study, by their chain and past."""
-    table = committed("larger_settled").query(f"study == '{study}' and period > 0")
-    return table.set_index(["even_length", "relaxation_time", "theta", *point])
+def settled_runs(study):
+    return committed("larger_settled").query(f"study == '{study}' and period > 0")
 
 
 @pytest.mark.parametrize(
@@ -187,26 +187,19 @@ def settled_runs(study, *point):
 )
 def test_coefficients_hardly_depend_on_blocks_or_step_where_n_is_the_same(study, most):
     """Which cycle a run takes may depend on both."""
-    runs = settled_runs(study, "past").query("relaxation_time > 4e-5")
-    both = runs.join(settled_runs("map", "past"), rsuffix="_map").dropna()
-    same = both[both["precursors"] == both["precursors_map"]]
-    print(
-        len(runs),
-        len(both),
-        len(same),
-        abs(same["coefficient"] - same["coefficient_map"]).describe(),
-    )
-    assert abs(same["coefficient"] - same["coefficient_map"]).max() < most
+    chain = ["even_length", "relaxation_time", "theta", "past"]
+    both = settled_runs(study).merge(settled_runs("map"), on=chain)
+    same = both.query("precursors_x == precursors_y and relaxation_time > 4e-5")
+    assert len(same) > 10
+    assert abs(same["coefficient_x"] - same["coefficient_y"]).max() < most
 
 
-@pytest.mark.parametrize(
-    ("theta", "share", "most"), [(-1, 0.95, 0.005), (0, 0.95, 0.005), (1, 0.9, 0.01)]
-)
 @pytest.mark.parametrize("n", [COARSE, FINE, 200])
-def test_settled_coefficients_are_those_of_the_law(theta, share, most, n):
-    table = committed("larger_settled").query(f"period > 0 and n_blocks == {n}")
-    table = table[np.sign(table["theta"]) == theta]
-    table = table[table["study"].isin(["map", "finer", "finest"])]
-    misses = abs(table["coefficient"] - table["law"])
-    assert len(misses) >= 2
-    assert (misses < most).mean() >= share
+def test_settled_coefficients_are_those_of_the_law(n):
+    runs = pd.concat(map(settled_runs, ["map", "finer", "finest"]))
+    runs = runs[runs["n_blocks"] == n]
+    misses = abs(runs["coefficient"] - runs["law"])
+    at_far_end = runs["theta"] > 0.0
+    assert len(runs) > 4
+    assert (misses[~at_far_end] < LAW).mean() > 0.95
+    assert (misses[at_far_end] < 2.0 * LAW).mean() > 0.8
