@@ -16,7 +16,7 @@ from precursors.proof.event_roots import (
     EventFunction,
     Undecided,
     event_functions,
-    first_root,
+    first_crossing,
 )
 from precursors.proof.exact_chain import ExactChain
 from precursors.proof.motion import Constants, EnclosedState, time_unit
@@ -55,7 +55,7 @@ def through(*roots: float, **how):
 
 def find(*functions: EventFunction, back: float = 0.0, bits: int = BITS):
     with ctx.workprec(bits):
-        found = first_root(list(functions), END, VALID, arb(back), bits)
+        found = first_crossing(list(functions), END, VALID, arb(back), bits)
         return found and (found[0].block, found[1])
 
 

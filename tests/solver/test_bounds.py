@@ -37,7 +37,7 @@ def series(seed: int, n: int = 12) -> np.ndarray:
     return np.append(abs(terms[:1]), terms[1:])
 
 
-def first_root(c: np.ndarray) -> float:
+def bisected_root(c: np.ndarray) -> float:
     """First root in [0, 1], or infinity."""
     found = np.roots(c[::-1])
     real = found.real[
@@ -48,7 +48,7 @@ def first_root(c: np.ndarray) -> float:
 
 @pytest.fixture(scope="module")
 def windows() -> list[tuple[np.ndarray, float]]:
-    found = [(c, first_root(c)) for c in map(series, range(WINDOWS))]
+    found = [(c, bisected_root(c)) for c in map(series, range(WINDOWS))]
     assert 100 < sum(root <= 1.0 for _, root in found) < WINDOWS - 100
     return found
 
