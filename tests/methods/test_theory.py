@@ -4,35 +4,24 @@ those of theory."""
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from maegawa2010.methods import SMOOTH, moreau_jean
+from maegawa2010.methods import SMOOTH
 from maegawa2010.methods.columns import FORCE, VELOCITY, sliding_forward
-from maegawa2010.methods.march import slide
 from maegawa2010.methods.stability import (
     energy_left,
     highest_frequency,
     highest_mode,
-    is_unstable,
-    largest_stable_step,
     without_friction,
 )
 from maegawa2010.methods.tableaus import DOP853, RK4
-from maegawa2010.studies.failures.regularised_friction import (
-    STRIBECK,
-    creep_velocity,
-    measured_creep,
-)
 from precursors import Chain
 
 UNSTABLE = [name for name, smooth in SMOOTH.items() if 0.0 < smooth.limit < np.inf]
-# So much beyond RK4's limit energy becomes a millionfold within 4000 steps; a wrong
-# drive spring would move the limit by 1e-3.
-LIMIT_TOLERANCE = 5e-4
+LIMIT_TOLERANCE = 1e-6
 # Of a factor per step: rounding of some tens of steps, and of the frequency.
 FACTOR_TOLERANCE = 1e-9
 INTERPOLATION = 1e-12
@@ -98,11 +87,10 @@ def test_the_order_on_a_smooth_stretch_is_that_of_the_method(name):
 
 
 @pytest.mark.parametrize("name", UNSTABLE)
-def test_energy_has_no_limit_beyond_the_step_that_theory_allows(free, name):
-    found = largest_stable_step(free, SMOOTH[name].slide)
-    assert found * highest_frequency(free) == pytest.approx(
-        SMOOTH[name].limit, rel=LIMIT_TOLERANCE
-    )
+def test_energy_grows_beyond_the_limit_and_not_below_it(name):
+    smooth = SMOOTH[name]
+    below, beyond = smooth.limit * np.array([1 - LIMIT_TOLERANCE, 1 + LIMIT_TOLERANCE])
+    assert smooth.energy_factor(below) <= 1.0 < smooth.energy_factor(beyond)
 
 
 @pytest.mark.parametrize(
@@ -126,16 +114,6 @@ def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(
     assert (twice / once) ** (1 / n_steps) == pytest.approx(
         smooth.energy_factor(z), rel=FACTOR_TOLERANCE
     )
-
-
-@pytest.mark.parametrize(("theta", "unstable"), [(0.498, True), (0.502, False)])
-def test_moreau_jean_is_stable_at_any_step_from_theta_one_half_on(
-    free, theta, unstable
-):
-    """Below one half, energy rises by 4 (1/2 - theta) a step."""
-    step = 100 / highest_frequency(free)
-    method = partial(moreau_jean.run_moreau_jean, theta=theta)
-    assert is_unstable(free, partial(slide, method), step) == unstable
 
 
 @pytest.mark.parametrize(
@@ -165,17 +143,3 @@ def test_the_interpolation_of_a_step_has_the_values_and_rates_of_both_ends(table
     rate_at_end = np.eye(len(tableau.shares))[s]
     np.testing.assert_allclose(powers[0], rate_at_start, atol=INTERPOLATION)
     np.testing.assert_allclose(n @ powers, rate_at_end, atol=INTERPOLATION)
-
-
-@pytest.mark.parametrize(("ratio", "width"), [(0.1, 1e-6), (0.5, 1e-8), (0.9, 1e-6)])
-def test_a_block_held_by_regularised_friction_creeps_at_the_closed_form(ratio, width):
-    chain = Chain.from_slider(n_blocks=1)
-    creep = creep_velocity(ratio, width)
-    z = np.atanh(ratio)
-    drop = (
-        (1 - chain.mu_k / chain.mu_s)
-        * (z / STRIBECK) ** 2
-        * ratio
-        / ((1 - ratio**2) * z)
-    )
-    assert measured_creep(ratio, width) == pytest.approx(creep * (1 + drop), rel=1e-5)

@@ -13,15 +13,12 @@ from maegawa2010.methods.scipy_events import watched
 from maegawa2010.methods.stability import highest_frequency
 from maegawa2010.studies.failures import figure
 from maegawa2010.studies.failures import tables as failures
-from maegawa2010.studies.failures.energy import stability_limits
 from maegawa2010.studies.failures.missed_roots import motion_after
 from maegawa2010.studies.failures.tables import FAILURE_MODES, Failure
 from precursors import Chain, simulate
 
 # Between a measured curve and the closed form, of its first order.
 THEORY_TOLERANCE = 0.02
-# A bisection leaves 1e-4; a millionfold energy within 4000 steps takes some more.
-LIMIT_TOLERANCE = 1e-3
 
 
 @cache
@@ -47,13 +44,6 @@ def test_a_method_fails_as_theory_predicts(mode):
         # Near its limit, the energy of leapfrog swings.
         far = slice(-3 if mode == "unstable" else None, None)
         np.testing.assert_allclose(y[far], predicted[far], rtol=THEORY_TOLERANCE)
-
-
-def test_energy_grows_without_bound_from_the_step_on_that_theory_gives():
-    limits = list(stability_limits())
-    assert {row["n_blocks"] for row in limits} >= {1, 10, 50}
-    for row in limits:
-        assert row["ratio"] == pytest.approx(1.0, abs=LIMIT_TOLERANCE), row
 
 
 def test_what_a_method_gives_is_not_what_is_right():
@@ -105,7 +95,7 @@ def test_a_motion_taken_from_a_run_goes_on_as_the_run_does():
 def test_the_curves_of_all_modes_are_one_table(monkeypatch):
     two = {name: FAILURE_MODES[name] for name in ("stiffness", "dead_zone_too_large")}
     monkeypatch.setattr(failures, "FAILURE_MODES", two)
-    table = failures.failure_tables()["failure_curves"]
+    table = failures.failure_curves()
     assert list(table["failure_mode"].unique()) == list(two)
     stiffness = table[table["failure_mode"] == "stiffness"]
     assert list(stiffness["role"].value_counts()[["theory", "reference"]]) == [11, 2]
