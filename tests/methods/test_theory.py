@@ -1,5 +1,5 @@
-"""While nothing switches, orders, stability limits and energy of fixed-step methods are
-those of theory."""
+"""While nothing switches, limits and energy of fixed-step methods are those of
+theory."""
 
 from __future__ import annotations
 
@@ -7,10 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
 
 from maegawa2010.methods import SMOOTH
-from maegawa2010.methods.columns import FORCE, VELOCITY, sliding_forward
 from maegawa2010.methods.stability import (
     energy_left,
     highest_frequency,
@@ -25,65 +23,11 @@ LIMIT_TOLERANCE = 1e-6
 # Of a factor per step: rounding of some tens of steps, and of the frequency.
 FACTOR_TOLERANCE = 1e-9
 INTERPOLATION = 1e-12
-ORDERS = {
-    "rk4": 4,
-    "leapfrog": 2,
-    "moreau_jean_half": 2,
-    "moreau_jean_one": 1,
-}
-# An order is measured over one halving of the step.
-ORDER_TOLERANCE = 0.1
-# A stretch in which all blocks slide forward: four radians of the fastest oscillation.
-STRETCH = 1.5e-5
-VELOCITIES = 0.5 + 0.1 * np.sin(1.0 + 2.0 * np.arange(10.0))
 
 
 @pytest.fixture(scope="module")
 def free() -> Chain:
     return without_friction(Chain.from_slider())
-
-
-def exact_motion(chain: Chain, time: float) -> np.ndarray:
-    """Spring forces and velocities of sliding blocks, by the exponential of the whole
-    system's matrix."""
-    n = chain.n_blocks
-    bonds = np.eye(n) - np.eye(n, k=-1)
-    matrix = np.zeros((2 * n + 1, 2 * n + 1))
-    matrix[:n, n : 2 * n] = -chain.springs[:, None] * bonds
-    matrix[n : 2 * n, :n] = bonds.T / chain.mass
-    matrix[0, -1] = chain.loading_rate
-    matrix[n : 2 * n, -1] = -chain.kinetic_friction / chain.mass
-    return (expm(matrix * time) @ np.concatenate([np.zeros(n), VELOCITIES, [1.0]]))[:-1]
-
-
-def in_velocities(
-    chain: Chain, spring_force: np.ndarray, velocity: np.ndarray
-) -> np.ndarray:
-    """Forces and velocities, both in the unit of velocities [m/s]."""
-    return np.concatenate(
-        [spring_force / np.sqrt(chain.stiffness * chain.mass), velocity]
-    )
-
-
-def smooth_error(name: str, n_steps: int) -> float:
-    chain = Chain.from_slider()
-    system, state = sliding_forward(chain, VELOCITIES)
-    SMOOTH[name].slide(system, state, STRETCH / n_steps, n_steps)
-    force, velocity = np.split(exact_motion(chain, STRETCH), 2)
-    assert (velocity > 0).all()
-    return float(
-        np.linalg.norm(
-            in_velocities(
-                chain, state[FORCE, 1:-1] - force, state[VELOCITY, 1:-1] - velocity
-            )
-        )
-    )
-
-
-@pytest.mark.parametrize("name", SMOOTH)
-def test_the_order_on_a_smooth_stretch_is_that_of_the_method(name):
-    order = np.log2(smooth_error(name, 128) / smooth_error(name, 256))
-    assert order == pytest.approx(ORDERS[name], abs=ORDER_TOLERANCE)
 
 
 @pytest.mark.parametrize("name", UNSTABLE)

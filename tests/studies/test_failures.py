@@ -12,9 +12,8 @@ from scipy.integrate import solve_ivp
 from maegawa2010.methods.scipy_events import watched
 from maegawa2010.methods.stability import highest_frequency
 from maegawa2010.studies.failures import figure
-from maegawa2010.studies.failures import tables as failures
 from maegawa2010.studies.failures.missed_roots import motion_after
-from maegawa2010.studies.failures.tables import FAILURE_MODES, Failure
+from maegawa2010.studies.failures.tables import FAILURE_MODES, Failure, failure_curves
 from precursors import Chain, simulate
 
 # Between a measured curve and the closed form, of its first order.
@@ -92,41 +91,11 @@ def test_a_motion_taken_from_a_run_goes_on_as_the_run_does():
         assert fired[0] // 2 + 1 == run.transitions["block"][k]
 
 
-def test_the_curves_of_all_modes_are_one_table(monkeypatch):
-    two = {name: FAILURE_MODES[name] for name in ("stiffness", "dead_zone_too_large")}
-    monkeypatch.setattr(failures, "FAILURE_MODES", two)
-    table = failures.failure_curves()
-    assert list(table["failure_mode"].unique()) == list(two)
-    stiffness = table[table["failure_mode"] == "stiffness"]
-    assert list(stiffness["role"].value_counts()[["theory", "reference"]]) == [11, 2]
-    assert set(stiffness["x_is"]) == {"width_m_per_s"}
-
-
 PANELS = Path(figure.__file__).with_name("failure_gallery.csv")
 
 
 def gallery_of_failures():
-    """The same curves in all panels."""
-    panels = pd.read_csv(PANELS)
-    roles = {
-        ("exact", "exact"): 1,
-        ("dt = 1e-07 s", "failing"): 2,
-        ("dt = 1e-07 s", "theory"): 3,
-        ("theta = -1", "failing"): 4,
-        ("1.2e-10 s", "failing"): 5,
-        ("theory", "theory"): 6,
-    }
-    curves = []
-    for mode, scale in zip(panels["mode"], panels["scale"], strict=True):
-        y = np.array([0.1, 0.2, 0.4])
-        x = y / scale
-        curves += [
-            pd.DataFrame({"curve": name, "role": role, "x": x, "y": n * y}).assign(
-                failure_mode=mode
-            )
-            for (name, role), n in roles.items()
-        ]
-    return figure.draw(pd.concat(curves), panels)
+    return figure.draw(failure_curves(), pd.read_csv(PANELS))
 
 
 PICTURES = {"failure_gallery": gallery_of_failures}

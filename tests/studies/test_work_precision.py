@@ -14,7 +14,7 @@ from benchmark.made_up import (
 )
 
 from maegawa2010.methods import METHODS, ROWS, Method, Result
-from maegawa2010.studies.work_precision import figure
+from maegawa2010.studies.work_precision import figure, tables
 from maegawa2010.studies.work_precision.tables import (
     SHORTEST,
     charted_values,
@@ -22,6 +22,7 @@ from maegawa2010.studies.work_precision.tables import (
 )
 from precursors import Record, TransitionLimitError
 from precursors.benchmark.compare import Truth
+from precursors.proof import ExactChain, certify
 
 FIVE = TRUE[:5]  # two slips, the second not over
 # A call of a fake method takes so long, on a clock that the test moves [s]; one is
@@ -112,6 +113,18 @@ def test_a_run_that_breaks_off_is_a_row_with_what_there_is(fake):
     (row,) = measured(CALL)
     assert row["transitions_right"] == 3
     assert math.isnan(row["evaluations"])
+
+
+def test_methods_are_measured_to_the_first_global_slip(monkeypatch):
+    values = {"exact": [0.0], "leapfrog": [1e-6, 1e-7]}
+    monkeypatch.setattr(tables, "charted_values", lambda _full: values)
+    certificate = certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), 6.0)
+    table = tables.work_precision_table(certificate, "two", False)
+    assert table["method"].tolist() == ["exact", "leapfrog", "leapfrog"]
+    exact, coarse, fine = table.to_dict("records")
+    assert exact["transitions_right"] == exact["transitions_true"]
+    assert 0 < exact["transitions_true"] < len(certificate.transitions)
+    assert 0 < exact["error_time_s"] < fine["error_time_s"] < coarse["error_time_s"]
 
 
 PUBLISHED = Path(__file__).parents[2] / "paper/tables"
