@@ -50,7 +50,9 @@ def test_energy_grows_beyond_the_limit_and_not_below_it(name):
 def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(
     free, name, z, n_steps
 ):
-    step, mode, smooth = z / highest_frequency(free), highest_mode(free), SMOOTH[name]
+    step = z / highest_frequency(free)
+    mode = highest_mode(free)
+    smooth = SMOOTH[name]
     # Once the energy swings no more: leapfrog's second root fades meanwhile.
     once, twice = (
         energy_left(free, smooth.slide, step, n, mode) for n in (n_steps, 2 * n_steps)

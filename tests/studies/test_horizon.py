@@ -73,15 +73,6 @@ def test_the_interval_of_an_exponent_is_that_of_the_mean_of_20_stretches(
     assert found.uncertainty_per_s == pytest.approx((high - low) / 0.6)
 
 
-def test_an_exponent_is_certain_where_differences_grow_in_proportion_to_time(
-    exponent_of,
-):
-    time = np.cumsum(np.random.default_rng(5).exponential(size=400))
-    found = exponent_of(np.arange(400), 0.5 * time, time)
-    assert found.exponent_per_s == pytest.approx(0.5)
-    assert found.uncertainty_per_s == pytest.approx(0.0, abs=1e-12)
-
-
 def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):
     with pytest.raises(ValueError, match="all differences die out"):
         lyapunov_exponent(simulate(SLIDER(1, drive_velocity=0.02), 5.0))

@@ -27,7 +27,8 @@ from precursors.proof import ExactChain, certify
 FIVE = TRUE[:5]  # two slips, the second not over
 # A call of a fake method takes so long, on a clock that the test moves [s]; one is
 # repeated in a round.
-CALL, SHORT_CALL = 2.0**-8, 2.0**-11
+CALL = 2.0**-8
+SHORT_CALL = 2.0**-11
 
 
 def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solver_comes_first():
@@ -44,7 +45,10 @@ class Fake:
     run."""
 
     def __init__(self, clock) -> None:
-        self.run, self.clock, self.calls, self.compiling = made_up(FIVE), clock, [], 0.0
+        self.run = made_up(FIVE)
+        self.clock = clock
+        self.calls = []
+        self.compiling = 0.0
 
     def solve(
         self, _chain, _duration: float, value: float, _until: str | None

@@ -113,7 +113,9 @@ def test_a_script_that_make_runs_says_in_one_line_which_file_is_missing(
 def test_numbers_are_as_kept_to_a_millionth_and_pictures_if_they_look_the_same(
     tmp_path, monkeypatch, capsys
 ):
-    golden, results, files = tmp_path / "tests/golden", tmp_path / "results", []
+    golden = tmp_path / "tests/golden"
+    results = tmp_path / "results"
+    files = []
     golden.mkdir(parents=True)
     results.mkdir()
     for i, value in enumerate((1.0 + 0.9e-6, 1.0 + 1.2e-6, 0.9e-9, 1.2e-9)):
