@@ -18,10 +18,6 @@ endif
 TARGETS := all test mutants test-cluster results check report benchmark golden docs bench speed codecheck lock lint wheelhouse clean
 .PHONY: $(TARGETS)
 
-.DEFAULT:
-	@$(PYTHON) -c 'import difflib, sys; near = difflib.get_close_matches(*sys.argv[1:2], sys.argv[2:], 1); \
-	  sys.exit(f"make: there is no target {sys.argv[1]}" + "".join(f"; did you mean {name}?" for name in near))' $@ $(TARGETS)
-
 all: results
 	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
 

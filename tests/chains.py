@@ -86,6 +86,19 @@ def lone_slip(chain: Chain) -> tuple[float, float]:
     return seconds, (2 * drop + chain.loading_rate * seconds) / stiffness
 
 
+def matrix_of_motion(springs, mass, friction, loading_rate, modes) -> np.ndarray:
+    """Matrix of d/dt (T, v, 1): spring forces and velocities, with the blocks in their
+    modes (Eqs. 2-6)."""
+    n = len(springs)
+    bonds = np.eye(n) - np.eye(n, k=-1)
+    matrix = np.zeros((2 * n + 1, 2 * n + 1))
+    matrix[:n, n:-1] = -springs[:, None] * bonds
+    matrix[0, -1] = loading_rate
+    matrix[n:-1, :n] = abs(modes)[:, None] * bonds.T / mass
+    matrix[n:-1, -1] = -modes * friction / mass
+    return matrix
+
+
 def positions_under(chain: Chain, forces) -> np.ndarray:
     """Positions [m] in which the springs push each block with a given net force [N]."""
     return positions_from_compressions(

@@ -7,7 +7,6 @@ from functools import partial
 
 import pandas as pd
 from audit.falsified import audits
-from benchmark.made_up import go_on, proof_of
 from settings import CONFIG
 
 from maegawa2010.studies.larger.cycles import (
@@ -19,7 +18,6 @@ from maegawa2010.studies.larger.first_slips import larger_tables
 from maegawa2010.studies.models.tables import compare_models
 from precursors import Chain, simulate
 from precursors.larger.chain import LargerChain
-from precursors.proof import ExactChain
 
 SCENES: dict[str, dict[str, str | float]] = {
     "lead": {"theta": "5/6"},
@@ -28,56 +26,6 @@ SCENES: dict[str, dict[str, str | float]] = {
 
 # Of a chain with a length.
 STUDY = {"even_length": [0.3], "relaxation_time": [2e-4], "theta": ["-5/6", 0]}
-
-# Chain, start [m, m/s], and number of transitions.
-PROVED = {
-    "falling loads": (ExactChain.from_slider(theta="-5/6"), [0] * 10, [0] * 10, 60),
-    "one block": (ExactChain.from_slider(n_blocks=1), [0], [0], 8),
-    "stiff drive": (
-        ExactChain.from_slider(n_blocks=3, drive_stiffness="3e7", mu_k="0.1"),
-        [0] * 3,
-        [0] * 3,
-        24,
-    ),
-    "moving, overloaded": (
-        ExactChain.from_slider(n_blocks=4, theta="1/3"),
-        ["0", "0", "2e-6", "-1.1e-5"],
-        ["-1e-3", "2e-3", "0", "0"],
-        30,
-    ),
-}
-
-
-def enclosures() -> pd.DataFrame:
-    """How a proof of 128 bits goes on: steps, modes, radii of times and loads, the
-    distance and the gap."""
-    rows = []
-    for name, (chain, positions, velocities, n) in PROVED.items():
-        proof = proof_of(chain, 128, positions, velocities)
-        steps, done = 0, 0
-        while done < n:
-            for transition in proof.transitions[done:]:
-                ball, load = transition.time, transition.tangential_load
-                rows.append(
-                    {
-                        "chain": name,
-                        "steps": steps,
-                        "block": transition.block,
-                        "mode": transition.mode,
-                        "fresh": str(sorted(proof.fresh)),
-                        "bits": proof.precision(),
-                        "time_s": float(ball.mid()),
-                        "load_N": float(load.mid()),
-                        "time_radius_s": float(ball.rad()),
-                        "load_radius_N": float(load.rad()),
-                        "distance_N": float(proof.state.distance),
-                        "gap_T": float(proof.gap),
-                    }
-                )
-            done = len(proof.transitions)
-            steps += 1
-            go_on(proof)
-    return pd.DataFrame(rows)
 
 
 def larger_runs() -> pd.DataFrame:
@@ -148,7 +96,6 @@ def model_comparison() -> pd.DataFrame:
 
 TABLES_OF_SECONDS: dict[str, Callable[[], pd.DataFrame]] = {
     "audits": audits,
-    "enclosures": enclosures,
     "model_comparison": model_comparison,
     "larger_runs": larger_runs,
     **{

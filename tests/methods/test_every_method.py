@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from maegawa2010.methods import METHODS, columns, cvode_events, events
+from maegawa2010.methods import METHODS, columns, events
 from maegawa2010.methods.compiled import COMPILED
 from maegawa2010.methods.events import EventMotion
 from precursors import Chain, simulate
@@ -95,29 +95,6 @@ def test_evaluations_of_equal_steps_are_those_of_the_method(name):
     result = METHODS[name].solve(CHAIN, DURATION, STEP, None)
     slip = float(result.run.transitions["time"][-1]) - LIMIT
     assert result.evaluations == each * round(slip / STEP) + besides
-
-
-@pytest.mark.parametrize(
-    ("name", "setting", "where", "function"),
-    [
-        ("scipy_dop853", 1e-6, events.EventMotion, "rates"),
-        ("cvode_adams", 1e-6, cvode_events, "rates_of"),
-    ],
-)
-def test_evaluations_of_other_solvers_are_their_calls(
-    name, setting, where, function, monkeypatch
-):
-    if name not in METHODS:
-        pytest.skip("scikit-sundae is an extra")
-    evaluate, calls = getattr(where, function), 0
-
-    def counts(*arguments):
-        nonlocal calls
-        calls += 1
-        return evaluate(*arguments)
-
-    monkeypatch.setattr(where, function, counts)
-    assert METHODS[name].solve(CHAIN, DURATION, setting, None).evaluations == calls > 0
 
 
 def differences(function, state: np.ndarray, step: float) -> np.ndarray:

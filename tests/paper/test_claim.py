@@ -33,7 +33,7 @@ from maegawa2010.paper.claims import (
     waves,
 )
 from maegawa2010.paper.inputs import SCENES
-from maegawa2010.paper.tables import one
+from maegawa2010.paper.tables import cell
 
 NAN = float("nan")
 
@@ -189,7 +189,7 @@ def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_
     ):
         evaluate({"noise_members": pd.DataFrame({"scene": ["fig10"], "draw": [0]})})
     with pytest.raises(IndexError, match="0 rows have x = 1: needed is one"):
-        one(pd.DataFrame({"x": [2]}), "x", x=1)
+        cell(pd.DataFrame({"x": [2]}), "x", x=1)
 
 
 def test_a_claim_without_a_function_or_of_an_unknown_kind_is_one_clear_line(

@@ -43,12 +43,11 @@ def test_the_committed_certificates_are_about_the_chains_of_the_configuration(
     name: str,
 ) -> None:
     certificate = Certificate.load(COMMITTED / f"{name}.json.gz")
-    assert is_about(
-        certificate, exact_chain(name, CHAINS[name]), chain_duration(CHAINS[name])
-    )
-    assert not is_about(
-        certificate, exact_chain(name, CHAINS[name]), 2 * chain_duration(CHAINS[name])
-    )
+    chain = exact_chain(name, CHAINS[name])
+    duration = chain_duration(CHAINS[name])
+    assert is_about(certificate, chain, duration)
+    assert not is_about(certificate, chain, 2 * duration)
+    assert not is_about(certificate, dataclasses.replace(chain, mu_k=0), duration)
     assert (COMMITTED / f"{name}.json.gz").stat().st_size < LARGEST_FILE
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from benchmark.made_up import go_on, proof_of
+from chains import matrix_of_motion
 from flint import arb, arb_poly, ctx
 from scipy.linalg import expm
 
@@ -16,7 +17,7 @@ from precursors.proof.event_roots import (
     EventFunction,
     Undecided,
     event_functions,
-    first_root,
+    first_crossing,
 )
 from precursors.proof.exact_chain import ExactChain
 from precursors.proof.motion import Constants, EnclosedState, time_unit
@@ -55,7 +56,7 @@ def through(*roots: float, **how):
 
 def find(*functions: EventFunction, back: float = 0.0, bits: int = BITS):
     with ctx.workprec(bits):
-        found = first_root(list(functions), END, VALID, arb(back), bits)
+        found = first_crossing(list(functions), END, VALID, arb(back), bits)
         return found and (found[0].block, found[1])
 
 
@@ -164,22 +165,11 @@ def test_what_cannot_be_decided_is_asked(functions, back, question, blocks):
 
 
 def equations(of: Constants, mode: list[int]) -> np.ndarray:
-    """The matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1); blocks with
-    mode 0 do not move."""
-    n = len(mode) - 2
-    c = list(map(float, of.coupling))
-    friction = list(map(float, of.friction))
-    matrix = np.zeros((2 * n + 1, 2 * n + 1))
-    matrix[0, -1] = c[1] * float(of.drive)
-    for i in range(1, n + 1):
-        for j, sign in ((i - 1, 1), (i, -1)):
-            if j:
-                matrix[i - 1, n + j - 1] = sign * c[i]
-        if mode[i]:
-            matrix[n + i - 1, [i - 1, -1]] = 1.0, -mode[i] * friction[i]
-            if i < n:
-                matrix[n + i - 1, i] = -1.0
-    return matrix
+    """The matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1)."""
+    springs = np.array([float(c) for c in of.coupling[1:-1]])
+    friction = np.array([float(x) for x in of.friction[1:-1]])
+    modes = np.array(mode[1:-1])
+    return matrix_of_motion(springs, 1.0, friction, springs[0] * float(of.drive), modes)
 
 
 def vector(state: EnclosedState) -> np.ndarray:
@@ -198,7 +188,8 @@ def exact_rows(
     if way == 0:
         row[n + i - 1] = proof.state.mode[i]
         return [row, row @ matrix, row @ matrix @ matrix]
-    row[i - 1], row[-1] = -way, float(proof.bounds.strength[i])
+    row[i - 1] = -way
+    row[-1] = float(proof.bounds.strength[i])
     row[i : min(i + 1, n)] = way
     return [row, (row - row[-1] * np.eye(2 * n + 1)[-1]) @ matrix]
 

@@ -15,7 +15,6 @@ import pytest
 from benchmark.made_up import SYMMETRIC_START, go_on, proof_of
 from chains import SCENES
 from flint import arb, ctx
-from golden import kept, small_tables
 
 from precursors import simulate
 from precursors.benchmark.compare import Truth, compare
@@ -232,10 +231,6 @@ def test_the_bound_of_the_remainder_is_its_first_terms_where_blocks_oscillate(
             for n, a in ((last + 1, 1), (last + 2, in_another))
         )
         assert first <= bound < (1 + slack) * first
-
-
-def test_the_enclosures_grow_as_those_that_are_kept() -> None:
-    kept.assert_table("enclosures", small_tables.enclosures())
 
 
 def test_what_is_published_holds_what_is_proved_and_is_hardly_wider() -> None:

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from chains import matrix_of_motion
 
 from precursors import Chain
 from precursors.solver.kernel import proof, roots
@@ -37,7 +38,7 @@ def series(seed: int, n: int = 12) -> np.ndarray:
     return np.append(abs(terms[:1]), terms[1:])
 
 
-def first_root(c: np.ndarray) -> float:
+def bisected_root(c: np.ndarray) -> float:
     """First root in [0, 1], or infinity."""
     found = np.roots(c[::-1])
     real = found.real[
@@ -48,7 +49,7 @@ def first_root(c: np.ndarray) -> float:
 
 @pytest.fixture(scope="module")
 def windows() -> list[tuple[np.ndarray, float]]:
-    found = [(c, first_root(c)) for c in map(series, range(WINDOWS))]
+    found = [(c, bisected_root(c)) for c in map(series, range(WINDOWS))]
     assert 100 < sum(root <= 1.0 for _, root in found) < WINDOWS - 100
     return found
 
@@ -140,12 +141,19 @@ def test_the_rest_of_a_series_is_within_its_bound(length):
         state = np.concatenate(
             [10 ** random.uniform(-2, 2) * random.normal(size=n), modes * 0.1, [1.0]]
         )
+        rate = matrix_of_motion(
+            chain.springs,
+            chain.mass,
+            chain.kinetic_friction,
+            chain.loading_rate,
+            modes,
+        )
         velocities = []
         forces = []
         for _ in range(ORDER + 2):
             velocities.append(state[n:-1] / units.speed)
             forces.append(state[:n] - np.append(state[1:n], 0.0))
-            state = units.tau * rate_of(chain, modes) @ state
+            state = units.tau * rate @ state
         largest = abs(np.array(velocities[7:9])).max()
         watched = np.where(modes, velocities[: ORDER + 1], forces[: ORDER + 1])
         rest = (np.array(factor)[9:, None] * abs(watched[9:])).sum(axis=0).max()
@@ -153,16 +161,3 @@ def test_the_rest_of_a_series_is_within_its_bound(length):
         assert rest <= bound * (1 + ROUNDING)
         shares.append(rest / bound if bound else 1.0)
     assert np.median(shares) > 0.2
-
-
-def rate_of(chain: Chain, modes: np.ndarray) -> np.ndarray:
-    """Matrix of d/dt (T, v, 1): spring forces and velocities, with the blocks in their
-    modes (Eqs. 2-6)."""
-    n = chain.n_blocks
-    bonds = np.eye(n) - np.eye(n, k=-1)
-    rate = np.zeros((2 * n + 1, 2 * n + 1))
-    rate[:n, n:-1] = -chain.springs[:, None] * bonds
-    rate[0, -1] = chain.loading_rate
-    rate[n:-1, :n] = abs(modes)[:, None] * bonds.T / chain.mass
-    rate[n:-1, -1] = -modes * chain.kinetic_friction / chain.mass
-    return rate

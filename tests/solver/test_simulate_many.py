@@ -12,7 +12,6 @@ import pytest
 
 from precursors import Chain, LargerChain, Run, simulate, simulate_many
 from precursors.solver import batch as solver
-from precursors.solver import many
 
 SLIDER = Chain.from_slider
 # Transitions that the record of a thread has room for, and bytes for stored states that
@@ -157,25 +156,6 @@ def test_larger_chains_run_beside_exact_ones_as_by_simulate():
     ):
         with pytest.raises(ValueError, match="can only be given for a Chain"):
             call()
-
-
-def test_progress_counts_the_runs_within_a_batch(monkeypatch):
-    parts = []
-    done = []
-    run_batch = many.run_batch
-    in_threads = many.in_threads
-
-    def watched(*batch):
-        for run in run_batch(*batch):
-            parts.append(done[0]())
-            yield run
-
-    monkeypatch.setattr(many, "run_batch", watched)
-    monkeypatch.setattr(
-        many, "in_threads", lambda *work: (done.append(work[-1]), in_threads(*work))
-    )
-    simulate_many([SLIDER(3)] * 32, 0.1, threads=1)  # four in a batch
-    assert parts == [j / 32 for j in range(32)]
 
 
 INTERRUPTED = """

@@ -10,8 +10,10 @@ import scipy
 from chains import SLIDER
 
 from maegawa2010.studies.horizon import figure, lyapunov
-from maegawa2010.studies.horizon.lyapunov import lyapunov_exponent
+from maegawa2010.studies.horizon.lyapunov import lyapunov_exponent, lyapunov_table
+from maegawa2010.studies.horizon.tables import proof_tables
 from precursors import simulate
+from precursors.proof import ExactChain, certify
 
 # Exponents [1/s] that the linearised motion gave for the scenes.
 LINEARISED = {"-5/6": 1.657, "0": 2.164, "5/6": 1.909}
@@ -70,15 +72,6 @@ def test_the_interval_of_an_exponent_is_that_of_the_mean_of_20_stretches(
     assert found.uncertainty_per_s == pytest.approx((high - low) / 0.6)
 
 
-def test_an_exponent_is_certain_where_differences_grow_in_proportion_to_time(
-    exponent_of,
-):
-    time = np.cumsum(np.random.default_rng(5).exponential(size=400))
-    found = exponent_of(np.arange(400), 0.5 * time, time)
-    assert found.exponent_per_s == pytest.approx(0.5)
-    assert found.uncertainty_per_s == pytest.approx(0.0, abs=1e-12)
-
-
 def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):
     with pytest.raises(ValueError, match="all differences die out"):
         lyapunov_exponent(simulate(SLIDER(1, drive_velocity=0.02), 5.0))
@@ -86,6 +79,32 @@ def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):
         ValueError, match="more than 20 slip events after its transient, but has 20"
     ):
         exponent_of(np.arange(22), np.arange(22.0), np.arange(22.0))
+
+
+def test_the_tables_hold_what_is_proved_and_what_the_solver_gets_right():
+    chain = ExactChain.from_slider(n_blocks=2, theta="1/2", drive_velocity="1e-3")
+    certificate = certify(chain, 0.5)
+    n = len(certificate.transitions)
+    # the time of another proof is not taken for that of this one
+    effort = pd.DataFrame({"chain": ["else"], "transitions": [1], "cpu_s": [1.0]})
+    tables = proof_tables({"pair": certificate}, effort, 1e-9)
+    row, facts = tables["certificates"].iloc[0], tables["solver_vs_proof"].iloc[0]
+    width = float(2 * max(t.time.radius for t in certificate.transitions))
+    assert (row["transitions"], row["largest_time_width_s"]) == (n, width)
+    assert pd.isna(row["cpu_s"])
+    assert facts["agreeing_transitions"] == facts["transitions"] == n
+    until = facts[["horizon_s", "right_until_s", "duration_s"]]
+    assert until.tolist() == [0.5] * 3
+    last = tables["horizon"]["actual_error_s"].iloc[-1]
+    assert last == facts["time_error_while_agreeing_s"]
+
+
+def test_a_scene_without_an_exponent_has_an_empty_row():
+    sliders = {"alone": {"theta": 0.0, "n_blocks": 1, "drive_velocity": 0.02}}
+    sliders["ten"] = {"theta": 0.5, "drive_velocity": 0.002}
+    table = lyapunov_table(sliders, 2.0).set_index("scene")
+    assert table.loc["alone"].drop("theta").isna().all()
+    assert table.loc["ten"].notna().all()
 
 
 def predicted_errors():

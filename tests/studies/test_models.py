@@ -49,13 +49,16 @@ def dense_cascade(
 ) -> list[tuple[float, float, int, int]]:
     """Events (loads before and after, front, blocks that slid) by dense matrices,
     energies checked."""
-    n, matrix = chain.n_blocks, balance_matrix(chain)
+    n = chain.n_blocks
+    matrix = balance_matrix(chain)
     stiffness = matrix @ (np.eye(n) - np.eye(n, k=-1))
     rounding = FORCE_ROUNDING * chain.normal_load
-    force, events = np.zeros(n), []
+    force = np.zeros(n)
+    events = []
     while (not events or events[-1][3] < n) and len(events) < 2000:
         force[0] = chain.strength[0] + np.append(force[1:], 0.0)[0]
-        before, slid = force[0], np.zeros(n, bool)
+        before = force[0]
+        slid = np.zeros(n, bool)
         sign = np.eye(n)[0]
         while sign.any():
             net = force - np.append(force[1:], 0.0)
@@ -84,7 +87,8 @@ def dense_cascade(
 
 
 def dense_stage(chain, stiffness, net, sign, overshoot, rounding):
-    seeds, out = sign != 0, np.zeros(chain.n_blocks, bool)
+    seeds = sign != 0
+    out = np.zeros(chain.n_blocks, bool)
     while True:
         moving = np.flatnonzero(sign)
         step = np.zeros(chain.n_blocks)
@@ -106,22 +110,12 @@ def dense_stage(chain, stiffness, net, sign, overshoot, rounding):
         sign = np.where(joins, np.sign(after), sign)
 
 
-def test_all_blocks_that_move_are_in_balance_with_friction_where_they_stop():
-    """In plain Python, where an index beyond the chain is an error."""
-    chain = SLIDER(3)
-    net = np.array([50.0, -20.0, 70.0])
-    friction = chain.kinetic_friction
-    cascade = quasistatic.Cascade(chain.springs, chain.strength, friction, 1.0)
-    step = quasistatic.balance.py_func(cascade, net, np.sign(net))
-    lost = quasistatic.lost_force.py_func(chain.springs, step)
-    np.testing.assert_allclose(net - lost, np.sign(net) * friction, rtol=ROUNDING)
-
-
 @pytest.mark.parametrize("velocity", [1e-4, 0.3])
 def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> None:
     chain = SLIDER(n_blocks=1, drive_velocity=velocity)
     run = simulate(chain, 12.5 * 200.0 / chain.loading_rate)
-    n, intervals = len(run.transitions), run.intervals[:-1]
+    n = len(run.transitions)
+    intervals = run.intervals[:-1]
     assert n > 10
     assert run.transitions["mode"].tolist() == [1, 0] * (n // 2) + [1] * (n % 2)
     load = {1: load_bound(chain), 0: load_bound(chain) - load_drop(chain)}
@@ -269,7 +263,9 @@ def test_every_answer_is_the_one_that_is_kept() -> None:
 def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(
     clock,
 ) -> None:
-    calls, warm, rounds = [], 0.0005, 3
+    calls: list[Chain] = []
+    warm = 0.0005
+    rounds = 3
     answers = MODELS["chain"](SLIDER(**SCENES["even"]))
 
     def ask(chain: Chain) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from studies.made import members_of, noise_made, noise_of
 
 from maegawa2010.studies.members import chain_of, noise_table
 from maegawa2010.studies.noise import figure
-from maegawa2010.support.run_statistics import NOISE, compared
+from maegawa2010.support.run_statistics import NOISE
 
 NAN = np.nan
 TABLES = {
@@ -36,17 +36,3 @@ def test_a_distribution_is_that_of_the_noisy_runs_with_a_global_slip():
     ).iloc[0]
     assert (row["without_noise"], row["runs"], row["reached"]) == (0.9, 12, 11)
     assert (row["q50"], row["q05"], row["q95"]) == pytest.approx((0.45, 0.405, 0.495))
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "verdict"),
-    [
-        (-0.01, 0.01, "same"),
-        (0.0, 0.011, "undecided"),
-        (0.011, 0.02, "different"),
-        (-0.3, -0.2, "different"),
-        (-0.3, 0.3, "undecided"),
-    ],
-)
-def test_the_whole_interval_decides(low, high, verdict):
-    assert compared(low, high, 0.01) == verdict

@@ -14,7 +14,7 @@ from benchmark.made_up import (
 )
 
 from maegawa2010.methods import METHODS, ROWS, Method, Result
-from maegawa2010.studies.work_precision import figure
+from maegawa2010.studies.work_precision import figure, tables
 from maegawa2010.studies.work_precision.tables import (
     SHORTEST,
     charted_values,
@@ -22,11 +22,13 @@ from maegawa2010.studies.work_precision.tables import (
 )
 from precursors import Record, TransitionLimitError
 from precursors.benchmark.compare import Truth
+from precursors.proof import ExactChain, certify
 
 FIVE = TRUE[:5]  # two slips, the second not over
 # A call of a fake method takes so long, on a clock that the test moves [s]; one is
 # repeated in a round.
-CALL, SHORT_CALL = 2.0**-8, 2.0**-11
+CALL = 2.0**-8
+SHORT_CALL = 2.0**-11
 
 
 def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solver_comes_first():
@@ -43,7 +45,10 @@ class Fake:
     run."""
 
     def __init__(self, clock) -> None:
-        self.run, self.clock, self.calls, self.compiling = made_up(FIVE), clock, [], 0.0
+        self.run = made_up(FIVE)
+        self.clock = clock
+        self.calls = []
+        self.compiling = 0.0
 
     def solve(
         self, _chain, _duration: float, value: float, _until: str | None
@@ -112,6 +117,18 @@ def test_a_run_that_breaks_off_is_a_row_with_what_there_is(fake):
     (row,) = measured(CALL)
     assert row["transitions_right"] == 3
     assert math.isnan(row["evaluations"])
+
+
+def test_methods_are_measured_to_the_first_global_slip(monkeypatch):
+    values = {"exact": [0.0], "leapfrog": [1e-6, 1e-7]}
+    monkeypatch.setattr(tables, "charted_values", lambda _full: values)
+    certificate = certify(ExactChain.from_slider(n_blocks=2, theta="1/4"), 6.0)
+    table = tables.work_precision_table(certificate, "two", False)
+    assert table["method"].tolist() == ["exact", "leapfrog", "leapfrog"]
+    exact, coarse, fine = table.to_dict("records")
+    assert exact["transitions_right"] == exact["transitions_true"]
+    assert 0 < exact["transitions_true"] < len(certificate.transitions)
+    assert 0 < exact["error_time_s"] < fine["error_time_s"] < coarse["error_time_s"]
 
 
 PUBLISHED = Path(__file__).parents[2] / "paper/tables"

@@ -25,7 +25,6 @@ TEXT = PAGE.read_text(encoding="utf-8")
 SOLVERS = pd.read_csv(ROOT / "benchmarks/solvers.csv")
 SCRIPTS = sorted((ROOT / "benchmarks/solvers").glob("[!c]*.py"))
 LARGEST_ARCHIVE = 3_000_000  # bytes
-LARGEST_FILE = 1_000_000
 # The scripts solve `slippery` up to here [s]: within its first global slip, where blocks
 # slide backward, and where a stop between mu_k w and mu_s w tells the switching rule.
 SHORT = "77/1000"
@@ -121,14 +120,6 @@ def test_the_page_states_the_problems_that_are_proved():
         assert told == list(map(str, shown))
 
 
-def test_the_page_shows_the_first_rows_of_a_result():
-    given = TEXT[TEXT.index("    time_s,block") :].split("\n\n")[0].splitlines()[1:]
-    for row, true in zip(given, solution("uniform").run.transitions, strict=False):
-        assert tuple(map(float, row.split(","))) == pytest.approx(
-            true.item(), rel=1e-15
-        )
-
-
 def test_the_page_shows_the_scores_of_all_results():
     scores = pd.read_csv(ROOT / "results/tables/benchmark.csv")
     assert results_table(scores) in TEXT
@@ -136,13 +127,6 @@ def test_the_page_shows_the_scores_of_all_results():
     scored = scores["solver"] + "-" + scores["problem"]
     assert files == set(scored)
     assert set(SOLVERS["solver"]) == set(scores["solver"])
-
-
-@pytest.mark.parametrize(
-    "path", sorted((ROOT / "benchmarks/results").iterdir()), ids=lambda path: path.stem
-)
-def test_result_files_are_small(path):
-    assert path.stat().st_size < LARGEST_FILE
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)

@@ -1,7 +1,6 @@
 """What the READMEs show is true: numbers and files are those computed."""
 
 import re
-import tomllib
 from pathlib import Path
 
 import pandas as pd
@@ -74,37 +73,3 @@ def test_every_file_that_an_independent_check_compares_is_made_by_the_workflow_a
         for file in files
         if not (ROOT / "tests/golden" / Path(file).name).is_file()
     ] == []
-
-
-def test_papers_versions_titles_and_authors_are_the_same_wherever_they_stand():
-    citation, metadata = read("CITATION.cff"), read("metadata.yaml")
-    (paper,) = citation["references"]
-    assert {
-        "title",
-        "authors",
-        "license",
-        "abstract",
-    } <= citation.keys()  # what an archive asks for
-    assert [author["family-names"] for author in paper["authors"]] == [
-        "Maegawa",
-        "Suzuki",
-        "Nakano",
-    ]
-    assert f"doi:{paper['doi']}" in README
-    changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
-    (latest, *_) = re.findall(r"^## \[([^\]]+)\]", changelog, flags=re.MULTILINE)
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))[
-        "project"
-    ]
-    assert latest == citation["version"] == project["version"]
-    assert project["license"] == "MIT"
-    assert f"version {latest}, commit" in " ".join(README.split())
-    source = " ".join(
-        (ROOT / "paper/paper.typ").read_text(encoding="utf-8").replace("\\", "").split()
-    )
-    assert metadata["title"] in source
-    names = [
-        [author["name"] for author in of["authors"]] for of in (metadata, citation)
-    ]
-    assert names[0] == names[1]
-    assert (ROOT / metadata["bibliography"]).is_file()

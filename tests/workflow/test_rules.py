@@ -2,9 +2,6 @@
 run."""
 
 import re
-import subprocess
-
-from conftest import ROOT
 
 # One environment, built from requirements.lock by the Makefile, serves all rules.
 ACCEPTED_FINDING = "Specify a conda environment or container for each rule"
@@ -14,21 +11,6 @@ def test_lint_asks_for_nothing_but_one_software_environment_per_rule(workspace):
     outcome = workspace.run("--lint")
     findings = set(re.findall(r"^\s+\* (.+?)[.:]+$", outcome.text, flags=re.MULTILINE))
     assert findings == {ACCEPTED_FINDING}, outcome.text
-
-
-def test_a_rule_with_a_script_has_the_digest_of_that_script_as_a_parameter():
-    for file in (ROOT / "workflow/rules").glob("*.smk"):
-        text = file.read_text(encoding="utf-8")
-        assert re.findall(r'code=digest\(\s*"(\w+)"', text) == re.findall(
-            r'scripts/(\w+)\.py"', text
-        )
-
-
-def test_a_target_that_make_does_not_know_is_answered_with_one_that_it_does():
-    told = subprocess.run(
-        ["make", "tset"], cwd=ROOT, capture_output=True, text=True, check=False
-    ).stderr
-    assert "there is no target tset; did you mean test?" in told
 
 
 def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(

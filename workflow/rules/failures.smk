@@ -1,10 +1,10 @@
 # Where methods fail
 
 TABLES["failures"] = Table(
-    function="maegawa2010.studies.failures.tables:failure_tables",
+    function="maegawa2010.studies.failures.tables:failure_curves",
     message="making every method fail",
     also=[f"{PAPERS}/methods/methods.csv"],
-    tables=["stability_limits"],
+    tables=[],
     beside=["failure_curves"],
     seconds=3,
 )

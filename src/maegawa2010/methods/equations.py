@@ -36,12 +36,14 @@ def by_mode(_system, state, i, net, velocity):
 
 
 @inner
-def rates(law, system, state, last, y, rate):
+def rates(friction, system, state, last, y, rate):
     """Rates of a state y under a law of friction (Eqs. 2-6); blocks ahead of 1..last
     rest."""
     behind = y[VELOCITY, 0]
     for i in range(1, last + 1):
-        here, rate[VELOCITY, i] = law(system, state, i, net_force(y, i), y[VELOCITY, i])
+        here, rate[VELOCITY, i] = friction(
+            system, state, i, net_force(y, i), y[VELOCITY, i]
+        )
         rate[FORCE, i] = system[SPRING, i] * (behind - here)
         behind = here
     rate[FORCE, last + 1] = system[SPRING, last + 1] * behind

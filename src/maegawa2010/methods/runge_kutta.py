@@ -2,7 +2,8 @@
 
 By steps, stick and slip are switched at the end of each step. Located, a step ends
 where the first event function becomes zero: on the interpolation of the step it is a
-polynomial, whose first root `first_root` finds, also of two that are close together.
+polynomial, whose first root `polynomial_root` finds, also of two that are close
+together.
 
 A loop over the blocks serves all stages. Written out for each stage of a short tableau,
 the compiler puts its coefficients into it.
@@ -49,22 +50,22 @@ def sums_of(tableau: Tableau) -> Any:
     """Sum of shares of the rates k[stage, row, i] in the state of a stage, without
     zeros."""
     shares = tableau.shares
-    counts = np.count_nonzero(shares, axis=1)
+    n_shares = np.count_nonzero(shares, axis=1)
     stages = np.argsort(shares == 0.0, axis=1, kind="stable")
     values = np.take_along_axis(shares, stages, axis=1)
 
     @inner
     def combine(number, k, row, i):
         total = 0.0
-        for j in range(counts[number]):
+        for j in range(n_shares[number]):
             total += values[number, j] * k[stages[number, j], row, i]
         return total
 
     return combine
 
 
-def stages_of(tableau: Tableau, end: int, law: Any = by_mode) -> Any:
-    """Rates of the states of stages 1..end - 1, under a law of friction (see
+def stages_of(tableau: Tableau, end: int, friction: Any = by_mode) -> Any:
+    """Rates of the states of stages 1..end - 1, under a friction law (see
     `equations.rates`)."""
     combine = sums_of(tableau)
 
@@ -75,7 +76,7 @@ def stages_of(tableau: Tableau, end: int, law: Any = by_mode) -> Any:
         for i in range(1, last + 1):
             force_ahead = state[FORCE, i + 1] + h * combine(number, k, FORCE, i + 1)
             velocity = state[VELOCITY, i] + h * combine(number, k, VELOCITY, i)
-            here, k[number, VELOCITY, i] = law(
+            here, k[number, VELOCITY, i] = friction(
                 system, state, i, force - force_ahead, velocity
             )
             k[number, FORCE, i] = system[SPRING, i] * (behind - here)
@@ -121,15 +122,15 @@ def end_of(tableau: Tableau) -> Any:
     return finish
 
 
-def step_of(tableau: Tableau, law: Any = by_mode) -> Any:
+def step_of(tableau: Tableau, friction: Any = by_mode) -> Any:
     """A whole step of blocks 1..last, whose evaluations it returns."""
     s = len(tableau.weights)
-    stages = stages_of(tableau, s, law)
+    stages = stages_of(tableau, s, friction)
     finish = end_of(tableau)
 
     @inner
     def step(system, state, last, h, k):
-        rates(law, system, state, last, state, k[0])
+        rates(friction, system, state, last, state, k[0])
         stages(system, state, last, h, k)
         finish(state, last, h, k, state)
         return s
@@ -141,7 +142,7 @@ def step_of(tableau: Tableau, law: Any = by_mode) -> Any:
 
 
 @apart
-def first_root(c, limit):
+def polynomial_root(c, limit):
     """First root of c[0] + c[1] x + c[2] x^2 + ... in 0 <= x < limit <= 1, or NEVER;
     c[0] >= 0.
 
@@ -232,7 +233,7 @@ def events_of(tableau: Tableau) -> tuple[Any, Any]:
             for side in (1.0, -1.0):
                 if side > 0.0 or state[MODE, i] == 0.0:
                     event(system, state, i, side, h, k, c)
-                    x = first_root(c, first)
+                    x = polynomial_root(c, first)
                     if x < first:
                         first = x
                         block = i

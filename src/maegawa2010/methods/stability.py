@@ -7,7 +7,6 @@ its omega dt is then `Smooth.limit`."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -17,13 +16,6 @@ from maegawa2010.methods.columns import FORCE, VELOCITY, sliding_forward
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import balance_matrix
 
-# Energy that becomes so many times larger within so many steps has no limit. Bounded
-# energy can rise by 1 / (1 - (omega dt / 2)^2) in leapfrog: 500 times at 0.1 % below
-# its limit.
-UNBOUNDED = 1e6
-STEPS = 4000
-BISECTIONS = 20
-BOUNDS = 1e-2, 1e2  # of omega dt
 # A drive so slow does no work in a test; `Chain` has none that rests.
 AT_REST = float(np.finfo(float).eps)  # m/s
 
@@ -73,21 +65,3 @@ def energy_left(
     slide(system, state, step, n_steps)
     with np.errstate(over="ignore", invalid="ignore"):
         return energy(chain, state) / before
-
-
-def is_unstable(chain: Chain, slide: Slide, step: float) -> bool:
-    """Whether the energy has no limit at a step [s], whichever mode it is in."""
-    velocities = np.sin(1.0 + 2.0 * np.arange(chain.n_blocks))
-    return not energy_left(chain, slide, step, STEPS, velocities) < UNBOUNDED
-
-
-def largest_stable_step(chain: Chain, slide: Slide) -> float:
-    """Step [s] above which the energy of a chain without friction has no limit."""
-    stable, unstable = np.array(BOUNDS) / highest_frequency(chain)
-    for _ in range(BISECTIONS):
-        middle = math.sqrt(stable * unstable)
-        if is_unstable(chain, slide, middle):
-            unstable = middle
-        else:
-            stable = middle
-    return float(unstable)

@@ -22,7 +22,7 @@ from maegawa2010 import printed
 from maegawa2010.paper.claim import Claim, Find, Finding, in_draws, shown
 from maegawa2010.paper.inputs import LEADING, SCENES, TRAILING, UNIFORM
 from maegawa2010.paper.open_points import open_points_table
-from maegawa2010.paper.tables import Tables, before_global, one, rows
+from maegawa2010.paper.tables import Tables, before_global, cell, rows
 from precursors.analysis.slips import up_to_first_global
 from precursors.model.chain import FloatArray
 from precursors.support.files import read_table
@@ -90,7 +90,7 @@ for scene, side in {
 def chaos(t: Tables) -> Finding:
     """Largest Lyapunov exponent, above its uncertainty."""
     exponent, uncertainty = (
-        one(t["lyapunov"], column, scene=UNIFORM)
+        cell(t["lyapunov"], column, scene=UNIFORM)
         for column in ("exponent_per_s", "uncertainty_per_s")
     )
     return Finding(exponent, exponent > uncertainty, uncertainty)
@@ -248,7 +248,7 @@ def waves(t: Tables) -> Finding:
     Where it is below mu_s, too, waves need not be the cause, and may still be.
     """
     overdamped = rows(t["model_comparison"], model="overdamped", question="mu_sapp")
-    without = np.array([one(overdamped, "value", scene=scene) for scene in SCENES])
+    without = np.array([cell(overdamped, "value", scene=scene) for scene in SCENES])
     return Finding(without, True if (without >= MU_S).all() else None, MU_S)
 
 

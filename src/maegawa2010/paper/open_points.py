@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from maegawa2010 import printed
 from maegawa2010.paper.claim import shown
 from maegawa2010.paper.inputs import LEADING, SCENES, UNIFORM
-from maegawa2010.paper.tables import Tables, before_global, one, rows
+from maegawa2010.paper.tables import Tables, before_global, cell, rows
 from precursors.model.chain import linear_weights
 from precursors.support.files import read_table
 
@@ -23,7 +23,7 @@ Pair = tuple[ArrayLike, ArrayLike]
 
 def of_check(t: Tables, check: str) -> list[float]:
     """The finding of a check of Eq. 15 in each scene."""
-    return [float(one(t["eq15"], "found", check=check, case=s)) for s in SCENES]
+    return [float(cell(t["eq15"], "found", check=check, case=s)) for s in SCENES]
 
 
 def eq12(t: Tables) -> Pair:
@@ -31,7 +31,7 @@ def eq12(t: Tables) -> Pair:
     return of_check(t, "as_printed"), of_check(t, "at_rest")
 
 
-def counts(t: Tables) -> list[int]:
+def events_counted(t: Tables) -> list[int]:
     """Events of Fig. 13, the first global slip included."""
     return [int(t[f"{scene}_slips"]["counted"].sum()) for scene in SCENES]
 
@@ -39,7 +39,7 @@ def counts(t: Tables) -> list[int]:
 def residual_strain(t: Tables) -> Pair:
     """mu_sapp from the largest residual strain, and from natural length."""
     return of_check(t, "full_strain"), [
-        one(t["reproduction"], "reproduced", scene=scene, quantity="mu_sapp")
+        cell(t["reproduction"], "reproduced", scene=scene, quantity="mu_sapp")
         for scene in SCENES
     ]
 
@@ -85,7 +85,7 @@ def theta_by_moments(t: Tables) -> Pair:
 def end_to_end(t: Tables) -> Pair:
     """Stiffness of the slider from end to end."""
     n = slider(t, "n_blocks")
-    k = one(t["measures"], "stiffness_N_per_m", scene=UNIFORM)
+    k = cell(t["measures"], "stiffness_N_per_m", scene=UNIFORM)
     return k / (n - 1), k / n
 
 
@@ -95,8 +95,11 @@ NUMBERS: dict[str, Callable[[Tables], Pair]] = {
     "fig8": lambda t: (0, slider(t, "theta", LEADING)),
     "short_events": short_events,
     "residual_strain": residual_strain,
-    "counts": lambda t: (list(printed.EVENTS_OF_EXPERIMENT.values()), counts(t)),
-    "precursors": lambda t: (np.subtract(counts(t), 1), counts(t)),
+    "counts": lambda t: (
+        list(printed.EVENTS_OF_EXPERIMENT.values()),
+        events_counted(t),
+    ),
+    "precursors": lambda t: (np.subtract(events_counted(t), 1), events_counted(t)),
     "ratio_at_the_cells": ratio_at_cells,
     "moments": theta_by_moments,
     "one_block": lambda t: (np.nan, linear_weights(1, slider(t, "normal_load_N"), 0.0)),

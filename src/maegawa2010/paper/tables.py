@@ -19,7 +19,7 @@ def rows(table: pd.DataFrame, **where: Any) -> pd.DataFrame:
     return table
 
 
-def one(table: pd.DataFrame, column: str, **where: Any) -> Any:
+def cell(table: pd.DataFrame, column: str, **where: Any) -> Any:
     """The value of a column in the only row that is as in `where`.
 
     Raises

@@ -27,8 +27,8 @@ class CarriedState:
     motions with the same transitions does not grow: free motion conserves it, and a
     stop reduces it. So roundings add up: those of an interval one by one, as they may
     all go the same way, those of different intervals as squares. One rounding a step
-    comes to `one` [sqrt(J)], which is `one_velocity` [m/s] of a velocity and
-    `one_force` [N] of the net force on each block.
+    comes to `rounding` [sqrt(J)], which is `velocity_rounding` [m/s] of a velocity and
+    `force_rounding` [N] of the net force on each block.
     """
 
     def __init__(self, run: Run) -> None:
@@ -52,7 +52,7 @@ class CarriedState:
         ends = positions**2 + np.append(0.0, positions[:-1]) ** 2
         at_start = _START_ROUNDINGS * math.sqrt(self.springs @ ends)
         self.drive_momentum = math.sqrt(chain.mass) * chain.drive_velocity
-        self.one = _UNIT * math.hypot(at_start, self.drive_momentum)
+        self.rounding = _UNIT * math.hypot(at_start, self.drive_momentum)
         self.per_force = np.sqrt(self.springs)
         self.per_load = self.per_force[0]
         self.per_force[:-1] += np.sqrt(self.springs[1:])
@@ -61,14 +61,14 @@ class CarriedState:
         self.modes_of_row = lru_cache(room)(partial(normal_modes, chain))
 
     @property
-    def one_force(self) -> FloatArray:
+    def force_rounding(self) -> FloatArray:
         """One rounding of the net force on each block [N], shape (N,)."""
-        return self.one * self.per_force
+        return self.rounding * self.per_force
 
     @property
-    def one_velocity(self) -> float:
+    def velocity_rounding(self) -> float:
         """One rounding of a velocity [m/s]."""
-        return self.one / math.sqrt(self.chain.mass)
+        return self.rounding / math.sqrt(self.chain.mass)
 
     def net_force(self) -> FloatArray:
         """Force of the springs and the drive on each block [N], shape (N,) (Eqs.
@@ -110,7 +110,7 @@ class CarriedState:
         steps = 1 + self.fastest * duration if motion.speed.size else 1
         momentum = math.sqrt(self.chain.mass) * motion.largest_speed()
         size = math.sqrt(2 * energy) + momentum + self.drive_momentum
-        self.one = math.hypot(self.one, _UNIT * steps * size)
+        self.rounding = math.hypot(self.rounding, _UNIT * steps * size)
         self.turnover = max(self.turnover, energy) + terms
         self.energy_rounding += _UNIT * steps * (energy + terms)
 

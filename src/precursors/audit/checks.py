@@ -104,16 +104,16 @@ class Auditor:
         motion = state.motion()
         conditions = Conditions(motion, state)
         state.advance(motion, duration)
-        of_velocity = np.full(len(conditions.sliding), state.one_velocity)
-        of_force = state.one_force[conditions.stuck]
-        one = np.concatenate([of_velocity, of_force, of_force])
+        of_velocity = np.full(len(conditions.sliding), state.velocity_rounding)
+        of_force = state.force_rounding[conditions.stuck]
+        rounding = np.concatenate([of_velocity, of_force, of_force])
         lowest, when = conditions.lowest(
-            duration, self.roundings * one, self.values_left
+            duration, self.roundings * rounding, self.values_left
         )
         self.values_left -= conditions.computed
         for j in np.flatnonzero(np.signbit(lowest)).tolist():
             what, unit = conditions.broken(j)
-            self.check(-lowest[j], one[j], what, unit, self.time + when[j])
+            self.check(-lowest[j], rounding[j], what, unit, self.time + when[j])
 
     def check_transition(
         self, at_start: bool, time: float, block: int, mode: int, load: float
@@ -123,7 +123,7 @@ class Auditor:
         self.check_time(time, f"a transition of block {block}")
         self.check(
             abs(load - state.spring_force[0]),
-            state.one * state.per_load,
+            state.rounding * state.per_load,
             f"block {block} has {load:.9g} N recorded as tangential load, wrong by",
             "N",
         )
@@ -167,7 +167,7 @@ class Auditor:
         force = state.net_force()[block - 1]
         strength = state.strength[block - 1]
         what = f"block {block} changes its mode while it moves at"
-        self.check(speed, state.one_velocity, what, "m/s")
+        self.check(speed, state.velocity_rounding, what, "m/s")
         if mode == 0:
             what = "sticks with a force beyond mu_s w"
             self.check_force(block, what, abs(force) - strength)
@@ -192,8 +192,8 @@ class Auditor:
 
     def check_force(self, block: int, what: str, wrong: float) -> None:
         """A net force is not wrong by more than its rounding."""
-        one = self.state.one_force[block - 1]
-        self.check(wrong, one, f"block {block} {what}, by", "N")
+        rounding = self.state.force_rounding[block - 1]
+        self.check(wrong, rounding, f"block {block} {what}, by", "N")
 
     def check_time(self, time: float, what: str) -> None:
         """A recorded time is the sum of the intervals up to it."""
@@ -213,13 +213,18 @@ class Auditor:
         self.check(wrong, state.energy_rounding, what, "J")
 
     def check(
-        self, wrong: float, one: float, what: str, unit: str, time: float | None = None
+        self,
+        wrong: float,
+        rounding: float,
+        what: str,
+        unit: str,
+        time: float | None = None,
     ) -> None:
-        """Report a deviation of more than so many roundings of size `one`; a negative
-        deviation passes."""
-        off = float(wrong) / float(one) if one > 0 else 0.0
+        """Report a deviation of more than so many roundings of size `rounding`; a
+        negative deviation passes."""
+        off = float(wrong) / float(rounding) if rounding > 0 else 0.0
         self.found.roundings = max(self.found.roundings, off)
-        if not wrong <= self.roundings * one:
+        if not wrong <= self.roundings * rounding:
             self.report(f"{what} {wrong:.3g} {unit}", time)
 
     def report(self, sentence: str, time: float | None = None) -> None:

@@ -93,7 +93,7 @@ def event_functions(
     return functions
 
 
-def first_root(
+def first_crossing(
     functions: list[EventFunction], end: float, valid: float, back: arb, bits: int
 ) -> tuple[EventFunction, arb] | None:
     """Return the function that crosses zero first and an enclosure of its root; None if

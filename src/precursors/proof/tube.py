@@ -38,7 +38,7 @@ from precursors.proof.event_roots import (
     EventFunction,
     Undecided,
     event_functions,
-    first_root,
+    first_crossing,
     newton,
 )
 from precursors.proof.motion import (
@@ -236,7 +236,7 @@ class Proof:
                     functions = event_functions(
                         constants, self.state, self.fresh, VALID, bits
                     )
-                    return first_root(functions, WINDOW, VALID, self.gap, bits)
+                    return first_crossing(functions, WINDOW, VALID, self.gap, bits)
                 except Undecided:
                     if bits >= self.precision():
                         raise

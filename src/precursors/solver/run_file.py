@@ -170,13 +170,13 @@ def _scalar(file: h5py.File, name: str) -> float:
 def _numbers(file: h5py.File, name: str) -> NDArray[Any]:
     """An array of finite numbers, which are whole where they count something."""
     values = np.asarray(file[name][()])
-    counts = name.split("/")[-1] in COUNTS
+    is_count = name.split("/")[-1] in COUNTS
     _require(
-        values.dtype.kind in ("iu" if counts else "iuf"),
+        values.dtype.kind in ("iu" if is_count else "iuf"),
         f"{name} is of type {values.dtype}",
     )
     _require(np.isfinite(values).all(), f"{name} is not finite")
-    return values.astype(np.int64 if counts else float)
+    return values.astype(np.int64 if is_count else float)
 
 
 def _check(found: Mapping[str, NDArray[Any]], duration: float, n_blocks: int) -> None:

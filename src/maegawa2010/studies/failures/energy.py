@@ -3,9 +3,6 @@ damping."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
-
 import numpy as np
 
 from maegawa2010.methods import METHODS, ROWS, SMOOTH, DivergedError
@@ -13,7 +10,6 @@ from maegawa2010.methods.stability import (
     energy_left,
     highest_frequency,
     highest_mode,
-    largest_stable_step,
     without_friction,
 )
 from maegawa2010.studies.failures.common import Curve, Failure
@@ -24,7 +20,6 @@ from precursors.solver.simulate import simulate
 # Steps over which the factor per step is an average: more for leapfrog, whose energy
 # also swings, fewer for RK4, which damps the mode below the rounding of the others.
 UNSTABLE_STEPS = {"rk4": 20, "leapfrog": 200}
-SIZES = (1, 2, 10, 50)  # blocks of the chains whose limits are measured
 POINTS = 21
 # With friction: omega dt from RK4's limit on, and where its runs end.
 BEYOND = SMOOTH["rk4"].limit * np.linspace(1.0, 1.25, 51)[1:]
@@ -55,24 +50,6 @@ def unstable() -> Failure:
             Curve(ROWS[name]["label"], z / omega, left),
         ]
     return Failure("step_s", "energy_per_step", curves)
-
-
-def stability_limits() -> Iterator[dict[str, Any]]:
-    """Steps above which energy grows without bound, without friction: a row per method
-    and chain."""
-    for n_blocks in SIZES:
-        chain = without_friction(Chain.from_slider(n_blocks=n_blocks))
-        for name in UNSTABLE_STEPS:
-            method = SMOOTH[name]
-            predicted = method.limit / highest_frequency(chain)
-            measured = largest_stable_step(chain, method.slide)
-            yield {
-                "method": name,
-                "n_blocks": n_blocks,
-                "predicted_s": predicted,
-                "measured_s": measured,
-                "ratio": measured / predicted,
-            }
 
 
 def silent_instability() -> Failure:

@@ -81,9 +81,12 @@ def fastest_rate(chain: Chain, width: float) -> float:
     / width."""
     damping = np.diag(chain.strength / width)
     still = np.zeros_like(damping)
-    one = np.eye(chain.n_blocks)
+    identity = np.eye(chain.n_blocks)
     matrix = np.block(
-        [[still, one], [-stiffness_matrix(chain) / chain.mass, -damping / chain.mass]]
+        [
+            [still, identity],
+            [-stiffness_matrix(chain) / chain.mass, -damping / chain.mass],
+        ]
     )
     return float(abs(np.linalg.eigvals(matrix)).max())
 

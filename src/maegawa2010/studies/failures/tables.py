@@ -1,6 +1,6 @@
 """Failure modes of the methods on the paper's chain, each shown by measured curves."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 import pandas as pd
 
@@ -8,7 +8,6 @@ from maegawa2010.studies.failures.common import Failure
 from maegawa2010.studies.failures.energy import (
     numerical_damping,
     silent_instability,
-    stability_limits,
     unstable,
 )
 from maegawa2010.studies.failures.missed_roots import missed_roots
@@ -36,21 +35,13 @@ FAILURE_MODES: dict[str, Callable[[], Failure]] = {
 }
 
 
-def failure_tables() -> dict[str, pd.DataFrame]:
-    """failure_curves, the points of all failure modes, and stability_limits.
+def failure_curves() -> pd.DataFrame:
+    """The points of all failure modes.
 
-    A row of failure_curves is a point: failure_mode, curve, role (see `common.Curve`),
-    x, y, and the names of both quantities with their units (x_is, y_is).
+    A row is a point: failure_mode, curve, role (see `common.Curve`), x, y, and the
+    names of both quantities with their units (x_is, y_is).
     """
     found = {mode: measure() for mode, measure in FAILURE_MODES.items()}
-    return {
-        "failure_curves": curve_table(found),
-        "stability_limits": pd.DataFrame(stability_limits()),
-    }
-
-
-def curve_table(found: Mapping[str, Failure]) -> pd.DataFrame:
-    """The points of all curves of some failure modes."""
     curves = [
         pd.DataFrame(
             {

@@ -56,8 +56,8 @@ class MotionArrays(NamedTuple):
     it moves. Window: `rate` has the derivatives, `wide` columns in a row (see
     `expand`), `sign` is that of `watched`, `force_before` and `rest_before` are the
     spring forces at its start, `slip` is the way since then; `whole` has the terms s^n
-    / n! for its length, `weight` those for the time looked at; `open` has the blocks
-    that are not proved as bits; `series` is room for one function.
+    / n! for its length, `weight` those for the time looked at; `undecided` has the
+    blocks that are not proved as bits; `series` is room for one function.
     """
 
     velocity: Vector
@@ -73,7 +73,7 @@ class MotionArrays(NamedTuple):
     force_before: Vector
     rest_before: Vector
     slip: Vector
-    open: Vector
+    undecided: Vector
     whole: Vector
     weight: Vector
     series: Vector
@@ -139,8 +139,8 @@ ROW = 5
 
 
 def memory_for(n_blocks: int) -> FloatArray:
-    """Memory that `divide` divides, in which no group of blocks lies across two lines
-    of the cache."""
+    """Memory for `vectors_in`, in which no group of blocks lies across two lines of the
+    cache."""
     memory = np.zeros(
         (3 + BY_COLUMN + ROWS) * n_columns(n_blocks) + BY_TERM * TERMS + LINE
     )
@@ -156,9 +156,8 @@ def n_columns(n_blocks):
 
 
 @inner
-def divide(memory, n_blocks):
-    """Divide memory into the vectors of a system (coupling, strength, friction) and a
-    motion."""
+def vectors_in(memory, n_blocks):
+    """The vectors of a system (coupling, strength, friction) and a motion in memory."""
     wide = n_columns(n_blocks)
     start = numbers(memory.ctypes.data)
     terms = (3 + BY_COLUMN + ROWS) * wide
@@ -180,7 +179,7 @@ def divide(memory, n_blocks):
         force_before=at(13),
         rest_before=at(14),
         slip=at(15),
-        open=whole_numbers(memory.ctypes.data + 16 * EIGHT * wide),
+        undecided=whole_numbers(memory.ctypes.data + 16 * EIGHT * wide),
         whole=shifted(start, terms),
         weight=shifted(start, terms + TERMS),
         series=shifted(start, terms + 2 * TERMS),

@@ -79,8 +79,8 @@ def enclose(a0, a1, a2, a3, a4, a5, at_end, rest):
 
 @inner
 def prove(end, candidate, motion):
-    """Mark the blocks in `open` that may change their mode before the time reached;
-    zero if there are none.
+    """Mark the blocks in `undecided` that may change their mode before the time
+    reached; zero if there are none.
 
     The state has been brought there by `move`. Of block `candidate` it is known that
     its function vanishes there. A block that sticks must not reach its other limit
@@ -117,26 +117,26 @@ def prove(end, candidate, motion):
             rest + felt * tail,
         )
         low = lanes.choose(slides, low, lanes.smaller(low, 2.0 * hold - high))
-        open = lanes.where_negative(at_end * felt)
+        undecided = lanes.where_negative(at_end * felt)
         if i <= candidate < i + WIDTH:
-            open &= ~(1 << (candidate - i))
-        open |= lanes.where_negative(low * felt)
-        motion.open[i] = open
-        found |= open
+            undecided &= ~(1 << (candidate - i))
+        undecided |= lanes.where_negative(low * felt)
+        motion.undecided[i] = undecided
+        found |= undecided
     return found
 
 
 @seldom
 def search(order, end, roundings, chain, motion, progress):
-    """First root of the functions of the blocks in `open`: (share of the time reached,
-    block, side)."""
+    """First root of the functions of the blocks in `undecided`: (share of the time
+    reached, block, side)."""
     share = np.inf
     block = 0
     side = 1
     for group in range(1, end + 1, WIDTH):
-        open = motion.open[group]
+        undecided = motion.undecided[group]
         for i in range(group, group + WIDTH):
-            if (open >> (i - group)) & 1:
+            if (undecided >> (i - group)) & 1:
                 zero = zero_below(i, roundings, chain, motion)
                 slides = motion.mode[i] != 0
                 for way in range(1, 0 if slides else -2, -2):

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from operator import attrgetter
 
-from precursors.solver.kernel.arrays import System, divide
+from precursors.solver.kernel.arrays import System, vectors_in
 from precursors.solver.kernel.decorators import inner, unfused
 
 # Numbers that `set_up` takes of a chain beside its weights.
@@ -18,7 +18,7 @@ parameters = attrgetter(
 @inner
 def lay_out(parameters, weights, memory):
     """The system and the motion of a chain in memory; column 0 is the drive."""
-    columns, motion = divide(memory, weights.shape[0])
+    columns, motion = vectors_in(memory, weights.shape[0])
     chain = set_up(parameters, weights, columns)
     motion.rate[0] = chain.drive_velocity
     motion.slides[0] = 1.0
