@@ -26,6 +26,9 @@ ROOT = Path(__file__).parents[2]
 COARSE, FINE = 50, 100
 # A run that ends when it has settled is this near [F_Z] to one that goes on.
 GOES_ON = 3 * SETTLED
+BLOCKS = (
+    0.005  # of the peak, from 50 to 100 blocks: 4 to 7 of 50 lie in the shortest l_c
+)
 LAW = 0.005  # of the peak, with the precursors counted in the run
 # Loads of runs of seconds differ by so much with the processor; a run in which a slip
 # goes another way differs by a whole event, 0.01.
@@ -183,7 +186,7 @@ def settled_runs(study):
 
 
 @pytest.mark.parametrize(
-    ("study", "most"), [("finer", 0.004), ("half_step", 1e-3)], ids=["N", "step"]
+    ("study", "most"), [("finer", BLOCKS), ("half_step", 1e-3)], ids=["N", "step"]
 )
 def test_coefficients_hardly_depend_on_blocks_or_step_where_n_is_the_same(study, most):
     """Which cycle a run takes may depend on both."""

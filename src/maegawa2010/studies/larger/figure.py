@@ -27,9 +27,9 @@ def draw(nucleation: pd.DataFrame, settled: pd.DataFrame) -> Figure:
     are left out. Precursors are drawn for the study "map", with the border beyond which
     the law says that none is needed.
     """
-    settled = settled[settled["period"] > 0]
     marks = settled.assign(fill=settled["precursors"].round().clip(upper=2))
     on_map = marks[marks["study"] == "map"]
+    marks = marks[marks["period"] > 0]
     thetas = sorted(on_map["theta"].unique())
     x = on_map["critical_length"]
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
@@ -53,24 +53,36 @@ def draw(nucleation: pd.DataFrame, settled: pd.DataFrame) -> Figure:
         ]
         entries += [
             style.mark(
-                text, marker="o", color=style.GREY, **none, **_fill(n, style.GREY)
+                text,
+                marker="o",
+                color=style.GREY,
+                markerfacecolor=style.pale(style.GREY, FILLS[n]),
+                **none,
             )
-            for n, text in zip(FILLS, ("$n = 0$", "1", "2 or more"), strict=True)
+            for n, text in enumerate(("$n = 0$", "1", "2 or more"))
         ]
         entries.append(style.mark("least $n$ by theory changes", linewidth=0.8))
         style.draw_key(figure, entries, ncols=4)
     return figure
 
 
-def _fill(n: float, color: str) -> Options:
-    return {"markerfacecolor": style.pale(color, FILLS[int(n)])}
+def _look(rows: pd.DataFrame, size: float) -> Options:
+    """Marks of rows with one loading and one number of precursors."""
+    first = rows.iloc[0]
+    color = style.theta_color(first["theta"])
+    return {
+        "linestyle": "none",
+        "marker": MARKERS[int(np.sign(first["theta"]))],
+        "markersize": size,
+        "markeredgewidth": 0.3,
+        "color": color,
+        "markerfacecolor": style.pale(color, FILLS[int(first["fill"])]),
+    }
 
 
 def _draw_lengths(axes: Axes, nucleation: pd.DataFrame) -> None:
-    for theta, rows in nucleation.groupby("theta"):
-        x, y = rows["critical_length"], rows["measured"]
-        color = style.theta_color(float(theta))
-        axes.plot(x, y, MARKERS[int(np.sign(theta))], color=color)
+    for _, rows in nucleation.assign(fill=max(FILLS)).groupby("theta"):
+        axes.plot(rows["critical_length"], rows["measured"], **_look(rows, 4.0))
     axes.axline((0, 0), slope=1, color=style.GREY, zorder=1)
     ends = (0.0, 1.1 * nucleation["measured"].max())
     axes.set(xlim=ends, ylim=ends, title="Creep runs away at $l_c$")
@@ -78,38 +90,30 @@ def _draw_lengths(axes: Axes, nucleation: pd.DataFrame) -> None:
 
 
 def _draw_peaks(axes: Axes, marks: pd.DataFrame) -> None:
-    for (theta, n), rows in marks.groupby([np.sign(marks["theta"]), "fill"]):
-        color = style.theta_color(theta)
-        look = {"color": color, "markersize": 2.2, "markeredgewidth": 0.3}
-        axes.plot(
-            rows["law"],
-            rows["coefficient"],
-            MARKERS[int(theta)],
-            **look,
-            **_fill(n, color),
-        )
+    for _, rows in marks.groupby([np.sign(marks["theta"]), "fill"]):
+        axes.plot(rows["law"], rows["coefficient"], **_look(rows, 2.2))
     axes.axline((0.5, 0.5), slope=1, color=style.BLACK, linewidth=0.6)
     axes.set(title="The formula gives the peak")
     axes.set(xlabel="$F_X/F_Z$ by the formula", ylabel="settled peak of $F_X/F_Z$")
 
 
 def _draw_precursors(axes: Axes, of_loading: pd.DataFrame) -> None:
-    theta = of_loading["theta"].iloc[0]
-    color = style.theta_color(theta)
-    for (past, n), rows in of_loading.groupby(["past", "fill"]):
-        right, up = PASTS[int(past)]
-        look = {"color": color, "markersize": 1.8, "markeredgewidth": 0.3}
+    drawn = of_loading[of_loading["period"] > 0]
+    for _, rows in drawn.groupby(["past", "fill"]):
+        right, up = PASTS[rows["past"].iloc[0]]
         x, y = rows["critical_length"], 1e6 * rows["relaxation_time"]
-        axes.plot(right * x, up * y, "o", **look, **_fill(n, color))
-    least = of_loading.pivot_table("least", "relaxation_time", "even_length")
-    x = of_loading.pivot_table("critical_length", "relaxation_time", "even_length")
-    y = np.broadcast_to(1e6 * least.index.to_numpy()[:, None], least.shape)
-    x = x.interpolate(axis=1, limit_direction="both")
-    axes.contour(x, y, least, [0.5, 1.5], colors=style.BLACK, linewidths=0.8)
-    shares = of_loading["precursors"].round().value_counts(normalize=True)
+        axes.plot(right * x, up * y, **_look(rows, 1.8))
+    lattice = "relaxation_time", "even_length"
+    least = of_loading.pivot_table("least", *lattice)
+    lengths = of_loading.pivot_table("critical_length", *lattice)
+    lengths = lengths.interpolate(axis=1, limit_direction="both")
+    times = np.broadcast_to(1e6 * lengths.index.to_numpy()[:, None], lengths.shape)
+    axes.contour(lengths, times, least, [0.5, 1.5], colors=style.BLACK)
+    shares = drawn["precursors"].round().value_counts(normalize=True)
     common = shares.index[shares > RARE]
     ends = dict.fromkeys([f"{common.min():g}", f"{common.max():g}"])
-    axes.set_title(f"{style.theta_text(theta)}: $n = ${' to '.join(ends)}")
+    theta = style.theta_text(of_loading["theta"].iloc[0])
+    axes.set_title(f"{theta}: $n = ${' to '.join(ends)}")
     axes.set(xscale="log", yscale="log", xlabel="$l_c/L$")
     style.set_ticks(axes.xaxis, (0.1, 0.2, 0.4))
     style.set_ticks(axes.yaxis, (10, 20, 50, 100, 200, 400))

@@ -59,7 +59,7 @@ def draw(
         counts.set_title(f"{least:.0f} to {most:.0f} events count at $N = {n}$")
         n, least, most = _ends(table, "mu_sapp")
         frictions.set_title(f"Medians from {least:.3f} to {most:.3f} at $N = {n}$")
-        frictions.legend(labelcolor="linecolor")
+        frictions.legend(labelcolor="linecolor", loc="upper right")
         _draw_key(figure)
     return figure
 
