@@ -11,5 +11,7 @@ from precursors.support.files import write_table
 with job() as snakemake:
     params = snakemake.params
     study = resolve_name(params.function)(**params.options)
-    found = resolve_name(params.run)(study.chunk(*map(int, snakemake.wildcards.chunk.split("of"))))
+    found = resolve_name(params.run)(
+        study.chunk(*map(int, snakemake.wildcards.chunk.split("of")))
+    )
     write_table(found.rename_axis("member").reset_index(), snakemake.output.chunk)
