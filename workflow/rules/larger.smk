@@ -28,7 +28,6 @@ if IS_PAPERS:
         function="maegawa2010.studies.larger.figure:draw",
         shows="a chain with a length, cut from the paper's slider",
         tables={
-            name: str(ROOT / f"paper/tables/larger_{name}_full.csv")
-            for name in ("nucleation", "settled")
+            name: str(ROOT / f"paper/tables/larger_{name}_full.csv") for name in ("nucleation", "settled")
         },
     )
