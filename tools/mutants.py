@@ -13,7 +13,7 @@ First every test is run without a fault, which says what it costs and which func
 enters. Then each fault meets the tests that enter its function, until one fails or they
 have cost `SECONDS`: quick ones first, and files of its own room and those that name its
 module before others. Nothing is seen to enter a compiled function or a script of the
-page: tests that import its module meet it.
+page: tests that import its module meet it. Those of the workflow meet faults of scripts.
 
 `survivors.md` says why a fault cannot be seen, or need not be. Such a fault counts as
 one that survives, and is not tried. The command fails where less than `SHARE` is seen
@@ -448,9 +448,12 @@ def chosen_tests(fault: Fault, sound: dict[str, Outcome]) -> Job:
     found = []
     for file, outcome in sound.items():
         is_named = re.search(rf"\b{stem}\b", (ROOT / file).read_text()) is not None
-        if (place or is_named) and any(map(enters, outcome.tests)):
+        is_near = Path(file).parts[1] == room
+        # A job of Snakemake is a process of its own, which nothing watches.
+        is_met = place or is_named or (is_near and fault.path.is_relative_to(SCRIPTS))
+        if is_met and any(map(enters, outcome.tests)):
             start = outcome.seconds - sum(test.seconds for test in outcome.tests)
-            far = 2 - is_named - (Path(file).parts[1] == room)
+            far = 2 - is_named - is_near
             found.append((far, outcome.seconds, start, outcome.tests))
     files, cost = list[dict[str, float]](), 0.0
     limit = COMPILING if fault.path.parent.name in COMPILED else LIMIT

@@ -31,9 +31,9 @@ stress follows while it runs: phi = 1 - exp(-L/(c t_v)).
 needs a force of w/q, and k precursors push with `push`; a front stops where the push is
 less. n is possible if it carries to the end, and n - 1 does not.
 
-The article compares all three with some 1,500 runs. The law is weak where omega t_v is
-above 1 and more load is at the far end: peaks are higher by up to 0.01, and n is lower
-than it says.
+The article compares all three with some 1,500 runs. The law is weak with more load at
+the far end, where precursors come and omega t_v is above 1 (peaks are higher by up to
+0.015, and n is lower than it says), and with a drive that is stiffer than the slider.
 """
 
 from __future__ import annotations

@@ -34,5 +34,5 @@ def draw(table: pd.DataFrame) -> Figure:
         axes.set(xscale="log", ylim=(0, None), xlabel="Noise in the normal loads [%]")
         axes.set_ylabel(r"Difference of $\mu_\mathrm{sapp}$ [-]")
         least = differences["low"].min()
-        axes.set_title(f"At least {least:.3f}, whatever the noise")
+        axes.set_title(f"The two loadings differ by at least {least:.3f}")
     return figure
