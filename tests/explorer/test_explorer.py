@@ -188,13 +188,12 @@ def test_the_staircase_ends_above_the_last_precursor(page, file):
 
 def test_a_film_plays_one_event_for_three_seconds_and_stops_at_its_end(page, file):
     open_explorer(page, file, motion="no-preference")
-    for step in (1, 2, 3):
-        began = perf_counter()
-        page.evaluate(f"goToStep({step})")
-        page.wait_for("playing")
-        page.wait_for("!playing")
-        assert perf_counter() - began > FILM
-        assert page.evaluate("[state.view, state.time - event().end]") == ["event", 0]
+    began = perf_counter()
+    page.evaluate("goToStep(1)")
+    page.wait_for("playing")
+    page.wait_for("!playing")
+    assert perf_counter() - began > FILM
+    assert page.evaluate("[state.view, state.time - event().end]") == ["event", 0]
 
 
 def press_key(page, key, text="", code=0):
