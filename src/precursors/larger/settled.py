@@ -42,13 +42,14 @@ def settled(run: Record, nucleus: float) -> dict[str, Any]:
 
 def events_of(run: Record, nucleus: float) -> pd.DataFrame:
     """Global slips and precursors of a run (see `settled`) with their columns of
-    `find_slips`; peak is F_X/F_Z at the onset, and precursors how many have come since
-    the last global slip."""
+    `find_slips`; cycle is the number of global slips before, peak F_X/F_Z at the onset,
+    and precursors how many have come since the last global slip."""
     slips = find_slips(run)
     is_past = slips["front"] > PAST * nucleus * run.chain.n_blocks
     slips = slips[is_past | slips["is_global"]]
     cycle = slips["is_global"].shift(fill_value=False).cumsum()
     return slips.assign(
+        cycle=cycle,
         peak=slips["load_before"] / run.chain.weights.sum(),
         precursors=slips.groupby(cycle).cumcount(),
     )

@@ -177,9 +177,8 @@ def fronts(run: Record, law: Law) -> dict[str, int]:
     rightly whether it does; placed the stopped ones whose front is right to `PLACED`.
     """
     events = events_of(run, law.nucleus)
-    cycle = events["is_global"].shift(fill_value=False).cumsum()
-    n = events.groupby(cycle)["precursors"].transform("max")
-    is_whole = cycle < events["is_global"].sum()
+    n = events.groupby("cycle")["precursors"].transform("max")
+    is_whole = events["cycle"] < events["is_global"].sum()
     late = events.assign(n=n)[is_whole & (events["onset"] > 0.5 * run.duration)]
     said = np.array(
         [law.front(*of) for of in zip(late["precursors"], late["n"], strict=True)]
