@@ -109,12 +109,3 @@ def test_the_counts_of_two_loadings_draw_near_with_the_number_of_blocks():
     coarse, fine = said(r"counts (\d+) % more .* ten blocks, and (\d+) % more with 320")
     found = [100 * (counts[n]["fig12"] / counts[n]["fig10"] - 1) for n in (10, 320)]
     assert found == pytest.approx([coarse, fine], abs=0.5)
-
-
-def test_the_difference_of_mu_sapp_depends_on_the_amplitude_of_the_noise():
-    least, most = said(r"from 0.01 to 3 % it is larger by ([\d.]+) to ([\d.]+) \(200")
-    found = table("noise_amplitudes", "scene", "other").loc[("fig12", "fig10")]
-    assert found["load_noise"].tolist() == [1e-4, 1e-3, 1e-2, 3e-2]
-    assert [found["difference"].min(), found["difference"].max()] == pytest.approx(
-        [least, most], abs=0.005
-    )

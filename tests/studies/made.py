@@ -13,7 +13,6 @@ from maegawa2010.studies.members import Study, run_members
 from maegawa2010.studies.noise.tables import noise_study, noise_tables
 from maegawa2010.studies.printed_digits.tables import digits_study
 from maegawa2010.studies.resolution.tables import resolution_study
-from maegawa2010.studies.theta_window.tables import theta_window_study
 
 PAPER = {scene: printed.SCENES[scene] for scene in CONFIG["fig13"]}
 SLIDERS = {scene: scene_slider(CONFIG, scene) for scene in CONFIG["fig13"]}
@@ -21,7 +20,6 @@ MAP = "grid"
 OF_SCENES = {
     "noise_members": noise_study,
     "digits_members": digits_study,
-    "theta_window_members": theta_window_study,
     "resolution_members": resolution_study,
 }
 

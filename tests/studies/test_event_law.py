@@ -3,11 +3,9 @@
 import numpy as np
 import pandas as pd
 import pytest
-from golden.kept import SMALL
 from settings import CONFIG
 from studies.made import chunks_of
 
-from maegawa2010.studies.event_law import figure
 from maegawa2010.studies.event_law.tables import (
     added_load,
     event_law_tables,
@@ -24,7 +22,6 @@ def event_law() -> pd.DataFrame:
 
 
 TABLES = {"event_law": event_law}
-PICTURES = {"event_law": lambda: figure.draw(pd.read_csv(SMALL / "event_law.csv"))}
 
 
 def test_the_law_by_hand_of_two_blocks():

@@ -1,21 +1,17 @@
 """Noise: by hand, runs without a global slip, ends of intervals."""
 
 import numpy as np
-import pandas as pd
 import pytest
-from golden.kept import SMALL
 from studies.made import members_of, noise_made, noise_of
 
 from maegawa2010.studies.members import chain_of, noise_table
-from maegawa2010.studies.noise import figure
 from maegawa2010.support.run_statistics import NOISE
 
 NAN = np.nan
 TABLES = {
     name: lambda name=name: noise_made()[name]
-    for name in ("noise", "noise_differences", "noise_amplitudes")
+    for name in ("noise", "noise_differences")
 }
-PICTURES = {"noise": lambda: figure.draw(pd.read_csv(SMALL / "noise_amplitudes.csv"))}
 
 
 def test_draw_0_is_the_scene_and_the_others_have_noise_in_every_normal_load():

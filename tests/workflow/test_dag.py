@@ -77,7 +77,7 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(
         dirs_exist_ok=True,
     )
     assert clone.would_run() == set()
-    clone.edit("src/maegawa2010/studies/theta_window/figure.py", "", CODE)
+    clone.edit("src/maegawa2010/studies/resolution/figure.py", "", CODE)
     assert clone.would_run() == {"draw_sensitivity"} | PAPER
 
 
@@ -181,11 +181,8 @@ def test_larger_studies_are_an_overlay_of_the_configuration(finished):
         "-n", "--configfile", "config.yaml", "workflow/full.yaml", "--", "all"
     )
     assert outcome.code == 0, outcome.text
-    assert {
-        "tabulate_work_precision",
-        "tabulate_step_sweep",
-        "tabulate_predictability",
-    } <= outcome.jobs
+    longer = {"tabulate_work_precision", "tabulate_step_sweep", "tabulate_event_law"}
+    assert longer <= outcome.jobs
     assert not {"simulate_scene fig10", "tabulate_definitions"} & outcome.jobs
 
 

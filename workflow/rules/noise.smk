@@ -8,12 +8,6 @@ TABLES["noise"] = Table(
     function="maegawa2010.studies.noise.tables:noise_tables",
     message="summing up the runs with noise",
     inputs={"chunks": chunks_of(study="noise_members")},
-    tables=["noise", "noise_differences", "noise_amplitudes"],
+    tables=["noise", "noise_differences"],
     beside=["noise_members"],
-)
-FIGURES["noise"] = Figure(
-    section="sensitivity",
-    function="maegawa2010.studies.noise.figure:draw",
-    shows="how much mu_sapp differs between loadings, against the noise",
-    tables={"table": "results/tables/noise_amplitudes.csv"},
 )

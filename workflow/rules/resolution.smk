@@ -17,32 +17,13 @@ TABLES["resolution"] = Table(
         # many runs of the paper's slider with 160 and 320 blocks
         "finer": [] if config["full"] or not IS_PAPERS else [f"{COMMITTED}/resolution_differences_full.csv"],
     },
-    options={"uniform": min(SLIDERS, key=lambda scene: abs(SLIDERS[scene]["theta"]))},
-    tables=["resolution", "resolution_differences", "counts_by_n"],
+    tables=["resolution", "resolution_differences"],
     beside=["resolution_members"],
-)
-TABLES["predictability"] = Table(
-    function="maegawa2010.studies.resolution.tables:predictability_table",
-    message="finding how long chains of other lengths can be predicted",
-    options={
-        "sliders": SLIDERS,
-        "n_blocks": [
-            n
-            for n in sorted({*config["resolution"]["n_blocks"], config["chain"]["n_blocks"]})
-            if n <= config["resolution"]["predicted_up_to"]
-        ],
-        "duration": config["duration"],
-        "tolerance": config["horizon"]["tolerance"],
-    },
-    seconds=120 if config["full"] else 1,
 )
 FIGURES["resolution"] = Figure(
     section="sensitivity",
     function="maegawa2010.studies.resolution.figure:draw",
     shows="events and mu_sapp against the number of blocks",
-    tables={
-        "table": "results/tables/resolution.csv",
-        "predictability": "results/tables/predictability.csv",
-    },
+    tables={"table": "results/tables/resolution.csv"},
     options={"papers_n": config["chain"]["n_blocks"], "mu_k": config["chain"]["mu_k"]},
 )

@@ -13,24 +13,17 @@ from precursors.figures.style import Options
 
 HEIGHT_MM = 84.0
 BEYOND = 1.35  # where marks stand beyond the last N, in units of it
-EXACT: Options = {"linestyle": "none", "marker": ".", "markersize": 4}
 EXPERIMENT: Options = {"linestyle": "none", "marker": "<", "markersize": 5}
 MEDIAN: Options = {"linewidth": 1.2}
 ALL_EVENTS: Options = {"linestyle": "--"}
 LIMIT: Options = {"linestyle": "none", "marker": "_", "markersize": 5}
 
 
-def draw(
-    table: pd.DataFrame, predictability: pd.DataFrame, papers_n: int, mu_k: float
-) -> Figure:
+def draw(table: pd.DataFrame, papers_n: int, mu_k: float) -> Figure:
     """Draw events and mu_sapp against N; dotted lines mark the paper's N and mu_k.
 
-    Of resolution.csv, medians are lines, and 5 and 95 % of the runs are ticks. A run
-    without noise is a dot where it is predictable up to its global slip
-    (predictability.csv).
+    Of resolution.csv, medians are lines, and 5 and 95 % of the runs are ticks.
     """
-    known = predictability[["scene", "n_blocks", "predictable"]]
-    table = table.merge(known, how="left")
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         counts, frictions = figure.subplots(1, 2)
         for _, of_scene in table.groupby("scene", sort=False):
@@ -73,15 +66,13 @@ def _ends(table: pd.DataFrame, quantity: str) -> tuple[int, float, float]:
 
 
 def _draw_numbers(axes: Axes, rows: pd.DataFrame) -> None:
-    """Draw the median and nine tenths of the runs, and the runs without noise."""
+    """Draw the median and nine tenths of the runs."""
     theta = rows["theta"].iloc[0]
     color = style.theta_color(theta)
     n = rows["n_blocks"]
     axes.plot(n, rows[["q05", "q95"]], color=color, **LIMIT)
     loading = style.LOADINGS[int(np.sign(theta))]
     axes.plot(n, rows["q50"], color=color, **MEDIAN, label=loading)
-    exact = rows[rows["predictable"].eq(True)]
-    axes.plot(exact["n_blocks"], exact["without_noise"], color=color, **EXACT)
 
 
 def _draw_key(figure: Figure) -> None:
@@ -89,7 +80,6 @@ def _draw_key(figure: Figure) -> None:
         style.mark("median, counted in Fig. 13", **MEDIAN),
         style.mark("median, all events", **ALL_EVENTS),
         style.mark("5 and 95 % of the runs", **LIMIT),
-        style.mark("without noise, predictable", **EXACT),
         style.mark("experiment", **EXPERIMENT),
     ]
-    style.draw_key(figure, entries, ncols=3)
+    style.draw_key(figure, entries, ncols=4)

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import pandas as pd
-from scipy.stats import mannwhitneyu
 
 from maegawa2010.studies.members import (
     Study,
@@ -16,16 +15,9 @@ from maegawa2010.studies.members import (
     gather,
     noise_table,
     stack,
-    with_noise,
 )
-from precursors.analysis.horizon import horizon
-from precursors.model.chain import Chain
-from precursors.solver.simulate import simulate
 
-# All slip events up to the first global slip, and those of Fig. 13, which are never
-# shorter than one before.
-COUNTS = ("events_to_global_slip", "events_counted")
-QUANTITIES = (*COUNTS, "mu_sapp", "global_slip_s")
+QUANTITIES = ("events_to_global_slip", "events_counted", "mu_sapp", "global_slip_s")
 POINT = ["scene", "theta", "n_blocks"]
 
 
@@ -53,7 +45,6 @@ def resolution_study(
 def resolution_tables(
     chunks: Iterable[pd.DataFrame],
     noise: pd.DataFrame,
-    uniform: str,
     finer: Sequence[pd.DataFrame] = (),
 ) -> dict[str, pd.DataFrame]:
     """The tables of the study, by file name; `noise` has the members with the scenes'
@@ -67,7 +58,6 @@ def resolution_tables(
     return {
         "resolution_members": gathered,
         "resolution": noise_table(members, POINT, QUANTITIES),
-        "counts_by_n": counts_table(members, uniform),
         "resolution_differences": with_finer(differences_by_n(members), finer),
     }
 
@@ -87,59 +77,3 @@ def with_finer(table: pd.DataFrame, finer: Iterable[pd.DataFrame]) -> pd.DataFra
         own = table[~table["n_blocks"].isin(other["n_blocks"])]
         table = pd.concat([own, other]).sort_values("n_blocks", kind="stable")
     return table
-
-
-def counts_table(members: pd.DataFrame, uniform: str) -> pd.DataFrame:
-    """Counts of events against N, one row per n_blocks and scene.
-
-    Each row has the median of each count, also over that of the scene `uniform`, with
-    the probability by chance of such a difference from this scene (two-sided test of
-    Mann and Whitney).
-    """
-    runs = with_noise(members)
-    rows = []
-    for (n_blocks, scene, theta), own in runs.groupby(
-        ["n_blocks", "scene", "theta"], sort=False
-    ):
-        even = runs[(runs["n_blocks"] == n_blocks) & (runs["scene"] == uniform)]
-        row = {"n_blocks": n_blocks, "scene": scene, "theta": theta, "runs": len(own)}
-        for count in COUNTS:
-            row[count] = own[count].median()
-            row[f"{count}_over_uniform"] = own[count].median() / even[count].median()
-            # Equal counts have no variance: newer SciPy gives nan for them.
-            is_equal = len({*own[count], *even[count]}) == 1
-            p = 1.0 if is_equal else mannwhitneyu(own[count], even[count]).pvalue
-            row[f"{count}_p"] = p
-        rows.append(row)
-    return pd.DataFrame(rows).sort_values(["n_blocks", "theta"], ignore_index=True)
-
-
-def predictability_table(
-    sliders: Mapping[str, Mapping[str, Any]],
-    n_blocks: Iterable[int],
-    duration: float,
-    tolerance: float,
-) -> pd.DataFrame:
-    """Predictability time (horizon_s) and end of the first global slip, without noise:
-    a row per scene and N.
-
-    Where the horizon is not before the end, the run is `predictable`: its numbers do
-    not depend on rounding.
-    """
-    rows = []
-    for scene, slider in sliders.items():
-        for n in n_blocks:
-            run = simulate(
-                Chain.from_slider(**{**slider, "n_blocks": n}),
-                duration,
-                until="global slip",
-            )
-            found = {
-                "horizon_s": horizon(run, tolerance),
-                "global_slip_end_s": run.duration,
-            }
-            predictable = found["horizon_s"] >= run.duration
-            rows.append(
-                {"scene": scene, "n_blocks": n, **found, "predictable": predictable}
-            )
-    return pd.DataFrame(rows)
