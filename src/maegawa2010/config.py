@@ -27,9 +27,6 @@ SECTIONS = (
     "figure",
     "figure_formats",
 )
-# Sections of former configurations, whose keys stand elsewhere now.
-OLD_SECTIONS = ("reproduction", "accuracy", "hierarchy", "ensembles")
-LARGEST_FILE = 100_000  # bytes, which are read in a second
 # YAML reads 010 as 8, and 1:30 as 90; .nan and .inf are no number to compute with.
 NOT_PLAIN = re.compile(
     r"[-+]?(0[\d_]+|\d[\d_]*(:[0-5]?\d)+(\.[\d_]*)?|\.(inf|nan))", re.IGNORECASE
@@ -37,14 +34,7 @@ NOT_PLAIN = re.compile(
 
 
 class Loader(yaml.SafeLoader):
-    """Reads each key once, no value that YAML takes for another, and no aliases, of
-    which ten lines can stand for 9**9 values."""
-
-    def compose_node(self, parent: Any, index: Any) -> Any:
-        """Return the next part of the file."""
-        if self.check_event(yaml.AliasEvent):
-            raise _misread(self.peek_event(), "write out what * stands for")
-        return super().compose_node(parent, index)
+    """Reads each key once, and no value that YAML takes for another."""
 
     def construct_mapping(
         self, node: yaml.MappingNode, deep: bool = False
@@ -76,15 +66,11 @@ def read_file(path: AnyPath) -> dict[str, Any]:
     The ValueError says in one line which file, where in it, and what is wrong.
     """
     try:
-        if Path(path).stat().st_size > LARGEST_FILE:
-            raise ValueError(f"a configuration may have {LARGEST_FILE:,} bytes")
         config = yaml.load(Path(path).read_text(encoding="utf-8"), Loader)
     except yaml.MarkedYAMLError as error:
         mark: Any = error.problem_mark
         place = f"in line {mark.line + 1}, column {mark.column + 1}"
         raise ValueError(_short(f"{path}: {error.problem} {place}")) from None
-    except RecursionError:
-        raise ValueError(f"{path}: too many tables in each other") from None
     except (yaml.YAMLError, ValueError, OSError) as error:
         raise ValueError(_short(f"{path}: {error}")) from None
     if not isinstance(config, dict):
@@ -163,11 +149,6 @@ def check_sections(config: Config, studies: Config) -> None:
     The ValueError is one line.
     """
     for name, section in config.items():
-        if name in OLD_SECTIONS:
-            raise ValueError(
-                f"configuration: {name}: its keys stand in sections of their own now: "
-                "see workflow/studies.yaml"
-            )
         check_names("configuration:", [name], [*SECTIONS, *studies])
         default = studies.get(name)
         if isinstance(default, list) and not isinstance(section, list):

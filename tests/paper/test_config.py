@@ -3,7 +3,6 @@ be."""
 
 import copy
 import math
-import time
 from functools import cache
 from pathlib import Path
 
@@ -17,7 +16,6 @@ from maegawa2010.scenes import scene_slider, scenes_with
 from precursors.model.chain import Chain
 
 ROOT = Path(__file__).parents[2]
-AT_ONCE = 10.0  # s; a file without end takes minutes, the largest read here one second
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 MISSING = object()
 read_once = cache(yaml.safe_load)  # the schema
@@ -38,7 +36,6 @@ WRONG = [
         ["chain.youngs_modulus: '2.5e9'", "2.5e+9 and not as 2.5e9"],
     ),
     ("chain.mu_k", "0.46", ["chain.mu_k: '0.46'", "this is text"]),
-    ("chain.n_blocks", 10**4000, ["chain.n_blocks: 1000", "0... is greater"]),
     ("chain.mu_k", 0.8, ["chain: ", "mu_k", "0.8", "mu_s = 0.7"]),
     ("scenes.fig10.mu_k", 0.9, ["scenes.fig10: ", "mu_k", "0.9", "mu_s = 0.7"]),
     ("chain.n_blocks", 0, ["chain.n_blocks: 0", "minimum of 1"]),
@@ -109,14 +106,7 @@ WRONG = [
         ["must not have what a larger chain adds beside model"],
     ),
     ("noise.sede", 1, ["noise holds 'sede', but must hold names of seed, runs"]),
-    ("ensembles", {}, ["ensembles: its keys stand in sections of their own now"]),
 ]
-
-
-# Ten lines that stand for 9**9 entries.
-MERGE_BOMB = "a0: &a0 {x: 1}\n" + "".join(
-    f"a{i}: &a{i} {{<<: [{', '.join(9 * [f'*a{i - 1}'])}]}}\n" for i in range(1, 10)
-)
 
 
 def changed(key, value):
@@ -215,24 +205,16 @@ def test_every_value_of_the_file_is_checked(value):
         ("- 1\n", "must be a table of keys and values"),
         ("", "must be a table of keys and values"),
         ("a: \x07\n", "special characters are not allowed"),
-        ("a: &x [1]\nb: *x\n", "write out what * stands for in line 2, column 4"),
-        (MERGE_BOMB, "write out what * stands for in line 2, column 15"),
-        (f"# {20_000_000 * 'x'}\n", "may have 100,000 bytes"),
-        (f"a: {20_000 * '['}", "too many tables in each other"),
-        (f"a: [{200_001 * '1,'}]", "may have 100,000 bytes"),
         ("a: 1\n---\na: 2\n", "but found another document in line 2, column 1"),
-        (f"a: {10_000 * '1'}", "Exceeds the limit"),
     ],
 )
 def test_a_file_that_is_not_plain_yaml_is_refused_with_its_place(tmp_path, text, words):
     path = tmp_path / "mine.yaml"
     path.write_text(text, encoding="utf-8")
-    start = time.monotonic()
     with pytest.raises(ValueError, match=r"\A[^\n]+mine.yaml[^\n]+\Z") as error:
         read_file(path)
     assert words in str(error.value)
     assert len(str(error.value)) < 400
-    assert time.monotonic() - start < AT_ONCE
 
 
 def test_plain_numbers_and_quoted_texts_are_accepted(tmp_path):

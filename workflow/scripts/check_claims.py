@@ -15,7 +15,6 @@ from typing import Any
 import pandas as pd
 
 from maegawa2010.paper.claim import (
-    CHECK,
     EXPERIMENT,
     READINGS,
     RESULT,
@@ -32,7 +31,6 @@ HEADINGS = {
     READINGS: "Numbers that chose our readings",
     RESULT: "Claims about the model",
     EXPERIMENT: "Beside the experiment",
-    CHECK: "Checks that cannot fail in practice",
 }
 RUNS = {
     "noise": "runs with 0.1 % noise",

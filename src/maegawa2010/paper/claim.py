@@ -21,15 +21,13 @@ FAILS = "fails"
 UNDECIDED = "undecided"
 VERDICTS = (HOLDS, EXACT, FAILS, UNDECIDED)
 # Kinds: the six printed numbers by which the readings of the paper's words were chosen;
-# what was found after; statements on PMMA, which say nothing of the model; and checks
-# that cannot fail in practice, which are not counted as claims.
+# what was found after; and statements on PMMA, which say nothing of the model.
 READINGS = "readings"
 RESULT = "result"
 EXPERIMENT = "experiment"
-CHECK = "check"
-KINDS = (READINGS, RESULT, EXPERIMENT, CHECK)
+KINDS = (READINGS, RESULT, EXPERIMENT)
 # A claim that holds and one that fails, in words.
-IN_WORDS = {EXPERIMENT: ("agrees", "differs"), CHECK: ("passes", "fails")}
+IN_WORDS = {EXPERIMENT: ("agrees", "differs")}
 # A claim that holds in the run must hold in this share of an ensemble, too.
 ENOUGH = 0.95
 # Ensembles around the run: noise of 0.1 % in the normal loads, and sliders with the same

@@ -123,17 +123,6 @@ def precursors_are_not_periodic(t: Tables) -> Finding:
 
 
 @of_claim
-def every_slip_drops_the_load(t: Tables) -> Finding:
-    """Smallest drop of F_X in a slip event of each scene (the last event may be cut
-    off)."""
-    smallest = [
-        (s["load_before_N"] - s["load_after_N"]).min()
-        for s in (t[f"{x}_slips"] for x in SCENES)
-    ]
-    return Finding(smallest, min(smallest) > 0)
-
-
-@of_claim
 def lengths_tend_to_increase(t: Tables) -> Finding:
     """Probability that lengths in random order rise as much, with the global slip and
     without it."""
@@ -252,27 +241,15 @@ def waves(t: Tables) -> Finding:
     return Finding(without, True if (without >= MU_S).all() else None, MU_S)
 
 
-def largest_loads(t: Tables) -> list[float]:
-    """Largest F_X of each scene in all the time simulated [N]."""
-    return [t[f"{scene}_trace"]["tangential_load_N"].max() for scene in SCENES]
-
-
-@of_claim
-def eq15_in_motion(t: Tables) -> Finding:
-    """Largest F_X over F_Z, sliding included."""
-    normal_loads = [t[f"{scene}_slips"]["normal_load_N"].iloc[0] for scene in SCENES]
-    ratio = np.divide(largest_loads(t), normal_loads)
-    return Finding(ratio, bool((ratio <= MU_S).all()), MU_S)
-
-
 @of_claim
 def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
-    """Largest F_X of all, against that at the first global slip."""
+    """Largest F_X [N] in all the time simulated, against that at the first global
+    slip."""
     first = [
         up_to_first_global(t[f"{scene}_slips"])["load_before_N"].iloc[-1]
         for scene in SCENES
     ]
-    largest = largest_loads(t)
+    largest = [t[f"{scene}_trace"]["tangential_load_N"].max() for scene in SCENES]
     return Finding(largest, bool(np.less_equal(largest, first).all()), first)
 
 
@@ -288,18 +265,6 @@ def short_events(t: Tables) -> Finding:
     shares = [f"{100 * s.k / s.n:.0f} %" for s in for_one.shares.values()]
     note = f"For one loading or more: {', '.join(shares)}."
     return replace(for_all, note=note)
-
-
-@of_claim
-def static_and_kinetic_friction(t: Tables) -> Finding:
-    """Median of the events counted over theta, where mu_k/mu_s is largest and
-    smallest."""
-    counts = t["grid"].dropna(subset=["events_counted"])
-    if "mu_k/mu_s" not in counts:  # the user's grid is over other values
-        return Finding([], None)
-    medians = counts.groupby("mu_k/mu_s")["events_counted"].median()
-    largest, smallest = medians.iloc[[-1, 0]]
-    return Finding([largest, smallest], largest > smallest)
 
 
 @of_claim

@@ -17,6 +17,5 @@ CLAIM_TABLES = (
     "digits_members",
     "lyapunov",
     "model_comparison",
-    "grid",
 )
 POINT_TABLES = (*SLIPS, "eq15", "measures", "reproduction")
