@@ -10,7 +10,8 @@ import pytest
 
 from maegawa2010.methods.stability import highest_frequency
 from maegawa2010.studies.failures import figure
-from maegawa2010.studies.failures.tables import FAILURE_MODES, Failure, failure_curves
+from maegawa2010.studies.failures.common import Curve
+from maegawa2010.studies.failures.tables import FAILURE_MODES, failure_curves
 from precursors import Chain
 
 # Between a measured curve and the closed form, of its first order.
@@ -18,15 +19,13 @@ THEORY_TOLERANCE = 0.02
 
 
 @cache
-def measured(name: str) -> Failure:
+def measured(name: str) -> list[Curve]:
     return FAILURE_MODES[name]()
 
 
 def curves(mode: str, role: str) -> dict[str, np.ndarray]:
     """Points of the curves of a failure mode in a role, shape (2, n), by their names."""
-    return {
-        c.name: np.array([c.x, c.y]) for c in measured(mode).curves if c.role == role
-    }
+    return {c.name: np.array([c.x, c.y]) for c in measured(mode) if c.role == role}
 
 
 @pytest.mark.parametrize(

@@ -192,10 +192,6 @@ def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta) -
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (
-            lambda: quasistatic_slips(SLIDER(), 1.5),
-            "overshoot must be between 0 and 1, but is 1.5",
-        ),
         (lambda: quasistatic_slips(SLIDER(theta=1.0)), "block 1 has 0 N"),
         (
             lambda: quasistatic_slips(SLIDER(mu_k=0.7)),
@@ -208,18 +204,13 @@ def test_a_chain_that_no_cascade_fits_gets_one_clear_line(call, message: str) ->
         call()
 
 
-def test_a_limit_that_is_met_is_said_and_no_other_advice_given(monkeypatch) -> None:
+def test_a_limit_that_is_met_is_said(monkeypatch) -> None:
     needed = len(quasistatic_slips(SLIDER()))
-    assert len(quasistatic_slips(SLIDER(), max_events=needed)) == needed
-    with pytest.raises(
-        RuntimeError,
-        match=f"no global slip within {needed - 1} events: raise max_events",
-    ):
-        quasistatic_slips(SLIDER(), max_events=needed - 1)
+    monkeypatch.setattr(quasistatic, "MAX_EVENTS", needed - 1)
+    with pytest.raises(RuntimeError, match=f"no global slip within {needed - 1} event"):
+        quasistatic_slips(SLIDER())
     monkeypatch.setattr(quasistatic, "MAX_STAGES", 0)
-    with pytest.raises(
-        RuntimeError, match=r"\Aevent 1 does not come to rest (?!.*max_events)"
-    ):
+    with pytest.raises(RuntimeError, match="event 1 does not come to rest"):
         quasistatic_slips(SLIDER())
 
 

@@ -9,7 +9,7 @@ check_names("horizon.compared", config["horizon"]["compared"], CHAINS)
 TABLES["proofs"] = Table(
     function="maegawa2010.studies.horizon.tables:proof_tables",
     message="comparing the solver with the proved transitions",
-    inputs={"certificates": CERTIFICATES, "effort": str(PROOFS / "effort.csv")},
+    inputs={"certificates": CERTIFICATES},
     options={"tolerance": config["horizon"]["tolerance"]},
     tables=["certificates", "solver_vs_proof"],
     beside=["horizon"],

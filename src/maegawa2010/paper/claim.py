@@ -131,9 +131,7 @@ class Claim:
         row |= {name: getattr(self, name) for name in SAID}
         row |= {"expected": shown(finding.expected), "ours": shown(finding.ours)}
         for name, share in finding.shares.items():
-            low, high = share.interval
             row[f"{name}_share"] = share.k / share.n
-            row |= {f"{name}_low": low, f"{name}_high": high}
         row |= {"note": finding.note, "verdict": finding.verdict}
         words = in_words(self.kind, finding.verdict)
         if finding.verdict == EXACT:

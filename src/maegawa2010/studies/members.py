@@ -164,17 +164,15 @@ def noise_table(
     Returns
     -------
     DataFrame
-        One row per point and quantity: without_noise; runs with noise; reached, how
-        many of these have a global slip; `nine_tenths` of those.
+        One row per point and quantity: runs with noise; reached, how many of these have
+        a global slip; `nine_tenths` of those.
     """
     rows = []
     for values, at_point in members.groupby(list(point), sort=False):
-        alone = at_point[at_point["draw"] == 0]
         runs = with_noise(at_point)
         number = {"runs": int((at_point["draw"] > 0).sum()), "reached": len(runs)}
         for quantity in quantities:
             labels = dict(zip(point, values, strict=True)) | {"quantity": quantity}
-            labels["without_noise"] = alone[quantity].item()
             rows.append(labels | number | nine_tenths(runs[quantity]))
     return pd.DataFrame(rows)
 
@@ -190,21 +188,19 @@ def differences_table(members: pd.DataFrame) -> pd.DataFrame:
         tolerance; verdict of `compared`.
     """
     runs = with_noise(members)
-    scenes = runs.drop_duplicates("scene").set_index("scene")["theta"].items()
-    pairs = list(combinations(scenes, 2))
+    theta = runs.groupby("scene", sort=False)["theta"].first()
     rows = []
     for quantity, tolerance in TOLERANCES.items():
         values: dict[Any, pd.Series] = dict(
             iter(runs.groupby("scene", sort=False)[quantity])
         )
-        for (other, other_theta), (scene, theta) in pairs:
+        for other, scene in combinations(values, 2):
             low, high = median_difference(values[scene], values[other])
             row = {
                 "quantity": quantity,
                 "scene": scene,
-                "theta": theta,
+                "theta": theta[scene],
                 "other": other,
-                "other_theta": other_theta,
                 "difference": values[scene].median() - values[other].median(),
                 "low": low,
                 "high": high,

@@ -1,4 +1,4 @@
-"""The curves of a failure mode."""
+"""A curve of a failure mode."""
 
 from __future__ import annotations
 
@@ -20,12 +20,3 @@ class Curve:
     x: ArrayLike
     y: ArrayLike
     role: Literal["failing", "exact", "theory", "reference"] = "failing"
-
-
-@dataclass(frozen=True)
-class Failure:
-    """A failure, measured: its curves, and the quantities on their axes with units."""
-
-    x: str
-    y: str
-    curves: list[Curve]

@@ -12,7 +12,7 @@ from maegawa2010.methods.stability import (
     highest_mode,
     without_friction,
 )
-from maegawa2010.studies.failures.common import Curve, Failure
+from maegawa2010.studies.failures.common import Curve
 from precursors.analysis.summary import apparent_friction
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
@@ -30,7 +30,7 @@ SLIP = 100e-6
 DAMPING_STEPS = (1e-6, 1e-7, 1e-8)
 
 
-def unstable() -> Failure:
+def unstable() -> list[Curve]:
     """RK4 above omega dt = 2 sqrt 2 and leapfrog above 2, without friction."""
     chain = without_friction(Chain.from_slider())
     omega = highest_frequency(chain)
@@ -49,10 +49,10 @@ def unstable() -> Failure:
             Curve(ROWS[name]["label"], fine / omega, theory, "theory"),
             Curve(ROWS[name]["label"], z / omega, left),
         ]
-    return Failure("step_s", "energy_per_step", curves)
+    return curves
 
 
-def silent_instability() -> Failure:
+def silent_instability() -> list[Curve]:
     """RK4 above its limit with friction: stops take the energy away, so that no number
     overflows at first."""
     chain = Chain.from_slider()
@@ -67,14 +67,13 @@ def silent_instability() -> Failure:
         if np.isnan(friction := apparent_friction(run)):
             break
         mu_sapp.append(friction)
-    curves = [
+    return [
         Curve("exact", steps[[0, -1]], [exact, exact], "exact"),
         Curve("RK4", steps[: len(mu_sapp)], mu_sapp),
     ]
-    return Failure("step_s", "mu_sapp", curves)
 
 
-def numerical_damping() -> Failure:
+def numerical_damping() -> list[Curve]:
     """Implicit Moreau-Jean time stepping slows down what moves freely."""
     chain = without_friction(Chain.from_slider())
     omega = highest_frequency(chain)
@@ -88,4 +87,4 @@ def numerical_damping() -> Failure:
         theory = method.energy_factor(omega * step) ** (times / step)
         setting = f"dt = {step:.0e} s"
         curves += [Curve(setting, times, theory, "theory"), Curve(setting, times, left)]
-    return Failure("time_s", "energy_left", curves)
+    return curves

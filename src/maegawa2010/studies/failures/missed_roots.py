@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from maegawa2010.methods.events import NUDGE, EventMotion
 from maegawa2010.methods.scipy_events import solve_scipy
-from maegawa2010.studies.failures.common import Curve, Failure
+from maegawa2010.studies.failures.common import Curve
 from precursors.benchmark.compare import transitions_right
 from precursors.model.chain import Chain
 from precursors.solver.run import Run
@@ -35,7 +35,7 @@ def motion_after(run: Run, number: int) -> EventMotion:
     return motion
 
 
-def missed_roots() -> Failure:
+def missed_roots() -> list[Curve]:
     """DOP853 steps over two roots of a velocity: a block's stop is not seen."""
     chain = Chain.from_slider()
     exact = simulate(chain, 10.0, "global slip")
@@ -50,8 +50,7 @@ def missed_roots() -> Failure:
     steps = integrate(rtol=LOOSE, atol=LOOSE)
     times = np.linspace(0.0, span, 301)
     to_velocity = motion.tau / chain.mass
-    curves = [
+    return [
         Curve("exact", times * motion.tau, path(times)[column] * to_velocity, "exact"),
         Curve("steps of DOP853", steps.t * motion.tau, steps.y[column] * to_velocity),
     ]
-    return Failure("time_s", "velocity_m_per_s", curves)

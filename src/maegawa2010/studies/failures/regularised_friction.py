@@ -17,7 +17,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from maegawa2010.methods.stability import highest_frequency, stiffness_matrix
-from maegawa2010.studies.failures.common import Curve, Failure
+from maegawa2010.studies.failures.common import Curve
 from precursors.model.chain import Chain, FloatArray
 
 # The drop begins where tanh has all but reached 1, so that friction at its largest is
@@ -60,7 +60,7 @@ def measured_creep(ratio: float, width: float) -> float:
     return float(solution.y[0, -1])
 
 
-def creep() -> Failure:
+def creep() -> list[Curve]:
     """Regularised friction: a block under less than mu_s w creeps."""
     drive = Chain.from_slider().drive_velocity
     fine = np.linspace(0.02, 0.99, 98)
@@ -73,7 +73,7 @@ def creep() -> Failure:
             Curve(setting, fine, theory, "theory"),
             Curve(setting, LOADS, measured),
         ]
-    return Failure("load_over_strength", "velocity_m_per_s", curves)
+    return curves
 
 
 def fastest_rate(chain: Chain, width: float) -> float:
@@ -91,15 +91,14 @@ def fastest_rate(chain: Chain, width: float) -> float:
     return float(abs(np.linalg.eigvals(matrix)).max())
 
 
-def stiffness() -> Failure:
+def stiffness() -> list[Curve]:
     """Regularised friction: the narrower, the stiffer."""
     chain = Chain.from_slider()
     omega = highest_frequency(chain)
     rates = [fastest_rate(chain, width) for width in STIFF_WIDTHS]
     theory = float(chain.strength.max()) / chain.mass / STIFF_WIDTHS
-    curves = [
+    return [
         Curve("theory", STIFF_WIDTHS, theory, "theory"),
         Curve("measured", STIFF_WIDTHS, rates),
         Curve("the chain itself", STIFF_WIDTHS[[0, -1]], [omega, omega], "reference"),
     ]
-    return Failure("width_m_per_s", "fastest_rate_per_s", curves)

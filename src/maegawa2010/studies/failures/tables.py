@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pandas as pd
 
-from maegawa2010.studies.failures.common import Failure
+from maegawa2010.studies.failures.common import Curve
 from maegawa2010.studies.failures.energy import (
     numerical_damping,
     silent_instability,
@@ -19,7 +19,7 @@ from maegawa2010.studies.failures.velocity_friction import (
 )
 
 # By name, in the order of the gallery.
-FAILURE_MODES: dict[str, Callable[[], Failure]] = {
+FAILURE_MODES: dict[str, Callable[[], list[Curve]]] = {
     measure.__name__: measure
     for measure in (
         unstable,
@@ -38,10 +38,8 @@ FAILURE_MODES: dict[str, Callable[[], Failure]] = {
 def failure_curves() -> pd.DataFrame:
     """The points of all failure modes.
 
-    A row is a point: failure_mode, curve, role (see `common.Curve`), x, y, and the
-    names of both quantities with their units (x_is, y_is).
+    A row is a point: failure_mode, curve, role (see `common.Curve`), x, y.
     """
-    found = {mode: measure() for mode, measure in FAILURE_MODES.items()}
     curves = [
         pd.DataFrame(
             {
@@ -50,11 +48,9 @@ def failure_curves() -> pd.DataFrame:
                 "role": curve.role,
                 "x": curve.x,
                 "y": curve.y,
-                "x_is": failure.x,
-                "y_is": failure.y,
             }
         )
-        for mode, failure in found.items()
-        for curve in failure.curves
+        for mode, measure in FAILURE_MODES.items()
+        for curve in measure()
     ]
     return pd.concat(curves, ignore_index=True)

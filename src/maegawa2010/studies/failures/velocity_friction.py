@@ -8,7 +8,7 @@ from itertools import dropwhile, islice
 import numpy as np
 
 from maegawa2010.methods import karnopp
-from maegawa2010.studies.failures.common import Curve, Failure
+from maegawa2010.studies.failures.common import Curve
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
 
@@ -23,7 +23,7 @@ WIDE_ZONES = np.geomspace(1e-5, 3e-2, 15)
 STICKS = (30e-6, 130e-6)
 
 
-def literal_friction() -> Failure:
+def literal_friction() -> list[Curve]:
     """With Eq. 4 as printed a block that has once slid never sticks again."""
     chain = Chain.from_slider()
     run = simulate(chain, END)
@@ -38,10 +38,10 @@ def literal_friction() -> Failure:
         load = [0.0, limit, *(load for load, _ in motion)]
         times = onset + n_steps * step * np.arange(POINTS + 1)
         curves.append(Curve(f"dt = {step:.0e} s", [0.0, *times], load))
-    return Failure("time_s", "tangential_load_N", curves)
+    return curves
 
 
-def dead_zone_too_small() -> Failure:
+def dead_zone_too_small() -> list[Curve]:
     """Karnopp's dead zone, so narrow that a block jumps across it and does not
     stick."""
     chain = Chain.from_slider()
@@ -50,7 +50,7 @@ def dead_zone_too_small() -> Failure:
         zones = NARROW_ZONES * karnopp.safe_width(chain, step)
         rests = [time_at_rest(chain, zone, step) for zone in zones]
         curves.append(Curve(f"dt = {step:.0e} s", NARROW_ZONES, rests))
-    return Failure("zone_over_safe_width", "share_of_time_at_rest", curves)
+    return curves
 
 
 def time_at_rest(chain: Chain, dead_zone: float, step: float) -> float:
@@ -61,17 +61,16 @@ def time_at_rest(chain: Chain, dead_zone: float, step: float) -> float:
     return float(np.mean(abs(np.array([*islice(slip, first, last)])) <= dead_zone))
 
 
-def dead_zone_too_large() -> Failure:
+def dead_zone_too_large() -> list[Curve]:
     """Karnopp's dead zone, so wide that blocks creep in it beyond mu_s w."""
     chain = Chain.from_slider()
     delays = [karnopp.release_delay(chain, zone) for zone in WIDE_ZONES]
     theory = chain.loading_rate * np.array(delays)
     excess = [first_excess(chain, zone) for zone in WIDE_ZONES]
-    curves = [
+    return [
         Curve("theory", WIDE_ZONES, theory, "theory"),
         Curve("measured", WIDE_ZONES, excess),
     ]
-    return Failure("zone_m_per_s", "excess_N", curves)
 
 
 def first_excess(chain: Chain, dead_zone: float) -> float:

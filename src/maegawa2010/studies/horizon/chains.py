@@ -7,8 +7,6 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-import pandas as pd
-
 from maegawa2010.scenes import scene_as_written
 from precursors.larger.additions import ADDITIONS
 from precursors.model.chain import Chain
@@ -68,18 +66,6 @@ def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bo
         and certificate.until is None
         and not any(certificate.start_positions + certificate.start_velocities)
     )
-
-
-def certificates_table(
-    certificates: Mapping[str, Certificate], effort: pd.DataFrame
-) -> pd.DataFrame:
-    """One row a chain; `effort` has the processor time that the committed proofs
-    took."""
-    rows = [
-        {"chain": name, **certificate_row(certificate)}
-        for name, certificate in certificates.items()
-    ]
-    return pd.DataFrame(rows).merge(effort, on=["chain", "transitions"], how="left")
 
 
 def certificate_row(certificate: Certificate) -> dict[str, float]:

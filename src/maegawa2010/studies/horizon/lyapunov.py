@@ -8,10 +8,8 @@ grows nor decays and is not in it.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -24,6 +22,7 @@ from precursors.model.statics import positions_from_compressions
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
+COLUMNS = ("exponent_per_s", "uncertainty_per_s", "events")
 # Uncertainties come from means over so many stretches of the run.
 N_STRETCHES = 20
 CONFIDENCE = 0.95
@@ -37,26 +36,19 @@ DISTANCE = 1e-9
 LEAST = 1e-4
 
 
-@dataclass(frozen=True)
-class LyapunovExponent:
-    """Mean rate of growth of the logarithm of a small difference.
-
-    `uncertainty` is half the width of the 95 % confidence interval. The mean is that
-    over so many slip events.
-    """
-
-    exponent_per_s: float
-    uncertainty_per_s: float
-    events: int
-
-
-def lyapunov_exponent(run: Run) -> LyapunovExponent:
+def lyapunov_exponent(run: Run) -> dict[str, float]:
     """Largest Lyapunov exponent of a run, from the distance of a second one (Benettin
     et al. 1980).
 
     A run in double precision follows the exact one only for a while. After that it is
-    another typical run, which is enough for a mean. The uncertainty comes from the
-    means over stretches of equally many events, by Student's t.
+    another typical run, which is enough for a mean.
+
+    Returns
+    -------
+    dict
+        exponent_per_s; uncertainty_per_s, half the width of its 95 % confidence
+        interval, from the means over stretches of equally many events by Student's t;
+        and the number of these events.
 
     Raises
     ------
@@ -76,9 +68,9 @@ def lyapunov_exponent(run: Run) -> LyapunovExponent:
     seconds = np.diff(onset_s[ends])
     rate = log.sum() / seconds.sum()
     left = (log - rate * seconds) / seconds.mean()
-    quantile = scipy.stats.t.ppf((1 + CONFIDENCE) / 2, N_STRETCHES - 1)
-    half = quantile * left.std(ddof=1) / math.sqrt(N_STRETCHES)
-    return LyapunovExponent(float(rate), float(half), events=N_STRETCHES * n_each)
+    interval = scipy.stats.ttest_1samp(left, 0.0).confidence_interval(CONFIDENCE)
+    values = (float(rate), float(interval.high), N_STRETCHES * n_each)
+    return dict(zip(COLUMNS, values, strict=True))
 
 
 def _growth(run: Run) -> tuple[FloatArray, FloatArray]:
@@ -124,12 +116,11 @@ def lyapunov_table(
 ) -> pd.DataFrame:
     """One row a scene, from a run of `duration` [s]; NaN where it has no exponent (one
     block, few events)."""
-    names = [field.name for field in fields(LyapunovExponent)]
     rows = []
     for scene, slider in sliders.items():
         row = {"scene": scene, "theta": slider["theta"]}
         with suppress(ValueError):
             run = simulate(Chain.from_slider(**slider), duration)
-            row |= asdict(lyapunov_exponent(run))
+            row |= lyapunov_exponent(run)
         rows.append(row)
-    return pd.DataFrame(rows, columns=["scene", "theta", *names])
+    return pd.DataFrame(rows, columns=["scene", "theta", *COLUMNS])

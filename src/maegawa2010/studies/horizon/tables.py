@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from maegawa2010.studies.horizon.chains import certificates_table
+from maegawa2010.studies.horizon.chains import certificate_row
 from precursors.analysis.horizon import PredictedErrors, predicted_errors
 from precursors.benchmark.compare import Comparison, Truth, compare
 from precursors.proof import Certificate
@@ -29,14 +29,17 @@ class Validation(NamedTuple):
 
 
 def proof_tables(
-    certificates: Mapping[str, Certificate], effort: pd.DataFrame, tolerance: float
+    certificates: Mapping[str, Certificate], tolerance: float
 ) -> dict[str, pd.DataFrame]:
     """Proofs, growth of the solver's errors, and transitions it gets right: tables by
     file name."""
     runs = {name: validate(certificate) for name, certificate in certificates.items()}
     errors = [error_table(run).assign(chain=name) for name, run in runs.items()]
     return {
-        "certificates": certificates_table(certificates, effort),
+        "certificates": pd.DataFrame(
+            {"chain": name, **certificate_row(certificate)}
+            for name, certificate in certificates.items()
+        ),
         "horizon": pd.concat(errors)[
             ["chain", "time_s", "actual_error_s", "predicted_error_s"]
         ],

@@ -59,7 +59,7 @@ class Cascade(NamedTuple):
 
 
 def quasistatic_slips(
-    chain: Chain, overshoot: float = ENERGY_CONSERVED, max_events: int = MAX_EVENTS
+    chain: Chain, overshoot: float = ENERGY_CONSERVED
 ) -> NDArray[np.void]:
     """Slip events of the quasi-static chain, from rest to its first global slip: an
     array of dtype SLIP.
@@ -71,13 +71,11 @@ def quasistatic_slips(
     Raises
     ------
     ValueError
-        If the overshoot is not within 0..1, a block has no weight, or mu_s = mu_k.
+        If a block has no weight, or mu_s = mu_k.
     RuntimeError
-        If the first global slip is not reached within `max_events`, or an event does
-        not come to rest within MAX_STAGES stages.
+        If the first global slip is not reached within MAX_EVENTS, or an event does not
+        come to rest within MAX_STAGES stages.
     """
-    if not 0.0 <= overshoot <= 1.0:
-        raise ValueError(f"overshoot must be between 0 and 1, but is {overshoot:g}")
     if chain.mu_s == chain.mu_k:
         raise ValueError(
             f"mu_k of a quasi-static chain must be below mu_s = {chain.mu_s:g}, but is equal"
@@ -96,7 +94,7 @@ def quasistatic_slips(
     load = largest = 0.0
     moved = 0.0
     slips: list[Slip] = []
-    for event in range(1, max_events + 1):
+    for event in range(1, MAX_EVENTS + 1):
         load += strength - net[0]
         net[0] = strength
         slip, at_once = slip_of_event(numbers, net, MAX_STAGES)
@@ -125,7 +123,7 @@ def quasistatic_slips(
         )
         if slips[-1].is_global:
             return np.array(slips, SLIP)
-    raise RuntimeError(f"no global slip within {max_events} events: raise max_events")
+    raise RuntimeError(f"no global slip within {MAX_EVENTS} events")
 
 
 @compiled

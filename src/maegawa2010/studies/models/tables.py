@@ -17,11 +17,9 @@ from maegawa2010.support.run_statistics import NOISE
 from precursors.model.chain import Chain, FloatArray
 
 WAVEFORM_SAMPLES = 2001
-# Of runs with noise in the normal loads: the seed; how many runs; and how often they
-# are drawn again for the interval of an error (bootstrap).
+# Of runs with noise in the normal loads: the seed, and how many runs.
 SEED = 2014
 DRAWS = 200
-RESAMPLES = 500
 # how often a model is timed, and for how long at least [s]
 ROUNDS = 3
 SHORTEST = 0.003
@@ -32,11 +30,11 @@ class Question:
     """One question to all models.
 
     `error` (answer, answer of the paper's chain, chain) is their distance, in units of
-    `error_unit`; up to the `tolerance`, with its whole 95 % interval, it counts as an
-    answer. `shown` is one number that stands for the answer in the table. `quantiles`
-    are asked of runs with noise in the normal loads: one run of the chain at theta =
-    5/6 is a draw of many, and no measure of a model. The last one is shown, and the
-    largest of their errors counts. `quantity` is that of the models, where it is not
+    `error_unit`; up to the `tolerance` it counts as an answer. `shown` is one number
+    that stands for the answer in the table. `quantiles` are asked of runs with noise in
+    the normal loads: one run of the chain at theta = 5/6 is a draw of many, and no
+    measure of a model. The last one is shown, and the largest of their errors counts.
+    `quantity` is that of the models, where it is not
     the name of the question.
     """
 
@@ -114,10 +112,9 @@ def compare_models(
     DataFrame
         One row for each scene, question and model that answers it: value and its unit
         (of runs with noise where the question has quantiles), error against the paper's
-        chain with its 95 % interval (error_low, error_high, which are the error where
-        there is no noise), tolerance, is_answer (the whole interval is within it),
-        is_smallest (the first model that answers in every scene), and cost_s (median
-        time of all the model's answers [s]).
+        chain, tolerance, is_answer (the error is within it), is_smallest (the first
+        model that answers in every scene), and cost_s (median time of all the model's
+        answers [s]).
     """
     chains = {scene: Chain.from_slider(**slider) for scene, slider in sliders.items()}
     tasks = {
@@ -136,7 +133,7 @@ def compare_models(
             if quantity not in answered:
                 continue
             exact = asked[PAPERS_MODEL, scene][quantity]
-            value, error, low, high = value_and_error(
+            value, error = value_and_error(
                 question, answered[quantity], exact, chains[scene]
             )
             rows.append(
@@ -147,11 +144,9 @@ def compare_models(
                     "value": value,
                     "unit": UNITS[quantity],
                     "error": error,
-                    "error_low": low,
-                    "error_high": high,
                     "error_unit": question.error_unit,
                     "tolerance": question.tolerance,
-                    "is_answer": high <= question.tolerance,
+                    "is_answer": error <= question.tolerance,
                     "cost_s": costs[name, scene].seconds,
                 }
             )
@@ -170,29 +165,15 @@ def noisy_answers(model: Model, chain: Chain) -> dict[Any, Any]:
 
 def value_and_error(
     question: Question, answer: Any, exact: Any, chain: Chain
-) -> tuple[float, float, float, float]:
-    """Value of an answer, and its error against that of the paper's chain with a 95 %
-    interval.
-
-    Where the question has quantiles, both are samples of runs, which are drawn again
-    and again. The chain has no error against itself.
-    """
+) -> tuple[float, float]:
+    """Value of an answer, and its error against that of the paper's chain; where the
+    question has quantiles, both are samples of runs."""
     if not question.quantiles:
-        error = question.error(answer, exact, chain)
-        return question.shown(answer), error, error, error
-    quantiles = partial(np.quantile, q=question.quantiles, axis=0)
-    value = quantiles(answer)
-    if answer is exact:
-        return value[-1], 0.0, 0.0, 0.0
-    error = question.error(value, quantiles(exact), chain).max()
-    random = np.random.default_rng(SEED)
-    drawn, drawn_exact = (
-        quantiles(random.choice(sample, (len(sample), RESAMPLES)))
-        for sample in (answer, exact)
+        return question.shown(answer), question.error(answer, exact, chain)
+    value, expected = (
+        np.quantile(sample, question.quantiles) for sample in (answer, exact)
     )
-    errors = question.error(drawn, drawn_exact, chain).max(axis=0)
-    low, high = np.quantile(errors, [0.025, 0.975])
-    return value[-1], error, low, high
+    return value[-1], question.error(value, expected, chain).max()
 
 
 def with_smallest(table: pd.DataFrame) -> pd.DataFrame:

@@ -111,7 +111,6 @@ def _row(
         "value": value,
         "evaluations": result.evaluations or math.nan,
         "seconds": seconds,
-        "error_load_N": found.load_error,
         "error_time_s": found.time_error,
         "transitions_right": found.transitions_right,
         "transitions_found": found.transitions_found,
