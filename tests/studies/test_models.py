@@ -22,7 +22,6 @@ from maegawa2010.studies.models.quasistatic import (
 from maegawa2010.studies.models.rigid import (
     load_drop,
     rigid_slip_duration,
-    slip_load,
 )
 from maegawa2010.studies.models.statics import law_answers
 from maegawa2010.studies.models.tables import (
@@ -132,11 +131,6 @@ def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> No
     np.testing.assert_allclose(
         np.cumsum(intervals), run.transitions["time"], rtol=RUN_ROUNDING
     )
-    since = np.linspace(0.0, slip, 7)
-    onset = run.transitions["time"][0]
-    np.testing.assert_allclose(
-        slip_load(chain, since), run.tangential_load(onset + since), rtol=1e-6
-    )
 
 
 @pytest.mark.parametrize("theta", THETAS)
@@ -229,9 +223,6 @@ def test_answers_are_a_table_with_a_row_for_each_number() -> None:
     assert list(table.loc["front_loads", "block"]) == list(range(1, 11))
     assert table.loc[["first_load", "mu_sapp"], "block"].isna().all()
     assert set(table["unit"]) == {"1", "N"}
-    wave = scene_answers({}, "rigid").query("quantity == 'waveform'")
-    assert wave["time_s"].is_monotonic_increasing
-    assert wave["value"].max() == pytest.approx(280.0)
 
 
 def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(

@@ -34,7 +34,6 @@ UNITS = {
     "mu_sapp": "1",  # apparent static friction coefficient (Eq. 1)
     "front_loads": "N",  # load at which the front first reaches each block 1..N
     "slip_duration": "s",  # of the first global slip
-    "waveform": "N",  # rows of time [s] and load [N], with straight lines between them
 }
 
 
@@ -43,14 +42,8 @@ def exact_answers(chain: Chain) -> dict[str, Any]:
     run = simulate(chain, longest_run(chain), until="global slip")
     slips = slip_events(run)
     last = slips[-1]
-    times = np.append(0.0, run.transitions["time"])
-    loads = np.append(0.0, run.transitions["tangential_load"])
-    return loading_answers(chain, slips) | {
-        "slip_duration": last["end_s"] - last["onset_s"]
-        if last["is_global"]
-        else np.nan,
-        "waveform": np.column_stack([times, loads]),
-    }
+    duration = last["end_s"] - last["onset_s"] if last["is_global"] else np.nan
+    return loading_answers(chain, slips) | {"slip_duration": duration}
 
 
 def cascade_answers(chain: Chain, overshoot: float) -> dict[str, Any]:
@@ -92,20 +85,15 @@ def scene_answers(slider: Mapping[str, Any], model: str) -> pd.DataFrame:
     -------
     DataFrame
         One row per number: model, quantity, value and its unit; block (1..N) for the
-        load at which the front first reaches each block; time_s [s] for the tangential
-        load over time.
+        load at which the front first reaches each block.
     """
     tables = []
     for quantity, answer in MODELS[model](Chain.from_slider(**slider)).items():
-        value = np.asarray(answer)
-        if value.ndim == 2:
-            table = pd.DataFrame(value, columns=["time_s", "value"])
-        else:
-            table = pd.DataFrame({"value": np.atleast_1d(value)})
-        if value.ndim == 1:
+        table = pd.DataFrame({"value": np.atleast_1d(answer)})
+        if np.ndim(answer):
             table["block"] = table.index + 1
         tables.append(
             table.assign(model=model, quantity=quantity, unit=UNITS[quantity])
         )
-    columns = ["model", "quantity", "block", "time_s", "value", "unit"]
+    columns = ["model", "quantity", "block", "value", "unit"]
     return pd.concat(tables).reindex(columns=columns).astype({"block": "Int64"})

@@ -11,12 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from precursors.model.chain import Chain, FloatArray
+from precursors.model.chain import Chain
 from precursors.model.statics import load_bound
-
-# Corners of the half wave that draws a slip; straight lines between them are within 0.3
-# % of its height.
-WAVE_POINTS = 33
 
 
 def load_drop(chain: Chain) -> float:
@@ -42,26 +38,6 @@ def rigid_slip_duration(chain: Chain) -> float:
     ) / omega
 
 
-def slip_load(chain: Chain, since: FloatArray) -> FloatArray:
-    """Tangential load F_X at times `since` the release [s] within a slip [N], shape
-    (len(since),)."""
-    omega = frequency(chain)
-    kinetic = chain.mu_k * chain.normal_load
-    swing = 0.5 * load_drop(chain) * np.cos(omega * since)
-    drive = chain.loading_rate / omega * np.sin(omega * since)
-    return kinetic + swing + drive
-
-
-def waveform(chain: Chain) -> FloatArray:
-    """Time [s] and load [N] from the start to the end of the first slip, shape
-    (WAVE_POINTS + 1, 2)."""
-    since = np.linspace(0.0, rigid_slip_duration(chain), WAVE_POINTS)
-    onset = load_bound(chain) / chain.loading_rate
-    return np.concatenate(
-        [[[0.0, 0.0]], np.column_stack([onset + since, slip_load(chain, since)])]
-    )
-
-
 def answers(chain: Chain) -> dict[str, Any]:
     """All answers of the model."""
     return {
@@ -70,5 +46,4 @@ def answers(chain: Chain) -> dict[str, Any]:
         "mu_sapp": chain.mu_s,
         "front_loads": np.full(chain.n_blocks, load_bound(chain)),
         "slip_duration": rigid_slip_duration(chain),
-        "waveform": waveform(chain),
     }

@@ -16,7 +16,6 @@ from maegawa2010.support import timing
 from maegawa2010.support.run_statistics import NOISE
 from precursors.model.chain import Chain, FloatArray
 
-WAVEFORM_SAMPLES = 2001
 # Of runs with noise in the normal loads: the seed, and how many runs.
 SEED = 2014
 DRAWS = 200
@@ -61,18 +60,6 @@ def load_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
     return float(np.sqrt(np.mean(np.square(answer - exact)))) / chain.normal_load
 
 
-def waveform_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
-    """Error of F_X over time, up to the end of the exact first global slip.
-
-    An answer that ends earlier keeps its last load.
-    """
-    times = np.linspace(0.0, exact[-1, 0], WAVEFORM_SAMPLES)
-    load, exact_load = (
-        np.interp(times, wave[:, 0], wave[:, 1]) for wave in (answer, exact)
-    )
-    return load_error(load, exact_load, chain)
-
-
 QUESTIONS = {
     "first_load": Question(1e-6, relative),  # a formula is right to rounding
     # The paper counts whole events by eye.
@@ -89,11 +76,6 @@ QUESTIONS = {
     ),
     # The experiment's duration is printed with one digit.
     "slip_duration": Question(0.1, relative),
-    "waveform": Question(
-        0.02,  # as front_loads
-        waveform_error,
-        shown=lambda wave: float(wave[:, 1].max()),
-    ),
 }
 
 
