@@ -23,13 +23,12 @@ from precursors.larger.settled import events_of, settled
 from precursors.larger.steps import SETTLED, period_of
 
 ROOT = Path(__file__).parents[2]
-COARSE, FINE = 50, 100
+COARSE = 50
 # A run that ends when it has settled is this near [F_Z] to one that goes on.
 GOES_ON = 3 * SETTLED
 BLOCKS = (
     0.005  # of the peak, from 50 to 100 blocks: 4 to 7 of 50 lie in the shortest l_c
 )
-LAW = 0.005  # of the peak, with the precursors counted in the run
 # Loads of runs of seconds differ by so much with the processor; a run in which a slip
 # goes another way differs by a whole event, 0.01.
 MACHINE = 1e-3
@@ -156,31 +155,6 @@ def test_the_committed_coefficients_are_those_of_the_library():
     np.testing.assert_allclose(there["coefficient"], again, atol=MACHINE)
 
 
-@pytest.mark.parametrize("n", [COARSE, FINE])
-def test_creep_runs_away_within_5_percent_of_l_c_for_every_loading(n):
-    table = committed("larger_nucleation")
-    long = table.query(f"n_blocks == {n} and even_length >= 0.2")
-    assert len(long) == 24
-    assert abs(long["ratio"] - 1.0).max() < 0.05
-    even = long["measured"] / long["even_length"]
-    assert even.min() < 0.75
-    assert even.max() > 1.7
-
-
-def test_counts_settle_for_every_loading_and_hardly_depend_on_the_step():
-    table = committed("larger").set_index(["even_length", "relaxation_time", "theta"])
-    at = {
-        key: rows["events_counted"]
-        for key, rows in table.groupby(["study", "n_blocks"])
-    }
-    change = abs(at["counts", 200] - at["counts", 100])
-    assert len(change) == 18
-    assert change.max() <= 2
-    assert (change <= 1).sum() >= 16
-    half = at["counts_half_step", COARSE] - at["counts", COARSE]
-    assert abs(half).max() <= 1
-
-
 def settled_runs(study):
     return committed("larger_settled").query(f"study == '{study}' and period > 0")
 
@@ -195,14 +169,3 @@ def test_coefficients_hardly_depend_on_blocks_or_step_where_n_is_the_same(study,
     same = both.query("precursors_x == precursors_y and relaxation_time > 4e-5")
     assert len(same) > 10
     assert abs(same["coefficient_x"] - same["coefficient_y"]).max() < most
-
-
-@pytest.mark.parametrize("n", [COARSE, FINE, 200])
-def test_settled_coefficients_are_those_of_the_law(n):
-    runs = pd.concat(map(settled_runs, ["map", "finer", "finest"]))
-    runs = runs[runs["n_blocks"] == n]
-    misses = abs(runs["coefficient"] - runs["law"])
-    at_far_end = runs["theta"] > 0.0
-    assert len(runs) > 4
-    assert (misses[~at_far_end] < LAW).mean() > 0.95
-    assert (misses[at_far_end] < 2.0 * LAW).mean() > 0.8

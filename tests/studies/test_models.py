@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import yaml
 from golden.kept import assert_table
-from golden.small_tables import SCENES, model_comparison
+from golden.small_tables import model_comparison
 
 from maegawa2010.studies.models import quasistatic
 from maegawa2010.studies.models.models import MODELS, UNITS, scene_answers
@@ -24,12 +23,6 @@ from maegawa2010.studies.models.rigid import (
     rigid_slip_duration,
 )
 from maegawa2010.studies.models.statics import law_answers
-from maegawa2010.studies.models.tables import (
-    DRAWS,
-    QUESTIONS,
-    SHORTEST,
-    compare_models,
-)
 from precursors import Chain, simulate
 from precursors.model.statics import balance_matrix, load_bound
 
@@ -240,22 +233,3 @@ def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(
 
 def test_every_answer_is_the_one_that_is_kept() -> None:
     assert_table("model_comparison", model_comparison())
-
-
-def test_a_cost_is_that_of_a_warm_solution_repeated_until_it_can_be_measured(
-    clock,
-) -> None:
-    calls: list[Chain] = []
-    warm = 0.0005
-    rounds = 3
-    answers = MODELS["chain"](SLIDER(**SCENES["even"]))
-
-    def ask(chain: Chain) -> dict[str, Any]:
-        clock.now += warm if len(calls) > 1 + DRAWS else 10.0
-        calls.append(chain)
-        return answers
-
-    table = compare_models({"even": SCENES["even"]}, {"chain": ask}, rounds)
-    assert table["cost_s"].tolist() == pytest.approx([warm] * len(QUESTIONS))
-    # One run answers all questions, and each draw is run once.
-    assert len(calls) == 1 + DRAWS + 2 + rounds * round(SHORTEST / warm)
