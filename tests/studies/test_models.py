@@ -22,7 +22,7 @@ from maegawa2010.studies.models.rigid import (
     load_drop,
     rigid_slip_duration,
 )
-from maegawa2010.studies.models.statics import law_answers
+from maegawa2010.studies.models.statics import front_law_answers
 from precursors import Chain, simulate
 from precursors.model.statics import balance_matrix, load_bound
 
@@ -171,7 +171,7 @@ def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta) -
     for n_blocks in (10, 40):
         chain = SLIDER(n_blocks=n_blocks, theta=theta)
         exact = MODELS["chain"](chain)["front_loads"]
-        law = law_answers(chain)["front_loads"]
+        law = front_law_answers(chain)["front_loads"]
         errors.append(np.square(law - exact).mean())
     assert errors[1] < 0.36 * errors[0]
 

@@ -44,7 +44,7 @@ MORE_SCENES = """\
   quick:
     title: what a smaller model says
     theta: "9/10"
-    model: law
+    model: front_law
 """
 
 

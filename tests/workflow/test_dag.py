@@ -149,7 +149,7 @@ def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
             'edge\n    theta: "8/10"\n',
             {"simulate_scene steep"} | LISTS_OF_SCENES,
         ),
-        ("config.yaml", "model: law", "model: rigid", {"tabulate_quick_answers"}),
+        ("config.yaml", "model: front_law", "model: rigid", {"tabulate_quick_answers"}),
     ],
 )
 def test_an_edit_of_the_paper_or_of_the_configuration_runs_what_reads_it(

@@ -116,12 +116,12 @@ def event_law_table(members: pd.DataFrame, slider: Mapping[str, Any]) -> pd.Data
     for case, runs in members.groupby(CASE, sort=False):
         chain = chain_of(runs.iloc[0].to_dict() | {"load_noise": 0.0})
         events = runs.loc[runs["reached"], "events_to_global_slip"]
-        law = predicted_events(chain)
+        predicted = predicted_events(chain)
         found = {
-            "law": law,
+            "predicted_events": predicted,
             "n_runs": len(runs),
             "events_to_global_slip": events.median(),
-            "ratio": events.median() / law,
+            "ratio": events.median() / predicted,
         }
         rows.append(dict(zip(CASE, case, strict=True)) | found)
     return pd.DataFrame(rows)

@@ -142,7 +142,7 @@ def numbers_beside_law(run: Record, law: Law) -> dict[str, float]:
     """Settled coefficient, precursors and period of a run (see `settled`), and what the
     law says.
 
-    law is its coefficient with the precursors counted in the run; critical_length is
+    law_coefficient is its own with the precursors counted in the run; critical_length is
     l_c/L, and least to most are the possible precursors (NaN: none). slope is the
     change from one peak to the next over the one before, and law_slope that of the law.
     """
@@ -152,7 +152,7 @@ def numbers_beside_law(run: Record, law: Law) -> dict[str, float]:
     return {
         "critical_length": law.nucleus,
         **found,
-        "law": law.coefficient(found["precursors"]),
+        "law_coefficient": law.coefficient(found["precursors"]),
         "least": min(possible),
         "most": max(possible),
         "slope": slope_of(peaks),

@@ -91,7 +91,7 @@ def _draw_lengths(axes: Axes, nucleation: pd.DataFrame) -> None:
 
 def _draw_peaks(axes: Axes, marks: pd.DataFrame) -> None:
     for _, rows in marks.groupby([np.sign(marks["theta"]), "fill"]):
-        axes.plot(rows["law"], rows["coefficient"], **_look(rows, 2.2))
+        axes.plot(rows["law_coefficient"], rows["coefficient"], **_look(rows, 2.2))
     axes.axline((0.5, 0.5), slope=1, color=style.BLACK, linewidth=0.6)
     axes.set(title="The formula gives the peak")
     axes.set(xlabel="$F_X/F_Z$ by the formula", ylabel="settled peak of $F_X/F_Z$")

@@ -69,7 +69,7 @@ def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
 # the word after `model:` in a scene.
 MODELS: dict[str, Model] = {
     "statics": statics.answers,
-    "law": statics.law_answers,
+    "front_law": statics.front_law_answers,
     "rigid": rigid.answers,
     "overdamped": partial(cascade_answers, overshoot=OVERDAMPED),
     "quasistatic": partial(cascade_answers, overshoot=ENERGY_CONSERVED),

@@ -16,7 +16,7 @@ def answers(chain: Chain) -> dict[str, Any]:
     return {"load_bound": load_bound(chain), "first_load": chain.strength[0]}
 
 
-def law_answers(chain: Chain) -> dict[str, Any]:
+def front_law_answers(chain: Chain) -> dict[str, Any]:
     """Load mu_k W(L_p) at which the front reaches each block, W the cumulative normal
     load.
 
