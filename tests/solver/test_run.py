@@ -12,7 +12,6 @@ from random_chains import mild_chain
 
 from precursors import Record, Run, RunFileError, simulate
 from precursors.larger.run import LargerRun
-from precursors.model.statics import maximal_strain_positions
 from precursors.solver.kernel.arrays import memory_for
 from precursors.solver.kernel.friction import take_mode
 from precursors.solver.kernel.states import propagate
@@ -182,27 +181,6 @@ def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(
     assert path.read_bytes() == (tmp_path / "again.h5").read_bytes()
 
 
-@pytest.mark.parametrize("theta", [-1.0, 1.0])
-@pytest.mark.parametrize("duration", [1e-9, 1e-3])
-def test_a_run_whose_values_are_at_the_limits_comes_back_too(tmp_path, theta, duration):
-    """Without a transition, with all of them at time 0 and with one at its end; of
-    blocks 1 and N."""
-    chain = SLIDER(30, theta=theta)
-    start = maximal_strain_positions(chain)
-    runs = [simulate(chain, duration), simulate(chain, duration, start_positions=start)]
-    runs.append(simulate(chain, duration, start_velocities=-np.ones(30)))
-    runs += [
-        first_transitions(chain, most, start_positions=start, duration=duration)
-        for most in (29, 31)
-    ]
-    for run in runs:
-        run.save(tmp_path / "run.h5")
-        back = Run.load(tmp_path / "run.h5")
-        np.testing.assert_array_equal(back.transitions, run.transitions)
-        for kept, known in zip(back.states, run.states, strict=True):
-            np.testing.assert_array_equal(kept, known)
-
-
 def refused(path, words="") -> None:
     """Demand one line that names the file."""
     with pytest.raises(RunFileError, match=words) as error:
@@ -244,61 +222,29 @@ def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, p
         spoiled[place : place + 8] = random.bytes(8)
         path.write_bytes(spoiled)
         try:
-            np.testing.assert_array_equal(Run.load(path).transitions, run.transitions)
+            read = Run.load(path)
         except RunFileError:
             n_refused += 1
+            continue
+        assert (read.chain, read.duration) == (run.chain, run.duration)
+        np.testing.assert_array_equal(read.transitions, run.transitions)
+        np.testing.assert_array_equal(read.intervals, run.intervals)
+        for kept, known in zip(read.states, run.states, strict=True):
+            np.testing.assert_array_equal(kept, known)
     assert n_refused > 50
 
 
-@pytest.mark.parametrize("text", [b"[]", b'{"step": "1"}', b"{"])
-def test_a_larger_run_whose_numbers_are_no_table_of_numbers_is_refused(run, path, text):
+def test_a_larger_run_is_read_by_the_name_of_its_numbers_in_older_files(run, path):
     columns = [run.transitions[name] for name in run.transitions.dtype.names]
     points = np.zeros((2, 2))
     larger = LargerRun.from_columns(
         run.chain, run.duration, *columns, numbers={"step": 1.0}, load_points=points
     )
     larger.save(path)
-    assert Record.load(path).numbers == {"step": 1.0}
-    with h5py.File(path, "r+") as file:  # the name in older files
+    with h5py.File(path, "r+") as file:
         file.attrs["larger"] = file.attrs["numbers"]
         del file.attrs["numbers"]
     assert Record.load(path).numbers == {"step": 1.0}
-    with h5py.File(path, "r+") as file:
-        file.attrs["larger"] = np.bytes_(text)
-    refused(path, "not a run file")
-
-
-MISFITS = (
-    ("transitions/block", lambda block: block + 10, "is not between 1 and 10"),
-    ("transitions/block", lambda block: block + 0.5, "is of type float64"),
-    ("transitions/block", lambda block: block[:-1], "transitions/block has shape"),
-    ("intervals", lambda intervals: intervals * np.nan, "intervals is not finite"),
-    ("intervals", lambda intervals: intervals[::-1], "do not add up to its times"),
-    ("transitions/time", lambda time: time[::-1], "time is not in order"),
-    ("transitions/time", lambda time: time * 2, "time is not between 0.0 and 3.0"),
-    ("states/after", lambda after: after - 10**9, "states/after is not between"),
-    ("states/after", lambda after: after + 1, "no state of the start"),
-    ("states/force", lambda force: force[:, 1:], "states/force has shape"),
-    ("states/offset", lambda offset: offset + 1e300, "states/offset is not between"),
-    ("states/velocity", None, "velocity"),
-    ("duration", lambda _: np.inf, "duration must be a finite number"),
-    ("duration", lambda _: "3", "duration is not a number"),
-    ("mass", lambda _: np.nan, "mass must be a finite number"),
-    ("theta", lambda _: 1.1, "theta must be"),
-)
-
-
-@pytest.mark.parametrize(("name", "change", "words"), MISFITS)
-def test_a_file_whose_contents_do_not_fit_together_is_refused(
-    path, name, change, words
-):
-    with h5py.File(path, "r+") as file:
-        place = file if name in file else file.attrs
-        values = place[name][()]
-        del place[name]
-        if change is not None:
-            place[name] = change(values)
-    refused(path, words)
 
 
 def test_a_missing_file_and_an_unwritable_place_are_named(run, tmp_path):

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import number_array
-from precursors.solver.notebook import html
 from precursors.solver.record import TRANSITION, States
 from precursors.solver.run_file import RunFileError, read_record, write_record
 
@@ -45,10 +44,6 @@ class Record:
             f"{type(self).__name__} of {self.duration:g} s with "
             f"{len(self.transitions)} transitions\n{self.chain!r}"
         )
-
-    def _repr_html_(self) -> str:
-        """View in a notebook."""
-        return html(self)
 
     @classmethod
     def from_columns(
