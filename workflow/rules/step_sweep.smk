@@ -1,4 +1,4 @@
-# The paper's numbers against the step of a Runge-Kutta method
+# The paper's counts against the step of a Runge-Kutta method
 
 TABLES["step_sweep"] = Table(
     function="maegawa2010.studies.step_sweep.tables:step_sweep_table",
@@ -11,6 +11,6 @@ TABLES["step_sweep"] = Table(
 FIGURES["step_sweep"] = Figure(
     section="accuracy",
     function="maegawa2010.studies.step_sweep.figure:draw",
-    shows="the paper's numbers against the step of a Runge-Kutta method",
+    shows="counts and transitions that are right against the step of a Runge-Kutta method",
     tables={"table": "results/tables/step_sweep.csv"},
 )
