@@ -133,10 +133,6 @@ def test_methods_are_measured_to_the_first_global_slip(monkeypatch):
 
 PUBLISHED = Path(__file__).parents[2] / "paper/tables"
 PICTURES = {
-    "work_precision": lambda: figure.draw(
-        pd.read_csv(PUBLISHED / "work_precision_full.csv"),
-        works=["seconds", "evaluations"],
-    ),
     "speed": lambda: figure.draw(
         pd.read_csv(PUBLISHED / "work_precision_full.csv"), compared="heyoka"
     ),
