@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import os
-import pickletools
 import shutil
 import sys
 import tempfile
 import warnings
-from collections import deque
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -102,8 +100,7 @@ def checksum(directory: Path, modules: Iterable[str] = ()) -> str:
     for file in [directory / name for name in modules] or sorted(
         directory.glob("*.py")
     ):
-        digest.update(f"{file.name} {file.stat().st_size} ".encode())
-        digest.update(file.read_bytes())
+        digest.update(file.name.encode() + file.read_bytes())
     return digest.hexdigest()[:16]
 
 
@@ -111,8 +108,7 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
     """A directory that can be written, named after the checksum of the modules; None,
     with a warning.
 
-    What was compiled from sources of long ago is removed, and what was not written to
-    its end.
+    What was compiled from sources of long ago is removed.
     """
     bases = [
         Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "precursors"),
@@ -133,9 +129,6 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
                 )
             for old in places[:-KEPT]:
                 shutil.rmtree(old, ignore_errors=True)
-            for file in place.glob("*.nb[ci]"):
-                if not _is_whole(file):
-                    file.unlink(missing_ok=True)
             if shutil.disk_usage(place).free > LEAST_ROOM:
                 return place
         except (OSError, RuntimeError):  # it cannot be written, or there is no home
@@ -146,16 +139,3 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
         stacklevel=3,
     )
     return None
-
-
-def _is_whole(file: Path) -> bool:
-    """Whether a file of Numba's, which holds code or is the index of it, ends where its
-    pickles do."""
-    pickles = 2 if file.suffix == ".nbi" else 1
-    try:
-        with file.open("rb") as content:
-            for _ in range(pickles):
-                deque(pickletools.genops(content), maxlen=0)
-    except ValueError:
-        return False
-    return True
