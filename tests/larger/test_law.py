@@ -16,7 +16,7 @@ from precursors.larger.chain import (
     simulate_larger,
     weakening_velocity,
 )
-from precursors.larger.law import law_of, settled_coefficient
+from precursors.larger.law import law_of
 from precursors.larger.settled import beside_law, settled
 
 LAW = 0.005  # of the peaks of runs with the number of precursors counted in them

@@ -90,10 +90,6 @@ def slip_of(event: list[Moment], n_blocks: int, n_loaded: int) -> Slip:
 
 def slip_events(run: Record) -> NDArray[np.void]:
     """Slip events of a run: a row of dtype SLIP for each of `slips_one_by_one`."""
-    if not isinstance(run, Record):
-        raise TypeError(
-            f"slips are found in a Run or Record, but this is {type(run).__name__}"
-        )
     time = run.transitions["time"]
     block = run.transitions["block"]
     load = run.transitions["tangential_load"]

@@ -74,13 +74,6 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
     equal ones are counted. `short` may name another reading, a key of SHORT_EVENTS.
     Without a global slip all events that are not short are returned.
     """
-    if not isinstance(slips, pd.DataFrame) or not {"front", "is_global"} <= set(slips):
-        given = (
-            "another table" if isinstance(slips, pd.DataFrame) else type(slips).__name__
-        )
-        raise TypeError(
-            f"precursors are found in the table of find_slips, but this is {given}"
-        )
     return slips[counted(slips["front"], slips["is_global"], short)]
 
 

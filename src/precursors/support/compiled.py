@@ -110,31 +110,24 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
 
     What was compiled from sources of long ago is removed.
     """
-    bases = [
-        Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "precursors"),
-        directory / "__pycache__",
-    ]
-    if untyped.config.CACHE_DIR:
-        bases = [Path(untyped.config.CACHE_DIR)]
-    for base in bases:
-        try:
-            place = base.expanduser() / f"{directory.name}-{digest}"
-            place.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(
-                dir=place
-            ):  # which also marks when it was used last
-                places = sorted(
-                    place.parent.glob(f"{directory.name}-*"),
-                    key=lambda one: one.stat().st_mtime,
-                )
-            for old in places[:-KEPT]:
-                shutil.rmtree(old, ignore_errors=True)
-            if shutil.disk_usage(place).free > LEAST_ROOM:
-                return place
-        except (OSError, RuntimeError):  # it cannot be written, or there is no home
-            continue
+    cache = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    base = Path(untyped.config.CACHE_DIR or Path(cache, "precursors"))
+    try:
+        place = base.expanduser() / f"{directory.name}-{digest}"
+        place.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=place):  # marks when it was used last
+            places = sorted(
+                place.parent.glob(f"{directory.name}-*"),
+                key=lambda one: one.stat().st_mtime,
+            )
+        for old in places[:-KEPT]:
+            shutil.rmtree(old, ignore_errors=True)
+        if shutil.disk_usage(place).free > LEAST_ROOM:
+            return place
+    except (OSError, RuntimeError):  # it cannot be written, or there is no home
+        pass
     warnings.warn(
-        f"compiled code cannot be kept in {' or '.join(map(os.fspath, bases))}, so every process compiles "
+        f"compiled code cannot be kept in {base}, so every process compiles "
         "for some 20 s: set NUMBA_CACHE_DIR to a directory that can be written",
         stacklevel=3,
     )
