@@ -86,7 +86,6 @@ EVENTS = EVENTS.assign(
         (Definition(2.5), 3, 2, 0.55),
         (Definition(short="not longer"), 5, 2, 0.6),
         (Definition(short="shorter than the last"), 5, 4, 0.6),
-        (Definition(front="n_simultaneous"), 5, 5, 0.6),
         (Definition("each", "n_simultaneous", "not longer"), 4, 2, 0.6),
     ],
 )
