@@ -123,38 +123,18 @@ global_slip_load_N     193.7807992
 global_slip_s          2.631997364
 global_slip_end_s      2.632443711
 """
-CALM = """\
-0 events counted in Fig. 13, of 0 in 0.1 s; no global slip.
-
-n_blocks               10
-duration_s             0.1
-transitions            0
-events_to_global_slip  0
-events_counted         0
-events_in_all          0
-mu_sapp                -
-largest_load_N         -
-global_slip_load_N     -
-global_slip_s          -
-global_slip_end_s      -
-"""
 
 
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [(["--theta", "-5/6"], SUMMARY), (["--duration", 0.1], CALM)],
-    ids=["-5/6", "calm"],
-)
-def test_simulate_tells_what_a_run_says_and_where_it_is(cli, options, text, tmp_path):
-    assert cli("simulate", *options) == (0, text, "")
+def test_simulate_tells_what_a_run_says_and_where_it_is(cli, tmp_path):
     file = tmp_path / "run.h5"
-    code, out, err = cli("simulate", *options, "--output", file)
-    assert (code, out, err) == (0, f"{text}output                 {file}\n", "")
-    told = json.loads(cli("simulate", *options, "--json")[1])
-    assert [
-        f"{name} {'-' if value is None else f'{value:.10g}'}"
-        for name, value in told.items()
-    ] == [" ".join(line.split()) for line in text.partition("\n\n")[2].splitlines()]
+    options = ("--theta", "-5/6", "--output", file)
+    text = f"{SUMMARY}output                 {file}\n"
+    assert cli("simulate", *options) == (0, text, "")
+    told = json.loads(cli("simulate", "--theta=-5/6", "--json")[1])
+    assert [f"{name} {value:.10g}" for name, value in told.items()] == [
+        " ".join(line.split()) for line in SUMMARY.splitlines()[3:]
+    ]
+    assert "no global slip" in cli("simulate", "--duration", 0.1)[1]
     assert len(Run.load(file).transitions) == told["transitions"]
 
 
