@@ -28,8 +28,7 @@ def test_a_terminal_has_one_line_each_second_that_ends_empty(monkeypatch, clock)
         monkeypatch.setattr("sys.stderr", Stream(is_terminal))
         monkeypatch.setattr(waiting.time, "monotonic", clock.perf_counter)
         passed = []
-        done = lambda: (len(passed) - 1) / 5
-        for step in waiting.tell("auditing", range(5), done):
+        for step in waiting.tell("auditing", range(5), lambda: (len(passed) - 1) / 5):
             passed.append(step)
             clock.now += seconds
         assert passed == list(range(5))

@@ -91,7 +91,8 @@ def simulate(arguments: Namespace) -> None:
 
 def slips(arguments: Namespace) -> None:
     """List the slip events of a run file, or of a chain that is run."""
-    from precursors.analysis.slips import SLIDER_COLUMNS, slip_table
+    from precursors.analysis.slips import SLIDER as OF_SLIDER
+    from precursors.analysis.slips import slip_table
 
     run = run_of(arguments)
     table = slip_table(run)
@@ -108,7 +109,7 @@ def slips(arguments: Namespace) -> None:
     elif table.empty:
         print("no slip event")
     else:
-        shown = table.drop(columns=SLIDER_COLUMNS)
+        shown = table.drop(columns=list(OF_SLIDER))
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
     tell_accuracy(run, first_global_slip)
 
