@@ -170,11 +170,7 @@ def audit(arguments: Namespace) -> None:
     wrong: list[str] = []
     for path in arguments.files:
         try:
-            run = load(path)
-            if not isinstance(run, Run):
-                raise Refused(
-                    f"{path}: not applicable: the audit checks runs of the paper's chain"
-                )
+            run = Run.load(path)
             report = audit(run)
             if report.problems:
                 verdict = (
@@ -184,8 +180,8 @@ def audit(arguments: Namespace) -> None:
             print(
                 f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s"
             )
-        except Refused as refused:
-            wrong += refused.args
+        except (Refused, RunFileError) as refused:
+            wrong.append(str(refused))
     if wrong:
         raise Refused(*wrong)
 
@@ -211,14 +207,6 @@ def version(_: Namespace) -> None:
         print(state["swh_revision"], state["swh_directory"], sep="\n")
 
 
-def load(path: Path) -> Record:
-    """Read a run file."""
-    try:
-        return Record.load(path)
-    except RunFileError as error:
-        raise Refused(str(error)) from error
-
-
 def run_of(arguments: Namespace) -> Record:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
@@ -227,7 +215,10 @@ def run_of(arguments: Namespace) -> Record:
         raise ValueError(
             f"{arguments.file}: a run file cannot be combined with options of a chain"
         )
-    return load(arguments.file)
+    try:
+        return Record.load(arguments.file)
+    except RunFileError as error:
+        raise Refused(str(error)) from error
 
 
 def run_of_options(arguments: Namespace) -> Record:
