@@ -36,11 +36,6 @@ if TYPE_CHECKING:
 __all__ = ["LENGTH", "LOAD", "TIME", "read_columns", "read_profile", "read_weights"]
 
 NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d{1,3})?")
-# A date or none, hours, minutes, seconds.
-STAMP = re.compile(
-    r"(?:(\S+)[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d*)?)(?:Z|[-+][\d:]+)?"
-)
-DAY = 86_400.0  # [s]
 # Empty lines, sep=; and comments; an error of a spreadsheet, such as #N/A or #DIV/0!, is
 # no comment.
 PASSED_OVER = re.compile(r'(?:[\t;,"]*|"?sep=."?)$|%|#(?!N/A|NV|[A-Z/0]+[!?])')
@@ -74,7 +69,7 @@ def read_columns(
     """Read columns of numbers: by their units and words for them, or in this order.
 
     A file may have a line of names and one of units; commas, semicolons, tabs
-    or blanks between columns; decimal commas; time stamps. Empty columns and lines, and
+    or blanks between columns; decimal commas. Empty columns and lines, and
     lines that begin with # or %, are passed over. Values are converted to the unit needed; a
     warning tells this, and how many rows lack a value.
 
@@ -255,10 +250,6 @@ def _numbers(table: Table, needed: Sequence[str | None]) -> NDArray[np.float64]:
     numbers = []
     digits = ""
     for name, fields, kind in zip(table.names, table.columns, needed, strict=True):
-        stamps = [found.groups() for f in fields if (found := STAMP.fullmatch(f))]
-        if kind == TIME and len(stamps) == len(fields):
-            numbers.append(_seconds(table.path, stamps))
-            continue
         factor = factor_of(name, kind) if kind and units(name) else 1.0
         if factor is None:
             raise ValueError(
@@ -281,21 +272,7 @@ def _numbers(table: Table, needed: Sequence[str | None]) -> NDArray[np.float64]:
 def _lacks_value(fields: Sequence[str]) -> bool:
     """Whether some fields are empty, and the others hold numbers."""
     others = list(filter(None, fields))
-    return len(others) < len(fields) and all(
-        NUMBER.fullmatch(field) or STAMP.fullmatch(field) for field in others
-    )
-
-
-def _seconds(path: str, stamps: Sequence[tuple[str, ...]]) -> NDArray[np.float64]:
-    """Seconds since the first of time stamps less than half a day apart."""
-    dates, *clock = zip(*stamps, strict=True)
-    hours, minutes, seconds = (
-        np.char.replace(part, ",", ".").astype(float) for part in clock
-    )
-    times = np.unwrap(3600 * hours + 60 * minutes + seconds, period=DAY)
-    if any(dates) and len(set(dates)) != len(set(times // DAY)):
-        raise ValueError(f"{path}: half a day or more between two time stamps")
-    return times - times[0]
+    return len(others) < len(fields) and all(map(NUMBER.fullmatch, others))
 
 
 def _number(path: str, line: int, field: str) -> float:
@@ -305,5 +282,5 @@ def _number(path: str, line: int, field: str) -> float:
         return float(value)
     raise ValueError(
         f"{path}, line {line}: {field[:40]!r} is not a number "
-        "(write it without a unit and separators of thousands)"
+        "(write it without a unit and separators of thousands, and times in seconds)"
     )
