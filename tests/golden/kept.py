@@ -23,9 +23,9 @@ SMALL = GOLDEN / "small"
 ROUNDING = 1e-8
 # A method with steps is off by the roundings of some 1e6 steps; deviations of audits are
 # printed with three digits; errors relative to the paper's chain are differences of
-# numbers near one; energy that a larger chain lacks is of the size of roundings.
+# numbers near one.
 RELATIVE = {"definitions": 1e-6, "audits": 1e-2}
-ABSOLUTE = {"model_comparison": 1e-12, "larger_runs": 1e-12}
+ABSOLUTE = {"model_comparison": 1e-12}
 
 
 def kept(kind: str) -> dict[str, Any]:

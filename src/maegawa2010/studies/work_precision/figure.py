@@ -57,13 +57,13 @@ def _draw_points(axes: Axes, rows: pd.DataFrame) -> None:
     axes.vlines(
         wrong["work"], 0.96, 1.0, wrong["color"].tolist(), linewidth=0.8, transform=top
     )
-    right = rows[rows["is_right"] & (rows["error_time_s"] > 0)]
-    right = right.sort_values("error_time_s")
+    right = rows[rows["is_right"] & (rows["time_error_s"] > 0)]
+    right = right.sort_values("time_error_s")
     for method, own in right.groupby("method", sort=False):
         first = own.iloc[0]
         axes.plot(
             own["work"],
-            own["error_time_s"],
+            own["time_error_s"],
             color=first["color"],
             marker=first["marker"],
             markersize=9 if method == "exact" else 4,
@@ -82,7 +82,7 @@ def _name(axes: Axes, first: pd.Series) -> None:
     name, offset, side = NAMES.get(first["method"], default)
     axes.annotate(
         name,
-        (first["work"], first["error_time_s"]),
+        (first["work"], first["time_error_s"]),
         offset,
         textcoords="offset points",
         ha=side,
@@ -93,7 +93,7 @@ def _name(axes: Axes, first: pd.Series) -> None:
 
 def _draw_factor(axes: Axes, rows: pd.DataFrame, compared: str) -> None:
     """Draw an arrow from the exact solver's point to the last one of a method."""
-    of_method = rows.groupby("method")[["work", "error_time_s"]].last()
+    of_method = rows.groupby("method")[["work", "time_error_s"]].last()
     start, end = of_method.loc[["exact", compared]].to_numpy(float)
     arrow = {"arrowstyle": "->", "linewidth": 0.7, "shrinkA": 8, "shrinkB": 3}
     axes.annotate("", end, start, arrowprops=arrow)
