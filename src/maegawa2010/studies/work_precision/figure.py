@@ -94,9 +94,9 @@ def _name(axes: Axes, first: pd.Series) -> None:
 def _draw_factor(axes: Axes, rows: pd.DataFrame, compared: str) -> None:
     """Draw an arrow from the exact solver's point to the last one of a method."""
     of_method = rows.groupby("method")[["work", "time_error_s"]].last()
-    start, end = of_method.loc[["exact", compared]].to_numpy(float)
+    (x, y), (x_end, y_end) = of_method.loc[["exact", compared]].to_numpy()
     arrow = {"arrowstyle": "->", "linewidth": 0.7, "shrinkA": 8, "shrinkB": 3}
-    axes.annotate("", end, start, arrowprops=arrow)
-    words = f"{end[0] / start[0]:.0f} times  "
-    x, y = np.sqrt(start * end)
-    axes.text(x, y, words, ha="right", va="bottom", fontsize="small")
+    axes.annotate("", (x_end, y_end), (x, y), arrowprops=arrow)
+    words = f"{x_end / x:.0f} times  "
+    middle = (np.sqrt(x * x_end), np.sqrt(y * y_end))
+    axes.text(*middle, words, ha="right", va="bottom", fontsize="small")
