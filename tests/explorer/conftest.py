@@ -5,14 +5,14 @@ from browser import browser, find_browser
 from explorer.example import write_example
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def file(tmp_path_factory):
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
     write_example(path)
     return path
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def page():
     path = find_browser()
     if path is None:
