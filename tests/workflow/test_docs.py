@@ -63,10 +63,9 @@ def test_the_scene_and_the_study_shown_are_made(documented):
     assert {"simulate_scene steep", "draw_reproduction"} <= documented.run(
         "-n", *command("A scene")
     ).jobs
-    documented.pretend("results/tables/fig10_slips.csv")
+    (documented.path / "results/tables").mkdir()
     slips = ROOT / "tests/golden/fig10_slips.csv"
-    shutil.copy(slips, documented.path / "results/tables/fig10_slips.csv")
-    documented.run("-c1", "--touch", "results/tables/fig10_slips.csv")
+    shutil.copy(slips, documented.path / "results/tables")
     outcome = documented.run(*command("A study"))
     assert outcome.code == 0, outcome.text
     assert (documented.path / "results/figures/durations.svg").is_file()
@@ -117,11 +116,9 @@ def test_the_model_and_the_method_shown_give_what_is_shown_and_the_method_has_a_
 
 def test_the_workflow_shown_uses_this_one_as_a_module(documented):
     outer = type(documented)(documented.path / "elsewhere", "../src")
-    outcome = outer.run("-n", "precursors_all")
-    assert outcome.code == 0, outcome.text
-    assert {"precursors_simulate_scene soft", "precursors_write_paper"} <= outcome.jobs
     outcome = outer.run("-c1")
     assert outcome.code == 0, outcome.text
+    assert "precursors_simulate_scene soft" in outcome.jobs
     assert float(
         (outer.path / "first_slip.txt").read_text().split(",")[0]
     ) == pytest.approx(2.8)
