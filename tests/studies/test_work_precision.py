@@ -137,7 +137,4 @@ PICTURES = {
         pd.read_csv(PUBLISHED / "work_precision_full.csv"),
         works=["seconds", "evaluations"],
     ),
-    "speed": lambda: figure.draw(
-        pd.read_csv(PUBLISHED / "work_precision_full.csv"), compared="heyoka"
-    ),
 }
