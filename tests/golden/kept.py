@@ -22,10 +22,9 @@ SMALL = GOLDEN / "small"
 # are their statistics.
 ROUNDING = 1e-8
 # Deviations of audits are printed with three digits; errors relative to the paper's chain
-# are differences of numbers near one; energy that a larger chain lacks is of the size of
-# roundings.
+# are differences of numbers near one.
 RELATIVE = {"audits": 1e-2}
-ABSOLUTE = {"model_comparison": 1e-12, "larger_runs": 1e-12}
+ABSOLUTE = {"model_comparison": 1e-12}
 
 
 def kept(kind: str) -> dict[str, Any]:
