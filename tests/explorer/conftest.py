@@ -19,7 +19,6 @@ def page():
         pytest.skip(
             "no Chromium or Chrome here: the explorer is not tried in a browser"
         )
-    with browser(path) as new_page:
-        page = new_page()
+    with browser(path) as page:
         page.open("about:blank")
         yield page
