@@ -179,9 +179,13 @@ def browser(path: str) -> Iterator[Page]:
         try:
             yield Page(send, receive)
         finally:
-            os.kill(process, signal.SIGKILL)
+            os.close(send)  # the browser ends when nobody can write to it
+            while select.select([receive], [], [], TIMEOUT)[0] and os.read(
+                receive, 1 << 20
+            ):
+                pass
+            os.kill(process, signal.SIGKILL)  # unless it has ended
             os.waitpid(process, 0)
-            os.close(send)
             os.close(receive)
 
 

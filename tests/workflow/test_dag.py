@@ -3,11 +3,8 @@
 import shutil
 from collections import Counter
 
-import pandas as pd
 import pytest
 from conftest import Workspace, copy_workflow
-
-from maegawa2010.studies.models.models import scene_answers
 
 PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all
@@ -153,13 +150,6 @@ def test_four_lines_make_a_new_scene_of_any_name_and_another_model_answers_its_o
     assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
 
 
-def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):
-    finished.edit("config.yaml", "n_blocks: 10\n  mu_s", "n_blocks: 20\n  mu_s")
-    jobs = finished.would_run()
-    assert "simulate_scene fig10" in jobs
-    assert "tabulate_work_precision" not in jobs
-
-
 def test_larger_studies_are_an_overlay_of_the_configuration(finished):
     outcome = finished.run(
         "-n", "--configfile", "config.yaml", "workflow/full.yaml", "--", "all"
@@ -180,15 +170,6 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
     jobs = workspace.would_run()
     assert "tabulate_definitions" in jobs
     assert not {"tabulate_claims", "write_paper"} & jobs
-
-
-def test_the_answer_of_a_model_is_computed(workspace):
-    workspace.add_scenes(scene("asked", "model: chain"))
-    outcome = workspace.run("-c1", "results/tables/asked_answers.csv")
-    assert outcome.code == 0, outcome.text
-    answers = pd.read_csv(workspace.path / "results/tables/asked_answers.csv")
-    expected = scene_answers({"theta": "9/10"}, "chain").reset_index(drop=True)
-    pd.testing.assert_frame_equal(answers, expected, check_dtype=False)
 
 
 def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(

@@ -15,6 +15,7 @@ import pytest
 from conftest import ROOT
 from matplotlib import image
 
+from maegawa2010.studies.models.models import scene_answers
 from precursors import Record, Run
 
 SOLVER = "src/precursors/solver/simulate.py"
@@ -24,13 +25,21 @@ JOB = ("-c1", "--", "results/runs/fig10.h5")
 # A job
 
 
-def test_a_job_logs_how_long_it_took_also_that_of_a_larger_chain(workspace):
-    wet = "  wet: {title: viscous, theta: 0, viscosity: 50.0, duration: 0.5}\n"
-    workspace.add_scenes(wet)
-    assert workspace.run("-c1", "results/runs/wet.h5").code == 0
+def test_a_scene_may_be_a_larger_chain_and_the_answer_of_a_model_is_computed(workspace):
+    """And a job logs how long it took."""
+    workspace.add_scenes(
+        "  wet: {title: viscous, theta: 0, viscosity: 50.0, duration: 0.5}\n"
+        '  asked: {title: a model, theta: "9/10", model: chain}\n'
+    )
+    answers = "results/tables/asked_answers.csv"
+    outcome = workspace.run("-c1", "results/runs/wet.h5", answers)
+    assert outcome.code == 0, outcome.text
     log = (workspace.path / "results/logs/simulate_scene/wet.log").read_text()
     assert re.fullmatch(r"simulate_scene, wet: \d+\.\d{3} s\n", log)
     assert Record.load(workspace.path / "results/runs/wet.h5").numbers
+    expected = scene_answers({"theta": "9/10"}, "chain").reset_index(drop=True)
+    found = pd.read_csv(workspace.path / answers)
+    pd.testing.assert_frame_equal(found, expected, check_dtype=False)
 
 
 def test_what_is_wrong_in_our_code_is_one_line_with_a_traceback_in_the_log(workspace):
