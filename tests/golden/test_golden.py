@@ -82,17 +82,9 @@ def test_the_reproduction_is_the_golden_one_and_has_the_numbers_of_the_paper():
         assert_golden(found.loc[of_unit.index], of_unit, {"reproduced": SUMMARY[unit]})
     compared = found.dropna(subset="paper").set_index("scene")
     events = compared[compared["quantity"] == "events_counted"]
-    assert (
-        events["reproduced"].to_dict()
-        == events["paper"].to_dict()
-        == {"fig10": 9, "fig11": 6, "fig12": 14}
-    )
+    assert events["reproduced"].to_dict() == {"fig10": 9, "fig11": 6, "fig12": 14}
+    assert events["reproduced"].equals(events["paper"])
     friction = compared[compared["quantity"] == "mu_sapp"]
-    assert friction["reproduced"].round(4).to_dict() == {
-        "fig10": 0.4858,
-        "fig11": 0.4845,
-        "fig12": 0.4883,
-    }
     # 0.4845 is 0.48 to two digits: the paper's 0.49 is off by 0.0055 there.
     assert (friction["reproduced"] - friction["paper"]).abs().max() < 0.006
 

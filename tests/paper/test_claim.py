@@ -215,12 +215,6 @@ def times(spread: float, *is_global: bool) -> dict[str, pd.DataFrame]:
     return slips_of(onset_s=onset, is_global=is_global)
 
 
-def traces(load: float, first: float) -> dict[str, pd.DataFrame]:
-    trace = pd.DataFrame({"tangential_load_N": [0.0, load, 1.0]})
-    slips = slips_of(normal_load_N=[400.0], load_before_N=[first])
-    return slips | {f"{scene}_trace": trace for scene in SCENES}
-
-
 def grown(*speedup: float) -> dict[str, pd.DataFrame]:
     """The run and one draw of each ensemble, which grow faster by so much."""
     runs = pd.DataFrame({"scene": SCENES, "speedup": speedup}).merge(
@@ -256,11 +250,6 @@ def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
         ("chaos", lyapunov(1.001), lyapunov(1.0)),
         ("stick-slip-is-not-periodic", times(0.051, 1, 1, 1), times(0.049, 1, 1, 1)),
         (
-            "precursors-are-not-periodic",
-            times(0.051, 0, 0, 0, 1),
-            times(0.049, 0, 0, 0, 1),
-        ),
-        (
             "length-is-linear-in-time",
             slips_of(onset_s=[0, 1, 2, 3], front=[1.0, 1.74, 1.0, 9.0]),
             slips_of(onset_s=[0, 1, 2, 3], front=[1.0, 1.76, 1.0, 9.0]),
@@ -269,11 +258,6 @@ def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
             "friction-underestimated",
             members_of(mu_sapp=0.6949),
             members_of(mu_sapp=0.6951),
-        ),
-        (
-            "first-global-slip-is-at-the-largest-load",
-            traces(200.0, 200.0),
-            traces(200.1, 200.0),
         ),
         (
             "short-events",

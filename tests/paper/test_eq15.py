@@ -101,7 +101,3 @@ def test_the_motion_sees_another_chain_than_the_one_it_is_about(
         eq15.fast_drive("fig10", CHAIN),
     ]
     assert [row.check for row in rows if not row.holds] == failing
-
-
-def test_a_chain_without_a_global_slip_shows_nothing():
-    assert not eq15.rigid(CHAIN, 1.0).holds
