@@ -89,9 +89,9 @@ def test_the_reproduction_is_the_golden_one_and_has_the_numbers_of_the_paper():
     assert (friction["reproduced"] - friction["paper"]).abs().max() < 0.006
 
 
-def assert_eq15(found: pd.DataFrame) -> None:
-    """Every check of Eq. 15 holds and is the golden one, in numbers and in symbols."""
-    golden = pd.read_csv(GOLDEN / "eq15.csv")
+def test_every_check_of_eq_15_holds_and_is_the_golden_one():
+    """In numbers and in symbols."""
+    found, golden = tables("eq15.csv")
     assert found["holds"].eq(True).all()
     for column in ("expected", "found"):
         numbers, kept = (
@@ -102,10 +102,6 @@ def assert_eq15(found: pd.DataFrame) -> None:
             table[column].where(numbers.isna()) for table in (found, golden)
         )
     pd.testing.assert_frame_equal(found, golden)
-
-
-def test_every_check_of_eq_15_holds_and_is_the_golden_one():
-    assert_eq15(pd.read_csv(RESULTS / "tables/eq15.csv"))
 
 
 @pytest.mark.parametrize("name", FIGURES)
