@@ -78,7 +78,7 @@ SHOWN = [
     "value",
     "seconds",
     "evaluations",
-    "error_time_s",
+    "time_error_s",
     "transitions_right",
     "transitions_true",
 ]

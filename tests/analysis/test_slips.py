@@ -8,7 +8,6 @@ from analysis.random_runs import random_chain, random_transitions
 
 from precursors import (
     Chain,
-    apparent_friction,
     find_precursors,
     find_slips,
     simulate,
@@ -37,22 +36,6 @@ def test_any_list_of_transitions_has_the_events_of_the_definition():
     for run in runs:
         expected = np.array(slips_one_by_one(run), SLIP)
         np.testing.assert_array_equal(slip_events(run).tolist(), expected.tolist())
-
-
-def test_something_else_than_a_run_or_its_slips_is_named():
-    with pytest.raises(
-        TypeError, match="slips are found in a Run or Record, but this is Chain"
-    ):
-        find_slips(Chain.from_slider())
-    with pytest.raises(
-        TypeError,
-        match="precursors are found in the table of find_slips, but this is int",
-    ):
-        find_precursors(5)
-    with pytest.raises(
-        TypeError, match="slips are found in a Run or Record, but this is DataFrame"
-    ):
-        apparent_friction(find_slips(random_transitions(np.random.default_rng(1))))
 
 
 def test_a_rule_that_is_not_known_is_named_beside_those_that_are():

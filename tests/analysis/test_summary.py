@@ -86,7 +86,6 @@ EVENTS = EVENTS.assign(
         (Definition(2.5), 3, 2, 0.55),
         (Definition(short="not longer"), 5, 2, 0.6),
         (Definition(short="shorter than the last"), 5, 4, 0.6),
-        (Definition(front="n_simultaneous"), 5, 5, 0.6),
         (Definition("each", "n_simultaneous", "not longer"), 4, 2, 0.6),
     ],
 )
@@ -103,10 +102,8 @@ def test_a_reading_decides_which_event_is_global_and_which_are_short(
     [
         ([1, 4, 7, 9, 10], (3 / 20) / (6 / 20)),
         ([1, 4, 9, 7, 10], (3 / 10) / (6 / 30)),  # a rule that counts shorter ones
-        ([1, 4, 10, 7, 10], (6 / 10) / (3 / 10)),
         ([1, 4, 7, 9, 9], math.nan),  # the whole length is not reached
         ([7, 7, 7, 10, 10], math.nan),  # no rise up to the kink
-        ([8, 9, 9, 9, 10], math.nan),
     ],
 )
 def test_growth_beyond_the_kink_is_that_of_the_events_counted(fronts, expected):

@@ -10,23 +10,19 @@ import signal
 import subprocess
 import sys
 from dataclasses import replace
-from fractions import Fraction
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.text import Text
 
 from precursors import Chain, Run, find_slips, simulate
-from precursors.analysis.horizon import predicted_errors
-from precursors.analysis.load_curve import load_trace
-from precursors.analysis.slips import SLIDER_COLUMNS, slip_table
+from precursors.analysis.slips import SLIDER, slip_table
 from precursors.cli import Refused, commands, main
 from precursors.cli.options import CHAIN, EPILOG, LARGER, read_options
-from precursors.figures import precursor_lengths, scene, style
+from precursors.figures import style
 from precursors.figures.run import plot
 from precursors.larger.chain import LargerChain
 
@@ -79,9 +75,8 @@ def test_help_loads_nothing_heavy_and_lists_the_exit_codes():
     assert [int(line.split()[0]) for line in codes[1:7]] == CODES
 
 
-@pytest.mark.parametrize("command", ["simulate", "slips", "plot"])
-def test_the_help_of_a_command_states_the_defaults_of_the_library(cli, command):
-    code, told, _ = cli(command, "--help")
+def test_the_help_of_a_command_states_the_defaults_of_the_library(cli):
+    code, told, _ = cli("plot", "--help")
     told = " ".join(told.split())
     parameters = inspect.signature(Chain.from_slider).parameters
     for name, meaning in CHAIN.items():
@@ -98,24 +93,16 @@ def test_the_examples_of_the_help_are_read(example):
     read_options(example.split())
 
 
-@pytest.mark.parametrize(
-    ("changed", "words"), [(False, ""), (True, ", and files have changed since")]
-)
-def test_the_version_is_told_with_the_commit_of_a_checkout(
-    cli, monkeypatch, changed, words
-):
-    state = {
-        "commit": "abc",
-        "swh_revision": "rev",
-        "swh_directory": "dir",
-        "changed": changed,
-    }
+def test_the_version_is_told_with_the_commit_of_a_checkout(cli, monkeypatch):
+    state = {"commit": "abc", "swh_revision": "rev", "swh_directory": "dir"}
     root = Path(__file__).parents[2]
     monkeypatch.setattr(
-        commands, "git_state", lambda place: state if place == root else None
+        commands,
+        "git_state",
+        lambda place: state | {"changed": True} if place == root else None,
     )
-    told = f"precursors {version('precursors')}\ncommit abc{words}\nrev\ndir\n"
-    assert cli("--version") == (0, told, "")
+    told = f"precursors {version('precursors')}\ncommit abc, and files have changed since\n"
+    assert cli("--version") == (0, f"{told}rev\ndir\n", "")
 
 
 # simulate
@@ -136,56 +123,29 @@ global_slip_load_N     193.7807992
 global_slip_s          2.631997364
 global_slip_end_s      2.632443711
 """
-CALM = """\
-0 events counted in Fig. 13, of 0 in 0.1 s; no global slip.
-
-n_blocks               10
-duration_s             0.1
-transitions            0
-events_to_global_slip  0
-events_counted         0
-events_in_all          0
-mu_sapp                -
-largest_load_N         -
-global_slip_load_N     -
-global_slip_s          -
-global_slip_end_s      -
-"""
 
 
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [(["--theta", "-5/6"], SUMMARY), (["--duration", 0.1], CALM)],
-    ids=["-5/6", "calm"],
-)
-def test_simulate_tells_what_a_run_says_and_where_it_is(cli, options, text, tmp_path):
-    assert cli("simulate", *options) == (0, text, "")
+def test_simulate_tells_what_a_run_says_and_where_it_is(cli, tmp_path):
     file = tmp_path / "run.h5"
-    code, out, err = cli("simulate", *options, "--output", file)
-    assert (code, out, err) == (0, f"{text}output                 {file}\n", "")
-    told = json.loads(cli("simulate", *options, "--json")[1])
-    assert [
-        f"{name} {'-' if value is None else f'{value:.10g}'}"
-        for name, value in told.items()
-    ] == [" ".join(line.split()) for line in text.partition("\n\n")[2].splitlines()]
+    options = ("--theta", "-5/6", "--output", file)
+    text = f"{SUMMARY}output                 {file}\n"
+    assert cli("simulate", *options) == (0, text, "")
+    told = json.loads(cli("simulate", "--theta=-5/6", "--json")[1])
+    assert [f"{name} {value:.10g}" for name, value in told.items()] == [
+        " ".join(line.split()) for line in SUMMARY.splitlines()[3:]
+    ]
+    assert "no global slip" in cli("simulate", "--duration", 0.1)[1]
     assert len(Run.load(file).transitions) == told["transitions"]
 
 
 def test_a_run_may_end_with_the_first_global_slip_of_any_chain(cli, tmp_path):
-    cli(
-        "simulate",
-        "--blocks",
-        5,
-        "--mu-k",
-        "1/3",
-        "--until-global-slip",
-        "--output",
-        tmp_path / "run.h5",
-    )
-    run = simulate(Chain.from_slider(n_blocks=5, mu_k=1 / 3), until="global slip")
-    assert (
-        Run.load(tmp_path / "run.h5").transitions.tolist() == run.transitions.tolist()
-    )
+    path = tmp_path / "run.h5"
+    options = ("--blocks", 5, "--theta=-5/6", "--mu-k=1/3", "--until-global-slip")
+    cli("simulate", *options, "--output", path)
+    chain = Chain.from_slider(n_blocks=5, theta=-5 / 6, mu_k=1 / 3)
+    run = simulate(chain, until="global slip")
+    assert Run.load(path).chain == chain
+    assert Run.load(path).transitions.tolist() == run.transitions.tolist()
 
 
 def test_the_slips_of_a_larger_chain_are_told(cli):
@@ -201,20 +161,16 @@ def test_the_slips_of_a_larger_chain_are_told(cli):
 def test_a_run_that_meets_its_limit_is_kept_in_the_file_that_was_asked_for(
     cli, tmp_path
 ):
-    told = "precursors simulate: max_transitions = 100 reached at t = 2.29058305 s of 10 s, last at block 4: "
-    told += "raise max_transitions or shorten duration"
-    assert cli("simulate", "--max-transitions", 100) == (1, "", f"{told}\n")
-    code, _, err = cli(
-        "simulate", "--max-transitions", 100, "--output", tmp_path / "run.h5"
+    path = tmp_path / "run.h5"
+    told = (
+        "precursors simulate: max_transitions = 100 reached at t = 2.29058305 s of 10 s, "
+        "last at block 4: raise max_transitions or shorten duration"
     )
-    assert (code, err) == (1, f"{told}; the run so far is in {tmp_path / 'run.h5'}\n")
-    run = Run.load(tmp_path / "run.h5")
-    assert (len(run.transitions), run.chain.theta) == (100, 0.0)
-    assert (
-        cli("slips", "--max-transitions", 100, "--output", tmp_path / "slips.csv")[0]
-        == 1
-    )
-    assert not (tmp_path / "slips.csv").exists()
+    limited = ("simulate", "--max-transitions", 100)
+    assert cli(*limited) == (1, "", f"{told}\n")
+    kept = f"{told}; the run so far is in {path}\n"
+    assert cli(*limited, "--output", path) == (1, "", kept)
+    assert len(Run.load(path).transitions) == 100
 
 
 # slips
@@ -232,29 +188,18 @@ def test_slips_lists_the_events_of_a_chain_for_reading(cli):
     expected = [line.split() for line in SLIPS.splitlines()]
     assert (code, rows[4:], err) == (0, expected, "")
     table = slip_table(simulate(Chain.from_slider(), 1.6))
-    assert names == table.columns.drop(SLIDER_COLUMNS).tolist()
+    assert names == table.columns.drop(list(SLIDER)).tolist()
     assert cli("slips", "--duration", 0.1) == (0, "no slip event\n", "")
 
 
-def test_slips_lists_the_events_of_a_run_file(cli, run_file):
-    rows = pd.DataFrame(json.loads(cli("slips", run_file, "--json")[1]))
-    slips = find_slips(Run.load(run_file))
-    assert rows["onset_s"].tolist() == slips["onset"].tolist()
-    assert rows["is_global"].tolist() == slips["is_global"].tolist()
-
-
-def test_slips_of_a_chain_may_be_those_of_fig_13_only_and_go_to_a_file(cli, tmp_path):
+def test_slips_may_be_those_of_fig_13_only_and_go_to_a_file(cli, run_file, tmp_path):
     path = tmp_path / "slips.csv"
-    options = (
-        "slips",
-        "--theta=5/6",
-        "--until-global-slip",
-        "--counted",
-        "--output",
-        path,
+    assert cli("slips", run_file, "--counted", "--output", path) == (
+        0,
+        f"9 events: {path}\n",
+        "",
     )
-    assert cli(*options) == (0, f"14 events: {path}\n", "")
-    assert pd.read_csv(path)["counted"].tolist() == [True] * 14
+    assert pd.read_csv(path)["counted"].tolist() == [True] * 9
 
 
 def test_slips_may_have_decimal_commas_and_tabs(cli, tmp_path):
@@ -297,49 +242,45 @@ def test_slips_of_measured_normal_loads_are_those_of_the_same_linear_ones_withou
 # plot
 
 
+@pytest.mark.parametrize(
+    ("options", "text", "err", "asked"),
+    [
+        ([], "", "", {}),
+        (
+            ["--width=85", "--font-size=9", "--font=DejaVu Serif", "--title=Mine"],
+            "t;F\n0;0\n1,5;120,5\n",
+            "data.csv: 2 points, t [s] 0 to 1.5, F_X [N] 0 to 120.5\n",
+            {"title": "Mine", "look": style.Look(85.0, 9.0, "DejaVu Serif")},
+        ),
+        (
+            ["--figure=lengths"],
+            "F;L\n100;0,5\n",
+            "data.csv: 1 points, F_X [N] 100 to 100, L_p/L [-] 0.5 to 0.5\n",
+            {"figure": "lengths"},
+        ),
+    ],
+    ids=["load", "look", "lengths"],
+)
 def test_plot_draws_what_the_library_draws_as_it_is_told_to(
-    cli, run_file, tmp_path, monkeypatch
+    cli, run_file, tmp_path, monkeypatch, options, text, err, asked
 ):
     monkeypatch.chdir(tmp_path)
-    Path("loads.csv").write_text("t;F\n0;0\n1,5;120,5\n")
-    Path("lengths.csv").write_text("F;L\n100;0,5\n")
-    run = Run.load(run_file)
-    slips = slip_table(run)
-    trace = load_trace(run)
-    look = style.Look(85.0, 9.0, "DejaVu Serif")
-    asked = ["--width=85", "--font-size=9", "--font=DejaVu Serif", "--title=Mine"]
-    measured = {
-        "data": np.array([[0.0, 0.0], [1.5, 120.5]]),
-        "inset": False,
-        "look": look,
-    }
-    lengths = {"data": np.array([[100.0, 0.5]]), "title": "Mine", "look": look}
-    for options, figure, err in (
-        ([], scene.draw(slips, trace, "N = 10"), ""),
-        (
-            [*asked, "--data=loads.csv", "--no-inset"],
-            scene.draw(slips, trace, "Mine", **measured),
-            "loads.csv: 2 points, t [s] 0 to 1.5, F_X [N] 0 to 120.5\n",
-        ),
-        (
-            [*asked, "--figure=lengths", "--data=lengths.csv"],
-            precursor_lengths.draw([slips], **lengths),
-            "lengths.csv: 1 points, F_X [N] 100 to 100, L_p/L [-] 0.5 to 0.5\n",
-        ),
-    ):
-        told = f"output  {tmp_path / 'a.svg'}\n"
-        assert cli("plot", run_file, *options, "--output=a.svg") == (0, told, err)
-        style.save(figure, "b.svg", look if options else style.LOOK)
-        assert Path("a.svg").read_bytes() == Path("b.svg").read_bytes()
+    if text:
+        Path("data.csv").write_text(text)
+        options = [*options, "--data=data.csv"]
+        asked = asked | {"data": "data.csv"}
+    told = f"output  {tmp_path / 'a.svg'}\n"
+    assert cli("plot", run_file, *options, "--output=a.svg") == (0, told, err)
+    look = asked.get("look", style.LOOK)
+    style.save(plot(Run.load(run_file), **asked), "b.svg", look)
+    assert Path("a.svg").read_bytes() == Path("b.svg").read_bytes()
 
 
-def test_plot_takes_measured_values_from_a_file_or_a_frame(run_file, tmp_path):
+def test_plot_takes_measured_values_from_a_frame(run_file):
     frame = pd.DataFrame({"F_X [N]": [0.0, 120.5], "t [s]": [0.0, 15.0]})
-    frame.to_csv(tmp_path / "F.csv", index=False)
-    for data in (frame, tmp_path / "F.csv", [[0.0, 0.0], [15.0, 120.5]]):
-        axes = plot(Run.load(run_file), data=data).axes[0]
-        assert axes.lines[1].get_xydata().tolist() == [[0.0, 0.0], [15.0, 120.5]]
-        assert axes.get_xlim() == (0.0, 15.0)  # the run ends at 3 s
+    axes = plot(Run.load(run_file), data=frame).axes[0]
+    assert axes.lines[1].get_xydata().tolist() == [[0.0, 0.0], [15.0, 120.5]]
+    assert axes.get_xlim() == (0.0, 15.0)  # the run ends at 3 s
     with pytest.raises(ValueError, match="data must have two columns"):
         plot(Run.load(run_file), data=[1.0, 2.0])
 
@@ -370,7 +311,6 @@ def test_measured_loads_begin_with_the_run_and_without_an_offset(
 @pytest.mark.parametrize(
     ("options", "same"),
     [
-        (["--load-cells", 100, 300], ["--theta", "5/6"]),
         (
             ["--load-cells", 300, 100, "--cell-spacing=0.1", "--normal-load=200"],
             ["--theta=-0.5", "--normal-load=200"],
@@ -403,17 +343,13 @@ def test_measured_loads_are_echoed_and_so_named_in_the_figures(
         assert len([text for text in texts if "loads as measured" in text]) == 1
 
 
-@pytest.mark.parametrize("command", ["simulate", "slips"])
-def test_a_global_slip_that_roundings_decide_is_told_as_such(cli, command):
-    options = ("--blocks", 50, "--until-global-slip")
-    code, _, err = cli(command, *options)
-    assert (code, err.count("\n")) == (0, 1)
-    known = predicted_errors(
-        simulate(Chain.from_slider(n_blocks=50), until="global slip")
-    ).order_known_until
-    assert err == (
+def test_a_global_slip_that_roundings_decide_is_told_as_such(cli):
+    code, _, err = cli("slips", "--blocks", 50, "--until-global-slip")
+    assert code == 0
+    assert re.fullmatch(
         "the first global slip at 2.668 s is beyond predictability: "
-        f"roundings decide from {known:.3f} s on\n"
+        r"roundings decide from 2\.[0-6]\d\d s on\n",
+        err,
     )
 
 
@@ -432,12 +368,6 @@ def test_audit_refuses_a_damaged_file_and_a_transition_moved_by_a_nanosecond(
     assert err.startswith(
         f"precursors audit: {tmp_path / 'damaged.h5'} is not a run file, or is damaged: "
     )
-    assert cli("audit", tmp_path / "damaged.h5", tmp_path / "damaged.h5") == (
-        1,
-        "",
-        err * 2,
-    )
-    assert cli("audit", run_file, run_file) == (0, out * 2, "")
     run = Run.load(run_file)
     transitions = run.transitions.copy()
     transitions["time"][100] += 1e-9
@@ -469,11 +399,6 @@ def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monke
             "needed is one of simulate, slips, plot, audit, score (see precursors --help)",
         ),
         (
-            "simulate --font 9",
-            2,
-            "unrecognized arguments: --font 9 (see precursors --help)",
-        ),
-        (
             "simulate --output /dev/null/run.h5 --duration 1e9",
             3,
             "/dev/null is not a directory",
@@ -484,26 +409,19 @@ def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monke
             2,
             "must end in .png or .svg or .pdf or .eps",
         ),
-        ("plot --duration 1e9 --width 8.5", 2, "between 40 and 400 mm, but is 8.5"),
         ("plot --duration 1e9 --font Helvetia", 2, "'Helvetia' is not installed"),
-        ("simulate --theta 2", 2, "theta must be a number between -1 and 1"),
         ("simulate --mu-s 1/0", 2, "'1/0' is not a number"),
         (
             "simulate --weights w.csv --theta 0",
             2,
             "not allowed with argument --weights",
         ),
-        ("simulate --load-cells 0 0", 2, "must be above 0 N, but both are 0 N"),
         ("simulate --cell-spacing 1", 2, "--cell-spacing needs --load-cells"),
         ("plot --data-start 1", 2, "--data is needed with data_start"),
         ("plot --figure lengths --data d.csv --data-start 1", 2, "need --figure load"),
-        ("simulate --length 1e999999999", 2, "is not a number"),
-        (f"slips --duration 1e9 --output {'a' * 250}.csv", 3, "more than 240 bytes"),
         ("simulate --weights missing.csv", 3, "missing.csv: No such file"),
-        ("slips missing.h5", 3, "missing.h5: no such file"),
         (f"slips {shlex.quote(__file__)}", 1, "run file"),
         ("slips run.h5 --duration 0", 2, "run.h5: a run file cannot be combined"),
-        ("score a.csv", 2, "required: --problem (see precursors score --help)"),
         ("score a.csv --problem uni", 2, "uni: the problems are fast_drive, leading"),
         ("score none.csv --problem uniform", 3, "none.csv: No such file"),
     ],
@@ -575,22 +493,6 @@ def test_an_interrupt_stops_compiled_code():
     assert command.returncode == 130
     assert set(out.splitlines()) <= {"running"}  # some calls of the kernel more
     assert err == "precursors simulate: interrupted\n"
-
-
-@pytest.mark.parametrize("fraction", ["-5/6", "-.5", "1e-1"])
-def test_theta_may_be_negative_and_a_fraction(cli, fraction, tmp_path):
-    code, *_ = cli(
-        "simulate",
-        "--theta",
-        fraction,
-        "--duration",
-        0.01,
-        "--output",
-        tmp_path / "run.h5",
-    )
-    assert code == 0
-    expected = Chain.from_slider(theta=float(Fraction(fraction)))
-    assert Run.load(tmp_path / "run.h5").chain == expected
 
 
 # score

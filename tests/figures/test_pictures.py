@@ -116,9 +116,6 @@ PICTURES = {
     "scene_endless": endless_scene,
     "scene_partial": partial_scene,
     "scene_calm": lambda: draw_scene(slips().iloc[:0], look=style.Look(85.0)),
-    "scene_without_inset": lambda: draw_scene(
-        slips("fig11").iloc[:7], 2.6324, inset=False
-    ),
     "precursor_lengths": paper_lengths,
     "precursor_lengths_others": (other_lengths, NARROW),
     "precursor_lengths_one": one_length,

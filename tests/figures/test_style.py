@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from colours import SIGHTS, alike
 from figures.test_pictures import PICTURES, slips
-from golden.kept import kept
 from matplotlib import image
 
 from maegawa2010.methods import ROWS
@@ -58,7 +57,6 @@ def test_an_svg_has_its_words_as_text_and_a_title(tmp_path):
     ("theta", "text"),
     [
         (-5 / 6, "-5/6"),
-        (0.0, "0"),
         (1 / 13, "0.07692"),
         (0.833, "0.833"),
     ],
@@ -103,12 +101,10 @@ def test_every_reader_tells_two_meanings_apart(sight, names):
     assert alike(colors, sight) == []
 
 
-@pytest.mark.parametrize("name", ["precursor_lengths", "resolution"])
-def test_no_figure_has_transparent_colours_which_eps_does_not_know(
-    name, tmp_path, caplog
+def test_the_figure_of_lengths_has_no_transparent_colours_which_eps_does_not_know(
+    tmp_path, caplog
 ):
-    how = kept("PICTURES")[name]
-    figure = how[0]() if isinstance(how, tuple) else how()
+    figure = PICTURES["precursor_lengths"]()
     # Fonts of type 3 hold the letters that are drawn, and take a twentieth of the time.
     with matplotlib.rc_context({"ps.fonttype": 3}):
         figure.savefig(tmp_path / "figure.eps")

@@ -16,15 +16,13 @@ from precursors.larger.chain import (
     simulate_larger,
     weakening_velocity,
 )
-from precursors.larger.law import law_of, settled_coefficient
+from precursors.larger.law import law_of
 from precursors.larger.settled import beside_law, settled
 
 LAW = 0.005  # of the peaks of runs with the number of precursors counted in them
 STEP = 0.5  # changes settled peaks by 3e-4, compared with 0.25
 PLACES = (np.arange(50) + 0.5) / 50
 EVEN = np.ones(50)
-PARABOLA = 1.0 + 0.5 * (6.0 * PLACES * (1.0 - PLACES) - 1.0)
-STEPPED = np.where(PLACES < 0.5, 1.4, 0.6)
 
 
 def chain_of(shape, part, t_v, normal_load=400.0, **slider):
@@ -39,15 +37,11 @@ def chain_of(shape, part, t_v, normal_load=400.0, **slider):
     "larger",
     [
         chain_of(1.0 - 1.4 * (PLACES - 0.5), 0.17, 1.3e-4),
-        chain_of(EVEN, 0.12, 1.6e-4),
         chain_of(1.0 + 1.2 * (PLACES - 0.5), 0.23, 1.7e-4),
-        chain_of(PARABOLA, 0.2, 1.5e-4),
-        chain_of(STEPPED, 0.25, 1.2e-4),
         chain_of(EVEN, 0.2, 1.5e-4, drive_stiffness=1.2e6),
         chain_of(EVEN, 0.2, 1.5e-4, mu_k=0.55),
-        chain_of(EVEN, 0.2, 1.5e-4, normal_load=250.0),
     ],
-    ids=["-0.7", "even", "+0.6", "parabola", "step", "K", "mu_k", "F_Z"],
+    ids=["-0.7", "+0.6", "K", "mu_k"],
 )
 def test_a_run_settles_at_the_law_with_the_precursors_that_it_has(larger):
     law = law_of(larger)
@@ -60,7 +54,7 @@ def test_a_run_settles_at_the_law_with_the_precursors_that_it_has(larger):
     assert found["coefficient"] > law.bound
 
 
-@pytest.mark.parametrize("t_v", [2e-5, 5e-5, 1e-4, 2e-4])
+@pytest.mark.parametrize("t_v", [2e-5, 2e-4])
 def test_the_rebound_is_the_stress_left_by_a_periodic_swing(t_v):
     """Elastic stress lags the total one by t_v during half a swing, from -r to r."""
     larger = chain_of(EVEN, 0.2, t_v)
@@ -122,20 +116,18 @@ EVENLY = chain_of(EVEN, 0.2, 1e-4)
 )
 def test_outside_its_limits_the_law_is_refused_with_the_reason(larger, reason):
     with pytest.raises(ValueError, match=f"^the law of .* fails: {reason}$"):
-        settled_coefficient(larger)
+        law_of(larger)
 
 
 def test_a_run_tells_the_law_beside_its_own_coefficient():
     larger = chain_of(np.ones(25), 0.25, 1e-4, drive_velocity=5e-4)
-    run = simulate_larger(larger, 3.0, step=STEP)
-    told = beside_law(run)
+    law = law_of(larger)
+    told = beside_law(simulate_larger(larger, 3.0, step=STEP))
     assert told["critical_length_m"] == critical_length(larger)
-    assert told["law_coefficient"] == settled_coefficient(larger, told["precursors"])
+    assert told["law_coefficient"] == law.coefficient(told["precursors"])
     assert told["settled_coefficient"] == pytest.approx(
         told["law_coefficient"], abs=0.01
     )
     early = beside_law(simulate_larger(larger, 0.1, step=STEP))
     assert np.isnan(early["settled_coefficient"])
-    assert early["law_coefficient"] == settled_coefficient(
-        larger, min(law_of(larger).possible)
-    )
+    assert early["law_coefficient"] == law.coefficient(min(law.possible))

@@ -60,7 +60,7 @@ class Small:
     def write(self, name: str, text: str) -> None:
         (self.package / name).write_text(text, encoding="utf-8")
 
-    def use(self, **environment: str) -> tuple[int, int, str]:
+    def use(self) -> tuple[int, int, str]:
         """What the entry point returns for 2, how often it came from the cache, and
         what stderr says."""
         inherited = {
@@ -71,7 +71,7 @@ class Small:
         process = subprocess.run(
             [sys.executable, "-c", USE],
             cwd=self.directory,
-            env=inherited | {"PYTHONPATH": str(self.directory)} | environment,
+            env=inherited | {"PYTHONPATH": str(self.directory)},
             capture_output=True,
             text=True,
             timeout=PATIENCE,
@@ -93,10 +93,6 @@ def test_another_clone_of_the_user_compiles_nothing_until_an_edit_and_old_code_i
     clone = Small(tmp_path / "clone")
     clone.cache = small.cache
     assert clone.use() == (7, 1, "")
-    # As a power cut or a full disk leaves them: empty, and without an end.
-    for i, file in enumerate(sorted(place.iterdir())):
-        file.write_bytes(file.read_bytes()[: 100 * i])
-        assert clone.use() == (7, 0, SAID)
     clone.write("part.py", PART.replace("3 * x", "5 * x"))
     assert clone.use() == (11, 0, SAID)
     (edited,) = set(small.cache.glob("precursors/*")) - {place}
@@ -119,13 +115,6 @@ def test_an_edit_of_any_module_and_a_new_name_change_the_checksum(tmp_path):
         sums.append(checksum(copy))
     module.rename(copy / "zebra.py")
     assert len({*sums, checksum(copy)}) == len(sums) + 1
-
-
-def test_the_code_lies_where_numba_is_asked_to_keep_it(small, tmp_path):
-    place = tmp_path / "elsewhere"
-    assert small.use(NUMBA_CACHE_DIR=str(place))[0] == 7
-    assert list(place.rglob("*.nbc"))
-    assert not small.cache.exists()
 
 
 def test_where_nothing_can_be_written_it_compiles_and_says_so(small):

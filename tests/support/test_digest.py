@@ -52,10 +52,8 @@ SUMS_FILE = "src/precursors/room/sums.py"
     ("name", "text", "modules", "changes"),
     [
         (SCRIPT_FILE, SCRIPT.replace("Add.", "Add two numbers."), [], False),
-        (SUMS_FILE, SUMS.replace("Add.", "Add it."), [], False),
         (SUMS_FILE, SUMS.replace("a + b", "(a\n        + b)  # all"), [], False),
         ("workflow/scripts/other.py", "x = 2\n", [], False),
-        ("src/precursors/room/unused.py", "x = 2\n", [], False),
         ("src/precursors/room/types.py", "x = 2\n", [], False),
         ("src/precursors/named.py", "x = 2\n", [], False),
         ("src/precursors/named.py", "x = 2\n", ["precursors.named"], True),

@@ -17,16 +17,7 @@ from maegawa2010.support.run_statistics import (
 )
 
 
-@pytest.mark.parametrize(
-    ("n", "ends"),
-    [
-        (0, None),
-        (5, None),
-        (6, (1, 6)),
-        (9, (2, 8)),
-        (40, (14, 27)),
-    ],
-)
+@pytest.mark.parametrize(("n", "ends"), [(5, None), (6, (1, 6)), (40, (14, 27))])
 def test_the_interval_of_a_median_ends_at_the_values_that_tables_of_order_statistics_have(
     n, ends
 ):
@@ -69,9 +60,7 @@ def test_the_interval_of_a_difference_of_medians_ends_at_values_of_both():
     [
         (-0.01, 0.01, "same"),
         (-0.02, 0.005, "undecided"),
-        (-0.005, 0.02, "undecided"),
         (0.011, 0.03, "different"),
-        (-0.03, -0.011, "different"),
     ],
 )
 def test_an_interval_lies_within_the_tolerance_across_its_edge_or_outside(

@@ -22,38 +22,21 @@ CLEARED = "\r\x1b[K"
 EACH_SECOND = ("0% ", "20% 16 s left", "40% 9 s left", "60% 5 s left", "80% 2 s left")
 
 
-@pytest.mark.parametrize(
-    ("second_per_step", "first", "text"),
-    [
-        # 1.5 s of 2.5 s; the next second is not over.
-        (0.5, 1, f"\rauditing: 60% 1 s left\x1b[K{CLEARED}"),
-        (
-            2.0,
-            0,
-            "".join(f"\rauditing: {told}\x1b[K" for told in EACH_SECOND) + CLEARED,
-        ),
-        (0.1, 1, ""),
-    ],
-)
-def test_a_terminal_has_one_line_each_second_that_ends_empty(
-    monkeypatch, clock, second_per_step, first, text
-):
-    def told(is_terminal, steps=5):
-        """What work of some steps is told, of which `first` is done after the first
-        one."""
+def test_a_terminal_has_one_line_each_second_that_ends_empty(monkeypatch, clock):
+    def told(is_terminal, seconds):
+        """What work of five steps is told, each of which takes so long."""
         monkeypatch.setattr("sys.stderr", Stream(is_terminal))
         monkeypatch.setattr(waiting.time, "monotonic", clock.perf_counter)
         passed = []
-        for step in waiting.tell(
-            "auditing", range(steps), lambda: (len(passed) - 1 + first) / steps
-        ):
+        for step in waiting.tell("auditing", range(5), lambda: (len(passed) - 1) / 5):
             passed.append(step)
-            clock.now += second_per_step
-        assert passed == list(range(steps))
+            clock.now += seconds
+        assert passed == list(range(5))
         return waiting.sys.stderr.getvalue()
 
-    assert told(True) == text
-    assert told(True, steps=0) == told(False) == ""
+    lines = "".join(f"\rauditing: {text}\x1b[K" for text in EACH_SECOND)
+    assert told(True, 2.0) == lines + CLEARED
+    assert told(True, 0.1) == told(False, 2.0) == ""
 
 
 def test_work_in_threads_is_told_as_well_and_its_results_or_error_handed_back(

@@ -28,15 +28,6 @@ class Slip(NamedTuple):
 SLIP = np.dtype(list(get_type_hints(Slip).items()))
 
 
-class Moment(NamedTuple):
-    """The state just after a transition."""
-
-    time: float
-    load: float
-    largest: float  # largest load so far
-    sliding: frozenset[int]  # blocks with load that slide
-
-
 def slips_one_by_one(run: Record) -> list[Slip]:
     """The definition of slip events, for reading; `slip_events` finds them faster.
 
@@ -45,55 +36,46 @@ def slips_one_by_one(run: Record) -> list[Slip]:
     without load do not count, but are taken to slide where all others do.
     """
     bears_load = run.chain.weights > 0.0
-    events: list[list[Moment]] = []
-    sliding: frozenset[int] = frozenset()
+    n_blocks = len(bears_load)
+    n_loaded = bears_load.sum()
+    slips: list[Slip] = []
+    sliding: set[int] = set()
     largest = -math.inf
     goes_on = False
     for (time, block, mode, load), pause in zip(
         run.transitions, run.intervals[1:], strict=True
     ):
-        if mode and bears_load[block - 1]:
-            sliding |= {block}
-        else:
-            sliding -= {block}
+        if not mode:
+            sliding.discard(block)
+        elif bears_load[block - 1]:
+            sliding.add(block)
         largest = max(largest, load)
         if not goes_on:
-            events.append([])
-        events[-1].append(Moment(time, load, largest, sliding))
+            onset = (time, load, largest)
+            slid: set[int] = set()
+            at_once = 0
         goes_on = bool(sliding) or pause == 0.0
-    return [
-        slip_of(event, len(bears_load), bears_load.sum())
-        for event in events
-        if any(moment.sliding for moment in event)
-    ]
-
-
-def slip_of(event: list[Moment], n_blocks: int, n_loaded: int) -> Slip:
-    """The slip event of some moments, of a chain in which so many blocks bear load."""
-    begin = event[0]
-    end = event[-1]
-    slid = frozenset[int]().union(*(moment.sliding for moment in event))
-    at_once = max(len(moment.sliding) for moment in event)
-    is_global = at_once == n_loaded
-    return Slip(
-        onset_s=begin.time,
-        end_s=math.nan if end.sliding else end.time,
-        load_before_N=begin.load,
-        load_after_N=math.nan if end.sliding else end.load,
-        largest_load_N=begin.largest,
-        front=n_blocks if is_global else max(slid),
-        n_slid=n_blocks if len(slid) == n_loaded else len(slid),
-        n_simultaneous=n_blocks if is_global else at_once,
-        is_global=is_global,
-    )
+        slid |= sliding
+        at_once = max(at_once, len(sliding))
+        is_global = at_once == n_loaded
+        so_far = Slip(
+            onset_s=onset[0],
+            end_s=math.nan if sliding else time,
+            load_before_N=onset[1],
+            load_after_N=math.nan if sliding else load,
+            largest_load_N=onset[2],
+            front=n_blocks if is_global else max(slid, default=0),
+            n_slid=n_blocks if len(slid) == n_loaded else len(slid),
+            n_simultaneous=n_blocks if is_global else at_once,
+            is_global=is_global,
+        )
+        if slid and not goes_on:
+            slips.append(so_far)
+    return [*slips, so_far] if goes_on and slid else slips
 
 
 def slip_events(run: Record) -> NDArray[np.void]:
     """Slip events of a run: a row of dtype SLIP for each of `slips_one_by_one`."""
-    if not isinstance(run, Record):
-        raise TypeError(
-            f"slips are found in a Run or Record, but this is {type(run).__name__}"
-        )
     time = run.transitions["time"]
     block = run.transitions["block"]
     load = run.transitions["tangential_load"]

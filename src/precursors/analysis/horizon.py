@@ -87,9 +87,7 @@ def predicted_errors(run: Run) -> PredictedErrors:
     errors as far as both go. The work is that of `N_NEIGHBOURS` + `N_ROUNDED` runs.
     """
     time = run.transitions["time"].astype(np.float64)
-    changed = neighbours(run)
-    rounded = rounded_otherwise(run)
-    others = [*changed, *rounded]
+    others = neighbours(run)
     changes = ["block", "mode"]
     n = min(
         agreeing(run.transitions[changes], other.transitions[changes])
@@ -105,8 +103,8 @@ def predicted_errors(run: Run) -> PredictedErrors:
         released = time[(run.transitions["mode"] != 0) & (time > 0.0)]
         unknown = min(unknown, released.min(initial=np.inf))
     shifts = np.array([other.transitions["time"][:n] for other in others]) - time[:n]
-    by_change = SIGMAS / ROUNDINGS * rms(shifts[: len(changed)])
-    by_rounding = SIGMAS_ROUNDED * rms(shifts[len(changed) :])
+    by_change = SIGMAS / ROUNDINGS * rms(shifts[:N_NEIGHBOURS])
+    by_rounding = SIGMAS_ROUNDED * rms(shifts[N_NEIGHBOURS:])
     error = np.full(len(time), np.inf)
     error[:n] = np.maximum(by_change, by_rounding) + EPS * time[:n]
     error[time >= unknown] = np.inf
@@ -116,8 +114,8 @@ def predicted_errors(run: Run) -> PredictedErrors:
 
 
 def neighbours(run: Run) -> list[Run]:
-    """Runs of chains and starts that differ by `ROUNDINGS` roundings, of the same
-    duration."""
+    """Runs of chains and starts that differ by `ROUNDINGS` roundings, and of the same
+    motion with other roundings at every step; all a little longer than the run."""
     random = np.random.default_rng(SEED)
 
     def draw(*shape: int) -> FloatArray:
@@ -131,8 +129,9 @@ def neighbours(run: Run) -> list[Run]:
         chain.weights + abs(chain.weights - chain.normal_load / n)
     )
     weights = chain.weights + draw(n) * size
-    positions = draw(n)
-    velocities = draw(n)
+    same_start = [(0, N_ROUNDED), (0, 0)]
+    positions = 1 + np.pad(draw(n), same_start)
+    velocities = 1 + np.pad(draw(n), same_start)
     chains = []
     for of_one, factors in zip(weights, 1 + draw(len(NUMBERS)), strict=True):
         changed = {
@@ -141,26 +140,15 @@ def neighbours(run: Run) -> list[Run]:
         }
         changed["mu_k"] = min(changed["mu_k"], changed["mu_s"])
         chains.append(replace(chain, weights=of_one, **changed))
-    return simulate_many(
-        chains,
-        run.duration * LONGER,
-        start_positions=list(run.start_positions * (1 + positions)),
-        start_velocities=list(run.start_velocities * (1 + velocities)),
-    )
-
-
-def rounded_otherwise(run: Run) -> list[Run]:
-    """Runs of the same motion, a little longer, with other roundings at every step."""
     factors = np.random.default_rng(SEED).uniform(1.0, 2.0, N_ROUNDED)
-    chains = [
-        replace(run.chain, **{name: f * getattr(run.chain, name) for name in FORCES})
-        for f in factors
-    ]
+    for f in factors:
+        same = {name: f * getattr(chain, name) for name in FORCES}
+        chains.append(replace(chain, **same))
     return simulate_many(
         chains,
         run.duration * LONGER,
-        start_positions=[run.start_positions] * N_ROUNDED,
-        start_velocities=[run.start_velocities] * N_ROUNDED,
+        start_positions=list(run.start_positions * positions),
+        start_velocities=list(run.start_velocities * velocities),
     )
 
 

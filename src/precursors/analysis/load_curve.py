@@ -20,11 +20,9 @@ MOST_POINTS = 200_000
 NUMBERS_AT_ONCE = 2_000_000
 
 
-def load_curve(
-    run: Record, tolerance: float = TOLERANCE_N
-) -> tuple[FloatArray, FloatArray]:
-    """Times [s] and loads [N] between which F_X(t) is a straight line to within a
-    tolerance [N].
+def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
+    """Times [s] and loads [N] between which F_X(t) is a straight line to within
+    `TOLERANCE_N`.
 
     F_X grows linearly while block 1 sticks: there only transitions are points. While it
     slides, intervals are halved until they are straight. Between two points the cubic
@@ -60,7 +58,7 @@ def load_curve(
         turn = np.maximum(
             np.abs(slopes[begin] - chord), np.abs(slopes[begin + 1] - chord)
         )
-        begin = begin[interval * turn / 4 > tolerance]
+        begin = begin[interval * turn / 4 > TOLERANCE_N]
         if not len(begin) or len(times) > MOST_POINTS:
             break
         middle = (times[begin] + times[begin + 1]) / 2

@@ -12,8 +12,14 @@ from precursors.analysis.events import SLIP, slip_events
 from precursors.model.chain import Chain
 from precursors.solver.run import Record
 
-# Columns of `slip_table` that say which slider it was.
-SLIDER_COLUMNS = ["theta", "n_blocks", "normal_load_N", "slider_length_m", "mu_k"]
+# Columns of `slip_table` that say which slider it was, and its attributes.
+SLIDER = {
+    "theta": "theta",
+    "n_blocks": "n_blocks",
+    "normal_load_N": "normal_load",
+    "slider_length_m": "length",
+    "mu_k": "mu_k",
+}
 SHORT_EVENTS = {
     "shorter": "shorter than one before it",
     "not longer": "not longer than all before it",
@@ -50,19 +56,14 @@ def slip_table(run: Record) -> pd.DataFrame:
 
 def slip_columns(slips: NDArray[np.void], chain: Chain) -> dict[str, NDArray[Any]]:
     """Columns of `slip_table` by name, of slip events of a chain."""
-    columns = {name: slips[name] for name in SLIP.names or ()}
-    slider = {
-        "theta": chain.theta,
-        "n_blocks": chain.n_blocks,
-        "normal_load_N": chain.normal_load,
-        "slider_length_m": chain.length,
-        "mu_k": chain.mu_k,
-    }
     return {
-        **columns,
+        **{name: slips[name] for name in SLIP.names or ()},
         "counted": counted(slips["front"], slips["is_global"]),
         "propagation_length_m": slips["front"] * chain.length / chain.n_blocks,
-        **{name: np.full(len(slips), value) for name, value in slider.items()},
+        **{
+            column: np.full(len(slips), getattr(chain, name))
+            for column, name in SLIDER.items()
+        },
     }
 
 
@@ -74,13 +75,6 @@ def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame
     equal ones are counted. `short` may name another reading, a key of SHORT_EVENTS.
     Without a global slip all events that are not short are returned.
     """
-    if not isinstance(slips, pd.DataFrame) or not {"front", "is_global"} <= set(slips):
-        given = (
-            "another table" if isinstance(slips, pd.DataFrame) else type(slips).__name__
-        )
-        raise TypeError(
-            f"precursors are found in the table of find_slips, but this is {given}"
-        )
     return slips[counted(slips["front"], slips["is_global"], short)]
 
 

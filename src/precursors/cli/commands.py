@@ -91,7 +91,8 @@ def simulate(arguments: Namespace) -> None:
 
 def slips(arguments: Namespace) -> None:
     """List the slip events of a run file, or of a chain that is run."""
-    from precursors.analysis.slips import SLIDER_COLUMNS, slip_table
+    from precursors.analysis.slips import SLIDER as OF_SLIDER
+    from precursors.analysis.slips import slip_table
 
     run = run_of(arguments)
     table = slip_table(run)
@@ -108,7 +109,7 @@ def slips(arguments: Namespace) -> None:
     elif table.empty:
         print("no slip event")
     else:
-        shown = table.drop(columns=SLIDER_COLUMNS)
+        shown = table.drop(columns=list(OF_SLIDER))
         print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
     tell_accuracy(run, first_global_slip)
 
@@ -121,7 +122,7 @@ def plot(arguments: Namespace) -> None:
 
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of fonts
     look = Look(**given(arguments, ("width_mm", "font_size", "font")))
-    how = given(arguments, ("figure", "title", "inset"))
+    how = given(arguments, ("figure", "title"))
     axes = AXES[arguments.figure]
     if arguments.data and not axes:
         raise ValueError(f"{arguments.data}: a {arguments.figure} takes no data")
@@ -169,11 +170,7 @@ def audit(arguments: Namespace) -> None:
     wrong: list[str] = []
     for path in arguments.files:
         try:
-            run = load(path)
-            if not isinstance(run, Run):
-                raise Refused(
-                    f"{path}: not applicable: the audit checks runs of the paper's chain"
-                )
+            run = Run.load(path)
             report = audit(run)
             if report.problems:
                 verdict = (
@@ -183,8 +180,8 @@ def audit(arguments: Namespace) -> None:
             print(
                 f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s"
             )
-        except Refused as refused:
-            wrong += refused.args
+        except (Refused, RunFileError) as refused:
+            wrong.append(str(refused))
     if wrong:
         raise Refused(*wrong)
 
@@ -210,14 +207,6 @@ def version(_: Namespace) -> None:
         print(state["swh_revision"], state["swh_directory"], sep="\n")
 
 
-def load(path: Path) -> Record:
-    """Read a run file."""
-    try:
-        return Record.load(path)
-    except RunFileError as error:
-        raise Refused(str(error)) from error
-
-
 def run_of(arguments: Namespace) -> Record:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
@@ -226,7 +215,10 @@ def run_of(arguments: Namespace) -> Record:
         raise ValueError(
             f"{arguments.file}: a run file cannot be combined with options of a chain"
         )
-    return load(arguments.file)
+    try:
+        return Record.load(arguments.file)
+    except RunFileError as error:
+        raise Refused(str(error)) from error
 
 
 def run_of_options(arguments: Namespace) -> Record:

@@ -235,12 +235,6 @@ def _add_look(command: Parser) -> None:
     add("--font-size", type=_number, help="size of the text [pt] (8)")
     add("--font", help="an installed font (DejaVu Sans)")
     add("--title", help="title of the figure")
-    add(
-        "--no-inset",
-        dest="inset",
-        action="store_false",
-        help="without the magnified view",
-    )
 
 
 def _add_numbers(add: Callable[..., Any], meanings: Mapping[str, str]) -> None:

@@ -33,7 +33,6 @@ def plot(
     figure: Literal["load", "lengths"] = "load",
     data: ArrayLike | pd.DataFrame | AnyPath = NO_DATA,
     title: str | None = None,
-    inset: bool = True,
     look: Look | Mapping[str, Any] = LOOK,
 ) -> Figure: ...
 def plot(
@@ -41,7 +40,6 @@ def plot(
     figure: str = "load",
     data: ArrayLike | pd.DataFrame | AnyPath = NO_DATA,
     title: str | None = None,
-    inset: bool = True,
     look: Look | Mapping[str, Any] = LOOK,
 ) -> Figure | Movie:
     """Draw a run: its load and slips over time, its propagation lengths against the
@@ -57,8 +55,6 @@ def plot(
         Measured t [s] and F_X [N], or F_X [N] and L_p/L, which are drawn over it.
     title : str, optional
         By default the number of blocks, or nothing above lengths.
-    inset : bool
-        Whether the time before the first global slip is magnified.
     look : Look or dict, optional
         `width_mm`, `font_size` [pt] and `font`.
 
@@ -81,8 +77,8 @@ def plot(
             raise ValueError(
                 "a wave needs a run of the paper's chain, not of a larger one"
             )
-        if data is not NO_DATA or title is not None or not inset or look != LOOK:
-            raise ValueError("a wave takes no data, title, inset or look")
+        if data is not NO_DATA or title is not None or look != LOOK:
+            raise ValueError("a wave takes no data, title or look")
         return wave.draw(run, slip_table(run))
     if isinstance(data, (str, PathLike, pd.DataFrame)):
         data = read_columns(data, AXES[figure])
@@ -93,5 +89,4 @@ def plot(
     if figure == "lengths":
         return precursor_lengths.draw([slips], points, title or "", look)
     title = f"N = {run.chain.n_blocks}" if title is None else title
-    trace = load_trace(run)
-    return scene.draw(slips, trace, title, data=points, inset=inset, look=look)
+    return scene.draw(slips, load_trace(run), title, points, look=look)

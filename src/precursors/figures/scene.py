@@ -53,12 +53,11 @@ def draw(
     trace: pd.DataFrame,
     title: str = "",
     data: NDArray[np.float64] = style.NO_DATA,
-    inset: bool = True,
     key: bool = True,
     look: style.Look = style.LOOK,
 ) -> Figure:
-    """Draw F_X(t), K x_1 = K V t - F_X and all slip events; with `inset`, the second
-    only up to the first global slip, where all of it is magnified.
+    """Draw F_X(t), K x_1 = K V t - F_X and all slip events; the second only up to
+    the first global slip, where all of it is magnified.
 
     An event that goes on when the run ends is a band. The slip table may be empty; the
     trace is straight between its rows. `data`, shape (n, 2), are measured times [s] and
@@ -69,7 +68,7 @@ def draw(
     first_s = slips.loc[slips["is_global"], "onset_s"].min()
     times, _ = data.T
     ends = [np.nanmax([trace["time_s"].iloc[-1], ZOOM_END * first_s, *times])]
-    if inset and first_s > 0:
+    if first_s > 0:
         ends.append(ZOOM_END * first_s)
     n = len(ends)
     rows = n if width_mm < NARROW_MM else 1

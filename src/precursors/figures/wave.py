@@ -43,8 +43,8 @@ rect, path {{ stroke: {style.BLACK} }}
 .reach {{ stroke-width: 2; stroke-dasharray: 5 4 }}
 .now {{ stroke-width: 3 }}
 """
-# Block, start and stop as shares of the event, colour, whether it slides back.
-Slides = list[tuple[int, float, float, str, bool]]
+# Block, start and stop as shares of the event, colour.
+Slides = list[tuple[int, float, float, str]]
 
 
 @dataclass(frozen=True)
@@ -70,29 +70,15 @@ class Movie:
 
 @dataclass(frozen=True)
 class Act:
-    """An event that is shown: number `i` of `n_acts`, in a panel of its own."""
+    """An event that is shown, in a panel of its own."""
 
-    i: int
-    n_acts: int
     event: Any  # its row of the slip table
+    duration: float  # [s]
     moved: NDArray[np.float64]  # of each block in each picture [pixels]
     scale: float  # pixels per m
     slides: Slides
-
-    @property
-    def width(self) -> float:
-        """Width of its panel."""
-        return (RIGHT - LEFT + GAP) / self.n_acts - GAP
-
-    @property
-    def left(self) -> float:
-        """Left end of its panel."""
-        return LEFT + self.i * (self.width + GAP)
-
-    @property
-    def duration(self) -> float:
-        """How long the event lasts [s]."""
-        return float(self.event.end_s - self.event.onset_s)
+    left: float  # of its panel
+    width: float
 
     @property
     def name(self) -> str:
@@ -116,8 +102,9 @@ def draw(run: Any, slips: pd.DataFrame) -> Movie:
     n = int(shown["n_blocks"].iloc[0])
     pitch = (RIGHT - LEFT - FARTHEST) / n  # of the blocks
     side = min(BLOCK, 0.6 * pitch)
+    width = (RIGHT - LEFT + GAP) / len(shown) - GAP
     acts = [
-        _act(run, event, i, len(shown), pitch - side)
+        _act(run, event, pitch - side, LEFT + i * (width + GAP), width)
         for i, event in enumerate(shown.itertuples())
     ]
     pixels_per_m = n * pitch / shown["slider_length_m"].iloc[0]
@@ -125,7 +112,6 @@ def draw(run: Any, slips: pd.DataFrame) -> Movie:
     bottom = LANES + lane * n
     moved = np.concatenate([act.moved for act in acts])
     home = LEFT + pitch * np.arange(float(n))
-    slides = [act.slides for act in acts]
     title = "How far slips reach, and how the blocks move in them"
     return Movie(
         "\n".join(
@@ -135,8 +121,8 @@ def draw(run: Any, slips: pd.DataFrame) -> Movie:
                 '<rect width="100%" height="100%" style="fill: white; stroke: none"/>',
                 f'<path d="M{LEFT - 40} {PLANE}H{RIGHT}"/>',
                 *_springs(home, moved, side, len(acts)),
-                *(_block(i, home[i], moved[:, i], side, slides) for i in range(n)),
-                *(_caption(act, home, side, pixels_per_m) for act in acts),
+                *(_block(i, home[i], moved[:, i], side, acts) for i in range(n)),
+                *(_caption(act, acts, home, side, pixels_per_m) for act in acts),
                 *_numbers(n, lane),
                 *(line for act in acts for line in _panel(act, lane, bottom)),
                 _now(acts, bottom),
@@ -155,7 +141,7 @@ def _events(slips: pd.DataFrame) -> pd.DataFrame:
     return pd.concat([two, counted[counted["is_global"]]])
 
 
-def _act(run: Any, event: Any, i: int, n_acts: int, room: float) -> Act:
+def _act(run: Any, event: Any, room: float, left: float, width: float) -> Act:
     """Follow an event; `room` is what is between two blocks at rest [pixels]."""
     duration = event.end_s - event.onset_s
     positions, _ = run.at(event.onset_s + SHARES * duration)
@@ -163,13 +149,13 @@ def _act(run: Any, event: Any, i: int, n_acts: int, room: float) -> Act:
     closer = -np.diff(moved, axis=1).min(initial=0.0)
     most = max(np.abs(moved).max() / FARTHEST, closer / (CLOSEST * room))
     slides = _slides(run.transitions, event)
-    return Act(i, n_acts, event, moved / most, 1 / most, slides)
+    return Act(event, duration, moved / most, 1 / most, slides, left, width)
 
 
 def _slides(transitions: NDArray[Any], event: Any) -> Slides:
     """Which block slides from when to when, and which way."""
     onset, end = event.onset_s, event.end_s
-    forward = style.GLOBAL if event.is_global else style.PARTIAL
+    colors = {1: style.GLOBAL if event.is_global else style.PARTIAL, -1: style.BACKWARD}
     inside = (transitions["time"] >= onset) & (transitions["time"] <= end)
     found = []
     for block in np.unique(transitions["block"]):
@@ -177,8 +163,7 @@ def _slides(transitions: NDArray[Any], event: Any) -> Slides:
         shares = np.append((own["time"] - onset) / (end - onset), 1.0)
         for start, stop, mode in zip(shares, shares[1:], own["mode"], strict=False):
             if mode:
-                color = forward if mode > 0 else style.BACKWARD
-                found.append((int(block), start, stop, color, bool(mode < 0)))
+                found.append((int(block), start, stop, colors[mode]))
     return found
 
 
@@ -195,29 +180,33 @@ def _springs(
 
 
 def _block(
-    i: int, x: float, moved: NDArray[np.float64], side: float, slides: list[Slides]
+    i: int, x: float, moved: NDArray[np.float64], side: float, acts: list[Act]
 ) -> str:
     """A block, with its number, that moves and has the colour of what it does."""
     share = MOVING / PICTURES
     colors = [STUCK]
     times = [0.0]
-    for act, its_slides in enumerate(slides):
-        for block, start, stop, color, _ in its_slides:
+    for before, act in enumerate(acts):
+        for block, start, stop, color in act.slides:
             if block == i + 1:
                 colors += [color, STUCK]
-                times += [(act + share * t) / len(slides) for t in (start, stop)]
+                times += [(before + share * t) / len(acts) for t in (start, stop)]
     key_times = ";".join(f"{time:.4f}" for time in times)
     looks = f'calcMode="discrete" keyTimes="{key_times}"'
-    fill = _animate("fill", colors, len(slides), looks)
+    fill = _animate("fill", colors, len(acts), looks)
     size = f'y="{PLANE - side:.1f}" width="{side:.1f}" height="{side:.1f}"'
     middle = f'class="middle" x="{x + side / 2:.1f}" y="{PLANE - side - 6:.1f}"'
     number = f"<text {middle}>{i + 1}</text>" if side > 20 else ""
     rect = f'<rect x="{x:.1f}" {size} fill="{STUCK}">{fill}</rect>'
-    return f"<g>{_move(moved, len(slides))}{rect}{number}</g>"
+    return f"<g>{_move(moved, len(acts))}{rect}{number}</g>"
 
 
 def _caption(
-    act: Act, home: NDArray[np.float64], side: float, pixels_per_m: float
+    act: Act,
+    acts: list[Act],
+    home: NDArray[np.float64],
+    side: float,
+    pixels_per_m: float,
 ) -> str:
     """What is shown, and how far it reaches, while it is shown."""
     slower = SECONDS * MOVING / PICTURES / act.duration
@@ -226,8 +215,8 @@ def _caption(
         f"with {_rounded(act.scale / pixels_per_m)} times the movement"
     )
     x = home[act.event.front - 1] + side
-    looks = ["visible" if i == act.i else "hidden" for i in range(act.n_acts)]
-    showing = _animate("visibility", looks, act.n_acts, 'calcMode="discrete"')
+    looks = ["visible" if other is act else "hidden" for other in acts]
+    showing = _animate("visibility", looks, len(acts), 'calcMode="discrete"')
     return (
         f'<g visibility="{looks[0]}">{showing}'
         f'<text x="{LEFT}" y="24" style="font-weight: bold">{act.name}</text>'
@@ -247,10 +236,10 @@ def _numbers(n: int, lane: float) -> Iterable[str]:
 def _panel(act: Act, lane: float, bottom: float) -> Iterable[str]:
     """When each block slides: a bar over time, half as high where it slides back; how
     far the event reaches; and the time."""
-    for block, start, stop, color, is_back in act.slides:
+    for block, start, stop, color in act.slides:
         x = act.left + start * act.width
         y = bottom - lane * block
-        height = 0.8 * lane / (1 + is_back)
+        height = 0.8 * lane / (1 + (color == style.BACKWARD))
         yield (
             f'<rect class="lane" x="{x:.1f}" y="{y:.1f}" '
             f'width="{(stop - start) * act.width:.1f}" height="{height:.1f}" '

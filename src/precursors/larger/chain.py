@@ -31,7 +31,7 @@ from precursors.larger.run import LargerRun
 from precursors.larger.steps import (
     CompiledChain,
     End,
-    State,
+    Motion,
     march,
 )
 from precursors.model.chain import Chain, FloatArray
@@ -204,7 +204,7 @@ def simulate_larger(
     )
     modes = np.zeros((2, chain.n_blocks + 1), np.int64)
     arrays: list[Any] = [*np.zeros((7, chain.n_blocks + 1)), *modes, np.zeros(2)]
-    state = State(*arrays)
+    state = Motion(*arrays)
     if start_forces is not None:
         state.force[:-1] = number_array("start_forces", start_forces, "N")
     before = stored_energy(chain, state)
@@ -273,7 +273,7 @@ def longest_steps(m: CompiledChain, chain: Chain, step: float) -> FloatArray:
     return step / np.maximum(chain.fastest_frequency_bound / 2.0, growth)
 
 
-def stored_energy(chain: Chain, state: State) -> float:
+def stored_energy(chain: Chain, state: Motion) -> float:
     """Energy of springs and of motion [J]."""
     elastic = (state.force[:-1] ** 2 / chain.springs).sum() / 2.0
     return float(elastic + chain.mass * (state.velocity[:-1] ** 2).sum() / 2.0)

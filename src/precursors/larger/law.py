@@ -163,12 +163,3 @@ def law_of(larger: LargerChain) -> Law:
         places=places,
         need=load * chain.n_blocks / chain.normal_load * inverse,
     )
-
-
-def settled_coefficient(larger: LargerChain, precursors: float = 0) -> float:
-    """F_X/F_Z at which global slips begin in settled stick-slip, by the law.
-
-    `precursors` is their number between two global slips; see `law_of` for the errors
-    raised.
-    """
-    return law_of(larger).coefficient(precursors)

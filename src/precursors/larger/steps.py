@@ -47,7 +47,7 @@ class CompiledChain(NamedTuple):
     drive_velocity: float
 
 
-class State(NamedTuple):
+class Motion(NamedTuple):
     """State of a chain and room for a step: forces [N] and velocities [m/s], now, after
     and before the step and their mean in it; work of the drive and heat [J]."""
 
@@ -63,7 +63,7 @@ class State(NamedTuple):
     energy: FloatArray
 
 
-class Record(NamedTuple):
+class Results(NamedTuple):
     """Results of a run so far; `event` has the numbers of the event that goes on."""
 
     rows: list[tuple[float, float, float, float]]
@@ -241,14 +241,14 @@ def period_of(peaks, tolerance):
 
 
 @compiled
-def note(m, s, record, watched, load_before, time, h):
+def note(m, s, results, watched, load_before, time, h):
     """Note which blocks became faster or slower than `SLOW` v_c in a step that ends at
     `time`; return whether a global slip ended in it."""
     slow = SLOW * m.weakening_velocity
     bearing = np.count_nonzero(m.weights)
     smallest_drop = SMALLEST_DROP * m.weights.sum() if slow > 0.0 else -math.inf
-    rows = record.rows
-    event = record.event
+    rows = results.rows
+    event = results.event
     ended = False
     for i in range(watched):
         if m.weights[i] == 0.0:
@@ -274,7 +274,7 @@ def note(m, s, record, watched, load_before, time, h):
             if onset - s.force[0] < smallest_drop:
                 del rows[event[BEGIN] :]
             elif event[IS_GLOBAL] == 1:
-                record.peaks.append(onset)
+                results.peaks.append(onset)
                 ended = True
     return ended
 
@@ -290,8 +290,8 @@ def march(m, s, end, step, now):
     n = len(m.weights)
     total = m.weights.sum()
     event = np.zeros(3, np.int64)
-    record = Record([(0.0, 0.0, 0.0, 0.0)], [(0.0, s.force[0])], [0.0], event)
-    del record.peaks[:]
+    results = Results([(0.0, 0.0, 0.0, 0.0)], [(0.0, s.force[0])], [0.0], event)
+    del results.peaks[:]
     time = 0.0
     steps = 0
     stalled = 0  # steps since the clock went on
@@ -325,11 +325,11 @@ def march(m, s, end, step, now):
         time += h
         now[0] = time
         ended = time >= end.duration or s.force[0] > end.lifting_load
-        if notable and note(m, s, record, watched, load_before, time, h):
-            settled = period_of(record.peaks, SETTLED * total) > 0
+        if notable and note(m, s, results, watched, load_before, time, h):
+            settled = period_of(results.peaks, SETTLED * total) > 0
             ended |= end.at_global_slip or (end.when_settled and settled)
-        if abs(s.force[0] - record.points[-1][1]) > POINTS * total:
-            record.points.append((time, s.force[0]))
-        ended |= len(record.rows) - 1 > end.most or steps > end.most_steps
-    record.points.append((time, s.force[0]))
-    return np.array(record.rows)[1:], np.array(record.points), time, steps
+        if abs(s.force[0] - results.points[-1][1]) > POINTS * total:
+            results.points.append((time, s.force[0]))
+        ended |= len(results.rows) - 1 > end.most or steps > end.most_steps
+    results.points.append((time, s.force[0]))
+    return np.array(results.rows)[1:], np.array(results.points), time, steps

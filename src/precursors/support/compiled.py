@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import os
-import pickletools
 import shutil
 import sys
 import tempfile
 import warnings
-from collections import deque
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -102,8 +100,7 @@ def checksum(directory: Path, modules: Iterable[str] = ()) -> str:
     for file in [directory / name for name in modules] or sorted(
         directory.glob("*.py")
     ):
-        digest.update(f"{file.name} {file.stat().st_size} ".encode())
-        digest.update(file.read_bytes())
+        digest.update(file.name.encode() + file.read_bytes())
     return digest.hexdigest()[:16]
 
 
@@ -111,51 +108,27 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
     """A directory that can be written, named after the checksum of the modules; None,
     with a warning.
 
-    What was compiled from sources of long ago is removed, and what was not written to
-    its end.
+    What was compiled from sources of long ago is removed.
     """
-    bases = [
-        Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "precursors"),
-        directory / "__pycache__",
-    ]
-    if untyped.config.CACHE_DIR:
-        bases = [Path(untyped.config.CACHE_DIR)]
-    for base in bases:
-        try:
-            place = base.expanduser() / f"{directory.name}-{digest}"
-            place.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(
-                dir=place
-            ):  # which also marks when it was used last
-                places = sorted(
-                    place.parent.glob(f"{directory.name}-*"),
-                    key=lambda one: one.stat().st_mtime,
-                )
-            for old in places[:-KEPT]:
-                shutil.rmtree(old, ignore_errors=True)
-            for file in place.glob("*.nb[ci]"):
-                if not _is_whole(file):
-                    file.unlink(missing_ok=True)
-            if shutil.disk_usage(place).free > LEAST_ROOM:
-                return place
-        except (OSError, RuntimeError):  # it cannot be written, or there is no home
-            continue
+    cache = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
+    base = Path(untyped.config.CACHE_DIR or Path(cache, "precursors"))
+    try:
+        place = base.expanduser() / f"{directory.name}-{digest}"
+        place.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=place):  # marks when it was used last
+            places = sorted(
+                place.parent.glob(f"{directory.name}-*"),
+                key=lambda one: one.stat().st_mtime,
+            )
+        for old in places[:-KEPT]:
+            shutil.rmtree(old, ignore_errors=True)
+        if shutil.disk_usage(place).free > LEAST_ROOM:
+            return place
+    except (OSError, RuntimeError):  # it cannot be written, or there is no home
+        pass
     warnings.warn(
-        f"compiled code cannot be kept in {' or '.join(map(os.fspath, bases))}, so every process compiles "
+        f"compiled code cannot be kept in {base}, so every process compiles "
         "for some 20 s: set NUMBA_CACHE_DIR to a directory that can be written",
         stacklevel=3,
     )
     return None
-
-
-def _is_whole(file: Path) -> bool:
-    """Whether a file of Numba's, which holds code or is the index of it, ends where its
-    pickles do."""
-    pickles = 2 if file.suffix == ".nbi" else 1
-    try:
-        with file.open("rb") as content:
-            for _ in range(pickles):
-                deque(pickletools.genops(content), maxlen=0)
-    except ValueError:
-        return False
-    return True

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sys
 import time
-from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_EXCEPTION, Future, wait
 from contextlib import suppress
-from threading import Thread, current_thread, main_thread
+from multiprocessing import TimeoutError
+from multiprocessing.pool import IMapIterator, ThreadPool
+from threading import current_thread, main_thread
 from typing import TypeVar
 
 Step = TypeVar("Step")
@@ -48,35 +48,18 @@ def in_threads(
 
     After Ctrl-C or an error no task is started, and running ones are not waited for.
     """
-    found: list[Future[Result]] = [Future() for _ in tasks]
-    left = deque(zip(tasks, found, strict=True))
+    found: list[Result] = []
 
-    def run() -> None:
-        with suppress(IndexError):  # nothing is left
-            while True:
-                task, future = left.popleft()
-                try:
-                    future.set_result(task())
-                except BaseException as error:
-                    future.set_exception(error)
-
-    def seconds() -> Iterator[None]:
-        while True:
-            finished, pending = wait(found, SECOND, FIRST_EXCEPTION)
-            for future in finished:
-                future.result()  # raises its error
-            if not pending:
-                return
+    def seconds(finished: IMapIterator[Result]) -> Iterator[None]:
+        while len(found) < len(tasks):
+            with suppress(TimeoutError):
+                found.append(finished.next(SECOND))
             yield
 
-    def part() -> float:
-        return sum(future.done() for future in found) / len(found)
-
-    for _ in range(min(threads, len(tasks))):
-        Thread(target=run, daemon=True).start()
-    try:
-        for _ in tell(work, seconds(), done or part):
+    # Its threads are daemons, for which nobody waits at the end, unlike those of
+    # concurrent.futures.
+    with ThreadPool(threads) as pool:
+        waits = seconds(pool.imap(lambda task: task(), tasks))
+        for _ in tell(work, waits, done or (lambda: len(found) / len(tasks))):
             pass
-    finally:
-        left.clear()
-    return [future.result() for future in found]
+    return found

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -12,11 +10,6 @@ from matplotlib.figure import Figure
 from precursors.figures import style
 
 HEIGHT_MM = 74.0
-# Columns of work: the factor to what is drawn, and the words.
-WORKS = {
-    "seconds": (1e3, "Time to the first global slip [ms]"),
-    "evaluations": (1.0, "Evaluations of the forces [-]"),
-}
 # Short names, and where they stand beside the most accurate point of their curve:
 # offset [pt], side. Another method has its label.
 NAMES: dict[str, tuple[str, tuple[float, float], str]] = {
@@ -31,53 +24,46 @@ NAMES: dict[str, tuple[str, tuple[float, float], str]] = {
 SHOWN_TIME_S = 2.7  # doubles near the first global slip are np.spacing of this apart
 
 
-def draw(
-    table: pd.DataFrame,
-    works: Sequence[str] = ("seconds",),
-    compared: str | None = None,
-) -> Figure:
-    """Draw the largest error of a transition's time against work, up to the first
-    global slip.
+def draw(table: pd.DataFrame, compared: str | None = None) -> Figure:
+    """Draw the largest error of a transition's time against computing time, up to the
+    first global slip.
 
-    `table` is work_precision.csv, and `works` its columns of work. A method without a
-    colour of its own, or right at one setting only, is left out. A tick at the top is a
-    setting that gives a wrong sequence of transitions. An arrow shows how many times as
-    long as the exact solver the method `compared` takes, at its last setting.
+    `table` is work_precision.csv. A method without a colour of its own, or right at one
+    setting only, is left out. A tick at the top is a setting that gives a wrong
+    sequence of transitions. An arrow shows how many times as long as the exact solver
+    the method `compared` takes, at its last setting.
     """
     true = table["transitions_true"]
     is_right = table["transitions_right"].eq(true) & table["transitions_found"].eq(true)
     n_right = is_right.groupby(table["method"]).transform("sum")
     is_shown = table["color"].ne(style.GREY) & n_right.gt(1)
     is_shown |= table["method"].eq("exact")
-    rows = table.assign(is_right=is_right)[is_shown]
-    width_mm = style.COLUMN_MM if len(works) == 1 else style.PAGE_MM
-    with style.page(width_mm, HEIGHT_MM) as figure:
-        (panels,) = figure.subplots(1, len(works), sharey=True, squeeze=False)
-        for axes, work in zip(panels, works, strict=True):
-            factor, words = WORKS[work]
-            of_work = rows.assign(work=factor * rows[work])
-            _draw_panel(axes, of_work)
-            axes.set_xlabel(words)
-        panels[0].set_ylabel("Largest error of a transition's time [s]")
-        panels[0].set_title("ticks: wrong sequence of transitions", fontsize="small")
+    milliseconds = 1e3 * table["seconds"]
+    rows = table.assign(is_right=is_right, work=milliseconds)[is_shown]
+    with style.page(style.COLUMN_MM, HEIGHT_MM) as figure:
+        axes = figure.subplots()
+        _draw_points(axes, rows)
+        axes.set_xlabel("Time to the first global slip [ms]")
+        axes.set_ylabel("Largest error of a transition's time [s]")
+        axes.set_title("ticks: wrong sequence of transitions", fontsize="small")
         if compared:
-            _draw_factor(panels[0], rows, compared)
+            _draw_factor(axes, rows, compared)
     return figure
 
 
-def _draw_panel(axes: Axes, rows: pd.DataFrame) -> None:
+def _draw_points(axes: Axes, rows: pd.DataFrame) -> None:
     wrong = rows[~rows["is_right"]]
     top = axes.get_xaxis_transform()
     axes.vlines(
         wrong["work"], 0.96, 1.0, wrong["color"].tolist(), linewidth=0.8, transform=top
     )
-    right = rows[rows["is_right"] & (rows["error_time_s"] > 0)]
-    right = right.sort_values("error_time_s")
+    right = rows[rows["is_right"] & (rows["time_error_s"] > 0)]
+    right = right.sort_values("time_error_s")
     for method, own in right.groupby("method", sort=False):
         first = own.iloc[0]
         axes.plot(
             own["work"],
-            own["error_time_s"],
+            own["time_error_s"],
             color=first["color"],
             marker=first["marker"],
             markersize=9 if method == "exact" else 4,
@@ -96,7 +82,7 @@ def _name(axes: Axes, first: pd.Series) -> None:
     name, offset, side = NAMES.get(first["method"], default)
     axes.annotate(
         name,
-        (first["work"], first["error_time_s"]),
+        (first["work"], first["time_error_s"]),
         offset,
         textcoords="offset points",
         ha=side,
@@ -107,8 +93,8 @@ def _name(axes: Axes, first: pd.Series) -> None:
 
 def _draw_factor(axes: Axes, rows: pd.DataFrame, compared: str) -> None:
     """Draw an arrow from the exact solver's point to the last one of a method."""
-    of_method = rows.groupby("method")[["seconds", "error_time_s"]].last()
-    start, end = of_method.loc[["exact", compared]].to_numpy() * (1e3, 1)
+    of_method = rows.groupby("method")[["work", "time_error_s"]].last()
+    start, end = of_method.loc[["exact", compared]].to_numpy(float)
     arrow = {"arrowstyle": "->", "linewidth": 0.7, "shrinkA": 8, "shrinkB": 3}
     axes.annotate("", end, start, arrowprops=arrow)
     words = f"{end[0] / start[0]:.0f} times  "

@@ -111,7 +111,7 @@ def _row(
         "value": value,
         "evaluations": result.evaluations or math.nan,
         "seconds": seconds,
-        "error_time_s": found.time_error,
+        "time_error_s": found.time_error,
         "transitions_right": found.transitions_right,
         "transitions_found": found.transitions_found,
         "transitions_true": found.transitions_true,
