@@ -85,7 +85,8 @@ def test_the_page_tells_what_the_library_finds_with_the_pages_command(
         do(page, action)
         commands[name] = page.evaluate("command()")
         loads, _, options = commands[name].rpartition(" > loads.txt && ")
-        Path("loads.txt").write_text(loads.removeprefix('echo "').removesuffix('"'))
+        lines = loads.removeprefix('printf "%s\\n" ').replace(" ", "\n")
+        Path("loads.txt").write_text(lines)
         how = [*shlex.split(options)[2:], "--until-global-slip", "--json"]
         assert cli.main(["simulate", *how]) == 0
         found = json.loads(capsys.readouterr().out)
