@@ -135,8 +135,8 @@ def test_an_event_is_a_film_of_three_seconds_that_stops_at_its_end(page, file):
     )
     assert last - first == pytest.approx(FILM)
     began = perf_counter()
-    page.evaluate(f"stop(), state.time = along(film.wall, film.time, {last - SEEN})")
-    page.evaluate("play()")
+    start = f"along(film.wall, film.time, {last - SEEN})"
+    page.evaluate(f"stop(), state.time = {start}, play()")
     page.wait_for("!playing")
     assert perf_counter() - began > SEEN
     assert page.evaluate("[state.view, state.time - event().end]") == ["event", 0]
