@@ -11,18 +11,13 @@ import select
 import shutil
 import signal
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-NAMES = (
-    "chromium",
-    "chromium-browser",
-    "google-chrome",
-    "google-chrome-stable",
-    "chrome",
-)
+NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 TIMEOUT = 20.0  # s
+COMPLAINTS = ("error", "warning", "assert")
 FLAGS = (
     "--headless=new",
     "--remote-debugging-pipe",
@@ -31,7 +26,6 @@ FLAGS = (
     "--disable-dev-shm-usage",
     "--no-first-run",
     "--disable-background-networking",
-    "--disable-component-update",
     "--force-device-scale-factor=1",
     "--hide-scrollbars",
 )
@@ -65,15 +59,15 @@ class Page:
         )["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
-        size = {
-            "width": width,
-            "height": height,
-            "deviceScaleFactor": 1,
-            "mobile": False,
-        }
-        self.call("Emulation.setDeviceMetricsOverride", **size)
+        self.resize(width, height)
         self.call("Page.navigate", url=url)
         self.wait_for("document.readyState === 'complete'")
+
+    def resize(self, width: int, height: int) -> None:
+        """Give the window another size."""
+        size = {"width": width, "height": height}
+        size |= {"deviceScaleFactor": 1, "mobile": False}
+        self.call("Emulation.setDeviceMetricsOverride", **size)
 
     def call(self, method: str, **parameters: Any) -> dict[str, Any]:
         """Call a method of the DevTools protocol and return its result."""
@@ -116,9 +110,8 @@ class Page:
         try:
             self.evaluate(f"new Promise({look})")
         except TimeoutError as error:
-            raise TimeoutError(
-                f"{expression} did not become true; complaints: {self.complaints}"
-            ) from error
+            error.add_note(f"{expression} did not become true: {self.complaints}")
+            raise
 
     def settle(self) -> None:
         """Wait until what was asked for is drawn."""
@@ -154,31 +147,21 @@ class Page:
         return message
 
     def _note(self, method: str, event: dict[str, Any]) -> None:
-        if method == "Network.requestWillBeSent" and not event["request"][
-            "url"
-        ].startswith("data:"):
-            self.requests.append(event["request"]["url"])
-        elif method == "Runtime.exceptionThrown":
-            details = event["exceptionDetails"]
-            self.complaints.append(
-                details.get("exception", {}).get("description", details["text"])
-            )
-        elif method == "Runtime.consoleAPICalled" and event["type"] in (
-            "error",
-            "warning",
-            "assert",
+        if method == "Network.requestWillBeSent":
+            url = event["request"]["url"]
+            if not url.startswith("data:"):
+                self.requests.append(url)
+        elif (
+            method == "Runtime.exceptionThrown"
+            or (method == "Runtime.consoleAPICalled" and event["type"] in COMPLAINTS)
+            or (method == "Log.entryAdded" and event["entry"]["level"] in COMPLAINTS)
         ):
-            self.complaints.append(str(event["args"]))
-        elif method == "Log.entryAdded" and event["entry"]["level"] in (
-            "error",
-            "warning",
-        ):
-            self.complaints.append(event["entry"]["text"])
+            self.complaints.append(str(event))
 
 
 @contextmanager
-def browser(path: str) -> Iterator[Callable[[], Page]]:
-    """Run a browser, and yield what opens a page in it."""
+def browser(path: str) -> Iterator[Page]:
+    """Run a browser, and yield its page."""
     (to_browser, send), (receive, from_browser) = _pipe(), _pipe()
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         actions = [
@@ -194,7 +177,7 @@ def browser(path: str) -> Iterator[Callable[[], Page]]:
         os.close(to_browser)
         os.close(from_browser)
         try:
-            yield lambda: Page(send, receive)
+            yield Page(send, receive)
         finally:
             os.close(send)  # the browser ends when nobody can write to it
             while select.select([receive], [], [], TIMEOUT)[0] and os.read(

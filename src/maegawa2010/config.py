@@ -33,7 +33,7 @@ NOT_PLAIN = re.compile(
 )
 
 
-class Loader(yaml.SafeLoader):
+class Loader(yaml.CSafeLoader):
     """Reads each key once, and no value that YAML takes for another."""
 
     def construct_mapping(
@@ -49,7 +49,7 @@ class Loader(yaml.SafeLoader):
 
     def construct_scalar(self, node: Any) -> Any:
         """Return a value that is plain, or in quotes."""
-        if node.style is None and NOT_PLAIN.fullmatch(node.value):
+        if not node.style and NOT_PLAIN.fullmatch(node.value):
             remedy = "write a decimal number, or a text in quotes"
             raise _misread(node, f"{node.value} is not plain: {remedy}")
         return super().construct_scalar(node)
@@ -117,7 +117,7 @@ def check_config(
     the contents of the files from which the configuration was put together, the most
     important one last. The JSON schema is YAML, too.
     """
-    schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
+    schema = read_file(schema_path)
     try:
         error = best_match(Draft202012Validator(schema).iter_errors(config))
         if error is None:

@@ -17,7 +17,7 @@ from time import monotonic, sleep
 
 TEMPLATE = Path(__file__).with_name("slurm.conf.in")
 DAEMONS = ("munged --foreground", "slurmctld -D", "slurmd -D")
-SECONDS_TO_START, SECONDS_TO_STOP = 30.0, 20.0
+SECONDS_TO_START = 30.0
 SUPERUSER_PATH = os.pathsep.join(("/usr/local/sbin", "/usr/sbin", "/sbin"))
 
 
@@ -82,7 +82,8 @@ def slurm_node(directory: Path, cpus: int) -> Iterator[SlurmNode]:
             process = subprocess.Popen(
                 command, env=node.environment, stdout=output, stderr=output
             )
-            stack.callback(stop, process)
+            stack.enter_context(process)  # waits for its end
+            stack.callback(process.kill)
         wait_until_idle(node, directory)
         stack.callback(node.query, "scancel", f"--user={getpass.getuser()}")
         yield node
@@ -123,13 +124,3 @@ def wait_until_idle(node: SlurmNode, directory: Path) -> None:
         path.read_text(encoding="utf-8")[-1500:] for path in directory.glob("*.out")
     ]
     raise RuntimeError("SLURM does not come up:\n" + "\n".join(said))
-
-
-def stop(process: subprocess.Popen[bytes]) -> None:
-    """End a daemon, with force if it does not go."""
-    process.terminate()
-    try:
-        process.wait(SECONDS_TO_STOP)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()

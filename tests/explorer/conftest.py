@@ -5,21 +5,20 @@ from browser import browser, find_browser
 from explorer.example import write_example
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def file(tmp_path_factory):
     path = tmp_path_factory.mktemp("explorer") / "explorer.html"
     write_example(path)
     return path
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def page():
     path = find_browser()
     if path is None:
         pytest.skip(
             "no Chromium or Chrome here: the explorer is not tried in a browser"
         )
-    with browser(path) as new_page:
-        page = new_page()
+    with browser(path) as page:
         page.open("about:blank")
         yield page

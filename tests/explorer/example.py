@@ -43,10 +43,9 @@ def picture() -> bytes:
     path = find_browser()
     if path is None:
         raise FileNotFoundError("no Chromium or Chrome here")
-    with tempfile.TemporaryDirectory() as directory, browser(path) as new_page:
+    with tempfile.TemporaryDirectory() as directory, browser(path) as page:
         file = Path(directory, "explorer.html")
         write_example(file)
-        page = new_page()
         page.open(file.as_uri(), *LAPTOP)
         page.evaluate("goToStep(4)")
         page.wait_for(f"found.tilts.length === THETAS.length && {SETTLED}")

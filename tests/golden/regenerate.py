@@ -9,7 +9,7 @@ import check_claims
 from explorer import example
 from golden import benchmark_page
 from golden.kept import kept, write_picture, write_table
-from golden.small_tables import TABLES_OF_SECONDS
+from golden.small_tables import tables_of_seconds
 
 from precursors.support.files import read_table, write_text, write_whole
 
@@ -40,8 +40,9 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
         f"{check_claims.printed(claims)}\n",
     )
     benchmark_page.write(read_table(results / "tables/benchmark.csv"))
-    for name, make in {**kept("TABLES"), **TABLES_OF_SECONDS}.items():
-        write_table(name, make())
+    tables = {name: make() for name, make in kept("TABLES").items()}
+    for name, table in {**tables, **tables_of_seconds()}.items():
+        write_table(name, table)
     for name, how in kept("PICTURES").items():
         write_picture(golden / f"small/{name}.png", how)
     write_whole(ROOT / "docs/explorer.png", example.picture())

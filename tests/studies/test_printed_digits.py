@@ -1,12 +1,9 @@
 """Sliders with the same printed inputs: what is drawn, and agreement by hand."""
 
 import numpy as np
-import pandas as pd
 import pytest
-from golden.kept import GOLDEN
 from studies.made import PAPER, chunks_of, members_of, study_of
 
-from maegawa2010.studies.printed_digits import figure
 from maegawa2010.studies.printed_digits.tables import (
     HALF_A_DIGIT,
     digits_table,
@@ -14,24 +11,6 @@ from maegawa2010.studies.printed_digits.tables import (
 )
 
 NAN = np.nan
-SCENES = ("fig11", "fig10", "fig12")
-
-
-def alike_sliders():
-    """Three loadings; of one a slider has no global slip."""
-    members = pd.DataFrame({"draw": range(30)})
-    members["mu_sapp"] = np.linspace(0.46, 0.53, 30) ** 2 * 2
-    members.loc[0, "mu_sapp"] = 0.485
-    sliders = [
-        members.assign(scene=scene, theta=theta)
-        for scene, theta in zip(SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
-    ]
-    sliders[0].loc[3, "mu_sapp"] = np.nan
-    slips = [pd.read_csv(GOLDEN / f"{scene}_slips.csv") for scene in SCENES]
-    shares = pd.DataFrame({"scene": SCENES, "share": [0.1, 0.25, 0.3], "n": 29})
-    shares = shares.assign(q05=0.45, q50=0.48, q95=0.54)
-    shares = shares.assign(quantity="mu_sapp", question="as_printed")
-    return figure.draw(slips, pd.concat(sliders), shares)
 
 
 TABLES = {
@@ -39,7 +18,6 @@ TABLES = {
         chunks_of("digits_members", seed=1, draws=8), PAPER
     )["digits"]
 }
-PICTURES = {"hero": alike_sliders}
 
 
 def test_every_draw_prints_as_the_paper_does():

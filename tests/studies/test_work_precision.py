@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
-import pandas as pd
 import pytest
 from benchmark.made_up import (
     DURATION,
@@ -14,7 +12,7 @@ from benchmark.made_up import (
 )
 
 from maegawa2010.methods import METHODS, ROWS, Method, Result
-from maegawa2010.studies.work_precision import figure, tables
+from maegawa2010.studies.work_precision import tables
 from maegawa2010.studies.work_precision.tables import (
     SHORTEST,
     charted_values,
@@ -129,11 +127,3 @@ def test_methods_are_measured_to_the_first_global_slip(monkeypatch):
     assert exact["transitions_right"] == exact["transitions_true"]
     assert 0 < exact["transitions_true"] < len(certificate.transitions)
     assert 0 < exact["time_error_s"] < fine["time_error_s"] < coarse["time_error_s"]
-
-
-PUBLISHED = Path(__file__).parents[2] / "paper/tables"
-PICTURES = {
-    "speed": lambda: figure.draw(
-        pd.read_csv(PUBLISHED / "work_precision_full.csv"), compared="heyoka"
-    ),
-}

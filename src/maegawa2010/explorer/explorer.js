@@ -275,7 +275,7 @@ function command() {
   const names = { theta: "theta", n_blocks: "blocks", mu_s: "mu-s", mu_k: "mu-k", normal_load: "normal-load", drive_stiffness: "drive-stiffness", drive_velocity: "drive-velocity", slider_mass: "slider-mass", youngs_modulus: "youngs-modulus", cross_section: "cross-section", length: "length" };
   const options = Object.entries(names).filter(([name]) => !(state.slider.weights && ["theta", "n_blocks", "normal_load"].includes(name)));
   const text = options.map(([name, option]) => ` --${option} ${state.slider[name]}`).join("");
-  return state.slider.weights ? `echo "${state.slider.weights.map((load) => Number(load.toPrecision(6))).join(" ")}" > loads.txt && precursors plot --weights loads.txt${text}` : `precursors plot${text}`;
+  return state.slider.weights ? `printf "%s\\n" ${state.slider.weights.map((load) => Number(load.toPrecision(6))).join(" ")} > loads.txt && precursors plot --weights loads.txt${text}` : `precursors plot${text}`;
 }
 async function copy(text) {
   const isCopied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
