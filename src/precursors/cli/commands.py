@@ -78,7 +78,7 @@ def simulate(arguments: Namespace) -> None:
         "duration_s": run.duration,
         **{name: found[name] for name in SHOWN},
     }
-    values |= accuracy(run) | law_of_run(run)
+    values |= numbers_of_larger(run)
     if arguments.output:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
@@ -285,34 +285,30 @@ def tell(line: str) -> None:
     print(line, file=sys.stderr)
 
 
-def accuracy(run: Record) -> dict[str, float]:
-    """Of a larger chain, what half the step changes, and the energy that is lacking."""
-    larger = getattr(run, "numbers", {})
-    return {name: larger[name] for name in MOST_WRONG if name in larger}
-
-
-def law_of_run(run: Record) -> dict[str, Any]:
-    """Of a larger chain, its settled coefficient by the law and in the run; a line says
-    why not."""
+def numbers_of_larger(run: Record) -> dict[str, Any]:
+    """Of a larger chain, what half the step changes, the energy that is lacking, and
+    its settled coefficient by the law and in the run; a line says why not."""
     if not isinstance(run, LargerRun):
         return {}
     from precursors.larger.settled import beside_law
 
+    found: dict[str, Any] = {name: run.numbers[name] for name in MOST_WRONG}
     try:
-        return beside_law(run)
+        return found | beside_law(run)
     except ValueError as error:
         tell(str(error))
-        return {}
+        return found
 
 
 def tell_accuracy(run: Record, first_global_slip: float) -> None:
     """Say if steps are too long, or if roundings decide the first global slip [s]."""
     from precursors.analysis.horizon import predicted_errors
 
+    larger = run.numbers if isinstance(run, LargerRun) else {}
     wrong = [
-        f"{name} = {value:.3g}"
-        for name, value in accuracy(run).items()
-        if not abs(value) <= MOST_WRONG[name]
+        f"{name} = {larger[name]:.3g}"
+        for name, most in MOST_WRONG.items()
+        if name in larger and not abs(larger[name]) <= most
     ]
     if wrong:
         tell(f"this run is not accurate: {', '.join(wrong)}")

@@ -63,8 +63,6 @@ class LargerChain:
     push_height: float = 0.0
 
     def __post_init__(self) -> None:
-        if not isinstance(self.chain, Chain):
-            raise TypeError(f"chain must be a Chain, but is {self.chain!r}")
         for name, unit in ADDITIONS.items():
             object.__setattr__(
                 self, name, not_negative(name, getattr(self, name), unit)

@@ -8,7 +8,6 @@ import os
 import platform
 import re
 import subprocess
-import warnings
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
 from importlib.metadata import distributions
@@ -106,17 +105,11 @@ def git_state(root: Path) -> dict[str, str | bool] | None:
 
 
 def _git(root: Path, *command: str) -> str:
-    """Output of a git command, or nothing where it fails; in a checkout with a
-    warning."""
+    """Output of a git command, or nothing where it fails."""
     try:
         answer = subprocess.run(
-            ["git", "-C", root, *command], capture_output=True, text=True
+            ["git", "-C", root, *command], capture_output=True, text=True, check=True
         )
-    except OSError:
+    except (OSError, subprocess.CalledProcessError):
         return ""
-    if answer.returncode == 0:
-        return answer.stdout.strip()
-    if (root / ".git").exists():  # of another user, or without a commit
-        why = answer.stderr.partition("\n")[0]
-        warnings.warn(f"the commit is unknown: git says {why!r}", stacklevel=2)
-    return ""
+    return answer.stdout.strip()
