@@ -4,15 +4,15 @@ and start."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from chains import first_transitions, positions_under
+from chains import audited, first_transitions, positions_under
 from numpy.random import Generator
 
 from precursors import Chain, Run
-from precursors.audit import audit
 
 SEED = 1961
 
@@ -195,34 +195,16 @@ def trial(number: int) -> tuple[str, Trial]:
     return kind, KINDS[kind][1](rng)
 
 
-def verdict(number: int) -> str:
-    """Run and audit the chain of a trial: "survived", "refused", or what is wrong."""
+def moves_as_the_model_says(number: int) -> bool:
+    """Run and audit the chain of a trial; False if it is refused in one line."""
     try:
         _, case = trial(number)
         run = case.run()
     except ValueError as error:
-        return (
-            "refused"
-            if str(error) and "\n" not in str(error)
-            else f"refused without a sentence: {error!r}"
-        )
-    except Exception as error:
-        return f"{type(error).__name__}: {error}"
-    transitions = run.transitions
-    if not (
-        np.isfinite(transitions["time"]).all()
-        and np.isfinite(transitions["tangential_load"]).all()
-    ):
-        return "a transition is not finite"
-    if not (run.duration == case.duration or len(transitions) >= case.most):
-        return f"ended at {run.duration} s of {case.duration} s after {len(transitions)} transitions"
-    positions, velocities = run.at([0.0, run.duration])
-    if not (np.isfinite(positions).all() and np.isfinite(velocities).all()):
-        return "the state at the end is not finite"
-    try:
-        report = audit(run)
-    except ArithmeticError as error:
-        return f"cannot be audited: {type(error).__name__}: {error}"
-    if report.ok:
-        return "survived"
-    return f"{len(report.problems)} problems after {report.n_intervals} intervals: {report.problems[0]}"
+        assert re.fullmatch(".+", str(error)), repr(error)
+        return False
+    assert np.isfinite(run.transitions["tangential_load"]).all(), number
+    assert run.duration == case.duration or len(run.transitions) >= case.most, number
+    assert np.isfinite(run.at([0.0, run.duration])).all(), number
+    audited(run)
+    return True

@@ -7,19 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from audit.falsified import (
-    ENERGY_ROUNDING,
-    SHIFT,
-    STRAINED,
-    audits,
-    changed,
-    shifted,
-)
+from audit.falsified import SHIFT, SLIDER, STRAINED, changed, falsified, shifted
 from chains import first_transitions, positions_under
-from golden import kept
 
-from precursors import Chain, Run, simulate
-from precursors.audit import ROUNDINGS, audit
+from precursors import Run, simulate
+from precursors.audit import audit
 from precursors.audit.carried import CarriedState
 from precursors.audit.checks import MAX_PROBLEMS, Auditor
 from precursors.audit.conditions import Conditions, lower_bound
@@ -32,25 +24,21 @@ FEW_ROUNDINGS = 4.0
 @pytest.fixture(scope="module")
 def uniform() -> Run:
     """Theta = 0 to the end of the first global slip: 216 transitions."""
-    return simulate(Chain.from_slider(), until="global slip")
+    return simulate(SLIDER(), until="global slip")
 
 
 @pytest.mark.parametrize("theta", ["-5/6", "5/6"])
 def test_ten_seconds_of_a_scene_are_a_motion_of_the_model_to_rounding(theta):
-    run = simulate(Chain.from_slider(theta=theta), duration=10.0)
+    run = simulate(SLIDER(theta=theta), duration=10.0)
     report = audit(run)
     report.raise_if_failed()
     assert report.n_intervals == len(run.transitions) + 1
     assert 0.0 < report.roundings < FEW_ROUNDINGS
-    assert report.energy_residual < ENERGY_ROUNDING
 
 
-SLIDER = Chain.from_slider
 EDGES = {
     "one block": (SLIDER(n_blocks=1), {}),
-    "two blocks": (SLIDER(n_blocks=2), {}),
     "two hundred blocks": (SLIDER(n_blocks=200), {}),
-    "one block with mu_s = mu_k": (SLIDER(n_blocks=1, mu_k=0.7), {}),
     "ten blocks with mu_s = mu_k": (SLIDER(mu_k=0.7), {}),
     "no kinetic friction": (SLIDER(mu_k=0.0), {}),
     "no friction": (SLIDER(mu_s=0.0, mu_k=0.0), {"duration": 1e-3}),
@@ -158,22 +146,9 @@ def test_an_audit_that_takes_too_much_work_ends_and_says_where(uniform, monkeypa
     assert report.n_intervals < 100
 
 
-def test_energy_that_goes_astray_is_found(uniform):
-    stopped = Auditor(uniform, ROUNDINGS)
-    stopped.walk()
-    stopped.state.heat += 1e-9 * stopped.state.turnover
-    stopped.check_energy(0.0)
-    assert "out of balance" in stopped.found.problems[0]
-
-
-def test_a_transition_of_a_block_without_load_is_none():
-    run = simulate(SLIDER(theta=-1), 1.0)
-    report = audit(changed(run, 0, block=10))
-    assert "block 10 bears no load" in report.problems[0]
-
-
-def test_each_kind_of_mistake_is_found_and_told_as_it_was():
-    kept.assert_table("audits", audits())
+def test_each_kind_of_mistake_is_found_and_told():
+    for told, run in falsified():
+        assert told in audit(run).problems[0]
 
 
 def test_sixteen_roundings_of_a_load_are_allowed_and_1e_12_of_a_time(uniform):
@@ -238,14 +213,3 @@ def test_the_report_says_what_was_found_in_a_few_lines(uniform):
     assert str(spoiled).splitlines()[-1] == spoiled.problems[-1]
     with pytest.raises(TypeError, match="what is audited must be a Run, but is Chain"):
         audit(uniform.chain)
-
-
-def test_an_audit_evaluates_the_conditions_at_few_instants(uniform, monkeypatch):
-    """As few as suffice for the proof: its effort is seen here, in no outcome."""
-    seen = []
-    evaluate = Conditions.__call__
-    monkeypatch.setattr(
-        Conditions, "__call__", lambda self, s: seen.append(len(s)) or evaluate(self, s)
-    )
-    audit(uniform).raise_if_failed()
-    assert sum(seen) == 7740

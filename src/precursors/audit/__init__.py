@@ -1,5 +1,5 @@
-"""An independent check that a run is a motion of the model: equation of motion,
-Coulomb's law, energy.
+"""An independent check that a run is a motion of the model: equation of motion and
+Coulomb's law.
 
 Nothing of the solver is used. Every interval between two transitions is propagated by
 the normal modes of the sliding blocks. What must hold inside it is proved with a bound
@@ -27,7 +27,7 @@ def audit(run: Run, roundings: float = ROUNDINGS) -> Audit:
     blocks must stay within +-mu_s w: excesses beyond the tolerance are reported where
     they are found, and a bound proves that there is none of more than twice the
     tolerance. At each transition the switching rule, the recorded load and the recorded
-    time are checked; at the end the energy.
+    time are checked.
 
     Parameters
     ----------
@@ -35,8 +35,8 @@ def audit(run: Run, roundings: float = ROUNDINGS) -> Audit:
         Its chain, start, transitions, intervals and duration are checked; its stored
         states, from which `at` starts, are not read.
     roundings : float
-        Tolerance of forces, velocities and the energy, in roundings; the default
-        is for an exact run.
+        Tolerance of forces and velocities, in roundings; the default is for an exact
+        run.
 
     Raises
     ------

@@ -18,7 +18,7 @@ _MEMORY = 2e8  # bytes for normal modes
 
 
 class CarriedState:
-    """Modes, velocities and spring forces (not positions) of a chain, and its energies.
+    """Modes, velocities and spring forces (not positions) of a chain.
 
     Solver and audit carry spring forces f and velocities v in doubles. Each step rounds
     them by some units of 2^-53 of the largest they can be, in the norm sum f_i^2/k_i +
@@ -43,10 +43,6 @@ class CarriedState:
         # the force of the spring behind each block, and a zero ahead of block N
         stretch = -np.diff(positions, prepend=0.0)
         self.spring_force = np.append(self.springs * stretch, 0.0)
-        self.work = 0.0
-        self.heat = 0.0
-        self.turnover = 0.0
-        self.energy_rounding = 0.0
         # Forces at the start are differences of positions, which are known to their
         # rounding.
         ends = positions**2 + np.append(0.0, positions[:-1]) ** 2
@@ -103,34 +99,16 @@ class CarriedState:
         )
 
     def advance(self, motion: ModalMotion, duration: float) -> None:
-        """Move to the end of an interval; add up work, heat and roundings."""
+        """Move to the end of an interval; add up roundings."""
         before = self.energy()
-        terms = self._move(motion, duration)
-        energy = max(before, self.energy())
+        slides = self.moves()
+        (displacement,), (velocity,), _ = motion.at(np.array([duration]))
+        self.velocity[slides] = motion.modes.shapes @ velocity
+        self.spring_force[0] += self.chain.loading_rate * duration
+        self.spring_force -= motion.modes.spring_shapes @ displacement
         steps = 1 + self.fastest * duration if motion.speed.size else 1
         momentum = math.sqrt(self.chain.mass) * motion.largest_speed()
-        size = math.sqrt(2 * energy) + momentum + self.drive_momentum
-        self.rounding = math.hypot(self.rounding, _UNIT * steps * size)
-        self.turnover = max(self.turnover, energy) + terms
-        self.energy_rounding += _UNIT * steps * (energy + terms)
-
-    def _move(self, motion: ModalMotion, duration: float) -> float:
-        """Move by the motion; return the sum of the terms of work and heat [J]."""
-        chain = self.chain
-        shapes = motion.modes.shapes
-        slides = self.moves()
-        loading_rate = chain.loading_rate
-        impulses = (
-            self.spring_force[0] * duration,
-            0.5 * loading_rate * duration**2,
-            -(motion.modes.spring_shapes[0] @ motion.integral(duration)),
+        size = math.sqrt(2 * max(before, self.energy())) + momentum
+        self.rounding = math.hypot(
+            self.rounding, _UNIT * steps * (size + self.drive_momentum)
         )
-        (displacement,), (velocity,), _ = motion.at(np.array([duration]))
-        heat = (self.mode * self.friction)[slides] * (shapes @ displacement)
-        self.work += chain.drive_velocity * sum(impulses)
-        self.heat += heat.sum()
-        self.velocity[slides] = shapes @ velocity
-        self.spring_force[0] += loading_rate * duration
-        self.spring_force -= motion.modes.spring_shapes @ displacement
-        terms = np.append(heat, chain.drive_velocity * np.array(impulses))
-        return float(abs(terms).sum())

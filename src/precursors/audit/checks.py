@@ -69,7 +69,6 @@ class Auditor:
     def walk(self) -> None:
         """Walk through the run, interval by interval, up to `MAX_PROBLEMS` problems."""
         found = self.found
-        start_energy = self.state.energy()
         intervals = self.run.intervals.tolist()
         instants = np.cumsum(intervals, dtype=np.longdouble).astype(float).tolist()
         transitions = [*self.run.transitions.tolist(), None]
@@ -96,7 +95,6 @@ class Auditor:
             if transition:
                 self.check_transition(not started, *transition)
         self.check_time(self.run.duration, "the duration")
-        self.check_energy(start_energy)
 
     def pass_interval(self, duration: float) -> None:
         """Check Coulomb's law inside an interval and move the state to its end."""
@@ -202,15 +200,6 @@ class Auditor:
             self.report(
                 f"{what} is recorded {time - self.time:.3g} s from the sum of the intervals"
             )
-
-    def check_energy(self, start_energy: float) -> None:
-        """Work of the drive = change of kinetic and elastic energy + friction heat."""
-        state = self.state
-        wrong = float(abs(state.work - (state.energy() - start_energy) - state.heat))
-        residual = wrong / state.turnover if state.turnover > 0 else 0.0
-        self.found.energy_residual = residual
-        what = "work, energy and heat are out of balance by"
-        self.check(wrong, state.energy_rounding, what, "J")
 
     def check(
         self,

@@ -107,14 +107,6 @@ class ModalMotion:
         )
         return displacement, velocity, acceleration
 
-    def integral(self, s: float) -> FloatArray:
-        """Integral of the modal displacements from 0 to s, shape (n,)."""
-        omega = self.modes.frequencies
-        versine = 2 * np.sin(0.5 * omega * s) ** 2
-        lag = s - np.sin(omega * s) / omega
-        ramp = self.ramp * (0.5 * s**2 - versine / omega**2)
-        return (self.speed * versine + self.push * lag + ramp) / omega**2
-
     def fourth_derivatives(self) -> tuple[FloatArray, FloatArray]:
         """Largest fourth derivatives of modal displacements and velocities, each of
         shape (n,)."""

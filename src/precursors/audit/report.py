@@ -11,14 +11,12 @@ class Audit:
     """Outcome of an audit: what exceeds its tolerance, in at most `checks.MAX_PROBLEMS`
     short sentences.
 
-    `roundings` is the largest deviation of a force, a velocity or the energy, in
-    roundings; `energy_residual` is the work of the drive minus change of energy minus
-    friction heat, relative to what was turned over. `is_undecided` says that no more was
-    found than that the audit would take too much work: that is the one problem.
+    `roundings` is the largest deviation of a force or a velocity, in roundings.
+    `is_undecided` says that no more was found than that the audit would take too much
+    work: that is the one problem.
     """
 
     roundings: float = math.nan
-    energy_residual: float = math.nan
     n_intervals: int = 0
     problems: list[str] = field(default_factory=list)
     is_undecided: bool = False
@@ -42,6 +40,6 @@ class Audit:
             answer = "It is undecided whether the run is a motion of the model"
         summary = (
             f"{answer}: {self.n_intervals} intervals audited, "
-            f"{self.roundings:.1f} roundings off at most, energy balanced to {self.energy_residual:.1e}."
+            f"{self.roundings:.1f} roundings off at most."
         )
         return "\n".join([summary, *self.problems])

@@ -23,35 +23,34 @@ def expand(start, order, end, chain, motion):
     side.
     """
     still = lanes.spread(0.0)
-    drive = lanes.spread(row(start - 2, motion)[0])
     n_groups = end // WIDTH
     if n_groups == 1:
-        group1, even1, odd1 = ready(start, 1, chain, motion)
-        for n in range(start, order + 1, 2):
-            even1 = row_from(drive, even1, still, group1, n, motion)
-            odd1 = row_from(still, odd1, still, group1, n + 1, motion)
-            drive = still
+        group1, here1, next1 = ready(start, 1, chain, motion)
+        for n in range(start, order + 2):
+            left = lanes.spread(row(n - 2, motion)[0])
+            found1 = row_from(left, here1, still, group1, n, motion)
+            here1, next1 = next1, found1
     elif n_groups == 2:
-        group1, even1, odd1 = ready(start, 1, chain, motion)
-        group2, even2, odd2 = ready(start, 1 + WIDTH, chain, motion)
-        pair = group1, group2
-        for n in range(start, order + 1, 2):
-            even1, even2 = two_rows(drive, even1, even2, pair, n, motion)
-            odd1, odd2 = two_rows(still, odd1, odd2, pair, n + 1, motion)
-            drive = still
+        group1, here1, next1 = ready(start, 1, chain, motion)
+        group2, here2, next2 = ready(start, 1 + WIDTH, chain, motion)
+        for n in range(start, order + 2):
+            left = lanes.spread(row(n - 2, motion)[0])
+            found1 = row_from(left, here1, here2, group1, n, motion)
+            found2 = row_from(here1, here2, still, group2, n, motion)
+            here1, next1 = next1, found1
+            here2, next2 = next2, found2
     elif n_groups == 3:
-        group1, even1, odd1 = ready(start, 1, chain, motion)
-        group2, even2, odd2 = ready(start, 1 + WIDTH, chain, motion)
-        group3, even3, odd3 = ready(start, 1 + 2 * WIDTH, chain, motion)
-        groups = group1, group2, group3
-        for n in range(start, order + 1, 2):
-            even1, even2, even3 = three_rows(
-                drive, even1, even2, even3, groups, n, motion
-            )
-            odd1, odd2, odd3 = three_rows(
-                still, odd1, odd2, odd3, groups, n + 1, motion
-            )
-            drive = still
+        group1, here1, next1 = ready(start, 1, chain, motion)
+        group2, here2, next2 = ready(start, 1 + WIDTH, chain, motion)
+        group3, here3, next3 = ready(start, 1 + 2 * WIDTH, chain, motion)
+        for n in range(start, order + 2):
+            left = lanes.spread(row(n - 2, motion)[0])
+            found1 = row_from(left, here1, here2, group1, n, motion)
+            found2 = row_from(here1, here2, here3, group2, n, motion)
+            found3 = row_from(here2, here3, still, group3, n, motion)
+            here1, next1 = next1, found1
+            here2, next2 = next2, found2
+            here3, next3 = next3, found3
     else:
         for n in range(start, order + 2):
             left = lanes.spread(row(n - 2, motion)[0])
@@ -62,29 +61,6 @@ def expand(start, order, end, chain, motion):
                 row_from(left, here, right, group, n, motion)
                 left = here
                 here = right
-
-
-@inner
-def two_rows(left, v1, v2, pair, n, motion):
-    """Row n of two groups."""
-    still = lanes.spread(0.0)
-    group1, group2 = pair
-    return (
-        row_from(left, v1, v2, group1, n, motion),
-        row_from(v1, v2, still, group2, n, motion),
-    )
-
-
-@inner
-def three_rows(left, v1, v2, v3, groups, n, motion):
-    """Row n of three groups."""
-    still = lanes.spread(0.0)
-    group1, group2, group3 = groups
-    return (
-        row_from(left, v1, v2, group1, n, motion),
-        row_from(v1, v2, v3, group2, n, motion),
-        row_from(v2, v3, still, group3, n, motion),
-    )
 
 
 @inner
