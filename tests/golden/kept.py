@@ -21,10 +21,10 @@ SMALL = GOLDEN / "small"
 # Times and loads of a run are right to 1e-9 s and 1e-6 N whatever the processor, and so
 # are their statistics.
 ROUNDING = 1e-8
-# A method with steps is off by the roundings of some 1e6 steps; deviations of audits are
-# printed with three digits; errors relative to the paper's chain are differences of
-# numbers near one; energy that a larger chain lacks is of the size of roundings.
-RELATIVE = {"definitions": 1e-6, "audits": 1e-2}
+# A method with steps is off by the roundings of some 1e6 steps; errors relative to the
+# paper's chain are differences of numbers near one; energy that a larger chain lacks is
+# of the size of roundings.
+RELATIVE = {"definitions": 1e-6}
 ABSOLUTE = {"model_comparison": 1e-12, "larger_runs": 1e-12}
 
 

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from functools import partial
 
 import pandas as pd
-from audit.falsified import audits
 from settings import CONFIG
 
 from maegawa2010.studies.larger.cycles import (
@@ -95,7 +94,6 @@ def model_comparison() -> pd.DataFrame:
 
 
 TABLES_OF_SECONDS: dict[str, Callable[[], pd.DataFrame]] = {
-    "audits": audits,
     "model_comparison": model_comparison,
     "larger_runs": larger_runs,
     **{
