@@ -8,9 +8,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from chains import matrix_of_motion
+from chains import SLIDER, matrix_of_motion
 
-from precursors import Chain
 from precursors.solver.kernel import proof, roots
 from precursors.solver.kernel.layout import ORDER, WINDOW
 from precursors.solver.kernel.proof import TAIL
@@ -23,8 +22,6 @@ ROUNDING = 1e-12  # of a window; numpy.roots knows a simple root to some roundin
 ONE_STEP = 0.3
 # How much farther apart the bounds of a window are than the values. Less is better.
 BERNSTEIN = 1.57
-# Safe steps to the first roots of all windows. Less is better: write it down here.
-ROOT_STEPS = 1667
 
 
 def series(seed: int, n: int = 12) -> np.ndarray:
@@ -70,19 +67,10 @@ def test_the_search_ends_at_the_first_root_or_proves_that_there_is_none(windows,
     already."""
     progress = SimpleNamespace(root_steps=0)
     for c, root in windows:
-        before = progress.root_steps
         found = roots.first_root.py_func(
             len(c) + shift, 1e-15, np.append(np.zeros(shift), c), progress
         )
         assert found == pytest.approx(root, abs=1e-9) if root <= 1.0 else found > 1.0
-        # Where the first term outweighs all that are negative, no step is needed to
-        # know it.
-        assert (progress.root_steps == before) == (
-            c[0] + np.minimum(c[1:], 0.0).sum() > 0.0
-        )
-    assert progress.root_steps == pytest.approx(
-        ROOT_STEPS, rel=0.002
-    )  # fused products may round one
 
 
 def test_a_function_stays_within_the_bounds_of_its_window_which_are_not_far_too_wide(
@@ -118,25 +106,17 @@ def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
     assert TAIL * WINDOW**9 / math.factorial(9) == pytest.approx(rest, rel=1e-9)
 
 
-@pytest.mark.parametrize("length", [0.25, 1.0, WINDOW])
-def test_the_rest_of_a_series_is_within_its_bound(length):
-    """Of terms from the ninth on, of all that is watched; they come from the equations
-    of motion."""
+def test_the_rest_of_a_series_is_within_its_bound():
+    """Of terms from the ninth on, of all that is watched in the longest window; they
+    come from the equations of motion."""
     shares = []
-    factor = [max(n - 6, 0) * length**n / math.factorial(n) for n in range(ORDER + 1)]
+    later = range(9, ORDER + 1)
+    factor = np.array([(n - 6) * WINDOW**n / math.factorial(n) for n in later])
     for seed in range(200):
         random = np.random.default_rng(seed)
         n = int(random.choice([1, 2, 5, 12]))
         modes = random.choice([-1, 0, 1], n, p=[0.4, 0.2, 0.4])
-        chain = Chain(
-            np.ones(n),
-            1e-3,
-            25e6,
-            25e6 * 10 ** random.uniform(-1, 0.5),
-            1e-4,
-            0.7,
-            0.45,
-        )
+        chain = SLIDER(n, drive_stiffness=25e6 * 10 ** random.uniform(-1, 0.5))
         units = set_up.py_func(parameters(chain), chain.weights, np.zeros((3, n + 2)))
         state = np.concatenate(
             [10 ** random.uniform(-2, 2) * random.normal(size=n), modes * 0.1, [1.0]]
@@ -155,9 +135,9 @@ def test_the_rest_of_a_series_is_within_its_bound(length):
             forces.append(state[:n] - np.append(state[1:n], 0.0))
             state = units.tau * rate @ state
         largest = abs(np.array(velocities[7:9])).max()
-        watched = np.where(modes, velocities[: ORDER + 1], forces[: ORDER + 1])
-        rest = (np.array(factor)[9:, None] * abs(watched[9:])).sum(axis=0).max()
-        bound = TAIL * length**9 / math.factorial(9) * largest
+        watched = np.where(modes, velocities, forces)[9 : ORDER + 1]
+        rest = (factor @ abs(watched)).max()
+        bound = TAIL * WINDOW**9 / math.factorial(9) * largest
         assert rest <= bound * (1 + ROUNDING)
         shares.append(rest / bound if bound else 1.0)
     assert np.median(shares) > 0.2

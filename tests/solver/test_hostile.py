@@ -1,8 +1,8 @@
 """Hostile chains whose runs once looked wrong, and random ones."""
 
 import pytest
-import random_chains
 from chains import first_transitions, positions_under
+from random_chains import moves_as_the_model_says
 
 from precursors import Chain
 
@@ -30,11 +30,9 @@ def test_a_soft_drive_keeps_its_load_where_block_1_starts_at_its_limit():
 @pytest.mark.parametrize("first", range(0, 160, 20))
 def test_random_chains_move_as_the_model_says(first):
     """The auditor, which shares no code with the solver, finds nothing wrong."""
-    verdicts = [random_chains.verdict(number) for number in range(first, first + 20)]
-    assert set(verdicts) <= {"survived", "refused"}, verdicts
-    assert verdicts.count("survived") >= 15
+    assert sum(map(moves_as_the_model_says, range(first, first + 20))) >= 15
 
 
 @pytest.mark.parametrize("number", ONCE_SUSPECTED)
 def test_a_run_that_once_looked_wrong_moves_as_the_model_says(number):
-    assert random_chains.verdict(number) == "survived"
+    assert moves_as_the_model_says(number)

@@ -1,11 +1,10 @@
-"""The method in plain Python finds the transitions of the compiled kernel, in as many
-steps as it did."""
+"""The method in plain Python finds the transitions of the compiled kernel."""
 
 from itertools import product
 
 import numpy as np
 import pytest
-from chains import SLIDER, by_plain, positions_under
+from chains import SCENES, SLIDER, by_plain, positions_under
 from random_chains import mild_chain
 
 from precursors import simulate
@@ -17,29 +16,12 @@ LOAD_TO_GLOBAL_SLIP = 1e-10
 # Of the run's duration, and of the largest load: roundings of some tens of transitions.
 RANDOM = 1e-9
 RANDOM_LOAD = 1e-8
-# Windows, searches of a function and safe steps up to the first global slip. The last
-# steps to a root depend on how many digits the machine has.
-WORK = {"-5/6": [261, 346, 1108], "0": [432, 477, 1481], "5/6": [813, 639, 1969]}
-WORK_CHANGE = 0.01
 
 
-def count_calls(monkeypatch, name) -> list:
-    """A list that grows by one with each call of a function of the method."""
-    calls = []
-    function = getattr(plain, name)
-    monkeypatch.setattr(
-        plain, name, lambda *arguments: calls.append(name) or function(*arguments)
-    )
-    return calls
-
-
-@pytest.mark.parametrize("theta", WORK)
+@pytest.mark.parametrize("theta", SCENES.values())
 def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(
-    theta, monkeypatch
+    theta,
 ):
-    calls = [
-        count_calls(monkeypatch, name) for name in ("expand", "first_root", "safe_step")
-    ]
     run = simulate(SLIDER(theta=theta), until="global slip")
     rows, end = by_plain(run.chain, 10.0, until_global=True)
     compiled = run.transitions
@@ -55,9 +37,6 @@ def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(
         rows[:, 4], compiled["tangential_load"], rtol=0, atol=LOAD_TO_GLOBAL_SLIP
     )
     assert end == pytest.approx(run.duration, abs=TO_GLOBAL_SLIP)
-    assert [len(of_one) for of_one in calls] == pytest.approx(
-        WORK[theta], rel=WORK_CHANGE
-    )
 
 
 def test_a_run_ends_at_the_same_time_within_a_slip_that_lasts_too_long():
@@ -84,9 +63,8 @@ def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks
         assert compiled[["block", "mode"]].tolist() == [(block + 1, side)] * mode
 
 
-@pytest.mark.parametrize("first", range(0, 40, 20))
-def test_random_chains_have_the_same_transitions(first):
-    for number in range(first, first + 20):
+def test_random_chains_have_the_same_transitions():
+    for number in range(30):
         case = mild_chain(np.random.default_rng(number))
         rows, _ = by_plain(case.chain, case.duration, most=case.most, **case.start)
         compiled = case.run().transitions
