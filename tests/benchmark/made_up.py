@@ -47,9 +47,8 @@ def has_all_transitions(found: Comparison) -> bool:
 @cache
 def tied_certificate() -> Certificate:
     """A proof that ends with a tie."""
-    return certify(
-        ExactChain.from_slider(n_blocks=7), 1, start_positions=SYMMETRIC_START
-    )
+    chain = ExactChain.from_slider(n_blocks=7)
+    return certify(chain, 1, start_positions=SYMMETRIC_START, max_bits=1024)
 
 
 def proof_of(

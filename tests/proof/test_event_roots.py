@@ -3,6 +3,7 @@ with known roots too."""
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -54,22 +55,16 @@ def through(*roots: float, **how):
     return function(((-1.0) ** len(roots) * coefficients).tolist(), **how)
 
 
-def find(*functions: EventFunction, back: float = 0.0, bits: int = BITS):
-    with ctx.workprec(bits):
-        found = first_crossing(list(functions), END, VALID, arb(back), bits)
+def find(*functions: EventFunction, back: float = 0.0):
+    with ctx.workprec(BITS):
+        found = first_crossing(list(functions), END, VALID, arb(back), BITS)
         return found and (found[0].block, found[1])
 
 
 ROOTS = {
-    "one": (through(0.3), 0, 0.3),
-    "the first of three": (through(0.2, 0.4, 0.6), 0, 0.2),
     "two close together": (through(0.375, 0.375 + 2.0**-20), 0, 0.375),
-    "before the start there is another": (through(-0.5, -0.25, 0.6), 0, 0.6),
     "at the end": (through(1.0), 0, 1.0),
     "a little beyond the end": (through(1.0 + 2.0**-50), 0, None),
-    "beyond the end": (through(1.05), 0, None),
-    "far beyond the end": (through(2.0, 3.0), 0, None),
-    "before the start only": (through(-0.1, -0.2), 0, None),
     "on a quarter of a half": (through(0.125, 0.625), 0, 0.125),
     "none, but a low dip": (function([0.25 + 1e-6, -1.0, 1.0]), 0, None),
     # A block that has just begun to slide does not stop at once.
@@ -124,44 +119,33 @@ def test_a_root_that_is_known_to_a_width_is_enclosed_and_the_enclosure_is_about_
 
 DIP = [0.26, -1.0, 1.0]
 UNDECIDED = {
-    "a double root": ([through(0.375, 0.375, block=4)], 0, "block 4 stops", (4,)),
+    "a double root": ([through(0.375, 0.375, block=4)], 0, "block 4 stops", 0.375),
     "no root, but wide": (
-        [function(DIP, 5, 1, 0.02)],
-        0,
-        "block 5 is released forward",
-        (5,),
+        [function(DIP, 5, -1, 0.02)],
+        *(0, "block 5 is released backward", 0.4),
     ),
-    "backward": ([function(DIP, 5, -1, 0.02)], 0, "block 5 is released backward", (5,)),
     "two at once": (
         [
             through(0.875, block=7),
             through(0.375, block=2),
             through(0.375, 0.75, block=6, way=1),
         ],
-        *(0, "first block 2 stops or block 6 is released forward", (2, 6)),
+        *(0, "first block 2 stops or block 6 is released forward", 0.375),
     ),
-    "at the start, with a slope": (
-        [function([0.0, 0.5, -1.0])],
-        0,
-        "block 1 stops",
-        (1,),
-    ),
-    "at the start": ([function([0.0, 0.0, 1.0])], 0, "block 1 stops", (1,)),
-    "at the start of some runs": ([function([1e-3, 1.0])], 2e-3, "block 1 stops", (1,)),
-    "before the start of some runs": ([through(0.01)], 2e-2, "block 1 stops", (1,)),
+    "at the start": ([function([0.0, 0.0, 1.0])], 0, "block 1 stops", 0.0),
+    "at the start of some runs": ([function([1e-3, 1.0])], 2e-3, "block 1 stops", 0.0),
+    "before the start of some runs": ([through(0.01)], 2e-2, "block 1 stops", 0.0),
 }
 
 
 @pytest.mark.parametrize(
-    ("functions", "back", "question", "blocks"), UNDECIDED.values(), ids=UNDECIDED
+    ("functions", "back", "question", "time"), UNDECIDED.values(), ids=UNDECIDED
 )
-def test_what_cannot_be_decided_is_asked(functions, back, question, blocks):
+def test_what_cannot_be_decided_is_asked(functions, back, question, time):
     with pytest.raises(Undecided, match=f"^whether {question}$") as asked:
         find(*functions, back=back)
-    assert asked.value.blocks == blocks
-    assert (
-        abs(float(asked.value.time.mid()) - (0.0 if blocks == (1,) else 0.4375)) < 0.1
-    )
+    assert [str(i) for i in asked.value.blocks] == re.findall(r"\d", question)
+    assert float(asked.value.time.mid()) == pytest.approx(time, abs=0.1)
 
 
 def equations(of: Constants, mode: list[int]) -> np.ndarray:
@@ -194,12 +178,10 @@ def exact_rows(
     return [row, (row - row[-1] * np.eye(2 * n + 1)[-1]) @ matrix]
 
 
-def functions_of(
-    proof: Proof, distance: float, bits: int, valid: float = VALID
-) -> list[EventFunction]:
-    with ctx.workprec(64):
+def functions_of(proof: Proof, distance: float, bits: int) -> list[EventFunction]:
+    with ctx.workprec(BITS):
         state = replace(proof.state, distance=arb(distance))
-        return event_functions(proof.bounds, state, proof.fresh, valid, bits)
+        return event_functions(proof.bounds, state, proof.fresh, VALID, bits)
 
 
 @pytest.fixture(scope="module")
@@ -218,16 +200,15 @@ def sliding() -> Proof:
 CLOSEST = {(0, 0): 0.7, (1, 0): 0.7, (2, 0): 0.7, (0, 1): 0.01, (1, 1): 0.15}
 
 
-@pytest.mark.parametrize("valid", [0.25, VALID])
 def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_than_they_must(
-    sliding, valid
+    sliding,
 ):
     """Beside the matrix exponential, with so few bits that the remainder of the series
     is seen."""
-    functions = functions_of(sliding, 0.0, 12, valid)
+    functions = functions_of(sliding, 0.0, 12)
     matrix = equations(sliding.bounds, sliding.state.mode)
     closest = dict.fromkeys(CLOSEST, 0.0)
-    for t in (-valid, -valid / 2, valid / 2, valid):
+    for t in VALID * np.array([-1.0, -0.5, 0.5, 1.0]):
         flow = expm(matrix * t) @ vector(sliding.state)
         for of in functions:
             for k, row in enumerate(exact_rows(sliding, of, matrix)):
@@ -252,7 +233,7 @@ def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no
     scale = np.append(
         np.sqrt([float(c) for c in sliding.bounds.coupling[1:-1]]), np.ones(n)
     )
-    functions = functions_of(sliding, distance, 64)
+    functions = functions_of(sliding, distance, BITS)
     for of in functions:
         for k, row in enumerate(exact_rows(sliding, of, matrix)):
             ball = (of.value, of.slope, of.bend)[k](arb(0))

@@ -3,7 +3,6 @@ little apart."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
@@ -12,8 +11,7 @@ from typing import Any
 
 import mpmath
 import pytest
-from benchmark.made_up import SYMMETRIC_START, go_on, proof_of
-from chains import SCENES
+from benchmark.made_up import SYMMETRIC_START, go_on, proof_of, tied_certificate
 from flint import arb, ctx
 
 from precursors import simulate
@@ -54,9 +52,7 @@ def digits(x: Fraction) -> mpmath.mpf:
     return mpmath.mpf(x.numerator) / x.denominator
 
 
-@pytest.mark.parametrize(
-    "slider", [{"theta": "-5/6"}, {}, {"theta": "5/6"}, {"n_blocks": 1}]
-)
+@pytest.mark.parametrize("slider", [{"theta": "-5/6"}, {"n_blocks": 1}])
 def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(
     slider: dict[str, Any],
 ) -> None:
@@ -75,6 +71,7 @@ def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(
         seconds = (mpmath.pi + swing) / omega
         slip = (2 * drop + digits(rate) * seconds) / digits(stiffness)
         assert_holds(release.time, digits(onset))
+        assert_holds(release.tangential_load, digits(rate * onset))
         assert_holds(stop.time, digits(onset) + seconds)
         load = digits(rate) * (digits(onset) + seconds)
         assert_holds(stop.tangential_load, load - digits(chain.drive_stiffness) * slip)
@@ -83,7 +80,7 @@ def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(
     assert stop.tangential_load.radius <= LOAD_RADIUS
 
 
-@pytest.mark.parametrize("theta", [*SCENES.values(), "-1"])
+@pytest.mark.parametrize("theta", ["-5/6", "5/6", "-1"])
 def test_a_scene_is_proved_up_to_its_global_slip_as_the_solver_finds_it(
     theta: str,
 ) -> None:
@@ -95,13 +92,6 @@ def test_a_scene_is_proved_up_to_its_global_slip_as_the_solver_finds_it(
     assert found.time_error < SOLVER
 
 
-def test_a_release_is_known_exactly() -> None:
-    (release,) = certify(ExactChain.from_slider(theta="5/6"), "0.0584").transitions[:1]
-    # mu_s w_1 = 14/3 N at K V = 80 N/s
-    assert release.time.contains(exactly(Fraction(14, 3) / 80))
-    assert release.tangential_load.contains(exactly(Fraction(14, 3)))
-
-
 def test_the_doubles_of_a_chain_are_taken_for_what_they_are() -> None:
     certificate = certify(ExactChain.from_slider(n_blocks=3).to_chain(), 2)
     assert certificate.chain.mu_s == Fraction(0.7) != Fraction(7, 10)
@@ -111,8 +101,7 @@ def test_the_doubles_of_a_chain_are_taken_for_what_they_are() -> None:
 
 
 def test_a_mirror_symmetric_start_is_a_tie() -> None:
-    chain = ExactChain.from_slider(n_blocks=7)
-    certificate = certify(chain, "0.3", start_positions=SYMMETRIC_START, max_bits=1024)
+    certificate = tied_certificate()
     assert [(t.time, t.block, t.mode) for t in certificate.transitions] == [
         (exactly(Fraction(0)), i, mode) for i, mode in ((3, 1), (4, -1), (5, 1))
     ]
@@ -206,8 +195,7 @@ def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy() -> None:
     assert float(state.distance) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize("derivative", [0, 1, 2])
-@pytest.mark.parametrize("last", [6, 9])
+@pytest.mark.parametrize(("last", "derivative"), [(6, 0), (9, 1), (6, 2)])
 def test_the_bound_of_the_remainder_is_its_first_terms_where_blocks_oscillate(
     last, derivative
 ) -> None:
@@ -288,7 +276,7 @@ def test_a_motion_that_only_grazes_its_limit_is_not_proved() -> None:
     assert grazing.tie.question == "whether block 1 stops"
 
 
-@pytest.mark.parametrize("excess", ["1", "1e-6", "1e-12"])
+@pytest.mark.parametrize("excess", ["1", "1e-12"])
 def test_the_least_slope_of_a_turn_is_that_of_the_motion(excess: str) -> None:
     turned = lone_block(excess)
     chain = turned.chain
@@ -301,14 +289,6 @@ def test_the_least_slope_of_a_turn_is_that_of_the_motion(excess: str) -> None:
     assert 0.9989 * expected < slope < expected
 
 
-def test_a_slope_that_is_steeper_than_the_proved_one_is_refused() -> None:
-    turned = lone_block("1")
-    first, second, *others = turned.transitions
-    steeper = second._replace(slope=second.slope * Fraction(102, 100))
-    with pytest.raises(CertificateError, match=r"a slope of .* is not proved"):
-        verify(dataclasses.replace(turned, transitions=(first, steeper, *others)))
-
-
 def test_block_1_is_released_at_the_rate_of_the_drive() -> None:
     (release,) = certify(ExactChain.from_slider(), "0.36").transitions[:1]
     assert 0.999 * 80 < release.slope < 80  # K V [N/s], from rest
@@ -316,6 +296,6 @@ def test_block_1_is_released_at_the_rate_of_the_drive() -> None:
 
 def test_too_few_bits_are_an_error_and_no_tie() -> None:
     with pytest.raises(
-        CertificateError, match="max_bits = 256 do not suffice beyond t = "
+        CertificateError, match="max_bits = 128 do not suffice beyond t = "
     ):
-        certify(ExactChain.from_slider(), 10, max_bits=256)
+        certify(ExactChain.from_slider(), 3, max_bits=128)
