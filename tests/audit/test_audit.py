@@ -12,12 +12,12 @@ import pytest
 from chains import SLIDER, first_transitions, positions_under
 
 from precursors import Run, simulate
-from precursors.audit import ROUNDINGS, audit
+from precursors.audit import audit
 from precursors.audit.carried import CarriedState
 from precursors.audit.checks import MAX_PROBLEMS, Auditor
 from precursors.audit.conditions import Conditions, lower_bound
 
-# What an exact run of the paper's scenes is off by at most, in roundings; `ROUNDINGS`
+# What an exact run of the paper's scenes is off by at most, in roundings; 16
 # may pass.
 FEW_ROUNDINGS = 4.0
 # An energy that is off by less, relative to what is turned over, is off by rounding.
@@ -129,7 +129,7 @@ def test_an_audit_that_takes_too_much_work_ends_and_says_where(uniform, monkeypa
 
 
 def test_energy_that_goes_astray_is_found(uniform):
-    stopped = Auditor(uniform, ROUNDINGS)
+    stopped = Auditor(uniform, 16.0)
     stopped.walk()
     stopped.state.heat += 1e-9 * stopped.state.turnover
     stopped.check_energy(0.0)
@@ -222,12 +222,12 @@ def test_sixteen_roundings_of_a_load_are_allowed_and_1e_12_of_a_time():
     time, load = run.transitions[["time", "tangential_load"]][5]
     wrong = audit(changed(run, 5, tangential_load=load + 1e-3), roundings=1e20)
     one = 1e-3 / wrong.roundings
-    for part in (15 / 16, 17 / 16):
+    for roundings in (15, 17):
         for mistake in (
-            {"tangential_load": load + part * ROUNDINGS * one},
-            {"time": time + part * 1e-12 * run.duration},
+            {"tangential_load": load + roundings * one},
+            {"time": time + roundings / 16 * 1e-12 * run.duration},
         ):
-            assert audit(changed(run, 5, **mistake)).ok == (part < 1)
+            assert audit(changed(run, 5, **mistake)).ok == (roundings < 16)
 
 
 def test_a_caller_sets_the_tolerance_for_an_approximate_run(uniform):

@@ -51,19 +51,13 @@ def tied_certificate() -> Certificate:
     return certify(chain, 1, start_positions=SYMMETRIC_START, max_bits=1024)
 
 
-def proof_of(
-    chain: ExactChain,
-    bits: int,
-    positions: Sequence[Fraction | str] = (),
-    velocities: Sequence[Fraction | str] = (),
-) -> Proof:
-    """A proof that has not begun; the chain starts from rest if nothing is given."""
-    starts = [
-        tuple(map(Fraction, of or [0] * chain.n_blocks))
-        for of in (positions, velocities)
-    ]
+def proof_of(chain: ExactChain, bits: int, positions: Sequence[Fraction] = ()) -> Proof:
+    """A proof that has not begun, from rest; springs are unstrained if nothing is
+    given."""
+    rest = (Fraction(0),) * chain.n_blocks
+    start = tuple(positions) or rest, rest
     return Proof(
-        Certificate(chain, Fraction(100), None, *starts, Fraction(1), (), None, bits)
+        Certificate(chain, Fraction(100), None, *start, Fraction(1), (), None, bits)
     )
 
 

@@ -11,7 +11,13 @@ from typing import Any
 
 import mpmath
 import pytest
-from benchmark.made_up import SYMMETRIC_START, go_on, proof_of, tied_certificate
+from benchmark.made_up import (
+    SYMMETRIC_START,
+    go_on,
+    has_all_transitions,
+    proof_of,
+    tied_certificate,
+)
 from flint import arb, ctx
 
 from precursors import simulate
@@ -88,7 +94,7 @@ def test_a_scene_is_proved_up_to_its_global_slip_as_the_solver_finds_it(
     chain = ExactChain.from_slider(theta=theta)
     truth = Truth.proved(certify(chain, 10, until="global slip"))
     found = compare(simulate(chain.to_chain(), until="global slip"), truth)
-    assert found.transitions_right == found.transitions_found == found.transitions_true
+    assert has_all_transitions(found)
     assert found.time_error < SOLVER
 
 
@@ -153,11 +159,9 @@ def test_a_run_that_starts_within_the_distance_stays_in_the_enclosures(
             abs(fraction(shift))
             <= fraction((coarse.unit * coarse.gap).upper()) + CLOCK_ROUNDING
         )
-        for ball, exact in (
-            (one.time, other.time),
-            (one.tangential_load, other.tangential_load),
-        ):
-            distance = abs(fraction(ball.mid()) - fraction(exact.mid()))
+        for name in ("time", "tangential_load"):
+            ball = getattr(one, name)
+            distance = abs(fraction(ball.mid()) - fraction(getattr(other, name).mid()))
             assert distance <= fraction(ball.rad())
             closest = max(closest, distance / fraction(ball.rad()))
     # The enclosures are no wider than they must be, so the test would see narrower
@@ -229,21 +233,15 @@ def test_what_is_published_holds_what_is_proved_and_is_hardly_wider() -> None:
     for published, proved in zip(
         certificate.transitions, Proof(certificate).run(), strict=True
     ):
-        for enclosure, ball in (
-            (published.time, proved.time),
-            (published.tangential_load, proved.tangential_load),
-        ):
+        for name in ("time", "tangential_load"):
+            enclosure = getattr(published, name)
+            ball = getattr(proved, name)
             radius = fraction(ball.rad())
             # One per cent is to spare, and less than one is lost by writing three
             # digits.
-            least = Fraction(101, 100) * (
-                radius + abs(enclosure.midpoint - fraction(ball.mid()))
-            )
-            assert (
-                least
-                <= enclosure.radius
-                <= Fraction(101, 100) * least + Fraction(1, 10**47)
-            )
+            spare = Fraction(101, 100)
+            least = spare * (radius + abs(enclosure.midpoint - fraction(ball.mid())))
+            assert least <= enclosure.radius <= spare * least + Fraction(1, 10**47)
             digits = min(45, 2 - math.floor(math.log10(radius)))
             assert (enclosure.midpoint * 10**digits).denominator == 1
             radii.append(float(radius))
