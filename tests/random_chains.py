@@ -34,7 +34,7 @@ class Trial:
 
 
 def decades(rng: Generator, low: float, high: float) -> float:
-    return float(10.0 ** rng.uniform(low, high))
+    return 10.0 ** rng.uniform(low, high)
 
 
 def any_chain(rng: Generator) -> Trial:
@@ -49,17 +49,14 @@ def any_chain(rng: Generator) -> Trial:
     if rng.random() < 0.4:
         weights[rng.random(n) < rng.choice([0.1, 0.5, 0.9])] = 0.0
     weights[rng.integers(n)] = force
-    mu_s = float(
-        rng.choice(
-            [0.7, 0.0, rng.uniform(0.05, 1.5), decades(rng, -6, 2)],
-            p=[0.5, 0.1, 0.3, 0.1],
-        )
+    mu_s = rng.choice(
+        [0.7, 0.0, rng.uniform(0.05, 1.5), decades(rng, -6, 2)], p=[0.5, 0.1, 0.3, 0.1]
     )
-    mu_k = mu_s * float(rng.choice([1.0, 0.0, rng.uniform()], p=[0.15, 0.15, 0.7]))
+    mu_k = mu_s * rng.choice([1.0, 0.0, rng.uniform()], p=[0.15, 0.15, 0.7])
     ratio = decades(rng, -6, 6) if rng.random() < 0.7 else 1.0
     stiffest = stiffness * max(1.0, ratio)
     duration = decades(rng, 0.5, 3.0) / (2 * math.sqrt(stiffest / mass))
-    loading = decades(rng, -3, 1) * max(mu_s, 0.1) * float(weights.sum()) / duration
+    loading = decades(rng, -3, 1) * max(mu_s, 0.1) * weights.sum() / duration
     chain = Chain(
         weights,
         mass,
@@ -115,20 +112,11 @@ def even_chain(rng: Generator) -> Trial:
     n = int(rng.integers(1, 13))
     weights = rng.integers(0, 4, n).astype(float)
     weights[rng.integers(n)] = 2.0
-    mu_s = float(rng.choice([1.0, 0.5, 0.0]))
-    stiffness, drive_stiffness, mass = (
-        float(x) for x in rng.choice([1.0, 2.0, 4.0], 3)
-    )
-    velocity = float(rng.choice([1.0, 0.125, 1e-3, 1e-9]))
-    chain = Chain(
-        weights,
-        mass,
-        stiffness,
-        drive_stiffness,
-        velocity,
-        mu_s,
-        mu_s * float(rng.choice([0.0, 0.5, 1.0])),
-    )
+    mu_s = rng.choice([1.0, 0.5, 0.0])
+    stiffness, drive_stiffness, mass = rng.choice([1.0, 2.0, 4.0], 3)
+    velocity = rng.choice([1.0, 0.125, 1e-3, 1e-9])
+    mu_k = mu_s * rng.choice([0.0, 0.5, 1.0])
+    chain = Chain(weights, mass, stiffness, drive_stiffness, velocity, mu_s, mu_k)
     start: dict[str, np.ndarray] = {}
     if rng.random() < 0.6:
         start["start_positions"] = positions_under(
@@ -136,26 +124,19 @@ def even_chain(rng: Generator) -> Trial:
         )
     if rng.random() < 0.6:
         start["start_velocities"] = rng.integers(-1, 2, n).astype(float)
-    return Trial(chain, float(rng.choice([1.0, 30.0, 300.0])), start, 80)
+    return Trial(chain, rng.choice([1.0, 30.0, 300.0]), start, 80)
 
 
 def absurd_chain(rng: Generator) -> Trial:
     """Any doubles at all: nothing that exists, but nothing that may hang or lie
     either."""
     n = int(rng.integers(1, 9))
-    size = float(rng.choice([15.0, 50.0, 300.0]))
+    size = rng.choice([15.0, 50.0, 300.0])
     mass, stiffness, drive_stiffness, velocity = (
         decades(rng, -size, size) for _ in range(4)
     )
-    chain = Chain(
-        10.0 ** rng.uniform(-size, size, n),
-        mass,
-        stiffness,
-        drive_stiffness,
-        velocity,
-        0.7,
-        0.45,
-    )
+    weights = 10.0 ** rng.uniform(-size, size, n)
+    chain = Chain(weights, mass, stiffness, drive_stiffness, velocity, 0.7, 0.45)
     longest = 300 * math.sqrt(mass / max(stiffness, drive_stiffness))
     return Trial(chain, min(decades(rng, -size, size), longest), {}, 80)
 

@@ -24,29 +24,20 @@ ONE_STEP = 0.3
 BERNSTEIN = 1.57
 
 
-def series(seed: int, n: int = 12) -> np.ndarray:
-    """c_0 > 0 and terms of either sign that fall off like those of a Taylor series."""
-    random = np.random.default_rng(seed)
-    terms = (
-        random.standard_normal(n)
-        * 2.0 ** np.arange(n)
-        / [math.factorial(k) for k in range(n)]
-    )
-    return np.append(abs(terms[:1]), terms[1:])
-
-
-def bisected_root(c: np.ndarray) -> float:
-    """First root in [0, 1], or infinity."""
-    found = np.roots(c[::-1])
-    real = found.real[
-        (abs(found.imag) < 1e-9) & (found.real >= 0.0) & (found.real <= 1.0)
-    ]
-    return float(real.min(initial=np.inf))
-
-
 @pytest.fixture(scope="module")
 def windows() -> list[tuple[np.ndarray, float]]:
-    found = [(c, bisected_root(c)) for c in map(series, range(WINDOWS))]
+    """Series with c_0 > 0 and terms of either sign that fall off like those of Taylor's,
+    each with its first root in [0, 1], or infinity."""
+    random = np.random.default_rng(3)
+    found = []
+    for _ in range(WINDOWS):
+        size = [2.0**k / math.factorial(k) for k in range(12)]
+        series = random.standard_normal(12) * size
+        series[0] = abs(series[0])
+        all_roots = np.roots(series[::-1])
+        real = all_roots.real[abs(all_roots.imag) < 1e-9]
+        within = real[(real >= 0.0) & (real <= 1.0)]
+        found.append((series, float(within.min(initial=np.inf))))
     assert 100 < sum(root <= 1.0 for _, root in found) < WINDOWS - 100
     return found
 
