@@ -27,13 +27,17 @@ BERNSTEIN = 1.57
 @pytest.fixture(scope="module")
 def windows() -> list[tuple[np.ndarray, float]]:
     """Series with c_0 > 0 and terms of either sign that fall off like those of Taylor's,
-    each with its first root in [0, 1], or infinity."""
+    each with its first root in [0, 1], or infinity; and parabolas, in which no step may
+    be longer."""
     random = np.random.default_rng(3)
+    size = [2.0**k / math.factorial(k) for k in range(12)]
+    all_series = random.standard_normal((WINDOWS, 12)) * size
+    all_series[:, 0] = abs(all_series[:, 0])
+    all_series[:3] = np.pad(
+        [[1.0, -0.5, -2.0], [1, 0, -2], [1, 0.5, -2]], [(0, 0), (0, 9)]
+    )
     found = []
-    for _ in range(WINDOWS):
-        size = [2.0**k / math.factorial(k) for k in range(12)]
-        series = random.standard_normal(12) * size
-        series[0] = abs(series[0])
+    for series in all_series:
         all_roots = np.roots(series[::-1])
         real = all_roots.real[abs(all_roots.imag) < 1e-9]
         within = real[(real >= 0.0) & (real <= 1.0)]
