@@ -21,7 +21,13 @@ from precursors.proof.event_roots import (
     first_crossing,
 )
 from precursors.proof.exact_chain import ExactChain
-from precursors.proof.motion import Constants, EnclosedState, time_unit
+from precursors.proof.motion import (
+    Constants,
+    EnclosedState,
+    advance,
+    expand,
+    time_unit,
+)
 from precursors.proof.tube import Proof
 
 BITS = 64
@@ -160,6 +166,12 @@ def vector(state: EnclosedState) -> np.ndarray:
     return np.array([float(x) for x in (*state.force[1:-1], *state.rate[1:-1], 1.0)])
 
 
+def scale(of: Constants) -> np.ndarray:
+    """What y is divided by in the norm of the energy."""
+    springs = [float(c) for c in of.coupling[1:-1]]
+    return np.append(np.sqrt(springs), np.ones(len(springs)))
+
+
 def exact_rows(
     proof: Proof, function: EventFunction, matrix: np.ndarray
 ) -> list[np.ndarray]:
@@ -230,14 +242,11 @@ def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no
     distance = 1e-6
     mode = sliding.state.mode
     matrix = equations(sliding.bounds, [0, *[1] * n, 0])
-    scale = np.append(
-        np.sqrt([float(c) for c in sliding.bounds.coupling[1:-1]]), np.ones(n)
-    )
     functions = functions_of(sliding, distance, BITS)
     for of in functions:
         for k, row in enumerate(exact_rows(sliding, of, matrix)):
             ball = (of.value, of.slope, of.bend)[k](arb(0))
-            reach = 2 * distance * np.linalg.norm(row[:-1] * scale)
+            reach = 2 * distance * np.linalg.norm(row[:-1] * scale(sliding.bounds))
             assert reach * (1 - 1e-9) <= float(ball.rad()) <= 1.001 * reach
     slides = {i for i in range(1, n + 1) if mode[i]}
     near = {1} | {i + way for i in slides for way in (1, -1)} & set(range(1, n + 1))
@@ -248,6 +257,20 @@ def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no
     assert len(slides) > 3
     assert len(near - slides) > 1
     assert {of.block for of in functions if of.fresh} == sliding.fresh == {10}
+
+
+def test_a_state_that_is_moved_is_within_its_distance_of_the_exact_one(sliding):
+    """Beside the matrix exponential, with so few bits that the remainder of the series
+    is seen."""
+    bounds = sliding.bounds
+    step = 0.25
+    with ctx.workprec(BITS):
+        state = replace(sliding.state, distance=arb(0))
+        polynomials, rests = expand(bounds, state, step, 12)
+        advance(bounds, state, polynomials, rests[0], arb(step))
+    flow = expm(equations(bounds, state.mode) * step) @ vector(sliding.state)
+    wrong = np.linalg.norm((vector(state) - flow)[:-1] / scale(bounds))
+    assert 0.3 * float(state.distance) < wrong <= float(state.distance)
 
 
 SLOW: dict[str, Any] = {
