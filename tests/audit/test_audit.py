@@ -184,8 +184,6 @@ def falsified(uniform: Run) -> Iterator[tuple[Run, str]]:
     yield replace(uniform, duration=4.0), "the duration is recorded 1.26 s from"
     for name, factor, words in (
         ("mass", 1 + 1e-8, "block 1 changes its mode while it moves at"),
-        ("stiffness", 1 + 1e-8, "block 1 slides against its mode"),
-        ("drive_stiffness", 1 + 1e-8, "block 1 is stuck, pushed forward beyond"),
         ("mu_s", 1 + 1e-8, "block 1 releases to .1 below the limit"),
         ("mu_k", 1 - 1e-9, "block 1 has .* recorded as tangential load"),
     ):

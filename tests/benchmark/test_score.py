@@ -127,10 +127,7 @@ def test_files_are_read_as_solvers_write_them(scored):
         ),
     }
     for lines in others.values():
-        found = scored(*lines)
-        assert {k: v for k, v in found.items() if v == v} == {
-            k: v for k, v in plain.items() if v == v
-        }
+        assert str(scored(*lines)) == str(plain)
 
 
 def test_rows_after_the_duration_are_ignored_and_costs_are_those_of_the_last(scored):
@@ -160,7 +157,6 @@ WRONG = {
     "block 0": ([HEADER, "0.35,0,1,28"], "line 2: block must be 1 to 10"),
     "mode 2": ([HEADER, "0.35,1,2,28"], "line 2: mode must be -1, 0 or 1, but is 2"),
     "mode twice": ([HEADER, ROW, ROW], "line 3: block 1 is in mode 1 already"),
-    "sticks first": ([HEADER, "0.1,4,0,1"], "line 2: block 4 is in mode 0 already"),
     "back in time": (
         [HEADER, ROW, "0.34,1,0,27"],
         "line 3: time_s must not fall",

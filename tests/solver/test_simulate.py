@@ -5,9 +5,10 @@ import math
 
 import numpy as np
 import pytest
-from chains import SLIDER, audited, first_transitions, lone_slip
+from chains import SLIDER, first_transitions, lone_slip
 
 from precursors import TransitionLimitError, apparent_friction, find_slips, simulate
+from precursors.audit import audit
 from precursors.benchmark.score import problems, solution
 from precursors.model.statics import maximal_strain_positions
 
@@ -83,7 +84,7 @@ def test_a_chain_that_slides_without_end_meets_a_cap_on_work(monkeypatch):
         TransitionLimitError, match=r"^1000 steps .* at t = \S+ s of 1 s.*shorten"
     ) as error:
         simulate(SLIDER(2, mu_s=0.0, mu_k=0.0), duration=1.0)
-    audited(error.value.run)
+    audit(error.value.run).raise_if_failed()
 
 
 def test_a_run_until_the_global_slip_stops_at_its_end_or_at_its_duration():
@@ -145,7 +146,7 @@ def test_all_blocks_at_their_limit_let_go_in_one_event(n_blocks, changes):
     # A block 1 without load is let go before.
     exact = 1e-8 if changes == {"theta": 1.0} else 1e-12
     assert run.transitions["tangential_load"][0] == pytest.approx(280.0, rel=exact)
-    audited(run)
+    audit(run).raise_if_failed()
 
 
 @pytest.mark.parametrize(
