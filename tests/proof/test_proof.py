@@ -112,7 +112,7 @@ def test_a_mirror_symmetric_start_is_a_tie() -> None:
         (exactly(Fraction(0)), i, mode) for i, mode in ((3, 1), (4, -1), (5, 1))
     ]
     tie = certificate.tie
-    assert tie is not None
+    assert tie
     assert tie.blocks == (2, 6)
     assert tie.closeness < Fraction(1, 10**45)
     assert certificate.proved_until < certificate.duration
@@ -252,7 +252,7 @@ def test_what_is_published_holds_what_is_proved_and_is_hardly_wider() -> None:
 def test_a_transition_at_the_very_end_of_the_run_is_not_decided_by_luck() -> None:
     certificate = certify(ExactChain.from_slider(), "0.35", max_bits=512)
     assert certificate.transitions == ()
-    assert certificate.tie is not None
+    assert certificate.tie
     assert certificate.tie.time.contains(exactly(Fraction("0.35")))
 
 
@@ -270,7 +270,7 @@ def lone_block(excess: str) -> Certificate:
 def test_a_motion_that_only_grazes_its_limit_is_not_proved() -> None:
     grazing = lone_block("0")
     assert [t.mode for t in grazing.transitions] == [1]
-    assert grazing.tie is not None
+    assert grazing.tie
     assert grazing.tie.question == "whether block 1 stops"
 
 

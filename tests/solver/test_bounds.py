@@ -1,7 +1,7 @@
 """No root is passed over: the proof of a window, the safe steps and the search, against
 exact series.
 
-A bound that is too loose costs time: `test_work` counts it.
+A step that is too short costs time: `test_work` counts it.
 """
 
 from __future__ import annotations
@@ -40,7 +40,6 @@ def windows() -> list[tuple[np.ndarray, float]]:
         real = all_roots.real[abs(all_roots.imag) < 1e-9]
         within = real[(real >= 0.0) & (real <= 1.0)]
         found.append((series, float(within.min(initial=np.inf))))
-    assert 100 < sum(root <= 1.0 for _, root in found) < WINDOWS - 100
     return found
 
 
@@ -81,6 +80,8 @@ def test_a_function_stays_within_the_bounds_of_its_window(monkeypatch):
     largest = (middle + reach).max(axis=0)
     assert (np.minimum(low, at_end) <= least + ROUNDING).all()
     assert (largest <= high + ROUNDING).all()
+    # No wider than they are: less is better.
+    assert np.median((high - low) / (largest - least)) < 1.57
 
 
 def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
