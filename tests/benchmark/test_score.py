@@ -111,7 +111,6 @@ def test_files_are_read_as_solvers_write_them(scored):
     zero = [f"{t},{int(b) - 1},{m},{load}" for t, b, m, load in columns]
     others = {
         "blocks from 0": (HEADER.replace("block", "block_from_0"), *zero),
-        "semicolons": [row.replace(",", ";") for row in (HEADER, *rows)],
         "decimal commas": [
             row.replace(",", ";").replace(".", ",") for row in (HEADER, *rows)
         ],

@@ -129,7 +129,6 @@ def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, r
         # sqrt((4 k + K)/m) is between 1e-20 and 1e20.
         ("mass", 4.99e40, 5.01e40),
         ("mass", 5.01e-40, 4.99e-40),
-        ("mu_s", 0.25, 0.249),
         ("mu_k", 0.5, 0.501),
     ],
 )

@@ -50,7 +50,7 @@ def test_one_step_passes_no_root(windows):
         assert roots.safe_step.py_func(c[0], c[1], curvature) <= root + ROUNDING
 
 
-@pytest.mark.parametrize("shift", [0, 1, 2])
+@pytest.mark.parametrize("shift", [0, 2])
 def test_the_search_ends_at_the_first_root_or_proves_that_there_is_none(windows, shift):
     """Also where the series begins with roots at the start, which were dealt with
     already."""
