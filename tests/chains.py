@@ -3,13 +3,9 @@
 import math
 
 import numpy as np
-import pandas as pd
 from numpy.typing import ArrayLike
 
 from precursors import Chain, Run, TransitionLimitError, simulate
-from precursors.audit import audit
-from precursors.audit.report import Audit
-from precursors.benchmark.score import solution
 from precursors.model.statics import balance_matrix, positions_from_compressions
 from precursors.solver import plain
 
@@ -43,34 +39,6 @@ def by_plain(
         chain, state, duration, until_global, longest_slip, most
     )
     return np.array(rows, float).reshape(-1, 5), end
-
-
-def proved(problem: str) -> pd.DataFrame:
-    """The proved transitions of a reference problem, rounded to doubles: time, block,
-    mode, tangential_load."""
-    return pd.DataFrame(solution(problem).run.transitions)
-
-
-def audited(run: Run) -> Audit:
-    """Demand that the run is a motion of the model."""
-    report = audit(run)
-    report.raise_if_failed()
-    return report
-
-
-def in_groups(transitions, apart: float) -> list[tuple[int, int]]:
-    """(block, mode), in an order of their own where transitions come within `apart` of
-    each other [s]."""
-    ordered: list[tuple[int, int]] = []
-    group: list[tuple[int, int]] = []
-    before = -math.inf
-    for time, block, mode in transitions:
-        if time - before > apart:
-            ordered += sorted(group)
-            group = []
-        group.append((block, mode))
-        before = time
-    return ordered + sorted(group)
 
 
 def lone_slip(chain: Chain) -> tuple[float, float]:

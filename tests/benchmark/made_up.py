@@ -47,24 +47,17 @@ def has_all_transitions(found: Comparison) -> bool:
 @cache
 def tied_certificate() -> Certificate:
     """A proof that ends with a tie."""
-    return certify(
-        ExactChain.from_slider(n_blocks=7), 1, start_positions=SYMMETRIC_START
-    )
+    chain = ExactChain.from_slider(n_blocks=7)
+    return certify(chain, 1, start_positions=SYMMETRIC_START, max_bits=1024)
 
 
-def proof_of(
-    chain: ExactChain,
-    bits: int,
-    positions: Sequence[Fraction | str] = (),
-    velocities: Sequence[Fraction | str] = (),
-) -> Proof:
-    """A proof that has not begun; the chain starts from rest if nothing is given."""
-    starts = [
-        tuple(map(Fraction, of or [0] * chain.n_blocks))
-        for of in (positions, velocities)
-    ]
+def proof_of(chain: ExactChain, bits: int, positions: Sequence[Fraction] = ()) -> Proof:
+    """A proof that has not begun, from rest; springs are unstrained if nothing is
+    given."""
+    rest = (Fraction(0),) * chain.n_blocks
+    start = tuple(positions) or rest, rest
     return Proof(
-        Certificate(chain, Fraction(100), None, *starts, Fraction(1), (), None, bits)
+        Certificate(chain, Fraction(100), None, *start, Fraction(1), (), None, bits)
     )
 
 

@@ -44,8 +44,7 @@ def write_table(name: str, table: pd.DataFrame) -> None:
 def assert_table(name: str, table: pd.DataFrame) -> None:
     """The table is the one that is kept, numbers within a tolerance."""
     found, kept = map(pd.read_csv, (StringIO(_text(table)), SMALL / f"{name}.csv"))
-    tolerance = RELATIVE.get(name, ROUNDING)
-    pd.testing.assert_frame_equal(found, kept, rtol=tolerance, atol=ABSOLUTE)
+    pd.testing.assert_frame_equal(found, kept, rtol=ROUNDING, atol=ABSOLUTE)
 
 
 def _text(table: pd.DataFrame) -> str:

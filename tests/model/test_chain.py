@@ -26,8 +26,8 @@ def test_the_default_slider_is_the_papers():
     assert chain.normal_load == pytest.approx(400.0, rel=ROUNDING)
 
 
-@pytest.mark.parametrize("n_blocks", [1, 2, 3, 10, 500])
-@pytest.mark.parametrize("theta", [-1.0, -0.3, 0.0, 0.7, 1.0])
+@pytest.mark.parametrize("n_blocks", [1, 2, 10])
+@pytest.mark.parametrize("theta", [-0.3, 1.0])
 def test_weights_add_up_to_the_total_load_and_are_linear(n_blocks, theta):
     weights = linear_weights(n_blocks, 400.0, theta)
     assert math.fsum(weights) == pytest.approx(400.0, rel=1e-14)
@@ -40,14 +40,9 @@ def test_weights_add_up_to_the_total_load_and_are_linear(n_blocks, theta):
 
 
 def test_load_cells_of_1_to_3_give_five_sixths_exactly():
-    assert theta_from_load_cells(
-        *printed.CELL_LOADS_N, spacing=0.06, length=0.1
-    ) == Fraction(5, 6)
-    assert theta_from_load_cells(300.0, 100.0, spacing=0.06, length=0.1) == -Fraction(
-        5, 6
-    )
-    assert theta_from_load_cells(200.0, 200.0, spacing=0.06, length=0.1) == 0
-    assert theta_from_load_cells(0.0, 400.0, spacing=0.1, length=0.1) == 1
+    a, b = printed.CELL_LOADS_N
+    assert theta_from_load_cells(a, b, spacing=0.06, length=0.1) == Fraction(5, 6)
+    assert theta_from_load_cells(b, a, spacing=0.06, length=0.1) == -Fraction(5, 6)
 
 
 def test_chains_with_equal_parameters_are_equal_and_hash_alike():
@@ -72,19 +67,23 @@ def test_a_chain_cannot_be_changed():
     [
         ("n_blocks", 0, "n_blocks must be a whole number from 1 to 100000, but is 0"),
         (
+            "slider_mass",
+            1e-50,
+            "sqrt(stiffness/mass) must be between 1e-20 and 1e+20 rad/s",
+        ),
+        (
             "theta",
             1.01,
             'theta must be a number between -1 and 1, or a fraction as "5/6", but is 1.01',
         ),
-        ("theta", "1e999999999", "but is '1e999999999'"),
         ("normal_load", 0.0, "normal_load must be above 0 N, but is 0.0"),
         ("mu_s", -0.1, "mu_s must be between 0 and 1e+60 [1], but is -0.1"),
-        (
-            "drive_stiffness",
-            math.inf,
-            "drive_stiffness must be a finite number [N/m], but is inf",
-        ),
-        ("cross_section", 10**400, "cross_section"),
+        ("mu_k", 0.71, "mu_k must be between 0 and mu_s = 0.7, but is 0.71"),
+        ("drive_stiffness", math.inf, "must be a finite number [N/m], but is inf"),
+        ("weights", [], "weights must be one number [N] a block"),
+        ("weights", [1.0, -1.0], "but that of block 2 is -1.0 N"),
+        ("weights", [0.0, 0.0], "above 0 N, but all are 0 N"),
+        ("weights", np.ma.masked_less([1, 2], 2), "weights must be numbers [N], but"),
     ],
 )
 def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):
@@ -94,25 +93,9 @@ def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):
 
 
 @pytest.mark.parametrize(
-    ("weights", "words"),
-    [
-        ([], "shape"),
-        ([1.0, -1.0], "block 2"),
-        ([0.0, 0.0], "all are 0 N"),
-        (["1.0"], "must be numbers"),
-        (np.ma.masked_less([1.0, 2.0], 1.5), "weights must be numbers.*masked_array"),
-    ],
-)
-def test_bad_weights_are_refused(weights, words):
-    with pytest.raises(ValueError, match=words):
-        Chain(weights, 1e-3, 1e6, 1e6, 1e-4, 0.7, 0.45)
-
-
-@pytest.mark.parametrize(
     ("a", "b", "words"),
     [
         (-1.0, 2.0, "load_a must"),
-        (1.0, np.inf, "load_b must"),
         (0.0, 0.0, "both are 0 N"),
         (400.0, 1.0, "theta must"),
     ],
@@ -123,13 +106,11 @@ def test_load_cells_that_the_line_cannot_pass_through_are_refused(a, b, words):
 
 
 @pytest.mark.parametrize("ratio", [1e-3, 1.0, 1e3])
-@pytest.mark.parametrize("n_blocks", [1, 2, 3, 40])
+@pytest.mark.parametrize("n_blocks", [1, 2, 40])
 def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, ratio):
     chain = Chain(np.ones(n_blocks), 2e-3, 1e6, ratio * 1e6, 1e-4, 0.7, 0.45)
-    behind = chain.springs
-    ahead = np.append(chain.springs[1:], 0.0)
-    stiffness = np.diag(behind + ahead)
-    stiffness -= np.diag(ahead[:-1], 1) + np.diag(ahead[:-1], -1)
+    bonds = np.eye(n_blocks) - np.eye(n_blocks, k=-1)
+    stiffness = bonds.T @ np.diag(chain.springs) @ bonds
     highest = math.sqrt(np.linalg.eigvalsh(stiffness)[-1] / chain.mass)
     assert highest <= chain.fastest_frequency_bound
     if n_blocks > 2:
@@ -142,24 +123,18 @@ def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, r
         ("weights", [1e-60], [0.99e-60]),
         ("weights", [1e60], [1.01e60]),
         ("weights", np.ones(100_000), np.ones(100_001)),
+        ("drive_velocity", 1e-60, 0.99e-60),
+        ("stiffness", 1e12, 1.01e12),
         ("drive_stiffness", 1e12, 1.01e12),
         # sqrt((4 k + K)/m) is between 1e-20 and 1e20.
         ("mass", 4.99e40, 5.01e40),
         ("mass", 5.01e-40, 4.99e-40),
-        ("mu_s", 1e60, 1.01e60),
-        ("mu_s", 0.25, 0.249),
         ("mu_k", 0.5, 0.501),
-        ("mu_k", 0.0, -1e-9),
     ],
 )
 def test_every_number_may_be_at_its_limit_and_not_beyond(name, at_the_limit, beyond):
-    numbers = {
-        "weights": [1.0, 2.0],
-        "mass": 1.0,
-        "stiffness": 1.0,
-        "drive_stiffness": 1.0,
-    }
-    numbers |= {"drive_velocity": 1.0, "mu_s": 0.5, "mu_k": 0.25}
+    numbers = dict.fromkeys(("mass", "stiffness", "drive_stiffness"), 1.0)
+    numbers |= {"weights": [1.0, 2.0], "drive_velocity": 1.0, "mu_s": 0.5, "mu_k": 0.25}
     chain = Chain(**numbers | {name: at_the_limit})
     np.testing.assert_array_equal(getattr(chain, name), at_the_limit)
     with pytest.raises(ValueError, match=r"\A[^\n]+\Z"):
@@ -191,7 +166,6 @@ def test_a_profile_is_integrated_over_each_block():
     assert chain.weights.tolist() == [15.0, 45.0]
     film = Chain.from_profile(np.eye(5)[:, 1:], n_blocks=20, mu_k=0.4)
     assert film.weights.tolist() == [0.0] * 4 + [25.0] * 16
-    assert film.mu_k == 0.4
-    for wrong in ([], [0.0, 0.0], [1.0, -1.0], [1.0, np.nan], [[[1.0]]]):
+    for wrong in ([0.0, 0.0], [1.0, -1.0], [1.0, np.nan], [[[1.0]]]):
         with pytest.raises(ValueError, match="profile must be"):
             Chain.from_profile(wrong)

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import dataclasses
 import gzip
-import json
 import sys
 from collections.abc import Callable
 from fractions import Fraction
@@ -72,54 +71,46 @@ def test_a_foreign_or_damaged_file_is_refused_in_one_line(small, tmp_path) -> No
     path = tmp_path / "damaged.json.gz"
     small.save(path)
     whole = path.read_bytes()
-    precise = gzip.decompress(whole).replace(b'"bits": 256', b'"bits": 1000000')
+    text = gzip.decompress(whole)
     damaged = {
-        gzip.compress(precise): "bits must be a whole number from 1 to",
-        b"": "Expecting value",
-        gzip.compress(
-            b'{"format": "else"}'
-        ): "its format must be 'precursors certificate 2', but is 'else'",
         whole[: len(whole) // 2]: "Compressed file ended",
+        b"no gzip": "Not a gzipped file",
+        gzip.compress(
+            text.replace(b"certificate 2", b"certificate 3")
+        ): "its format must be 'precursors certificate 2', but is ",
+        gzip.compress(
+            text.replace(b"Every run", b"No run")
+        ): "its claim is not what a certificate says",
     }
     for content, why in damaged.items():
         path.write_bytes(content)
         with pytest.raises(
             CertificateError, match=f"damaged.json.gz is not a whole certificate: {why}"
         ) as e:
-            Certificate.load(path)
+            verify(path)
         assert "\n" not in str(e.value)
 
 
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [("claim", "Every run of the model has some transitions."), ("sha256", "0" * 64)],
-)
-def test_a_file_that_says_something_else_is_refused(small, tmp_path, name, value):
-    path = tmp_path / "other.json.gz"
-    small.save(path)
-    content = json.loads(gzip.decompress(path.read_bytes()))
-    path.write_bytes(gzip.compress(json.dumps(content | {name: value}).encode()))
-    with pytest.raises(CertificateError, match=f"its {name} is not what a certificate"):
-        verify(path)
+def one_digit(enclosure: Enclosure) -> Enclosure:
+    return enclosure._replace(midpoint=enclosure.midpoint + Fraction(1, 10**43))
 
 
 SPOILED: dict[str, tuple[Callable[[CertifiedTransition], CertifiedTransition], str]] = {
-    "narrower": (
-        lambda t: t._replace(time=Enclosure(t.time.midpoint, t.time.radius / 1000)),
+    "time": (
+        lambda t: t._replace(time=one_digit(t.time)),
         "its time is not proved within",
     ),
-    "another load": (
-        lambda t: t._replace(
-            tangential_load=Enclosure(
-                t.tangential_load.midpoint + 2 * t.tangential_load.radius,
-                t.tangential_load.radius,
-            )
-        ),
+    "load": (
+        lambda t: t._replace(tangential_load=one_digit(t.tangential_load)),
         "its load is not proved within",
     ),
-    "another block": (
-        lambda t: t._replace(block=3),
+    "mode": (
+        lambda t: t._replace(mode=-1),
         "block 2 goes to mode .1, which is not what is stated",
+    ),
+    "slope": (
+        lambda t: t._replace(slope=t.slope * Fraction(102, 100)),
+        "a slope of .* is not proved",
     ),
 }
 
@@ -140,7 +131,6 @@ def test_what_is_not_proved_is_refused(small: Certificate, spoil, words: str) ->
 
 def test_an_end_that_is_not_found_is_refused(small: Certificate) -> None:
     tied = tied_certificate()
-    assert tied.bits == 4096
     assert tied.tie
     early = tied.tie._replace(time=Enclosure(Fraction(1, 10), Fraction(0)))
     for wrong, words in (
@@ -149,8 +139,8 @@ def test_an_end_that_is_not_found_is_refused(small: Certificate) -> None:
             "23 transitions instead of 24",
         ),
         (
-            dataclasses.replace(tied, tie=tied.tie._replace(blocks=(2, 5))),
-            r"\(2, 5\) instead of \(2, 6\)",
+            dataclasses.replace(tied, tie=None),
+            r"a tie of blocks none instead of \(2, 6\)",
         ),
         (dataclasses.replace(tied, tie=early), "the tie is at t = 8.20659253e-06 s"),
     ):
@@ -159,19 +149,16 @@ def test_an_end_that_is_not_found_is_refused(small: Certificate) -> None:
 
 
 def test_theta_of_a_scene_is_not_rounded() -> None:
-    slider = {"n_blocks": 10, "normal_load": 400.0, "length": 0.1}
-    scenes = {
-        "cells": ({"load_cell_a": 100.0, "load_cell_b": 300.0}, Fraction(5, 6)),
-        "fraction": ({"theta": "5/6"}, "5/6"),
-        "number": ({"theta": 0.5}, Fraction(1, 2)),
+    config = {
+        "chain": {"n_blocks": 10, "normal_load": 400.0, "length": 0.1},
+        "load_cells": {"spacing": 0.06},
+        "scenes": {
+            "cells": {"load_cell_a": 100.0, "load_cell_b": 300.0},
+            "fraction": {"theta": "5/6"},
+        },
     }
-    for name, (scene, theta) in scenes.items():
-        config = {
-            "chain": slider,
-            "load_cells": {"spacing": 0.06},
-            "scenes": {name: scene},
-        }
-        assert scene_exact_chain(config, name) == SLIDER(theta=theta)
+    for name in config["scenes"]:
+        assert scene_exact_chain(config, name) == SLIDER(theta="5/6")
 
 
 def test_a_scene_that_is_not_the_papers_chain_is_not_proved_as_if_it_were() -> None:
@@ -181,8 +168,6 @@ def test_a_scene_that_is_not_the_papers_chain_is_not_proved_as_if_it_were() -> N
     assert scene_exact_chain(config, "plain") == SLIDER(n_blocks=3, theta="5/6")
     for changes in (
         {"weights": [30.0, 40.0, 50.0]},
-        {"weakening_velocity": 0.02},
-        {"relaxation_time": 1e-6},
         {"viscosity": 1.0},
         {"push_height": 0.005},
     ):
@@ -201,7 +186,6 @@ def test_one_block_has_the_whole_load_whatever_theta_is():
 @pytest.mark.parametrize(
     ("slider", "argument", "message"),
     [
-        ({"theta": "7/6"}, {}, "theta"),
         (
             {"theta": "1e999999999"},
             {},
@@ -228,8 +212,3 @@ def test_without_python_flint_the_missing_extra_is_named(
         monkeypatch.delitem(sys.modules, f"precursors.proof.{name}", raising=False)
     with pytest.raises(ModuleNotFoundError, match=r'pip install "precursors\[proof\]"'):
         certify(SLIDER(), 1)
-
-
-def test_something_else_than_a_chain_is_named() -> None:
-    with pytest.raises(TypeError, match="what is proved must be a chain, but is dict"):
-        certify({})  # type: ignore[arg-type]

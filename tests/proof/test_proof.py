@@ -3,7 +3,6 @@ little apart."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
@@ -12,8 +11,13 @@ from typing import Any
 
 import mpmath
 import pytest
-from benchmark.made_up import SYMMETRIC_START, go_on, proof_of
-from chains import SCENES
+from benchmark.made_up import (
+    SYMMETRIC_START,
+    go_on,
+    has_all_transitions,
+    proof_of,
+    tied_certificate,
+)
 from flint import arb, ctx
 
 from precursors import simulate
@@ -73,6 +77,7 @@ def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(
         seconds = (mpmath.pi + swing) / omega
         slip = (2 * drop + digits(rate) * seconds) / digits(stiffness)
         assert_holds(release.time, digits(onset))
+        assert_holds(release.tangential_load, digits(rate * onset))
         assert_holds(stop.time, digits(onset) + seconds)
         load = digits(rate) * (digits(onset) + seconds)
         assert_holds(stop.tangential_load, load - digits(chain.drive_stiffness) * slip)
@@ -81,7 +86,7 @@ def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(
     assert stop.tangential_load.radius <= LOAD_RADIUS
 
 
-@pytest.mark.parametrize("theta", [*SCENES.values(), "-1"])
+@pytest.mark.parametrize("theta", ["-5/6", "5/6", "-1"])
 def test_a_scene_is_proved_up_to_its_global_slip_as_the_solver_finds_it(
     theta: str,
 ) -> None:
@@ -89,7 +94,7 @@ def test_a_scene_is_proved_up_to_its_global_slip_as_the_solver_finds_it(
     chain = ExactChain.from_slider(theta=theta)
     truth = Truth.proved(certify(chain, 10, until="global slip"))
     found = compare(simulate(chain.to_chain(), until="global slip"), truth)
-    assert found.transitions_right == found.transitions_found == found.transitions_true
+    assert has_all_transitions(found)
     assert found.time_error < SOLVER
 
 
@@ -102,13 +107,12 @@ def test_the_doubles_of_a_chain_are_taken_for_what_they_are() -> None:
 
 
 def test_a_mirror_symmetric_start_is_a_tie() -> None:
-    chain = ExactChain.from_slider(n_blocks=7)
-    certificate = certify(chain, "0.3", start_positions=SYMMETRIC_START, max_bits=1024)
+    certificate = tied_certificate()
     assert [(t.time, t.block, t.mode) for t in certificate.transitions] == [
         (exactly(Fraction(0)), i, mode) for i, mode in ((3, 1), (4, -1), (5, 1))
     ]
     tie = certificate.tie
-    assert tie is not None
+    assert tie
     assert tie.blocks == (2, 6)
     assert tie.closeness < Fraction(1, 10**45)
     assert certificate.proved_until < certificate.duration
@@ -155,11 +159,9 @@ def test_a_run_that_starts_within_the_distance_stays_in_the_enclosures(
             abs(fraction(shift))
             <= fraction((coarse.unit * coarse.gap).upper()) + CLOCK_ROUNDING
         )
-        for ball, exact in (
-            (one.time, other.time),
-            (one.tangential_load, other.tangential_load),
-        ):
-            distance = abs(fraction(ball.mid()) - fraction(exact.mid()))
+        for name in ("time", "tangential_load"):
+            ball = getattr(one, name)
+            distance = abs(fraction(ball.mid()) - fraction(getattr(other, name).mid()))
             assert distance <= fraction(ball.rad())
             closest = max(closest, distance / fraction(ball.rad()))
     # The enclosures are no wider than they must be, so the test would see narrower
@@ -197,7 +199,7 @@ def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy() -> None:
     assert float(state.distance) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize(("derivative", "last"), [(0, 6), (1, 9), (2, 6)])
+@pytest.mark.parametrize(("last", "derivative"), [(9, 1), (6, 2)])
 def test_the_bound_of_the_remainder_is_its_first_terms_where_blocks_oscillate(
     last, derivative
 ) -> None:
@@ -223,10 +225,34 @@ def test_the_bound_of_the_remainder_is_its_first_terms_where_blocks_oscillate(
         assert first <= bound < (1 + slack) * first
 
 
+def test_what_is_published_holds_what_is_proved_and_is_hardly_wider() -> None:
+    certificate = certify(
+        ExactChain.from_slider(n_blocks=3, theta="1/2"), 20, width="1e-20"
+    )
+    radii = []
+    for published, proved in zip(
+        certificate.transitions, Proof(certificate).run(), strict=True
+    ):
+        for name in ("time", "tangential_load"):
+            enclosure = getattr(published, name)
+            ball = getattr(proved, name)
+            radius = fraction(ball.rad())
+            # One per cent is to spare, and less than one is lost by writing three
+            # digits.
+            spare = Fraction(101, 100)
+            least = spare * (radius + abs(enclosure.midpoint - fraction(ball.mid())))
+            assert least <= enclosure.radius <= spare * least + Fraction(1, 10**47)
+            digits = min(45, 2 - math.floor(math.log10(radius)))
+            assert (enclosure.midpoint * 10**digits).denominator == 1
+            radii.append(float(radius))
+    assert min(radii) < 1e-46
+    assert max(radii) > 1e-36
+
+
 def test_a_transition_at_the_very_end_of_the_run_is_not_decided_by_luck() -> None:
     certificate = certify(ExactChain.from_slider(), "0.35", max_bits=512)
     assert certificate.transitions == ()
-    assert certificate.tie is not None
+    assert certificate.tie
     assert certificate.tie.time.contains(exactly(Fraction("0.35")))
 
 
@@ -244,7 +270,7 @@ def lone_block(excess: str) -> Certificate:
 def test_a_motion_that_only_grazes_its_limit_is_not_proved() -> None:
     grazing = lone_block("0")
     assert [t.mode for t in grazing.transitions] == [1]
-    assert grazing.tie is not None
+    assert grazing.tie
     assert grazing.tie.question == "whether block 1 stops"
 
 
@@ -261,14 +287,6 @@ def test_the_least_slope_of_a_turn_is_that_of_the_motion(excess: str) -> None:
     assert 0.9989 * expected < slope < expected
 
 
-def test_a_slope_that_is_steeper_than_the_proved_one_is_refused() -> None:
-    turned = lone_block("1")
-    first, second, *others = turned.transitions
-    steeper = second._replace(slope=second.slope * Fraction(102, 100))
-    with pytest.raises(CertificateError, match=r"a slope of .* is not proved"):
-        verify(dataclasses.replace(turned, transitions=(first, steeper, *others)))
-
-
 def test_block_1_is_released_at_the_rate_of_the_drive() -> None:
     (release,) = certify(ExactChain.from_slider(), "0.36").transitions[:1]
     assert 0.999 * 80 < release.slope < 80  # K V [N/s], from rest
@@ -276,6 +294,6 @@ def test_block_1_is_released_at_the_rate_of_the_drive() -> None:
 
 def test_too_few_bits_are_an_error_and_no_tie() -> None:
     with pytest.raises(
-        CertificateError, match="max_bits = 256 do not suffice beyond t = "
+        CertificateError, match="max_bits = 128 do not suffice beyond t = "
     ):
-        certify(ExactChain.from_slider(), 10, max_bits=256)
+        certify(ExactChain.from_slider(), 3, max_bits=128)

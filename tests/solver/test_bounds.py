@@ -1,5 +1,8 @@
 """No root is passed over: the proof of a window, the safe steps and the search, against
-exact series."""
+exact series.
+
+A step that is too short costs time: `test_work` counts it.
+"""
 
 from __future__ import annotations
 
@@ -8,9 +11,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from chains import matrix_of_motion
+from chains import SLIDER, matrix_of_motion
 
-from precursors import Chain
 from precursors.solver.kernel import proof, roots
 from precursors.solver.kernel.layout import ORDER, WINDOW
 from precursors.solver.kernel.proof import TAIL
@@ -18,76 +20,49 @@ from precursors.solver.kernel.units import parameters, set_up
 
 WINDOWS = 400
 ROUNDING = 1e-12  # of a window; numpy.roots knows a simple root to some roundings
-# A bound that is far too small costs time. In a typical window one step reaches this
-# part of the way to the root.
-ONE_STEP = 0.3
-# How much farther apart the bounds of a window are than the values. Less is better.
-BERNSTEIN = 1.57
-# Safe steps to the first roots of all windows. Less is better: write it down here.
-ROOT_STEPS = 1667
-
-
-def series(seed: int, n: int = 12) -> np.ndarray:
-    """c_0 > 0 and terms of either sign that fall off like those of a Taylor series."""
-    random = np.random.default_rng(seed)
-    terms = (
-        random.standard_normal(n)
-        * 2.0 ** np.arange(n)
-        / [math.factorial(k) for k in range(n)]
-    )
-    return np.append(abs(terms[:1]), terms[1:])
-
-
-def bisected_root(c: np.ndarray) -> float:
-    """First root in [0, 1], or infinity."""
-    found = np.roots(c[::-1])
-    real = found.real[
-        (abs(found.imag) < 1e-9) & (found.real >= 0.0) & (found.real <= 1.0)
-    ]
-    return float(real.min(initial=np.inf))
 
 
 @pytest.fixture(scope="module")
 def windows() -> list[tuple[np.ndarray, float]]:
-    found = [(c, bisected_root(c)) for c in map(series, range(WINDOWS))]
-    assert 100 < sum(root <= 1.0 for _, root in found) < WINDOWS - 100
+    """Series with c_0 > 0 and terms of either sign that fall off like those of Taylor's,
+    each with its first root in [0, 1], or infinity; and parabolas, in which no step may
+    be longer."""
+    random = np.random.default_rng(3)
+    size = [2.0**k / math.factorial(k) for k in range(12)]
+    all_series = random.standard_normal((WINDOWS, 12)) * size
+    all_series[:, 0] = abs(all_series[:, 0])
+    all_series[:3] = np.pad(
+        [[1.0, -0.5, -2.0], [1, 0, -2], [1, 0.5, -2]], [(0, 0), (0, 9)]
+    )
+    found = []
+    for series in all_series:
+        all_roots = np.roots(series[::-1])
+        real = all_roots.real[abs(all_roots.imag) < 1e-9]
+        within = real[(real >= 0.0) & (real <= 1.0)]
+        found.append((series, float(within.min(initial=np.inf))))
     return found
 
 
-def test_one_step_passes_no_root_and_is_not_far_too_short(windows):
+def test_one_step_passes_no_root(windows):
     n = np.arange(12)
-    steps = [
-        (roots.safe_step.py_func(c[0], c[1], (n * (n - 1) * abs(c)).sum()), root)
-        for c, root in windows
-    ]
-    assert all(step <= root + ROUNDING for step, root in steps)
-    assert np.median([step / root for step, root in steps if root <= 1.0]) > ONE_STEP
+    for c, root in windows:
+        curvature = (n * (n - 1) * abs(c)).sum()
+        assert roots.safe_step.py_func(c[0], c[1], curvature) <= root + ROUNDING
 
 
-@pytest.mark.parametrize("shift", [0, 1, 2])
+@pytest.mark.parametrize("shift", [0, 2])
 def test_the_search_ends_at_the_first_root_or_proves_that_there_is_none(windows, shift):
     """Also where the series begins with roots at the start, which were dealt with
     already."""
     progress = SimpleNamespace(root_steps=0)
     for c, root in windows:
-        before = progress.root_steps
         found = roots.first_root.py_func(
             len(c) + shift, 1e-15, np.append(np.zeros(shift), c), progress
         )
         assert found == pytest.approx(root, abs=1e-9) if root <= 1.0 else found > 1.0
-        # Where the first term outweighs all that are negative, no step is needed to
-        # know it.
-        assert (progress.root_steps == before) == (
-            c[0] + np.minimum(c[1:], 0.0).sum() > 0.0
-        )
-    assert progress.root_steps == pytest.approx(
-        ROOT_STEPS, rel=0.002
-    )  # fused products may round one
 
 
-def test_a_function_stays_within_the_bounds_of_its_window_which_are_not_far_too_wide(
-    monkeypatch,
-):
+def test_a_function_stays_within_the_bounds_of_its_window(monkeypatch):
     """Terms up to u^5, the value at the end, and a rest that does the worst it may."""
     lanes = SimpleNamespace(smaller=np.minimum, larger=np.maximum)
     monkeypatch.setattr(proof, "lanes", lanes)
@@ -105,7 +80,8 @@ def test_a_function_stays_within_the_bounds_of_its_window_which_are_not_far_too_
     largest = (middle + reach).max(axis=0)
     assert (np.minimum(low, at_end) <= least + ROUNDING).all()
     assert (largest <= high + ROUNDING).all()
-    assert np.median((high - low) / (largest - least)) < BERNSTEIN
+    # No wider than they are: less is better.
+    assert np.median((high - low) / (largest - least)) < 1.57
 
 
 def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
@@ -118,25 +94,16 @@ def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
     assert TAIL * WINDOW**9 / math.factorial(9) == pytest.approx(rest, rel=1e-9)
 
 
-@pytest.mark.parametrize("length", [0.25, 1.0, WINDOW])
-def test_the_rest_of_a_series_is_within_its_bound(length):
-    """Of terms from the ninth on, of all that is watched; they come from the equations
-    of motion."""
-    shares = []
-    factor = [max(n - 6, 0) * length**n / math.factorial(n) for n in range(ORDER + 1)]
+def test_the_rest_of_a_series_is_within_its_bound():
+    """Of terms from the ninth on, of all that is watched in the longest window; they
+    come from the equations of motion."""
+    later = range(9, ORDER + 1)
+    factor = np.array([(n - 6) * WINDOW**n / math.factorial(n) for n in later])
     for seed in range(200):
         random = np.random.default_rng(seed)
         n = int(random.choice([1, 2, 5, 12]))
         modes = random.choice([-1, 0, 1], n, p=[0.4, 0.2, 0.4])
-        chain = Chain(
-            np.ones(n),
-            1e-3,
-            25e6,
-            25e6 * 10 ** random.uniform(-1, 0.5),
-            1e-4,
-            0.7,
-            0.45,
-        )
+        chain = SLIDER(n, drive_stiffness=25e6 * 10 ** random.uniform(-1, 0.5))
         units = set_up.py_func(parameters(chain), chain.weights, np.zeros((3, n + 2)))
         state = np.concatenate(
             [10 ** random.uniform(-2, 2) * random.normal(size=n), modes * 0.1, [1.0]]
@@ -155,9 +122,7 @@ def test_the_rest_of_a_series_is_within_its_bound(length):
             forces.append(state[:n] - np.append(state[1:n], 0.0))
             state = units.tau * rate @ state
         largest = abs(np.array(velocities[7:9])).max()
-        watched = np.where(modes, velocities[: ORDER + 1], forces[: ORDER + 1])
-        rest = (np.array(factor)[9:, None] * abs(watched[9:])).sum(axis=0).max()
-        bound = TAIL * length**9 / math.factorial(9) * largest
+        watched = np.where(modes, velocities, forces)[9 : ORDER + 1]
+        rest = (factor @ abs(watched)).max()
+        bound = TAIL * WINDOW**9 / math.factorial(9) * largest
         assert rest <= bound * (1 + ROUNDING)
-        shares.append(rest / bound if bound else 1.0)
-    assert np.median(shares) > 0.2

@@ -19,7 +19,9 @@ RANDOM_LOAD = 1e-8
 
 
 @pytest.mark.parametrize("theta", SCENES.values())
-def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(theta):
+def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(
+    theta,
+):
     run = simulate(SLIDER(theta=theta), until="global slip")
     rows, end = by_plain(run.chain, 10.0, until_global=True)
     compiled = run.transitions
@@ -62,7 +64,7 @@ def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks
 
 
 def test_random_chains_have_the_same_transitions():
-    for number in range(20):
+    for number in range(30):
         case = mild_chain(np.random.default_rng(number))
         rows, _ = by_plain(case.chain, case.duration, most=case.most, **case.start)
         compiled = case.run().transitions

@@ -8,9 +8,10 @@ same. They depend on all that decides what is computed: the windows (`layout`,
 """
 
 import pytest
-from chains import SLIDER, audited, first_transitions
+from chains import SLIDER, first_transitions
 
 from precursors import Chain, simulate
+from precursors.audit import audit
 from precursors.solver import kernel
 
 COUNTED = ["transitions", "windows", "derivatives", "searches", "root_steps"]
@@ -46,7 +47,7 @@ def test_blocks_that_feel_the_drive_late_cost_no_search(counted):
     """Without friction all let go at once; the drive moves block 5 as t^9, which is
     flat for long."""
     chain = Chain([10.0] * 5, 2.84e-5, 25e6, 2.7e11, 8.4e-5, 0.0, 0.0)
-    audited(simulate(chain, 4.6e-7))
+    audit(simulate(chain, 4.6e-7)).raise_if_failed()
     transitions, windows, _, _, root_steps = counted(chain, 1000, duration=4.6e-7)
     assert transitions == 5
     assert windows < 100

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from chains import by_plain, in_groups
+from chains import by_plain
 
 from precursors import Chain, simulate
 
@@ -28,6 +28,14 @@ TIME = 1e-11
 OF_KIND = {"grazing": 1e-8, "mu_k = mu_s": 1e-5}
 # Transitions at one instant may come in any order.
 TIE = 1e-15
+
+
+def in_groups(transitions, apart: float) -> list[tuple[int, int]]:
+    """(block, mode), in an order of their own where transitions come within `apart` of
+    each other [s]."""
+    time, block, mode = np.transpose(transitions)
+    group = np.cumsum(np.diff(time, prepend=0.0) > apart)
+    return [row[1:] for row in sorted(zip(group, block, mode, strict=True))]
 
 
 def by_kernel(chain, case):
