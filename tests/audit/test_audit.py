@@ -20,8 +20,6 @@ from precursors.audit.conditions import Conditions, lower_bound
 # What an exact run of the paper's scenes is off by at most, in roundings; 16
 # may pass.
 FEW_ROUNDINGS = 4.0
-# An energy that is off by less, relative to what is turned over, is off by rounding.
-ENERGY_ROUNDING = 1e-13
 # A mistake in a time that has to be found: a ten-thousandth of the shortest slip [s].
 SHIFT = 1e-9
 # Positions that overload some blocks either way [m]
@@ -43,7 +41,6 @@ def test_an_exact_run_is_a_motion_of_the_model_to_few_roundings(chain):
     report.raise_if_failed()
     assert report.n_intervals == len(run.transitions) + 1
     assert 0.0 < report.roundings < FEW_ROUNDINGS
-    assert report.energy_residual < ENERGY_ROUNDING
 
 
 @pytest.mark.parametrize(("dip", "is_motion"), [(1e-6, False), (-1e-6, True)])
@@ -126,14 +123,6 @@ def test_an_audit_that_takes_too_much_work_ends_and_says_where(uniform, monkeypa
     assert report.is_undecided
     assert str(report).startswith("It is undecided whether the run is a motion")
     assert report.n_intervals < 100
-
-
-def test_energy_that_goes_astray_is_found(uniform):
-    stopped = Auditor(uniform, 16.0)
-    stopped.walk()
-    stopped.state.heat += 1e-9 * stopped.state.turnover
-    stopped.check_energy(0.0)
-    assert "out of balance" in stopped.found.problems[0]
 
 
 def without(run: Run, *removed: int) -> Run:
