@@ -198,14 +198,6 @@ def jacobian_of(system: FloatArray, state: FloatArray) -> FloatArray:
     return result
 
 
-@inner
-def nudge_starting(state):
-    """Give blocks that slide, but are at rest, a velocity."""
-    for i in range(1, state.shape[1] - 1):
-        if state[MODE, i] != 0.0 and state[VELOCITY, i] == 0.0:
-            state[VELOCITY, i] = state[MODE, i] * NUDGE
-
-
 @outer
 def go_on(system, state, progress, record, y, settings, event, elapsed):
     """Make the transition of an event and those overdue with it, or wait (-1) until
@@ -229,8 +221,9 @@ def go_on(system, state, progress, record, y, settings, event, elapsed):
             status = LOST
         elif obstacle(motion) == PAUSED:
             status = PAUSED
-    nudge_starting(state)
     for i in range(n):
+        if state[VELOCITY, i + 1] == 0.0:
+            state[VELOCITY, i + 1] = state[MODE, i + 1] * NUDGE
         y[i] = state[FORCE, i + 1]
         y[n + i] = state[VELOCITY, i + 1]
         for row in range(STICKS):

@@ -101,7 +101,7 @@ def run_of(motion: SteppedMotion, chain: Chain) -> Record:
     n = int(np.isfinite(rows["tangential_load"]).sum())
     since = progress["waited"] + (progress["elapsed"] - progress["noted"]) * unit
     # The last interval includes those of the transitions that are left out.
-    intervals = np.add.reduceat(np.append(rows["interval"], since), np.arange(n + 1))
+    intervals = [*rows["interval"][:n], rows["interval"][n:].sum() + since]
     reached = (
         progress["duration"]
         if progress["status"] == FINISHED

@@ -51,27 +51,15 @@ def _file(module: Path) -> Path | None:
 
 @cache
 def _read(sources: Path, path: Path) -> tuple[str, list[Path]]:
-    """Digest of one file, and the files that it imports."""
+    """Digest of a file's syntax tree, and the files that it imports."""
     source = path.read_bytes()
-    digest, names = _parse(source)
-    imported = {
-        file for name in names if (file := _file_of(sources, path.parent, name))
-    }
-    if path.name == "__init__.py" and b"import_module(" in source:
-        imported |= set(path.parent.glob("*.py"))  # by names that only a run knows
-    return digest, sorted(imported)
-
-
-@cache
-def _parse(source: bytes) -> tuple[str, list[str]]:
-    """Digest of the syntax tree of a module, and the names that it imports."""
     tree = ast.parse(source)
     tree.body = [
         part
         for part in tree.body
         if not (isinstance(part, ast.If) and ast.unparse(part.test) == "TYPE_CHECKING")
     ]
-    names: list[str] = []
+    names = []
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
@@ -81,7 +69,11 @@ def _parse(source: bytes) -> tuple[str, list[str]]:
             node, ast.Module | ast.ClassDef | ast.FunctionDef
         ) and ast.get_docstring(node, False):
             node.body = node.body[1:]
-    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), names
+    files = [_file_of(sources, path.parent, name) for name in names]
+    imported = [file for file in files if file]
+    if path.name == "__init__.py" and b"import_module(" in source:
+        imported += path.parent.glob("*.py")  # by names that only a run knows
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), imported
 
 
 @cache

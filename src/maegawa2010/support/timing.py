@@ -54,51 +54,33 @@ def measure(
     tasks: Mapping[Key, Callable[[], object]],
     rounds: int = ROUNDS,
     shortest: float = SHORTEST,
-    seconds: Mapping[Key, Seconds] | None = None,
 ) -> dict[Key, Timing]:
     """Time tasks in turn, round after round, after warming each up.
 
     Within a round a task is repeated for at least `shortest` [s], and the round counts
-    the mean. `seconds` is how long each task took when it was warm, if that is known
-    (see `second_call`): one that took longer than `shortest` has had its first round.
+    the mean.
     """
-    warm = seconds or {name: second_call(task)[1] for name, task in tasks.items()}
-    found = {
-        name: [warm[name]] if seconds and warm[name].wall > shortest else []
-        for name in tasks
-    }
-    repeats = {
-        name: max(1, round(shortest / max(warm[name].wall, 1e-9))) for name in tasks
-    }
+    repeats = {}
+    for name, task in tasks.items():
+        task()
+        warm = timed(task)[1].wall
+        repeats[name] = max(1, round(shortest / max(warm, 1e-9)))
+    found: dict[Key, list[Seconds]] = {name: [] for name in tasks}
     # what the libraries hold for good need not be looked through before every task
     gc.freeze()
     gc.disable()
     try:
-        for done in range(rounds):
+        for _ in range(rounds):
             for name, task in tasks.items():
-                if len(found[name]) == done:
-                    gc.collect()
-                    found[name].append(_timed(task, repeats[name])[1])
+                gc.collect()
+                found[name].append(timed(task, repeats[name])[1])
     finally:
         gc.unfreeze()
         gc.enable()
     return {name: Timing(rounds) for name, rounds in found.items()}
 
 
-def second_call(
-    task: Callable[[], T], warm_up: Callable[[], object] | None = None
-) -> tuple[T, Seconds]:
-    """Result of the second of two calls, and its time; the first is a shorter one, if
-    that is given.
-
-    What the first one compiles, loads or imports is no part of it, however long the
-    first one takes.
-    """
-    (warm_up or task)()
-    return _timed(task)
-
-
-def _timed(task: Callable[[], T], calls: int = 1) -> tuple[T, Seconds]:
+def timed(task: Callable[[], T], calls: int = 1) -> tuple[T, Seconds]:
     """Result of the last of some calls in a row, and the mean time of a call."""
     clock = time.perf_counter()
     processor = time.process_time()

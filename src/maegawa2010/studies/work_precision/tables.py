@@ -77,7 +77,6 @@ def measure_methods(
         and errors are those of `Comparison`.
     """
     tasks: dict[int, Callable[[], Result]] = {}
-    warm: dict[int, timing.Seconds] = {}
     rows: list[dict[str, object]] = []
     chain = truth.run.chain
     for name, some in values.items():
@@ -86,14 +85,14 @@ def measure_methods(
                 partial(attempt, METHODS[name].solve, chain, end, value, UNTIL)
                 for end in (duration, min(WARM_UP, duration))
             )
-            result, seconds = timing.second_call(task, warm_up)
+            warm_up()
+            result, seconds = timing.timed(task)
             if seconds.wall > longest:
                 break
             if seconds.wall <= long:
                 tasks[len(rows)] = task
-                warm[len(rows)] = seconds
             rows.append(_row(truth, METHODS[name], value, result, seconds.wall))
-    for key, found in timing.measure(tasks, rounds, SHORTEST, warm).items():
+    for key, found in timing.measure(tasks, rounds, SHORTEST).items():
         rows[key]["seconds"] = found.seconds
     return pd.DataFrame(rows)
 
