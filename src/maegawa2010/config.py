@@ -1,7 +1,5 @@
 """Checks of a configuration: the first thing wrong with it, in one line."""
 
-from __future__ import annotations
-
 import math
 import os
 import re

@@ -4,8 +4,6 @@ Functions are given by their full names, so that reading the rules imports
 none of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,7 +1,5 @@
 """The scenes of a configuration, and the chain that each of them stands for."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from fractions import Fraction

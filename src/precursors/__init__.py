@@ -12,8 +12,6 @@ This is the library, for any chain; the package `maegawa2010` reproduces the pap
     >>> plot(run).savefig("run.png")
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING

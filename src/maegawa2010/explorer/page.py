@@ -7,8 +7,6 @@ and `figures.js` the figures, with the means of `drawing.js`. `explorer.js` link
 what the reader does.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from importlib.resources import files

@@ -9,8 +9,6 @@ Units are SI, or those of solvers with a tolerance, which meet numbers near one:
 in N, time in tau = sqrt(m / stiffest spring), velocity in N/tau. Then 1/m and the
 largest c_i are 1."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

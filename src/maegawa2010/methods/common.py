@@ -1,8 +1,6 @@
 """The interface of the methods: their result, their kind, the error of a diverged
 run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

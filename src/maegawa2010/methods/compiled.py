@@ -1,7 +1,5 @@
 """Compilation of the methods."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -4,8 +4,6 @@ A. C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363. The chain is not 
 between transitions, for which CVODE's documentation recommends the Adams formulas.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from maegawa2010.methods.common import Method, Result

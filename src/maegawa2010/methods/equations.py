@@ -6,8 +6,6 @@
 with c = K, k, k, ... and v_0 = V, in the arrays of `columns`.
 """
 
-from __future__ import annotations
-
 from maegawa2010.methods.columns import (
     FORCE,
     FRICTION,

@@ -10,8 +10,6 @@ velocity of block i + 1 in the direction of its mode while it slides, and its ma
 mu_s w - F against being released forward while it sticks; function 2 i + 1 is its
 margin against being released backward."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

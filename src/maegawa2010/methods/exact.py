@@ -1,7 +1,5 @@
 """The exact solver as one of the methods."""
 
-from __future__ import annotations
-
 from maegawa2010.methods.common import Method, Result
 from precursors.model.chain import Chain
 from precursors.model.checks import Until

@@ -5,8 +5,6 @@ A compiled method is a function (motion, setting). It works in legs, the steps u
 next change of a mode, while there is one to begin: `begin_leg` waits while all blocks
 stick, and ends the run."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

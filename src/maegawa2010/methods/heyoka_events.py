@@ -7,8 +7,6 @@ that a transition compiles nothing. The switching is done in the events' callbac
 that a slip event is one call.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import lru_cache
 from typing import Any

@@ -9,8 +9,6 @@ between two evaluations is never exactly zero, so a block that has once slid nev
 sticks again.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

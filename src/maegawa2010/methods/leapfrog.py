@@ -5,8 +5,6 @@ Stick and slip are switched once a step, as with `rk4`; while all blocks stick t
 is in closed form.
 """
 
-from __future__ import annotations
-
 import math
 
 from maegawa2010.methods.compiled import inner, outer

@@ -1,7 +1,5 @@
 """Runs of compiled methods from rest, and the row that a fixed-step method needs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 

@@ -15,8 +15,6 @@ set: solve the tridiagonal system for the blocks that slide, stop those that go 
 their mode, release those whose R exceeds mu_s w, until nothing changes.
 """
 
-from __future__ import annotations
-
 import math
 from functools import partial
 

@@ -9,8 +9,6 @@ A loop over the blocks serves all stages. Written out for each stage of a short 
 the compiler puts its coefficients into it.
 """
 
-from __future__ import annotations
-
 import math
 from functools import partial, reduce
 from typing import Any

@@ -6,8 +6,6 @@ changed sign over a step, so a velocity that falls below zero and rises again wi
 step is missed without a warning. A shorter `max_step` is one cure; to look at more
 points of each step, as `dop853` does, is another."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from typing import Literal

@@ -5,8 +5,6 @@ energy of a mode of angular frequency omega by a factor in each step,
 `Smooth.energy_factor(omega dt)`. The fastest mode is the first whose factor exceeds 1;
 its omega dt is then `Smooth.limit`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

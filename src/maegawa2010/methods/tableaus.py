@@ -1,7 +1,5 @@
 """Explicit Runge-Kutta methods by their coefficients."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

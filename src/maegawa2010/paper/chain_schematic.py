@@ -1,8 +1,6 @@
 """Fig. 9: the analytical model, a chain of blocks on a rigid plane that is pushed
 through a spring."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.figure import Figure
 

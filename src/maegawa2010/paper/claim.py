@@ -1,8 +1,6 @@
 """A claim: a statement of the paper, and the function that finds whether the model
 agrees."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any

@@ -5,8 +5,6 @@ SCENES.
 function for each claim, with its name, that compares it with the tables.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial

@@ -1,7 +1,5 @@
 """Other readings of the paper's words, one change at a time, and what they give."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace

@@ -1,8 +1,6 @@
 """Eq. 15 in symbols: from the equations of motion to F_X = mu_s F_Z (Eqs. 2, 3 and
 11-14)."""
 
-from __future__ import annotations
-
 import sympy
 from sympy import Expr, Symbol
 

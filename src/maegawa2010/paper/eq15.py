@@ -4,8 +4,6 @@ The equation is about rest. So `fast_drive` drives the chain ever faster, until 
 breaks it, and `below_limit` says how far from the state of Eq. 12 a run stays.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace

@@ -1,8 +1,6 @@
 """Misprints of the paper, and points that it leaves open beside the readings of
 definitions.csv."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 """Numbers of the scenes: those that the paper prints, and those that no other table
 has."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """Tables and figures that a document of paper/ shows."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Tables of the workflow by name, and rows of them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,8 +1,6 @@
 """Digest of what a job computes: the syntax trees of its script and of all that this
 imports."""
 
-from __future__ import annotations
-
 import ast
 import hashlib
 from functools import cache

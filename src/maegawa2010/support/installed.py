@@ -1,7 +1,5 @@
 """Whether Python imports what the checkout holds."""
 
-from __future__ import annotations
-
 from importlib.machinery import PathFinder
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 """Statistics of one number over several runs: quantiles, and an interval that holds the
 median."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

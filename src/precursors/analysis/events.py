@@ -1,7 +1,5 @@
 """Slip events of a run: what they are, and the same faster."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple, get_type_hints
 

@@ -8,8 +8,6 @@ forces times a factor: the same motion, rounded otherwise at every step. It is a
 estimate; `certify` gives a proof.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Slip events of a run as tables, and those that Fig. 13 counts."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

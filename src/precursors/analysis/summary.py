@@ -1,8 +1,6 @@
 """The numbers of a run: events, mu_sapp (Eq. 1) and the first global slip, under every
 reading of these words."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The state that the audit carries through a run, and how far rounding has moved it."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache, partial
 

@@ -1,8 +1,6 @@
 """The walk through the intervals and transitions of a run, which notes what is no
 motion of the model."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from precursors.audit.carried import CarriedState

@@ -1,7 +1,5 @@
 """Conditions inside an interval between two transitions, and a proof of them."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,8 +1,6 @@
 """The motion between two transitions, by the normal modes of the blocks that slide
 (Eqs. 2-6)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

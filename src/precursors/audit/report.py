@@ -1,7 +1,5 @@
 """The outcome of an audit: a motion of the model, or what exceeds its tolerance."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

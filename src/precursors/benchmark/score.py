@@ -1,7 +1,5 @@
 """Scores of result files on the reference problems of docs/benchmark.md."""
 
-from __future__ import annotations
-
 import math
 import re
 from decimal import Decimal, InvalidOperation

@@ -4,8 +4,6 @@ What a command needs is imported when it runs, so that `precursors --help` answe
 once.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 import warnings

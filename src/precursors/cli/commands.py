@@ -1,7 +1,5 @@
 """The commands: each takes its options, and prints or writes what was asked for."""
 
-from __future__ import annotations
-
 import json
 import logging
 import sys

@@ -1,8 +1,6 @@
 """Fig. 13: propagation length of the precursors against the tangential load, for
 several loadings."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import cycle
 

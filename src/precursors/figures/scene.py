@@ -1,8 +1,6 @@
 """Figs. 10-12, and any other scene: the tangential load over time, the staircase that it
 loses, and when and where blocks slipped."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

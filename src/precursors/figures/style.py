@@ -1,8 +1,6 @@
 """The look of all figures: sizes, colours, words for numbers, the page, and the
 files."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager

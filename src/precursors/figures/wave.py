@@ -1,7 +1,5 @@
 """The wave: two precursors and the global slip, block by block, as an animated SVG."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any

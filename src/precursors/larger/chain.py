@@ -15,8 +15,6 @@ step ends at the first release or stop in it. A complete rest is one step; nothi
 left out while a block moves.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import partial

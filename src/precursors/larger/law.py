@@ -36,8 +36,6 @@ the far end, where precursors come and omega t_v is above 1 (peaks are higher by
 0.015, and n is lower than it says), and with a drive that is stiffer than the slider.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

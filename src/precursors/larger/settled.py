@@ -1,7 +1,5 @@
 """Settled stick-slip of a run: its peaks, its precursors, and the law beside them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

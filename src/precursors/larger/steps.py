@@ -1,7 +1,5 @@
 """Motion of a larger chain, step by step: the compiled part of `larger`."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import NamedTuple

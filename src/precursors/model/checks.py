@@ -1,8 +1,6 @@
 """Checks of arguments: each returns the value, or raises a ValueError that names the
 parameter."""
 
-from __future__ import annotations
-
 import math
 from contextlib import suppress
 from numbers import Integral, Real

@@ -1,7 +1,5 @@
 """The load that a chain at rest can carry, in numbers (Eqs. 11-14)."""
 
-from __future__ import annotations
-
 import numpy as np
 import scipy
 

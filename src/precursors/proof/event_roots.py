@@ -5,8 +5,6 @@ sliding block, mu_s w -+ net force of a stuck one. Its polynomials are balls wid
 for every run of the model: a proof holds for all.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -24,8 +24,6 @@ backwards, in its new modes, to the instant of the centre; a run that is early h
 new modes before that instant. So event functions are proved from -gap on.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import count
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Chains of equal length through the compiled kernel, and what it recorded as runs."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Iterator, Sequence
 from itertools import count

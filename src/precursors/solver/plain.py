@@ -23,8 +23,6 @@ linearly in time. With the force T_i in the spring behind each block, its stiffn
   ever. An event is over where all others stick.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Simulate chains exactly: every transition between stick and slip, to rounding."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Protocol, overload, runtime_checkable

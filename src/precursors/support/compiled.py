@@ -1,7 +1,5 @@
 """Machine code that is kept until its sources change."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import shutil

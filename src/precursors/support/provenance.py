@@ -1,8 +1,6 @@
 """Where results come from: versions, machine, configuration, and checksums of all
 inputs and outputs."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import platform

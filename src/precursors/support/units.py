@@ -1,7 +1,5 @@
 """Columns of measured tables: words that name them, and units that are read."""
 
-from __future__ import annotations
-
 import re
 import unicodedata
 from collections.abc import Sequence

@@ -26,8 +26,6 @@ events leave it near mu_k w_1. So there are fewer events than by the law where m
 events are of one block: few blocks, or a small load at the leading edge.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import product
 from typing import Any

@@ -1,7 +1,5 @@
 """A curve of a failure mode."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 

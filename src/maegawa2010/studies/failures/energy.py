@@ -1,8 +1,6 @@
 """Energy that is made or lost: steps beyond the stability limit, and implicit
 damping."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from maegawa2010.methods import METHODS, ROWS, SMOOTH, DivergedError

@@ -1,7 +1,5 @@
 """The failure gallery: a panel for each failure mode."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Two roots of an event function in one step, both of which are missed."""
 
-from __future__ import annotations
-
 from functools import partial
 from typing import Any
 

@@ -9,8 +9,6 @@ Nothing ever sticks: a block under a constant load F < mu_s w creeps at
 `creep_velocity`, and the equations are as stiff as mu_s w / (m width).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

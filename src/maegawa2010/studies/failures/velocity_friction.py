@@ -1,8 +1,6 @@
 """Friction as a function of the velocity: Eq. 4 taken literally, and Karnopp's dead
 zone, too narrow or too wide."""
 
-from __future__ import annotations
-
 from itertools import dropwhile, islice
 
 import numpy as np

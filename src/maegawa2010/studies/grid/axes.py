@@ -1,8 +1,6 @@
 """The two axes of a grid: `key`, a value of the chain, `from` and `to`, `points`, and
 `scale` ("linear" or "log")."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import product
 from typing import Any

@@ -1,7 +1,5 @@
 """mu_sapp over two values of the chain."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A grid of chains, each run to its first global slip."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The chains of the configuration that are proved, and what their certificates say."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Predictability time: how the errors of a run grow."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

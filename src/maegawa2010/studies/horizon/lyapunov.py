@@ -6,8 +6,6 @@ is one of spring forces alone. A shift in time, or of all blocks with the drive,
 grows nor decays and is not in it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any

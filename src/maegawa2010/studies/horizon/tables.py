@@ -1,8 +1,6 @@
 """The solver compared with the proof: the errors it makes, and the errors it
 predicts."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NamedTuple
 

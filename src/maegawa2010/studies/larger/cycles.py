@@ -1,8 +1,6 @@
 """Stick-slip of the larger chain after its first slips: the coefficient into which it
 settles, beside its law."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial

@@ -1,8 +1,6 @@
 """A chain with a length of its own: where creep runs away, and the coefficient into
 which it settles."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes

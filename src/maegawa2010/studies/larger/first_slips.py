@@ -1,8 +1,6 @@
 """The larger chain before its first global slip: where creep runs away, and how many
 events it has."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace

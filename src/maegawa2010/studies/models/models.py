@@ -1,8 +1,6 @@
 """The models, from the smallest to the largest, and the quantities that each of them
 answers."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any

@@ -26,8 +26,6 @@ Two values of the overshoot have a meaning:
   which blocks join it.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import NamedTuple

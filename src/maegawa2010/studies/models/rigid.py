@@ -4,8 +4,6 @@ It is released at the largest load of a state of rest, so that mu_sapp = mu_s (S
 6.2).
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Statics: what follows from the balance of forces alone, in closed form."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

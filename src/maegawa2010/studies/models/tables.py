@@ -1,8 +1,6 @@
 """Compare the models: what each answers, how far from the paper's chain, and at what
 cost."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial

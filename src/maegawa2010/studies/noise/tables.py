@@ -1,8 +1,6 @@
 """Noise: the numbers of a scene when every normal load is known to a tenth of a per
 cent only."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

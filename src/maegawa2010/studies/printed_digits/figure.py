@@ -1,8 +1,6 @@
 """The finding in one picture: the paper's six numbers come out, and they are one draw of
 many."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

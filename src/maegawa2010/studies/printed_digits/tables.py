@@ -1,8 +1,6 @@
 """The paper's numbers over all sliders with the same printed inputs: mu_s = 0.70 is
 anything from 0.695 to 0.705."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The number of events and mu_sapp against the number of blocks."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes

@@ -1,8 +1,6 @@
 """Convergence with N: which numbers of the paper depend on how finely the slider is cut
 into blocks."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 

@@ -1,8 +1,6 @@
 """Transitions right, and whether the paper's count comes out, against the step of
 RK4."""
 
-from __future__ import annotations
-
 import pandas as pd
 from matplotlib.figure import Figure
 

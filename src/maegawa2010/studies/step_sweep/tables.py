@@ -1,7 +1,5 @@
 """The paper's counts against the step of Runge and Kutta's method."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping
 

@@ -1,7 +1,5 @@
 """Speed against accuracy: how wrong the times of transitions are, and what they cost."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes

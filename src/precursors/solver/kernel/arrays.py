@@ -1,8 +1,6 @@
 """The arrays that a run is made in: the chain, its motion, how far it is, the
 record."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

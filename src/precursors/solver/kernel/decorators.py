@@ -1,7 +1,5 @@
 """Decorators of the kernel's compiled functions."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

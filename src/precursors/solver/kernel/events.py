@@ -1,8 +1,6 @@
 """The event loop: chains from their start, transition after transition, into a
 record."""
 
-from __future__ import annotations
-
 from precursors.model.chain import FREE
 from precursors.solver.kernel.arrays import ROW, progress_at
 from precursors.solver.kernel.decorators import (

@@ -1,8 +1,6 @@
 """Coulomb's law (Eqs. 4-6): modes of blocks, what follows from them, and which one a
 block at rest takes."""
 
-from __future__ import annotations
-
 from precursors.model.chain import FREE
 from precursors.solver.kernel.decorators import inner, seldom
 

@@ -1,7 +1,5 @@
 """Guess the next transition: which block, and when."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from precursors.solver.kernel import lanes

@@ -5,8 +5,6 @@ Loops over the blocks of a chain are too short for LLVM to vectorise by itself. 
 of this type becomes one AVX register, or two of SSE or NEON.
 """
 
-from __future__ import annotations
-
 import functools
 import operator
 

@@ -1,8 +1,6 @@
 """Constants of all parts of the kernel: lanes, windows, orders, roundings, and how a
 run can end."""
 
-from __future__ import annotations
-
 import math
 from itertools import count
 

@@ -6,8 +6,6 @@ memory is that of arrays which the caller of the compiled function holds. `p[i]`
 and writes.
 """
 
-from __future__ import annotations
-
 from numba.core import types
 from numba.extending import intrinsic, register_jitable
 

@@ -24,8 +24,6 @@ If the lower one is not negative then g > 0 on (0, 1), or its lower bound is zer
 everywhere: each Bernstein polynomial is positive there.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

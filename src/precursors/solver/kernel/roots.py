@@ -1,8 +1,6 @@
 """The first root of one function by safe steps: the careful way, where the guess was
 not proved."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

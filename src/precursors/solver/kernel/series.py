@@ -1,8 +1,6 @@
 """The chain's linear operator (Eqs. 2 and 3): Taylor series of all blocks, and moving
 along them."""
 
-from __future__ import annotations
-
 from precursors.solver.kernel import lanes
 from precursors.solver.kernel.arrays import row
 from precursors.solver.kernel.decorators import inner

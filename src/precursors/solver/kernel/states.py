@@ -1,7 +1,5 @@
 """The state of a chain at any time, from what was recorded."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,8 +1,6 @@
 """A chain in the kernel's units: spring constants (Eqs. 2 and 3), friction (Eqs. 5 and
 6), tau."""
 
-from __future__ import annotations
-
 import math
 from operator import attrgetter
 
