@@ -93,6 +93,10 @@ def test_another_clone_of_the_user_compiles_nothing_until_an_edit_and_old_code_i
     clone = Small(tmp_path / "clone")
     clone.cache = small.cache
     assert clone.use() == (7, 1, "")
+    # As a power cut or a full disk leaves them: empty, and without an end.
+    for i, file in enumerate(sorted(place.iterdir())):
+        file.write_bytes(file.read_bytes()[: 100 * i])
+        assert clone.use() == (7, 0, SAID)
     clone.write("part.py", PART.replace("3 * x", "5 * x"))
     assert clone.use() == (11, 0, SAID)
     (edited,) = set(small.cache.glob("precursors/*")) - {place}

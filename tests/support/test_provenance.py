@@ -1,10 +1,13 @@
 """Provenance says what computed the results, with and without git."""
 
 import json
+import os
 import platform
 import subprocess
 from importlib.metadata import version
 from pathlib import Path
+
+import pytest
 
 from precursors.support.provenance import git_state, provenance
 
@@ -54,7 +57,7 @@ def test_everything_that_computed_is_named_and_every_input_and_output_has_its_ch
 
 
 def test_the_commit_and_its_software_hash_identifiers_are_those_of_git(
-    tmp_path,
+    tmp_path, monkeypatch
 ):
     def git(*command):
         identity = ["-c", "user.name=a", "-c", "user.email=a@example.org"]
@@ -74,3 +77,8 @@ def test_the_commit_and_its_software_hash_identifiers_are_those_of_git(
     assert state["changed"] is False
     (tmp_path / "Snakefile").write_text("rule all:\n")
     assert git_state(tmp_path)["changed"] is True
+    for name in ("GIT_CONFIG_GLOBAL", "GIT_CONFIG_SYSTEM"):
+        monkeypatch.setenv(name, os.devnull)
+    monkeypatch.setenv("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1")
+    with pytest.warns(UserWarning, match="the commit is unknown: git says .*dubious"):
+        assert git_state(tmp_path) is None

@@ -2,10 +2,12 @@
 
 import hashlib
 import os
+import pickletools
 import shutil
 import sys
 import tempfile
 import warnings
+from collections import deque
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -106,7 +108,8 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
     """A directory that can be written, named after the checksum of the modules; None,
     with a warning.
 
-    What was compiled from sources of long ago is removed.
+    What was compiled from sources of long ago is removed, and what was not written to
+    its end.
     """
     cache = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
     base = Path(untyped.config.CACHE_DIR or Path(cache, "precursors"))
@@ -120,6 +123,9 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
             )
         for old in places[:-KEPT]:
             shutil.rmtree(old, ignore_errors=True)
+        for file in place.glob("*.nb[ci]"):
+            if not _is_whole(file):
+                file.unlink(missing_ok=True)
         if shutil.disk_usage(place).free > LEAST_ROOM:
             return place
     except (OSError, RuntimeError):  # it cannot be written, or there is no home
@@ -130,3 +136,16 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
         stacklevel=3,
     )
     return None
+
+
+def _is_whole(file: Path) -> bool:
+    """Whether a file of Numba's, which holds code or is the index of it, ends where its
+    pickles do."""
+    pickles = 2 if file.suffix == ".nbi" else 1
+    try:
+        with file.open("rb") as content:
+            for _ in range(pickles):
+                deque(pickletools.genops(content), maxlen=0)
+    except ValueError:
+        return False
+    return True

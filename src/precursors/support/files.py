@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 AnyPath = str | os.PathLike[str]
+LONGEST_NAME = 240  # bytes of 255; a temporary name is longer
 LEAST_ROOM = 10_000_000  # bytes; a run of 10 s and its figure take less
 
 
@@ -57,6 +58,10 @@ def check_writable(path: AnyPath, endings: Sequence[str] = ()) -> None:
     target = Path(os.path.realpath(path))
     if endings and target.suffix.lower() not in endings:
         raise ValueError(f"{path} must end in {' or '.join(endings)}")
+    if len(os.fsencode(target.name)) > LONGEST_NAME:
+        raise OSError(
+            f"cannot write {path}: its name has more than {LONGEST_NAME} bytes"
+        )
     if target.is_dir():
         raise OSError(f"cannot write {path}: it is a directory")
     parent = next(above for above in target.parents if above.exists())

@@ -6,6 +6,7 @@ import os
 import platform
 import re
 import subprocess
+import warnings
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
 from importlib.metadata import distributions
@@ -103,11 +104,17 @@ def git_state(root: Path) -> dict[str, str | bool] | None:
 
 
 def _git(root: Path, *command: str) -> str:
-    """Output of a git command, or nothing where it fails."""
+    """Output of a git command, or nothing where it fails; in a checkout with a
+    warning."""
     try:
         answer = subprocess.run(
-            ["git", "-C", root, *command], capture_output=True, text=True, check=True
+            ["git", "-C", root, *command], capture_output=True, text=True
         )
-    except (OSError, subprocess.CalledProcessError):
+    except OSError:
         return ""
-    return answer.stdout.strip()
+    if answer.returncode == 0:
+        return answer.stdout.strip()
+    if (root / ".git").exists():  # of another user, or without a commit
+        why = answer.stderr.partition("\n")[0]
+        warnings.warn(f"the commit is unknown: git says {why!r}", stacklevel=2)
+    return ""

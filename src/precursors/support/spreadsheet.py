@@ -25,8 +25,9 @@ from precursors.support.units import (
     OTHERS,
     TIME,
     candidates,
-    factor_of,
+    factors,
     has_word,
+    is_named,
     units,
 )
 
@@ -36,6 +37,11 @@ if TYPE_CHECKING:
 __all__ = ["LENGTH", "LOAD", "TIME", "read_columns", "read_profile", "read_weights"]
 
 NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d{1,3})?")
+# A date or none, hours, minutes, seconds.
+STAMP = re.compile(
+    r"(?:(\S+)[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d*)?)(?:Z|[-+][\d:]+)?"
+)
+DAY = 86_400.0  # [s]
 # Empty lines, sep=; and comments; an error of a spreadsheet, such as #N/A or #DIV/0!, is
 # no comment.
 PASSED_OVER = re.compile(r'(?:[\t;,"]*|"?sep=."?)$|%|#(?!N/A|NV|[A-Z/0]+[!?])')
@@ -46,10 +52,15 @@ NAMES = re.compile(
     r"(?![^;,\t]*(?<![\w\[(^])[-+]?[.,]?\d[^;,\t]*$)",
     re.IGNORECASE,
 )
-END_OF_HEADER = "***End_of_Header***"  # of LabVIEW
+# Above a table: LabVIEW's last line; other lines, and one of units, which begin so.
+END_OF_HEADER = "***End_of_Header***"
+REMARK = re.compile(r"\W*[^\W\d]")
+OF_UNITS = re.compile(r"[^;,\t:]*(unit|einheit)", re.IGNORECASE)
 # Commas between columns: beside a decimal point or a blank, or several in a line. The
 # point of 1.018,00 is none.
 SEPARATING = re.compile(r"(?<=\b0)\.|\.(?!\d{3},)|,[^\S\n]|,[^,\n]*,")
+# Only accented Latin letters: in other encodings, a name or a unit is not what it seems.
+NOT_LATIN = re.compile(r"[^\x00-\x7f\xa0µÀ-ÖØ-öø-ÿ]|[À-ÖØ-öø-ÿ]{3}")
 
 
 class Table(NamedTuple):
@@ -68,8 +79,8 @@ def read_columns(
 ) -> NDArray[np.float64]:
     """Read columns of numbers: by their units and words for them, or in this order.
 
-    A file may have a line of names and one of units; commas, semicolons, tabs
-    or blanks between columns; decimal commas. Empty columns and lines, and
+    A file may have lines of names, and other lines above them; commas, semicolons, tabs
+    or blanks between columns; decimal commas; time stamps. Empty columns and lines, and
     lines that begin with # or %, are passed over. Values are converted to the unit needed; a
     warning tells this, and how many rows lack a value.
 
@@ -95,9 +106,9 @@ def read_columns(
         In one line with file, line, and what is needed.
     """
     wanted = [kind for kind in needed if kind != TIME or sample_rate is None]
-    table = _chosen(_table(source), wanted)
+    table = _chosen(_table(source, wanted), wanted)
     rows = list(zip(table.lines, *table.columns, strict=True))
-    kept = [row for row in rows if not _lacks_value(row[1:])]
+    kept = [row for row in rows if all(row)]
     if not kept:
         raise ValueError(f"{table.path} has no numbers")
     lines, *columns = zip(*kept, strict=True)
@@ -112,12 +123,15 @@ def read_columns(
 def read_weights(path: AnyPath) -> list[float]:
     """Normal loads [N], a number for each block, alone or after the number or name of
     the block: 1 or b1, 2 or b2."""
-    table = _table(path)
+    table = _table(path, [NORMAL_LOAD])
     name, lines, names, columns = table
-    if len(columns) > 1:
+    if len(lines) == 1 and len(columns) > 2:  # a table of one line, as of the explorer
+        fields = [field for (field,) in columns]
+        table = Table(name, [*lines] * len(fields), [" ".join(names)], [fields])
+    elif len(columns) > 1:
         labels = (re.search(r"(\d+)([.,]0*)?$", label) for label in columns[0])
         numbers = [label and int(label[1]) for label in labels]
-        if len(lines) == 1 or numbers != list(range(1, len(lines) + 1)):
+        if numbers != list(range(1, len(lines) + 1)):
             raise ValueError(
                 f"{path}: columns: {len(columns)}; needed: {NORMAL_LOAD}, one a line, "
                 "alone or after the number of its block, 1, 2, 3, ..."
@@ -130,7 +144,7 @@ def read_weights(path: AnyPath) -> list[float]:
 def read_profile(path: AnyPath) -> NDArray[np.float64]:
     """The shape of a pressure or load in any unit, a line for each position from the
     trailing edge on: a column, or a matrix without names."""
-    table = _table(path)
+    table = _table(path, [])
     numbers = _numbers(table, [None] * len(table.columns))
     steps = np.diff(numbers[:, 0])
     has_positions = len(steps) > 1 and 0 < steps.max() < 1.0001 * steps.min()
@@ -142,16 +156,26 @@ def read_profile(path: AnyPath) -> NDArray[np.float64]:
     return numbers
 
 
-def _table(source: AnyPath | pd.DataFrame) -> Table:
+def _text(source: AnyPath) -> str:
+    content = Path(source).read_bytes()
+    if b"\0" in content:
+        raise ValueError(
+            f"{source} is not plain text: in the spreadsheet, save the table as CSV (UTF-8)"
+        )
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = content.decode("latin-1")
+    if NOT_LATIN.search(text):
+        raise ValueError(f"{source} is not UTF-8: save the table as CSV (UTF-8)")
+    return text
+
+
+def _table(source: AnyPath | pd.DataFrame, needed: Sequence[str]) -> Table:
     """A table without its empty rows and columns."""
     if isinstance(source, (str, PathLike)):
         path = str(source)
-        try:
-            text = Path(source).read_text(encoding="utf-8-sig")
-        except UnicodeDecodeError:
-            raise ValueError(
-                f"{path} is not UTF-8: in the spreadsheet, save the table as CSV (UTF-8)"
-            ) from None
+        text = _text(source)
     else:
         path = "data"
         has_names = all(isinstance(name, str) for name in source.columns)
@@ -161,12 +185,12 @@ def _table(source: AnyPath | pd.DataFrame) -> Table:
         for n, whole in enumerate(text.splitlines(), 1)
         if not PASSED_OVER.match(line := whole.strip(" \u00a0"))
     }
-    above = list(takewhile(NAMES.match, lines.values()))
-    below = list(lines.values())[len(above) :]
+    written = list(lines.values())
+    start = _start(path, written, needed)
+    above = list(takewhile(NAMES.match, written[start:]))
+    below = written[start + len(above) :]
     if not below:
         raise ValueError(f"{path} has no numbers")
-    if END_OF_HEADER in text:
-        raise ValueError(f"{path} has a header of LabVIEW: delete all above the names")
     separator = _separator(path, above, below)
     try:
         rows = [_cut(line, separator) for line in below]
@@ -174,27 +198,57 @@ def _table(source: AnyPath | pd.DataFrame) -> Table:
     except csv.Error as error:
         raise ValueError(f"{path} is not a table: {error}") from None
     columns = list(zip_longest(*rows, fillvalue=""))
-    width = max(i for i, column in enumerate(columns, 1) if any(column))
-    is_named = all(len(h) >= width and not any(h[len(columns) :]) for h in heads)
-    if len(heads) > 2 or not is_named:
-        raise ValueError(
-            f"{path}: {above[0]!r} does not name {width} columns: above the numbers may stand "
-            "a line of names, one of units, and lines that begin with # or %"
-        )
     if not heads:  # two comments may be names and units
         comments = re.findall(r"(?m)^[#%][^\S\n]*(\S.*)", text)
         heads = [_cut(line, separator) for line in comments]
-        heads = [head for head in heads if len(head) == len(columns)][-2:]
-    if len(heads) == 2:
-        heads[1] = [unit and f"[{unit.strip('[({})] ')}]" for unit in heads[1]]
-    parts = zip_longest([""] * len(columns), *heads, fillvalue="")
+        heads = [head for head in heads if len(head) == len(columns)]
+        heads = heads[-min(len(columns), 2) :]
+    parts = zip_longest([""] * len(columns), *_heads(heads, len(columns)), fillvalue="")
     names = (" ".join(filter(None, part)) for part in parts)
     named = [
         (name, column)
         for name, column in zip(names, columns, strict=False)
         if any(column)
     ]
-    return Table(path, list(lines)[len(above) :], *zip(*named, strict=True))
+    return Table(path, list(lines)[start + len(above) :], *zip(*named, strict=True))
+
+
+def _start(path: str, lines: Sequence[str], needed: Sequence[str]) -> int:
+    """Where a table begins: below LabVIEW's headers, of the file and its first segment,
+    or at the lines of names around the first that names what is needed, if only remarks
+    stand above it."""
+    ends = [i for i, line in enumerate(lines, 1) if line.startswith(END_OF_HEADER)]
+    named = (
+        i
+        for i, line in enumerate(takewhile(REMARK.match, lines))
+        if NAMES.match(line)
+        and all(candidates(re.split(r"[;,\t]", line), kind) for kind in needed)
+    )
+    start = ends[:2][-1] if ends else next(named, 0)
+    while start and NAMES.match(lines[start - 1]):
+        start -= 1
+    for remark in filter(OF_UNITS.match, lines[:start]):
+        _, *given = re.split(r"\s*[;,\t:]\s*", remark)
+        for unit in filter(None, given):
+            if needed and all(factors(f"[{unit}]", k) != {1.0} for k in needed):
+                raise ValueError(
+                    f"{path}: {unit!r} is not a unit of {' or '.join(needed)}"
+                )
+    return start
+
+
+def _heads(heads: Sequence[list[str]], width: int) -> list[list[str]]:
+    """Lines of names, with brackets around a line of units; of a title above all
+    columns, the units."""
+    found: list[list[str]] = []
+    for head in heads:
+        are_units = any(map(BARE.fullmatch, head)) or any(map(is_named, found))
+        if are_units and not is_named(head):
+            head = [cell and f"[{cell.strip('[({})] ')}]" for cell in head]
+        if len(head) == 1 < width:
+            head = ["".join(f"[{unit}]" for unit in units(head[0]))] * width
+        found.append(head)
+    return found
 
 
 def _separator(path: str, above: Sequence[str], rows: Sequence[str]) -> str:
@@ -250,17 +304,21 @@ def _numbers(table: Table, needed: Sequence[str | None]) -> NDArray[np.float64]:
     numbers = []
     digits = ""
     for name, fields, kind in zip(table.names, table.columns, needed, strict=True):
-        factor = factor_of(name, kind) if kind and units(name) else 1.0
-        if factor is None:
+        stamps = [found.groups() for f in fields if (found := STAMP.fullmatch(f))]
+        if kind == TIME and len(stamps) == len(fields):
+            numbers.append(_seconds(table.path, stamps))
+            continue
+        factor = factors(name, kind) if kind and units(name) else {1.0}
+        if len(factor) != 1:
             raise ValueError(
                 f"{table.path}: the column {name!r} is in {', '.join(units(name))}; needed: {kind}"
             )
-        if factor != 1.0:
+        if factor != {1.0}:
             warnings.warn(
                 f"{table.path}: {name!r} is converted to {kind}", stacklevel=3
             )
         at = zip(table.lines, fields, strict=True)
-        numbers.append(factor * np.array([_number(table.path, *x) for x in at]))
+        numbers.append(factor.pop() * np.array([_number(table.path, *x) for x in at]))
         digits += "".join(fields)
     if {",", "."} <= set(digits):
         raise ValueError(
@@ -269,10 +327,16 @@ def _numbers(table: Table, needed: Sequence[str | None]) -> NDArray[np.float64]:
     return np.column_stack(numbers)
 
 
-def _lacks_value(fields: Sequence[str]) -> bool:
-    """Whether some fields are empty, and the others hold numbers."""
-    others = list(filter(None, fields))
-    return len(others) < len(fields) and all(map(NUMBER.fullmatch, others))
+def _seconds(path: str, stamps: Sequence[tuple[str, ...]]) -> NDArray[np.float64]:
+    """Seconds since the first of time stamps less than half a day apart."""
+    dates, *clock = zip(*stamps, strict=True)
+    hours, minutes, seconds = (
+        np.char.replace(part, ",", ".").astype(float) for part in clock
+    )
+    times = np.unwrap(3600 * hours + 60 * minutes + seconds, period=DAY)
+    if any(dates) and len(set(dates)) != len(set(times // DAY)):
+        raise ValueError(f"{path}: half a day or more between two time stamps")
+    return times - times[0]
 
 
 def _number(path: str, line: int, field: str) -> float:
@@ -282,5 +346,5 @@ def _number(path: str, line: int, field: str) -> float:
         return float(value)
     raise ValueError(
         f"{path}, line {line}: {field[:40]!r} is not a number "
-        "(write it without a unit and separators of thousands, and times in seconds)"
+        "(write it without a unit and separators of thousands)"
     )

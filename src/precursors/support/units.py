@@ -23,7 +23,7 @@ WORDS = {
 # words for other columns, which are not taken for them by their order,
 OTHERS = (
     "samples?|index|n[or]|number|points?|displacement|distance|position|weg|course|変位"
-    "|pressure|druck|pression|cof|coefficient|reibwert|units?|einheit(?:en)?"
+    "|pressure|druck|pression|cof|coefficient|reibwert"
 )
 # and how many of the unit above their units are.
 _NEWTONS = {"[NН]|(?i:newtons?)": 1.0, "(?i:kN|кН)": 1e3, "mN|мН": 1e-3, "[uμ]N": 1e-6}
@@ -60,19 +60,20 @@ def has_word(name: str, words: str) -> bool:
 
 
 def units(name: str) -> list[str]:
-    """Whatever stands as a unit in a name: in brackets, and known units."""
+    """Whatever stands as a unit in a name: in brackets, or else a known unit."""
     name = unicodedata.normalize("NFKC", name)
-    bare = BARE.findall(BRACKET.sub(" ", name).strip())
-    return list(filter(None, [*BRACKET.findall(name), *map("".join, bare)]))
+    bare = ["".join(filter(None, found)) for found in BARE.findall(name)]
+    return list(filter(None, BRACKET.findall(name))) or bare
 
 
-def factor_of(name: str, kind: str) -> float | None:
-    """How many of the unit of a column the unit in a name is; None: not one, or another."""
-    found = {
-        next((f for known, f in UNITS[kind].items() if re.fullmatch(known, unit)), None)
+def factors(name: str, kind: str) -> set[float]:
+    """How many of the unit of a column the units in a name are."""
+    return {
+        factor
         for unit in units(name)
+        for pattern, factor in UNITS[kind].items()
+        if re.fullmatch(pattern, unit)
     }
-    return found.pop() if len(found) == 1 else None
 
 
 def candidates(names: Sequence[str], kind: str) -> list[int]:
@@ -80,7 +81,7 @@ def candidates(names: Sequence[str], kind: str) -> list[int]:
     it."""
     places: list[int] = []
     for fit in (
-        [i for i, name in enumerate(names) if factor_of(name, kind)],
+        [i for i, name in enumerate(names) if factors(name, kind)],
         *(
             [i for i, name in enumerate(names) if has_word(name, words)]
             for words in WORDS[kind]
@@ -88,3 +89,9 @@ def candidates(names: Sequence[str], kind: str) -> list[int]:
     ):
         places = [i for i in places or fit if i in fit] or places
     return places
+
+
+def is_named(names: Sequence[str]) -> bool:
+    """Whether a line names any column by a word."""
+    words = "|".join(sum(WORDS.values(), ()))
+    return any(has_word(BRACKET.sub("", name), words) for name in names)

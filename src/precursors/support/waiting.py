@@ -1,5 +1,7 @@
 """Progress of long work, told at a terminal."""
 
+from __future__ import annotations
+
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
