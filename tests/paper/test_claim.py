@@ -7,17 +7,14 @@ import pytest
 
 from maegawa2010.paper.claim import (
     EXACT,
-    EXPERIMENT,
     FAILS,
     HOLDS,
-    READINGS,
     RESULT,
     UNDECIDED,
     Claim,
     Finding,
     Share,
     in_draws,
-    in_words,
 )
 from maegawa2010.paper.claims import (
     FINDINGS,
@@ -135,19 +132,6 @@ def test_a_chain_without_waves_can_confirm_the_condition_on_waves_but_not_refute
     mu_sapp, verdict
 ):
     assert waves(overdamped(mu_sapp)).verdict == verdict
-
-
-@pytest.mark.parametrize(
-    ("kind", "verdict", "words"),
-    [
-        (RESULT, EXACT, "not robust"),
-        (EXPERIMENT, FAILS, "differs"),
-        (RESULT, HOLDS, "holds"),
-        (READINGS, UNDECIDED, "cannot be decided"),
-    ],
-)
-def test_the_words_of_a_verdict_are_those_of_its_kind(kind, verdict, words):
-    assert in_words(kind, verdict) == words
 
 
 @pytest.mark.parametrize(
