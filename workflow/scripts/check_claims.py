@@ -16,10 +16,9 @@ import pandas as pd
 
 from maegawa2010.paper.claim import (
     EXPERIMENT,
+    IN_WORDS,
     READINGS,
     RESULT,
-    VERDICTS,
-    in_words,
 )
 from maegawa2010.paper.claims import differences, evaluate
 from maegawa2010.paper.inputs import CLAIM_TABLES
@@ -115,8 +114,8 @@ def totals(claims: pd.DataFrame) -> Iterator[str]:
     for kind, of_kind in claims.groupby("kind", sort=False):
         verdicts = Counter(of_kind["verdict"])
         counts = ", ".join(
-            f"{in_words(str(kind), verdict)} {verdicts[verdict]}"
-            for verdict in VERDICTS
+            f"{words} {verdicts[verdict]}"
+            for verdict, words in IN_WORDS[str(kind)].items()
             if verdicts[verdict]
         )
         yield f"{HEADINGS[str(kind)]}: {len(of_kind)} ({counts})"

@@ -60,9 +60,9 @@ class DivergedError(RuntimeError):
         self.run = run
 
 
-def attempt(solve: Callable[..., Result], *arguments: Any, **options: Any) -> Result:
+def attempt(solve: Callable[..., Result], *arguments: Any) -> Result:
     """Result of a method; of a run that breaks off, what there is."""
     try:
-        return solve(*arguments, **options)
+        return solve(*arguments)
     except (DivergedError, TransitionLimitError) as error:
         return Result(error.run, 0)

@@ -3,10 +3,9 @@
 Events are the velocities of the blocks that slide and the margins of the stuck blocks
 beside them; elsewhere no force changes. SciPy looks for an event where its function has
 changed sign over a step, so a velocity that falls below zero and rises again within one
-step is missed without a warning. A shorter `max_step` is one cure; to look at more
-points of each step, as `dop853` does, is another."""
+step is missed without a warning. Shorter steps are one cure; the roots of each step's
+interpolation, as `dop853` finds them, are another."""
 
-import math
 from collections.abc import Callable, Iterator
 from typing import Literal
 
@@ -27,13 +26,10 @@ def solve_scipy(
     duration: float,
     tolerance: float,
     until: str | None = None,
-    max_step: float = math.inf,
     solver: Literal["DOP853", "RK23"] = "DOP853",
 ) -> Result:
     """Run a chain by a solver of SciPy; rtol is the tolerance, atol the same in N and
     N/tau.
-
-    `max_step` is the longest step [s].
 
     Raises
     ------
@@ -53,7 +49,6 @@ def solve_scipy(
             events=events,
             rtol=tolerance,
             atol=tolerance,
-            max_step=max_step / motion.tau,
         )
         motion.evaluations += solution.nfev
         if not solution.success:

@@ -115,14 +115,7 @@ class Tableau:
 # W. Kutta, Z. Math. Phys. 46 (1901) 435-453: the classical method.
 RK4 = Tableau(
     order=4,
-    stages=np.array(
-        [
-            [0.0, 0.0, 0.0, 0.0],
-            [0.5, 0.0, 0.0, 0.0],
-            [0.0, 0.5, 0.0, 0.0],
-            [0.0, 0.0, 1.0, 0.0],
-        ]
-    ),
+    stages=np.diag([0.5, 0.5, 1.0], -1),
     weights=np.array([1.0, 2.0, 2.0, 1.0]) / 6.0,
 )
 # J. R. Dormand and P. J. Prince: order 8 with errors of order 5 and 3 and dense output

@@ -17,15 +17,23 @@ HOLDS = "holds"
 EXACT = "exact"
 FAILS = "fails"
 UNDECIDED = "undecided"
-VERDICTS = (HOLDS, EXACT, FAILS, UNDECIDED)
+WORDS = {
+    HOLDS: "holds",
+    EXACT: "not robust",
+    FAILS: "does not hold",
+    UNDECIDED: "cannot be decided",
+}
 # Kinds: the six printed numbers by which the readings of the paper's words were chosen;
 # what was found after; and statements on PMMA, which say nothing of the model.
 READINGS = "readings"
 RESULT = "result"
 EXPERIMENT = "experiment"
-KINDS = (READINGS, RESULT, EXPERIMENT)
-# A claim that holds and one that fails, in words.
-IN_WORDS = {EXPERIMENT: ("agrees", "differs")}
+# The verdicts on claims of each kind, in words.
+IN_WORDS = {
+    READINGS: WORDS,
+    RESULT: WORDS,
+    EXPERIMENT: WORDS | {HOLDS: "agrees", FAILS: "differs"},
+}
 # A claim that holds in the run must hold in this share of an ensemble, too.
 ENOUGH = 0.95
 # Ensembles around the run: noise of 0.1 % in the normal loads, and sliders with the same
@@ -79,13 +87,6 @@ Find = Callable[[Tables], Finding]
 SAID = ("section", "kind", "statement", "rule", "unit")
 
 
-def in_words(kind: str, verdict: str) -> str:
-    """The verdict on a claim of some kind, in words."""
-    holds, fails = IN_WORDS.get(kind, ("holds", "does not hold"))
-    words = (holds, "not robust", fails, "cannot be decided")
-    return words[VERDICTS.index(verdict)]
-
-
 @dataclass(frozen=True)
 class Claim:
     """A statement of the paper that a run could contradict.
@@ -103,9 +104,9 @@ class Claim:
     find: Find
 
     def __post_init__(self) -> None:
-        if self.kind not in KINDS:
+        if self.kind not in IN_WORDS:
             raise ValueError(
-                f"claim {self.name}: its kind must be one of {', '.join(KINDS)}, but is {self.kind!r}"
+                f"claim {self.name}: its kind must be one of {', '.join(IN_WORDS)}, but is {self.kind!r}"
             )
 
     def row(self, tables: Tables) -> dict[str, Any]:
@@ -131,7 +132,7 @@ class Claim:
         for name, share in finding.shares.items():
             row[f"{name}_share"] = share.k / share.n
         row |= {"note": finding.note, "verdict": finding.verdict}
-        words = in_words(self.kind, finding.verdict)
+        words = IN_WORDS[self.kind][finding.verdict]
         if finding.verdict == EXACT:
             least = min(share.k / share.n for share in finding.shares.values())
             words += f" ({100 * least:.0f} %)"
