@@ -19,7 +19,7 @@ import pytest
 from matplotlib.text import Text
 
 from precursors import Chain, Run, find_slips, simulate
-from precursors.analysis.slips import SLIDER, slip_table
+from precursors.analysis.slips import OF_SLIDER, slip_table
 from precursors.cli import Refused, commands, main
 from precursors.cli.options import CHAIN, EPILOG, LARGER, read_options
 from precursors.figures import style
@@ -188,7 +188,7 @@ def test_slips_lists_the_events_of_a_chain_for_reading(cli):
     expected = [line.split() for line in SLIPS.splitlines()]
     assert (code, rows[4:], err) == (0, expected, "")
     table = slip_table(simulate(Chain.from_slider(), 1.6))
-    assert names == table.columns.drop(list(SLIDER)).tolist()
+    assert names == table.columns.drop(list(OF_SLIDER)).tolist()
     assert cli("slips", "--duration", 0.1) == (0, "no slip event\n", "")
 
 

@@ -11,7 +11,7 @@ from precursors.model.chain import Chain
 from precursors.solver.run import Record
 
 # Columns of `slip_table` that say which slider it was, and its attributes.
-SLIDER = {
+OF_SLIDER = {
     "theta": "theta",
     "n_blocks": "n_blocks",
     "normal_load_N": "normal_load",
@@ -60,7 +60,7 @@ def slip_columns(slips: NDArray[np.void], chain: Chain) -> dict[str, NDArray[Any
         "propagation_length_m": slips["front"] * chain.length / chain.n_blocks,
         **{
             column: np.full(len(slips), getattr(chain, name))
-            for column, name in SLIDER.items()
+            for column, name in OF_SLIDER.items()
         },
     }
 

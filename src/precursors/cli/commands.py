@@ -89,8 +89,7 @@ def simulate(arguments: Namespace) -> None:
 
 def slips(arguments: Namespace) -> None:
     """List the slip events of a run file, or of a chain that is run."""
-    from precursors.analysis.slips import SLIDER as OF_SLIDER
-    from precursors.analysis.slips import slip_table
+    from precursors.analysis.slips import OF_SLIDER, slip_table
 
     run = run_of(arguments)
     table = slip_table(run)
