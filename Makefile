@@ -15,7 +15,7 @@ ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
 
-TARGETS := all test mutants test-cluster results check report benchmark golden docs bench speed codecheck lock lint wheelhouse clean
+TARGETS := all test test-cluster results check report benchmark golden docs bench speed codecheck lock lint wheelhouse clean
 .PHONY: $(TARGETS)
 
 all: results
@@ -23,10 +23,6 @@ all: results
 
 test: results $(DEV)
 	$(BIN)/pytest -n $(CORES) --dist worksteal
-
-# 100 single faults in copies of the project: prints those that no test sees, with some 1200 s of processor time.
-mutants: results $(DEV)
-	PYTHONPATH=tests $(BIN)/python tools/mutants.py --jobs $(CORES)
 
 # The ensembles as jobs of a real SLURM; Error 77: there is none here, and nothing was tested.
 test-cluster: $(DEV)
