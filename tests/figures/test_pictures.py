@@ -12,7 +12,6 @@ from maegawa2010.studies.larger import figure as larger
 from precursors.figures import precursor_lengths, scene, style
 
 COMMITTED = GOLDEN.parents[1] / "paper/tables"
-SCENES = ("fig11", "fig10", "fig12")
 # As a journal wants it: one column, large letters, a font whose symbols differ.
 NARROW = style.Look(85.0, 9.0, "DejaVu Serif")
 
@@ -84,10 +83,6 @@ def partial_scene():
     return draw_scene(events, 3.0, title="partial")
 
 
-def paper_lengths():
-    return precursor_lengths.draw(list(map(slips, SCENES)))
-
-
 def other_lengths():
     """Scenes of one sign, of another slider, without a global slip, without theta and
     without a slip."""
@@ -116,7 +111,6 @@ PICTURES = {
     "scene_endless": endless_scene,
     "scene_partial": partial_scene,
     "scene_calm": lambda: draw_scene(slips().iloc[:0], look=style.Look(85.0)),
-    "precursor_lengths": paper_lengths,
     "precursor_lengths_others": (other_lengths, NARROW),
     "precursor_lengths_one": one_length,
     "larger": lambda: larger.draw(

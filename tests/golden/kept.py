@@ -1,7 +1,7 @@
 """Small tables and pictures that are kept: what the library gives must be the same.
 
-A test file has those of its subject in TABLES and PICTURES; `make golden` replaces what
-is kept.
+A test file has the pictures of its subject in PICTURES; `make golden` replaces what is
+kept.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ ROUNDING = 1e-8
 ABSOLUTE = 1e-12
 
 
-def kept(kind: str) -> dict[str, Any]:
-    """All that the test files keep of a kind, "TABLES" or "PICTURES", by name."""
+def pictures() -> dict[str, Any]:
+    """All pictures that test files keep, by name."""
     found: dict[str, Any] = {}
     for file in sorted(GOLDEN.parent.glob("*/test_*.py")):
-        if f"\n{kind} = {{" in file.read_text(encoding="utf-8"):
+        if "\nPICTURES = {" in file.read_text(encoding="utf-8"):
             module = import_module(f"{file.parent.name}.{file.stem}")
-            found |= getattr(module, kind)
+            found |= module.PICTURES
     return found
 
 
@@ -48,9 +48,8 @@ def assert_table(name: str, table: pd.DataFrame) -> None:
 
 
 def _text(table: pd.DataFrame) -> str:
-    """The table without its costs, with all digits that matter."""
-    costs = [name for name in table if name.startswith("cost")]
-    return table.drop(columns=costs).to_csv(index=False, float_format="%.12g")
+    """The table with all digits that matter."""
+    return table.to_csv(index=False, float_format="%.12g")
 
 
 def write_picture(path: Path, how: Any) -> None:

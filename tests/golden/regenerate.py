@@ -8,8 +8,8 @@ from pathlib import Path
 import check_claims
 from explorer import example
 from golden import benchmark_page
-from golden.kept import kept, write_picture, write_table
-from golden.small_tables import tables_of_seconds
+from golden.kept import pictures, write_picture, write_table
+from golden.small_tables import small_larger_tables
 
 from precursors.support.files import read_table, write_text, write_whole
 
@@ -40,10 +40,9 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
         f"{check_claims.printed(claims)}\n",
     )
     benchmark_page.write(read_table(results / "tables/benchmark.csv"))
-    tables = {name: make() for name, make in kept("TABLES").items()}
-    for name, table in {**tables, **tables_of_seconds()}.items():
+    for name, table in small_larger_tables().items():
         write_table(name, table)
-    for name, how in kept("PICTURES").items():
+    for name, how in pictures().items():
         write_picture(golden / f"small/{name}.png", how)
     write_whole(ROOT / "docs/explorer.png", example.picture())
 

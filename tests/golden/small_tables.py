@@ -1,4 +1,4 @@
-"""Small tables of runs that take seconds: compared where other tests need them, too."""
+"""Small tables of the full study of larger chains, which `make all` does not make."""
 
 from __future__ import annotations
 
@@ -11,12 +11,6 @@ from maegawa2010.studies.larger.cycles import (
     settled_table,
 )
 from maegawa2010.studies.larger.first_slips import larger_tables
-from maegawa2010.studies.models.tables import compare_models
-
-SCENES: dict[str, dict[str, str | float]] = {
-    "lead": {"theta": "5/6"},
-    "even": {"theta": 0.0},
-}
 
 # Of a chain with a length.
 STUDY = {"even_length": [0.3], "relaxation_time": [2e-4], "theta": ["-5/6"]}
@@ -43,13 +37,3 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
     return larger_tables(CONFIG["chain"], first) | {
         "larger_settled": settled_table([chunk])
     }
-
-
-def model_comparison() -> pd.DataFrame:
-    """All answers of all models, timed once."""
-    return compare_models(SCENES, rounds=1)
-
-
-def tables_of_seconds() -> dict[str, pd.DataFrame]:
-    """All of them, by name."""
-    return {"model_comparison": model_comparison(), **small_larger_tables()}

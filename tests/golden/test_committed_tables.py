@@ -5,12 +5,19 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from settings import CONFIG, FULL
-from studies.made import study_of
+from settings import CONFIG, FULL, SLIDERS
 
-from maegawa2010.studies.event_law.tables import event_law_table, predicted_events
+from maegawa2010.studies.event_law.tables import (
+    event_law_study,
+    event_law_table,
+    predicted_events,
+)
 from maegawa2010.studies.members import chain_of, noise_table, run_members
-from maegawa2010.studies.resolution.tables import POINT, QUANTITIES
+from maegawa2010.studies.resolution.tables import (
+    POINT,
+    QUANTITIES,
+    resolution_study,
+)
 
 ROOT = Path(__file__).parents[2]
 # Tables are written with all digits; sums differ by roundings.
@@ -32,7 +39,7 @@ def test_the_law_of_each_chain_is_that_of_the_library():
 
 
 def test_the_runs_of_few_blocks_are_those_of_the_library():
-    study = study_of("event_law_members", CONFIG["event_law"])
+    study = event_law_study(CONFIG["chain"], CONFIG["event_law"])
     few = study.members[
         (study.members["n_blocks"] <= 10) & (study.members["theta"] == 0.0)
     ]
@@ -46,7 +53,8 @@ def test_the_runs_of_few_blocks_are_those_of_the_library():
 
 
 def test_medians_with_twenty_blocks_are_those_of_the_library():
-    study = study_of("resolution_members", CONFIG["resolution"] | FULL["resolution"])
+    settings = CONFIG["resolution"] | FULL["resolution"]
+    study = resolution_study(SLIDERS, CONFIG["duration"], settings)
     few = study.members[study.members["n_blocks"] == 20]
     runs = run_members(type(study)(few, seed=study.seed))
     again = noise_table(runs, POINT, QUANTITIES)

@@ -4,9 +4,7 @@ import math
 
 import pytest
 
-from maegawa2010.paper import chain_schematic
 from maegawa2010.paper.scene_numbers import (
-    measures_table,
     reproduction_table,
     residual_strain,
 )
@@ -35,14 +33,3 @@ def test_a_run_without_a_slip_has_no_numbers():
     assert find_slips(run).empty
     assert math.isnan(residual_strain(run))
     assert table["reproduced"].isna().sum() == 3
-
-
-TABLES = {
-    "measures": lambda: measures_table(
-        {
-            theta: simulate(Chain.from_slider(theta=theta), until="global slip")
-            for theta in ("-5/6", "5/6")
-        }
-    )
-}
-PICTURES = {"chain_schematic": chain_schematic.draw}

@@ -1,27 +1,14 @@
 """The law for the number of events: by hand, and from the state that it assumes."""
 
 import numpy as np
-import pandas as pd
 import pytest
-from settings import CONFIG
-from studies.made import chunks_of
 
 from maegawa2010.studies.event_law.tables import (
     added_load,
-    event_law_tables,
     predicted_events,
 )
 from maegawa2010.studies.members import loaded
 from precursors import Chain
-
-
-def event_law() -> pd.DataFrame:
-    """All cases of the law, for few blocks."""
-    runs = chunks_of("event_law_members", seed=1, runs=6, n_blocks=[3, 4], middle=4)
-    return event_law_tables(runs, CONFIG["chain"])["event_law"]
-
-
-TABLES = {"event_law": event_law}
 
 
 def test_the_law_by_hand_of_two_blocks():

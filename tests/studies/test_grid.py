@@ -1,15 +1,13 @@
 """A grid over any two values of the chain."""
 
 import numpy as np
-import pandas as pd
 import pytest
-from golden.kept import SMALL
-from settings import CONFIG
-from studies.made import chunks_of, study_of
+from settings import CONFIG, ROOT
 
 from maegawa2010.studies.grid import figure
 from maegawa2010.studies.grid.axes import check_axes
-from maegawa2010.studies.members import gather
+from maegawa2010.studies.grid.tables import grid_study
+from precursors.support.files import read_table
 
 AXES = [
     {"key": "theta", "from": -0.95, "to": 0.95, "points": 4},
@@ -20,16 +18,15 @@ BLOCKS = {"key": "n_blocks", "from": 2, "to": 4, "points": 9}
 
 
 def map_of_friction():
-    table = pd.read_csv(SMALL / "grid.csv")
-    return figure.draw(table.assign(reached=table.index > 0), AXES, [(0.25, 0.5)])
+    table = read_table(ROOT / "results/tables/grid.csv")
+    return figure.draw(table, CONFIG["grid"], [(0.25, 0.5)])
 
 
-TABLES = {"grid": lambda: gather(chunks_of("grid", axes=AXES))}
 PICTURES = {"grid": map_of_friction}
 
 
 def test_any_two_values_are_combined_and_blocks_are_whole():
-    members = study_of("grid", {"axes": [SOFT, BLOCKS]}).members
+    members = grid_study(CONFIG["chain"], [SOFT, BLOCKS]).members
     assert sorted(set(members["n_blocks"])) == [2, 3, 4]
     assert sorted(set(members["drive_stiffness"])) == pytest.approx([1e4, 1e5, 1e6])
     assert len(members) == 9

@@ -4,7 +4,7 @@ chunks."""
 import numpy as np
 import pandas as pd
 import pytest
-from studies.made import noise_of
+from settings import SLIDERS
 
 from maegawa2010.studies.members import (
     LEFT_OUT,
@@ -13,9 +13,14 @@ from maegawa2010.studies.members import (
     gather,
     run_members,
 )
+from maegawa2010.studies.noise.tables import noise_study
 from precursors import simulate
 from precursors.analysis.summary import summarise
 from precursors.support.files import read_table, write_table
+
+
+def noise_of(runs: int) -> Study:
+    return noise_study(SLIDERS, 10.0, {"seed": 1, "runs": runs})
 
 
 @pytest.fixture(scope="module")

@@ -8,8 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from golden.kept import assert_table
-from golden.small_tables import model_comparison
 
 from maegawa2010.studies.models import quasistatic
 from maegawa2010.studies.models.models import MODELS, UNITS, scene_answers
@@ -229,7 +227,3 @@ def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(
     )
     assert np.isnan(answers["front_loads"][-1])
     assert answers["first_load"] == pytest.approx(28.0)
-
-
-def test_every_answer_is_the_one_that_is_kept() -> None:
-    assert_table("model_comparison", model_comparison())

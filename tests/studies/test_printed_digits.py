@@ -2,26 +2,20 @@
 
 import numpy as np
 import pytest
-from studies.made import PAPER, chunks_of, members_of, study_of
+from settings import SLIDERS
+from studies.runs import runs_of
 
 from maegawa2010.studies.printed_digits.tables import (
     HALF_A_DIGIT,
+    digits_study,
     digits_table,
-    digits_tables,
 )
 
 NAN = np.nan
 
 
-TABLES = {
-    "digits": lambda: digits_tables(
-        chunks_of("digits_members", seed=1, draws=8), PAPER
-    )["digits"]
-}
-
-
 def test_every_draw_prints_as_the_paper_does():
-    members = study_of("digits_members", {"seed": 1, "draws": 50}).members
+    members = digits_study(SLIDERS, 10.0, {"seed": 1, "draws": 50}).members
     draws = members[members["draw"] > 0]
     assert (
         draws["theta"].abs() - 0.833 * (draws["scene"] != "fig10")
@@ -39,7 +33,7 @@ def test_agreement_by_hand():
         "b": [0.5, 0.504, 0.52, 0.491, 0.5, NAN],
     }
     paper = {scene: {"events_counted": 3, "mu_sapp": 0.5} for scene in mu}
-    table = digits_table(members_of([3, 3, 3, 4, 3, 3], **mu), paper)
+    table = digits_table(runs_of([3, 3, 3, 4, 3, 3], **mu), paper)
     table = table.set_index(["scene", "quantity", "question"])
     hits = table["k"]
     assert hits["a", "mu_sapp", "as_printed"] == 3
