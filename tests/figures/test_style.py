@@ -46,7 +46,7 @@ def test_every_format_has_the_same_bytes_whichever_file_is_first_and_settings_of
 
 
 def test_an_svg_has_its_words_as_text_and_a_title(tmp_path):
-    figure = PICTURES["precursor_lengths"]()
+    figure = PICTURES["precursor_lengths_one"]()
     style.save(figure, tmp_path / "figure.svg", title="Fig. 13")
     svg = (tmp_path / "figure.svg").read_text("utf-8")
     assert "<title>Fig. 13</title>" in svg
@@ -104,7 +104,7 @@ def test_every_reader_tells_two_meanings_apart(sight, names):
 def test_the_figure_of_lengths_has_no_transparent_colours_which_eps_does_not_know(
     tmp_path, caplog
 ):
-    figure = PICTURES["precursor_lengths"]()
+    figure = PICTURES["precursor_lengths_one"]()
     # Fonts of type 3 hold the letters that are drawn, and take a twentieth of the time.
     with matplotlib.rc_context({"ps.fonttype": 3}):
         figure.savefig(tmp_path / "figure.eps")
