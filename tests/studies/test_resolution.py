@@ -9,10 +9,19 @@ from maegawa2010.studies.resolution import tables as resolution
 
 def numbers_by_n():
     table = pd.read_csv(ROOT / "results/tables/resolution.csv")
-    return figure.draw(table, papers_n=10, mu_k=0.45)
+    finer = pd.read_csv(ROOT / "paper/tables/resolution_full.csv")
+    return figure.draw(table, papers_n=10, mu_k=0.45, finer=finer)
 
 
 PICTURES = {"resolution": numbers_by_n}
+
+
+def test_a_finer_study_is_drawn_to_its_end_and_the_title_says_where_it_ends():
+    counts, frictions = numbers_by_n().axes
+    for axes in (counts, frictions):
+        assert max(line.get_xdata()[-1] for line in axes.lines[:9]) == 320
+    assert counts.get_title() == "More blocks, more events"
+    assert frictions.get_title() == r"With many blocks, every loading gives $\mu_k$"
 
 
 def test_differences_of_a_finer_study_take_the_place_of_those_with_the_same_n():

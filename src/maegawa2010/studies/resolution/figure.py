@@ -10,18 +10,27 @@ from precursors.figures import style
 from precursors.figures.style import Options
 
 HEIGHT_MM = 84.0
-BEYOND = 1.35  # where marks stand beyond the last N, in units of it
-EXPERIMENT: Options = {"linestyle": "none", "marker": "<", "markersize": 5}
+AGREES = 0.005  # less than so far from mu_k
+EXPERIMENT: Options = {"linewidth": 1.6, "clip_on": False, "zorder": 3}
 MEDIAN: Options = {"linewidth": 1.2}
 ALL_EVENTS: Options = {"linestyle": "--"}
 LIMIT: Options = {"linestyle": "none", "marker": "_", "markersize": 5}
 
 
-def draw(table: pd.DataFrame, papers_n: int, mu_k: float) -> Figure:
+def draw(
+    table: pd.DataFrame,
+    papers_n: int,
+    mu_k: float,
+    finer: pd.DataFrame | None = None,
+) -> Figure:
     """Draw events and mu_sapp against N; dotted lines mark the paper's N and mu_k.
 
-    Of resolution.csv, medians are lines, and 5 and 95 % of the runs are ticks.
+    Of resolution.csv, medians are lines, and 5 and 95 % of the runs are ticks. `finer`
+    is that of a larger study, which is drawn from its smallest N on.
     """
+    if finer is not None:
+        fewer = table[table["n_blocks"] < finer["n_blocks"].min()]
+        table = pd.concat([fewer, finer])
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         counts, frictions = figure.subplots(1, 2)
         for _, of_scene in table.groupby("scene", sort=False):
@@ -31,11 +40,14 @@ def draw(table: pd.DataFrame, papers_n: int, mu_k: float) -> Figure:
             color = style.theta_color(of_scene["theta"].iloc[0])
             every = rows["events_to_global_slip"]
             counts.plot(every["n_blocks"], every["q50"], color=color, **ALL_EVENTS)
-        beyond = BEYOND * table["n_blocks"].max()
         for sign, count in printed.EVENTS_OF_EXPERIMENT.items():
-            counts.plot(beyond, count, **EXPERIMENT, color=style.theta_color(sign))
+            color = style.theta_color(sign)
+            counts.axhline(count, 0.975, 1.0, color=color, **EXPERIMENT)
+        place = (0.965, max(printed.EVENTS_OF_EXPERIMENT.values()))
+        where = counts.get_yaxis_transform()
+        counts.text(*place, "experiment", transform=where, ha="right", va="center")
         counts.set(ylabel="Events up to the first global slip [-]", yscale="log")
-        style.set_ticks(counts.yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000])
+        style.set_ticks(counts.yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000])
         frictions.set_ylabel(style.MU_SAPP_LABEL)
         levels = {r"$\mu_k$": mu_k, "paper": printed.MU_SAPP}
         for level in levels.values():
@@ -46,21 +58,31 @@ def draw(table: pd.DataFrame, papers_n: int, mu_k: float) -> Figure:
             axes.set(xscale="log", xlabel=style.BLOCKS_LABEL)
             axes.axvline(papers_n, **style.DOTTED)
             style.set_ticks(axes.xaxis, [2, 5, 10, 20, 50, 100, 200])
-        n, least, most = _ends(table, "events_counted")
-        counts.set_title(f"{least:.0f} to {most:.0f} events count at $N = {n}$")
-        n, least, most = _ends(table, "mu_sapp")
-        frictions.set_title(f"Medians from {least:.3f} to {most:.3f} at $N = {n}$")
+        counts.set_title(_events_title(table))
+        frictions.set_title(_coefficient_title(table, mu_k))
         frictions.legend(labelcolor="linecolor", loc="upper right")
         _draw_key(figure)
     return figure
 
 
-def _ends(table: pd.DataFrame, quantity: str) -> tuple[int, float, float]:
-    """Largest number of blocks, and least and greatest median of the loadings there."""
-    of_quantity = table[table["quantity"] == quantity]
-    n = of_quantity["n_blocks"].max()
-    medians = of_quantity.loc[of_quantity["n_blocks"] == n, "q50"]
-    return n, medians.min(), medians.max()
+def _events_title(table: pd.DataFrame) -> str:
+    few, many = _medians(table, "events_counted")
+    if (many > few).all():
+        return "More blocks, more events"
+    return f"{many.min():g} to {many.max():g} events at $N = {many.name}$"
+
+
+def _coefficient_title(table: pd.DataFrame, mu_k: float) -> str:
+    _, many = _medians(table, "mu_sapp")
+    if ((many - mu_k).abs() < AGREES).all():
+        return r"With many blocks, every loading gives $\mu_k$"
+    return f"Medians from {many.min():.3f} to {many.max():.3f} at $N = {many.name}$"
+
+
+def _medians(table: pd.DataFrame, quantity: str) -> tuple[pd.Series, pd.Series]:
+    """Medians of the loadings with the fewest and with the most blocks."""
+    by_n = table[table["quantity"] == quantity].pivot_table("q50", "n_blocks", "scene")
+    return by_n.iloc[0], by_n.iloc[-1]
 
 
 def _draw_numbers(axes: Axes, rows: pd.DataFrame) -> None:
@@ -78,6 +100,5 @@ def _draw_key(figure: Figure) -> None:
         style.mark("median, counted in Fig. 13", **MEDIAN),
         style.mark("median, all events", **ALL_EVENTS),
         style.mark("5 and 95 % of the runs", **LIMIT),
-        style.mark("experiment", **EXPERIMENT),
     ]
-    style.draw_key(figure, entries, ncols=4)
+    style.draw_key(figure, entries)
