@@ -5,12 +5,11 @@ from pathlib import Path
 
 PAGES = (
     "customise",
-    "example",
+    "recipes",
     "numbers",
     "proof",
     "adding",
     "models",
-    "field",
     "benchmark",
     "performance",
     "reliability",

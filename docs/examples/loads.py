@@ -1,0 +1,14 @@
+"""Normal loads by a formula, here a parabola that is zero at the edges.
+
+Prints:
+    11 events counted
+"""
+
+import numpy as np
+
+from precursors import Chain, find_precursors, find_slips, simulate
+
+x = (np.arange(10) + 0.5) / 10  # middles of the blocks, of the length
+parabola = x * (1 - x)
+chain = Chain.from_slider(weights=400 * parabola / parabola.sum())  # F_Z = 400 N
+print(len(find_precursors(find_slips(simulate(chain)))), "events counted")

@@ -1,0 +1,16 @@
+"""More friction at one block: friction is mu w, so a larger weight stands for it.
+
+`run.chain.normal_load` is no longer F_Z then, and mu_sapp is the largest F_X over the true one.
+
+Prints:
+    mu_sapp = 0.463
+"""
+
+from precursors import Chain, find_slips, simulate
+
+chain = Chain.from_slider()
+rough = chain.weights.copy()
+rough[3] *= 1.1
+run = simulate(Chain.from_slider(weights=rough), until="global slip")
+largest = find_slips(run)["largest_load"].max()
+print(f"mu_sapp = {largest / chain.normal_load:.3f}")
