@@ -83,5 +83,5 @@ def test_any_run_is_a_movie_of_two_precursors_and_the_global_slip(tmp_path):
     movie.savefig(tmp_path / "wave.svg")
     with pytest.raises(ValueError, match=r"must end in \.svg"):
         movie.savefig(tmp_path / "wave.gif")
-    with pytest.raises(ValueError, match="takes no data, title or look"):
+    with pytest.raises(ValueError, match="takes no title or look"):
         plot(run, "wave", title="mine")

@@ -119,7 +119,7 @@ def plot(arguments: Namespace) -> None:
 
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of fonts
     look = Look(**given(arguments, ("width_mm", "font_size", "font")))
-    how = given(arguments, ("figure", "title"))
+    how = given(arguments, ("figure", "title", "events"))
     axes = AXES[arguments.figure]
     if arguments.data and not axes:
         raise ValueError(f"{arguments.data}: a {arguments.figure} takes no data")

@@ -214,10 +214,18 @@ def _add_look(command: Parser) -> None:
     add = command.add_argument
     add(
         "--figure",
-        choices=["load", "lengths", "wave"],
+        choices=["load", "lengths", "push", "wave"],
         default="load",
-        help="load over time as in Fig. 10 (default), lengths as in Fig. 13, or a wave: "
-        "precursors and the global slip in slow motion (SVG)",
+        help="load over time as in Fig. 10 (default), lengths as in Fig. 13; of two "
+        "precursors and the global slip: the push in the springs, or a wave, in slow "
+        "motion (SVG)",
+    )
+    add(
+        "--events",
+        type=int,
+        nargs="+",
+        metavar="N",
+        help="slip events whose push is drawn instead, from 1",
     )
     add(
         "--data",

@@ -1,7 +1,7 @@
 """The figure of a run in one line: its tables are made here, and drawn as those of the
 workflow."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, overload
 
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
-from precursors.figures import precursor_lengths, scene, wave
+from precursors.figures import precursor_lengths, push, scene, wave
 from precursors.figures.style import LOOK, NO_DATA, Look
 from precursors.figures.wave import Movie
 from precursors.model.checks import number_array
@@ -20,7 +20,7 @@ from precursors.support.files import AnyPath
 from precursors.support.spreadsheet import LENGTH, LOAD, TIME, read_columns
 
 # The axes of each figure, which are the columns of measured data.
-AXES = {"load": (TIME, LOAD), "lengths": (LOAD, LENGTH), "wave": ()}
+AXES = {"load": (TIME, LOAD), "lengths": (LOAD, LENGTH), "push": (), "wave": ()}
 
 
 @overload
@@ -28,10 +28,11 @@ def plot(run: Record, figure: Literal["wave"]) -> Movie: ...
 @overload
 def plot(
     run: Record,
-    figure: Literal["load", "lengths"] = "load",
+    figure: Literal["load", "lengths", "push"] = "load",
     data: ArrayLike | pd.DataFrame | AnyPath = NO_DATA,
     title: str | None = None,
     look: Look | Mapping[str, Any] = LOOK,
+    events: Sequence[int] = (),
 ) -> Figure: ...
 def plot(
     run: Record,
@@ -39,22 +40,26 @@ def plot(
     data: ArrayLike | pd.DataFrame | AnyPath = NO_DATA,
     title: str | None = None,
     look: Look | Mapping[str, Any] = LOOK,
+    events: Sequence[int] = (),
 ) -> Figure | Movie:
-    """Draw a run: its load and slips over time, its propagation lengths against the
-    load, or how blocks move in two precursors and the first global slip.
+    """Draw a run: its load and slips over time, its front lengths against the load, or
+    two precursors and the first global slip: the push in the springs, or a movie.
 
     Parameters
     ----------
     run : Run or LargerRun
         The run, also of a larger chain.
-    figure : "load", "lengths" or "wave"
-        As Figs. 10-12, as Fig. 13, or an animated SVG, which takes no other parameter.
+    figure : "load", "lengths", "push" or "wave"
+        As Figs. 10-12, as Fig. 13, what springs carry, or an animated SVG, which takes
+        no other parameter.
     data : array, shape (n, 2), DataFrame or path of a table, optional
         Measured t [s] and F_X [N], or F_X [N] and L_p/L, which are drawn over it.
     title : str, optional
         By default the number of blocks, or nothing above lengths.
     look : Look or dict, optional
         `width_mm`, `font_size` [pt] and `font`.
+    events : sequence of int, optional
+        Numbers of the slip events that a push shows instead, from 1.
 
     Returns
     -------
@@ -64,19 +69,25 @@ def plot(
     Raises
     ------
     ValueError
-        If there is no such figure, or a wave is asked of a larger chain, whose positions
-        are not kept, or with data or a look.
+        If there is no such figure or event, or a push or a wave is asked of a larger
+        chain, whose positions are not kept, or with data, or a wave with anything.
     """
     if figure not in AXES:
         raise ValueError(f"figure must be one of {', '.join(AXES)}, but is {figure!r}")
     look = Look(**look) if isinstance(look, Mapping) else look
-    if figure == "wave":
+    if events and figure != "push":
+        raise ValueError("only a push takes events")
+    if not AXES[figure]:
         if not isinstance(run, Run):
             raise ValueError(
-                "a wave needs a run of the paper's chain, not of a larger one"
+                f"a {figure} needs a run of the paper's chain, not of a larger one"
             )
-        if data is not NO_DATA or title is not None or look != LOOK:
-            raise ValueError("a wave takes no data, title or look")
+        if data is not NO_DATA:
+            raise ValueError(f"a {figure} takes no data")
+        if figure == "push":
+            return push.draw(run, slip_table(run), events, title, look)
+        if title is not None or look != LOOK:
+            raise ValueError("a wave takes no title or look")
         return wave.draw(run, slip_table(run))
     if isinstance(data, (str, PathLike, pd.DataFrame)):
         data = read_columns(data, AXES[figure])

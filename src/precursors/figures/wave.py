@@ -94,7 +94,7 @@ def draw(run: Any, slips: pd.DataFrame) -> Movie:
     below it each event has a panel with who slides when. Of `run`, a `Run`, the
     transitions and the positions are drawn.
     """
-    shown = _events(slips)
+    shown = middle_last_and_global(slips)
     if shown.empty:
         return Movie(f'<svg xmlns="{XMLNS}"><text y="24">no slip event</text></svg>\n')
     n = int(shown["n_blocks"].iloc[0])
@@ -131,7 +131,7 @@ def draw(run: Any, slips: pd.DataFrame) -> Movie:
     )
 
 
-def _events(slips: pd.DataFrame) -> pd.DataFrame:
+def middle_last_and_global(slips: pd.DataFrame) -> pd.DataFrame:
     """The precursor in the middle of those counted, the last, and the global slip."""
     counted = slips[slips["counted"] & slips["end_s"].notna()]
     partial = counted[~counted["is_global"]]
