@@ -155,7 +155,7 @@ def test_larger_studies_are_an_overlay_of_the_configuration(finished):
         "-n", "--configfile", "config.yaml", "workflow/full.yaml", "--", "all"
     )
     assert outcome.code == 0, outcome.text
-    longer = {"tabulate_work_precision", "tabulate_step_sweep", "tabulate_event_law"}
+    longer = {"tabulate_work_precision", "tabulate_step_sweep", "tabulate_larger"}
     assert longer <= outcome.jobs
     assert not {"simulate_scene fig10", "tabulate_definitions"} & outcome.jobs
 

@@ -1,1 +1,0 @@
-"""The number of events against the law."""
