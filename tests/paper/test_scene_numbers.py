@@ -5,6 +5,7 @@ import math
 import pytest
 
 from maegawa2010.paper.scene_numbers import (
+    mean_after_slip,
     reproduction_table,
     residual_strain,
 )
@@ -32,4 +33,5 @@ def test_a_run_without_a_slip_has_no_numbers():
     table = reproduction_table({"calm": slip_table(run)}, {"calm": {}})
     assert find_slips(run).empty
     assert math.isnan(residual_strain(run))
+    assert math.isnan(mean_after_slip(run).mean)
     assert table["reproduced"].isna().sum() == 3

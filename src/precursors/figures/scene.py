@@ -31,6 +31,7 @@ FIRST_GLOBAL: Options = {
     "zorder": 1.5,
     "label": "first global slip",
 }
+MEAN: Options = {"color": style.BLACK, "linewidth": 0.7, "linestyle": ":"}
 TO_THE_EDGE: Options = {
     "color": style.BLACK,
     "linestyle": "none",
@@ -115,11 +116,16 @@ def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:
 def _draw_loads(
     axes: NDArray[Any], slips: pd.DataFrame, trace: pd.DataFrame, end: float
 ) -> None:
-    """Draw F_X, and the staircase K x_1 with its risers in the colours of the events."""
+    """Draw F_X about mu_k F_Z, and the staircase K x_1 with its risers in the colours of
+    the events."""
     # One row more: the load goes on to the end of the panel.
     seen = trace[trace["time_s"].shift(fill_value=0.0) <= end]
     for panel, column in zip(axes, ("tangential_load_N", "K_x1_N"), strict=False):
         panel.plot(seen["time_s"], seen[column], color=style.BLACK, linewidth=0.6)
+    for carried in (slips["mu_k"] * slips["normal_load_N"])[:1]:
+        axes[0].axhline(carried, **MEAN)
+        place: Any = ("axes fraction", "data")
+        axes[0].annotate(r"$\mu_k F_Z$", (0.02, carried), xycoords=place, va="top")
     slips = slips[slips["onset_s"] <= end]
     for kind, events in slips.groupby("kind", observed=True):
         low, high = (

@@ -1,0 +1,59 @@
+"""The time mean of F_X is mu_k F_Z, to what is stored and what slides backward."""
+
+import numpy as np
+import pytest
+
+from precursors import Chain, LargerChain, simulate
+from precursors.analysis.load_curve import TOLERANCE_N
+from precursors.analysis.mean_load import backward_slip, mean_coefficient, mean_load
+
+ODD = 40.0 * np.array([1, 3, 2, 5, 4, 1, 2, 8, 1, 3]) / 3.0
+CURVE = TOLERANCE_N / 400.0  # of the mean, over F_Z
+SECONDS = 80.0  # of a drive with K V = 80 N/s
+
+
+@pytest.mark.parametrize("velocity", [1e-4, 3e-3])
+@pytest.mark.parametrize("stiffness", [1e5, 3e6])
+def test_for_odd_loads_and_any_drive_the_mean_is_that_of_kinetic_friction(
+    stiffness, velocity
+):
+    chain = Chain.from_slider(
+        weights=ODD, drive_stiffness=stiffness, drive_velocity=velocity
+    )
+    end = SECONDS * 80.0 / chain.loading_rate
+    run = simulate(chain, end)
+    found = mean_load(run, end / 20.0, end)
+    assert found.backward > 1e-6
+    assert found.mean == pytest.approx(
+        chain.mu_k + found.stored + found.backward, abs=CURVE
+    )
+    assert found.mean == pytest.approx(chain.mu_k, abs=1e-3)
+
+
+@pytest.mark.parametrize("end", [2.0, 2.8904, 2.9])
+def test_any_window_obeys_the_balance_also_within_a_slip(end):
+    """Up to 2 s all work is stored; the first global slip lasts from 2.8902 to
+    2.8907 s."""
+    chain = Chain.from_slider(theta="5/6")
+    found = mean_load(simulate(chain, 3.0), 0.0, end)
+    assert found.stored < -0.1
+    assert found.mean == pytest.approx(
+        chain.mu_k + found.stored + found.backward, abs=CURVE
+    )
+
+
+def test_backward_slip_is_the_way_back_of_each_block():
+    run = simulate(Chain.from_slider(theta="5/6"), 4.0)
+    backward = run.transitions["mode"] == -1
+    assert backward.any()
+    slid = backward_slip(run, 0.0, run.duration)
+    moving = set(run.transitions["block"][backward] - 1)
+    assert set(np.flatnonzero(slid > 0.0)) == moving
+    assert (slid >= 0.0).all()
+
+
+def test_weakening_friction_and_viscosity_only_raise_the_mean():
+    larger = LargerChain(Chain.from_slider(drive_velocity=1e-3), 0.01, 1e-4)
+    run = simulate(larger, 3.0)
+    mean = mean_coefficient(run, 0.5, run.duration)
+    assert run.chain.mu_k < mean < run.chain.mu_k + 0.02
