@@ -11,7 +11,6 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 from golden.regenerate import GOLDEN
 from golden.test_golden import FIGURE_RMS
@@ -22,7 +21,6 @@ from precursors.figures import style
 from precursors.support.files import read_table
 
 TABLE = GOLDEN.parents[1] / "paper/tables/work_precision_full.csv"
-SESSIONS = TABLE.with_name("beside_heyoka.csv")
 CHART = GOLDEN / "speed.png"
 MADE = Path(__file__).parents[2] / "results/tables/work_precision.csv"
 DOCS = Path(__file__).parents[2] / "docs/performance.md"
@@ -47,29 +45,6 @@ def test_the_published_chart_draws_the_table_of_all_peers_and_the_factor_in_the_
     assert f"{said} times  " in [text.get_text() for text in drawn.axes[0].texts]
 
 
-@pytest.mark.parametrize(
-    ("row", "method", "value"),
-    [
-        ("exact", "exact", 0.0),
-        ("heyoka.py, 2.2e-16", "heyoka", 2.2e-16),
-        ("DOP853, SciPy, 1e-11", "scipy_dop853", 1e-11),
-    ],
-)
-def test_the_table_in_the_docs_is_of_the_published_one(row, method, value):
-    table = read_table(TABLE).query("method == @method")
-    [found] = table[np.isclose(table["value"], value, rtol=0.01, atol=0)].to_dict(
-        "records"
-    )
-    said = re.search(
-        rf"\| {row} \| (\d+) \| (\S+) ms \| (\S+) us \| (\S+) s \|", DOCS.read_text()
-    )
-    evaluations, time, each, error = [float(number) for number in said.groups()]
-    assert evaluations == found["evaluations"]
-    assert time == float(f"{1e3 * found['seconds']:.{3 if time > 100 else 2}g}")
-    assert each == float(f"{1e6 * found['seconds'] / evaluations:.2g}")
-    assert error == float(f"{found['time_error_s']:.0e}")
-
-
 def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(table):
     assert set(table["scene"]) == {"uniform"}
     is_right = table["transitions_right"].eq(table["transitions_true"])
@@ -78,28 +53,3 @@ def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(table
     as_close = whole[whole["time_error_s"] <= exact["time_error_s"]]
     assert (as_close["seconds"] > exact["seconds"]).all()
     assert set(as_close["method"]) <= {"heyoka"}
-
-
-def test_the_ratios_to_heyoka_in_the_docs_are_those_of_the_sessions():
-    found = (
-        read_table(SESSIONS)
-        .query("benchmark == 'heyoka'")
-        .set_index(["case", "quantity"])
-    )
-    row = r"\| ([-+\d/]+) \| (first global slip|10 s) \| (\S+) \((\S+) to (\S+)\) \| (\S+) s \| (\S+) s \|"
-    said = re.findall(row, DOCS.read_text())
-    assert len(said) == 6
-    for theta, run, *numbers in said:
-        case = f"theta = {theta.lstrip('+')}, {'10 s' if run == '10 s' else 'to the first global slip'}"
-        ratio = found.loc[
-            (case, "processor time of heyoka / exact"), ["value", "least", "largest"]
-        ]
-        errors = [
-            found.loc[(case, f"largest error of their times, {of}"), "value"]
-            for of in ("exact", "heyoka")
-        ]
-        expected = [
-            *(float(f"{value:.2g}") for value in ratio),
-            *(float(f"{value:.0e}") for value in errors),
-        ]
-        assert [float(number) for number in numbers] == expected
