@@ -5,12 +5,12 @@ where the first event function becomes zero: on the interpolation of the step it
 polynomial, whose first root `polynomial_root` finds, also of two that are close
 together.
 
-A loop over the blocks serves all stages. Written out for each stage of a short tableau,
-the compiler puts its coefficients into it.
+The stages of a short tableau are written out, so that the compiler puts the
+coefficients of each into it.
 """
 
 import math
-from functools import partial, reduce
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -62,8 +62,8 @@ def sums_of(tableau: Tableau) -> Any:
     return combine
 
 
-def stages_of(tableau: Tableau, end: int, friction: Any = by_mode) -> Any:
-    """Rates of the states of stages 1..end - 1, under a friction law (see
+def stage_of(tableau: Tableau, friction: Any = by_mode) -> Any:
+    """Rates k[number] of the state of a stage, under a friction law (see
     `equations.rates`)."""
     combine = sums_of(tableau)
 
@@ -82,24 +82,38 @@ def stages_of(tableau: Tableau, end: int, friction: Any = by_mode) -> Any:
             force = force_ahead
         k[number, FORCE, last + 1] = system[SPRING, last + 1] * behind
 
-    def then(before, number):
-        @template
-        def stages(system, state, last, h, k):
-            before(system, state, last, h, k)
-            stage(number, system, state, last, h, k)
+    return stage
 
-        return stages
 
-    @template
-    def no_stage(_system, _state, _last, _h, _k):
-        pass
+def in_a_loop(stage: Any, end: int) -> Any:
+    """Stages 1..end - 1."""
 
     @inner
-    def looped(system, state, last, h, k):
+    def stages(system, state, last, h, k):
         for number in range(1, end):
             stage(number, system, state, last, h, k)
 
-    return looped if end > WRITTEN_OUT else reduce(then, range(1, end), no_stage)
+    return stages
+
+
+def written_out(stage: Any, end: int) -> Any:
+    """Stages 1..end - 1, with the number of each as a constant."""
+    if end == 1:
+        return template(lambda _system, _state, _last, _h, _k: None)
+    before = written_out(stage, end - 1)
+
+    @template
+    def stages(system, state, last, h, k):
+        before(system, state, last, h, k)
+        stage(end - 1, system, state, last, h, k)
+
+    return stages
+
+
+def stages_of(tableau: Tableau, end: int, friction: Any = by_mode) -> Any:
+    """Rates of the states of stages 1..end - 1."""
+    put = in_a_loop if end > WRITTEN_OUT else written_out
+    return put(stage_of(tableau, friction), end)
 
 
 def end_of(tableau: Tableau) -> Any:
