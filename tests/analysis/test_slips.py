@@ -61,6 +61,6 @@ def test_the_slip_table_has_the_events_with_units_and_lengths_in_metres():
         assert table[with_unit].equals(slips[name])
     assert (slips["front"] != slips["n_slid"]).any()
     lengths = 0.3 * slips["front"] / run.chain.n_blocks
-    np.testing.assert_allclose(table["propagation_length_m"], lengths, rtol=ROUNDING)
+    np.testing.assert_allclose(table["front_length_m"], lengths, rtol=ROUNDING)
     assert table["slider_length_m"].eq(0.3).all()
     assert table.index[table["counted"]].equals(find_precursors(slips).index)

@@ -380,9 +380,9 @@ FIGURES = {
     "partial": style.PARTIAL,
     "global": style.GLOBAL,
     "backward": style.BACKWARD,
-    "pushed": style.PUSHED_END,
-    "even": style.EVEN,
-    "far": style.FAR_END,
+    "pushed": style.TRAILING,
+    "even": style.UNIFORM,
+    "far": style.LEADING,
     "unsure": style.GREY,
 }
 # Marks that stand side by side. A backward slip is half as high besides.

@@ -45,7 +45,7 @@ def slip_table(run: Record) -> pd.DataFrame:
     """Every slip event of a run, with units in the names of the columns.
 
     They are those of `find_slips`, and: counted, the rows of Fig. 13;
-    propagation_length_m (L_p). theta, n_blocks, normal_load_N (F_Z), slider_length_m
+    front_length_m (L_p). theta, n_blocks, normal_load_N (F_Z), slider_length_m
     (L) and mu_k say which slider it was, the same in every row; theta is NaN where it
     is not known.
     """
@@ -57,7 +57,7 @@ def slip_columns(slips: NDArray[np.void], chain: Chain) -> dict[str, NDArray[Any
     return {
         **{name: slips[name] for name in SLIP.names or ()},
         "counted": counted(slips["front"], slips["is_global"]),
-        "propagation_length_m": slips["front"] * chain.length / chain.n_blocks,
+        "front_length_m": slips["front"] * chain.length / chain.n_blocks,
         **{
             column: np.full(len(slips), getattr(chain, name))
             for column, name in OF_SLIDER.items()

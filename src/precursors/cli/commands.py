@@ -112,8 +112,8 @@ def slips(arguments: Namespace) -> None:
 
 
 def plot(arguments: Namespace) -> None:
-    """Draw a run: its load and slips over time, its propagation lengths against the
-    load, or a wave."""
+    """Draw a run: its load and slips over time, its front lengths against the load,
+    the push in its springs, or a wave."""
     from precursors.figures.run import AXES, Movie, plot
     from precursors.figures.style import Look, save
 

@@ -1,5 +1,5 @@
-"""Fig. 13: propagation length of the precursors against the tangential load, for
-several loadings."""
+"""Fig. 13: front length of the precursors against the tangential load, for several
+loadings."""
 
 from collections.abc import Sequence
 from itertools import cycle
@@ -31,9 +31,9 @@ CARRIED_TEXT = "dashed:\n" + r"$F_X = \mu_k W(L_p)$"
 # What a curve is: at which of its events the name stands, from which side, and how far
 # away [pt].
 NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
-    -1: ("more load at the pushed end: {}", 0.0, "left", (20.0, -6.0)),
-    0: ("even load: {}", 0.0, "left", (-8.0, -6.0)),
-    1: ("more load at\nthe far end:\n{} events", 0.65, "right", (-24.0, 14.0)),
+    -1: ("more load at the\ntrailing edge: {}", 0.0, "left", (28.0, -2.0)),
+    0: ("uniform load:\n{} events", 0.0, "left", (-8.0, -4.0)),
+    1: ("more load at\nthe leading\nedge: {}", 0.65, "right", (-24.0, 14.0)),
 }
 INSET = (0.05, 0.77, 0.26, 0.1)  # of the panel: above all curves
 
@@ -62,7 +62,6 @@ def draw(
         axes = figure.subplots()
         axes.set_title(style.plain(title), loc="left", wrap=True)
         draw_lengths(axes, slips)
-        _add_coefficient(axes, slips)
         if len(data):
             axes.plot(
                 *data.T, "+", color=style.MEASURED, markersize=5, label="measured"
@@ -88,12 +87,14 @@ def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
         axes.plot(load, length, **CARRIED, color=style.theta_color(_sign(table)))
         if in_place:
             _name(axes, points, _sign(table))
-    axes.set(xlim=(0, None), ylim=(-0.03, 1.06))
+    axes.set(xlim=(0, None), ylim=(-0.09, 1.06))
+    if slips:
+        _add_coefficient(axes, pd.concat(slips))
     axes.set_xlabel("Tangential load $F_X$ [N]")
-    axes.set_ylabel("Propagation length $L_p/L$ [-]")
+    axes.set_ylabel("Front length $L_p/L$ [-]")
     if in_place and len(slips) > 1:
         _draw_last(axes, slips)
-        axes.text(0.98, 0.5, CARRIED_TEXT, transform=axes.transAxes, ha="right")
+        axes.text(0.84, 0.36, CARRIED_TEXT, transform=axes.transAxes, ha="right")
     elif not in_place:
         axes.plot([], [], **CARRIED, color=style.GREY, label=CARRIED_TEXT)
         axes.plot([], [], **SHORT, color=style.GREY, label="short events, not counted")
@@ -111,13 +112,19 @@ def friction_carried(
     return n / n_blocks, slider["mu_k"] * load
 
 
-def _add_coefficient(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
-    """Write F_X/F_Z at the top, where all scenes have one F_Z."""
-    normal_loads = pd.concat(slips)["normal_load_N"].unique()
-    if len(normal_loads) == 1:
-        (load,) = normal_loads
+def _add_coefficient(axes: Axes, slips: pd.DataFrame) -> None:
+    """Write F_X/F_Z at the top, and mark mu_k F_Z, where all scenes have one F_Z and
+    one mu_k."""
+    sliders = slips[["normal_load_N", "mu_k"]].drop_duplicates()
+    if len(sliders) == 1:
+        ((load, mu_k),) = sliders.to_numpy()
         scale = (lambda force: force / load, lambda coefficient: coefficient * load)
         axes.secondary_xaxis("top", functions=scale).set_xlabel("$F_X/F_Z$ [-]")
+        axes.axvline(mu_k * load, **style.DOTTED)
+        place = (mu_k * load, 0)
+        axes.annotate(
+            r"$\mu_k F_Z$", place, (3, 0), textcoords="offset points", va="center"
+        )
 
 
 def _sign(table: pd.DataFrame) -> int:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from precursors.figures import style
 from precursors.figures.style import Options
 
-HEIGHT_MM = 74.0
+HEIGHT_MM = 58.0
 KEY_MM = 8.0
 NARROW_MM = 150.0  # below this width the magnified view stands below, not beside
 ZOOM_END = 1.04  # of the magnified view, in times of the first global slip
@@ -40,9 +40,9 @@ TO_THE_EDGE: Options = {
     "markerfacecolor": "white",
     "markeredgewidth": 0.7,
     "clip_on": False,
-    "label": "reaches the far end, but not all at once",
+    "label": "reaches the leading edge, but not all at once",
 }
-LABELS = ("$F_X$ [N]", "$K x_1$ [N]", "$L_p$ [mm]")
+LOADS = {"tangential_load_N": "$F_X$ [N]", "K_x1_N": "$K x_1$ [N]"}
 STAIRCASE = "$K x_1 = K V t - F_X$: a step for each slip"
 MEASURED: Options = {"color": style.MEASURED, "zorder": 1.8, "label": "measured"}
 
@@ -55,8 +55,8 @@ def draw(
     key: bool = True,
     look: style.Look = style.LOOK,
 ) -> Figure:
-    """Draw F_X(t), K x_1 = K V t - F_X and all slip events; the second only up to
-    the first global slip, where all of it is magnified.
+    """Draw F_X(t) and all slip events, and K x_1 = K V t - F_X, magnified up to the
+    first global slip.
 
     An event that goes on when the run ends is a band. The slip table may be empty; the
     trace is straight between its rows. `data`, shape (n, 2), are measured times [s] and
@@ -67,33 +67,34 @@ def draw(
     first_s = slips.loc[slips["is_global"], "onset_s"].min()
     times, _ = data.T
     ends = [np.nanmax([trace["time_s"].iloc[-1], ZOOM_END * first_s, *times])]
+    views = [list(LOADS)]
     if first_s > 0:
         ends.append(ZOOM_END * first_s)
-    n = len(ends)
+        views = [[column] for column in LOADS]
+    n = len(views)
+    heights = [1.3] * len(views[0]) + [1.0]
     rows = n if width_mm < NARROW_MM else 1
     height_mm = HEIGHT_MM * rows + KEY_MM * key * (2 * rows - 1)
     with style.page(width_mm, height_mm, look) as figure:
         panels = figure.subplots(
-            3 * rows, n // rows, squeeze=False, height_ratios=[1.3, 1.3, 1] * rows
+            len(heights) * rows, n // rows, squeeze=False, height_ratios=heights * rows
         )
-        columns = panels.T.reshape(n, 3)
-        for axes, end in zip(columns, ends, strict=True):
-            _draw_loads(axes, slips, trace, end)
-            _draw_events(axes[2], slips[slips["onset_s"] <= end], trace)
-            if len(data):
-                axes[0].plot(*data[times <= end].T, **MEASURED)
-            axes[2].set_xlabel("Time $t$ [s]")
+        columns = panels.T.reshape(n, len(heights))
+        for axes, view, end in zip(columns, views, ends, strict=True):
+            for panel, column in zip(axes, view, strict=False):
+                _draw_load(panel, column, slips, trace, end)
+            _draw_events(axes[-1], slips[slips["onset_s"] <= end], trace)
+            axes[-1].set_xlabel("Time $t$ [s]")
             for panel in axes:
                 panel.set_xlim(min([0, *times]), end)
-                panel.tick_params(labelbottom=panel is axes[2])
+                panel.tick_params(labelbottom=panel is axes[-1])
                 if slips["is_global"].any():
                     panel.axvline(first_s, **FIRST_GLOBAL)
-            for panel, text in zip(axes, LABELS, strict=True):
-                panel.set_ylabel(text)
+        if len(data):
+            columns[0][0].plot(*data.T, **MEASURED)
         if n > 1:
             _magnify(columns, first_s, trace)
         figure.align_ylabels()
-        columns[-1][1].annotate(STAIRCASE, (0.02, 0.82), xycoords="axes fraction")
         columns[0][0].set_title(_title(slips, title), loc="left", pad=4, wrap=True)
         if key:
             style.draw_key(figure, ncols=int(width_mm / look.font_size / KEY_WIDTH))
@@ -113,29 +114,33 @@ def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def _draw_loads(
-    axes: NDArray[Any], slips: pd.DataFrame, trace: pd.DataFrame, end: float
+def _draw_load(
+    axes: Axes, column: str, slips: pd.DataFrame, trace: pd.DataFrame, end: float
 ) -> None:
-    """Draw F_X about mu_k F_Z, and the staircase K x_1 with its risers in the colours of
+    """Draw F_X about mu_k F_Z, or the staircase K x_1 with its risers in the colours of
     the events."""
     # One row more: the load goes on to the end of the panel.
     seen = trace[trace["time_s"].shift(fill_value=0.0) <= end]
-    for panel, column in zip(axes, ("tangential_load_N", "K_x1_N"), strict=False):
-        panel.plot(seen["time_s"], seen[column], color=style.BLACK, linewidth=0.6)
-    for carried in (slips["mu_k"] * slips["normal_load_N"])[:1]:
-        axes[0].axhline(carried, **MEAN)
-        place: Any = ("axes fraction", "data")
-        axes[0].annotate(r"$\mu_k F_Z$", (0.02, carried), xycoords=place, va="top")
+    axes.plot(seen["time_s"], seen[column], color=style.BLACK, linewidth=0.6)
+    axes.set_ylabel(LOADS[column])
+    if column == "tangential_load_N":
+        for carried in (slips["mu_k"] * slips["normal_load_N"])[:1]:
+            axes.axhline(carried, **MEAN)
+            place: Any = ("axes fraction", "data")
+            axes.annotate(r"$\mu_k F_Z$", (0.02, carried), xycoords=place, va="top")
+        return
+    axes.annotate(STAIRCASE, (0.02, 0.86), xycoords="axes fraction")
     slips = slips[slips["onset_s"] <= end]
     for kind, events in slips.groupby("kind", observed=True):
         low, high = (
-            np.interp(times, trace["time_s"], trace["K_x1_N"])
+            np.interp(times, trace["time_s"], trace[column])
             for times in (events["onset_s"], events["end_s"].fillna(end))
         )
-        axes[1].vlines(events["onset_s"], low, high, **KINDS[str(kind)])
+        axes.vlines(events["onset_s"], low, high, **KINDS[str(kind)])
 
 
 def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
+    axes.set_ylabel("$L_p$ [mm]")
     if slips.empty:
         axes.annotate("no slip event", (0.4, 0.5), xycoords="axes fraction")
         axes.set_yticks([])
@@ -160,15 +165,12 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
 
 
 def _magnify(columns: Any, first_s: float, trace: pd.DataFrame) -> None:
-    """Mark what is magnified, keep the staircase there only, and cut the riser of the
-    global slip, which goes far beyond the others."""
-    load, staircase, _ = columns[0]
-    staircase.remove()
-    load.set_subplotspec(load.get_gridspec()[:2, 0])
+    """Mark what is magnified, and cut the riser of the global slip, which goes far
+    beyond the others."""
     for panel in columns[0]:
         panel.axvspan(0, ZOOM_END * first_s, color=style.PALE, linewidth=0, zorder=0)
     top = np.interp(first_s, trace["time_s"], trace["K_x1_N"])
-    columns[1][1].set_ylim(-0.08 * top, 1.3 * top)
+    columns[1][0].set_ylim(-0.08 * top, 1.3 * top)
 
 
 def _title(slips: pd.DataFrame, title: str) -> str:

@@ -29,21 +29,21 @@ Options = dict[str, Any]
 
 # One colour, one meaning, in all figures and the page. Every two differ by more than 20
 # in CIELAB, for readers with protanopia or deuteranopia as well.
-PUSHED_END = "#C27400"  # the three loadings: more load at the pushed end,
-EVEN = "#158243"  # even load,
-FAR_END = "#374DC2"  # more load at the far end
+TRAILING = "#C27400"  # the three loadings: more load at the trailing edge,
+UNIFORM = "#158243"  # uniform load,
+LEADING = "#BB5EB5"  # more load at the leading edge
 PARTIAL = "#45BBFF"  # the kinds of slip
 GLOBAL = "#A7000E"
-BACKWARD = "#BB5EB5"
+BACKWARD = "#374DC2"
 BLACK = "#000000"  # the exact solution
 MEASURED = "#6200FF"
 GREY = "#8C8C8C"  # everything else
 # Solvers of others, in the charts that compare solvers; each has its name beside it.
 OTHERS = ("#4B1FA8", "#36B3D6", "#6B5200", "#BFA800", "#84294F")
 LOADINGS = {
-    -1: "more load at the pushed end",
-    0: "even load",
-    1: "more load at the far end",
+    -1: "more load at the trailing edge",
+    0: "uniform load",
+    1: "more load at the leading edge",
 }
 PALE = "#E6E6E6"
 NO_DATA = np.empty((0, 2))  # measured points that a scene is drawn without
@@ -205,7 +205,7 @@ def theta_text(theta: float) -> str:
 
 def theta_color(theta: float) -> str:
     """Colour of a scene: by the end that carries the larger load."""
-    return PUSHED_END if theta < 0 else FAR_END if theta > 0 else EVEN
+    return TRAILING if theta < 0 else LEADING if theta > 0 else UNIFORM
 
 
 def plain(text: str) -> str:

@@ -27,6 +27,7 @@ DOT: Options = {
     "linestyle": "none",
 }
 TITLE: Options = {"fontsize": 8.6, "fontweight": "bold", "loc": "left", "pad": 7}
+LEVEL: Options = TITLE | {"pad": 28}  # with the other title, above a second axis
 STAR: Options = {
     "marker": "*",
     "markersize": 11,
@@ -62,9 +63,9 @@ def draw(
         )
         for place, (scene, own) in enumerate(scenes):
             _draw_strip(right, place, own, within.loc[scene])
-        right.set_title("Few sliders with the same printed inputs agree", **TITLE)
+        right.set_title("Few sliders with the same printed inputs agree", **LEVEL)
         right.set(
-            xlabel=style.MU_SAPP_LABEL, yticks=[], ylim=(-0.45, len(scenes) - 0.31)
+            xlabel=style.MU_SAPP_LABEL, yticks=[], ylim=(-0.3, len(scenes) - 0.31)
         )
         right.xaxis.set_major_locator(MultipleLocator(0.05))
         _draw_key(figure)
@@ -84,7 +85,7 @@ def _draw_strip(axes: Axes, place: int, own: pd.DataFrame, summary: Any) -> None
     nine_tenths = [summary["q05"], summary["q95"]]
     axes.plot(nine_tenths, [place - 0.1] * 2, color=color, linewidth=2)
     share = f"{100 * summary['share']:.0f} %"
-    axes.text(printed.MU_SAPP, place - 0.33, share, ha="center")
+    axes.text(printed.MU_SAPP, place + 0.3, share, ha="center", fontweight="bold")
     axes.plot(
         summary["q50"], place - 0.1, "|", color=color, markersize=9, markeredgewidth=2.5
     )
