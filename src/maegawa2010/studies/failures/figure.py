@@ -6,13 +6,12 @@ from typing import Any
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogFormatterSciNotation
 
 from precursors.figures import style
 from precursors.figures.style import Options
 
 HEIGHT_MM = 148.0
-THEORY: Options = {"color": style.GREY, "linewidth": 0.6}
+THEORY: Options = {"linewidth": 0.6}
 LOOKS: dict[str, Options] = {
     "exact": {"color": style.BLACK},
     "reference": {"color": style.BLACK, "linewidth": 0.6},
@@ -33,7 +32,8 @@ def draw(curves: pd.DataFrame, panels: pd.DataFrame) -> Figure:
         for letter, axes, panel in zip("abcdefghi", grid, rows, strict=True):
             _draw_curves(axes, panel, curves[curves["failure_mode"] == panel.mode])
             axes.set_title(f"$\\bf{{{letter}}}$  {panel.title}", fontsize="small")
-        theory = style.mark("theory, in the colour of the dots", **THEORY)
+        look = THEORY | {"color": style.OTHERS[0]}
+        theory = style.mark("thin line in the colour of dots: theory", **look)
         style.draw_key(figure, [theory])
     return figure
 
@@ -44,7 +44,7 @@ def _draw_curves(axes: Axes, panel: Any, curves: pd.DataFrame) -> None:
     for key, points in curves.groupby(["curve", "role"], sort=False):
         name, role = map(str, key)
         line = {"failing": panel.points, "reference": "--"}.get(role, "-")
-        look = LOOKS.get(role, THEORY | {"color": color.get(name, style.GREY)})
+        look = LOOKS.get(role, THEORY | {"color": color.get(name, style.OTHERS[0])})
         axes.plot(
             points["x"] * panel.scale,
             points["y"],
@@ -55,9 +55,7 @@ def _draw_curves(axes: Axes, panel: Any, curves: pd.DataFrame) -> None:
         )
     axes.set_xscale("log" if "x" in panel.log else "linear")
     axes.set_yscale("log" if "y" in panel.log else "linear")
-    # On a y axis of less than two decades, some numbers between them have a label.
-    axes.yaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(2, 1)))
-    axes.tick_params(axis="x", which="minor", labelbottom=False)
+    axes.tick_params(which="minor", labelbottom=False, labelleft=False)
     if pd.notna(panel.bottom):
         axes.set_ylim(bottom=panel.bottom)
     axes.set_xlabel(panel.x, fontsize="small")

@@ -9,9 +9,11 @@ from matplotlib.figure import Figure
 
 from maegawa2010 import printed
 from precursors.figures import style
+from precursors.figures.style import Options
 
 WIDTH_MM = 120.0
 HEIGHT_MM = 96.0
+KINETIC: Options = {"colors": style.BLACK, "linewidths": 1.0, "linestyles": "--"}
 LABELS = {
     "theta": r"$\theta$",
     "mu_s": r"$\mu_s$",
@@ -33,7 +35,8 @@ def draw(
     axes: Sequence[Mapping[str, Any]],
     scenes: Sequence[tuple[float, float]],
 ) -> Figure:
-    """Draw mu_sapp of grid.csv, with contours at the paper's 0.49.
+    """Draw mu_sapp of grid.csv, with contours at the paper's 0.49, and dashed where
+    mu_k has this value, if an axis changes it.
 
     It is white where a run has no global slip. Crosses mark `scenes` by their values on
     both axes. The colours end at the 1st and 99th percentile.
@@ -52,10 +55,16 @@ def draw(
             rasterized=True,
         )
         figure.colorbar(image, ax=plot, label=style.MU_SAPP_LABEL, use_gridspec=False)
-        levels = [printed.MU_SAPP]
-        plot.contour(
-            values.columns, values.index, values, levels, colors="white", linewidths=0.6
-        )
+        paper = printed.MU_SAPP
+        at = values.columns, values.index
+        plot.contour(*at, values, [paper], colors="white", linewidths=0.6)
+        text = rf"white line: $\mu_\mathrm{{sapp}} = {paper:g}$"
+        entries = [style.mark(text, linestyle="none")]
+        if "mu_k" in table:
+            kinetic = table.assign(kinetic=table["mu_k"]).pivot_table("kinetic", y, x)
+            plot.contour(*at, kinetic, [paper], **KINETIC)
+            line = {"linestyle": "--", "linewidth": 1.0}
+            entries.append(style.mark(rf"$\mu_k = {paper:g}$: many blocks", **line))
         plot.set(
             xlabel=LABELS[x],
             ylabel=LABELS[y],
@@ -66,12 +75,8 @@ def draw(
         places = np.transpose(scenes)
         plot.plot(*places, "+", color="white", markersize=8, markeredgewidth=2.6)
         plot.plot(*places, "+", color=style.BLACK, markersize=7)
-        text = rf"white line: $\mu_\mathrm{{sapp}} = {printed.MU_SAPP:g}$"
         cross = {"marker": "+", "markersize": 6, "linestyle": "none"}
-        entries = [
-            style.mark(text, linestyle="none"),
-            style.mark("scenes of Fig. 13", **cross),
-        ]
+        entries.append(style.mark("scenes of Fig. 13", **cross))
         if not table["reached"].all():
             look = {"marker": "s", "markerfacecolor": "white", "linestyle": "none"}
             entries.append(style.mark("no global slip", **look, color=style.GREY))

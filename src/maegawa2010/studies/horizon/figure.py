@@ -15,6 +15,7 @@ ERRORS = {
     "predicted_error_s": (style.GREY, "predicted by the run", (0.04, 0.58)),
     "actual_error_s": (style.BLACK, "actual, against the proof", (0.3, 0.16)),
 }
+DASHED = "dashed: mean growth\nof the first error"
 
 
 def draw(
@@ -26,8 +27,8 @@ def draw(
     """Draw the largest error so far of the times of transitions, a panel for each chain
     of `thetas`.
 
-    The tables are horizon.csv and lyapunov.csv. A dashed line starts with the actual
-    error and has the slope of the largest Lyapunov exponent. A dotted one is the
+    The tables are horizon.csv and lyapunov.csv. A dashed line starts with the first
+    actual error and has the slope of the largest Lyapunov exponent. A dotted one is the
     `tolerance` [s].
     """
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
@@ -47,6 +48,7 @@ def draw(
                 axes.set_title(f"{style.theta_text(theta)}: {words}")
             axes.set(yscale="log", ylim=ERROR_RANGE, xlabel="Time [s]")
         panels[0].text(0.0, tolerance, "tolerance", va="bottom")
+        panels[-1].annotate(DASHED, (0.36, 0.1), xycoords="axes fraction")
         for color, words, place in ERRORS.values():
             panels[0].annotate(words, place, xycoords="axes fraction", color=color)
     return figure
