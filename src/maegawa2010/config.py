@@ -1,16 +1,19 @@
-"""Checks of a configuration: the first thing wrong with it, in one line."""
+"""The configuration of the workflow: its files, put together and checked. The first
+thing wrong with it is said in one line."""
 
 import math
 import os
 import re
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
 import yaml
 from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
+from snakemake.utils import update_config
 
 from maegawa2010.scenes import Config, scene_slider, scenes_with_theta
 from precursors.model.chain import Chain
@@ -55,6 +58,43 @@ class Loader(yaml.CSafeLoader):
 
 def _misread(node: Any, problem: str) -> yaml.MarkedYAMLError:
     return yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
+
+
+def load_config(given: Config, files: Iterable[str], workflow: Path) -> dict[str, Any]:
+    """Put a configuration together, and check it.
+
+    Parameters
+    ----------
+    given
+        What Snakemake has read, the command line included.
+    files
+        The files that it was read from, the most important one last; one that is
+        missing is left out.
+    workflow
+        Directory of studies.yaml, which has what is not given, and of the schema.
+
+    Raises
+    ------
+    ValueError
+        In one line: which value, where, and what it must be.
+    """
+    defaults = str(workflow / "studies.yaml")
+    paths = [defaults, *(path for path in files if os.path.exists(path))]
+    contents = {path: read_file(path) for path in paths}
+    config = deepcopy(dict(given))
+    for path, content in reversed(contents.items()):
+        place_weights(config, path, content)
+    if "chain" in config:
+        config["chain"] = read_numbers(config["chain"])
+    check_sections(config, contents[defaults])
+    complete = deepcopy(contents[defaults])
+    update_config(complete, config)
+    check_config(complete, workflow / "schemas/config.schema.yaml", contents)
+    if complete["figure"]:
+        from precursors.figures.style import Look  # slow
+
+        Look(**complete["figure"])
+    return complete
 
 
 def read_file(path: AnyPath) -> dict[str, Any]:

@@ -34,7 +34,7 @@ IMPATIENT = [
     "--retries=0",
 ]
 SECONDS_BETWEEN_LOOKS = 0.1
-JOB = "rule_run_chunk_wildcards_grid_"
+JOB = "rule_run_grid_wildcards_"
 PLANNED = {f"{JOB}{i}of{CHUNKS}" for i in range(1, CHUNKS + 1)}
 
 

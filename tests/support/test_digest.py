@@ -32,7 +32,6 @@ FILES = {
         "from importlib import import_module\nname = 'one'\nimport_module(f'{__name__}.{name}')\n"
     ),
     "src/precursors/parts/one.py": "x = 1\n",
-    "src/precursors/named.py": "x = 1\n",
 }
 
 
@@ -49,41 +48,33 @@ SUMS_FILE = "src/precursors/room/sums.py"
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "modules", "changes"),
+    ("name", "text", "changes"),
     [
-        (SCRIPT_FILE, SCRIPT.replace("Add.", "Add two numbers."), [], False),
-        (SUMS_FILE, SUMS.replace("a + b", "(a\n        + b)  # all"), [], False),
-        ("workflow/scripts/other.py", "x = 2\n", [], False),
-        ("src/precursors/room/types.py", "x = 2\n", [], False),
-        ("src/precursors/named.py", "x = 2\n", [], False),
-        ("src/precursors/named.py", "x = 2\n", ["precursors.named"], True),
-        (SCRIPT_FILE, f"{SCRIPT}x = 1\n", [], True),
-        ("workflow/scripts/helper.py", "def help_out():\n    return 2\n", [], True),
-        (SUMS_FILE, SUMS.replace("a + b", "a - b"), [], True),
+        (SCRIPT_FILE, SCRIPT.replace("Add.", "Add two numbers."), False),
+        (SUMS_FILE, SUMS.replace("a + b", "(a\n        + b)  # all"), False),
+        ("workflow/scripts/other.py", "x = 2\n", False),
+        ("src/precursors/room/types.py", "x = 2\n", False),
+        (SCRIPT_FILE, f"{SCRIPT}x = 1\n", True),
+        ("workflow/scripts/helper.py", "def help_out():\n    return 2\n", True),
+        (SUMS_FILE, SUMS.replace("a + b", "a - b"), True),
         (
             "src/precursors/parts/one.py",
             "x = 2\n",
-            [],
             True,
         ),  # by a name that only a run knows
     ],
 )
 def test_the_digest_changes_with_what_the_script_computes_and_with_nothing_else(
-    root, name, text, modules, changes
+    root, name, text, changes
 ):
     digests = []
     for content in (FILES[name], text):
         (root / name).write_text(content, encoding="utf-8")
         digest._read.cache_clear()
-        digests.append(digest.digest_code(root, "script", *modules))
+        digests.append(digest.digest_code(root, "script"))
     assert (digests[0] != digests[1]) == changes
 
 
 def test_a_script_that_is_not_there_is_named(root):
     with pytest.raises(OSError, match="missing"):
         digest.digest_code(root, "missing")
-
-
-def test_a_misspelt_module_is_no_package_that_has_it(root):
-    with pytest.raises(ValueError, match=r"^there is no module precursors\.parts\.on$"):
-        digest.digest_code(root, "script", "precursors.parts.on")

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 # The compiler, and what only simulations and tables need.
 HEAVY = {"numba", "h5py", "pandas"}
 # What the rules of the workflow import.
-RULES = "from maegawa2010 import entries; from maegawa2010.paper import inputs, shown"
+RULES = "from maegawa2010.paper import inputs, shown"
 
 
 def loaded(program: str) -> set[str]:

@@ -20,12 +20,12 @@ from precursors import Run
         (
             "scenes:",
             "scenes:\n  paper: {title: a, theta: 0}",
-            "scenes.paper has the name of a target",
+            "scenes.paper has the name of a target or a figure",
         ),
         (
             "scenes:",
-            "scenes:\n  horizon: {title: a, theta: 0}",
-            "horizon is the name of two scenes, tables or figures",
+            "scenes:\n  speed: {title: a, theta: 0}",
+            "scenes.speed has the name of a target or a figure",
         ),
         (
             "  mu_k: 0.45",

@@ -13,12 +13,7 @@ ON_DEMAND = {"write_benchmark", "certify_scene", "prove_again", "write_provenanc
 # The paper shows nearly all tables and figures, and is set again when one of them may
 # change.
 PAPER = {"write_paper"}
-LISTS_OF_SCENES = {
-    "tabulate_reproduction",
-    "tabulate_claims",
-    "draw_reproduction",
-    "write_explorer",
-} | PAPER
+LISTS_OF_SCENES = {"mu_sapp", "judge_claims", "write_explorer"} | PAPER
 CODE = "\nADDED = 1\n"  # to a module
 
 
@@ -70,7 +65,7 @@ def test_results_copied_into_a_fresh_clone_are_up_to_date_and_an_edit_is_seen(
     )
     assert clone.would_run() == set()
     clone.edit("src/maegawa2010/studies/resolution/figure.py", "", CODE)
-    assert clone.would_run() == {"draw_sensitivity"} | PAPER
+    assert clone.would_run() == {"draw_resolution"} | PAPER
 
 
 def test_an_installed_library_must_be_that_of_the_checkout(workspace):
@@ -89,20 +84,20 @@ def test_an_installed_library_must_be_that_of_the_checkout(workspace):
     [
         (
             "precursors/figures/scene",
-            {"draw_reproduction"},
-            {"tabulate", "simulate", "draw_accuracy"},
+            {"draw_scene fig10"},
+            {"tabulate", "simulate", "draw_horizon", "fig13"},
         ),
         (
             "maegawa2010/methods/moreau_jean",
-            {"tabulate_work_precision", "draw_accuracy"},
-            {"take", "run_chunk", "simulate"},
+            {"tabulate_work_precision", "draw_work_precision"},
+            {"take", "run_", "simulate"},
         ),
         (
             "precursors/analysis/slips",
-            {"simulate_scene fig10", "tabulate_reproduction"},
+            {"simulate_scene fig10", "mu_sapp"},
             {"take_certificates"},
         ),
-        ("precursors/solver/kernel/events", PAPERS | {"run_chunk"}, set()),
+        ("precursors/solver/kernel/events", PAPERS | {"run_noise"}, set()),
     ],
 )
 def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
@@ -122,15 +117,16 @@ def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
             "config.yaml",
             "figure: {}",
             "figure: {width_mm: 85, font_size: 9}",
-            {"draw_reproduction"},
+            {"draw_scene fig10", "draw_scene fig11", "draw_scene fig12"}
+            | {"draw_scene steep", "fig13"},
         ),
         (
             "config.yaml",
             'edge\n    theta: "9/10"\n',
             'edge\n    theta: "8/10"\n',
-            {"simulate_scene steep"} | LISTS_OF_SCENES,
+            {"simulate_scene steep", "draw_scene steep"} | LISTS_OF_SCENES,
         ),
-        ("config.yaml", "model: front_law", "model: rigid", {"tabulate_quick_answers"}),
+        ("config.yaml", "model: front_law", "model: rigid", {"answer_scene quick"}),
     ],
 )
 def test_an_edit_of_the_paper_or_of_the_configuration_runs_what_reads_it(
@@ -146,7 +142,8 @@ def test_four_lines_make_a_new_scene_of_any_name_and_another_model_answers_its_o
     finished.add_scenes(
         scene("fig10_slips", "duration: 1.0")
     )  # looks like the name of a table
-    assert finished.would_run() == {"simulate_scene fig10_slips"} | LISTS_OF_SCENES
+    new = {"simulate_scene fig10_slips", "draw_scene fig10_slips"}
+    assert finished.would_run() == new | LISTS_OF_SCENES
     assert "MissingRuleException" in finished.run("-n", "results/runs/quick.h5").text
 
 
@@ -157,7 +154,7 @@ def test_larger_studies_are_an_overlay_of_the_configuration(finished):
     assert outcome.code == 0, outcome.text
     longer = {"tabulate_work_precision", "tabulate_step_sweep", "tabulate_larger"}
     assert longer <= outcome.jobs
-    assert not {"simulate_scene fig10", "tabulate_definitions"} & outcome.jobs
+    assert not {"simulate_scene fig10", "mu_sapp"} & outcome.jobs
 
 
 def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
@@ -168,8 +165,8 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
         "config.yaml", "fig13: [fig11, fig10, fig12]", "fig13: [fig11, fig10, mine]"
     )
     jobs = workspace.would_run()
-    assert "tabulate_definitions" in jobs
-    assert not {"tabulate_claims", "write_paper"} & jobs
+    assert "mu_sapp" in jobs
+    assert not {"judge_claims", "write_paper"} & jobs
 
 
 def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(

@@ -64,14 +64,21 @@ def command(section):
 
 
 def test_the_scene_and_the_study_shown_are_made(documented):
-    jobs = documented.run("-n", "--forceall", *command("A scene"), "all").jobs
-    assert {"simulate_scene steep", "draw_reproduction", "draw_mine"} <= jobs
+    planned = documented.run("-n", "--forceall", *command("A scene"), "all")
+    assert {"simulate_scene steep", "draw_scene steep"} <= planned.jobs
+    assert "drawing how long slips last" in planned.text
     (documented.path / "results/tables").mkdir()
     slips = ROOT / "tests/golden/fig10_slips.csv"
     shutil.copy(slips, documented.path / "results/tables")
     outcome = documented.run(*command("A study"))
     assert outcome.code == 0, outcome.text
     assert (documented.path / "results/figures/durations.svg").is_file()
+    subprocess.run(
+        [sys.executable, "-m", "pytest", "tests/studies/test_durations.py"],
+        cwd=documented.path,
+        env=os.environ | {"PYTHONPATH": str(documented.path / "src")},
+        check=True,
+    )
 
 
 # A chart of the method shown, its points in it, and the colours of its line and of other methods.

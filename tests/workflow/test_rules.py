@@ -3,6 +3,9 @@ run."""
 
 import re
 
+import pytest
+from conftest import ROOT
+
 # One environment, built from requirements.lock by the Makefile, serves all rules.
 ACCEPTED_FINDING = "Specify a conda environment or container for each rule"
 
@@ -21,3 +24,28 @@ def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(
     outcome = workspace.run("-n", "-s", "workflow/Snakefile", *targets)
     assert outcome.code == 0, outcome.text
     assert targets | {"simulate_scene fig10"} <= outcome.jobs
+
+
+def rules_of(file):
+    """Name and text of every rule of a file."""
+    text = file.read_text(encoding="utf-8")
+    return re.findall(r"^( *)rule (\w+):\n((?:\1 .+\n|\n)+)", text, re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    "file", sorted((ROOT / "workflow/rules").glob("*.smk")), ids=lambda file: file.stem
+)
+def test_every_rule_says_what_it_does_and_a_job_has_its_log_message_place_and_digest(
+    file,
+):
+    text = file.read_text(encoding="utf-8")
+    rules = rules_of(file)
+    assert len(rules) == len(re.findall("^ *rule ", text, re.MULTILINE))
+    for _, name, body in rules:
+        assert re.match(r' +"""\w.+\."""\n', body), name
+        script = re.search(r"scripts/(\w+)\.py", body)
+        assert ("localrule: True" in body) != ("seconds=" in body), name
+        if script:
+            assert "log:" in body, name
+            assert "message:" in body, name
+            assert f'digest("{script[1]}")' in body, name

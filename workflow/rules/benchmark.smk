@@ -2,18 +2,29 @@
 
 BENCHMARKS = ROOT / "benchmarks"
 
-TABLES["benchmark"] = Table(
-    function="precursors.benchmark.score:score_table",
-    message="scoring the lists of transitions of other solvers",
-    inputs={"solvers": str(BENCHMARKS / "solvers.csv")},
-    options={"folder": str(BENCHMARKS / "results")},
-    also=sorted([*PROOFS.glob("*.json.gz"), *(BENCHMARKS / "results").glob("*.csv")]),
-    seconds=2,
-)
+
+rule tabulate_benchmark:
+    """Score the lists of transitions of other solvers."""
+    input:
+        solvers=BENCHMARKS / "solvers.csv",
+        also=sorted([*PROOFS.glob("*.json.gz"), *(BENCHMARKS / "results").glob("*.csv")]),
+    output:
+        benchmark=report("results/tables/benchmark.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_benchmark.log",
+    resources:
+        seconds=2,
+    params:
+        folder=str(BENCHMARKS / "results"),
+        code=digest("tabulate_benchmark"),
+    message:
+        "scoring the lists of transitions of other solvers"
+    script:
+        "../scripts/tabulate_benchmark.py"
 
 
-# On demand: the reference problems of docs/benchmark.md as plain files, and in one archive.
 rule write_benchmark:
+    """Write the reference problems of docs/benchmark.md as plain files and in one archive (on demand)."""
     input:
         certificates=sorted(PROOFS.glob("*.json.gz")),
         page=ROOT / "docs/benchmark.md",
@@ -30,3 +41,10 @@ rule write_benchmark:
         "writing the reference problems"
     script:
         "../scripts/write_benchmark.py"
+
+
+rule benchmark:
+    """Scores of other solvers."""
+    input:
+        rules.tabulate_benchmark.output,
+    localrule: True

@@ -2,6 +2,7 @@
 
 
 rule write_explorer:
+    """Write the page on which the loads are changed and the blocks move."""
     input:
         page=sorted(
             path for path in (PAPERS / "explorer").iterdir() if path.suffix in (".js", ".css", ".html")
@@ -23,4 +24,8 @@ rule write_explorer:
         "../scripts/write_explorer.py"
 
 
-RESULTS.append("results/explorer.html")
+rule explorer:
+    """The page results/explorer.html."""
+    input:
+        rules.write_explorer.output,
+    localrule: True

@@ -1,19 +1,51 @@
 # Where methods fail
 
-TABLES["failures"] = Table(
-    function="maegawa2010.studies.failures.tables:failure_curves",
-    message="making every method fail",
-    also=[f"{PAPERS}/methods/methods.csv"],
-    tables=[],
-    beside=["failure_curves"],
-    seconds=3,
-)
-FIGURES["failure_gallery"] = Figure(
-    section="accuracy",
-    function="maegawa2010.studies.failures.figure:draw",
-    shows="nine ways in which methods fail",
-    tables={
-        "curves": "results/tables/failure_curves.csv",
-        "panels": f"{PAPERS}/studies/failures/failure_gallery.csv",
-    },
-)
+
+rule tabulate_failures:
+    """Make every method fail."""
+    input:
+        methods=PAPERS / "methods/methods.csv",
+    output:
+        failure_curves="results/tables/failure_curves.csv",
+    log:
+        "results/logs/tabulate_failures.log",
+    resources:
+        seconds=3,
+    params:
+        code=digest("tabulate_failures"),
+    message:
+        "making every method fail"
+    script:
+        "../scripts/tabulate_failures.py"
+
+
+rule draw_failures:
+    """Draw nine ways in which methods fail."""
+    input:
+        curves="results/tables/failure_curves.csv",
+        panels=PAPERS / "studies/failures/failure_gallery.csv",
+    output:
+        report(
+            "results/figures/failure_gallery.svg",
+            caption="../report/failure_gallery.rst",
+            category="Accuracy",
+            labels={"figure": "failure_gallery: nine ways in which methods fail"},
+        ),
+        collect("results/figures/failure_gallery.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/draw_failures.log",
+    localrule: True
+    params:
+        code=digest("draw_failures"),
+    message:
+        "drawing nine ways in which methods fail"
+    script:
+        "../scripts/draw_failures.py"
+
+
+rule failures:
+    """Where methods fail."""
+    input:
+        rules.tabulate_failures.output,
+        rules.draw_failures.output,
+    localrule: True

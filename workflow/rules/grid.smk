@@ -1,30 +1,74 @@
 # mu_sapp over any two values of the chain
 
-from maegawa2010.studies.grid.axes import RATIO, check_axes
+from maegawa2010.studies.grid.axes import check_axes, values_on
 
 check_axes(config["chain"], config["grid"])
 
-ENSEMBLES["grid"] = Ensemble(
-    function="maegawa2010.studies.grid.tables:grid_study",
-    options={"slider": config["chain"], "axes": config["grid"]},
-)
-TABLES["grid"] = Table(
-    function="maegawa2010.studies.members:gather",
-    message="gathering the runs of the grid",
-    inputs={"chunks": chunks_of(study="grid")},
-    tables=[],
-    beside=["grid"],
-)
-FIGURES["grid"] = Figure(
-    section="sensitivity",
-    function="maegawa2010.studies.grid.figure:draw",
-    shows=f"mu_sapp over {' and '.join(axis['key'] for axis in config['grid'])}",
-    tables={"table": "results/tables/grid.csv"},
-    options={
-        "axes": config["grid"],
-        "scenes": [
-            tuple({**slider, RATIO: slider["mu_k"] / slider["mu_s"]}[axis["key"]] for axis in config["grid"])
-            for slider in SLIDERS.values()
-        ],
-    },
-)
+
+rule run_grid:
+    """Run a chunk of the grid of chains."""
+    output:
+        chunk="results/ensembles/grid/{chunk}.csv",
+    log:
+        "results/logs/run_grid/{chunk}.log",
+    resources:
+        seconds=2,
+    params:
+        slider=config["chain"],
+        axes=config["grid"],
+        code=digest("run_grid"),
+    message:
+        "grid: running chunk {wildcards.chunk} of its chains"
+    script:
+        "../scripts/run_grid.py"
+
+
+rule tabulate_grid:
+    """Gather the runs of the grid."""
+    input:
+        chunks=collect("results/ensembles/grid/{chunk}.csv", chunk=CHUNKS),
+    output:
+        grid="results/tables/grid.csv",
+    log:
+        "results/logs/tabulate_grid.log",
+    localrule: True
+    params:
+        code=digest("tabulate_grid"),
+    message:
+        "gathering the runs of the grid"
+    script:
+        "../scripts/tabulate_grid.py"
+
+
+rule draw_grid:
+    """Draw mu_sapp over two values of the chain."""
+    input:
+        table="results/tables/grid.csv",
+    output:
+        report(
+            "results/figures/grid.svg",
+            caption="../report/grid.rst",
+            category="Sensitivity",
+            labels={"figure": f"grid: mu_sapp over {' and '.join(axis['key'] for axis in config['grid'])}"},
+        ),
+        collect("results/figures/grid.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/draw_grid.log",
+    localrule: True
+    params:
+        axes=config["grid"],
+        scenes=[values_on(config["grid"], slider) for slider in SLIDERS.values()],
+        code=digest("draw_grid"),
+    message:
+        "drawing mu_sapp over two values of the chain"
+    script:
+        "../scripts/draw_grid.py"
+
+
+rule grid:
+    """mu_sapp over any two values of the chain."""
+    input:
+        rules.tabulate_grid.input,
+        rules.tabulate_grid.output,
+        rules.draw_grid.output,
+    localrule: True

@@ -5,34 +5,7 @@ from maegawa2010.studies.horizon.chains import chain_duration, exact_chain, scen
 
 CHAINS = config["horizon"]["proved"]
 check_names("horizon.compared", config["horizon"]["compared"], CHAINS)
-
-TABLES["proofs"] = Table(
-    function="maegawa2010.studies.horizon.tables:proof_tables",
-    message="comparing the solver with the proved transitions",
-    inputs={"certificates": CERTIFICATES},
-    options={"tolerance": config["horizon"]["tolerance"]},
-    tables=["certificates", "solver_vs_proof"],
-    beside=["horizon"],
-)
-TABLES["lyapunov"] = Table(
-    function="maegawa2010.studies.horizon.lyapunov:lyapunov_table",
-    message="measuring how fast neighbouring motions part",
-    options={"sliders": SLIDERS, "duration": config["horizon"]["lyapunov_duration"]},
-    seconds=2,
-)
-FIGURES["horizon"] = Figure(
-    section="accuracy",
-    function="maegawa2010.studies.horizon.figure:draw",
-    shows="how errors grow, predicted and actual",
-    tables={"errors": "results/tables/horizon.csv", "exponents": "results/tables/lyapunov.csv"},
-    options={
-        "thetas": {
-            chain: parse_theta(CHAINS[chain].get("theta", 0)) for chain in config["horizon"]["compared"]
-        },
-        "tolerance": config["horizon"]["tolerance"],
-    },
-)
-RESULTS += CERTIFICATES.values()
+CERTIFICATES = {chain: f"results/certificates/chains/{chain}.json.gz" for chain in CHAINS}
 
 
 wildcard_constraints:
@@ -40,6 +13,7 @@ wildcard_constraints:
 
 
 rule take_certificates:
+    """Take over the committed proofs, and prove what has none."""
     input:
         committed=[path for chain in CHAINS if (path := PROOFS / f"{chain}.json.gz").is_file()],
     output:
@@ -57,20 +31,75 @@ rule take_certificates:
         "../scripts/take_certificates.py"
 
 
-# On demand: `prove_scenes` makes every proof again.
-rule prove_scenes:
+rule tabulate_horizon:
+    """Compare the solver with the proved transitions, and measure how fast neighbouring motions part."""
     input:
-        collect("results/tables/proved/{chain}.csv", chain=CHAINS),
+        certificates=CERTIFICATES.values(),
+    output:
+        certificates=report("results/tables/certificates.csv", category="Tables"),
+        solver_vs_proof=report("results/tables/solver_vs_proof.csv", category="Tables"),
+        lyapunov=report("results/tables/lyapunov.csv", category="Tables"),
+        horizon="results/tables/horizon.csv",
+    log:
+        "results/logs/tabulate_horizon.log",
+    resources:
+        seconds=3,
+    params:
+        sliders=SLIDERS,
+        lyapunov_duration=config["horizon"]["lyapunov_duration"],
+        tolerance=config["horizon"]["tolerance"],
+        code=digest("tabulate_horizon"),
+    message:
+        "comparing the solver with the proved transitions"
+    script:
+        "../scripts/tabulate_horizon.py"
+
+
+rule draw_horizon:
+    """Draw how errors grow."""
+    input:
+        errors="results/tables/horizon.csv",
+        exponents="results/tables/lyapunov.csv",
+    output:
+        report(
+            "results/figures/horizon.svg",
+            caption="../report/horizon.rst",
+            category="Accuracy",
+            labels={"figure": "horizon: how errors grow, predicted and actual"},
+        ),
+        collect("results/figures/horizon.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/draw_horizon.log",
+    localrule: True
+    params:
+        thetas={chain: parse_theta(CHAINS[chain].get("theta", 0)) for chain in config["horizon"]["compared"]},
+        tolerance=config["horizon"]["tolerance"],
+        code=digest("draw_horizon"),
+    message:
+        "drawing how errors grow"
+    script:
+        "../scripts/draw_horizon.py"
+
+
+rule horizon:
+    """Proofs, and how errors grow."""
+    input:
+        rules.take_certificates.output,
+        rules.tabulate_horizon.output,
+        rules.draw_horizon.output,
     localrule: True
 
 
 rule prove_again:
+    """Prove every transition of a certificate again."""
     input:
         certificate="results/certificates/chains/{chain}.json.gz",
     output:
         table="results/tables/proved/{chain}.csv",
     log:
         "results/logs/prove_again/{chain}.log",
+    resources:
+        seconds=30,
     params:
         code=digest("prove_again"),
     message:
@@ -79,12 +108,21 @@ rule prove_again:
         "../scripts/prove_again.py"
 
 
-# On demand: the proof of one scene of the configuration.
+rule prove_scenes:
+    """Every proof made again (on demand)."""
+    input:
+        collect("results/tables/proved/{chain}.csv", chain=CHAINS),
+    localrule: True
+
+
 rule certify_scene:
+    """Prove every transition of a scene of the configuration (on demand)."""
     output:
         certificate="results/certificates/{scene}.json.gz",
     log:
         "results/logs/certify_scene/{scene}.log",
+    resources:
+        seconds=30,
     params:
         chains=lambda wildcards: [scene_exact_chain(config, wildcards.scene).as_text()],
         durations=lambda wildcards: [scene_duration(config, wildcards.scene)],

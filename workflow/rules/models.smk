@@ -1,14 +1,45 @@
 # Smaller models, and which of them answers which question
 
-TABLES["model_comparison"] = Table(
-    function="maegawa2010.studies.models.tables:compare_models",
-    message="asking every model every question",
-    options={"sliders": SLIDERS},
-    seconds=3,
-)
-for scene in ASKED:
-    TABLES[f"{scene}_answers"] = Table(
-        function="maegawa2010.studies.models.models:scene_answers",
-        message=f"{scene}: asking a smaller model",
-        options={"slider": scene_slider(config, scene), "model": config["scenes"][scene]["model"]},
-    )
+
+rule tabulate_models:
+    """Ask every model every question."""
+    output:
+        model_comparison=report("results/tables/model_comparison.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_models.log",
+    resources:
+        seconds=3,
+    params:
+        sliders=SLIDERS,
+        code=digest("tabulate_models"),
+    message:
+        "asking every model every question"
+    script:
+        "../scripts/tabulate_models.py"
+
+
+rule answer_scene:
+    """Ask a smaller model about a scene that names it."""
+    output:
+        answers=report("results/tables/{scene}_answers.csv", category="Tables"),
+    log:
+        "results/logs/answer_scene/{scene}.log",
+    wildcard_constraints:
+        scene="|".join(ASKED),
+    localrule: True
+    params:
+        slider=lambda wildcards: scene_slider(config, wildcards.scene),
+        model=lambda wildcards: config["scenes"][wildcards.scene]["model"],
+        code=digest("answer_scene"),
+    message:
+        "{wildcards.scene}: asking a smaller model"
+    script:
+        "../scripts/answer_scene.py"
+
+
+rule models:
+    """Smaller models, and which of them answers which question."""
+    input:
+        rules.tabulate_models.output,
+        collect("results/tables/{scene}_answers.csv", scene=ASKED),
+    localrule: True

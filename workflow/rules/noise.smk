@@ -1,13 +1,47 @@
 # Noise in the normal loads
 
-ENSEMBLES["noise_members"] = Ensemble(
-    function="maegawa2010.studies.noise.tables:noise_study",
-    options={"sliders": SLIDERS, "duration": config["duration"], "settings": config["noise"]},
-)
-TABLES["noise"] = Table(
-    function="maegawa2010.studies.noise.tables:noise_tables",
-    message="summing up the runs with noise",
-    inputs={"chunks": chunks_of(study="noise_members")},
-    tables=["noise", "noise_differences"],
-    beside=["noise_members"],
-)
+
+rule run_noise:
+    """Run a chunk of the chains with noise in the normal loads."""
+    output:
+        chunk="results/ensembles/noise_members/{chunk}.csv",
+    log:
+        "results/logs/run_noise/{chunk}.log",
+    resources:
+        seconds=2,
+    params:
+        sliders=SLIDERS,
+        duration=config["duration"],
+        settings=config["noise"],
+        code=digest("run_noise"),
+    message:
+        "noise: running chunk {wildcards.chunk} of its chains"
+    script:
+        "../scripts/run_noise.py"
+
+
+rule tabulate_noise:
+    """Sum up the runs with noise."""
+    input:
+        chunks=collect("results/ensembles/noise_members/{chunk}.csv", chunk=CHUNKS),
+    output:
+        noise=report("results/tables/noise.csv", category="Tables"),
+        noise_differences=report("results/tables/noise_differences.csv", category="Tables"),
+        noise_members="results/tables/noise_members.csv",
+    log:
+        "results/logs/tabulate_noise.log",
+    localrule: True
+    params:
+        code=digest("tabulate_noise"),
+    message:
+        "summing up the runs with noise"
+    script:
+        "../scripts/tabulate_noise.py"
+
+
+rule noise:
+    """Noise in the normal loads."""
+    input:
+        rules.tabulate_noise.input,
+        rules.tabulate_noise.output,
+    localrule: True

@@ -1,6 +1,4 @@
-# Eq. 15, readings, claims, Fig. 9, paper.pdf, supplement.pdf
-
-import sys
+# Eq. 15, claims, Fig. 9, paper.pdf, supplement.pdf
 
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
 from maegawa2010.paper.shown import results_shown
@@ -9,67 +7,70 @@ PAPER_SOURCE = ROOT / "paper"
 # The article is about the paper's slider, and is not made for another.
 PAPER = ["results/paper.pdf", "results/supplement.pdf"] if IS_PAPERS else []
 
-TABLES["eq15"] = Table(
-    function="maegawa2010.paper.eq15:eq15_table",
-    message="checking Eq. 15 by algebra and in the runs",
-    inputs={"runs": RUNS},
-    options={"duration": config["duration"]},
-    seconds=2,
-)
-TABLES["definitions"] = Table(
-    function="maegawa2010.paper.definitions:definitions_table",
-    message="counting by other readings of the paper's words",
-    inputs={"runs": list(RUNS.values())},
-    options={
-        "slider": config["chain"],
-        "duration": config["duration"],
-        "degrees": config["definitions"]["theta"],
-        "load_drops": config["definitions"]["load_drop"],
-        "paper": [PAPER_PRINTS[scene] for scene in FIG13],
-    },
-)
-TABLES["measures"] = Table(
-    function="maegawa2010.paper.scene_numbers:measures_table",
-    message="measuring the scenes",
-    inputs={"runs": RUNS},
-    tables=[],
-    beside=["measures"],
-)
-if set(PAPERS_SCENES) <= set(FIG13):
-    TABLES["claims"] = Table(
-        function="maegawa2010.paper.claims:claims_tables",
-        message="judging the paper's claims",
-        inputs={
-            "tables": {
-                table: f"results/tables/{table}.csv" for table in sorted({*CLAIM_TABLES, *POINT_TABLES})
-            }
-        },
-        also=[f"{PAPERS}/paper/{said}.csv" for said in ("claims", "open_points")],
-        tables=["claims", "open_points"],
-    )
-
-FIGURES["fig09"] = Figure(
-    section="reproduction",
-    function="maegawa2010.paper.chain_schematic:draw",
-    shows="the model: blocks on springs, pushed through a spring",
-)
-
-
-onstart:
-    if not IS_PAPERS:
-        print(
-            "paper.pdf is not made: it is about the paper's slider, and this is another one",
-            file=sys.stderr,
-        )
-
 
 rule eq15:
+    """Check Eq. 15 by algebra and in the runs."""
     input:
-        "results/tables/eq15.csv",
+        runs=RUNS,
+    output:
+        eq15=report("results/tables/eq15.csv", category="Tables"),
+    log:
+        "results/logs/eq15.log",
+    resources:
+        seconds=2,
+    params:
+        duration=config["duration"],
+        code=digest("eq15"),
+    message:
+        "checking Eq. 15 by algebra and in the runs"
+    script:
+        "../scripts/eq15.py"
+
+
+if set(PAPERS_SCENES) <= set(FIG13):
+
+    rule judge_claims:
+        """Judge the paper's claims by the tables."""
+        input:
+            tables=collect("results/tables/{table}.csv", table=sorted({*CLAIM_TABLES, *POINT_TABLES})),
+            said=[PAPERS / f"paper/{said}.csv" for said in ("claims", "open_points")],
+        output:
+            claims=report("results/tables/claims.csv", category="Tables"),
+            open_points=report("results/tables/open_points.csv", category="Tables"),
+        log:
+            "results/logs/judge_claims.log",
+        localrule: True
+        params:
+            code=digest("judge_claims"),
+        message:
+            "judging the paper's claims"
+        script:
+            "../scripts/judge_claims.py"
+
+
+rule fig09:
+    """Draw the model (Fig. 9)."""
+    output:
+        report(
+            "results/figures/fig09.svg",
+            caption="../report/fig09.rst",
+            category="Reproduction",
+            labels={"figure": "fig09: the model: blocks on springs, pushed through a spring"},
+        ),
+        collect("results/figures/fig09.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/fig09.log",
     localrule: True
+    params:
+        code=digest("fig09"),
+    message:
+        "drawing Fig. 9"
+    script:
+        "../scripts/fig09.py"
 
 
 rule write_paper:
+    """Set a document of paper/ with the numbers and figures of the results."""
     input:
         shown=lambda wildcards: results_shown(PAPER_SOURCE / f"{wildcards.document}.typ"),
         main=PAPER_SOURCE / "{document}.typ",
@@ -89,4 +90,29 @@ rule write_paper:
         "../scripts/write_paper.py"
 
 
-RESULTS += PAPER
+rule paper_figures:
+    """Figs. 9 to 13, and the first global slip in slow motion."""
+    input:
+        rules.fig09.output,
+        collect("results/figures/{scene}.{kind}", scene=SCENES, kind=["svg", *MORE_FORMATS]),
+        rules.fig13.output,
+        rules.write_wave.output,
+    localrule: True
+
+
+rule paper:
+    """Eq. 15, the claims, Fig. 9, the article and its supplement."""
+    input:
+        rules.eq15.output,
+        rules.judge_claims.output if set(PAPERS_SCENES) <= set(FIG13) else [],
+        rules.fig09.output,
+        PAPER,
+    localrule: True
+
+
+onstart:
+    if not IS_PAPERS:
+        print(
+            "paper.pdf is not made: it is about the paper's slider, and this is another one",
+            file=sys.stderr,
+        )

@@ -3,27 +3,77 @@
 if len(config["resolution"]["runs"]) != len(config["resolution"]["n_blocks"]):
     raise WorkflowError("configuration: resolution.runs must have one number for each of n_blocks")
 
-ENSEMBLES["resolution_members"] = Ensemble(
-    function="maegawa2010.studies.resolution.tables:resolution_study",
-    options={"sliders": SLIDERS, "duration": config["duration"], "settings": config["resolution"]},
-    seconds=6,
-)
-TABLES["resolution"] = Table(
-    function="maegawa2010.studies.resolution.tables:resolution_tables",
-    message="summing up the runs with other numbers of blocks",
-    inputs={
-        "chunks": chunks_of(study="resolution_members"),
-        "noise": "results/tables/noise_members.csv",
+
+rule run_resolution:
+    """Run a chunk of the chains with other numbers of blocks."""
+    output:
+        chunk="results/ensembles/resolution_members/{chunk}.csv",
+    log:
+        "results/logs/run_resolution/{chunk}.log",
+    resources:
+        seconds=6,
+    params:
+        sliders=SLIDERS,
+        duration=config["duration"],
+        settings=config["resolution"],
+        code=digest("run_resolution"),
+    message:
+        "resolution: running chunk {wildcards.chunk} of its chains"
+    script:
+        "../scripts/run_resolution.py"
+
+
+rule tabulate_resolution:
+    """Sum up the runs with other numbers of blocks."""
+    input:
+        chunks=collect("results/ensembles/resolution_members/{chunk}.csv", chunk=CHUNKS),
+        noise="results/tables/noise_members.csv",
         # many runs of the paper's slider with 160 and 320 blocks
-        "finer": [] if config["full"] or not IS_PAPERS else [f"{COMMITTED}/resolution_differences_full.csv"],
-    },
-    tables=["resolution", "resolution_differences"],
-    beside=["resolution_members"],
-)
-FIGURES["resolution"] = Figure(
-    section="sensitivity",
-    function="maegawa2010.studies.resolution.figure:draw",
-    shows="events and mu_sapp against the number of blocks",
-    tables={"table": "results/tables/resolution.csv"},
-    options={"papers_n": config["chain"]["n_blocks"], "mu_k": config["chain"]["mu_k"]},
-)
+        finer=[] if config["full"] or not IS_PAPERS else [COMMITTED / "resolution_differences_full.csv"],
+    output:
+        resolution=report("results/tables/resolution.csv", category="Tables"),
+        resolution_differences=report("results/tables/resolution_differences.csv", category="Tables"),
+        resolution_members="results/tables/resolution_members.csv",
+    log:
+        "results/logs/tabulate_resolution.log",
+    localrule: True
+    params:
+        code=digest("tabulate_resolution"),
+    message:
+        "summing up the runs with other numbers of blocks"
+    script:
+        "../scripts/tabulate_resolution.py"
+
+
+rule draw_resolution:
+    """Draw events and mu_sapp against the number of blocks."""
+    input:
+        table="results/tables/resolution.csv",
+    output:
+        report(
+            "results/figures/resolution.svg",
+            caption="../report/resolution.rst",
+            category="Sensitivity",
+            labels={"figure": "resolution: events and mu_sapp against the number of blocks"},
+        ),
+        collect("results/figures/resolution.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/draw_resolution.log",
+    localrule: True
+    params:
+        papers_n=config["chain"]["n_blocks"],
+        mu_k=config["chain"]["mu_k"],
+        code=digest("draw_resolution"),
+    message:
+        "drawing events and mu_sapp against the number of blocks"
+    script:
+        "../scripts/draw_resolution.py"
+
+
+rule resolution:
+    """Convergence with the number of blocks."""
+    input:
+        rules.tabulate_resolution.input,
+        rules.tabulate_resolution.output,
+        rules.draw_resolution.output,
+    localrule: True

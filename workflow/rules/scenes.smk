@@ -2,12 +2,15 @@
 
 
 rule simulate_scene:
+    """Find every transition of a scene."""
     output:
         run="results/runs/{scene}.h5",
         slips=report("results/tables/{scene}_slips.csv", category="Tables"),
         trace="results/tables/{scene}_trace.csv",
     log:
         "results/logs/simulate_scene/{scene}.log",
+    resources:
+        seconds=1,
     params:
         slider=lambda wildcards: scene_slider(config, wildcards.scene),
         duration=lambda wildcards: scene_duration(config, wildcards.scene),
@@ -19,48 +22,92 @@ rule simulate_scene:
         "../scripts/simulate_scene.py"
 
 
-SLIPS = collect("results/tables/{scene}_slips.csv", scene=FIG13)
-
-TABLES["reproduction"] = Table(
-    function="maegawa2010.paper.scene_numbers:reproduction_table",
-    message="comparing the scenes with the paper's numbers",
-    inputs={"slips": {scene: f"results/tables/{scene}_slips.csv" for scene in SCENES}},
-    options={"paper": PAPER_PRINTS},
-)
-
-for scene in SCENES:
-    FIGURES[scene] = Figure(
-        section="reproduction",
-        function="precursors.figures.scene:draw",
-        shows=config["scenes"][scene]["title"],
-        caption="scene",
-        tables={
-            "slips": f"results/tables/{scene}_slips.csv",
-            "trace": f"results/tables/{scene}_trace.csv",
-        },
-        options={
-            "title": f"{scene.replace('fig', 'Fig. ')}: {config['scenes'][scene]['title']}",
-            # one key below the last of those of Fig. 13
-            "key": scene not in sorted(FIG13)[:-1],
-        },
+rule draw_scene:
+    """Draw the load and the slips of a scene (Figs. 10-12)."""
+    input:
+        slips="results/tables/{scene}_slips.csv",
+        trace="results/tables/{scene}_trace.csv",
+    output:
+        report(
+            "results/figures/{scene}.svg",
+            caption="../report/scene.rst",
+            category="Reproduction",
+            labels=lambda wildcards: {
+                "figure": f"{wildcards.scene}: {config['scenes'][wildcards.scene]['title']}"
+            },
+        ),
+        collect("results/figures/{{scene}}.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/draw_scene/{scene}.log",
+    localrule: True
+    params:
+        title=lambda wildcards: config["scenes"][wildcards.scene]["title"],
+        # one key below the last of those of Fig. 13
+        key=lambda wildcards: wildcards.scene not in sorted(FIG13)[:-1],
         look=config["figure"],
-    )
+        code=digest("draw_scene"),
+    message:
+        "{wildcards.scene}: drawing its load and slips"
+    script:
+        "../scripts/draw_scene.py"
 
-FIGURES["fig13"] = Figure(
-    section="reproduction",
-    function="precursors.figures.precursor_lengths:draw",
-    shows="lengths of precursors against the load",
-    tables={"slips": SLIPS},
-    look=config["figure"],
-)
+
+rule fig13:
+    """Draw the lengths of precursors against the load (Fig. 13)."""
+    input:
+        slips=SLIPS,
+    output:
+        report(
+            "results/figures/fig13.svg",
+            caption="../report/fig13.rst",
+            category="Reproduction",
+            labels={"figure": "fig13: lengths of precursors against the load"},
+        ),
+        collect("results/figures/fig13.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/fig13.log",
+    localrule: True
+    params:
+        look=config["figure"],
+        code=digest("fig13"),
+    message:
+        "drawing Fig. 13"
+    script:
+        "../scripts/fig13.py"
+
+
+rule mu_sapp:
+    """Compare mu_sapp and other numbers of the scenes with the paper's, under several readings."""
+    input:
+        runs=RUNS,
+        slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
+    output:
+        reproduction=report("results/tables/reproduction.csv", category="Tables"),
+        definitions=report("results/tables/definitions.csv", category="Tables"),
+        measures="results/tables/measures.csv",
+    log:
+        "results/logs/mu_sapp.log",
+    localrule: True
+    params:
+        paper={scene: printed.SCENES.get(scene, {}) for scene in SCENES},
+        slider=config["chain"],
+        duration=config["duration"],
+        settings=config["definitions"],
+        code=digest("mu_sapp"),
+    message:
+        "comparing the scenes with the paper's numbers"
+    script:
+        "../scripts/mu_sapp.py"
+
 
 # The scene whose slips are shown in slow motion: that in the middle.
 SHOWN = FIG13[len(FIG13) // 2]
 
 
 rule write_wave:
+    """Draw the first global slip of a scene in slow motion."""
     input:
-        run=RUNS[SHOWN],
+        run=f"results/runs/{SHOWN}.h5",
         slips=f"results/tables/{SHOWN}_slips.csv",
     output:
         report(
@@ -80,28 +127,13 @@ rule write_wave:
         "../scripts/write_wave.py"
 
 
-RESULTS += [
-    collect("results/runs/{scene}.h5", scene=SCENES),
-    collect("results/tables/{scene}_{kind}.csv", scene=SCENES, kind=["slips", "trace"]),
-    "results/figures/wave.svg",
-]
-
-
-rule fig13:
+rule scenes:
+    """Runs, tables and figures of the scenes."""
     input:
-        collect("results/figures/fig13.{kind}", kind=FORMATS),
-    localrule: True
-
-
-rule mu_sapp:
-    input:
-        "results/tables/reproduction.csv",
-        "results/tables/definitions.csv",
-    localrule: True
-
-
-rule paper_figures:
-    input:
-        collect("results/figures/{figure}.{kind}", figure=["fig09", *SCENES, "fig13"], kind=FORMATS),
-        "results/figures/wave.svg",
+        collect("results/runs/{scene}.h5", scene=SCENES),
+        collect("results/tables/{scene}_{kind}.csv", scene=SCENES, kind=["slips", "trace"]),
+        collect("results/figures/{scene}.{kind}", scene=SCENES, kind=["svg", *MORE_FORMATS]),
+        rules.fig13.output,
+        rules.mu_sapp.output,
+        rules.write_wave.output,
     localrule: True

@@ -6,26 +6,71 @@ proved = {
 }
 EVEN = min(proved, key=proved.get)  # the chain with the most even load
 
-TABLES["work_precision"] = Table(
-    function="maegawa2010.studies.work_precision.tables:work_precision_table",
-    message="timing all methods on a proved chain",
-    inputs={"certificate": CERTIFICATES[EVEN]},
-    options={"scene": EVEN, "full": config["full"]},
-    also=[f"{PAPERS}/methods/methods.csv"],
-    seconds=100 if config["full"] else 4,
-)
-FIGURES["work_precision"] = Figure(
-    section="accuracy",
-    function="maegawa2010.studies.work_precision.figure:draw",
-    shows="what accuracy costs, measured by this build",
-    tables={"table": "results/tables/work_precision.csv"},
-)
-# Drawn from what is committed, which is about the paper's slider.
-if IS_PAPERS:
-    FIGURES["speed"] = Figure(
-        section="accuracy",
-        function="maegawa2010.studies.work_precision.figure:draw",
-        shows="what accuracy costs, as published for the paper's slider",
-        tables={"table": f"{COMMITTED}/work_precision_full.csv"},
-        options={"compared": "heyoka"},
-    )
+
+rule tabulate_work_precision:
+    """Time all methods on a proved chain."""
+    input:
+        certificate=f"results/certificates/chains/{EVEN}.json.gz",
+        methods=PAPERS / "methods/methods.csv",
+    output:
+        work_precision=report("results/tables/work_precision.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_work_precision.log",
+    resources:
+        seconds=100 if config["full"] else 4,
+    params:
+        scene=EVEN,
+        full=config["full"],
+        code=digest("tabulate_work_precision"),
+    message:
+        "timing all methods on a proved chain"
+    script:
+        "../scripts/tabulate_work_precision.py"
+
+
+rule draw_work_precision:
+    """Draw what accuracy costs, measured by this build and as published for the paper's slider."""
+    input:
+        measured="results/tables/work_precision.csv",
+        # committed, about the paper's slider
+        published=[COMMITTED / "work_precision_full.csv"] if IS_PAPERS else [],
+    output:
+        measured=[
+            report(
+                "results/figures/work_precision.svg",
+                caption="../report/work_precision.rst",
+                category="Accuracy",
+                labels={"figure": "work_precision: what accuracy costs, measured by this build"},
+            ),
+            *collect("results/figures/work_precision.{kind}", kind=MORE_FORMATS),
+        ],
+        published=(
+            [
+                report(
+                    "results/figures/speed.svg",
+                    caption="../report/speed.rst",
+                    category="Accuracy",
+                    labels={"figure": "speed: what accuracy costs, as published for the paper's slider"},
+                ),
+                *collect("results/figures/speed.{kind}", kind=MORE_FORMATS),
+            ]
+            if IS_PAPERS
+            else []
+        ),
+    log:
+        "results/logs/draw_work_precision.log",
+    localrule: True
+    params:
+        code=digest("draw_work_precision"),
+    message:
+        "drawing what accuracy costs"
+    script:
+        "../scripts/draw_work_precision.py"
+
+
+rule work_precision:
+    """Accuracy against computing time."""
+    input:
+        rules.tabulate_work_precision.output,
+        rules.draw_work_precision.output,
+    localrule: True

@@ -1,20 +1,26 @@
 """Shared by the scripts of the workflow: one line on an error, the threads they were
-given, their inputs."""
+given, and their files."""
+
+from __future__ import annotations
 
 import os
 import signal
 import sys
 import traceback
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from pkgutil import resolve_name
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 # Numba reads its variable when it is imported; Snakemake sets the other from the
 # `threads` of the rule.
 os.environ.setdefault("NUMBA_NUM_THREADS", os.environ.get("OMP_NUM_THREADS", "1"))
+
+Content = TypeVar("Content")
 
 LONG = 5  # [s]: a job that takes longer says so
 
@@ -48,14 +54,24 @@ def job() -> Iterator[Any]:
     log.write_text(f"{name}: {perf_counter() - start:.3f} s\n", encoding="utf-8")
 
 
-def read(files: Any, readers: Mapping[str, str]) -> Any:
-    """Content of a file, or of each in a list or mapping, from the reader of its
-    ending, "package.module:name". A file that is damaged can be deleted."""
-    if isinstance(files, Mapping):
-        return {name: read(file, readers) for name, file in files.items()}
-    if isinstance(files, str):
-        try:
-            return resolve_name(readers[Path(files).suffix])(files)
-        except ValueError as error:
-            raise ValueError(f"{error}: delete it, and it is made again") from error
-    return [read(file, readers) for file in files]
+def read(load: Callable[[str], Content], path: str) -> Content:
+    """Read a file of the results. One that is damaged can be deleted."""
+    try:
+        return load(path)
+    except ValueError as error:
+        raise ValueError(f"{error}: delete it, and it is made again") from error
+
+
+def read_all(
+    load: Callable[[str], Content], paths: Iterable[str]
+) -> dict[str, Content]:
+    """Read files, by their names without the ending: runs by their scenes."""
+    return {Path(path).name.split(".")[0]: read(load, path) for path in paths}
+
+
+def write_tables(tables: Mapping[str, pd.DataFrame], output: Any) -> None:
+    """Write each table to the output of its name."""
+    from precursors.support.files import write_table
+
+    for name, path in output.items():
+        write_table(tables[name], path)

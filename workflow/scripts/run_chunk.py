@@ -1,17 +1,21 @@
-"""Run one chunk of an ensemble, "1of4" to "4of4": every n-th member, a row each with
-what its run gave."""
+"""Shared by the scripts that run a chunk of a study of many runs."""
 
-from pkgutil import resolve_name
+from collections.abc import Callable
 
-from job import job
+import pandas as pd
 
-# isort: split
+from maegawa2010.studies.members import Study, run_members
 from precursors.support.files import write_table
 
-with job() as snakemake:
-    params = snakemake.params
-    study = resolve_name(params.function)(**params.options)
-    found = resolve_name(params.run)(
-        study.chunk(*map(int, snakemake.wildcards.chunk.split("of")))
-    )
-    write_table(found.rename_axis("member").reset_index(), snakemake.output.chunk)
+
+def run_chunk(
+    study: Study,
+    chunk: str,
+    path: str,
+    run: Callable[[Study], pd.DataFrame] = run_members,
+) -> None:
+    """Run one chunk of a study, "1of4" to "4of4": every n-th member, a row each with
+    what its run gave."""
+    i, n = map(int, chunk.split("of"))
+    found = run(study.chunk(i, n))
+    write_table(found.rename_axis("member").reset_index(), path)

@@ -7,29 +7,20 @@ from functools import cache
 from pathlib import Path
 
 
-def digest_code(root: str | Path, script: str, *modules: str) -> str:
-    """Digest of a script of the workflow, of some modules, and of all modules that
-    these import.
+def digest_code(root: str | Path, script: str) -> str:
+    """Digest of a script of the workflow and of all modules that it imports.
 
     Comments, docstrings and the format of the code are left out, and so is what only a
     type checker imports. `root` is the directory of the Snakefile, `script` a name such
-    as "simulate_scene"; `modules` are those that the script imports by a name that it is
-    given, such as "precursors.figures.scene".
+    as "simulate_scene".
 
     Raises
     ------
     OSError
         If a file cannot be read.
-    ValueError
-        If there is no module of a name: a list of the workflow has it misspelt.
     """
     sources = Path(root, "src")
     waiting = [Path(root, "workflow/scripts", f"{script}.py")]
-    for name in modules:
-        module = _file(sources.joinpath(*name.split(".")))
-        if module is None:
-            raise ValueError(f"there is no module {name}")
-        waiting.append(module)
     found: dict[Path, str] = {}
     while waiting:
         if (path := waiting.pop()) not in found:

@@ -41,6 +41,12 @@ def chain_values(values: Mapping[str, Any]) -> dict[str, Any]:
     return slider
 
 
+def values_on(axes: Sequence[Axis], slider: Mapping[str, Any]) -> tuple[float, ...]:
+    """Values of a slider on the axes."""
+    values = {**slider, RATIO: slider["mu_k"] / slider["mu_s"]}
+    return tuple(values[axis["key"]] for axis in axes)
+
+
 def points_of(axis: Axis) -> FloatArray:
     """Values of an axis; whole ones of blocks."""
     spaced = np.geomspace if axis.get("scale") == "log" else np.linspace

@@ -1,0 +1,73 @@
+# What the rules share: the configuration, its scenes and their chains, digests of code
+
+import os
+import shlex
+import sys
+from functools import partial
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+
+from maegawa2010.support.installed import check_installed
+
+# As seen from the working directory; `workflow.basedir` would be another workflow's that uses this one as a module.
+ROOT = Path(os.path.relpath(workflow.current_basedir.get_path_or_uri(secret_free=True))).parent
+try:
+    check_installed(ROOT / "src")
+except ValueError as error:
+    raise WorkflowError(str(error)) from None
+
+from maegawa2010 import printed
+from maegawa2010.config import load_config
+from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
+from maegawa2010.scenes import (
+    scene_additions,
+    scene_duration,
+    scene_slider,
+    scenes_with,
+    scenes_with_theta,
+)
+from maegawa2010.support.digest import digest_code
+from precursors.model.chain import SLIDER, parse_theta
+
+PAPERS = ROOT / "src/maegawa2010"
+PROOFS = ROOT / "workflow/certificates"  # committed
+COMMITTED = ROOT / "paper/tables"  # of long studies of the paper's slider
+# What a script computes: its rule has it as a parameter, and its jobs run again when it changes.
+digest = partial(digest_code, ROOT)
+
+try:
+    files = [] if workflow.modifier.skip_configfile else ["config.yaml", *workflow.overwrite_configfiles]
+    config.update(load_config(config, files, ROOT / "workflow"))
+except ValueError as error:
+    raise WorkflowError(str(error)) from None
+if not os.access("results" if os.path.exists("results") else ".", os.W_OK | os.X_OK):
+    raise WorkflowError("results must be a directory that can be written to")
+if not workflow.modifier.skip_configfile:
+    # Snakemake's records of the jobs lie beside the results, so that both are copied together: what fits the code of
+    # another clone is not made again there.
+    os.makedirs("results/records", exist_ok=True)
+    os.makedirs(".snakemake", exist_ok=True)
+    if not os.path.lexists(".snakemake/metadata"):
+        os.symlink("../results/records", ".snakemake/metadata")
+if os.path.exists(sys.executable):  # and not yet in quotes
+    sys.executable = shlex.quote(sys.executable)  # Snakemake's commands have it as it is
+
+SCENES = scenes_with(config, "run")
+ASKED = scenes_with(config, "answers")
+FIG13 = config["fig13"]
+MORE_FORMATS = [name for name in config["figure_formats"] if name != "svg"]
+SLIDERS = {scene: scene_slider(config, scene) for scene in FIG13}
+PAPERS_SLIDERS = {
+    scene: SLIDER | {"theta": theta} for scene, theta in zip(PAPERS_SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
+}
+IS_PAPERS = PAPERS_SLIDERS == {scene: {"weights": None} | SLIDERS.get(scene, {}) for scene in PAPERS_SCENES}
+RUNS = collect("results/runs/{scene}.h5", scene=FIG13)
+SLIPS = collect("results/tables/{scene}_slips.csv", scene=FIG13)
+# Jobs into which each study of many runs is divided.
+CHUNKS = [f"{i}of{config['chunks']}" for i in range(1, config["chunks"] + 1)]
+
+
+wildcard_constraints:
+    scene="|".join(SCENES),
+    chunk="[0-9]+of[0-9]+",

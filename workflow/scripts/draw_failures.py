@@ -1,0 +1,12 @@
+"""Draw nine ways in which methods fail."""
+
+from drawing import save
+from job import job, read
+
+from maegawa2010.studies.failures.figure import draw
+from precursors.support.files import read_table
+
+with job() as snakemake:
+    curves = read(read_table, snakemake.input.curves)
+    figure = draw(curves, read_table(snakemake.input.panels))
+    save(figure, snakemake.output, "nine ways in which methods fail")

@@ -1,0 +1,13 @@
+"""Draw a chain with a length, cut from the paper's slider."""
+
+from drawing import save
+from job import job
+
+from maegawa2010.studies.larger.figure import draw
+from precursors.support.files import read_table
+
+with job() as snakemake:
+    nucleation = read_table(snakemake.input.nucleation)
+    figure = draw(nucleation, read_table(snakemake.input.settled))
+    title = "a chain with a length, cut from the paper's slider"
+    save(figure, snakemake.output, title)

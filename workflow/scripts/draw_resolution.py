@@ -1,0 +1,13 @@
+"""Draw events and mu_sapp against the number of blocks."""
+
+from drawing import save
+from job import job, read
+
+from maegawa2010.studies.resolution.figure import draw
+from precursors.support.files import read_table
+
+with job() as snakemake:
+    table = read(read_table, snakemake.input.table)
+    figure = draw(table, snakemake.params.papers_n, snakemake.params.mu_k)
+    title = "events and mu_sapp against the number of blocks"
+    save(figure, snakemake.output, title)

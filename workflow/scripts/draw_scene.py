@@ -1,0 +1,20 @@
+"""Draw the load and the slips of a scene."""
+
+from drawing import save
+from job import job, read
+
+from precursors.figures import scene, style
+from precursors.support.files import read_table
+
+with job() as snakemake:
+    params = snakemake.params
+    name = snakemake.wildcards.scene.replace("fig", "Fig. ")
+    look = style.Look(**params.look)
+    figure = scene.draw(
+        read(read_table, snakemake.input.slips),
+        read(read_table, snakemake.input.trace),
+        title=f"{name}: {params.title}",
+        key=params.key,
+        look=look,
+    )
+    save(figure, snakemake.output, params.title, look)

@@ -1,0 +1,11 @@
+"""Score the lists of transitions of other solvers."""
+
+from job import job, read, write_tables
+
+from precursors.benchmark.score import score_table
+from precursors.support.files import read_table
+
+with job() as snakemake:
+    solvers = read(read_table, snakemake.input.solvers)
+    table = score_table(solvers, snakemake.params.folder)
+    write_tables({"benchmark": table}, snakemake.output)
