@@ -32,12 +32,13 @@ SHARES = np.minimum(np.arange(PICTURES) / (MOVING - 1), 1.0)  # of the event
 STUCK = style.PALE
 KEY = "Coloured: the block slides; half as high: it slides back."
 STYLE = f"""
-text {{ font: 15px 'DejaVu Sans', sans-serif }}
+text {{ font: 17px 'DejaVu Sans', sans-serif }}
 rect, path {{ stroke: {style.BLACK} }}
 .lane {{ stroke: none }}
 .number {{ text-anchor: end }}
 .middle {{ text-anchor: middle }}
-.spring {{ stroke: {style.GREY}; stroke-width: 6; stroke-dasharray: 1 3 }}
+.spring {{ stroke: {style.GREY}; stroke-width: 1.5; fill: none }}
+.index {{ font-size: 70% }}
 .reach {{ stroke-width: 2; stroke-dasharray: 5 4 }}
 .now {{ stroke-width: 3 }}
 """
@@ -172,9 +173,15 @@ def _springs(
     right = home + moved
     left = np.insert(right[:, :-1] + side, 0, LEFT - BLOCK, axis=1)
     for of_spring in np.stack([left, right], axis=2).swapaxes(0, 1):
-        paths = [f"M{x1:.1f} {PLANE - side / 2:.1f}H{x2:.1f}" for x1, x2 in of_spring]
+        paths = [_spring(x1, x2, PLANE - side / 2) for x1, x2 in of_spring]
         moving = _animate("d", paths, n_acts)
         yield f'<path class="spring" d="{paths[0]}">{moving}</path>'
+
+
+def _spring(x1: float, x2: float, y: float) -> str:
+    turn = (x2 - x1) / 4
+    half, whole = f"l{turn / 2:.1f}", f"l{turn:.1f}"
+    return f"M{x1:.1f} {y:.1f}{half}-6{whole} 12{whole}-12{whole} 12{half}-6"
 
 
 def _block(
@@ -209,8 +216,9 @@ def _caption(
     """What is shown, and how far it reaches, while it is shown."""
     slower = SECONDS * MOVING / PICTURES / act.duration
     scales = (
-        f"from F_X = {act.event.load_before_N:.4g} N, {_rounded(slower)} times slower, "
-        f"with {_rounded(act.scale / pixels_per_m)} times the movement"
+        f'F<tspan class="index" dy="4">X</tspan><tspan dy="-4"> = </tspan>'
+        f"{act.event.load_before_N:.4g} N; slowed down {_rounded(slower)} times, "
+        f"movement enlarged {_rounded(act.scale / pixels_per_m)} times"
     )
     x = home[act.event.front - 1] + side
     looks = ["visible" if other is act else "hidden" for other in acts]
@@ -220,7 +228,7 @@ def _caption(
         f'<text x="{LEFT}" y="24" style="font-weight: bold">{act.name}</text>'
         f'<text x="{LEFT}" y="46">{scales}</text>'
         f'<path d="M{x:.1f} {PLANE + 3}l7 12h-14z"/>'
-        f'<text class="number" x="{x - 12:.1f}" y="{PLANE + 16}">reach</text></g>'
+        f'<text class="number" x="{x - 12:.1f}" y="{PLANE + 16}">front</text></g>'
     )
 
 
@@ -278,5 +286,5 @@ def _move(pixels: NDArray[np.float64], n_acts: int) -> str:
 
 
 def _rounded(value: float) -> str:
-    """Two significant digits, and a space between thousands."""
-    return f"{float(f'{value:.2g}'):,.0f}".replace(",", " ")
+    """Two significant digits, and a comma between thousands."""
+    return f"{float(f'{value:.2g}'):,.0f}"
