@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from precursors.larger.additions import ADDITIONS
+from precursors.larger.chain import ADDITIONS
 from precursors.model.chain import parse_theta, theta_from_load_cells
 from precursors.support.spreadsheet import read_weights
 

@@ -27,11 +27,10 @@ if TYPE_CHECKING:
     from precursors.analysis.summary import apparent_friction, summarise
     from precursors.figures.run import plot
     from precursors.larger.chain import LargerChain
-    from precursors.larger.run import LargerRun
     from precursors.model.chain import Chain
     from precursors.proof import certify
     from precursors.solver.many import simulate_many
-    from precursors.solver.run import Record, Run, RunFileError
+    from precursors.solver.run import LargerRun, Record, Run, RunFileError
     from precursors.solver.simulate import TransitionLimitError, simulate
 
 # Imported when first asked for (PEP 562): checking a configuration or drawing a table
@@ -39,7 +38,7 @@ if TYPE_CHECKING:
 _MODULES = {
     "Chain": "model.chain",
     "LargerChain": "larger.chain",
-    "LargerRun": "larger.run",
+    "LargerRun": "solver.run",
     "Record": "solver.run",
     "Run": "solver.run",
     "RunFileError": "solver.run",

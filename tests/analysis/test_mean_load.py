@@ -54,6 +54,6 @@ def test_backward_slip_is_the_way_back_of_each_block():
 
 def test_weakening_friction_and_viscosity_only_raise_the_mean():
     larger = LargerChain(Chain.from_slider(drive_velocity=1e-3), 0.01, 1e-4)
-    run = simulate(larger, 3.0)
+    run = larger.simulate(3.0)
     mean = mean_coefficient(run, 0.5, run.duration)
     assert run.chain.mu_k < mean < run.chain.mu_k + 0.02

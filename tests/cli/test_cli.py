@@ -150,7 +150,7 @@ def test_a_run_may_end_with_the_first_global_slip_of_any_chain(cli, tmp_path):
 
 def test_the_slips_of_a_larger_chain_are_told(cli):
     larger = LargerChain(Chain.from_slider(), weakening_velocity=0.02)
-    slips = find_slips(simulate(larger, 1.0))
+    slips = find_slips(larger.simulate(1.0))
     code, out, _ = cli("slips", "--weakening-velocity", 0.02, "--duration", 1, "--json")
     assert (code, [row["onset_s"] for row in json.loads(out)]) == (
         0,

@@ -38,6 +38,6 @@ def test_any_event_is_shown_that_is_over():
     assert axes.get_title() == "Precursor: stops after block 2"
     with pytest.raises(ValueError, match="between 1 and 16, but is 17"):
         plot(run, "push", events=[2, 17])
-    larger = simulate(LargerChain(Chain.from_slider(), relaxation_time=1e-4), 1e-3)
+    larger = LargerChain(Chain.from_slider(), relaxation_time=1e-4).simulate(1e-3)
     with pytest.raises(ValueError, match="a push needs a run of the paper's chain"):
         plot(larger, "push")

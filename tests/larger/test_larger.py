@@ -23,11 +23,10 @@ from precursors.analysis.load_curve import load_curve
 from precursors.larger.chain import (
     LargerChain,
     critical_length,
-    model_of,
-    simulate_larger,
     tilt,
     weakening_velocity,
 )
+from precursors.larger.simulate import model_of, simulate_larger
 from precursors.larger.steps import Motion, try_step
 
 # Tolerances beside the cases are two to three times what is measured at the default
@@ -183,9 +182,9 @@ def test_a_run_survives_its_file_and_knows_its_transitions_only(tmp_path):
     np.testing.assert_allclose(
         drawn, run.transitions["tangential_load"], rtol=0, atol=DRAWN
     )
-    with pytest.raises(RunFileError, match="holds a SteppedRun and not a Run: Record"):
+    with pytest.raises(RunFileError, match="holds a LargerRun and not a Run: Record"):
         Run.load(tmp_path / "run.h5")
-    with pytest.raises(TypeError, match="must be a Run, but is SteppedRun"):
+    with pytest.raises(TypeError, match="must be a Run, but is LargerRun"):
         audit(run)
 
 
@@ -207,6 +206,27 @@ def test_a_run_survives_its_file_and_knows_its_transitions_only(tmp_path):
 def test_bad_input_gets_one_line(added, message):
     with pytest.raises(ValueError, match=message):
         simulate_larger(LargerChain(SLIDER(theta="5/6"), **added), 10.0)
+
+
+@pytest.mark.parametrize(
+    "argument",
+    [
+        {"duration": 0.0},
+        {"until": "stop"},
+        {"step": -1.0},
+        {"step": 0},
+        {"step": np.nan},
+        {"max_transitions": "a"},
+        {"max_steps": 0.5},
+        {"start_forces": [np.nan, 0.0, 0.0]},
+        {"start_forces": [0.0, 0.0]},
+        {"start_forces": "none"},
+    ],
+)
+def test_a_bad_argument_is_named_in_one_line(argument):
+    [name] = argument
+    with pytest.raises(ValueError, match=rf"^{name} must [^\n]+$"):
+        LargerChain(SLIDER(3)).simulate(**argument)
 
 
 def test_a_block_that_moves_against_its_mode_stops_at_once():
@@ -251,7 +271,6 @@ def test_blocks_without_friction_move_with_the_drive(slider, added):
         ({}, {"weakening_velocity": 0.02}, 1e9),
     ],
 )
-def test_what_is_out_of_reach_ends_with_a_line(monkeypatch, slider, added, duration):
-    monkeypatch.setattr("precursors.larger.chain.PATIENCE", 1_000_000)
+def test_what_is_out_of_reach_ends_with_a_line(slider, added, duration):
     with pytest.raises(TransitionLimitError, match=r"^the larger chain [^\n]+ at t = "):
-        simulate(LargerChain(SLIDER(**slider), **added), duration)
+        LargerChain(SLIDER(**slider), **added).simulate(duration, max_steps=1_000_000)

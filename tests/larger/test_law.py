@@ -10,14 +10,10 @@ from chains import SLIDER
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from precursors.larger.chain import (
-    LargerChain,
-    critical_length,
-    simulate_larger,
-    weakening_velocity,
-)
+from precursors.larger.chain import LargerChain, critical_length, weakening_velocity
 from precursors.larger.law import law_of
 from precursors.larger.settled import beside_law, settled
+from precursors.larger.simulate import simulate_larger
 
 LAW = 0.005  # of the peaks of runs with the number of precursors counted in them
 STEP = 0.5  # changes settled peaks by 3e-4, compared with 0.25

@@ -10,7 +10,8 @@ import pytest
 from chains import SLIDER
 
 from precursors import find_slips
-from precursors.larger.chain import LargerChain, simulate_larger, weakening_velocity
+from precursors.larger.chain import LargerChain, weakening_velocity
+from precursors.larger.simulate import simulate_larger
 
 LOAD = 0.5  # N
 # Until the first global slip, or 0.95 s. By RK4 with located transitions and steps of

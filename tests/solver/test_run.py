@@ -9,8 +9,7 @@ import pytest
 from chains import SLIDER, first_transitions
 from random_chains import mild_chain
 
-from precursors import Record, Run, RunFileError, simulate
-from precursors.larger.run import LargerRun
+from precursors import LargerRun, Record, Run, RunFileError, simulate
 
 # Of the duration: some tens of transitions of chains drawn at random.
 RANDOM = 1e-9

@@ -128,18 +128,10 @@ def test_chains_may_come_from_a_generator_and_what_is_no_chain_is_refused():
         simulate_many([chain, 5])
 
 
-def test_larger_chains_run_beside_exact_ones_as_by_simulate():
-    larger = LargerChain(SLIDER(n_blocks=3), weakening_velocity=0.02)
-    runs = simulate_many([SLIDER(), larger, SLIDER(n_blocks=3)], 0.5)
-    assert [type(run).__name__ for run in runs] == ["Run", "SteppedRun", "Run"]
-    alone = simulate(larger, 0.5)
-    assert runs[1].transitions.tolist() == alone.transitions.tolist()
-    assert runs[1].numbers == alone.numbers
-    for call in (
-        lambda: simulate(larger, 0.5, start_positions=[0, 0, 0]),
-        lambda: simulate_many([larger], 0.5, longest_slip=1.0),
-    ):
-        with pytest.raises(ValueError, match="can only be given for a Chain"):
+def test_a_larger_chain_is_told_to_run_itself():
+    larger = LargerChain(SLIDER(), weakening_velocity=0.02)
+    for call in (lambda: simulate(larger), lambda: simulate_many([SLIDER(), larger])):
+        with pytest.raises(TypeError, match="LargerChain, which has its own simulate"):
             call()
 
 

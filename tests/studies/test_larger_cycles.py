@@ -14,12 +14,9 @@ from settings import CONFIG
 from maegawa2010.studies.larger.cycles import run_past, settled_study, with_past
 from maegawa2010.studies.larger.first_slips import points, run_draw
 from precursors import TransitionLimitError
-from precursors.larger.chain import (
-    LargerChain,
-    simulate_larger,
-    weakening_velocity,
-)
+from precursors.larger.chain import LargerChain, weakening_velocity
 from precursors.larger.settled import events_of, settled
+from precursors.larger.simulate import simulate_larger
 from precursors.larger.steps import SETTLED, period_of
 
 ROOT = Path(__file__).parents[2]

@@ -11,9 +11,8 @@ from job import job
 
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
-from precursors.larger.run import LargerRun
 from precursors.model.chain import Chain
-from precursors.solver.run import Run
+from precursors.solver.run import LargerRun, Run
 from precursors.solver.simulate import TransitionLimitError, simulate
 from precursors.support.files import write_table
 
@@ -24,7 +23,8 @@ with job() as snakemake:
     run: Run | LargerRun
     try:
         if any(params.additions.values()):
-            from precursors.larger.chain import MAX_STEPS, LargerChain
+            from precursors.larger.chain import LargerChain
+            from precursors.larger.simulate import MAX_STEPS
 
             larger = LargerChain(chain, **params.additions)
             run = larger.simulate(params.duration, max_steps=MAX_STEPS)

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from precursors.model.chain import FloatArray
-from precursors.solver.run import Record, Run, SteppedRun
+from precursors.solver.run import LargerRun, Record, Run
 
 # A fiftieth of a pixel where a slip of 1 N fills 200 pixels.
 TOLERANCE_N = 1e-4
@@ -29,7 +29,7 @@ def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
     and another. A block 1 that slides nearly all the time is drawn with no more than
     some `MOST_POINTS`. A larger chain's run has its points already.
     """
-    if isinstance(run, SteppedRun):
+    if isinstance(run, LargerRun):
         return run.load_points[:, 0], run.load_points[:, 1]
     if not isinstance(run, Run):
         raise TypeError(f"a load curve needs a Run, but this is {type(run).__name__}")

@@ -4,8 +4,9 @@ import json
 import logging
 import sys
 from argparse import Namespace
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from importlib.metadata import version as installed_version
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,6 @@ from numpy.typing import NDArray
 
 from precursors.cli import Refused
 from precursors.cli.options import DATA, LARGER, MEASURED, RUN, SLIDER_OPTIONS
-from precursors.larger.run import LargerRun
 from precursors.model.chain import (
     CELL_SPACING,
     SLIDER,
@@ -23,7 +23,7 @@ from precursors.model.chain import (
     theta_from_load_cells,
 )
 from precursors.model.checks import positive
-from precursors.solver.run import Record, Run, RunFileError
+from precursors.solver.run import LargerRun, Record, Run, RunFileError
 from precursors.support.files import write_table
 from precursors.support.provenance import git_state
 from precursors.support.spreadsheet import (
@@ -227,7 +227,8 @@ def run_of_options(arguments: Namespace) -> Record:
 
     event.register("numba:compile", Announcement())  # the first run takes long
     slider = given(arguments, SLIDER_OPTIONS)
-    chain: Any = _chain(slider, **given(arguments, MEASURED))
+    solve: Callable[..., Record]
+    chain = _chain(slider, **given(arguments, MEASURED))
     if source := arguments.weights or arguments.profile or arguments.load_cells:
         loads = chain.weights
         tell(
@@ -238,9 +239,11 @@ def run_of_options(arguments: Namespace) -> Record:
     if any(added.values()):
         from precursors.larger.chain import LargerChain
 
-        chain = LargerChain(chain, **added)
+        solve = LargerChain(chain, **added).simulate
+    else:
+        solve = partial(simulate, chain)
     try:
-        return simulate(chain, **given(arguments, RUN))
+        return solve(**given(arguments, RUN))
     except TransitionLimitError as error:
         if arguments.command != "simulate" or not arguments.output:
             raise Refused(str(error)) from error

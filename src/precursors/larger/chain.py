@@ -7,47 +7,33 @@ push.
 
 while block i slides. It sticks while |G_i| <= mu_s w_i. docs/models.md has the
 equations, and what is found.
-
-Steps are those of the implicit midpoint rule, with springs, dashpots and falling
-friction all implicit: one tridiagonal solution over the blocks up to the last that
-slides, stable however stiff the dashpots are, and energy is balanced to rounding. A
-step ends at the first release or stop in it. A complete rest is one step; nothing is
-left out while a block moves.
 """
 
 import math
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from precursors.analysis.slips import find_precursors, find_slips
-from precursors.larger.additions import ADDITIONS
-from precursors.larger.run import LargerRun
-from precursors.larger.steps import (
-    CompiledChain,
-    End,
-    Motion,
-    march,
-)
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.checks import Until, checked_span, not_negative, number_array
-from precursors.solver.simulate import MAX_TRANSITIONS, TransitionLimitError
-from precursors.support.waiting import in_threads
+from precursors.model.checks import Until, not_negative
+from precursors.solver.run import LargerRun
 
-# Of the shorter of sqrt(m/k) and the time in which falling friction, less viscosity,
-# multiplies a velocity by e. With friction that jumps, the second gives all transitions
-# of the paper's scenes up to the first global slip, in order.
-STEP = 0.1
-STEP_OF_COULOMB = 5e-4
+# Where a run ends before its duration: "settled" is of `simulate_larger`.
+LargerUntil = Until | Literal["settled"]
+# What it adds to the paper's chain, with units.
+ADDITIONS = {
+    "weakening_velocity": "m/s",
+    "relaxation_time": "s",
+    "viscosity": "N s/m",
+    "push_height": "m",
+}
+PATIENCE = 100_000_000  # steps: ten seconds of work with some ten blocks moving
 # Of `critical_length`: steps along the chain, and growth rates from 1e-5 to 1 times the
 # largest. With both doubled, l_c changes by less than 1e-3.
 LENGTH_STEPS = 2000
 GROWTH_RATES = 300
-MAX_STEPS = 1_000_000_000  # of a run of a study, minutes; ten seconds need some 1e8
-PATIENCE = 100_000_000  # of `simulate`: ten seconds of work with some ten blocks moving
 
 
 @dataclass(frozen=True)
@@ -62,9 +48,8 @@ class LargerChain:
 
     def __post_init__(self) -> None:
         for name, unit in ADDITIONS.items():
-            object.__setattr__(
-                self, name, not_negative(name, getattr(self, name), unit)
-            )
+            value = not_negative(name, getattr(self, name), unit)
+            object.__setattr__(self, name, value)
         if self.relaxation_time and self.viscosity:
             raise ValueError(
                 "viscosity must not be given beside relaxation_time, which is viscosity / k"
@@ -78,21 +63,29 @@ class LargerChain:
         return drop / self.weakening_velocity if self.weakening_velocity else 0.0
 
     def simulate(
-        self, duration: float, until: Until = None, **limits: int
+        self,
+        duration: float = 10.0,
+        until: LargerUntil = None,
+        step: float | None = None,
+        max_transitions: int | None = None,
+        start_forces: ArrayLike | None = None,
+        max_steps: int = PATIENCE,
     ) -> LargerRun:
-        """Run it for `precursors.simulate`, with what half the step changes in
-        `larger`: halved_load_N and halved_events.
+        """Run it as `simulate_larger` does, and again with half the step.
 
-        These are the largest change of a load at which an event of Fig. 13 begins [N],
-        of as many events as both runs have, and the change of their number. `limits`
-        are those of `simulate_larger`; max_steps is by default `PATIENCE`, and
-        half the step may take twice as many.
+        `numbers` of the run tell what that changes: halved_load_N, the largest change
+        of a load at which an event of Fig. 13 begins [N], of as many events as both
+        runs have, and halved_events, the change of their number. Half the step may take
+        twice as many.
         """
-        limits = {"max_steps": PATIENCE, **limits}
-        run = simulate_larger(self, duration, until, **limits)
+        # Imported here: a configuration is checked without the compiler.
+        from precursors.analysis.slips import find_precursors, find_slips
+        from precursors.larger.simulate import simulate_larger
+
+        limits = (max_transitions, start_forces)
+        run = simulate_larger(self, duration, until, step, *limits, max_steps)
         half = run.numbers["step"] / 2.0
-        limits["max_steps"] *= 2
-        finer = simulate_larger(self, duration, until, half, **limits)
+        finer = simulate_larger(self, duration, until, half, *limits, 2 * max_steps)
         a, b = (
             find_precursors(find_slips(r))["load_before"].to_numpy()
             for r in (run, finer)
@@ -159,117 +152,3 @@ def tilt(chain: Chain, push_height: float) -> FloatArray:
     # From the middle of the contact, over its length.
     place = (np.arange(1, n + 1) - (n + 1) / 2) / n
     return 12.0 * push_height / chain.length * place / (n * (1.0 - 1.0 / n**2))
-
-
-def simulate_larger(
-    larger: LargerChain,
-    duration: float,
-    until: Until | Literal["settled"] = None,
-    step: float | None = None,
-    max_transitions: int = MAX_TRANSITIONS,
-    start_forces: ArrayLike | None = None,
-    max_steps: int = MAX_STEPS,
-) -> LargerRun:
-    """Run a larger chain from rest; other arguments are those of `simulate`.
-
-    Transitions are those of blocks that slide faster than `SLOW` v_c, without events in
-    which F_X falls by less than `SMALLEST_DROP` F_Z. The run has `load_points`, and in
-    `larger` the numbers of the chain, the step, and `energy_error`: the energy that the
-    balance lacks, over the work of the drive.
-
-    `until` may be "settled", too: the run ends when the loads at which global slips
-    begin come again (see `period_of`). `step` is in the shorter of sqrt(m/k) and the
-    time in which creep that runs away grows by e, by default `STEP` or
-    `STEP_OF_COULOMB`. `start_forces` are those of the springs [N], F_X first, by
-    default 0.
-
-    Raises
-    ------
-    ValueError
-        If an argument is out of range, or a normal load becomes negative.
-    TransitionLimitError
-        If there are more transitions or steps than the limits; `run` is what was
-        computed.
-    """
-    duration = checked_span(duration, None if until == "settled" else until)
-    chain = larger.chain
-    m = model_of(larger)
-    step = step or (STEP if m.weakening_velocity else STEP_OF_COULOMB)
-    lifting = np.divide(
-        -m.weights, m.tilt, np.full(chain.n_blocks, np.inf), where=m.tilt < 0.0
-    )
-    modes = np.zeros((2, chain.n_blocks + 1), np.int64)
-    arrays: list[Any] = [*np.zeros((7, chain.n_blocks + 1)), *modes, np.zeros(2)]
-    state = Motion(*arrays)
-    if start_forces is not None:
-        state.force[:-1] = number_array("start_forces", start_forces, "N")
-    before = stored_energy(chain, state)
-    ends_at = (until == "global slip", until == "settled")
-    end = End(duration, *ends_at, lifting.min(), max_transitions, max_steps)
-    now = np.zeros(1)
-    rows, points, time, steps = in_threads(
-        "running",
-        [partial(march, m, state, end, longest_steps(m, chain, step), now)],
-        done=lambda: now[0] / duration,
-    )[0]
-    if state.force[0] > lifting.min():
-        raise ValueError(
-            f"push_height = {larger.push_height:g} m lifts block {lifting.argmin() + 1} "
-            f"at F_X = {lifting.min():.4g} N"
-        )
-    rows = rows[np.argsort(rows[:, 0], kind="stable")]
-    work, heat = state.energy
-    lacking = work - heat - (stored_energy(chain, state) - before)
-    numbers = {name: getattr(larger, name) for name in ADDITIONS}
-    numbers |= {"step": step, "energy_error": lacking / work if work else 0.0}
-    run = LargerRun.from_columns(
-        chain, time, *rows.T, numbers=numbers, load_points=points
-    )
-    if len(rows) > max_transitions or steps > max_steps:
-        raise TransitionLimitError(
-            "the larger chain met its limit of work at "
-            f"t = {time:.9g} s of {duration:g} s: shorten duration",
-            run,
-        )
-    return run
-
-
-def model_of(larger: LargerChain) -> CompiledChain:
-    """Arrays and numbers of a chain for the compiled functions."""
-    chain = larger.chain
-    dashpots = np.zeros(chain.n_blocks + 1)
-    dashpots[1:-1] = larger.viscosity + larger.relaxation_time * chain.stiffness
-    return CompiledChain(
-        springs=np.append(chain.springs, 0.0),
-        dashpots=dashpots,
-        weights=chain.weights.copy(),
-        tilt=tilt(chain, larger.push_height),
-        mass=chain.mass,
-        mu_s=chain.mu_s,
-        mu_k=chain.mu_k,
-        weakening_velocity=larger.weakening_velocity * (chain.mu_k < chain.mu_s),
-        fall=larger.fall,
-        drive_velocity=chain.drive_velocity,
-    )
-
-
-def longest_steps(m: CompiledChain, chain: Chain, step: float) -> FloatArray:
-    """Steps [s] while nothing slides ahead of block 1..N; `step` is that of
-    `simulate_larger`.
-
-    The growth rate is that of falling friction, less the viscosity of the gravest mode
-    of the stretch: a quarter of a wave, or even if the whole chain slides.
-    """
-    n = chain.n_blocks
-    largest = m.weights + abs(m.tilt) * m.mu_s * chain.normal_load
-    fall = m.fall * np.maximum.accumulate(largest)
-    shape = (2.0 * np.sin(0.5 * math.pi / (2.0 * np.arange(1, n + 1) + 1.0))) ** 2
-    shape[-1] = 0.0
-    growth = np.maximum(fall - m.dashpots.max() * shape, 0.0) / m.mass
-    return step / np.maximum(chain.fastest_frequency_bound / 2.0, growth)
-
-
-def stored_energy(chain: Chain, state: Motion) -> float:
-    """Energy of springs and of motion [J]."""
-    elastic = (state.force[:-1] ** 2 / chain.springs).sum() / 2.0
-    return float(elastic + chain.mass * (state.velocity[:-1] ** 2).sum() / 2.0)

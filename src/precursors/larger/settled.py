@@ -6,12 +6,10 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.slips import find_slips
-from precursors.larger.additions import ADDITIONS
-from precursors.larger.chain import LargerChain
+from precursors.larger.chain import ADDITIONS, LargerChain
 from precursors.larger.law import law_of
-from precursors.larger.run import LargerRun
 from precursors.larger.steps import REPEATS, SETTLED, period_of
-from precursors.solver.run import Record
+from precursors.solver.run import LargerRun, Record
 
 # Of l_c: an event whose front stops before is creep that trembles, and no precursor.
 PAST = 1.1

@@ -4,7 +4,7 @@ parameter."""
 import math
 from contextlib import suppress
 from numbers import Integral, Real
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -79,8 +79,10 @@ def checked_span(duration: object, until: object) -> float:
     return positive("duration", duration, "s")
 
 
-def checked_until(until: object) -> Until:
+def checked_until(until: Any, *others: str) -> Any:
     """Return where a run may end before its duration, or raise a ValueError."""
-    if until is not None and until != "global slip":
-        raise ValueError(f'until must be None or "global slip", but is {until!r}')
-    return "global slip" if until else None
+    known = ("global slip", *others)
+    if until is not None and until not in known:
+        ends = " or ".join(f'"{end}"' for end in known)
+        raise ValueError(f"until must be None or {ends}, but is {until!r}")
+    return until

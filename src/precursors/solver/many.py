@@ -2,18 +2,16 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import Until, whole
+from precursors.solver.run import Run
 from precursors.solver.simulate import (
-    OwnSolver,
     checked_end,
     checked_start,
-    refuse_for_own,
     run_batch,
 )
 from precursors.support.compiled import untyped
@@ -26,19 +24,19 @@ BATCHES_PER_THREAD = 8
 
 
 def simulate_many(
-    chains: Iterable[Any],
+    chains: Iterable[Chain],
     duration: float = 10.0,
     until: Until = None,
     threads: int | None = None,
     start_positions: Sequence[ArrayLike] | None = None,
     start_velocities: Sequence[ArrayLike] | None = None,
     longest_slip: float | None = None,
-) -> list[Any]:
+) -> list[Run]:
     """Run an ensemble on all cores; every run equals that of `simulate`, bit for bit.
 
     Parameters
     ----------
-    chains : iterable of Chain or LargerChain
+    chains : iterable of Chain
         The chains, of any lengths.
     duration, until, longest_slip
         As in `simulate`, for all of them.
@@ -60,10 +58,7 @@ def simulate_many(
             "what simulate_many runs must be a list of chains, but is a Chain"
         )
     chains = list(chains)
-    exact = [c for c in chains if isinstance(c, Chain) or not isinstance(c, OwnSolver)]
-    end = checked_end(exact, duration, until, None, longest_slip)
-    if len(exact) < len(chains):
-        refuse_for_own(start_positions, start_velocities, longest_slip)
+    end = checked_end(chains, duration, until, None, longest_slip)
     threads = (
         untyped.config.NUMBA_NUM_THREADS
         if threads is None
@@ -72,12 +67,9 @@ def simulate_many(
     positions = _starts("start_positions", start_positions, "m", chains)
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)
 
-    runs: dict[int, Any] = {}
+    runs: dict[int, Run] = {}
 
     def run(batch: list[int]) -> None:
-        if not _length(chains[batch[0]]):
-            runs.update((j, chains[j].simulate(duration, until)) for j in batch)
-            return
         made = run_batch(
             [chains[j] for j in batch],
             np.array([positions[j] for j in batch]),
@@ -95,10 +87,10 @@ def _starts(
     name: str,
     values: Sequence[ArrayLike] | None,
     unit: str,
-    chains: Sequence[Any],
+    chains: Sequence[Chain],
 ) -> list[FloatArray]:
     if values is None:
-        return [np.zeros(_length(chain)) for chain in chains]
+        return [np.zeros(chain.n_blocks) for chain in chains]
     if len(values) != len(chains):
         raise ValueError(
             f"{name} must be one for each of the {len(chains)} chains, but are {len(values)}"
@@ -109,18 +101,13 @@ def _starts(
     ]
 
 
-def _batches(chains: Sequence[Any], threads: int) -> Iterator[list[int]]:
+def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
     """Numbers of chains of equal length, so many at a time as one call of the kernel
     takes."""
     most = min(LARGEST_BATCH, max(1, len(chains) // (threads * BATCHES_PER_THREAD)))
     alike: dict[int, list[int]] = {}
     for j, chain in enumerate(chains):
-        alike.setdefault(_length(chain), []).append(j)
+        alike.setdefault(chain.n_blocks, []).append(j)
     for _, members in sorted(alike.items(), reverse=True):
         for first in range(0, len(members), most):
             yield members[first : first + most]
-
-
-def _length(chain: object) -> int:
-    """Number of blocks; 0 of chains with a solver of their own, which run one by one."""
-    return chain.n_blocks if isinstance(chain, Chain) else 0

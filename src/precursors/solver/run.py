@@ -92,7 +92,7 @@ class Record:
         if "states" in content:
             kind = Run
         elif "load_points" in content:
-            kind = SteppedRun
+            kind = LargerRun
         if not issubclass(kind, cls):
             raise RunFileError(
                 f"{path} holds a {kind.__name__} and not a {cls.__name__}: "
@@ -102,8 +102,8 @@ class Record:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SteppedRun(Record):
-    """A record made with steps, with its load between transitions.
+class LargerRun(Record):
+    """A larger chain's record, made with steps, with its load between transitions.
 
     Attributes
     ----------

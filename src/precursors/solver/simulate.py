@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from typing import Protocol, overload, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +17,7 @@ from precursors.model.checks import (
 )
 from precursors.solver.batch import TransitionLimitError, run_batch
 from precursors.solver.kernel import End
-from precursors.solver.run import Run, SteppedRun
+from precursors.solver.run import Run
 
 __all__ = ["MAX_TRANSITIONS", "TransitionLimitError", "simulate"]
 
@@ -30,15 +29,6 @@ MANY_BLOCKS = 500
 MAX_WINDOWS = 1_000_000_000
 
 
-@runtime_checkable
-class OwnSolver(Protocol):
-    """A chain that is not solved here, but by a method of its own."""
-
-    def simulate(self, duration: float, until: Until, **limits: int) -> SteppedRun:
-        """Run it from rest."""
-
-
-@overload
 def simulate(
     chain: Chain,
     duration: float = 10.0,
@@ -47,31 +37,14 @@ def simulate(
     start_velocities: ArrayLike | None = None,
     max_transitions: int | None = None,
     longest_slip: float | None = None,
-) -> Run: ...
-@overload
-def simulate(
-    chain: OwnSolver,
-    duration: float = 10.0,
-    until: Until = None,
-    *,
-    max_transitions: int | None = None,
-) -> SteppedRun: ...
-def simulate(
-    chain: Chain | OwnSolver,
-    duration: float = 10.0,
-    until: Until = None,
-    start_positions: ArrayLike | None = None,
-    start_velocities: ArrayLike | None = None,
-    max_transitions: int | None = None,
-    longest_slip: float | None = None,
-) -> Run | SteppedRun:
+) -> Run:
     """Run a chain from rest, or from a given start, through all its transitions (Eqs.
     2-6).
 
     Parameters
     ----------
-    chain : Chain or LargerChain
-        The chain, which says how it is solved: exactly, or with steps.
+    chain : Chain
+        The chain; a `LargerChain` has `simulate` itself.
     duration : float
         Time to run [s]; with `until`, the limit.
     until : "global slip", optional
@@ -89,9 +62,8 @@ def simulate(
 
     Returns
     -------
-    Run or SteppedRun
-        The transitions and the states between them; of a larger chain, its load and
-        what half the step changes.
+    Run
+        The transitions and the states between them.
 
     Raises
     ------
@@ -99,21 +71,10 @@ def simulate(
         If the cap, or one on the work of chains that hardly ever rest, is met; its
         attribute `run` holds what was computed.
     """
-    # The check of a protocol is slow, so that of the class comes first.
-    if not isinstance(chain, Chain) and isinstance(chain, OwnSolver):
-        refuse_for_own(start_positions, start_velocities, longest_slip)
-        limits = {} if max_transitions is None else {"max_transitions": max_transitions}
-        return chain.simulate(duration, until, **limits)
     end = checked_end([chain], duration, until, max_transitions, longest_slip)
     positions = checked_start("start_positions", start_positions, "m", chain)
     velocities = checked_start("start_velocities", start_velocities, "m/s", chain)
     return next(run_batch([chain], positions[None], velocities[None], end))
-
-
-def refuse_for_own(*given: object) -> None:
-    """Refuse what is known of exact runs only."""
-    if any(value is not None for value in given):
-        raise ValueError("a start and longest_slip can only be given for a Chain")
 
 
 def checked_end(
@@ -126,8 +87,9 @@ def checked_end(
     """Check what is simulated and where it ends."""
     for chain in chains:
         if not isinstance(chain, Chain):
+            own = ", which has its own simulate()" if hasattr(chain, "simulate") else ""
             raise TypeError(
-                f"what is simulated must be a Chain, but is {type(chain).__name__}"
+                f"what is simulated must be a Chain, but is {type(chain).__name__}{own}"
             )
     longest = (
         math.inf

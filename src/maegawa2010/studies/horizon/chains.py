@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from maegawa2010.scenes import scene_as_written
-from precursors.larger.additions import ADDITIONS
+from precursors.larger.chain import ADDITIONS
 from precursors.model.chain import Chain
 from precursors.proof.certificate import Certificate
 from precursors.proof.exact_chain import ExactChain

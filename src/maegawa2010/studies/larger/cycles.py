@@ -11,9 +11,10 @@ import pandas as pd
 
 from maegawa2010.studies.larger.first_slips import larger_of, points
 from maegawa2010.studies.members import LOADINGS, Study, gather
-from precursors.larger.chain import LargerChain, simulate_larger, weakening_velocity
+from precursors.larger.chain import LargerChain, weakening_velocity
 from precursors.larger.law import Law, law_of
 from precursors.larger.settled import events_of, settled
+from precursors.larger.simulate import simulate_larger
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Record
 from precursors.solver.simulate import TransitionLimitError

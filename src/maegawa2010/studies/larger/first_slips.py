@@ -14,12 +14,8 @@ import pandas as pd
 from maegawa2010.studies.members import chain_of, varied
 from precursors.analysis.slips import find_precursors, find_slips
 from precursors.analysis.summary import apparent_friction
-from precursors.larger.chain import (
-    LargerChain,
-    critical_length,
-    simulate_larger,
-    weakening_velocity,
-)
+from precursors.larger.chain import LargerChain, critical_length, weakening_velocity
+from precursors.larger.simulate import simulate_larger
 from precursors.model.chain import Chain, parse_theta
 from precursors.model.statics import longest_run
 from precursors.solver.run import Record

@@ -1,5 +1,0 @@
-"""The run of a larger chain."""
-
-from precursors.solver.run import SteppedRun as LargerRun
-
-__all__ = ["LargerRun"]
