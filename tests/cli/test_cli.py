@@ -75,6 +75,12 @@ def test_help_loads_nothing_heavy_and_lists_the_exit_codes():
     assert [int(line.split()[0]) for line in codes[1:7]] == CODES
 
 
+def test_without_a_command_the_help_is_printed(cli):
+    code, told, err = cli()
+    assert (code, err) == (2, "")
+    assert told.startswith("usage: precursors COMMAND [options]\n")
+
+
 def test_the_help_of_a_command_states_the_defaults_of_the_library(cli):
     code, told, _ = cli("plot", "--help")
     told = " ".join(told.split())
@@ -254,7 +260,7 @@ def test_slips_of_measured_normal_loads_are_those_of_the_same_linear_ones_withou
         ),
         (
             ["--figure=lengths"],
-            "F;L\n100;0,5\n",
+            "F;L_p/L\n100;0,5\n",
             "data.csv: 1 points, F_X [N] 100 to 100, L_p/L [-] 0.5 to 0.5\n",
             {"figure": "lengths"},
         ),
@@ -279,7 +285,8 @@ def test_plot_draws_what_the_library_draws_as_it_is_told_to(
 def test_plot_takes_measured_values_from_a_frame(run_file):
     frame = pd.DataFrame({"F_X [N]": [0.0, 120.5], "t [s]": [0.0, 15.0]})
     axes = plot(Run.load(run_file), data=frame).axes[0]
-    assert axes.lines[1].get_xydata().tolist() == [[0.0, 0.0], [15.0, 120.5]]
+    [measured] = [line for line in axes.lines if line.get_label() == "measured"]
+    assert measured.get_xydata().tolist() == [[0.0, 0.0], [15.0, 120.5]]
     assert axes.get_xlim() == (0.0, 15.0)  # the run ends at 3 s
     with pytest.raises(ValueError, match="data must have two columns"):
         plot(Run.load(run_file), data=[1.0, 2.0])
@@ -300,12 +307,43 @@ def test_measured_loads_begin_with_the_run_and_without_an_offset(
     cli, run_file, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
-    Path("F.csv").write_text("F_X [N]\n5\n5\n6\n7\n")
-    told = "F.csv: 2 points, t [s] 0 to 0.5, F_X [N] 1 to 2\n"
+    Path("F.csv").write_text("F_X [N]\n5\n5\n60\n70\n")
+    told = "F.csv: 2 points, t [s] 0 to 0.5, F_X [N] 55 to 65\n"
     shift = ("--sample-rate=2", "--data-start=1", "--data-offset=5")
     assert cli("plot", run_file, "--data=F.csv", *shift)[::2] == (0, told)
     code, _, err = cli("plot", run_file, "--data=F.csv", *shift[:1], "--data-start=9")
     assert (code, err) == (2, "precursors plot: F.csv ends before --data-start\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            "t [s],F_X [N]\n0,4000\n1,4500\n2,5000\n",
+            "it reaches 26 times as high as F_X of the run",
+        ),
+        ("t,F\n4,0\n5,0.1\n", "0 of its 2 times are among those of the run, and it"),
+    ],
+)
+def test_data_that_hardly_overlap_the_run_are_drawn_and_told(
+    cli, run_file, tmp_path, monkeypatch, text, told
+):
+    monkeypatch.chdir(tmp_path)
+    Path("F.csv").write_text(text)
+    code, _, err = cli("plot", run_file, "--data=F.csv")
+    assert (code, err.count("\n")) == (0, 2)
+    assert f"F.csv hardly overlaps the run: {told}" in err
+
+
+@pytest.mark.filterwarnings("ignore:.* is read from")
+def test_a_table_of_slips_is_read_as_measured_lengths(
+    cli, run_file, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    cli("slips", run_file, "--counted", "--output=slips.csv")
+    told = "slips.csv: 9 points, F_X [N] 28 to 194.305, L_p/L [-] 0.1 to 1"
+    code, _, err = cli("plot", run_file, "--figure=lengths", "--data=slips.csv")
+    assert (code, err.splitlines()[-1]) == (0, told)
 
 
 @pytest.mark.parametrize(
@@ -394,11 +432,6 @@ def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monke
     ("arguments", "code", "about"),
     [
         (
-            "",
-            2,
-            "needed is one of simulate, slips, plot, audit, score (see precursors --help)",
-        ),
-        (
             "simulate --output /dev/null/run.h5 --duration 1e9",
             3,
             "/dev/null is not a directory",
@@ -416,7 +449,15 @@ def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monke
             2,
             "not allowed with argument --weights",
         ),
-        ("simulate --cell-spacing 1", 2, "--cell-spacing needs --load-cells"),
+        ("simulate --cell-spacing 0", 2, "--cell-spacing needs --load-cells"),
+        ("simulate --load-cells 1 2 --cell-spacing 0", 2, "spacing must be above 0"),
+        ("simulate --weights ''", 3, "No such file or directory: ''"),
+        ("simulate --profile ''", 3, "No such file or directory: ''"),
+        ("plot --data ''", 3, "No such file or directory: ''"),
+        ("simulate --columns w=F", 2, "--columns w=... needs --weights"),
+        ("simulate --columns F", 2, "'F' must be t or F_X or L_p or w or p, = and"),
+        ("simulate --blocks 1_0", 2, "'1_0' is not a whole number"),
+        ("simulate --mu-k 0_1", 2, "'0_1' is not a number"),
         ("plot --data-start 1", 2, "--data is needed with data_start"),
         ("plot --figure lengths --data d.csv --data-start 1", 2, "need --figure load"),
         ("simulate --weights missing.csv", 3, "missing.csv: No such file"),

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from precursors.support import files
 from precursors.support.spreadsheet import (
     LENGTH,
     LOAD,
@@ -15,7 +16,9 @@ from precursors.support.spreadsheet import (
 
 LOADS = [20.0, 30.5]
 ROWS = [[0.0, 0.0], [0.5, 40.25]]
-NEEDED = "needed: normal load of each block"
+NEEDED = "needed: w [N], one a line"
+NO_LOAD = "no column is known as F_X [N] among "
+READ_FROM = pytest.mark.filterwarnings("ignore:.* is read from")
 LABVIEW = """\
 LabVIEW Measurement\t
 Time\t12:30:01.123
@@ -41,6 +44,7 @@ def file(tmp_path):
     return write
 
 
+@READ_FROM
 @pytest.mark.parametrize(
     "text",
     [
@@ -71,18 +75,23 @@ def test_the_load_of_each_block_is_read_as_spreadsheets_write_it(file, text):
 @pytest.mark.parametrize(
     ("text", "about"),
     [
-        ("load, N\n1,5\n2,5\n3,5\n", "'3,5' may be one number with a decimal comma"),
-        ("Normalkraft [N]\n1.018,00\n30,5\n", "line 2: '1.018,00' is not a number"),
-        ("Pressure\n20\n30\n", NEEDED),
+        ("load, N\n1,5\n2,5\n3,5\n", "a comma may separate two numbers"),
+        ("1,20\n2,30\n", "a comma may separate two numbers"),
+        ("block,w [N]\n1,10,5\n2,20,5\n", "line 2: cells: 3, columns: 2"),
+        ("w\n1,000\n2,500\n", "'1,000' may have a decimal comma or be in thousands"),
+        ("Normalkraft [N]\n1.018,00\n30,5\n", "among '1.018,00'"),
+        ("Pressure\n20\n30\n", "no column is known as w [N] among 'Pressure'"),
+        ("F x1e3 [N]\n0.04\n0.05\n", "no column is known as w [N] among"),
         ("Normalkraft [lbs]\n20\n30\n", "the column 'Normalkraft [lbs]' is in lbs"),
-        ("Load, gf\n20.5\n30.5\n", "is in gf"),
-        ("b1 [N];b2 [kN];b3 [N]\n20;30;40\n", "is in N, kN, N"),
+        ("Load, gf\n20.5\n30.5\n", "among 'Load, gf'"),
+        ("b1 [N];b2 [kN];b3 [N]\n20;30;40\n", "is in N, kN"),
         ("Normalkraft;x\n1.5;\n2,5;\n", "has decimal commas and decimal points"),
-        ("Normalkraft [N]\n#N/A\n30,5\n", "line 2: '#N/A' is not a number"),
+        ("Block;Normalkraft [N]\n1;#N/A\n2;30,5\n", "line 2: '#N/A' is not a number"),
         ("Block;Normalkraft [N]\n1;20,0\n2;\n", "line 3: '' is not a number"),
         ("Block;Normalkraft [N]\n2;20,0\n1;30,5\n", NEEDED),
         ("b1;20\nb2;30\nSumme;50\n", NEEDED),
-        ("1;30;0\n2;40;0\n", NEEDED),
+        ("1;30;0\n2;40;0\n", "no column has a name, and w [N] is needed"),
+        ("x;w [N]\n0.3;20\n0.2;30\n", NEEDED),
         (b"PK\x03\x04\0\0", "in the spreadsheet, save the table as CSV"),
     ],
 )
@@ -90,15 +99,15 @@ def test_loads_that_may_be_others_are_refused_in_one_line(file, text, about):
     refuses(read_weights, file(text), about)
 
 
+@READ_FROM
 @pytest.mark.parametrize(
     "text",
     [
-        "0.0,0.0\n0.5,40.25\n",
         "t [s];F_X [N]\r\n0;0\r\n0,5;40,25\r\n",
         "\ufefft\tF\n\n0\t0\n5e-1\t4.025E1\n",
         '"t";"F"\n"0";"0"\n"0,5";"40,25"\n',
         '"t","F"\n"0,0","0,0"\n"0,5","40,25"\n',
-        "# measured on Monday\n0 0\n 0.5   40.25",
+        "# measured on Monday\nt F\n0 0\n 0.5   40.25",
         "t [s] F_X [N]\n0 0\n0.5 40.25",
         "Zeit [s];Kraft über alles [N]\n0;0\n0,5;40,25\n".encode("cp1252"),
         "F_X [N],t [s]\n0.0,0.0\n40.25,0.5\n",
@@ -111,15 +120,33 @@ def test_loads_that_may_be_others_are_refused_in_one_line(file, text, about):
         LABVIEW,
         "Время, с;Сила, Н\n0;0\n0,5;40,25\n",
         "時間;変位;荷重\n秒;mm;N\n0;1;0\n0.5;2;40.25\n",
-        "time_s;Load-cell A, filtered\n0;0\n0,5;40,25\n",
+        "time_s;Ft/N;Fn/N\n0;0;9\n0,5;40,25;9\n",
+        "Zeit (s);Reibkraft (N);Normalkraft (N)\n0;0;9\n0,5;40,25;9\n",
+        "Time [s],Sliding Time [s],Normal Force [N],Friction Force [N],Coefficient of "
+        "Friction\n0,9,9,0,9\n0.5,9,9,40.25,9\n",
+        "onset_s,end_s,load_before_N,load_after_N\n0,9,0,9\n0.5,9,40.25,9\n",
         "Tempo (in sec.);Forza (in N)\n0;0\n0,5;40,25\n",
-        "0,0 0,0\n0,5 40,25\n",
+        "t F\n0,0 0,0\n0,5 40,25\n",
         "% Time (s)   Force (N)\n0 0\n0.5 40.25\n",
         "Time,Force\n2024-05-01T12:30:01.5+09:00,0.0\n2024-05-01T12:30:02+09:00,40.25\n",
     ],
 )
-def test_columns_are_found_by_unit_by_name_or_in_order(file, text):
+def test_columns_are_found_by_name_or_by_unit(file, text):
     np.testing.assert_array_equal(read_columns(file(text), [TIME, LOAD]), ROWS)
+
+
+@READ_FROM
+@pytest.mark.parametrize(
+    ("text", "choice"),
+    [
+        ("T,signal\n0,0\n0.5,40.25\n", {"t": "T", "F_X": "signal"}),
+        ("t [s],delay [s],F\n9,0,0\n9,0.5,40.25\n", {"t": "delay [s]"}),
+        ("0,0.0\n0.5,40.25\n", {"t": "1", "F_X": "2"}),
+    ],
+)
+def test_columns_may_be_chosen(file, text, choice):
+    read = read_columns(file(text), [TIME, LOAD], choice=choice)
+    np.testing.assert_array_equal(read, ROWS)
 
 
 @pytest.mark.filterwarnings("always")
@@ -133,14 +160,13 @@ def test_columns_are_found_by_unit_by_name_or_in_order(file, text):
         ),
         ("Time,Load\nmsec,kN\n0,0.0\n500,0.04025\n", ["msec", "kN"]),
         ("Время, мс;Сила, кН\n0;0\n500;0,04025\n", ["мс", "кН"]),
-        ("TIME MSEC,ForcekN\n0,0.0\n500,0.04025\n", ["MSEC", "ForcekN"]),
-        ("timeMs,LOAD-KN\n0,0.0\n500,0.04025\n", ["timeMs", "KN"]),
+        ("TIME MSEC,LOAD-KN\n0,0.0\n500,0.04025\n", ["MSEC", "KN"]),
+        ("t;Load cell 2 [N]\n0;0\n0.5;40.25\n", ["F_X [N] is read from 'Load cell 2"]),
         ("Time..ms.,Force..kN.\n0,0.0\n500,0.04025\n", ["ms", "kN"]),
         ("# t (ms), F (kN)\n# of Monday\n0,0.0\n500,0.04025\n", ["t (ms)", "F (kN)"]),
         ("# t F\n# ms kN\n#\n0 0\n500 0.04025\n", ["t [ms]", "F [kN]"]),
         ("t;F\n0;0\n0,25;\n0,5;40,25\n", ["rows without a value: 1"]),
         (pd.DataFrame({"F [kN]": [0, 0.04025], "t [s]": [0, 0.5]}), ["F [kN]"]),
-        (pd.DataFrame(ROWS), []),
     ],
 )
 def test_what_is_converted_or_left_out_is_told(file, text, told, recwarn):
@@ -153,8 +179,10 @@ def test_what_is_converted_or_left_out_is_told(file, text, told, recwarn):
 
 
 def test_a_column_of_loads_has_the_times_of_its_sample_rate(file):
-    read = read_columns(file("F\n1,5\n\n2,5\n"), [TIME, LOAD], 10.0)
-    assert read.tolist() == [[0.0, 1.5], [0.2, 2.5]]
+    read = read_columns(file("F\n1,5\n2,5\n"), [TIME, LOAD], 10.0)
+    assert read.tolist() == [[0.0, 1.5], [0.1, 2.5]]
+    with pytest.raises(ValueError, match="no line may stand empty"):
+        read_columns(file("F\n1,5\n\n2,5\n"), [TIME, LOAD], 10.0)
 
 
 def test_a_profile_is_a_column_or_a_matrix_without_positions(file):
@@ -162,50 +190,69 @@ def test_a_profile_is_a_column_or_a_matrix_without_positions(file):
     assert read_profile(file("0;1\n0;2\n")).tolist() == [[0.0, 1.0], [0.0, 2.0]]
     for text in ("x;p\n1;1\n2;0\n", "1;1\n2;0\n3;0\n"):
         refuses(read_profile, file(text), "without names and positions")
+    refuses(read_profile, file("1;2;3\n"), "a line for each position, not one")
+    refuses(read_profile, file("Temperature\n1\n2\n"), "no column is known as p")
+    chosen = read_profile(file("x;p\n1;1\n2;0\n"), {"p": "p"})
+    assert chosen.tolist() == [[1.0], [0.0]]
 
 
-@pytest.mark.filterwarnings("ignore:.* is converted")
-@pytest.mark.parametrize("name", ["L_p/L [1];F_X [N]\n0,5", "L_p [%];F_X [N]\n50"])
-def test_lengths_are_shares(file, name):
-    table = file(f"{name};100\n")
-    assert read_columns(table, [LOAD, LENGTH]).tolist() == [[100.0, 0.5]]
+@READ_FROM
+@pytest.mark.parametrize(
+    "text",
+    [
+        "L_p/L [1];F_X [N]\n0,5;100\n",
+        "L_p [%];F_X [N]\n50;100\n",
+        "F_X [N],L_p [mm]\n100,20\n",
+        "load_before_N,front,front_length_m,slider_length_m\n100,5,0.02,0.04\n",
+    ],
+)
+def test_lengths_are_shares_of_the_slider(file, text):
+    read = read_columns(file(text), [LOAD, LENGTH], length=0.04)
+    assert read.tolist() == [[100.0, 0.5]]
 
 
 @pytest.mark.parametrize(
     ("text", "about"),
     [
-        ("0,0\n1,500\n", "decimal comma"),
-        ("t [s];Signal [V]\n0;0\n", "the column 'Signal [V]' is in V; needed: F_X [N]"),
+        ("0,0\n1,500\n", "no column has a name, and t [s] is needed"),
+        ("t [s],F [N]\n0,0,10,5\n0,1,20,5\n", "line 2: cells: 4, columns: 2"),
+        ("t [s],F [N],,\n0,0,10,5\n", "line 2: cells: 4, columns: 2"),
+        ("t [s];F [N]\n0;10\n1;20;5\n", "line 3: cells: 3, columns: 2"),
+        ("t a F\n0 1\n", "line 2: cells: 2, columns: 3"),
+        ('t,F\n"0"1,2\n', "is not a table"),
+        ("t [s];Signal [V]\n0;0\n", "among 't [s]', 'Signal [V]': choose one with"),
         ("Time (s),Force (mV)\n0,1.5\n", "is in mV"),
         ("Time,Load\nsec,g\n0,1.5\n", "is in g"),
-        ("t_h,F_lbf\n0,1.5\n", "is in h"),
-        ("t (s);Druck (MPa)\n0;1\n", "is in MPa"),
+        ("t_h,F_lbf\n0,1.5\n", "no column is known as t [s]"),
+        ("t (s);Druck (MPa)\n0;1\n", f"{NO_LOAD}'t (s)', 'Druck (MPa)'"),
         ("t \uff08s\uff09,F \uff08千克\uff09\n0,1.5\n", "is in 千克"),
-        ("時間(s),荷重(N)\n0,1.5\n".encode("cp932"), "is not UTF-8"),
-        ("Время, с;Сила, Н\n0;0\n".encode("cp1251"), "is not UTF-8"),
-        ("Время, с;Сила, кгс\n0;0\n", "is in кгс"),
-        ("t;Сила, кH\n0;0\n", "is in кH"),  # the H is Latin
-        ("t;Load KG\n0;0\n", "is in KG"),
-        ("t;Weight g\n0;0\n", "is in g"),
-        ("t/10^-3 s;F/N\n0;0\n", "is in 10^-3 s"),
+        ("Время, с;Сила, Н\n0;0\n".encode("cp1251"), "no column is known as t [s]"),
+        ("t;Сила, кH\n0;0\n", NO_LOAD),  # the H is Latin
+        ("t;F [MN]\n0;0\n", "is in MN"),
+        ("t;Weight g\n0;0\n", NO_LOAD),
+        ("t/10^-3 s;F/N\n0;0\n", "no column is known as t [s]"),
         ("t;Load %\n0;0\n", "is in %"),
-        (
-            LABVIEW.replace("Newton", "Volts"),
-            "'Volts' is not a unit of t [s] or F_X [N]",
-        ),
-        ("t [s];Force A [N];Force B [N]\n0;1;0\n", "line 2: columns: 3"),
+        (LABVIEW.replace("Newton", "Volts"), f"{NO_LOAD}'X_Value', 'Kanal 1 [Volts]'"),
+        ("t [s];A [N];B [N]\n0;1;0\n", "'A [N]', 'B [N]' may each be F_X [N]"),
         ("Time;F\n1.5.2024 0:00:00;1\n3.5.2024 0:00:00;1\n", "half a day"),
         (f"t;F\n0;1\n{'1' * 140_000};2\n", "field larger than field limit"),
-        ("1;2\n3;x\n", "line 2: 'x' is not a number"),
-        ("Weg;Kraft [N]\n0;0\n", "columns: 2 (Weg, Kraft [N])"),
-        ("Sample no;F\n1;0\n", "columns: 2 (Sample no, F)"),
-        ("t;Friction coefficient\n0;0\n", "columns: 2 (t, Friction"),
+        ("t;F\n1;2\n3;x\n", "line 3: 'x' is not a number"),
         (
-            f"{LABVIEW}\nChannels\t1\n***End_of_Header***\n",
-            "'Channels' is not a number",
+            "Weg;Kraft [N]\n0;0\n",
+            "no column is known as t [s] among 'Weg', 'Kraft [N]'",
         ),
-        ("nan;1\n", "line 1: 'nan' is not a number"),
-        ("1;1e999\n", "line 1: '1e999' is not a number"),
+        ("Frame,Force\n0,1.0\n", "no column is known as t [s] among 'Frame', 'Force'"),
+        *(
+            (f"Time;{name}\n0;0\n", f"{NO_LOAD}'Time', '{name}'")
+            for name in ("Temperature", "Fz", "mu", "F_X/400", "F^2", "load share")
+        ),
+        *(
+            (f"Time;{name} [N]\n0;0\n", NO_LOAD)
+            for name in ("Fz", "F_N", "F x1e3", "F^2", "Nominal Normal Force", "dF")
+        ),
+        (f"{LABVIEW}\nChannels\t1\t\n", "'Channels' is not a number"),
+        ("t;F\nnan;1\n", "line 2: 'nan' is not a number"),
+        ("t;F\n1;1e999\n", "line 2: '1e999' is not a number"),
         ("", "has no numbers"),
     ],
 )
@@ -220,3 +267,11 @@ def refuses(read, path, about):
         read(path)
     assert about in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+def test_what_may_have_no_end_is_not_read(file, monkeypatch):
+    with pytest.raises(OSError, match="/dev/zero: it is not a regular file"):
+        read_weights("/dev/zero")
+    monkeypatch.setattr(files, "MOST_READ", 3)
+    with pytest.raises(OSError, match="it has more than 3 bytes"):
+        read_weights(file("10\n20\n"))

@@ -58,6 +58,8 @@ SCORE = (
     "global slip); events counted {events_counted} (true: {events_counted_true}), "
     "mu_sapp {mu_sapp:.4f} (true: {mu_sapp_true:.4f})"
 )
+# Of measured times in a run, of measured loads and its own.
+LEAST_OVERLAP = 0.1
 # A run with more transitions up to the first global slip takes seconds to repeat.
 MOST_REPEATED = 50_000
 # Of an accurate run of a larger chain: changes by half the step, the energy that lacks
@@ -77,7 +79,7 @@ def simulate(arguments: Namespace) -> None:
         **{name: found[name] for name in SHOWN},
     }
     values |= numbers_of_larger(run)
-    if arguments.output:
+    if arguments.output is not None:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
     if not arguments.json:
@@ -96,7 +98,7 @@ def slips(arguments: Namespace) -> None:
     first_global_slip = table.loc[table["is_global"], "onset_s"].min()
     if arguments.counted:
         table = table[table["counted"]]
-    if arguments.output:
+    if arguments.output is not None:
         write_table(table, arguments.output, arguments.decimal)
     if arguments.json:
         found = table.astype(object).where(table.notna(), None)
@@ -121,18 +123,18 @@ def plot(arguments: Namespace) -> None:
     look = Look(**given(arguments, ("width_mm", "font_size", "font")))
     how = given(arguments, ("figure", "title", "events"))
     axes = AXES[arguments.figure]
-    if arguments.data and not axes:
-        raise ValueError(f"{arguments.data}: a {arguments.figure} takes no data")
-    if arguments.data:
-        how["data"] = data = _measured(arguments, axes)
-        ranges = [
-            f"{name} {min(values):g} to {max(values):g}"
-            for name, values in zip(axes, data.T, strict=True)
-        ]
-        tell(f"{arguments.data}: {len(data)} points, {', '.join(ranges)}")
+    run = None if arguments.file is None else run_of(arguments)
+    data = None
+    if arguments.data is not None:
+        of_options = SLIDER["length"] if arguments.length is None else arguments.length
+        length = of_options if run is None else run.chain.length
+        how["data"] = data = _measured(arguments, axes, length)
     elif unused := given(arguments, DATA):
         raise ValueError(f"--data is needed with {', '.join(unused)}")
-    run = run_of(arguments)
+    if run is None:
+        run = run_of_options(arguments)
+    if data is not None:
+        tell_apart(f"{arguments.data}", dict(zip(axes, data.T, strict=True)), run)
     drawn: Any = plot(run, look=look, **how)
     if isinstance(drawn, Movie):
         drawn.savefig(arguments.output)
@@ -141,23 +143,50 @@ def plot(arguments: Namespace) -> None:
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
 
 
-def _measured(arguments: Namespace, axes: Sequence[str]) -> NDArray[np.float64]:
+def _measured(
+    arguments: Namespace, axes: Sequence[str], length: float
+) -> NDArray[np.float64]:
     """Measured values of a file, from the start of the run on, without the offset of
-    F_X."""
+    F_X; the slider has a length [m]."""
+    path = arguments.data
     rate = arguments.sample_rate
     start = arguments.data_start
+    if not axes:
+        raise ValueError(f"{path}: a {arguments.figure} takes no data")
     if TIME not in axes and given(arguments, ("sample_rate", "data_start")):
         raise ValueError("--sample-rate and --data-start need --figure load")
     if rate is not None:
         positive("--sample-rate", rate, "Hz")
-    data = read_columns(arguments.data, axes, rate)
-    data[:, axes.index(LOAD)] -= arguments.data_offset or 0
-    if start is None:
-        return data
-    data[:, 0] -= start
-    if data[-1, 0] < 0:
-        raise ValueError(f"{arguments.data} ends before --data-start")
-    return data[data[:, 0] >= 0]
+    data = read_columns(path, axes, rate, choice_of(arguments), length)
+    if arguments.data_offset is not None:
+        data[:, axes.index(LOAD)] -= arguments.data_offset
+    if start is not None:
+        data[:, 0] -= start
+        data = data[data[:, 0] >= 0]
+    if not len(data):
+        raise ValueError(f"{path} ends before --data-start")
+    ranges = [
+        f"{name} {min(values):g} to {max(values):g}"
+        for name, values in zip(axes, data.T, strict=True)
+    ]
+    tell(f"{path}: {len(data)} points, {', '.join(ranges)}")
+    return data
+
+
+def tell_apart(path: str, data: Mapping[str, NDArray[np.float64]], run: Record) -> None:
+    """Say if measured values hardly overlap a run, as in other units."""
+    from precursors.analysis.slips import slip_table
+
+    times = data.get(TIME, np.zeros(1))
+    inside = ((times >= 0) & (times <= run.duration)).sum()
+    reach = np.abs(data[LOAD]).max() / slip_table(run)["largest_load_N"].max()
+    apart = []
+    if inside < LEAST_OVERLAP * len(times):
+        apart.append(f"{inside} of its {len(times)} times are among those of the run")
+    if reach <= LEAST_OVERLAP or reach >= 1 / LEAST_OVERLAP:
+        apart.append(f"it reaches {reach:.2g} times as high as F_X of the run")
+    if apart:
+        tell(f"{path} hardly overlaps the run: {', and '.join(apart)}")
 
 
 def audit(arguments: Namespace) -> None:
@@ -228,8 +257,10 @@ def run_of_options(arguments: Namespace) -> Record:
     event.register("numba:compile", Announcement())  # the first run takes long
     slider = given(arguments, SLIDER_OPTIONS)
     solve: Callable[..., Record]
-    chain = _chain(slider, **given(arguments, MEASURED))
-    if source := arguments.weights or arguments.profile or arguments.load_cells:
+    measured = given(arguments, MEASURED)
+    chain = _chain(slider, choice_of(arguments), **measured)
+    if measured:
+        source = next(iter(measured.values()))
         loads = chain.weights
         tell(
             f"{source}: {chain.n_blocks} blocks, {loads.min():g} to {loads.max():g} N, "
@@ -253,24 +284,36 @@ def run_of_options(arguments: Namespace) -> Record:
 
 def _chain(
     slider: dict[str, Any],
-    weights: str = "",
-    profile: str = "",
-    load_cells: Sequence[float] = (),
+    choice: Mapping[str, str],
+    weights: str | None = None,
+    profile: str | None = None,
+    load_cells: Sequence[float] | None = None,
     cell_spacing: float | None = None,
 ) -> Chain:
     """The chain of a slider, whose loads may be measured."""
-    if weights:
-        return Chain.from_slider(weights=read_weights(weights), **slider)
-    if profile:
-        return Chain.from_profile(read_profile(profile), **slider)
-    if load_cells:
+    if load_cells is not None:
         a, b = load_cells
         length = slider.get("length", SLIDER["length"])
-        theta = theta_from_load_cells(a, b, cell_spacing or CELL_SPACING, length)
+        spacing = CELL_SPACING if cell_spacing is None else cell_spacing
+        theta = theta_from_load_cells(a, b, spacing, length)
         slider = {"normal_load": a + b} | slider | {"theta": float(theta)}
-    elif cell_spacing:
+    elif cell_spacing is not None:
         raise ValueError("--cell-spacing needs --load-cells")
+    if weights is not None:
+        return Chain.from_slider(weights=read_weights(weights, choice), **slider)
+    if profile is not None:
+        return Chain.from_profile(read_profile(profile, choice), **slider)
     return Chain.from_slider(**slider)
+
+
+def choice_of(arguments: Namespace) -> dict[str, str]:
+    """Columns that were chosen, each of a file that is read."""
+    choice = arguments.columns or {}
+    for symbol in choice:
+        option = {"w": "weights", "p": "profile"}.get(symbol, "data")
+        if getattr(arguments, option, None) is None:
+            raise ValueError(f"--columns {symbol}=... needs --{option}")
+    return choice
 
 
 def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:

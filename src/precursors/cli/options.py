@@ -8,6 +8,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NoReturn
 
+from precursors.support.units import SYMBOLS
+
 WRONG_USE = 2
 EPILOG = """\
 examples:
@@ -31,6 +33,12 @@ COMMANDS = {
     "plot": "draw a run",
     "audit": "check that runs are motions of the model, without the solver's code",
     "score": "score a result file on a problem of docs/benchmark.md",
+}
+USAGE = {
+    "slips": "slips [RUN.h5] [options]",
+    "plot": "plot [RUN.h5] [options]",
+    "audit": "audit RUN.h5 ...",
+    "score": "score MINE.csv --problem NAME [options]",
 }
 # Arguments of `Chain.from_slider` that are numbers.
 CHAIN = {
@@ -74,6 +82,7 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
     """Read the command and its options."""
     top = Parser(
         "precursors",
+        usage="precursors COMMAND [options]",
         description="Simulate stick-slip chains exactly.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -84,7 +93,10 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
     subparsers = top.add_subparsers(dest="command", metavar="COMMAND")
     for name, meaning in COMMANDS.items():
         command = subparsers.add_parser(
-            name, help=meaning, description=f"{meaning.capitalize()}."
+            name,
+            help=meaning,
+            description=f"{meaning.capitalize()}.",
+            usage=f"precursors {USAGE.get(name, f'{name} [options]')}",
         )
         if name in argv:  # the defaults of the others are not read
             add_options(command, name)
@@ -97,7 +109,8 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
     if arguments.version:
         arguments.command = "version"
     elif arguments.command is None:
-        top.error(f"needed is one of {', '.join(COMMANDS)}")
+        top.print_help()
+        top.exit(WRONG_USE)
     return arguments
 
 
@@ -167,7 +180,7 @@ def _add_chain(command: Parser) -> None:
 
     chain = command.add_argument_group("the chain", "the defaults are the paper's")
     add = chain.add_argument
-    add("--blocks", dest="n_blocks", type=int, help="number of blocks (10)")
+    add("--blocks", dest="n_blocks", type=_whole, help="number of blocks (10)")
     add_one = chain.add_mutually_exclusive_group().add_argument
     add_one(
         "--theta",
@@ -189,6 +202,13 @@ def _add_chain(command: Parser) -> None:
         metavar=("A", "B"),
         help="readings [N], A at the drive; --normal-load is their sum",
     )
+    add(
+        "--columns",
+        type=_choice,
+        metavar="CHOICE",
+        help='names of columns, or numbers where there are none: of --data "t=Time,F_X=Ft", '
+        'of --weights "w=NAME", of --profile "p=NAME"',
+    )
     add("--cell-spacing", type=_number, help=f"between them [m] ({CELL_SPACING:g})")
     _add_numbers(add, {name: f"{CHAIN[name]} ({SLIDER[name]:g})" for name in CHAIN})
     add = command.add_argument_group(
@@ -206,7 +226,7 @@ def _add_chain(command: Parser) -> None:
         const="global slip",
         help="stop at the end of the first global slip",
     )
-    add("--max-transitions", type=int, help="limit of transitions")
+    add("--max-transitions", type=_whole, help="limit of transitions")
 
 
 def _add_look(command: Parser) -> None:
@@ -249,12 +269,37 @@ def _add_numbers(add: Callable[..., Any], meanings: Mapping[str, str]) -> None:
         add(f"--{name.replace('_', '-')}", help=meaning, type=_number)
 
 
+def _choice(text: str) -> dict[str, str]:
+    """Read names of columns by the symbols of what they are."""
+    symbol = rf"\s*({'|'.join(SYMBOLS)})\s*="
+    parts = re.split(rf"(?:^|,){symbol}", text)
+    chosen = {
+        key: name.strip() for key, name in zip(parts[1::2], parts[2::2], strict=True)
+    }
+    if (
+        parts[0]
+        or not len(parts) == 1 + 2 * len(chosen) > 1
+        or not all(chosen.values())
+    ):
+        raise argparse.ArgumentTypeError(
+            f"{text!r} must be {' or '.join(SYMBOLS)}, = and the name of a column"
+        )
+    return chosen
+
+
+def _whole(text: str) -> int:
+    """Read a whole number."""
+    if text.strip().lstrip("+-").isdecimal():
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text!r} is not a whole number")
+
+
 def _number(text: str) -> float:
     """Read a number, or a fraction such as 5/6."""
     try:
         # Not Fraction("1e999999999"), which writes all digits.
         value = float(Fraction(text) if "/" in text else text)
-        if math.isfinite(value):
+        if math.isfinite(value) and "_" not in text:
             return value
     except (ValueError, ArithmeticError):
         pass

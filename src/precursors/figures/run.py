@@ -90,7 +90,7 @@ def plot(
             raise ValueError("a wave takes no title or look")
         return wave.draw(run, slip_table(run))
     if isinstance(data, (str, PathLike, pd.DataFrame)):
-        data = read_columns(data, AXES[figure])
+        data = read_columns(data, AXES[figure], length=run.chain.length)
     points = number_array("data", data, "SI units")
     if points.ndim != 2 or points.shape[1] != 2:
         raise ValueError(f"data must have two columns, but have shape {points.shape}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import shutil
+import stat
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -16,6 +17,23 @@ if TYPE_CHECKING:
 AnyPath = str | os.PathLike[str]
 LONGEST_NAME = 240  # bytes of 255; a temporary name is longer
 LEAST_ROOM = 10_000_000  # bytes; a run of 10 s and its figure take less
+MOST_READ = 100_000_000  # bytes of a text; an hour of F_X at 1 kHz takes less
+
+
+def read_bytes(path: AnyPath) -> bytes:
+    """Read a file that somebody wrote, but no device or pipe, which may have no end.
+
+    Raises
+    ------
+    OSError
+        In one line that names `path`.
+    """
+    status = os.stat(path)
+    if not stat.S_ISREG(status.st_mode):
+        raise OSError(f"cannot read {path}: it is not a regular file")
+    if status.st_size > MOST_READ:
+        raise OSError(f"cannot read {path}: it has more than {MOST_READ:,} bytes")
+    return Path(path).read_bytes()
 
 
 def write_whole(path: AnyPath, content: bytes) -> None:

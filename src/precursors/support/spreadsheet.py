@@ -1,34 +1,33 @@
-"""Tables of numbers as spreadsheets and instruments write them: what cannot be
-understood for certain is refused."""
+"""Tables of numbers as spreadsheets and instruments write them: read whole, or refused."""
 
 from __future__ import annotations
 
 import csv
+import io
 import math
 import re
 import warnings
-from collections.abc import Sequence
-from itertools import islice, takewhile, zip_longest
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from itertools import chain, zip_longest
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.support.files import AnyPath
+from precursors.support.files import AnyPath, read_bytes
 from precursors.support.units import (
-    BARE,
     LENGTH,
     LOAD,
+    NAMES,
     NORMAL_LOAD,
-    OTHERS,
+    PROFILE,
     TIME,
-    candidates,
-    factors,
-    has_word,
-    is_named,
-    units,
+    Wanted,
+    factor,
+    parts_of,
+    rank,
 )
 
 if TYPE_CHECKING:
@@ -36,62 +35,62 @@ if TYPE_CHECKING:
 
 __all__ = ["LENGTH", "LOAD", "TIME", "read_columns", "read_profile", "read_weights"]
 
-NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d{1,3})?")
+NUMBER = re.compile(r"[-+]?(\d+(\.\d*|,\d+)?|[.,]\d+)([eE][-+]?\d{1,3})?")
+# A number, or three more digits.
+THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(,\d{3})+")
 # A date or none, hours, minutes, seconds.
 STAMP = re.compile(
     r"(?:(\S+)[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d*)?)(?:Z|[-+][\d:]+)?"
 )
 DAY = 86_400.0  # [s]
-# Empty lines, sep=; and comments; an error of a spreadsheet, such as #N/A or #DIV/0!, is
-# no comment.
-PASSED_OVER = re.compile(r'(?:[\t;,"]*|"?sep=."?)$|%|#(?!N/A|NV|[A-Z/0]+[!?])')
-# A line of names begins with one, and has no number between separators; where nothing
-# but blanks separates, no number after a blank.
-NAMES = re.compile(
-    r"(?!nan|inf|n/?a\b)[\s;,\"\[(]*[^\W\d](?!.*[;,\t]\s*\"?[-+]?[.,]?\d)"
-    r"(?![^;,\t]*(?<![\w\[(^])[-+]?[.,]?\d[^;,\t]*$)",
-    re.IGNORECASE,
-)
-# Above a table: LabVIEW's last line; other lines, and one of units, which begin so.
-END_OF_HEADER = "***End_of_Header***"
-REMARK = re.compile(r"\W*[^\W\d]")
-OF_UNITS = re.compile(r"[^;,\t:]*(unit|einheit)", re.IGNORECASE)
-# Commas between columns: beside a decimal point or a blank, or several in a line. The
-# point of 1.018,00 is none.
-SEPARATING = re.compile(r"(?<=\b0)\.|\.(?!\d{3},)|,[^\S\n]|,[^,\n]*,")
-# Only accented Latin letters: in other encodings, a name or a unit is not what it seems.
-NOT_LATIN = re.compile(r"[^\x00-\x7f\xa0µÀ-ÖØ-öø-ÿ]|[À-ÖØ-öø-ÿ]{3}")
+# What stands where a number is missing, as #N/A and #DIV/0! in a spreadsheet.
+MISSING = re.compile(r"#(N/A|NV|[A-Z/0]+[!?])|[-+]?(nan|inf)|n/?a|null", re.IGNORECASE)
+SEPARATOR = re.compile(r'"?sep=(.)"?', re.IGNORECASE)
+HAS_WORD = re.compile(r"\w")
+NOTHING = "\x1f"  # stands in no table: there is one column
+UNITS_ABOVE = re.compile(
+    r".*(unit|einheit)", re.IGNORECASE
+)  # as LabVIEW's Y_Unit_Label
+
+Row = tuple[int, list[str]]  # number of its line, cells
+Numbers = NDArray[np.float64]
 
 
 class Table(NamedTuple):
-    """A table of text."""
+    """A table of text; each row has a field for each name."""
 
     path: str  # or what else it is called
-    lines: Sequence[int]  # number of each row's line
+    separator: str
+    lines: Sequence[int]
     names: Sequence[str]
-    columns: Sequence[Sequence[str]]  # fields from top to bottom
+    columns: Sequence[Sequence[str]]
 
 
 def read_columns(
     source: AnyPath | pd.DataFrame,
     needed: Sequence[str],
     sample_rate: float | None = None,
-) -> NDArray[np.float64]:
-    """Read columns of numbers: by their units and words for them, or in this order.
+    choice: Mapping[str, str] | None = None,
+    length: float | None = None,
+) -> Numbers:
+    """Read columns of numbers, which are found by their names and units.
 
-    A file may have lines of names, and other lines above them; commas, semicolons, tabs
-    or blanks between columns; decimal commas; time stamps. Empty columns and lines, and
-    lines that begin with # or %, are passed over. Values are converted to the unit needed; a
-    warning tells this, and how many rows lack a value.
+    Lines above the names are passed over, and those that begin with # or %. Values are
+    converted to the unit needed. A warning tells which column is converted or known by
+    its unit alone, and how many rows lack a value.
 
     Parameters
     ----------
     source : path or DataFrame
         The table.
     needed : sequence of str
-        Which columns, keys of `WORDS`.
+        Which columns, keys of `NAMES`.
     sample_rate : float, optional
         Lines per second [Hz], for a table without times.
+    choice : dict, optional
+        Names of columns by their symbols t, F_X, L_p; in a table without names, numbers.
+    length : float, optional
+        Length of the slider [m], for front lengths in metres.
 
     Returns
     -------
@@ -105,229 +104,324 @@ def read_columns(
     ValueError
         In one line with file, line, and what is needed.
     """
-    wanted = [kind for kind in needed if kind != TIME or sample_rate is None]
-    table = _chosen(_table(source, wanted), wanted)
-    rows = list(zip(table.lines, *table.columns, strict=True))
-    kept = [row for row in rows if all(row)]
-    if not kept:
-        raise ValueError(f"{table.path} has no numbers")
-    lines, *columns = zip(*kept, strict=True)
-    numbers = _numbers(table._replace(lines=lines, columns=columns), wanted)
-    if missing := len(rows) - len(kept):
-        warnings.warn(f"{table.path}: rows without a value: {missing}", stacklevel=2)
-    if sample_rate is None:
-        return numbers
-    return np.column_stack([(np.array(lines) - rows[0][0]) / sample_rate, numbers])
+    kinds = [kind for kind in needed if kind != TIME or sample_rate is None]
+    wanted = Wanted(kinds, choice or {}, length)
 
-
-def read_weights(path: AnyPath) -> list[float]:
-    """Normal loads [N], a number for each block, alone or after the number or name of
-    the block: 1 or b1, 2 or b2."""
-    table = _table(path, [NORMAL_LOAD])
-    name, lines, names, columns = table
-    if len(lines) == 1 and len(columns) > 2:  # a table of one line, as of the explorer
-        fields = [field for (field,) in columns]
-        table = Table(name, [*lines] * len(fields), [" ".join(names)], [fields])
-    elif len(columns) > 1:
-        labels = (re.search(r"(\d+)([.,]0*)?$", label) for label in columns[0])
-        numbers = [label and int(label[1]) for label in labels]
-        if numbers != list(range(1, len(lines) + 1)):
+    def read(table: Table, notes: list[str]) -> Numbers:
+        chosen = _chosen(table, wanted)
+        rows = list(zip(table.lines, *chosen.columns, strict=True))
+        kept = [row for row in rows if all(row)]
+        if not kept:
+            raise ValueError(f"{table.path} has no numbers")
+        if missing := len(rows) - len(kept):
+            notes.append(f"rows without a value: {missing}")
+        lines, *columns = zip(*kept, strict=True)
+        numbers = _numbers(chosen._replace(lines=lines, columns=columns), wanted, notes)
+        if sample_rate is None:
+            return numbers
+        start = table.lines[0]
+        if len(rows) <= table.lines[-1] - start:
             raise ValueError(
-                f"{path}: columns: {len(columns)}; needed: {NORMAL_LOAD}, one a line, "
-                "alone or after the number of its block, 1, 2, 3, ..."
+                f"{table.path}: with a sample rate, no line may stand empty between samples"
             )
-        table = Table(name, lines, names[1:], columns[1:])
-    loads = _numbers(_chosen(table, [NORMAL_LOAD]), [NORMAL_LOAD])
-    return [float(load) for [load] in loads]
+        return np.column_stack([(np.array(lines) - start) / sample_rate, numbers])
+
+    return _read(source, wanted, read)
 
 
-def read_profile(path: AnyPath) -> NDArray[np.float64]:
+def read_weights(path: AnyPath, choice: Mapping[str, str] | None = None) -> list[float]:
+    """Normal loads [N], a number for each block, alone or after the number or name of
+    the block: 1 or b1, 2 or b2. `choice` may have the name of their column as w."""
+    wanted = Wanted([NORMAL_LOAD], choice or {})
+
+    def read(table: Table, notes: list[str]) -> Numbers:
+        names = table.names
+        in_a_row = not any(names) or _number_blocks([parts_of(n).words for n in names])
+        if len(table.lines) == 1 and len(names) > 2 and in_a_row:  # as of the explorer
+            table = _turned(table)
+        elif len(names) > 1 and "w" not in wanted.choice:
+            if not _number_blocks(table.columns[0]):
+                raise ValueError(
+                    f"{path}: columns: {len(names)}; needed: {NORMAL_LOAD}, one a line, "
+                    "alone or after the number of its block, 1, 2, 3, ..., or chosen with "
+                    '--columns "w=NAME"'
+                )
+            table = table._replace(names=names[1:], columns=table.columns[1:])
+        return _numbers(_chosen(table, wanted), wanted, notes)
+
+    return [float(load) for [load] in _read(path, wanted, read)]
+
+
+def read_profile(path: AnyPath, choice: Mapping[str, str] | None = None) -> Numbers:
     """The shape of a pressure or load in any unit, a line for each position from the
-    trailing edge on: a column, or a matrix without names."""
-    table = _table(path, [])
-    numbers = _numbers(table, [None] * len(table.columns))
-    steps = np.diff(numbers[:, 0])
-    has_positions = len(steps) > 1 and 0 < steps.max() < 1.0001 * steps.min()
-    if len(table.columns) > 1 and (any(table.names) or has_positions):
-        raise ValueError(
-            f"{path}: columns: {len(table.columns)}; needed: one column, or a matrix "
-            "without names and positions"
-        )
-    return numbers
+    trailing edge on: a column, or a matrix without names. `choice` may have the name of
+    the column as p."""
+    wanted = Wanted([PROFILE], choice or {})
+
+    def read(table: Table, _: list[str]) -> Numbers:
+        is_one = len(table.columns) == 1 or "p" in wanted.choice
+        table = _chosen(table, wanted) if is_one else table
+        numbers = _values(table, [PROFILE] * len(table.columns))
+        steps = np.diff(numbers[:, 0])
+        has_positions = len(steps) > 1 and 0 < steps.max() < 1.0001 * steps.min()
+        if not is_one and (any(table.names) or has_positions):
+            raise ValueError(
+                f"{path}: columns: {len(table.columns)}; needed: one column, or a matrix "
+                'without names and positions, or one chosen with --columns "p=NAME"'
+            )
+        if len(numbers) == 1:
+            raise ValueError(f"{path}: needed is a line for each position, not one")
+        return numbers
+
+    return _read(path, wanted, read)
 
 
-def _text(source: AnyPath) -> str:
-    content = Path(source).read_bytes()
-    if b"\0" in content:
-        raise ValueError(
-            f"{source} is not plain text: in the spreadsheet, save the table as CSV (UTF-8)"
-        )
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = content.decode("latin-1")
-    if NOT_LATIN.search(text):
-        raise ValueError(f"{source} is not UTF-8: save the table as CSV (UTF-8)")
-    return text
-
-
-def _table(source: AnyPath | pd.DataFrame, needed: Sequence[str]) -> Table:
-    """A table without its empty rows and columns."""
+def _read(
+    source: AnyPath | pd.DataFrame,
+    wanted: Wanted,
+    read: Callable[[Table, list[str]], Numbers],
+) -> Numbers:
+    """Numbers of a table. Where a comma may separate columns or stand in a number, the
+    table is refused."""
     if isinstance(source, (str, PathLike)):
         path = str(source)
         text = _text(source)
+        separators = _separators(text)
     else:
         path = "data"
         has_names = all(isinstance(name, str) for name in source.columns)
         text = source.to_csv(sep=";", index=False, header=has_names)
-    lines = {
-        n: line
-        for n, whole in enumerate(text.splitlines(), 1)
-        if not PASSED_OVER.match(line := whole.strip(" \u00a0"))
-    }
-    written = list(lines.values())
-    start = _start(path, written, needed)
-    above = list(takewhile(NAMES.match, written[start:]))
-    below = written[start + len(above) :]
-    if not below:
-        raise ValueError(f"{path} has no numbers")
-    separator = _separator(path, above, below)
-    try:
-        rows = [_cut(line, separator) for line in below]
-        heads = [_cut(line, separator) for line in above]
-    except csv.Error as error:
-        raise ValueError(f"{path} is not a table: {error}") from None
-    columns = list(zip_longest(*rows, fillvalue=""))
-    if not heads:  # two comments may be names and units
-        comments = re.findall(r"(?m)^[#%][^\S\n]*(\S.*)", text)
-        heads = [_cut(line, separator) for line in comments]
-        heads = [head for head in heads if len(head) == len(columns)]
-        heads = heads[-min(len(columns), 2) :]
-    parts = zip_longest([""] * len(columns), *_heads(heads, len(columns)), fillvalue="")
-    names = (" ".join(filter(None, part)) for part in parts)
-    named = [
-        (name, column)
-        for name, column in zip(names, columns, strict=False)
-        if any(column)
-    ]
-    return Table(path, list(lines)[start + len(above) :], *zip(*named, strict=True))
-
-
-def _start(path: str, lines: Sequence[str], needed: Sequence[str]) -> int:
-    """Where a table begins: below LabVIEW's headers, of the file and its first segment,
-    or at the lines of names around the first that names what is needed, if only remarks
-    stand above it."""
-    ends = [i for i, line in enumerate(lines, 1) if line.startswith(END_OF_HEADER)]
-    named = (
-        i
-        for i, line in enumerate(takewhile(REMARK.match, lines))
-        if NAMES.match(line)
-        and all(candidates(re.split(r"[;,\t]", line), kind) for kind in needed)
-    )
-    start = ends[:2][-1] if ends else next(named, 0)
-    while start and NAMES.match(lines[start - 1]):
-        start -= 1
-    for remark in filter(OF_UNITS.match, lines[:start]):
-        _, *given = re.split(r"\s*[;,\t:]\s*", remark)
-        for unit in filter(None, given):
-            if needed and all(factors(f"[{unit}]", k) != {1.0} for k in needed):
-                raise ValueError(
-                    f"{path}: {unit!r} is not a unit of {' or '.join(needed)}"
-                )
-    return start
-
-
-def _heads(heads: Sequence[list[str]], width: int) -> list[list[str]]:
-    """Lines of names, with brackets around a line of units; of a title above all
-    columns, the units."""
-    found: list[list[str]] = []
-    for head in heads:
-        are_units = any(map(BARE.fullmatch, head)) or any(map(is_named, found))
-        if are_units and not is_named(head):
-            head = [cell and f"[{cell.strip('[({})] ')}]" for cell in head]
-        if len(head) == 1 < width:
-            head = ["".join(f"[{unit}]" for unit in units(head[0]))] * width
-        found.append(head)
-    return found
-
-
-def _separator(path: str, above: Sequence[str], rows: Sequence[str]) -> str:
-    """Separator of two columns: a blank is any space, and a semicolon stands for a
-    single column."""
-    for separator in ";\t":
-        if separator in "".join((*above, *rows)):
-            return separator
-    plain = re.sub(r'"[^"\n]*"', '""', "\n".join(rows))
-    if "," not in plain or re.search(r"\d,\d+[^\S\n]+[-+]?\d", plain):
-        return " " if re.search(r"[^\S\n]", plain) else ";"
-    names = max((line.split(",") for line in above), key=len, default=[])
-    is_separating = SEPARATING.search(plain)
-    if len(names) == 1 and not is_separating:
-        return ";"  # one column, with decimal commas
-    has_unit = any(BARE.fullmatch(name.strip()) for name in names)
-    if (names and not has_unit) or is_separating or NAMES.match(rows[0][:1]):
-        return ","
-    raise ValueError(
-        f"{path}: {rows[-1]!r} may be one number with a decimal comma, or two numbers: "
-        "separate columns by semicolons, or write decimal points"
-    )
-
-
-def _cut(line: str, separator: str) -> list[str]:
-    """The fields of a line, without blanks and quotes around them."""
-    if separator == " ":
-        return [field.strip('"') for field in re.split(r"\s+(?![\[(])", line)]
-    [fields] = csv.reader([line], delimiter=separator, skipinitialspace=True)
-    return [field.strip() for field in fields]
-
-
-def _chosen(table: Table, needed: Sequence[str]) -> Table:
-    """The columns of a table that are needed."""
-    path, lines, names, columns = table
-    places = [candidates(names, kind) for kind in needed]
-    if len(names) == len(needed):
-        free = sorted(set(range(len(needed))).difference(*places))
-        others = (i for i in free if units(names[i]) or not has_word(names[i], OTHERS))
-        places = [found or list(islice(others, 1)) for found in places]
-    chosen = [i for found in places for i in found]
-    if not len(chosen) == len(set(chosen)) == len(needed) == sum(map(bool, places)):
-        told = ", ".join(filter(None, names))
+        separators = ";"  # which stand in no number
+    readings: dict[str, tuple[Numbers, list[str]]] = {}
+    refusals: list[ValueError] = []
+    commas_separate = False
+    for separator in separators:
+        notes: list[str] = []
+        try:
+            names, body = _names(_rows(path, text, separator), wanted)
+            if len(names) == 1 and separator != separators[-1]:
+                continue  # commas that stand in numbers
+            table = _table(path, separator, names, body)
+            if separator == "," and len(table.columns) > 1:
+                commas_separate = all(_are_values(fields) for fields in table.columns)
+            readings[separator] = read(table, notes), notes
+        except ValueError as refusal:
+            refusals.append(refusal)
+    if not readings:
+        raise refusals[0]
+    if commas_separate and readings.keys() - {","}:
         raise ValueError(
-            f"{path}, line {lines[0]}: columns: {len(names)} ({told}); "
-            f"needed: {', '.join(needed)}"
+            f"{path}: a comma may separate two numbers or be a decimal comma: separate "
+            "columns by semicolons, or write decimal points"
         )
-    return Table(path, lines, [names[i] for i in chosen], [columns[i] for i in chosen])
+    numbers, notes = next(iter(readings.values()))
+    for note in notes:
+        warnings.warn(f"{path}: {note}", stacklevel=3)
+    return numbers
 
 
-def _numbers(table: Table, needed: Sequence[str | None]) -> NDArray[np.float64]:
-    """Numbers of columns in the units that are needed."""
-    numbers = []
-    digits = ""
-    for name, fields, kind in zip(table.names, table.columns, needed, strict=True):
-        stamps = [found.groups() for f in fields if (found := STAMP.fullmatch(f))]
-        if kind == TIME and len(stamps) == len(fields):
-            numbers.append(_seconds(table.path, stamps))
-            continue
-        factor = factors(name, kind) if kind and units(name) else {1.0}
-        if len(factor) != 1:
+def _text(path: AnyPath) -> str:
+    content = read_bytes(path)
+    if b"\0" in content:
+        raise ValueError(
+            f"{path} is not plain text: in the spreadsheet, save the table as CSV (UTF-8)"
+        )
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:  # names in other letters are not known then
+        return content.decode("latin-1")
+
+
+def _separators(text: str) -> str:
+    """What may separate columns, by the last line, which has no names."""
+    if declared := SEPARATOR.match(text):
+        return declared[1]
+    last = next(filter(HAS_WORD.search, reversed(text.splitlines())), "").strip()
+    if ";" in last or "\t" in last:
+        return ";" if ";" in last else "\t"
+    other = " " if " " in last else NOTHING
+    return f",{other}" if "," in last else other
+
+
+def _rows(path: str, text: str, separator: str) -> list[Row]:
+    """Rows that are not empty, without blanks around their cells and empty cells at the
+    end."""
+    lines = io.StringIO(text, newline="")
+    if separator == " ":
+        blank = re.compile(r"(?<![#%])[ \t]+(?![\[(])")
+        cut = (blank.split(line.strip()) for line in lines)
+        rows = [
+            (n, [cell.strip('" ') for cell in cells]) for n, cells in enumerate(cut, 1)
+        ]
+    else:
+        reader = csv.reader(
+            lines, delimiter=separator, skipinitialspace=True, strict=True
+        )
+        try:
+            rows = [(reader.line_num, list(map(str.strip, cells))) for cells in reader]
+        except csv.Error as error:
+            raise ValueError(f"{path} is not a table: {error}") from None
+    for _, cells in rows:
+        while cells and not cells[-1].strip(';,\t"'):
+            cells.pop()
+    return [row for row in rows if row[1] and not row[1][0].lower().startswith("sep=")]
+
+
+def _table(path: str, separator: str, names: list[str], body: list[Row]) -> Table:
+    """A table without its empty columns; no row has a cell beside the names."""
+    if not body:
+        raise ValueError(f"{path} has no numbers")
+    width = len(names)
+    for line, cells in body:
+        if len(cells) > width or (separator == " " and len(cells) < width):
             raise ValueError(
-                f"{table.path}: the column {name!r} is in {', '.join(units(name))}; needed: {kind}"
+                f"{path}, line {line}: cells: {len(cells)}, columns: {width} (are there "
+                "decimal commas, or names with blanks?)"
             )
-        if factor != {1.0}:
-            warnings.warn(
-                f"{table.path}: {name!r} is converted to {kind}", stacklevel=3
+    lines, filled = zip(*body, strict=True)
+    columns = zip_longest(names, *filled, fillvalue="")
+    kept = [(name, fields) for name, *fields in columns if any(fields)]
+    return Table(path, separator, lines, *zip(*kept, strict=True))
+
+
+def _names(rows: list[Row], wanted: Wanted) -> tuple[list[str], list[Row]]:
+    """Names of the columns and the rows below: of the first line that names what is
+    wanted, or else of the last above all numbers; or empty."""
+    above: list[str] = []
+    for i, (_, cells) in enumerate(rows):
+        if _are_values(cells):
+            break
+        if UNITS_ABOVE.match(cells[0]):
+            above = ["", *cells[1:]]
+        if any(map(_is_value, cells)):
+            continue
+        names = [cells[0].lstrip("#% "), *cells[1:]]
+        below = rows[i + 1 :]
+        if below and _are_units(below[0][1], names):
+            names = _with_units(names, below.pop(0)[1])
+        elif above:
+            names = _with_units(names, above)
+        with suppress(ValueError):
+            wanted.places(names)
+            return names, [row for row in below if not _is_comment(row)]
+    body = [row for row in rows if not _is_comment(row)]
+    numeric = (i for i, (_, cells) in enumerate(body) if _are_values(cells))
+    partly = (i for i, (_, cells) in enumerate(body) if any(map(_is_value, cells)))
+    first = next(chain(numeric, partly), len(body))
+    if first:
+        return _with_units(body[first - 1][1], above), body[first:]
+    return [""] * len(body[0][1]) if body else [], body
+
+
+def _are_units(cells: list[str], names: list[str]) -> bool:
+    """Whether a line below names may be that of their units."""
+    inside = [cell.strip("#% [({})]") for cell in cells]
+    has_brackets = any(set("[({})]") & set(cell) for cell in inside)
+    return (
+        len(cells) == len(names)
+        and not has_brackets
+        and not any(map(_is_value, inside))
+    )
+
+
+def _with_units(names: Sequence[str], units: Sequence[str]) -> list[str]:
+    units = [unit.strip("#% [({})]") for unit in units]
+    return [
+        f"{name} [{unit}]" if unit else name
+        for name, unit in zip_longest(names, units, fillvalue="")
+    ]
+
+
+def _is_comment(row: Row) -> bool:
+    return row[1][0][0] in "#%" and not MISSING.fullmatch(row[1][0])
+
+
+def _number_blocks(labels: Sequence[str]) -> bool:
+    """Whether labels such as b1 or Block 1 number all blocks in order."""
+    found = (re.fullmatch(r"\D*(\d+)([.,]0*)?", label) for label in labels)
+    numbers = [label and int(label[1]) for label in found]
+    return numbers == list(range(1, len(labels) + 1))
+
+
+def _turned(table: Table) -> Table:
+    """A table of one row as one of one column."""
+    units = sorted({parts_of(name).unit or "" for name in table.names})
+    fields = [field for [field] in table.columns]
+    lines = [*table.lines] * len(fields)
+    names = [f"w [{', '.join(units)}]" if any(units) else "w"]
+    return table._replace(lines=lines, names=names, columns=[fields])
+
+
+def _is_value(cell: str) -> bool:
+    """Whether a cell is a number, a time, or an error in place of them."""
+    kinds = (NUMBER, STAMP, MISSING)
+    return any(kind.fullmatch(cell) for kind in kinds)
+
+
+def _are_values(cells: Sequence[str]) -> bool:
+    return all(not cell or _is_value(cell) for cell in cells)
+
+
+def _chosen(table: Table, wanted: Wanted) -> Table:
+    """The columns of a table that are wanted."""
+    try:
+        places = wanted.places(table.names)
+    except ValueError as error:
+        raise ValueError(f"{table.path}: {error}") from None
+    names = [table.names[i] for i in places]
+    columns = [table.columns[i] for i in places]
+    return table._replace(names=names, columns=columns)
+
+
+def _numbers(table: Table, wanted: Wanted, notes: list[str]) -> Numbers:
+    """Numbers of the columns that are wanted, in their units."""
+    scales = []
+    for name, fields, kind in zip(
+        table.names, table.columns, wanted.kinds, strict=True
+    ):
+        scale = factor(parts_of(name), kind, wanted.length)
+        if kind == TIME and all(map(STAMP.fullmatch, fields)):
+            scale = 1.0
+        if scale is None:
+            unit = parts_of(name).unit or "no unit"
+            raise ValueError(
+                f"{table.path}: the column {name!r} is in {unit}; needed: {kind}"
             )
-        at = zip(table.lines, fields, strict=True)
-        numbers.append(factor.pop() * np.array([_number(table.path, *x) for x in at]))
-        digits += "".join(fields)
-    if {",", "."} <= set(digits):
+        known = rank(name, kind, wanted.length)
+        if name and (scale != 1.0 or known in (None, len(NAMES[kind]))):
+            notes.append(f"{kind} is read from {name!r}")
+        scales.append(scale)
+    return _values(table, wanted.kinds) * scales
+
+
+def _values(table: Table, kinds: Sequence[str]) -> Numbers:
+    """Numbers as they are written, with decimal commas or points; of time stamps,
+    seconds since the first."""
+    fields = [field for column in table.columns for field in column if ":" not in field]
+    with_commas = [field for field in fields if "," in field]
+    if with_commas and any("." in field for field in fields):
         raise ValueError(
             f"{table.path} has decimal commas and decimal points: write one"
         )
-    return np.column_stack(numbers)
+    in_thousands = with_commas and all(map(THOUSANDS.fullmatch, with_commas))
+    if in_thousands and table.separator not in ";\t":
+        raise ValueError(
+            f"{table.path}: {with_commas[0]!r} may have a decimal comma or be in "
+            "thousands: write decimal points"
+        )
+    columns = zip(table.columns, kinds, strict=True)
+    return np.column_stack([_column(table, *column) for column in columns])
 
 
-def _seconds(path: str, stamps: Sequence[tuple[str, ...]]) -> NDArray[np.float64]:
+def _column(table: Table, fields: Sequence[str], kind: str) -> Numbers:
+    stamps = [found.groups() for f in fields if (found := STAMP.fullmatch(f))]
+    if kind == TIME and len(stamps) == len(fields):
+        return _seconds(table.path, stamps)
+    at = zip(table.lines, fields, strict=True)
+    return np.array([_number(table.path, line, field) for line, field in at])
+
+
+def _seconds(path: str, stamps: Sequence[tuple[str, ...]]) -> Numbers:
     """Seconds since the first of time stamps less than half a day apart."""
     dates, *clock = zip(*stamps, strict=True)
     hours, minutes, seconds = (
