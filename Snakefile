@@ -11,8 +11,8 @@ report: "workflow/report/workflow.rst"
 
 include: "workflow/common.smk"  # the configuration, scenes, chains, digests of code
 # The paper
-include: "workflow/rules/scenes.smk"  # every transition, slips, mu_sapp, Figs. 10-13
-include: "workflow/rules/paper.smk"  # Eq. 15, claims, Fig. 9, paper.pdf
+include: "workflow/rules/scenes.smk"  # every transition, slips, mu_sapp, Figs. 10-13, the push
+include: "workflow/rules/paper.smk"  # Eq. 15, claims, paper.pdf
 # Is it right, and until when?
 include: "workflow/rules/horizon.smk"  # proofs, and how errors grow
 include: "workflow/rules/benchmark.smk"  # transitions of other solvers, scored

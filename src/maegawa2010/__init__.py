@@ -1,3 +1,3 @@
 """Maegawa, Suzuki and Nakano (2010) with the library `precursors`: scenes, readings, claims,
-Figs. 9-13, and the studies about them.
+Figs. 10-13, and the studies about them.
 """

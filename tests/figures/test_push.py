@@ -36,7 +36,9 @@ def test_any_event_is_shown_that_is_over():
     run = simulate(Chain.from_slider(), until="global slip")
     (axes,) = plot(run, "push", events=[2]).axes
     assert axes.get_title() == "Precursor: stops after block 2"
-    with pytest.raises(ValueError, match="between 1 and 16, but is 17"):
+    with pytest.raises(
+        ValueError, match=r"must be 1 to 16, the slips that are over, but are \[2, 17\]"
+    ):
         plot(run, "push", events=[2, 17])
     larger = LargerChain(Chain.from_slider(), relaxation_time=1e-4).simulate(1e-3)
     with pytest.raises(ValueError, match="a push needs a run of the paper's chain"):

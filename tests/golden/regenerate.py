@@ -23,9 +23,7 @@ TABLES = (
     "claims.csv",
     "open_points.csv",
 )
-FIGURES = tuple(
-    f"{figure}.png" for figure in ("fig09", *PAPERS_SCENES, "fig13", "hero")
-)
+FIGURES = tuple(f"{figure}.png" for figure in (*PAPERS_SCENES, "fig13", "hero", "push"))
 
 
 def main(results: Path, golden: Path = GOLDEN) -> None:

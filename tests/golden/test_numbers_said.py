@@ -363,7 +363,6 @@ GIVEN = {
         "within 200 s",
         "1 MB",
     ],
-    "workflow/report/fig09.rst": ["pushes block 1"],
     "workflow/report/grid.rst": ["the paper's 0.49", "the 1st and the 99th percentile"],
     "workflow/report/hero.rst": ["from 5 to 95 %", "within 0.01 of the paper's 0.49"],
     "workflow/report/larger.rst": ["becomes 1 and 2"],

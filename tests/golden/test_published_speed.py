@@ -36,7 +36,7 @@ def test_the_published_chart_draws_the_table_of_all_peers_and_the_factor_in_the_
 ):
     published = read_table(TABLE)
     assert set(published["method"]) > {"heyoka", "cvode_adams", "scipy_dop853"}
-    drawn = speed.draw(published, compared="heyoka")
+    drawn = speed.draw(published)
     style.save(drawn, tmp_path / CHART.name)
     assert (
         compare_images(str(CHART), str(tmp_path / CHART.name), tol=FIGURE_RMS) is None

@@ -49,6 +49,8 @@ rule draw_resolution:
     """Draw events and mu_sapp against the number of blocks."""
     input:
         table="results/tables/resolution.csv",
+        # many runs of the paper's slider, with up to 320 blocks
+        finer=[] if config["full"] or not IS_PAPERS else [COMMITTED / "resolution_full.csv"],
     output:
         report(
             "results/figures/resolution.svg",

@@ -42,8 +42,6 @@ rule draw_scene:
     localrule: True
     params:
         title=lambda wildcards: config["scenes"][wildcards.scene]["title"],
-        # one key below the last of those of Fig. 13
-        key=lambda wildcards: wildcards.scene not in sorted(FIG13)[:-1],
         look=config["figure"],
         code=digest("draw_scene"),
     message:
@@ -100,8 +98,33 @@ rule mu_sapp:
         "../scripts/mu_sapp.py"
 
 
-# The scene whose slips are shown in slow motion: that in the middle.
+# The scene of which three slips are shown: that in the middle.
 SHOWN = FIG13[len(FIG13) // 2]
+
+
+rule draw_push:
+    """Draw the push along the row before and after three slips."""
+    input:
+        run=f"results/runs/{SHOWN}.h5",
+        slips=f"results/tables/{SHOWN}_slips.csv",
+    output:
+        report(
+            "results/figures/push.svg",
+            caption="../report/push.rst",
+            category="Reproduction",
+            labels={"figure": "push: why a slip stops where it does"},
+        ),
+        collect("results/figures/push.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/draw_push.log",
+    localrule: True
+    params:
+        look=config["figure"],
+        code=digest("draw_push"),
+    message:
+        f"drawing the push in three slips of {SHOWN}"
+    script:
+        "../scripts/draw_push.py"
 
 
 rule write_wave:
@@ -135,5 +158,6 @@ rule scenes:
         collect("results/figures/{scene}.{kind}", scene=SCENES, kind=["svg", *MORE_FORMATS]),
         rules.fig13.output,
         rules.mu_sapp.output,
+        rules.draw_push.output,
         rules.write_wave.output,
     localrule: True

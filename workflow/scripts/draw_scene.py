@@ -14,7 +14,6 @@ with job() as snakemake:
         read(read_table, snakemake.input.slips),
         read(read_table, snakemake.input.trace),
         title=f"{name}: {params.title}",
-        key=params.key,
         look=look,
     )
     save(figure, snakemake.output, params.title, look)

@@ -35,7 +35,6 @@ NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
     0: ("uniform load:\n{} events", 0.0, "left", (-8.0, -4.0)),
     1: ("more load at\nthe leading\nedge: {}", 0.65, "right", (-24.0, 14.0)),
 }
-INSET = (0.05, 0.77, 0.26, 0.1)  # of the panel: above all curves
 
 
 def draw(
@@ -93,7 +92,6 @@ def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
     axes.set_xlabel("Tangential load $F_X$ [N]")
     axes.set_ylabel("Front length $L_p/L$ [-]")
     if in_place and len(slips) > 1:
-        _draw_last(axes, slips)
         axes.text(0.84, 0.36, CARRIED_TEXT, transform=axes.transAxes, ha="right")
     elif not in_place:
         axes.plot([], [], **CARRIED, color=style.GREY, label=CARRIED_TEXT)
@@ -180,16 +178,6 @@ def _name(axes: Axes, points: NDArray[np.float64], sign: int) -> None:
         fontsize="small",
         fontweight="bold",
     )
-
-
-def _draw_last(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
-    """Magnify the first global slips, whose marks cover each other."""
-    inset = axes.inset_axes(INSET)
-    for table in slips:
-        _draw_events(inset, table, OUTLINES[0])
-    loads = [table.loc[table["is_global"], "load_before_N"].iloc[0] for table in slips]
-    inset.set(xlim=(min(loads) - 1, max(loads) + 1), ylim=(0.9, 1.1), yticks=[])
-    inset.set_title("first global slip [N]", fontsize="small", pad=3)
 
 
 def _label(slips: pd.DataFrame) -> str:

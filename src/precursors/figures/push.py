@@ -74,14 +74,13 @@ def draw(
 
 
 def _chosen(slips: pd.DataFrame, events: Sequence[int]) -> pd.DataFrame:
-    for number in events:
-        if not 1 <= number <= len(slips):
-            raise ValueError(
-                f"an event must be between 1 and {len(slips)}, but is {number}"
-            )
-        if np.isnan(slips["end_s"].iloc[number - 1]):
-            raise ValueError(f"event {number} is not over when the run ends")
-    return slips.iloc[np.subtract(events, 1)]
+    over = slips[slips["end_s"].notna()]
+    rows = np.subtract(events, 1)
+    if not set(rows) <= set(over.index):
+        raise ValueError(
+            f"events must be 1 to {len(over)}, the slips that are over, but are {events}"
+        )
+    return over.loc[rows]
 
 
 def _left(chain: Chain, load: float) -> NDArray[np.float64]:

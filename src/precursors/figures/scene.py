@@ -52,7 +52,6 @@ def draw(
     trace: pd.DataFrame,
     title: str = "",
     data: NDArray[np.float64] = style.NO_DATA,
-    key: bool = True,
     look: style.Look = style.LOOK,
 ) -> Figure:
     """Draw F_X(t) and all slip events, and K x_1 = K V t - F_X, magnified up to the
@@ -74,7 +73,7 @@ def draw(
     n = len(views)
     heights = [1.3] * len(views[0]) + [1.0]
     rows = n if width_mm < NARROW_MM else 1
-    height_mm = HEIGHT_MM * rows + KEY_MM * key * (2 * rows - 1)
+    height_mm = HEIGHT_MM * rows + KEY_MM * (2 * rows - 1)
     with style.page(width_mm, height_mm, look) as figure:
         panels = figure.subplots(
             len(heights) * rows, n // rows, squeeze=False, height_ratios=heights * rows
@@ -96,8 +95,7 @@ def draw(
             _magnify(columns, first_s, trace)
         figure.align_ylabels()
         columns[0][0].set_title(_title(slips, title), loc="left", pad=4, wrap=True)
-        if key:
-            style.draw_key(figure, ncols=int(width_mm / look.font_size / KEY_WIDTH))
+        style.draw_key(figure, ncols=int(width_mm / look.font_size / KEY_WIDTH))
     return figure
 
 

@@ -58,31 +58,21 @@ def draw(
             axes.set(xscale="log", xlabel=style.BLOCKS_LABEL)
             axes.axvline(papers_n, **style.DOTTED)
             style.set_ticks(axes.xaxis, [2, 5, 10, 20, 50, 100, 200])
-        counts.set_title(_events_title(table))
-        frictions.set_title(_coefficient_title(table, mu_k))
+        events = _medians(table, "events_counted")
+        if (events.iloc[-1] > events.iloc[0]).all():
+            counts.set_title("More blocks, more events")
+        off = _medians(table, "mu_sapp").iloc[-1] - mu_k
+        if (off.abs() < AGREES).all():
+            frictions.set_title(r"With many blocks, every loading gives $\mu_k$")
         frictions.legend(labelcolor="linecolor", loc="upper right")
         _draw_key(figure)
     return figure
 
 
-def _events_title(table: pd.DataFrame) -> str:
-    few, many = _medians(table, "events_counted")
-    if (many > few).all():
-        return "More blocks, more events"
-    return f"{many.min():g} to {many.max():g} events at $N = {many.name}$"
-
-
-def _coefficient_title(table: pd.DataFrame, mu_k: float) -> str:
-    _, many = _medians(table, "mu_sapp")
-    if ((many - mu_k).abs() < AGREES).all():
-        return r"With many blocks, every loading gives $\mu_k$"
-    return f"Medians from {many.min():.3f} to {many.max():.3f} at $N = {many.name}$"
-
-
-def _medians(table: pd.DataFrame, quantity: str) -> tuple[pd.Series, pd.Series]:
-    """Medians of the loadings with the fewest and with the most blocks."""
-    by_n = table[table["quantity"] == quantity].pivot_table("q50", "n_blocks", "scene")
-    return by_n.iloc[0], by_n.iloc[-1]
+def _medians(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
+    """Medians of the loadings, a row for each number of blocks."""
+    rows = table[table["quantity"] == quantity]
+    return rows.pivot_table("q50", "n_blocks", "scene")
 
 
 def _draw_numbers(axes: Axes, rows: pd.DataFrame) -> None:

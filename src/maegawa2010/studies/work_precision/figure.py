@@ -19,17 +19,17 @@ NAMES: dict[str, tuple[str, tuple[float, float], str]] = {
     "rk4_located": ("RK4,\nlocated", (5, -6), "left"),
     "rk4": ("RK4", (8, -8), "left"),
 }
+COMPARED = "heyoka"
 SHOWN_TIME_S = 2.7  # doubles near the first global slip are np.spacing of this apart
 
 
-def draw(table: pd.DataFrame, compared: str = "heyoka") -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """Draw the largest error of a transition's time against computing time, up to the
     first global slip.
 
     `table` is work_precision.csv. A method without a colour of its own is left out. A
     tick at the top is a setting that gives a wrong sequence of transitions. An arrow
-    shows how many times as long as the exact solver the method
-    `compared` takes, at its last setting.
+    shows how many times as long as the exact solver heyoka takes, at its last setting.
     """
     true = table["transitions_true"]
     is_right = table["transitions_right"].eq(true) & table["transitions_found"].eq(true)
@@ -42,8 +42,8 @@ def draw(table: pd.DataFrame, compared: str = "heyoka") -> Figure:
         axes.set_xlabel("Time to the first global slip [ms]")
         axes.set_ylabel("Largest error of a transition's time [s]")
         axes.set_title("ticks: wrong sequence of transitions", fontsize="small")
-        if compared in set(rows["method"]):
-            _draw_factor(axes, rows, compared)
+        if COMPARED in set(rows["method"]):
+            _draw_factor(axes, rows)
     return figure
 
 
@@ -87,10 +87,10 @@ def _name(axes: Axes, first: pd.Series) -> None:
     )
 
 
-def _draw_factor(axes: Axes, rows: pd.DataFrame, compared: str) -> None:
+def _draw_factor(axes: Axes, rows: pd.DataFrame) -> None:
     """Draw an arrow from the exact solver's point to the last one of a method."""
     of_method = rows.groupby("method")[["work", "time_error_s"]].last()
-    (x, y), (x_end, y_end) = of_method.loc[["exact", compared]].to_numpy()
+    (x, y), (x_end, y_end) = of_method.loc[["exact", COMPARED]].to_numpy()
     arrow = {"arrowstyle": "->", "linewidth": 0.7, "shrinkA": 8, "shrinkB": 3}
     axes.annotate("", (x_end, y_end), (x, y), arrowprops=arrow)
     words = f"{x_end / x:.0f} times  "
