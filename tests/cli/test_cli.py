@@ -89,7 +89,10 @@ def test_the_help_of_a_command_states_the_defaults_of_the_library(cli):
         assert f"{meaning} ({parameters[name].default:g})" in told
     assert code == 0
     assert parameters.keys() - CHAIN.keys() == {"theta", "n_blocks", "weights"}
-    assert LARGER.keys() == inspect.signature(LargerChain).parameters.keys() - {"chain"}
+    assert LARGER.keys() == inspect.signature(LargerChain).parameters.keys() - {
+        "chain",
+        "friction",
+    }
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -10,6 +11,7 @@ import pytest
 from chains import SLIDER
 from golden.kept import assert_table
 from golden.small_tables import small_larger_tables
+from scipy.integrate import solve_ivp
 
 from precursors import (
     Record,
@@ -26,6 +28,7 @@ from precursors.larger.chain import (
     tilt,
     weakening_velocity,
 )
+from precursors.larger.settled import beside_law
 from precursors.larger.simulate import model_of, simulate_larger
 from precursors.larger.steps import Motion, try_step
 
@@ -241,6 +244,50 @@ def test_a_limit_that_is_met_keeps_the_run_so_far():
     with pytest.raises(TransitionLimitError, match="met its limit of work") as met:
         simulate_larger(LargerChain(SLIDER(), **PAIR), 10.0, max_transitions=50)
     assert len(met.value.run.transitions) > 50
+
+
+class ExponentialWeakening(NamedTuple):
+    """mu = mu_k + (mu_s - mu_k) exp(-v/v_c)."""
+
+    weakening_velocity: float
+
+    def speeds(self):
+        return self.weakening_velocity * np.linspace(0.0, 20.0, 401)
+
+    def fallen(self, speeds):
+        return -np.expm1(-speeds / self.weakening_velocity)
+
+
+LAW = ExponentialWeakening(0.05)
+CHORDS = 1e-3  # of the fall of F_X in a slip; 1.7e-4 is measured
+
+
+def test_a_block_slides_by_any_law_of_friction_and_the_file_names_it(tmp_path):
+    block = SLIDER(1, drive_velocity=1e-3)
+    run = simulate_larger(LargerChain(block, friction=LAW), 0.4)
+    mu_s, mu_k, f_z = block.mu_s, block.mu_k, block.normal_load
+
+    def motion(_, state):
+        load, v = state
+        mu = mu_k + (mu_s - mu_k) * np.exp(-max(v, 0.0) / 0.05)
+        pull = block.drive_stiffness * (block.drive_velocity - v)
+        return [pull, (load - mu * f_z) / block.mass]
+
+    def stops(_, state):
+        return state[1] + 1e-12
+
+    stops.terminal = True
+    start = [mu_s * f_z, 0.0]
+    slip = solve_ivp(motion, (0.0, 1.0), start, events=stops, rtol=1e-9, max_step=1e-6)
+    _, loads = load_curve(run)
+    slid = loads.max() - loads[loads.argmax() :].min()
+    assert slid == pytest.approx(np.ptp(slip.y[0]), rel=CHORDS)
+
+    run.save(tmp_path / "run.h5")
+    again = Record.load(tmp_path / "run.h5")
+    assert again.numbers["friction"] == "ExponentialWeakening"
+    with pytest.raises(ValueError, match="not known here: ExponentialWeakening"):
+        beside_law(again)
 
 
 WEIGHTLESS = {"theta": 1, "n_blocks": 5}

@@ -329,18 +329,17 @@ def tell(line: str) -> None:
 
 
 def numbers_of_larger(run: Record) -> dict[str, Any]:
-    """Of a larger chain, what half the step changes, the energy that is lacking, and
-    its settled coefficient by the law and in the run; a line says why not."""
+    """Of a larger chain, its numbers, the accuracy of the run, and its settled
+    coefficient by the law and in the run; a line says why not."""
     if not isinstance(run, LargerRun):
         return {}
     from precursors.larger.settled import beside_law
 
-    found: dict[str, Any] = {name: run.numbers[name] for name in MOST_WRONG}
     try:
-        return found | beside_law(run)
+        return run.numbers | beside_law(run)
     except ValueError as error:
         tell(str(error))
-        return found
+        return run.numbers
 
 
 def tell_accuracy(run: Record, first_global_slip: float) -> None:

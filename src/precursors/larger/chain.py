@@ -5,19 +5,23 @@ push.
     G_i = T_i + D_i - T_{i+1} - D_{i+1},    D_i = eta (v_{i-1} - v_i),
     mu(v) = mu_s - (mu_s - mu_k) min(v/v_c, 1),    w_i = w_i0 + c_i F_X
 
-while block i slides. It sticks while |G_i| <= mu_s w_i. docs/models.md has the
+while block i slides, unless `friction` has another law. It sticks while |G_i| <= mu_s
+w_i. docs/models.md has the
 equations, and what is found.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from precursors.larger.friction import FrictionLaw, LinearWeakening, chords
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.checks import Until, not_negative
+from precursors.model.checks import Until, not_negative, positive
 from precursors.solver.run import LargerRun
 
 # Where a run ends before its duration: "settled" is of `simulate_larger`.
@@ -38,13 +42,17 @@ GROWTH_RATES = 300
 
 @dataclass(frozen=True)
 class LargerChain:
-    """The paper's chain with up to three more numbers; all 0 is the paper's chain."""
+    """The paper's chain with up to three more numbers; all 0 is the paper's chain.
+
+    `friction` is a law of friction in place of `weakening_velocity`.
+    """
 
     chain: Chain
     weakening_velocity: float = 0.0
     relaxation_time: float = 0.0
     viscosity: float = 0.0
     push_height: float = 0.0
+    friction: FrictionLaw | None = None
 
     def __post_init__(self) -> None:
         for name, unit in ADDITIONS.items():
@@ -54,13 +62,45 @@ class LargerChain:
             raise ValueError(
                 "viscosity must not be given beside relaxation_time, which is viscosity / k"
             )
+        if self.friction is None:
+            return
+        if self.weakening_velocity:
+            raise ValueError("weakening_velocity must not be given beside friction")
+        positive("weakening_velocity", self.friction.weakening_velocity, "m/s")
+
+    @classmethod
+    def of_run(cls, run: LargerRun) -> LargerChain:
+        """The chain of a run.
+
+        Raises
+        ------
+        ValueError
+            If it has another law of friction than `LinearWeakening`: a file tells the
+            name and the numbers of it only.
+        """
+        law = run.numbers.get("friction", LinearWeakening.__name__)
+        if law != LinearWeakening.__name__:
+            raise ValueError(
+                f"the law of friction of this run is not known here: {law}"
+            )
+        return cls(run.chain, **{name: run.numbers[name] for name in ADDITIONS})
+
+    @property
+    def law(self) -> FrictionLaw:
+        """The law of friction."""
+        return self.friction or LinearWeakening(self.weakening_velocity)
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """What it adds to the chain, by name, with its law of friction."""
+        added = {name: getattr(self, name) for name in ADDITIONS}
+        return {"friction": type(self.law).__name__, **added, **self.law._asdict()}
 
     @property
     def fall(self) -> float:
-        """Fall (mu_s - mu_k)/v_c of the friction coefficient with velocity [s/m]; 0 for
+        """Fall of the friction coefficient with velocity, from rest on [s/m]; 0 for
         Coulomb friction, which jumps."""
-        drop = self.chain.mu_s - self.chain.mu_k
-        return drop / self.weakening_velocity if self.weakening_velocity else 0.0
+        return float(chords(self.law, self.chain.mu_s, self.chain.mu_k).fall[0])
 
     def simulate(
         self,
@@ -106,7 +146,7 @@ def critical_length(larger: LargerChain) -> float:
     length. All s are stepped through x at once. docs/models.md derives it.
     """
     chain = larger.chain
-    if larger.weakening_velocity == 0.0:
+    if larger.law.weakening_velocity == 0.0:
         return 0.0
     block = chain.length / chain.n_blocks
     rigidity = chain.stiffness * block  # E S

@@ -116,6 +116,9 @@ def law_of(larger: LargerChain) -> Law:
         If the chain is outside the limits within which the law was compared with runs.
     """
     chain, v_c = larger.chain, larger.weakening_velocity
+    if larger.friction:
+        name = type(larger.friction).__name__
+        raise ValueError(f"the law of the settled coefficient is not known with {name}")
     t_v = larger.relaxation_time + larger.viscosity / chain.stiffness
     block = chain.length / chain.n_blocks
     rigidity = chain.stiffness * block  # E S

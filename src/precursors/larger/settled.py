@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from precursors.analysis.slips import find_slips
-from precursors.larger.chain import ADDITIONS, LargerChain
+from precursors.larger.chain import LargerChain
 from precursors.larger.law import law_of
 from precursors.larger.steps import REPEATS, SETTLED, period_of
 from precursors.solver.run import LargerRun, Record
@@ -62,8 +62,7 @@ def beside_law(run: LargerRun) -> dict[str, Any]:
     ValueError
         If the chain is outside the limits of the law.
     """
-    added = {name: run.numbers[name] for name in ADDITIONS}
-    law = law_of(LargerChain(run.chain, **added))
+    law = law_of(LargerChain.of_run(run))
     found = settled(run, law.nucleus)
     has_settled = len(found["peaks"]) >= REPEATS
     n = found["precursors"] if has_settled else min(law.possible, default=np.nan)

@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from precursors.larger.chain import ADDITIONS, LargerChain, LargerUntil, tilt
+from precursors.larger.chain import LargerChain, LargerUntil, tilt
+from precursors.larger.friction import chords
 from precursors.larger.steps import CompiledChain, End, Motion, march
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import checked_until, positive, whole
@@ -97,7 +98,7 @@ def simulate_larger(
     rows = rows[np.argsort(rows[:, 0], kind="stable")]
     work, heat = state.energy
     lacking = work - heat - (stored_energy(chain, state) - before)
-    numbers = {name: getattr(larger, name) for name in ADDITIONS}
+    numbers = larger.numbers
     numbers |= {"step": step, "energy_error": lacking / work if work else 0.0}
     run = LargerRun.from_columns(
         chain, time, *rows.T, numbers=numbers, load_points=points
@@ -123,9 +124,8 @@ def model_of(larger: LargerChain) -> CompiledChain:
         tilt=tilt(chain, larger.push_height),
         mass=chain.mass,
         mu_s=chain.mu_s,
-        mu_k=chain.mu_k,
-        weakening_velocity=larger.weakening_velocity * (chain.mu_k < chain.mu_s),
-        fall=larger.fall,
+        weakening_velocity=larger.law.weakening_velocity * (chain.mu_k < chain.mu_s),
+        **chords(larger.law, chain.mu_s, chain.mu_k)._asdict(),
         drive_velocity=chain.drive_velocity,
     )
 
@@ -139,7 +139,7 @@ def longest_steps(m: CompiledChain, chain: Chain, step: float) -> FloatArray:
     """
     n = chain.n_blocks
     largest = m.weights + abs(m.tilt) * m.mu_s * chain.normal_load
-    fall = m.fall * np.maximum.accumulate(largest)
+    fall = m.fall.max() * np.maximum.accumulate(largest)
     shape = (2.0 * np.sin(0.5 * math.pi / (2.0 * np.arange(1, n + 1) + 1.0))) ** 2
     shape[-1] = 0.0
     growth = np.maximum(fall - m.dashpots.max() * shape, 0.0) / m.mass

@@ -27,7 +27,7 @@ compiled = entry(Path(__file__).parent, ["steps.py"], error_model="numpy", nogil
 
 
 class CompiledChain(NamedTuple):
-    """A chain as the compiled functions take it; `fall` is that of `LargerChain`.
+    """A chain as the compiled functions take it; its friction as `Chords`.
 
     Springs and dashpots, like all arrays of the state, end with a 0: nothing is ahead
     of block N.
@@ -39,9 +39,10 @@ class CompiledChain(NamedTuple):
     tilt: FloatArray
     mass: float
     mu_s: float
-    mu_k: float
+    ends: FloatArray
+    at_rest: FloatArray
+    fall: FloatArray
     weakening_velocity: float
-    fall: float
     drive_velocity: float
 
 
@@ -85,9 +86,10 @@ class End(NamedTuple):
 @compiled
 def friction(m, speed):
     """Friction coefficient mu(v) = rest - fall v about a speed: rest, fall [s/m]."""
-    if speed < m.weakening_velocity:
-        return m.mu_s, m.fall
-    return m.mu_k, 0.0
+    piece = 0
+    while speed >= m.ends[piece]:
+        piece += 1
+    return m.at_rest[piece], m.fall[piece]
 
 
 @compiled

@@ -113,7 +113,7 @@ class LargerRun(Record):
         Times [s] and F_X [N] between which straight lines draw the load.
     """
 
-    numbers: dict[str, float]
+    numbers: dict[str, Any]
     load_points: FloatArray
 
 
