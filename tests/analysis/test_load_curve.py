@@ -9,6 +9,7 @@ from precursors.analysis.load_curve import TOLERANCE_N, load_curve, load_trace
 # Some thirty points on the shortest wiggle of a slip.
 POINTS_PER_SLIP = 1000
 MOST_BYTES = 3e6
+SEEN_N = 0.01  # a hundredth of a pixel, or less
 
 
 def worst_in_slips(run, times, loads):
@@ -44,6 +45,15 @@ def test_a_block_1_without_load_is_drawn_as_it_moves_with_a_bounded_number_of_po
     assert apart.max() <= TOLERANCE_N
     monkeypatch.setattr(module, "MOST_POINTS", 100)
     assert len(load_curve(run)[0]) < 110 + len(run.transitions)
+
+
+def test_more_transitions_than_pixels_look_as_all_of_them(monkeypatch):
+    run = simulate(Chain.from_slider(n_blocks=30), 4.0)
+    times, loads = load_curve(run)
+    monkeypatch.setattr(module, "MOST_POINTS", 4000)
+    fewer, drawn = load_curve(run)
+    assert len(fewer) < len(times) / 4
+    assert abs(np.interp(times, fewer, drawn) - loads).max() < SEEN_N
 
 
 def test_a_run_that_ends_within_a_slip_is_drawn_to_its_end():

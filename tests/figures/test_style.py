@@ -11,6 +11,7 @@ from figures.test_pictures import PICTURES, slips
 from matplotlib import image
 
 from maegawa2010.methods import ROWS
+from precursors import Chain, plot, simulate
 from precursors.figures import precursor_lengths, style
 
 
@@ -63,6 +64,16 @@ def test_an_svg_has_its_words_as_text_and_a_title(tmp_path):
 )
 def test_theta_is_a_fraction_only_if_it_is_one_of_small_numbers(theta, text):
     assert style.theta_text(theta) == rf"$\theta = {text}$"
+
+
+def test_the_law_holds_for_measured_loads_and_the_axis_holds_the_data():
+    run = simulate(Chain.from_slider(weights=[20.0, 40.0, 60.0]), until="global slip")
+    axes = plot(run, "lengths", data=[[-5.0, 0.2], [300.0, 1.0]]).axes[0]
+    drawn = [list(line.get_xdata()) for line in axes.lines]
+    assert [0.0, 9.0, 27.0, 54.0] in drawn  # mu_k W
+    low, high = axes.get_xlim()
+    assert low <= -5.0
+    assert high >= 300.0
 
 
 def test_measured_lengths_are_shares_of_the_whole():

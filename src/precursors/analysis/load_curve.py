@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from precursors.model.chain import FloatArray
 from precursors.solver.run import LargerRun, Record, Run
@@ -12,7 +13,7 @@ TOLERANCE_N = 1e-4
 # between.
 PHASE_PER_STEP = np.pi / 4
 MOST_HALVINGS = 30
-# Points that a block 1 without load, which never rests, is given at most.
+# Points at transitions, and as many where block 1 slides, at most: many a pixel.
 MOST_POINTS = 200_000
 # In an array: bounds the memory on long chains.
 NUMBERS_AT_ONCE = 2_000_000
@@ -26,8 +27,8 @@ def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
     slides, intervals are halved until they are straight. Between two points the cubic
     through both loads and slopes stands for the curve. It leaves the chord by no more
     than a quarter of the interval times the larger difference between the chord's slope
-    and another. A block 1 that slides nearly all the time is drawn with no more than
-    some `MOST_POINTS`. A larger chain's run has its points already.
+    and another. A run with more transitions or slides than some `MOST_POINTS` show is
+    drawn as it looks. A larger chain's run has its points already.
     """
     if isinstance(run, LargerRun):
         return run.load_points[:, 0], run.load_points[:, 1]
@@ -45,7 +46,7 @@ def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
         for start, end in zip(edges[:-1][slides], edges[1:][slides], strict=True)
     ]
     times = np.unique(
-        np.concatenate([[0.0, run.duration], run.transitions["time"], *coarse])
+        np.concatenate([[0.0, run.duration], _seen(run.transitions)["time"], *coarse])
     )
     loads, slopes = _loads_and_slopes(run, times)
     before = np.searchsorted(of_first["time"], times[:-1], side="right")
@@ -83,11 +84,26 @@ def load_trace(run: Record) -> pd.DataFrame:
     )
 
 
+def _seen(transitions: NDArray[np.void]) -> NDArray[np.void]:
+    """All transitions, or of too many the first, the last, and those of the least and
+    largest load in each pixel of time, which look the same (Jugel et al., 2014)."""
+    if len(transitions) <= MOST_POINTS:
+        return transitions
+    pixels = np.floor(MOST_POINTS / 4 * transitions["time"] / transitions["time"][-1])
+    loads = pd.Series(transitions["tangential_load"]).groupby(pixels)
+    ends = [loads.head(1).index, loads.tail(1).index]
+    return transitions[
+        np.unique(np.concatenate([*ends, loads.idxmin(), loads.idxmax()]))
+    ]
+
+
 def _loads_and_slopes(run: Run, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """F_X [N] and dF_X/dt = K (V - v_1) [N/s] at some times."""
-    parts = 1 + times.size * run.chain.n_blocks // NUMBERS_AT_ONCE
-    states = [run.forces_and_velocities(part) for part in np.array_split(times, parts)]
-    loads = np.concatenate([forces[:, 0] for forces, _ in states])
-    velocities = np.concatenate([velocity[:, 0] for _, velocity in states])
     chain = run.chain
+    parts = 1 + times.size * chain.n_blocks // NUMBERS_AT_ONCE
+    of_first = []
+    for part in np.array_split(times, parts):
+        force, velocity = run.forces_and_velocities(part)
+        of_first.append((force[:, 0].copy(), velocity[:, 0].copy()))
+    loads, velocities = np.concatenate(of_first, axis=1)
     return loads, chain.drive_stiffness * (chain.drive_velocity - velocities)

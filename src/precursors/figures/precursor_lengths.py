@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from precursors.figures import style
 from precursors.figures.style import Options
@@ -28,6 +28,13 @@ SHORT: Options = {
 }
 CARRIED: Options = {"linestyle": (0, (4, 3)), "linewidth": 0.8, "zorder": 1.2}
 CARRIED_TEXT = "dashed:\n" + r"$F_X = \mu_k W(L_p)$"
+MEASURED: Options = {
+    "color": style.MEASURED,
+    "linestyle": "none",
+    "marker": "+",
+    "markersize": 5,
+    "zorder": 2.5,
+}
 # What a curve is: at which of its events the name stands, from which side, and how far
 # away [pt].
 NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
@@ -35,6 +42,10 @@ NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
     0: ("uniform load:\n{} events", 0.0, "left", (-8.0, -4.0)),
     1: ("more load at\nthe leading\nedge: {}", 0.65, "right", (-24.0, 14.0)),
 }
+# Shares of the largest load that keep the first two names apart, and that the third
+# needs to its left.
+APART = 0.1
+ROOM = 0.28
 
 
 def draw(
@@ -42,11 +53,13 @@ def draw(
     data: NDArray[np.float64] = style.NO_DATA,
     title: str = "",
     look: style.Look = style.LOOK,
+    weights: ArrayLike | None = None,
 ) -> Figure:
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
 
     `data`, shape (n, 2), are measured loads at the onset [N] and lengths L_p/L. Scenes
-    without a slip event are left out.
+    without a slip event are left out. `weights` [N] are the normal loads of the blocks
+    if theta does not say them.
 
     Raises
     ------
@@ -60,17 +73,19 @@ def draw(
     with style.page(style.COLUMN_MM, height_mm, look) as figure:
         axes = figure.subplots()
         axes.set_title(style.plain(title), loc="left", wrap=True)
-        draw_lengths(axes, slips)
         if len(data):
-            axes.plot(
-                *data.T, "+", color=style.MEASURED, markersize=5, label="measured"
-            )
+            told = _beside(slips[0], data) if len(slips) == 1 else "measured"
+            figure.set_label(told)
+            axes.plot(*data.T, **MEASURED, label=told)
+        draw_lengths(axes, slips, weights)
         if has_key:
             style.draw_key(figure, axes.get_legend_handles_labels()[0], ncols=1)
     return figure
 
 
-def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
+def draw_lengths(
+    axes: Axes, slips: Sequence[pd.DataFrame], weights: ArrayLike | None = None
+) -> None:
     """Draw the events of Fig. 13 into a panel, with names along the curves.
 
     Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta >
@@ -82,11 +97,12 @@ def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
     outlines = "o" * len(slips) if in_place else cycle(OUTLINES)
     for table, outline in zip(slips, outlines, strict=False):
         points = _draw_events(axes, table, outline)
-        length, load = friction_carried(table.iloc[0])
+        length, load = friction_carried(table.iloc[0], weights)
         axes.plot(load, length, **CARRIED, color=style.theta_color(_sign(table)))
         if in_place:
             _name(axes, points, _sign(table))
-    axes.set(xlim=(0, None), ylim=(-0.09, 1.06))
+    # Measured loads, which are drawn before, may be below zero.
+    axes.set(xlim=(min(0.0, axes.dataLim.x0), None), ylim=(-0.09, 1.06))
     if slips:
         _add_coefficient(axes, pd.concat(slips))
     axes.set_xlabel("Tangential load $F_X$ [N]")
@@ -99,14 +115,17 @@ def draw_lengths(axes: Axes, slips: Sequence[pd.DataFrame]) -> None:
 
 
 def friction_carried(
-    slider: pd.Series,
+    slider: pd.Series, weights: ArrayLike | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Lengths L_p/L, and F_X = mu_k W(L_p) [N], the kinetic friction of the blocks up
-    to there (Eq. 7); NaN where theta is not known."""
+    to there: their weights [N], or those of theta (Eq. 7)."""
     n_blocks = int(slider["n_blocks"])
     n = np.arange(n_blocks + 1)
-    tilt = slider["theta"] * n * (n - n_blocks) / max(n_blocks - 1, 1)
-    load = slider["normal_load_N"] / n_blocks * (n + tilt)
+    if weights is not None:
+        load = np.cumsum(np.append(0.0, weights))
+    else:
+        tilt = slider["theta"] * n * (n - n_blocks) / max(n_blocks - 1, 1)
+        load = slider["normal_load_N"] / n_blocks * (n + tilt)
     return n / n_blocks, slider["mu_k"] * load
 
 
@@ -119,10 +138,24 @@ def _add_coefficient(axes: Axes, slips: pd.DataFrame) -> None:
         scale = (lambda force: force / load, lambda coefficient: coefficient * load)
         axes.secondary_xaxis("top", functions=scale).set_xlabel("$F_X/F_Z$ [-]")
         axes.axvline(mu_k * load, **style.DOTTED)
-        place = (mu_k * load, 0)
+        is_right = 1.1 * mu_k * load < axes.get_xlim()[1]
         axes.annotate(
-            r"$\mu_k F_Z$", place, (3, 0), textcoords="offset points", va="center"
+            r"$\mu_k F_Z$",
+            (mu_k * load, 0),
+            (3 if is_right else -3, 0),
+            textcoords="offset points",
+            ha="left" if is_right else "right",
+            va="center",
         )
+
+
+def _beside(slips: pd.DataFrame, data: NDArray[np.float64]) -> str:
+    """How far measured lengths are from the lines between the events of Fig. 13."""
+    counted = slips[slips["counted"]].sort_values("load_before_N")
+    first = counted.loc[counted["is_global"], "load_before_N"].min()
+    length = counted["front"] / counted["n_blocks"]
+    curve = np.column_stack([counted["load_before_N"], length])
+    return style.measured(data, curve, first, "L")
 
 
 def _sign(table: pd.DataFrame) -> int:
@@ -130,13 +163,20 @@ def _sign(table: pd.DataFrame) -> int:
 
 
 def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
-    """Whether each scene has a theta, alone of its sign, a curve and a global slip."""
-    signs = [_sign(table) for table in slips if len(table)]
-    return len(signs) == len(set(signs)) and all(
-        table["counted"].sum() > 3
-        and table["is_global"].any()
-        and table["theta"].notna().any()
-        for table in slips
+    """Whether each scene has a theta, alone of its sign, a curve and a global slip, and
+    its name has room."""
+    at = {}
+    for table in slips:
+        counted = table[table["counted"]]
+        if len(counted) < 4 or not counted["is_global"].any() or table["theta"].hasnans:
+            return False
+        sign = _sign(table)
+        loads = counted["load_before_N"]
+        at[sign] = loads.iloc[int(NAMES[sign][1] * len(loads))] / loads.max()
+    return (
+        len(at) == len(slips)
+        and at.get(-1, 1.0) - at.get(0, -1.0) > APART
+        and at.get(1, 1.0) > ROOM
     )
 
 

@@ -53,7 +53,8 @@ def plot(
         As Figs. 10-12, as Fig. 13, what springs carry, or an animated SVG, which takes
         no other parameter.
     data : array, shape (n, 2), DataFrame or path of a table, optional
-        Measured t [s] and F_X [N], or F_X [N] and L_p/L, which are drawn over it.
+        Measured t [s] and F_X [N], or F_X [N] and L_p/L, which are drawn over it, with
+        their distance.
     title : str, optional
         By default the number of blocks, or nothing above lengths.
     look : Look or dict, optional
@@ -96,6 +97,7 @@ def plot(
         raise ValueError(f"data must have two columns, but have shape {points.shape}")
     slips = slip_table(run)
     if figure == "lengths":
-        return precursor_lengths.draw([slips], points, title or "", look)
+        weights = run.chain.weights
+        return precursor_lengths.draw([slips], points, title or "", look, weights)
     title = f"N = {run.chain.n_blocks}" if title is None else title
     return scene.draw(slips, load_trace(run), title, points, look=look)

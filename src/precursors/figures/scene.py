@@ -44,7 +44,7 @@ TO_THE_EDGE: Options = {
 }
 LOADS = {"tangential_load_N": "$F_X$ [N]", "K_x1_N": "$K x_1$ [N]"}
 STAIRCASE = "$K x_1 = K V t - F_X$: a step for each slip"
-MEASURED: Options = {"color": style.MEASURED, "zorder": 1.8, "label": "measured"}
+MEASURED: Options = {"color": style.MEASURED, "zorder": 1.8}
 
 
 def draw(
@@ -90,7 +90,10 @@ def draw(
                 if slips["is_global"].any():
                     panel.axvline(first_s, **FIRST_GLOBAL)
         if len(data):
-            columns[0][0].plot(*data.T, **MEASURED)
+            curve = trace[["time_s", "tangential_load_N"]].to_numpy()
+            told = style.measured(data, curve, first_s, "N")
+            figure.set_label(told)
+            columns[0][0].plot(*data.T, **MEASURED, label=told)
         if n > 1:
             _magnify(columns, first_s, trace)
         figure.align_ylabels()

@@ -208,6 +208,22 @@ def theta_color(theta: float) -> str:
     return TRAILING if theta < 0 else LEADING if theta > 0 else UNIFORM
 
 
+def measured(
+    data: NDArray[np.float64],
+    curve: NDArray[np.float64],
+    first_global: float,
+    unit: str,
+) -> str:
+    """Say how far measured points are from the lines between points of a run, up to
+    its first global slip, or NaN."""
+    seen, values = data[~(data[:, 0] > first_global)].T
+    if not (len(seen) and len(curve)):
+        return "measured"
+    rms = np.sqrt(np.mean((values - np.interp(seen, *curve.T)) ** 2))
+    until = "end" if isnan(first_global) else "first global slip"
+    return f"measured: {rms:.3g} {unit} rms from the run\nup to its {until}"
+
+
 def plain(text: str) -> str:
     """Keep Matplotlib from reading a dollar sign in a user's text as mathematics.
 
