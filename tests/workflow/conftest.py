@@ -171,7 +171,13 @@ def _run_snakemake(
 
 def copy_workflow(path: Path) -> Workspace:
     path.mkdir()
-    for name in ("Snakefile", "config.yaml", "LICENSE-text"):
+    for name in (
+        "Snakefile",
+        "config.yaml",
+        "LICENSE-text",
+        "CITATION.cff",
+        "metadata.yaml",
+    ):
         shutil.copy2(ROOT / name, path)
     unneeded = shutil.ignore_patterns("__pycache__", "*.png", "results")
     for name in ("workflow", "src", "paper", "profiles", "benchmarks", "docs"):
