@@ -32,6 +32,15 @@ SECTIONS = (
 NOT_PLAIN = re.compile(
     r"[-+]?(0[\d_]+|\d[\d_]*(:[0-5]?\d)+(\.[\d_]*)?|\.(inf|nan))", re.IGNORECASE
 )
+# Python's numbers that YAML reads as text.
+TEXT_TO_YAML = re.compile(r"[-+]?(\d+|(\d*\.\d+|\d+\.)(?=e\d))e[-+]?\d+", re.IGNORECASE)
+KINDS: dict[Any, str] = {
+    bool: "true or false",
+    (int, float): "a number",
+    str: "a text",
+    list: "a list",
+    dict: "a table of keys and values",
+}
 
 
 class Loader(yaml.CSafeLoader):
@@ -50,6 +59,9 @@ class Loader(yaml.CSafeLoader):
 
     def construct_scalar(self, node: Any) -> Any:
         """Return a value that is plain, or in quotes."""
+        if not node.style and TEXT_TO_YAML.fullmatch(node.value):
+            remedy = "write a number as 2.5e+9 and not as 2.5e9, or a text in quotes"
+            raise _misread(node, f"{node.value} is text to YAML: {remedy}")
         if not node.style and NOT_PLAIN.fullmatch(node.value):
             remedy = "write a decimal number, or a text in quotes"
             raise _misread(node, f"{node.value} is not plain: {remedy}")
@@ -156,6 +168,10 @@ def check_config(
     important one last. The JSON schema is YAML, too.
     """
     schema = read_file(schema_path)
+    for path in Path(schema_path).parent.glob("*.schema.yaml"):
+        section = path.name.partition(".")[0]
+        if section in config:
+            schema["properties"][section] = read_file(path)
     try:
         error = best_match(Draft202012Validator(schema).iter_errors(config))
         if error is None:
@@ -170,12 +186,7 @@ def check_config(
         is_table = isinstance(error.instance, dict)
         given = list(error.instance) if is_table else error.instance
         message = f"{given!r} must {error.schema['description']}"
-    with suppress(ValueError):
-        if isinstance(error.instance, str) and math.isfinite(float(error.instance)):
-            message += (
-                ": this is text; write a number as 2.5e+9 and not as 2.5e9 or in quotes "
-                "(within braces, --config has numbers as text)"
-            )
+    message += _hint(error.instance)
     file = _file_with([*error.absolute_path], error.instance, files or {})
     raise ValueError(_short(f"{file}: {where}: {message}"))
 
@@ -188,13 +199,33 @@ def check_sections(config: Config, studies: Config) -> None:
     """
     for name, section in config.items():
         check_names("configuration:", [name], [*SECTIONS, *studies])
-        default = studies.get(name)
-        if isinstance(default, list) and not isinstance(section, list):
-            raise ValueError(
-                f"configuration: {name} must be a list, but is {section!r}"
-            )
-        if isinstance(default, dict) and isinstance(section, dict):
+        default = studies.get(name, section)
+        _check_kind(name, section, default)
+        if isinstance(section, dict) and name in studies:
             check_names(f"configuration: {name}", section, default)
+            for key, value in section.items():
+                _check_kind(f"{name}.{key}", value, default[key])
+
+
+def _check_kind(where: str, value: object, default: object) -> None:
+    """Refuse a value that is of another kind than that of studies.yaml."""
+    for kind, words in KINDS.items():
+        if isinstance(default, kind):
+            if not isinstance(value, kind):
+                given = f"must be {words}, but is {value!r}{_hint(value)}"
+                raise ValueError(_short(f"configuration: {where} {given}"))
+            return
+
+
+def _hint(value: object) -> str:
+    """How to write a number that is given as a text."""
+    with suppress(ValueError):
+        if isinstance(value, str) and math.isfinite(float(value)):
+            return (
+                ": this is text; write a number as 2.5e+9 and not as 2.5e9 or in quotes "
+                "(within braces, --config has numbers as text)"
+            )
+    return ""
 
 
 def _file_with(path: list[Any], value: Any, files: Mapping[str, Config]) -> str:

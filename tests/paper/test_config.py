@@ -78,6 +78,14 @@ WRONG = [
         ["must not have what a larger chain adds beside model"],
     ),
     ("noise.sede", 1, ["noise holds 'sede', but must hold names of seed, runs"]),
+    ("noise", [1], ["noise must be a table of keys and values, but is [1]"]),
+    ("noise.runs", 0, ["noise.runs: 0 is less than the minimum of 1"]),
+    ("horizon.proved.uniform.mass", 1, ["proved.uniform: ", "'mass' was unexpected"]),
+    (
+        "horizon.tolerance",
+        "1e-9",
+        ["horizon.tolerance must be a number", "2.5e+9 and not as 2.5e9"],
+    ),
 ]
 
 
@@ -152,6 +160,16 @@ def test_every_value_of_the_file_is_checked():
     assert [key for key, line in lines.items() if key.split(".")[-1] not in line] == []
 
 
+def test_a_section_is_checked_by_its_study_and_not_by_names_of_another():
+    mine = {"step": [1, 2], "noise": "white", "lowest": 1e-5}
+    check_sections(PAPERS | {"mine": mine}, STUDIES | {"mine": mine})
+    check_config(PAPERS | {"mine": mine}, SCHEMA)
+    with pytest.raises(
+        ValueError, match=r"mine\.lowest must be a number, but is '1e-5'"
+    ):
+        check_sections({"mine": {"lowest": "1e-5"}}, {"mine": mine})
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -166,6 +184,10 @@ def test_every_value_of_the_file_is_checked():
         ),
         ("a: [1, 1:30]\n", "1:30 is not plain"),
         ("a: .nan\n", ".nan is not plain"),
+        (
+            "a: 1e-5\n",
+            "1e-5 is text to YAML: write a number as 2.5e+9 and not as 2.5e9",
+        ),
         ("", "must be a table of keys and values"),
         ("a: 1\n---\na: 2\n", "but found another document in line 2, column 1"),
     ],

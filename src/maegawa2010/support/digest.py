@@ -43,11 +43,9 @@ def _read(sources: Path, path: Path) -> tuple[str, list[Path]]:
     """Digest of a file's syntax tree, and the files that it imports."""
     source = path.read_bytes()
     tree = ast.parse(source)
-    tree.body = [
-        part
-        for part in tree.body
-        if not (isinstance(part, ast.If) and ast.unparse(part.test) == "TYPE_CHECKING")
-    ]
+    is_lazy = path.name == "__init__.py" and b"import_module(" in source
+    if not is_lazy:
+        tree.body = [part for part in tree.body if not _is_for_types(part)]
     names = []
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
@@ -60,16 +58,38 @@ def _read(sources: Path, path: Path) -> tuple[str, list[Path]]:
             node.body = node.body[1:]
     files = [_file_of(sources, path.parent, name) for name in names]
     imported = [file for file in files if file]
-    if path.name == "__init__.py" and b"import_module(" in source:
-        imported += path.parent.glob("*.py")  # by names that only a run knows
+    if is_lazy:
+        imported += path.parent.glob("[!_]*.py")  # by names that only a run knows
     return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), imported
 
 
 @cache
 def _file_of(sources: Path, beside: Path, name: str) -> Path | None:
-    """The module of that name, or the one that defines it; None outside the sources and
-    the directory."""
+    """The module of that name, or the one that defines it, or the package that has it;
+    None outside the sources and the directory."""
     *parents, last = name.split(".")
-    start = sources if parents and (sources / parents[0]).is_dir() else beside
+    start = sources if (sources / name.split(".")[0]).is_dir() else beside
     package = start.joinpath(*parents)
-    return _file(package / last) or _file(package)
+    if (module := _file(package / last)) or not (found := _file(package)):
+        return module
+    if last in (lazy := _imported_later(found)):
+        return _file_of(sources, beside, f"{lazy[last]}.{last}")
+    return found
+
+
+@cache
+def _imported_later(package: Path) -> dict[str, str]:
+    """Modules of the names that a package imports when they are first asked for, and a
+    type checker at once."""
+    return {
+        alias.name: str(node.module)
+        for part in ast.parse(package.read_bytes()).body
+        if _is_for_types(part)
+        for node in ast.walk(part)
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    }
+
+
+def _is_for_types(part: ast.stmt) -> bool:
+    return isinstance(part, ast.If) and ast.unparse(part.test) == "TYPE_CHECKING"
