@@ -136,7 +136,7 @@ def plot(arguments: Namespace) -> None:
     if data is not None:
         tell_apart(f"{arguments.data}", dict(zip(axes, data.T, strict=True)), run)
     drawn: Any = plot(run, look=look, **how)
-    if arguments.data:
+    if data is not None:
         tell(f"{arguments.data}, {' '.join(drawn.get_label().split())}")
     if isinstance(drawn, Movie):
         drawn.savefig(arguments.output)
