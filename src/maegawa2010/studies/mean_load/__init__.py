@@ -1,0 +1,1 @@
+"""The time mean of F_X under many loadings and drives."""
