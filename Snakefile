@@ -24,6 +24,7 @@ include: "workflow/rules/noise.smk"  # noise in the normal loads
 include: "workflow/rules/printed_digits.smk"  # sliders with the same printed inputs
 include: "workflow/rules/resolution.smk"  # the number of blocks
 include: "workflow/rules/grid.smk"  # any two values of the chain
+include: "workflow/rules/mean_load.smk"  # the time mean of F_X
 # Other models
 include: "workflow/rules/models.smk"  # smaller ones, and which answers which question
 include: "workflow/rules/larger.smk"  # chains with a length
