@@ -85,6 +85,13 @@ def test_a_standstill_missed_by_less_than_the_error_ends_the_horizon(
     assert until == (pytest.approx(half_period, rel=NEAR) if is_lost else np.inf)
 
 
+@pytest.mark.parametrize("load", [1e-12, 1e-14])
+def test_a_load_that_rounding_hides_ends_the_horizon_before_its_first_stop(load):
+    run = simulate(SLIDER(n_blocks=3, theta=1 - load), 1e-3)
+    # At 1e-12 the run turns block 1 there, which sticks in the proof.
+    assert predicted_errors(run).order_known_until < run.transitions["time"][1]
+
+
 def test_a_mirror_symmetric_start_ends_the_horizon_at_its_tie():
     start = [0, 0, 0, 1e-5, 0, 0, 0]
     run = simulate(SLIDER(n_blocks=7), 0.3, start_positions=start)

@@ -19,10 +19,11 @@ from precursors.analysis.events import SLIP, slip_events, slips_one_by_one
 ROUNDING = 1e-15
 
 
-def without_load(run):
-    """The same transitions, of a chain in which the last block bears no load."""
+def without_load(run, share=0.0):
+    """The same transitions, of a chain whose last block bears no load, or a share of
+    that of the others."""
     weights = run.chain.weights.copy()
-    weights[-1] = 0.0
+    weights[-1] *= share
     return replace(run, chain=replace(run.chain, weights=weights))
 
 
@@ -36,6 +37,15 @@ def test_any_list_of_transitions_has_the_events_of_the_definition():
     for run in runs:
         expected = np.array(slips_one_by_one(run), SLIP)
         np.testing.assert_array_equal(slip_events(run).tolist(), expected.tolist())
+
+
+@pytest.mark.parametrize(("share", "counts_as"), [(8e-5, 0.0), (1e-4, 1.0)])
+def test_a_load_below_1e_4_of_the_mean_has_the_events_of_none(share, counts_as):
+    run = simulate(Chain.from_slider(9), 3.0)
+    events, expected = (
+        slip_events(without_load(run, of_last)) for of_last in (share, counts_as)
+    )
+    assert events.tolist() == expected.tolist()
 
 
 def test_a_rule_that_is_not_known_is_named_beside_those_that_are():

@@ -399,6 +399,14 @@ def test_a_global_slip_that_roundings_decide_is_told_as_such(cli):
     )
 
 
+def test_a_light_block_that_decides_what_events_are_is_named(cli, tmp_path):
+    loads = tmp_path / "loads.csv"
+    loads.write_text("50\n0.006\n50\n50\n")
+    said = cli("simulate", "--weights", loads, "--duration", 2)[2]
+    line = "block 2, with 0.006 N, keeps events from ending: 7 in all, 10 without it"
+    assert line in said
+
+
 # audit
 
 

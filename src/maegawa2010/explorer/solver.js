@@ -10,6 +10,8 @@ const ORDER = 24; // (2 WINDOW)^ORDER / ORDER! is below 1e-19
 const FREE = 2; // mode of a block without load: it moves without friction and has no transitions
 const MOST_TRANSITIONS = 200000;
 const MOST_WINDOWS = 2000000;
+const ROUNDINGS = 16 * Number.EPSILON; // a force below so many roundings of its springs counts as zero
+const LEAST_SHARE = 1e-4; // of the mean load: a block with less has no part in events, as in model/chain.py
 
 // N blocks of a slider (Eqs. 9 and 10), which has the names of `Chain.from_slider`, under a straight line of normal loads
 // (Eq. 7) or under given ones.
@@ -50,7 +52,7 @@ function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms
   const size = c.length;
   let first = [end, 0, 0];
   const look = (block, way) => {
-    const root = earliestRoot(series, first[0]);
+    const root = earliestRoot(series, first[0], zeroBelow(force, strength, block));
     if (root < first[0]) first = [root, block, way];
   };
   setTerms(terms, end);
@@ -81,9 +83,21 @@ function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms
   return first;
 }
 
+// Size below which rounding hides a net force, or what it does to a velocity.
+const zeroBelow = (force, strength, i) =>
+  ROUNDINGS * (Math.abs(force[i]) + Math.abs(force[i + 1]) + strength[i]);
+
 // The earliest root of a function in [0, end], or end. With |g''| <= bound, the positive root s of
-// g + g' s - bound s^2/2 is a step that cannot pass a root of g.
-function earliestRoot(derivatives, end) {
+// g + g' s - bound s^2/2 is a step that cannot pass a root of g. A root at the start, to within
+// `zero`, was dealt with already: it is divided out, and where g then falls, the root is at once.
+function earliestRoot(derivatives, end, zero) {
+  const first = derivatives.findIndex((d) => Math.abs(d) > zero);
+  if (first < 0) return end;
+  if (first > 0) {
+    if (derivatives[first] < 0) return 0;
+    let scale = 1;
+    derivatives = derivatives.map((_, n) => (scale *= n / (n + first) || 1) * (derivatives[n + first] ?? 0));
+  }
   let bound = 0, power = 1;
   for (let n = 2; n <= ORDER; n++, power *= end / (n - 2)) bound += Math.abs(derivatives[n]) * power;
   let t = 0;
@@ -130,7 +144,7 @@ function* motionFrom(chain, force, longest, note, window = WINDOW, { block: firs
   const mode = new Int8Array(c.length), terms = [], series = [];
   rows.set(velocity);
   rows[0] = drive;
-  weights.forEach((w, j) => (mode[j + 1] = w ? 0 : FREE));
+  weights.forEach((w, j) => (mode[j + 1] = w ? Math.sign(velocity[j + 1] ?? 0) : FREE));
   const isReleased = !mode[first];
   if (isReleased) mode[first] = side;
   let moving = 0, farthest = 0, elapsed = 0;
@@ -146,7 +160,8 @@ function* motionFrom(chain, force, longest, note, window = WINDOW, { block: firs
       const net = force[block] - force[block + 1];
       rows[block] = 0;
       // The switching rule: it lets go in the direction of the force, or sticks where the force is below the limit.
-      const next = way || Math.sign(Math.trunc(net / strength[block]));
+      const holds = Math.abs(net) <= strength[block] + zeroBelow(force, strength, block);
+      const next = way || (holds ? 0 : Math.sign(net));
       moving += Math.abs(next) - Math.abs(mode[block]);
       mode[block] = next;
       farthest = Math.max(farthest, block);
@@ -164,7 +179,8 @@ const newRun = (chain, duration) => ({ chain, duration, time: [], block: [], mod
 // Solve a run, and pause with the time [s] in it after every window. A run that meets a limit is `stopped` at its `end`.
 function* solve(run) {
   const { chain, duration, force } = run, { n, c, tau, strength, weights, drive } = chain;
-  const loaded = weights.filter((w) => w > 0).length;
+  const least = (LEAST_SHARE * weights.reduce((sum, w) => sum + w)) / n;
+  const loaded = weights.filter((w) => w >= least).length;
   let windows = 0;
   for (;;) {
     const wait = ((strength[1] - (force[1] - force[2])) / (c[1] * drive)) * tau, onset = run.end + wait;
@@ -187,8 +203,9 @@ function* solve(run) {
     const motion = motionFrom(chain, force, longest, (t, i, m, forces, rows) => {
       elapsed = t;
       if (!i) return;
-      event ??= { onset: onset + t * tau, force: force.slice(), start: { block: i, way: m, velocity: rows.slice(0, c.length) }, first: run.time.length, before: force[1], front: 1, mostSliding: 0 };
+      if (weights[i - 1] >= least) event ??= { onset: onset + t * tau, force: force.slice(), start: { block: i, way: m, velocity: rows.slice(0, c.length) }, first: run.time.length, before: force[1], front: 1, mostSliding: 0 };
       run.time.push(onset + t * tau), run.block.push(i), run.mode.push(m), run.load.push(forces[1]);
+      if (weights[i - 1] < least) return;
       sliding += Math.abs(m) - Math.abs(states[i]);
       states[i] = m;
       event.front = Math.max(event.front, i);

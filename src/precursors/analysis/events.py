@@ -1,6 +1,7 @@
 """Slip events of a run: what they are, and the same faster."""
 
 import math
+from dataclasses import replace
 from typing import NamedTuple, get_type_hints
 
 import numpy as np
@@ -23,6 +24,8 @@ class Slip(NamedTuple):
     is_global: bool  # all blocks slid at the same instant
 
 
+# Of the mean load: a lighter block may slide on while all others stick.
+LIGHT = 0.01
 SLIP = np.dtype(list(get_type_hints(Slip).items()))
 
 
@@ -31,9 +34,10 @@ def slips_one_by_one(run: Record) -> list[Slip]:
 
     An event ends where no block slides, unless the next one releases at the same
     instant. One that the end of the run cuts off has end and load_after NaN. Blocks
-    without load do not count, but are taken to slide where all others do.
+    without load, or with next to none (`Chain.bears_load`), do not count, but are taken
+    to slide where all others do.
     """
-    bears_load = run.chain.weights > 0.0
+    bears_load = run.chain.bears_load
     n_blocks = len(bears_load)
     n_loaded = bears_load.sum()
     slips: list[Slip] = []
@@ -78,8 +82,9 @@ def slip_events(run: Record) -> NDArray[np.void]:
     block = run.transitions["block"]
     load = run.transitions["tangential_load"]
     n_blocks = run.chain.n_blocks
-    n_loaded = np.count_nonzero(run.chain.weights)
-    sliding = (run.transitions["mode"] != 0) & (run.chain.weights[block - 1] > 0.0)
+    bears_load = run.chain.bears_load
+    n_loaded = bears_load.sum()
+    sliding = (run.transitions["mode"] != 0) & bears_load[block - 1]
     # Sorting by block shows what each block did before.
     order = np.argsort(block, kind="stable")
     was_sliding = np.zeros(len(block), dtype=bool)
@@ -109,3 +114,18 @@ def slip_events(run: Record) -> NDArray[np.void]:
     slips["n_simultaneous"] = np.where(is_global, n_blocks, at_once)
     slips["is_global"] = is_global
     return slips[n_slid > 0]
+
+
+def told_of_light_blocks(run: Record) -> str:
+    """Words about the lightest block, if the run has other slip events with than
+    without the blocks that bear less than `LIGHT`; else empty."""
+    chain = run.chain
+    light = chain.bears_load & (chain.weights < LIGHT * chain.weights.mean())
+    others = replace(run, chain=replace(chain, weights=chain.weights * ~light))
+    n, without = (len(slip_events(one)) for one in (run, others))
+    if n == without:
+        return ""
+    load = chain.weights[light].min()
+    block = chain.weights.tolist().index(load) + 1
+    does = "keeps events from ending" if n < without else "has events of its own"
+    return f"block {block}, with {load:.2g} N, {does}: {n} in all, {without} without it"

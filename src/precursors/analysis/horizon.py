@@ -32,8 +32,8 @@ SIGMAS = 6.0
 # Runs with other roundings at every step, and how many times their spread the error is.
 N_ROUNDED = 8
 SIGMAS_ROUNDED = 4.0
-# With a smaller drop of friction, relative to mu_s, stops are so nearly missed that what
-# the solver takes for zero shifts them.
+# With a smaller drop of friction, relative to mu_s and the mean load, stops are so nearly
+# missed that what the solver takes for zero shifts them.
 NO_DROP = 1e-7
 # Neighbours run a little longer than the run, so that none lacks a transition that
 # comes just before the end.
@@ -95,11 +95,12 @@ def predicted_errors(run: Run) -> PredictedErrors:
         one.transitions["time"][n] for one in (run, *others) if len(one.transitions) > n
     ]
     unknown = min(following, default=np.inf)
-    if run.chain.mu_s - run.chain.mu_k < NO_DROP * run.chain.mu_s:
-        # A block released from rest then comes back to standstill and only touches it:
-        # it may stop or not.
-        released = time[(run.transitions["mode"] != 0) & (time > 0.0)]
-        unknown = min(unknown, released.min(initial=np.inf))
+    # A block released from rest with hardly a drop comes back to standstill and only
+    # touches it: it may stop or not.
+    drop = run.chain.strength - run.chain.kinetic_friction
+    hardly = drop < NO_DROP * run.chain.strength.mean()
+    released = (run.transitions["mode"] != 0) & hardly[run.transitions["block"] - 1]
+    unknown = min(unknown, time[released & (time > 0.0)].min(initial=np.inf))
     shifts = np.array([other.transitions["time"][:n] for other in others]) - time[:n]
     by_change = SIGMAS / ROUNDINGS * rms(shifts[:N_NEIGHBOURS])
     by_rounding = SIGMAS_ROUNDED * rms(shifts[N_NEIGHBOURS:])
@@ -126,7 +127,7 @@ def neighbours(run: Run) -> list[Run]:
     size = (chain.weights > 0) * (
         chain.weights + abs(chain.weights - chain.normal_load / n)
     )
-    weights = chain.weights + draw(n) * size
+    weights = np.maximum(chain.weights + draw(n) * size, 0.0)
     same_start = [(0, N_ROUNDED), (0, 0)]
     positions = 1 + np.pad(draw(n), same_start)
     velocities = 1 + np.pad(draw(n), same_start)

@@ -345,9 +345,13 @@ def numbers_of_larger(run: Record) -> dict[str, Any]:
 
 
 def tell_accuracy(run: Record, first_global_slip: float) -> None:
-    """Say if steps are too long, or if roundings decide the first global slip [s]."""
+    """Say if a light block decides what events are, if steps are too long, or if
+    roundings decide the first global slip [s]."""
+    from precursors.analysis.events import told_of_light_blocks
     from precursors.analysis.horizon import predicted_errors
 
+    if words := told_of_light_blocks(run):
+        tell(words)
     larger = run.numbers if isinstance(run, LargerRun) else {}
     wrong = [
         f"{name} = {larger[name]:.3g}"

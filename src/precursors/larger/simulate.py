@@ -127,6 +127,7 @@ def model_of(larger: LargerChain) -> CompiledChain:
         weakening_velocity=larger.law.weakening_velocity * (chain.mu_k < chain.mu_s),
         **chords(larger.law, chain.mu_s, chain.mu_k)._asdict(),
         drive_velocity=chain.drive_velocity,
+        bears_load=chain.bears_load,
     )
 
 

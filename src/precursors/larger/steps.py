@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from precursors.model.chain import FloatArray
 from precursors.solver.record import IntArray
@@ -44,6 +45,7 @@ class CompiledChain(NamedTuple):
     fall: FloatArray
     weakening_velocity: float
     drive_velocity: float
+    bears_load: NDArray[np.bool_]
 
 
 class Motion(NamedTuple):
@@ -245,13 +247,13 @@ def note(m, s, results, watched, load_before, time, h):
     """Note which blocks became faster or slower than `SLOW` v_c in a step that ends at
     `time`; return whether a global slip ended in it."""
     slow = SLOW * m.weakening_velocity
-    bearing = np.count_nonzero(m.weights)
+    bearing = m.bears_load.sum()
     smallest_drop = SMALLEST_DROP * m.weights.sum() if slow > 0.0 else -math.inf
     rows = results.rows
     event = results.event
     ended = False
     for i in range(watched):
-        if m.weights[i] == 0.0:
+        if not m.bears_load[i]:
             continue
         speed = abs(s.velocity[i])
         way = s.mode[i] if speed > slow or slow == 0.0 else 0

@@ -36,6 +36,10 @@ CELL_SPACING = 0.06  # of its two load cells [m]
 # Mode of a block without load in a state: it moves without friction, so that it neither
 # sticks nor slips and has no transitions.
 FREE = 2
+# Of the mean load: a block with less rings on from one slip into the next, and its slips
+# would join all events in one. From half of this on, mu_sapp is the same with and without
+# it; a tenth is too little (docs/reliability.md).
+LEAST_SHARE = 1e-4
 _POSITIVE = {
     "mass": "kg",
     "stiffness": "N/m",
@@ -222,6 +226,12 @@ class Chain:
     def normal_load(self) -> float:
         """Total normal load F_Z [N] (Eq. 8)."""
         return math.fsum(self.weights)
+
+    @property
+    def bears_load(self) -> NDArray[np.bool_]:
+        """Which blocks bear a load that counts in slip events: at least `LEAST_SHARE`
+        of the mean, shape (N,)."""
+        return self.weights >= LEAST_SHARE * self.weights.mean()
 
     @property
     def strength(self) -> FloatArray:

@@ -286,7 +286,7 @@ class Proof:
             state.absorb(constants, forces, rates)
             self.clock += self.unit * step
         with ctx.workprec(BOUND_BITS):
-            undecided = Undecided(f"whether {event.what}", (i,), root)
+            undecided = Undecided(f"whether {event.what}", (i,), root - step)
             if not state.distance < 2 * before or not root.contains(step):
                 raise undecided
             steepness = event.slope(root).abs_lower()
@@ -297,7 +297,7 @@ class Proof:
             if event.direction:
                 self.release(i, event.direction)
             else:
-                self.stop(event, root)
+                self.stop(i)
         return steepness
 
     def release(self, i: int, way: int) -> None:
@@ -316,10 +316,9 @@ class Proof:
         self.free_neighbours(state)
         self.fresh = {i}
 
-    def stop(self, event: EventFunction, root: arb) -> None:
+    def stop(self, i: int) -> None:
         """Let block i, whose velocity has reached zero, stick if friction holds it, or
         else turn round."""
-        i = event.block
         state = self.state
         bounds = self.bounds
         spread = state.distance * bounds.force_reach[i] + state.largest_force_change(
@@ -334,7 +333,8 @@ class Proof:
             state.mode[i] = -state.mode[i]
             self.fresh = {i}
         else:
-            raise Undecided(f"whether block {i} sticks or turns round", (i,), root)
+            question = f"whether block {i} sticks or turns round"
+            raise Undecided(question, (i,), arb(0, self.gap))
 
     def record(self, i: int, slope: arb) -> bool:
         """Note the transition of block i, just made; return whether it lies within the
