@@ -119,17 +119,13 @@ def test_a_mirror_symmetric_start_is_a_tie() -> None:
     verify(certificate)
 
 
-def test_a_block_without_kinetic_friction_that_comes_back_to_its_limit_is_a_tie() -> (
-    None
-):
+def test_a_block_without_kinetic_friction_that_is_back_at_its_limit_is_a_tie() -> None:
     # Without loss its net force is mu_s w again, where it stops.
-    certificate = certify(ExactChain.from_slider(2, theta="0.5", mu_k=0), 1)
-    tie = certificate.tie
+    chain = ExactChain.from_slider(2, theta="0.5", mu_k=0)
+    tie = certify(chain, 1).tie
     assert tie
     assert tie.question == "whether block 1 sticks or turns round"
-    found = simulate(certificate.chain.to_chain(), 1.0).transitions["time"][1]
-    assert float(tie.time.midpoint) == pytest.approx(found, abs=SOLVER)
-    verify(certificate)
+    assert tie.closeness < Fraction(1, 10**45)
 
 
 def test_a_tie_all_but_true_is_decided_with_more_bits() -> None:
