@@ -11,23 +11,22 @@ report: "workflow/report/workflow.rst"
 
 include: "workflow/common.smk"  # the configuration, scenes, chains, digests of code
 # The paper
-include: "workflow/rules/scenes.smk"  # every transition, slips, mu_sapp, Figs. 10-13, the push
-include: "workflow/rules/paper.smk"  # Eq. 15, claims, paper.pdf
-# Is it right, and until when?
+include: "workflow/rules/scenes.smk"  # every transition, slips, mu_sapp, Figs. 10-13
+include: "workflow/rules/paper.smk"  # Eq. 15, claims, Fig. 9, paper.pdf
+# Studies on which claims rest, or other studies
+include: "workflow/rules/noise.smk"  # noise in the normal loads
+include: "workflow/rules/printed_digits.smk"  # sliders with the same printed inputs
+include: "workflow/rules/resolution.smk"  # the number of blocks
 include: "workflow/rules/horizon.smk"  # proofs, and how errors grow
+include: "workflow/rules/models.smk"  # smaller models, and which answers which question
+# Studies on which no claim rests
+include: "workflow/rules/grid.smk"  # mu_sapp over any two values of the chain
+include: "workflow/rules/larger.smk"  # chains with a length
+include: "workflow/rules/mean_load.smk"  # the time mean of F_X
 include: "workflow/rules/benchmark.smk"  # transitions of other solvers, scored
 include: "workflow/rules/failures.smk"  # where methods fail
 include: "workflow/rules/step_sweep.smk"  # counts against the step of a Runge-Kutta method
 include: "workflow/rules/work_precision.smk"  # accuracy against computing time
-# What do the numbers depend on?
-include: "workflow/rules/noise.smk"  # noise in the normal loads
-include: "workflow/rules/printed_digits.smk"  # sliders with the same printed inputs
-include: "workflow/rules/resolution.smk"  # the number of blocks
-include: "workflow/rules/grid.smk"  # any two values of the chain
-include: "workflow/rules/mean_load.smk"  # the time mean of F_X
-# Other models
-include: "workflow/rules/models.smk"  # smaller ones, and which answers which question
-include: "workflow/rules/larger.smk"  # chains with a length
 # All of it in a browser
 include: "workflow/rules/explorer.smk"
 
@@ -35,22 +34,23 @@ include: "workflow/rules/explorer.smk"
 RESULTS = [
     rules.scenes.input,
     rules.paper.input,
+    rules.noise.input,
+    rules.printed_digits.input,
+    rules.resolution.input,
     rules.horizon.input,
+    rules.models.input,
+    rules.grid.input,
+    rules.larger.input,
     rules.benchmark.input,
     rules.failures.input,
     rules.step_sweep.input,
     rules.work_precision.input,
-    rules.noise.input,
-    rules.printed_digits.input,
-    rules.resolution.input,
-    rules.grid.input,
-    rules.models.input,
-    rules.larger.input,
     rules.explorer.input,
 ]
 
 
 rule all:
+    """Everything but what is made on demand."""
     default_target: True
     input:
         RESULTS,
@@ -59,6 +59,7 @@ rule all:
 
 
 rule accuracy:
+    """Until when a run is right, and what that costs."""
     input:
         rules.horizon.input,
         rules.failures.input,

@@ -172,16 +172,16 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
 def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(
     workspace,
 ):
-    grid, noise = "grid", "noise_members"
-    tables = [f"results/tables/{study}.csv" for study in (grid, noise)]
+    digits, noise = "digits_members", "noise_members"
+    tables = [f"results/tables/{study}.csv" for study in (digits, noise)]
     workspace.edit("workflow/studies.yaml", "chunks: 1", "chunks: 2")
     assert workspace.pretend(*tables).code == 0
-    next((workspace.path / "results/ensembles" / grid).iterdir()).unlink()
+    next((workspace.path / "results/ensembles" / digits).iterdir()).unlink()
     (workspace.path / tables[0]).unlink()
     for old, new, expected in (
-        ("chunks: 2", "chunks: 2", {grid: 1}),
-        ("seed: 2010", "seed: 2011", {grid: 1, noise: 2}),
-        ("points: 44", "points: 43", {grid: 2, noise: 2}),
+        ("chunks: 2", "chunks: 2", {digits: 1}),
+        ("seed: 2010", "seed: 2011", {digits: 1, noise: 2}),
+        ("draws: 400", "draws: 300", {digits: 2, noise: 2}),
     ):
         workspace.edit("workflow/studies.yaml", old, new)
         made = workspace.run("-n", *tables).made

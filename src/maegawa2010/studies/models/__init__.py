@@ -1,1 +1,1 @@
-"""Smaller models, and which of them answers which question."""
+"""Smaller models, and which of them answers which question. A claim rests on it."""

@@ -1,1 +1,1 @@
-"""Noise in the normal loads."""
+"""Noise in the normal loads. Claims and `resolution` rest on it."""

@@ -1,1 +1,1 @@
-"""Sliders with the same printed inputs."""
+"""Sliders with the same printed inputs. Claims and the page rest on it."""

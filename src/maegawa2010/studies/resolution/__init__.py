@@ -1,1 +1,1 @@
-"""Convergence with the number of blocks."""
+"""Convergence with the number of blocks. Claims rest on it."""

@@ -1,4 +1,4 @@
-"""The map as jobs of a real SLURM: seen in its queue, one cancelled, made up, equal to
+"""Runs with noise as jobs of a real SLURM: seen in its queue, one cancelled, made up, equal to
 local ones.
 
 `make test-cluster` runs this file, which the ordinary run of the tests does not
@@ -19,13 +19,9 @@ from cluster.single_node import SlurmNode, slurm_node
 
 ROOT = Path(__file__).parents[2]
 CORES = int(os.environ.get("CORES", "2"))
-TABLE = "results/tables/grid.csv"
+TABLE = "results/tables/noise.csv"
 CHUNKS = 4
-AXES = [
-    {"key": "theta", "from": -0.95, "to": 0.95, "points": 64},
-    {"key": "mu_k/mu_s", "from": 0.1, "to": 0.95, "points": 21},
-]
-SMALL = {"chunks": CHUNKS, "grid": AXES}
+SMALL = {"chunks": CHUNKS, "noise": {"runs": 4000}}
 # What a machine of one node need not wait for; and a failed job shall stay failed until
 # the next call.
 IMPATIENT = [
@@ -34,14 +30,14 @@ IMPATIENT = [
     "--retries=0",
 ]
 SECONDS_BETWEEN_LOOKS = 0.1
-JOB = "rule_run_grid_wildcards_"
+JOB = "rule_run_noise_wildcards_"
 PLANNED = {f"{JOB}{i}of{CHUNKS}" for i in range(1, CHUNKS + 1)}
 
 
 def snakemake(
     directory: Path, *arguments: str, environment: dict[str, str]
 ) -> subprocess.Popen[bytes]:
-    """Start Snakemake for the table of the map, in a directory beside the copy of the
+    """Start Snakemake for the table of the noise, in a directory beside the copy of the
     workflow."""
     source = directory.with_name("source")
     command = [
@@ -66,7 +62,7 @@ def snakemake(
 def call(
     node: SlurmNode, directory: Path, cancels: bool
 ) -> tuple[int, dict[str, set[str]]]:
-    """Make the map on SLURM, and cancel the first job that runs; the exit code, and the
+    """Make the table on SLURM, and cancel the first job that runs; the exit code, and the
     states in which squeue showed each job, by its comment."""
     before = {job for job, *_ in jobs(node)}
     states: dict[str, set[str]] = {}
