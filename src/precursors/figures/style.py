@@ -148,6 +148,10 @@ def page(width_mm: float, height_mm: float, look: Look = LOOK) -> Iterator[Figur
         figure = Figure(figsize=size, dpi=PNG_DPI, facecolor="white")
         yield figure
         ConstrainedLayoutEngine().execute(figure)
+        for axes in figure.axes:
+            # The layout differs in the last bits from one run to the next, and ids of an
+            # SVG with them.
+            axes.set_position(np.round(axes.get_position(original=True).bounds, 12))
 
 
 def save(
