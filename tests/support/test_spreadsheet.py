@@ -17,7 +17,8 @@ from precursors.support.spreadsheet import (
 LOADS = [20.0, 30.5]
 ROWS = [[0.0, 0.0], [0.5, 40.25]]
 NEEDED = "needed: w [N], one a line"
-NO_LOAD = "no column is known as F_X [N] among "
+NO_UNIT = "is not one of F_X [N]"
+NO_LOAD = "is known as F_X [N]: choose one with --columns"
 READ_FROM = pytest.mark.filterwarnings("ignore:.* is read from")
 LABVIEW = """\
 LabVIEW Measurement\t
@@ -65,7 +66,6 @@ def file(tmp_path):
         "Messung vom Montag\nBlock;Normalkraft [N]\n1;20,0\n2;30,5\n",
         "Block\tNormalkraft [N]\t\r\n1,0\t20,00\t\r\n2,0\t30,50\t\r\n",
         "Block;Position [mm];Normalkraft [N]\n1;5;20,0\n2;15;30,5\n",
-        "b1;b2;b3\n20,0;30,5;40,0\n",
     ],
 )
 def test_the_load_of_each_block_is_read_as_spreadsheets_write_it(file, text):
@@ -75,22 +75,24 @@ def test_the_load_of_each_block_is_read_as_spreadsheets_write_it(file, text):
 @pytest.mark.parametrize(
     ("text", "about"),
     [
-        ("load, N\n1,5\n2,5\n3,5\n", "a comma may separate two numbers"),
-        ("1,20\n2,30\n", "a comma may separate two numbers"),
+        ("load, N\n1,5\n2,5\n3,5\n", "may be one number with a decimal comma, or two"),
+        ("1,20\n2,30\n", "may be one number with a decimal comma, or two"),
         ("block,w [N]\n1,10,5\n2,20,5\n", "line 2: cells: 3, columns: 2"),
         ("w\n1,000\n2,500\n", "'1,000' may have a decimal comma or be in thousands"),
-        ("Normalkraft [N]\n1.018,00\n30,5\n", "among '1.018,00'"),
-        ("Pressure\n20\n30\n", "no column is known as w [N] among 'Pressure'"),
-        ("F x1e3 [N]\n0.04\n0.05\n", "no column is known as w [N] among"),
-        ("Normalkraft [lbs]\n20\n30\n", "the column 'Normalkraft [lbs]' is in lbs"),
-        ("Load, gf\n20.5\n30.5\n", "among 'Load, gf'"),
-        ("b1 [N];b2 [kN];b3 [N]\n20;30;40\n", "is in N, kN"),
+        ("Normalkraft [N]\n1.018,00\n30,5\n", "decimal commas and decimal points"),
+        ("Pressure\n20\n30\n", "none of 'Pressure' is known as w [N]: choose one with"),
+        ("F x1e3 [N]\n0.04\n0.05\n", "none of 'F x1e3 [N]' is known"),
+        (
+            "Normalkraft [lbs]\n20\n30\n",
+            "the unit of 'Normalkraft [lbs]' is not one of w [N]",
+        ),
+        ("Load, gf\n20.5\n30.5\n", "none of 'Load, gf' is known"),
         ("Normalkraft;x\n1.5;\n2,5;\n", "has decimal commas and decimal points"),
         ("Block;Normalkraft [N]\n1;#N/A\n2;30,5\n", "line 2: '#N/A' is not a number"),
         ("Block;Normalkraft [N]\n1;20,0\n2;\n", "line 3: '' is not a number"),
         ("Block;Normalkraft [N]\n2;20,0\n1;30,5\n", NEEDED),
         ("b1;20\nb2;30\nSumme;50\n", NEEDED),
-        ("1;30;0\n2;40;0\n", "no column has a name, and w [N] is needed"),
+        ("1;30;0\n2;40;0\n", "none of '1', '2' is known as w [N]"),
         ("x;w [N]\n0.3;20\n0.2;30\n", NEEDED),
         (b"PK\x03\x04\0\0", "in the spreadsheet, save the table as CSV"),
     ],
@@ -163,7 +165,7 @@ def test_columns_may_be_chosen(file, text, choice):
         ("TIME MSEC,LOAD-KN\n0,0.0\n500,0.04025\n", ["MSEC", "KN"]),
         ("t;Load cell 2 [N]\n0;0\n0.5;40.25\n", ["F_X [N] is read from 'Load cell 2"]),
         ("Time..ms.,Force..kN.\n0,0.0\n500,0.04025\n", ["ms", "kN"]),
-        ("# t (ms), F (kN)\n# of Monday\n0,0.0\n500,0.04025\n", ["t (ms)", "F (kN)"]),
+        ("# of Monday\n# t (ms), F (kN)\n0,0.0\n500,0.04025\n", ["t (ms)", "F (kN)"]),
         ("# t F\n# ms kN\n#\n0 0\n500 0.04025\n", ["t [ms]", "F [kN]"]),
         ("t;F\n0;0\n0,25;\n0,5;40,25\n", ["rows without a value: 1"]),
         (pd.DataFrame({"F [kN]": [0, 0.04025], "t [s]": [0, 0.5]}), ["F [kN]"]),
@@ -190,8 +192,10 @@ def test_a_profile_is_a_column_or_a_matrix_without_positions(file):
     assert read_profile(file("0;1\n0;2\n")).tolist() == [[0.0, 1.0], [0.0, 2.0]]
     for text in ("x;p\n1;1\n2;0\n", "1;1\n2;0\n3;0\n"):
         refuses(read_profile, file(text), "without names and positions")
-    refuses(read_profile, file("1;2;3\n"), "a line for each position, not one")
-    refuses(read_profile, file("Temperature\n1\n2\n"), "no column is known as p")
+    refuses(read_profile, file("1;2;3\n"), "lines: 1; needed: a line for each position")
+    refuses(
+        read_profile, file("Temperature\n1\n2\n"), "none of 'Temperature' is known as p"
+    )
     chosen = read_profile(file("x;p\n1;1\n2;0\n"), {"p": "p"})
     assert chosen.tolist() == [[1.0], [0.0]]
 
@@ -214,36 +218,42 @@ def test_lengths_are_shares_of_the_slider(file, text):
 @pytest.mark.parametrize(
     ("text", "about"),
     [
-        ("0,0\n1,500\n", "no column has a name, and t [s] is needed"),
+        (
+            "0;0\n1;500\n",
+            "none of '1', '2' is known as t [s]: choose one with --columns",
+        ),
         ("t [s],F [N]\n0,0,10,5\n0,1,20,5\n", "line 2: cells: 4, columns: 2"),
         ("t [s],F [N],,\n0,0,10,5\n", "line 2: cells: 4, columns: 2"),
         ("t [s];F [N]\n0;10\n1;20;5\n", "line 3: cells: 3, columns: 2"),
         ("t a F\n0 1\n", "line 2: cells: 2, columns: 3"),
-        ('t,F\n"0"1,2\n', "is not a table"),
-        ("t [s];Signal [V]\n0;0\n", "among 't [s]', 'Signal [V]': choose one with"),
-        ("Time (s),Force (mV)\n0,1.5\n", "is in mV"),
-        ("Time,Load\nsec,g\n0,1.5\n", "is in g"),
-        ("t_h,F_lbf\n0,1.5\n", "no column is known as t [s]"),
-        ("t (s);Druck (MPa)\n0;1\n", f"{NO_LOAD}'t (s)', 'Druck (MPa)'"),
-        ("t \uff08s\uff09,F \uff08千克\uff09\n0,1.5\n", "is in 千克"),
-        ("Время, с;Сила, Н\n0;0\n".encode("cp1251"), "no column is known as t [s]"),
+        ('t,F\n"0"1,2\n', "expected after"),
+        ("t [s];Signal [V]\n0;0\n", NO_LOAD),
+        ("Time (s),Force (mV)\n0,1.5\n", NO_UNIT),
+        ("Time,Load\nsec,g\n0,1.5\n", NO_UNIT),
+        ("t_h,F_lbf\n0,1.5\n", "is known as t [s]: choose"),
+        ("t (s);Druck (MPa)\n0;1\n", NO_LOAD),
+        ("t \uff08s\uff09,F \uff08千克\uff09\n0,1.5\n", NO_UNIT),
+        ("Время, с;Сила, Н\n0;0\n".encode("cp1251"), "is known as t [s]: choose"),
         ("t;Сила, кH\n0;0\n", NO_LOAD),  # the H is Latin
-        ("t;F [MN]\n0;0\n", "is in MN"),
+        ("t;F [MN]\n0;0\n", NO_UNIT),
         ("t;Weight g\n0;0\n", NO_LOAD),
-        ("t/10^-3 s;F/N\n0;0\n", "no column is known as t [s]"),
-        ("t;Load %\n0;0\n", "is in %"),
-        (LABVIEW.replace("Newton", "Volts"), f"{NO_LOAD}'X_Value', 'Kanal 1 [Volts]'"),
-        ("t [s];A [N];B [N]\n0;1;0\n", "'A [N]', 'B [N]' may each be F_X [N]"),
+        ("t/10^-3 s;F/N\n0;0\n", "is known as t [s]: choose"),
+        ("t;Load %\n0;0\n", NO_UNIT),
+        (
+            LABVIEW.replace("Newton", "Volts"),
+            f"none of 'X_Value', 'Kanal 1 [Volts]', 'Comment' {NO_LOAD}",
+        ),
+        ("t [s];A [N];B [N]\n0;1;0\n", f"each of 'A [N]', 'B [N]' {NO_LOAD}"),
         ("Time;F\n1.5.2024 0:00:00;1\n3.5.2024 0:00:00;1\n", "half a day"),
         (f"t;F\n0;1\n{'1' * 140_000};2\n", "field larger than field limit"),
         ("t;F\n1;2\n3;x\n", "line 3: 'x' is not a number"),
         (
             "Weg;Kraft [N]\n0;0\n",
-            "no column is known as t [s] among 'Weg', 'Kraft [N]'",
+            "none of 'Weg', 'Kraft [N]' is known as t [s]",
         ),
-        ("Frame,Force\n0,1.0\n", "no column is known as t [s] among 'Frame', 'Force'"),
+        ("Frame,Force\n0,1.0\n", "none of 'Frame', 'Force' is known as t [s]"),
         *(
-            (f"Time;{name}\n0;0\n", f"{NO_LOAD}'Time', '{name}'")
+            (f"Time;{name}\n0;0\n", f"none of 'Time', '{name}' {NO_LOAD}")
             for name in ("Temperature", "Fz", "mu", "F_X/400", "F^2", "load share")
         ),
         *(
@@ -253,7 +263,7 @@ def test_lengths_are_shares_of_the_slider(file, text):
         (f"{LABVIEW}\nChannels\t1\t\n", "'Channels' is not a number"),
         ("t;F\nnan;1\n", "line 2: 'nan' is not a number"),
         ("t;F\n1;1e999\n", "line 2: '1e999' is not a number"),
-        ("", "has no numbers"),
+        ("", "there are no numbers"),
     ],
 )
 def test_what_cannot_be_understood_for_certain_is_refused_in_one_line(

@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NoReturn
 
-from precursors.support.units import SYMBOLS
+from precursors.support.units import NAMES
 
 WRONG_USE = 2
 EPILOG = """\
@@ -271,8 +271,8 @@ def _add_numbers(add: Callable[..., Any], meanings: Mapping[str, str]) -> None:
 
 def _choice(text: str) -> dict[str, str]:
     """Read names of columns by the symbols of what they are."""
-    symbol = rf"\s*({'|'.join(SYMBOLS)})\s*="
-    parts = re.split(rf"(?:^|,){symbol}", text)
+    symbols = [kind.split()[0] for kind in NAMES]
+    parts = re.split(rf"(?:^|,)\s*({'|'.join(symbols)})\s*=", text)
     chosen = {
         key: name.strip() for key, name in zip(parts[1::2], parts[2::2], strict=True)
     }
@@ -282,7 +282,7 @@ def _choice(text: str) -> dict[str, str]:
         or not all(chosen.values())
     ):
         raise argparse.ArgumentTypeError(
-            f"{text!r} must be {' or '.join(SYMBOLS)}, = and the name of a column"
+            f"{text!r} must be {' or '.join(symbols)}, = and the name of a column"
         )
     return chosen
 

@@ -7,27 +7,28 @@ import io
 import math
 import re
 import warnings
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
-from itertools import chain, zip_longest
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import partial
+from itertools import zip_longest
 from os import PathLike
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from precursors.support.files import AnyPath, read_bytes
 from precursors.support.units import (
+    BRACKETS,
+    HALF,
     LENGTH,
     LOAD,
-    NAMES,
     NORMAL_LOAD,
     PROFILE,
     TIME,
-    Wanted,
-    factor,
-    parts_of,
-    rank,
+    is_unit,
+    meaning,
+    places,
 )
 
 if TYPE_CHECKING:
@@ -35,35 +36,36 @@ if TYPE_CHECKING:
 
 __all__ = ["LENGTH", "LOAD", "TIME", "read_columns", "read_profile", "read_weights"]
 
-NUMBER = re.compile(r"[-+]?(\d+(\.\d*|,\d+)?|[.,]\d+)([eE][-+]?\d{1,3})?")
-# A number, or three more digits.
+NUMBER = re.compile(r"[-+]?(\d+(\.\d*|,\d+)?|\.\d+)([eE][-+]?\d{1,3})?")
+# Which may be a number with a decimal comma, too.
 THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(,\d{3})+")
 # A date or none, hours, minutes, seconds.
 STAMP = re.compile(
     r"(?:(\S+)[ T])?(\d{1,2}):(\d\d):(\d\d(?:[.,]\d*)?)(?:Z|[-+][\d:]+)?"
 )
 DAY = 86_400.0  # [s]
-# What stands where a number is missing, as #N/A and #DIV/0! in a spreadsheet.
-MISSING = re.compile(r"#(N/A|NV|[A-Z/0]+[!?])|[-+]?(nan|inf)|n/?a|null", re.IGNORECASE)
-SEPARATOR = re.compile(r'"?sep=(.)"?', re.IGNORECASE)
-HAS_WORD = re.compile(r"\w")
-NOTHING = "\x1f"  # stands in no table: there is one column
-UNITS_ABOVE = re.compile(
-    r".*(unit|einheit)", re.IGNORECASE
-)  # as LabVIEW's Y_Unit_Label
+BLOCK = re.compile(r"[^\d.,+-]*(\d+)([.,]0*)?")  # the number or name of a block
+# The first cell of a line of units above names, as LabVIEW's Y_Unit_Label.
+UNITS_ABOVE = re.compile(r".*(unit|einheit)", re.IGNORECASE)
+PROFILE_NEEDED = (
+    "needed: a line for each position, of one column, or a matrix without names and "
+    'positions, or a column chosen with --columns "p=NAME"'
+)
+MOST_ABOVE = 1000  # lines, with that of names
+NO_SEPARATOR = "\x1f"  # of a table with one column
 
-Row = tuple[int, list[str]]  # number of its line, cells
 Numbers = NDArray[np.float64]
+Find = Callable[[Sequence[str]], list[int]]  # places of columns by their names
+Row = tuple[int, list[str]]  # number of its line, cells
 
 
 class Table(NamedTuple):
-    """A table of text; each row has a field for each name."""
+    """A table of text; each row has a cell for each name."""
 
-    path: str  # or what else it is called
     separator: str
-    lines: Sequence[int]
-    names: Sequence[str]
-    columns: Sequence[Sequence[str]]
+    lines: NDArray[np.int_]
+    names: list[str]
+    cells: Any  # array of strings
 
 
 def read_columns(
@@ -88,7 +90,7 @@ def read_columns(
     sample_rate : float, optional
         Lines per second [Hz], for a table without times.
     choice : dict, optional
-        Names of columns by their symbols t, F_X, L_p; in a table without names, numbers.
+        Names of columns by t, F_X or L_p/L, or numbers of those without a name.
     length : float, optional
         Length of the slider [m], for front lengths in metres.
 
@@ -105,323 +107,225 @@ def read_columns(
         In one line with file, line, and what is needed.
     """
     kinds = [kind for kind in needed if kind != TIME or sample_rate is None]
-    wanted = Wanted(kinds, choice or {}, length)
-
-    def read(table: Table, notes: list[str]) -> Numbers:
-        chosen = _chosen(table, wanted)
-        rows = list(zip(table.lines, *chosen.columns, strict=True))
-        kept = [row for row in rows if all(row)]
-        if not kept:
-            raise ValueError(f"{table.path} has no numbers")
-        if missing := len(rows) - len(kept):
-            notes.append(f"rows without a value: {missing}")
-        lines, *columns = zip(*kept, strict=True)
-        numbers = _numbers(chosen._replace(lines=lines, columns=columns), wanted, notes)
+    find = partial(places, kinds, choice, length)
+    with _refusals_of(source) as path:
+        table = _chosen(_table(source, find), find)
+        lines = table.lines
+        is_full = (table.cells != "").all(axis=1)
+        if not is_full.all():
+            warnings.warn(
+                f"{path}: rows without a value: {(~is_full).sum()}", stacklevel=2
+            )
+        full = table._replace(lines=lines[is_full], cells=table.cells[is_full])
+        numbers = _numbers(path, full, kinds, length)
         if sample_rate is None:
             return numbers
-        start = table.lines[0]
-        if len(rows) <= table.lines[-1] - start:
+        if len(lines) <= lines[-1] - lines[0]:
             raise ValueError(
-                f"{table.path}: with a sample rate, no line may stand empty between samples"
+                "with a sample rate, no line may stand empty among samples"
             )
-        return np.column_stack([(np.array(lines) - start) / sample_rate, numbers])
-
-    return _read(source, wanted, read)
+        return np.column_stack([(full.lines - lines[0]) / sample_rate, numbers])
 
 
 def read_weights(path: AnyPath, choice: Mapping[str, str] | None = None) -> list[float]:
-    """Normal loads [N], a number for each block, alone or after the number or name of
-    the block: 1 or b1, 2 or b2. `choice` may have the name of their column as w."""
-    wanted = Wanted([NORMAL_LOAD], choice or {})
-
-    def read(table: Table, notes: list[str]) -> Numbers:
-        names = table.names
-        in_a_row = not any(names) or _number_blocks([parts_of(n).words for n in names])
-        if len(table.lines) == 1 and len(names) > 2 and in_a_row:  # as of the explorer
-            table = _turned(table)
-        elif len(names) > 1 and "w" not in wanted.choice:
-            if not _number_blocks(table.columns[0]):
+    """Normal loads [N], a number for each block, alone or with the number of the block:
+    1 or b1, 2 or b2. `choice` may have the name of their column as w."""
+    find = partial(places, [NORMAL_LOAD], choice, None)
+    with _refusals_of(path):
+        table = _table(path, find)
+        if len(table.lines) == 1 and not any(table.names):  # a row of loads
+            lines = table.lines.repeat(len(table.names))
+            table = Table(table.separator, lines, [""], table.cells.T)
+        if len(table.names) > 1 and not choice:
+            found = [BLOCK.fullmatch(label) for label in table.cells[:, 0]]
+            numbers = [label and int(label[1]) for label in found]
+            if numbers != list(range(1, len(found) + 1)):
                 raise ValueError(
-                    f"{path}: columns: {len(names)}; needed: {NORMAL_LOAD}, one a line, "
+                    f"columns: {len(table.names)}; needed: {NORMAL_LOAD}, one a line, "
                     "alone or after the number of its block, 1, 2, 3, ..., or chosen with "
                     '--columns "w=NAME"'
                 )
-            table = table._replace(names=names[1:], columns=table.columns[1:])
-        return _numbers(_chosen(table, wanted), wanted, notes)
-
-    return [float(load) for [load] in _read(path, wanted, read)]
+            table = table._replace(names=table.names[1:], cells=table.cells[:, 1:])
+        return _numbers(path, _chosen(table, find), [NORMAL_LOAD])[:, 0].tolist()
 
 
 def read_profile(path: AnyPath, choice: Mapping[str, str] | None = None) -> Numbers:
     """The shape of a pressure or load in any unit, a line for each position from the
     trailing edge on: a column, or a matrix without names. `choice` may have the name of
     the column as p."""
-    wanted = Wanted([PROFILE], choice or {})
-
-    def read(table: Table, _: list[str]) -> Numbers:
-        is_one = len(table.columns) == 1 or "p" in wanted.choice
-        table = _chosen(table, wanted) if is_one else table
-        numbers = _values(table, [PROFILE] * len(table.columns))
+    find = partial(places, [PROFILE], choice, None)
+    with _refusals_of(path):
+        table = _table(path, find)
+        if choice or len(table.names) == 1:
+            table = _chosen(table, find)
+        is_matrix = len(table.names) > 1
+        if is_matrix and any(table.names):
+            raise ValueError(f"columns: {len(table.names)}; {PROFILE_NEEDED}")
+        numbers = _numbers(path, table, [PROFILE] * len(table.names))
         steps = np.diff(numbers[:, 0])
         has_positions = len(steps) > 1 and 0 < steps.max() < 1.0001 * steps.min()
-        if not is_one and (any(table.names) or has_positions):
-            raise ValueError(
-                f"{path}: columns: {len(table.columns)}; needed: one column, or a matrix "
-                'without names and positions, or one chosen with --columns "p=NAME"'
-            )
-        if len(numbers) == 1:
-            raise ValueError(f"{path}: needed is a line for each position, not one")
+        if len(numbers) == 1 or (is_matrix and has_positions):
+            raise ValueError(f"lines: {len(numbers)}; {PROFILE_NEEDED}")
         return numbers
 
-    return _read(path, wanted, read)
 
-
-def _read(
-    source: AnyPath | pd.DataFrame,
-    wanted: Wanted,
-    read: Callable[[Table, list[str]], Numbers],
-) -> Numbers:
-    """Numbers of a table. Where a comma may separate columns or stand in a number, the
-    table is refused."""
-    if isinstance(source, (str, PathLike)):
-        path = str(source)
-        text = _text(source)
-        separators = _separators(text)
-    else:
-        path = "data"
-        has_names = all(isinstance(name, str) for name in source.columns)
-        text = source.to_csv(sep=";", index=False, header=has_names)
-        separators = ";"  # which stand in no number
-    readings: dict[str, tuple[Numbers, list[str]]] = {}
-    refusals: list[ValueError] = []
-    commas_separate = False
-    for separator in separators:
-        notes: list[str] = []
-        try:
-            names, body = _names(_rows(path, text, separator), wanted)
-            if len(names) == 1 and separator != separators[-1]:
-                continue  # commas that stand in numbers
-            table = _table(path, separator, names, body)
-            if separator == "," and len(table.columns) > 1:
-                commas_separate = all(_are_values(fields) for fields in table.columns)
-            readings[separator] = read(table, notes), notes
-        except ValueError as refusal:
-            refusals.append(refusal)
-    if not readings:
-        raise refusals[0]
-    if commas_separate and readings.keys() - {","}:
-        raise ValueError(
-            f"{path}: a comma may separate two numbers or be a decimal comma: separate "
-            "columns by semicolons, or write decimal points"
-        )
-    numbers, notes = next(iter(readings.values()))
-    for note in notes:
-        warnings.warn(f"{path}: {note}", stacklevel=3)
-    return numbers
-
-
-def _text(path: AnyPath) -> str:
-    content = read_bytes(path)
-    if b"\0" in content:
-        raise ValueError(
-            f"{path} is not plain text: in the spreadsheet, save the table as CSV (UTF-8)"
-        )
+@contextmanager
+def _refusals_of(source: object) -> Iterator[str]:
+    """Puts the name of a table before what is wrong in it."""
+    path = str(source) if isinstance(source, (str, PathLike)) else "data"
     try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError:  # names in other letters are not known then
-        return content.decode("latin-1")
+        yield path
+    except (ValueError, csv.Error) as error:
+        raise ValueError(f"{path}: {error}") from None
 
 
-def _separators(text: str) -> str:
-    """What may separate columns, by the last line, which has no names."""
-    if declared := SEPARATOR.match(text):
-        return declared[1]
-    last = next(filter(HAS_WORD.search, reversed(text.splitlines())), "").strip()
-    if ";" in last or "\t" in last:
-        return ";" if ";" in last else "\t"
-    other = " " if " " in last else NOTHING
-    return f",{other}" if "," in last else other
-
-
-def _rows(path: str, text: str, separator: str) -> list[Row]:
-    """Rows that are not empty, without blanks around their cells and empty cells at the
-    end."""
-    lines = io.StringIO(text, newline="")
-    if separator == " ":
-        blank = re.compile(r"(?<![#%])[ \t]+(?![\[(])")
-        cut = (blank.split(line.strip()) for line in lines)
-        rows = [
-            (n, [cell.strip('" ') for cell in cells]) for n, cells in enumerate(cut, 1)
-        ]
-    else:
-        reader = csv.reader(
-            lines, delimiter=separator, skipinitialspace=True, strict=True
-        )
-        try:
-            rows = [(reader.line_num, list(map(str.strip, cells))) for cells in reader]
-        except csv.Error as error:
-            raise ValueError(f"{path} is not a table: {error}") from None
-    for _, cells in rows:
-        while cells and not cells[-1].strip(';,\t"'):
-            cells.pop()
-    return [row for row in rows if row[1] and not row[1][0].lower().startswith("sep=")]
-
-
-def _table(path: str, separator: str, names: list[str], body: list[Row]) -> Table:
+def _table(source: AnyPath | pd.DataFrame, find: Find) -> Table:
     """A table without its empty columns; no row has a cell beside the names."""
+    text = _text(source)
+    separator = _separator(text)
+    names, body = _names(_rows(text, separator), find)
     if not body:
-        raise ValueError(f"{path} has no numbers")
-    width = len(names)
+        raise ValueError("there are no numbers")
     for line, cells in body:
-        if len(cells) > width or (separator == " " and len(cells) < width):
+        if len(cells) > len(names) or (separator == " " and len(cells) < len(names)):
             raise ValueError(
-                f"{path}, line {line}: cells: {len(cells)}, columns: {width} (are there "
+                f"line {line}: cells: {len(cells)}, columns: {len(names)} (are there "
                 "decimal commas, or names with blanks?)"
             )
     lines, filled = zip(*body, strict=True)
-    columns = zip_longest(names, *filled, fillvalue="")
-    kept = [(name, fields) for name, *fields in columns if any(fields)]
-    return Table(path, separator, lines, *zip(*kept, strict=True))
+    columns = np.array([*zip_longest(names, *filled, fillvalue="")], dtype=object)
+    columns = columns[(columns[:, 1:] != "").any(axis=1)]
+    return Table(separator, np.array(lines), columns[:, 0].tolist(), columns[:, 1:].T)
 
 
-def _names(rows: list[Row], wanted: Wanted) -> tuple[list[str], list[Row]]:
-    """Names of the columns and the rows below: of the first line that names what is
-    wanted, or else of the last above all numbers; or empty."""
-    above: list[str] = []
-    for i, (_, cells) in enumerate(rows):
-        if _are_values(cells):
-            break
-        if UNITS_ABOVE.match(cells[0]):
-            above = ["", *cells[1:]]
-        if any(map(_is_value, cells)):
-            continue
-        names = [cells[0].lstrip("#% "), *cells[1:]]
-        below = rows[i + 1 :]
-        if below and _are_units(below[0][1], names):
-            names = _with_units(names, below.pop(0)[1])
-        elif above:
-            names = _with_units(names, above)
-        with suppress(ValueError):
-            wanted.places(names)
-            return names, [row for row in below if not _is_comment(row)]
-    body = [row for row in rows if not _is_comment(row)]
-    numeric = (i for i, (_, cells) in enumerate(body) if _are_values(cells))
-    partly = (i for i, (_, cells) in enumerate(body) if any(map(_is_value, cells)))
-    first = next(chain(numeric, partly), len(body))
-    if first:
-        return _with_units(body[first - 1][1], above), body[first:]
-    return [""] * len(body[0][1]) if body else [], body
+def _text(source: AnyPath | pd.DataFrame) -> str:
+    if not isinstance(source, (str, PathLike)):
+        has_names = all(isinstance(name, str) for name in source.columns)
+        return source.to_csv(sep=";", index=False, header=has_names)
+    content = read_bytes(source)
+    if b"\0" in content:
+        raise ValueError(
+            "it is not plain text: in the spreadsheet, save the table as CSV (UTF-8)"
+        )
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:  # names in other letters are not known then
+        text = content.decode("latin-1")
+    return re.sub("\r\n?", "\n", text)
 
 
-def _are_units(cells: list[str], names: list[str]) -> bool:
-    """Whether a line below names may be that of their units."""
-    inside = [cell.strip("#% [({})]") for cell in cells]
-    has_brackets = any(set("[({})]") & set(cell) for cell in inside)
-    return (
-        len(cells) == len(names)
-        and not has_brackets
-        and not any(map(_is_value, inside))
+def _separator(text: str) -> str:
+    """What separates columns, by the last line; if its commas may stand in numbers, by
+    the last line of names."""
+    lines = [line.strip() for line in text.split("\n") if re.search(r"\w", line)]
+    last = lines[-1] if lines else ""
+    fields = last.split()
+    if ";" in last or "\t" in last:
+        return ";" if ";" in last else "\t"
+    if "," in last and not all(map(NUMBER.fullmatch, fields)):
+        return ","
+    if len(fields) > 1:
+        return " "
+    heads = [line for line in lines if re.match(r"[^\w#%]*[^\W\d_]", line)]
+    head = heads[-1].split(",") if heads else []
+    if "," not in last or len(head) == 1:
+        return NO_SEPARATOR
+    are_units = list(map(is_unit, head))
+    if any(are_units) == all(are_units):
+        return ","
+    raise ValueError(
+        f"{last!r} may be one number with a decimal comma, or two numbers: separate "
+        "columns by semicolons, or write decimal points"
     )
 
 
+def _rows(text: str, separator: str) -> list[Row]:
+    """Rows that are not empty, without blanks around their cells, empty cells at the
+    end, and the signs of comments that begin with a letter."""
+    text = re.sub(r"(?m)^ +|[ ;,\t]+$|^[#%]+ *(?=[^\W\d]|$)", "", text)
+    if separator == " ":
+        text = re.sub(r" +(?![\[(])", "\t", text)
+    delimiter = separator.replace(" ", "\t")
+    lines = io.StringIO(text)
+    reader = csv.reader(lines, delimiter=delimiter, skipinitialspace=True, strict=True)
+    rows = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
+    return [row for row in rows if any(row[1])]
+
+
+def _names(rows: list[Row], find: Find) -> tuple[list[str], list[Row]]:
+    """Names of the columns and the rows below: of the first line that names what is
+    wanted, above any row of numbers; empty where no line has names."""
+    units: list[str] = []
+    refusal = None
+    for i, (_, cells) in enumerate(rows[:MOST_ABOVE], 1):
+        has_number = list(map(_is_number, filter(None, cells)))
+        if all(has_number):
+            break
+        if UNITS_ABOVE.match(cells[0]):
+            units = ["", *cells[1:]]
+        if any(has_number):
+            continue
+        below = rows[i][1] if i < len(rows) else []
+        has_units = any(map(is_unit, below)) and not any(map(_is_number, below))
+        names = _with_units(cells, below if has_units else units)
+        try:
+            find(names)
+        except ValueError as error:
+            refusal = error
+        else:
+            return names, rows[i + has_units :]
+    if refusal:
+        raise refusal
+    return [""] * len(rows[0][1] if rows else []), rows
+
+
 def _with_units(names: Sequence[str], units: Sequence[str]) -> list[str]:
-    units = [unit.strip("#% [({})]") for unit in units]
-    return [
-        f"{name} [{unit}]" if unit else name
-        for name, unit in zip_longest(names, units, fillvalue="")
-    ]
+    inside = [unit.strip(BRACKETS) for unit in units]
+    pairs = zip_longest(names, inside, fillvalue="")
+    return [f"{name} [{unit}]" if unit else name for name, unit in pairs]
 
 
-def _is_comment(row: Row) -> bool:
-    return row[1][0][0] in "#%" and not MISSING.fullmatch(row[1][0])
+def _is_number(cell: str) -> bool:
+    return bool(NUMBER.fullmatch(cell) or STAMP.fullmatch(cell))
 
 
-def _number_blocks(labels: Sequence[str]) -> bool:
-    """Whether labels such as b1 or Block 1 number all blocks in order."""
-    found = (re.fullmatch(r"\D*(\d+)([.,]0*)?", label) for label in labels)
-    numbers = [label and int(label[1]) for label in found]
-    return numbers == list(range(1, len(labels) + 1))
-
-
-def _turned(table: Table) -> Table:
-    """A table of one row as one of one column."""
-    units = sorted({parts_of(name).unit or "" for name in table.names})
-    fields = [field for [field] in table.columns]
-    lines = [*table.lines] * len(fields)
-    names = [f"w [{', '.join(units)}]" if any(units) else "w"]
-    return table._replace(lines=lines, names=names, columns=[fields])
-
-
-def _is_value(cell: str) -> bool:
-    """Whether a cell is a number, a time, or an error in place of them."""
-    kinds = (NUMBER, STAMP, MISSING)
-    return any(kind.fullmatch(cell) for kind in kinds)
-
-
-def _are_values(cells: Sequence[str]) -> bool:
-    return all(not cell or _is_value(cell) for cell in cells)
-
-
-def _chosen(table: Table, wanted: Wanted) -> Table:
+def _chosen(table: Table, find: Find) -> Table:
     """The columns of a table that are wanted."""
-    try:
-        places = wanted.places(table.names)
-    except ValueError as error:
-        raise ValueError(f"{table.path}: {error}") from None
+    places = find(table.names)
     names = [table.names[i] for i in places]
-    columns = [table.columns[i] for i in places]
-    return table._replace(names=names, columns=columns)
+    return table._replace(names=names, cells=table.cells[:, places])
 
 
-def _numbers(table: Table, wanted: Wanted, notes: list[str]) -> Numbers:
-    """Numbers of the columns that are wanted, in their units."""
-    scales = []
-    for name, fields, kind in zip(
-        table.names, table.columns, wanted.kinds, strict=True
-    ):
-        scale = factor(parts_of(name), kind, wanted.length)
-        if kind == TIME and all(map(STAMP.fullmatch, fields)):
-            scale = 1.0
-        if scale is None:
-            unit = parts_of(name).unit or "no unit"
-            raise ValueError(
-                f"{table.path}: the column {name!r} is in {unit}; needed: {kind}"
-            )
-        known = rank(name, kind, wanted.length)
-        if name and (scale != 1.0 or known in (None, len(NAMES[kind]))):
-            notes.append(f"{kind} is read from {name!r}")
-        scales.append(scale)
-    return _values(table, wanted.kinds) * scales
-
-
-def _values(table: Table, kinds: Sequence[str]) -> Numbers:
-    """Numbers as they are written, with decimal commas or points; of time stamps,
-    seconds since the first."""
-    fields = [field for column in table.columns for field in column if ":" not in field]
-    with_commas = [field for field in fields if "," in field]
-    if with_commas and any("." in field for field in fields):
-        raise ValueError(
-            f"{table.path} has decimal commas and decimal points: write one"
-        )
+def _numbers(
+    path: object, table: Table, kinds: Sequence[str], length: float | None = None
+) -> Numbers:
+    """Numbers of columns, in the units of their kinds."""
+    cells = [cell for cell in table.cells.flat if ":" not in cell]  # no time stamps
+    with_commas = [cell for cell in cells if "," in cell]
+    if with_commas and any("." in cell for cell in cells):
+        raise ValueError("it has decimal commas and decimal points: write one")
     in_thousands = with_commas and all(map(THOUSANDS.fullmatch, with_commas))
     if in_thousands and table.separator not in ";\t":
         raise ValueError(
-            f"{table.path}: {with_commas[0]!r} may have a decimal comma or be in "
-            "thousands: write decimal points"
+            f"{with_commas[0]!r} may have a decimal comma or be in thousands: write "
+            "decimal points"
         )
-    columns = zip(table.columns, kinds, strict=True)
-    return np.column_stack([_column(table, *column) for column in columns])
+    numbers = []
+    for name, kind, fields in zip(table.names, kinds, table.cells.T, strict=True):
+        stamps = [found.groups() for f in fields if (found := STAMP.fullmatch(f))]
+        if kind == TIME and len(stamps) == len(fields):
+            numbers.append(_seconds(stamps))
+            continue
+        rank, scale = meaning(name, kind, length)
+        if scale is None:
+            raise ValueError(f"the unit of {name!r} is not one of {kind}")
+        if name and (scale != 1.0 or rank >= HALF):
+            warnings.warn(f"{path}: {kind} is read from {name!r}", stacklevel=3)
+        numbers.append(scale * np.array(list(map(_number, table.lines, fields))))
+    return np.column_stack(numbers)
 
 
-def _column(table: Table, fields: Sequence[str], kind: str) -> Numbers:
-    stamps = [found.groups() for f in fields if (found := STAMP.fullmatch(f))]
-    if kind == TIME and len(stamps) == len(fields):
-        return _seconds(table.path, stamps)
-    at = zip(table.lines, fields, strict=True)
-    return np.array([_number(table.path, line, field) for line, field in at])
-
-
-def _seconds(path: str, stamps: Sequence[tuple[str, ...]]) -> Numbers:
+def _seconds(stamps: Sequence[tuple[str, ...]]) -> Numbers:
     """Seconds since the first of time stamps less than half a day apart."""
     dates, *clock = zip(*stamps, strict=True)
     hours, minutes, seconds = (
@@ -429,16 +333,16 @@ def _seconds(path: str, stamps: Sequence[tuple[str, ...]]) -> Numbers:
     )
     times = np.unwrap(3600 * hours + 60 * minutes + seconds, period=DAY)
     if any(dates) and len(set(dates)) != len(set(times // DAY)):
-        raise ValueError(f"{path}: half a day or more between two time stamps")
+        raise ValueError("half a day or more between two time stamps")
     return times - times[0]
 
 
-def _number(path: str, line: int, field: str) -> float:
+def _number(line: int, field: str) -> float:
     """The number that a field holds."""
     value = field.replace(",", ".")
     if NUMBER.fullmatch(field) and math.isfinite(float(value)):
         return float(value)
     raise ValueError(
-        f"{path}, line {line}: {field[:40]!r} is not a number "
+        f"line {line}: {field[:40]!r} is not a number "
         "(write it without a unit and separators of thousands)"
     )

@@ -3,18 +3,30 @@
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 TIME = "t [s]"
 LOAD = "F_X [N]"
 LENGTH = "L_p/L [-]"
 NORMAL_LOAD = "w [N]"
 PROFILE = "p [any unit]"
-# How `--columns` calls them.
-SYMBOLS = {"t": TIME, "F_X": LOAD, "L_p": LENGTH, "w": NORMAL_LOAD, "p": PROFILE}
 
-# Names without what separates words, in lower case but for single letters: first those
-# of one quantity, then those that the first are chosen before.
+
+def spelling(unit: str) -> str:
+    """A unit in lower case, but mega, which would be milli then."""
+    return unit if unit[:2] in ("MN", "Mn") else unit.casefold()
+
+
+def _values(units: Mapping[float, str]) -> dict[str, float]:
+    """What one of each spelling of a unit is."""
+    return {
+        spelling(name): value
+        for value, names in units.items()
+        for name in names.split()
+    }
+
+
+# Without what separates words, in lower case but for single letters: first names of one
+# quantity, then those before which the first are chosen.
 _LOADS = (
     "F force load kraft last charge fuerza forza carga carico сила нагрузка 荷重 力"
 )
@@ -35,34 +47,40 @@ NAMES = {
         f"{_NORMAL} {_LOADS}",
     ),
 }
-_NEWTONS = {
-    1.0: "N newton newtons Н",
-    1e3: "kN кН",
-    1e-3: "mN мН",
-    1e-6: "uN μN",
-}
-# What one of a unit is in the unit of the quantity.
+KNOWN_NAMES = {name for ranks in NAMES.values() for name in " ".join(ranks).split()}
+# How well a name says a quantity, after its places in `NAMES`: by its unit alone, or with
+# another unit; not at all.
+HALF = 2
+NOT = 3
+
+NEWTONS = _values(
+    {1.0: "N newton newtons Н", 1e3: "kN кН", 1e-3: "mN мН", 1e-6: "uN μN"}
+)
+METRES = _values({1.0: "m", 0.01: "cm", 1e-3: "mm", 1e-6: "um μm"})
 UNITS = {
-    TIME: {
-        1.0: "s sec secs second seconds sek sekunde sekunden seconde secondes segundo segundos "
-        "secondo secondi с сек 秒",
-        1e-3: "ms msec msecs millisecond milliseconds millisekunden мс",
-        1e-6: "us μs usec microseconds мкс",
-        60.0: "min mins minute minutes minuten minuto minutos minuti мин 分",
-    },
-    LOAD: _NEWTONS,
-    LENGTH: {1.0: "1 -", 0.01: "%"},
-    NORMAL_LOAD: _NEWTONS,
-    PROFILE: {1.0: "Pa hPa kPa MPa bar mbar psi N/mm² N/mm2 N kN mN"},
+    TIME: _values(
+        {
+            1.0: "s sec secs second seconds sek sekunde sekunden seconde secondes segundo "
+            "segundos secondo secondi с сек 秒",
+            1e-3: "ms msec msecs millisecond milliseconds millisekunden мс",
+            1e-6: "us μs usec microseconds мкс",
+            60.0: "min mins minute minutes minuten minuto minutos minuti мин 分",
+        }
+    ),
+    LOAD: NEWTONS,
+    LENGTH: _values({1.0: "1 -", 0.01: "%"}),
+    NORMAL_LOAD: NEWTONS,
+    PROFILE: _values({1.0: "Pa hPa kPa MPa bar mbar psi N/mm2 N kN mN"}),
 }
-METRES = {1.0: "m", 0.01: "cm", 1e-3: "mm", 1e-6: "um μm"}
+KNOWN_UNITS = set(METRES).union(*UNITS.values())
+BRACKETS = "[({})] "
 IN_BRACKETS = re.compile(
     r"(.*?)[\s_./,-]*[\[({]\s*(?:in\s+)?([^\[\](){}]*?)\.?\s*[\])}]"
 )
 AT_THE_END = re.compile(r"(.+?)(?:[\s_./,-]+in)?[\s_./,-]+([^\W\d_]+|%)\.?")
-# What a unit alone tells: words and a last number. x1e3 or ^2 would change the value.
+# Where a unit alone says what a column is: words and a last number, as x1e3 or ^2 would
+# change the value; not of another force, or of less than the force itself.
 WORDS = re.compile(r"[^\W\d_]+(?:[\s_-]+[^\W\d_]+)*[\s_-]*\d{0,2}")
-# Another force, or not the force itself.
 OTHER = re.compile(
     r"normal|нормал|vert|垂直|法向|(?<![a-z])(f[ _]?[nyz]|df)(?![a-z])|(?<![a-z_])x(?![a-z])"
     r"|x[ _-]*\d|std|dev|err|offset|delta|diff|m[ai][xn]|mean|mittel|limit|target|soll",
@@ -70,107 +88,82 @@ OTHER = re.compile(
 )
 
 
-class Name(NamedTuple):
-    """The name of a column, in parts."""
-
-    words: str
-    unit: str | None
-    in_brackets: bool
-
-
-def parts_of(name: str) -> Name:
-    """A name and its unit, in brackets or a known one at the end."""
+def parts_of(name: str) -> tuple[str, str]:
+    """Words of a name, and its unit: in brackets, or a known one after a known name."""
     name = unicodedata.normalize("NFKC", name).strip(" :=,;")
-    if found := IN_BRACKETS.fullmatch(name):
-        return Name(found[1], found[2], in_brackets=True)
-    found = AT_THE_END.fullmatch(name)
-    if found and _key(name) not in KNOWN_NAMES and _spelling(found[2]) in KNOWN_UNITS:
-        return Name(found[1], found[2], in_brackets=False)
-    return Name(name, None, in_brackets=False)
+    found = IN_BRACKETS.fullmatch(name)
+    if not found and _key(name) not in KNOWN_NAMES:
+        at_end = AT_THE_END.fullmatch(name)
+        if at_end and _key(at_end[1]) in KNOWN_NAMES and is_unit(at_end[2]):
+            found = at_end
+    words, unit = found.groups() if found else (name, "")
+    return words, spelling(unit)
 
 
-def factor(name: Name, kind: str, length: float | None = None) -> float | None:
-    """What one of a column's unit is in that of a kind; None if it is no unit of it.
-    The `length` [m] of the slider turns front lengths into shares."""
-    if name.unit is None:
-        return None if kind == LENGTH and "/" not in name.words else 1.0
-    units = _spelled(UNITS[kind])
-    if kind == LENGTH and length:
-        units |= {unit: metres / length for unit, metres in _spelled(METRES).items()}
-    return units.get(_spelling(name.unit))
-
-
-def rank(text: str, kind: str, length: float | None = None) -> int | None:
-    """How well a name says a kind of column: 0 best, None not at all; as the number of
-    its `NAMES`, if they and the unit do not say the same."""
-    name = parts_of(text)
-    has_unit = factor(name, kind, length) is not None
-    by_unit = len(NAMES[kind])
-    key = _key(name.words)
-    for place, names in enumerate(NAMES[kind]):
+def meaning(
+    name: str, kind: str, length: float | None = None
+) -> tuple[int, float | None]:
+    """How well a name says a kind of column, the smaller the better, and what one of its
+    unit is in that of the kind; None if it is no unit of it. The `length` [m] of the
+    slider turns front lengths into shares."""
+    words, unit = parts_of(name)
+    units = UNITS[kind]
+    scale = units.get(unit)
+    if kind == PROFILE or (not unit and (kind != LENGTH or "/" in words)):
+        scale = 1.0
+    elif kind == LENGTH and length and unit in METRES:
+        scale = METRES[unit] / length
+    key = _key(words)
+    for rank, names in enumerate(NAMES[kind]):
         if key in names.split():
-            return place if has_unit or kind == PROFILE else by_unit
-    is_plain = WORDS.fullmatch(name.words) and not OTHER.search(name.words)
-    if has_unit and name.in_brackets and is_plain and key not in KNOWN_NAMES:
-        return by_unit
-    return None
+            return HALF if scale is None else rank, scale
+    is_plain = WORDS.fullmatch(words) and not OTHER.search(words)
+    is_by_unit = unit in units and is_plain and key not in KNOWN_NAMES
+    return HALF if is_by_unit else NOT, scale
+
+
+def places(
+    kinds: Sequence[str],
+    choice: Mapping[str, str] | None,
+    length: float | None,
+    names: Sequence[str],
+) -> list[int]:
+    """Where columns of these kinds are in a table. `choice` has names of some by their
+    symbols, or numbers of those without a name.
+
+    Raises
+    ------
+    ValueError
+        If one is not known, or several may be it.
+    """
+    called = [name or str(i) for i, name in enumerate(names, 1)]
+    found = []
+    for kind in kinds:
+        symbol = kind.split()[0]
+        if chosen := (choice or {}).get(symbol):
+            ranks = [0 if name == chosen else NOT for name in called]
+        elif len(kinds) == 1 and called == ["1"]:
+            ranks = [0]
+        else:
+            ranks = [meaning(name, kind, length)[0] for name in names]
+        best = [i for i, rank in enumerate(ranks) if rank == min(ranks)]
+        if min(ranks) == NOT or len(best) > 1:
+            number = "none" if min(ranks) == NOT else "each"
+            told = ", ".join(repr(called[i]) for i in best)
+            raise ValueError(
+                f"{number} of {told} is known as {kind}: choose one with --columns "
+                f'"{symbol}=NAME"'
+            )
+        found += best
+    return found
+
+
+def is_unit(text: str) -> bool:
+    """Whether a text is a known unit, or one in brackets."""
+    return spelling(text.strip(BRACKETS)) in KNOWN_UNITS
 
 
 def _key(words: str) -> str:
     """Words as in `NAMES`."""
     joined = re.sub(r"(?<=\w)[\s_.-]+(?=\w)", "", words.strip())
     return joined if len(joined) == 1 else joined.casefold()
-
-
-def _spelling(unit: str) -> str:
-    """A unit in lower case, but mega, which would be milli then."""
-    return unit if unit[:2] in ("MN", "Mn") else unit.casefold()
-
-
-def _spelled(units: Mapping[float, str]) -> dict[str, float]:
-    """The value of each spelling of a unit."""
-    return {
-        _spelling(unicodedata.normalize("NFKC", unit)): value
-        for value, spellings in units.items()
-        for unit in spellings.split()
-    }
-
-
-KNOWN_NAMES = {name for ranks in NAMES.values() for name in " ".join(ranks).split()}
-KNOWN_UNITS = {unit for units in (*UNITS.values(), METRES) for unit in _spelled(units)}
-
-
-class Wanted(NamedTuple):
-    """Columns that are needed; `choice` has names of some by their `SYMBOLS`, or numbers
-    where a table has no names."""
-
-    kinds: Sequence[str]
-    choice: Mapping[str, str] = {}
-    length: float | None = None
-
-    def places(self, names: Sequence[str]) -> list[int]:
-        """Where they are among the columns of a table; a ValueError says what is not
-        known."""
-        return [self._place(names, kind) for kind in self.kinds]
-
-    def _place(self, names: Sequence[str], kind: str) -> int:
-        symbol = next(key for key, value in SYMBOLS.items() if value == kind)
-        if chosen := self.choice.get(symbol):
-            called = names if any(names) else [str(i + 1) for i in range(len(names))]
-            found = [i for i, name in enumerate(called) if name == chosen]
-        elif not any(names):
-            found = [0] if len(names) == len(self.kinds) == 1 else []
-        else:
-            ranks = [rank(name, kind, self.length) for name in names]
-            best = min((r for r in ranks if r is not None), default=None)
-            found = [i for i, r in enumerate(ranks) if r == best is not None]
-        if len(found) == 1:
-            return found[0]
-        told = ", ".join(repr(names[i]) for i in found or range(len(names)) if names[i])
-        problem = f"no column is known as {kind} among {told}"
-        if not told:
-            problem = f"no column has a name, and {kind} is needed"
-        elif found:
-            problem = f"{told} may each be {kind}"
-        how = "NAME" if told else "NUMBER"
-        raise ValueError(f'{problem}: choose one with --columns "{symbol}={how}"')
