@@ -1,6 +1,5 @@
 """Motion of a larger chain, step by step: the compiled part of `larger`."""
 
-import math
 from pathlib import Path
 from typing import NamedTuple
 
@@ -9,7 +8,7 @@ from numpy.typing import NDArray
 
 from precursors.model.chain import FloatArray
 from precursors.solver.record import IntArray
-from precursors.support.compiled import entry
+from precursors.support.compiled import entry, untyped
 
 SLOW = 0.1  # of v_c: a block that is slower counts as one that sticks
 # Of F_Z: an event in which F_X falls by less is left out where friction falls.
@@ -24,6 +23,7 @@ MOST_STALLED = 4  # times the number of blocks: steps that end where they begin
 # Of an event: first row, whether it is a global slip, blocks that are fast now.
 BEGIN, IS_GLOBAL, FAST = range(3)
 
+inner = untyped.njit(forceinline=True, error_model="numpy")
 compiled = entry(Path(__file__).parent, ["steps.py"], error_model="numpy", nogil=True)
 
 
@@ -85,7 +85,7 @@ class End(NamedTuple):
     most_steps: int
 
 
-@compiled
+@inner
 def friction(m, speed):
     """Friction coefficient mu(v) = rest - fall v about a speed: rest, fall [s/m]."""
     piece = 0
@@ -94,26 +94,26 @@ def friction(m, speed):
     return m.at_rest[piece], m.fall[piece]
 
 
-@compiled
+@inner
 def weight(m, load, i):
     """Normal load w_i [N] while F_X is `load`."""
     return m.weights[i] + m.tilt[i] * load
 
 
-@compiled
+@inner
 def net_force(m, force, velocity, i):
     """Net force of springs and dashpots on block i [N]."""
     behind = force[i] + m.dashpots[i] * (velocity[i - 1] - velocity[i])
     return behind - (force[i + 1] + m.dashpots[i + 1] * (velocity[i] - velocity[i + 1]))
 
 
-@compiled
+@inner
 def margin(m, force, velocity, i, side):
     """What static friction on block i could bear beyond a net force to one side [N]."""
     return m.mu_s * weight(m, force[0], i) - side * net_force(m, force, velocity, i)
 
 
-@compiled
+@inner
 def find_mean_velocities(m, s, last, h):
     """Mean velocities in a step h of the blocks up to `last` (Thomas' algorithm).
 
@@ -143,7 +143,7 @@ def find_mean_velocities(m, s, last, h):
         s.mean[i] += s.ratio[i] * s.mean[i + 1]
 
 
-@compiled
+@inner
 def try_step(m, s, last, watched, h, holds):
     """Find the state at the end of a step h; return the part of it at which a block
     first stops or, unless the step `holds` those at rest, is released, and which."""
@@ -193,7 +193,7 @@ def switch(m, s, i, pull):
     s.mode[i] = 0 if holds else side
 
 
-@compiled
+@inner
 def accept(m, s, last, h):
     """Move on to the end of a step h, with its work and heat; return whether a block
     became faster or slower than `SLOW` v_c."""
@@ -243,42 +243,59 @@ def period_of(peaks, tolerance):
 
 
 @compiled
+def passing(m, s, i):
+    """Part of the last step at which block i passed `SLOW` v_c; its end if friction
+    jumps."""
+    slow = SLOW * m.weakening_velocity
+    after = abs(s.velocity[i])
+    before = abs(s.velocity_before[i])
+    if slow == 0.0 or after == before:
+        return 1.0
+    return (slow - before) / (after - before)
+
+
+@compiled
 def note(m, s, results, watched, load_before, time, h):
     """Note which blocks became faster or slower than `SLOW` v_c in a step that ends at
     `time`; return whether a global slip ended in it."""
     slow = SLOW * m.weakening_velocity
     bearing = m.bears_load.sum()
-    smallest_drop = SMALLEST_DROP * m.weights.sum() if slow > 0.0 else -math.inf
-    rows = results.rows
     event = results.event
     ended = False
     for i in range(watched):
-        if not m.bears_load[i]:
-            continue
-        speed = abs(s.velocity[i])
-        way = s.mode[i] if speed > slow or slow == 0.0 else 0
-        if way == s.seen[i]:
+        is_fast = slow == 0.0 or abs(s.velocity[i]) > slow
+        way = s.mode[i] if is_fast else 0
+        if way == s.seen[i] or not m.bears_load[i]:
             continue
         if event[FAST] == 0:
-            event[BEGIN] = len(rows)
+            event[BEGIN] = len(results.rows)
             event[IS_GLOBAL] = 0
         event[FAST] += abs(way) - abs(s.seen[i])
-        s.seen[i] = way
-        at = 1.0  # part of the step
-        speed_before = abs(s.velocity_before[i])
-        if slow > 0.0 and speed != speed_before:
-            at = (slow - speed_before) / (speed - speed_before)
-        load = load_before + at * (s.force[0] - load_before)
-        rows.append((time - (1.0 - at) * h, i + 1.0, float(way), load))
         event[IS_GLOBAL] |= event[FAST] == bearing
+        s.seen[i] = way
+        part = passing(m, s, i)
+        load = load_before + part * (s.force[0] - load_before)
+        results.rows.append((time - (1.0 - part) * h, i + 1.0, float(way), load))
         if event[FAST] == 0:
-            onset = rows[event[BEGIN]][3]
-            if onset - s.force[0] < smallest_drop:
-                del rows[event[BEGIN] :]
-            elif event[IS_GLOBAL] == 1:
-                results.peaks.append(onset)
-                ended = True
+            ended |= close_event(m, s, results)
     return ended
+
+
+@compiled
+def close_event(m, s, results):
+    """Keep an event that is over unless F_X fell too little in it; return whether it
+    was a global slip."""
+    rows = results.rows
+    begin = results.event[BEGIN]
+    onset = rows[begin][3]
+    falls = m.weakening_velocity > 0.0
+    if falls and onset - s.force[0] < SMALLEST_DROP * m.weights.sum():
+        del rows[begin:]
+        return False
+    if results.event[IS_GLOBAL] == 1:
+        results.peaks.append(onset)
+        return True
+    return False
 
 
 @compiled
@@ -309,6 +326,8 @@ def march(m, s, end, step, now):
         if last >= 0:
             h = min(step[last], h)
         load_before = s.force[0]
+        # The step stays in this loop: a function of its own makes a run four times as
+        # long.
         pull = 0.0
         part, block = try_step(m, s, last, watched, h, holds)
         if block >= 0:

@@ -3,7 +3,6 @@
 import threading
 from collections.abc import Iterator, Sequence
 from itertools import count
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,34 +31,49 @@ class TransitionLimitError(RuntimeError):
         self.run = run
 
 
-class _Workspace(NamedTuple):
-    """Memory, record and states for chains of one length; a state is stored after
-    `stride` transitions."""
+class _Recorder:
+    """What the kernel writes of chains of one length: rows of transitions, and states
+    every `stride` transitions, of finished runs and then of the one that goes on."""
 
-    n_blocks: int
-    stride: int
-    memory: FloatArray
-    record: FloatArray
-    states: FloatArray
+    def __init__(self, n_blocks: int) -> None:
+        self.n_blocks = n_blocks
+        # Storing takes little time beside finding so many transitions.
+        self.stride = max(10, 1 + n_blocks // 3)
+        self.memory = kernel.memory_for(n_blocks)
+        n_states = max(SHARED_ROOM // self.stride, 2)
+        self.empty = (
+            np.zeros((max(SHARED_ROOM, 2 * n_blocks), kernel.ROW)),
+            np.empty((n_states, 2 + 3 * n_blocks)),
+        )
+
+    def room(self, run: np.void) -> tuple[FloatArray, FloatArray]:
+        """Record and states for a run to begin in, or to go on in, longer where they
+        are full."""
+        if run["stored"] == 0:  # it has not begun
+            self.record, self.states = self.empty
+        if run["transitions"] + 1 == len(self.record):
+            self.record = np.resize(self.record, (2 * len(self.record), kernel.ROW))
+        if run["stored"] == len(self.states):
+            self.states = _with_room(self.states, run)
+        return self.record, self.states
+
+    def take(self, rows: int, states: int) -> tuple[FloatArray, FloatArray]:
+        """Record and states of the finished runs, which have so many rows."""
+        finished = self.record[:rows], self.states[:states]
+        self.record = self.record[rows:]
+        self.states = self.states[states:]
+        return finished
 
 
 _own = threading.local()
 
 
-def _workspace_for(n_blocks: int) -> _Workspace:
-    """The workspace of this thread, kept from call to call."""
-    work: _Workspace | None = vars(_own).get("workspace")
-    if work is None or work.n_blocks != n_blocks:
-        # Storing takes little time beside finding so many transitions.
-        stride = max(10, 1 + n_blocks // 3)
-        work = _own.workspace = _Workspace(
-            n_blocks,
-            stride,
-            memory=kernel.memory_for(n_blocks),
-            record=np.zeros((max(SHARED_ROOM, 2 * n_blocks), kernel.ROW)),
-            states=np.empty((max(SHARED_ROOM // stride, 2), 2 + 3 * n_blocks)),
-        )
-    return work
+def _recorder_for(n_blocks: int) -> _Recorder:
+    """The recorder of this thread, kept from call to call."""
+    recorder: _Recorder | None = vars(_own).get("recorder")
+    if recorder is None or recorder.n_blocks != n_blocks:
+        recorder = _own.recorder = _Recorder(n_blocks)
+    return recorder
 
 
 def run_batch(
@@ -71,9 +85,9 @@ def run_batch(
     """Run chains of equal length one after the other, in as few calls of the kernel as
     it takes.
 
-    A thread has one workspace: it must take all runs before it begins others.
+    A thread has one recorder: it must take all runs before it begins others.
     """
-    work = _workspace_for(chains[0].n_blocks)
+    recorder = _recorder_for(chains[0].n_blocks)
     batch = kernel.Batch(
         parameters=np.array([kernel.parameters(chain) for chain in chains]),
         weights=np.array([chain.weights for chain in chains]),
@@ -82,30 +96,19 @@ def run_batch(
     )
     words = np.zeros((len(chains), kernel.WORDS), np.int64)
     progress = words.view(kernel.PROGRESS)[:, 0]
-    progress["stride"] = work.stride
+    progress["stride"] = recorder.stride
     telling = tell("running", count(), lambda: progress["onset"].mean() / end.duration)
-    first = n_rows = n_states = 0
+    first = 0
     while first < len(chains):
-        # Of a record, a field of the array is read faster than one of its row.
-        if progress["stored"][first] == 0:  # it has not begun
-            record = work.record
-            states = work.states
-        else:
+        run = progress[first]
+        if run["stored"]:
             next(telling)
-            run = progress[first]
-            record = record[n_rows:]
-            states = states[n_states:]
-            if run["transitions"] + 1 == len(record):
-                record = np.resize(record, (2 * len(record), kernel.ROW))
-            if run["stored"] == len(states):
-                states = _with_room(states, run)
-        arrays = (words, record, states, work.memory)
-        n_finished, n_rows, n_states = kernel.run_batch(
+        arrays = (words, *recorder.room(run), recorder.memory)
+        n_finished, *rows = kernel.run_batch(
             batch, end, *arrays, first, WINDOWS_PER_CALL
         )
         which = range(first, n_finished)
-        recorded = (record[:n_rows], states[:n_states])
-        yield from _runs(chains, batch, progress, which, *recorded, end)
+        yield from _runs(chains, batch, progress, which, *recorder.take(*rows), end)
         first = n_finished
 
 
