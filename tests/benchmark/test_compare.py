@@ -16,7 +16,7 @@ from benchmark.made_up import (
 )
 
 from precursors import Chain, simulate
-from precursors.benchmark.compare import Truth, compare
+from precursors.benchmark.compare import Truth, compare, until_global_slip
 
 
 def altered(*changes, shift: float = 0.0, after: int = len(TRUE)) -> list[tuple]:
@@ -97,14 +97,14 @@ def test_runs_of_other_chains_are_refused():
         )
 
 
-def test_the_truth_until_the_global_slip_is_what_a_run_until_it_has():
-    cut = Truth.of_run(simulate(Chain.from_slider(), 10.0)).until_global_slip()
+def test_a_run_cut_at_the_global_slip_is_what_a_run_until_it_has():
+    cut = until_global_slip(simulate(Chain.from_slider(), 10.0))
     run = simulate(Chain.from_slider(), 10.0, "global slip")
-    np.testing.assert_array_equal(cut.run.transitions, run.transitions)
-    assert cut.run.duration == run.duration
+    np.testing.assert_array_equal(cut.transitions, run.transitions)
+    assert cut.duration == run.duration
     for rows in (TRUE[:6], TRUE[:10]):
-        unfinished = Truth.of_run(made_up(rows))
-        assert unfinished.until_global_slip() is unfinished
+        unfinished = made_up(rows)
+        assert until_global_slip(unfinished) is unfinished
 
 
 def test_a_proof_that_ends_with_a_tie_is_the_truth_up_to_there():

@@ -6,11 +6,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from precursors.analysis.horizon import agreeing
 from precursors.analysis.slips import find_slips, first_global
@@ -75,27 +73,10 @@ class Truth:
         )
         return cls.exact(certificate.chain.to_chain(), duration, transitions)
 
-    @cached_property
-    def slips(self) -> pd.DataFrame:
-        """The slip events, see `find_slips`."""
-        return find_slips(self.run)
-
     def until_global_slip(self) -> Truth:
-        """Cut to the end of the first global slip, as `simulate(..., until="global
-        slip")` does.
-
-        Without one, or if it does not end, nothing is cut.
-        """
-        first = first_global(self.slips["is_global"])
-        end = np.nan if first is None else float(self.slips["end"].iloc[first])
-        if np.isnan(end):
-            return self
-        transitions = self.run.transitions
-        n = int(np.searchsorted(transitions["time"], end, side="right"))
-        columns = {
-            name: transitions[name][:n] for name in transitions.dtype.names or ()
-        }
-        run = Record.from_columns(self.run.chain, end, **columns)
+        """Cut as a run is, see `until_global_slip`."""
+        run = until_global_slip(self.run)
+        n = len(run.transitions)
         return Truth(run, self.time_rest[:n], self.load_rest[:n])
 
 
@@ -127,6 +108,22 @@ class Comparison:
         return _largest(self.time_errors)
 
 
+def until_global_slip(run: Record) -> Record:
+    """Cut a run to the end of its first global slip, as `simulate(..., until="global
+    slip")` does.
+
+    Without one, or if it does not end, nothing is cut.
+    """
+    slips = find_slips(run)
+    first = first_global(slips["is_global"])
+    end = np.nan if first is None else float(slips["end"].iloc[first])
+    if np.isnan(end):
+        return run
+    transitions = run.transitions[run.transitions["time"] <= end]
+    columns = {name: transitions[name] for name in transitions.dtype.names or ()}
+    return Record.from_columns(run.chain, end, **columns)
+
+
 def compare(run: Record, truth: Truth) -> Comparison:
     """Compare a run with the truth over the same time, both to the end or both to the
     first global slip.
@@ -150,12 +147,13 @@ def compare(run: Record, truth: Truth) -> Comparison:
     true = true_run.transitions
     n = transitions_right(run, true_run)
     slips = find_slips(run)
+    true_slips = find_slips(true_run)
     n_slips = agreeing(
         slips[OUTCOME].to_records(index=False),
-        truth.slips[OUTCOME].to_records(index=False),
+        true_slips[OUTCOME].to_records(index=False),
     )
-    onsets = np.searchsorted(true["time"], truth.slips["onset"][:n_slips])
-    at_onsets = (slips["load_before"] - truth.slips["load_before"])[
+    onsets = np.searchsorted(true["time"], true_slips["onset"][:n_slips])
+    at_onsets = (slips["load_before"] - true_slips["load_before"])[
         :n_slips
     ] - truth.load_rest[onsets]
     return Comparison(

@@ -13,7 +13,7 @@ import pandas as pd
 
 from precursors.analysis.slips import slip_table
 from precursors.analysis.summary import summary_of
-from precursors.benchmark.compare import Truth, compare
+from precursors.benchmark.compare import Truth, compare, until_global_slip
 from precursors.proof import Certificate
 from precursors.solver.run import Record
 
@@ -65,9 +65,9 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
     true = truth.run.transitions.tolist()
     ordered = in_true_order(given, true, decimal("ties", str(ties)))
     columns = np.array(ordered, dtype=float).reshape(-1, len(NEEDED)).T
-    found = Truth.of_run(Record.from_columns(chain, end, *columns))
-    whole = compare(found.run, truth)
-    start = compare(found.until_global_slip().run, truth.until_global_slip())
+    found = Record.from_columns(chain, end, *columns)
+    whole = compare(found, truth)
+    start = compare(until_global_slip(found), truth.until_global_slip())
     values = {
         "problem": problem,
         "transitions_right": whole.transitions_right,
@@ -79,7 +79,7 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
         "time_error_to_global_slip_s": start.time_error,
         "load_error_to_global_slip_N": start.load_error,
     }
-    for which, run in (("", found.run), ("_true", truth.run)):
+    for which, run in (("", found), ("_true", truth.run)):
         numbers = summary_of(slip_table(run))
         counted = numbers.events_counted if numbers.reached else math.nan
         values |= {

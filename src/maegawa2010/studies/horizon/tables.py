@@ -9,7 +9,7 @@ import pandas as pd
 
 from maegawa2010.studies.horizon.chains import certificate_row
 from precursors.analysis.horizon import PredictedErrors, predicted_errors
-from precursors.benchmark.compare import Comparison, Truth, compare
+from precursors.benchmark.compare import Comparison, Truth, compare, until_global_slip
 from precursors.proof import Certificate
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
@@ -88,7 +88,7 @@ def summary(validation: Validation, tolerance: float) -> dict[str, float]:
     actual = errors["actual_error_s"]
     n = compared.transitions_right
     wrong = run.transitions["time"][:n][compared.time_errors > tolerance]
-    to_global_slip = Truth.of_run(run).until_global_slip().run.transitions
+    to_global_slip = until_global_slip(run).transitions
     return {
         "duration_s": run.duration,
         "transitions": len(run.transitions),

@@ -9,7 +9,7 @@ import pandas as pd
 from maegawa2010.methods import METHODS, attempt
 from precursors.analysis.slips import slip_table
 from precursors.analysis.summary import summary_of
-from precursors.benchmark.compare import Truth, transitions_right
+from precursors.benchmark.compare import transitions_right, until_global_slip
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Record, Run
 
@@ -40,7 +40,7 @@ def sweep(exact: Run, steps: Iterable[float]) -> Iterator[dict[str, object]]:
     The duration of the exact run, to the first global slip or longer, limits the other
     runs. Rows: see `row`.
     """
-    truth = Truth.of_run(exact).until_global_slip().run
+    truth = until_global_slip(exact)
     yield row("exact", math.nan, truth, truth)
     for step in steps:
         result = attempt(
