@@ -7,7 +7,8 @@ rule tabulate_benchmark:
     """Score the lists of transitions of other solvers."""
     input:
         solvers=BENCHMARKS / "solvers.csv",
-        also=sorted([*PROOFS.glob("*.json.gz"), *(BENCHMARKS / "results").glob("*.csv")]),
+        results=sorted((BENCHMARKS / "results").glob("*.csv")),
+        certificates=sorted(PROOFS.glob("*.json.gz")),
     output:
         benchmark=report("results/tables/benchmark.csv", category="Tables"),
     log:
@@ -15,7 +16,6 @@ rule tabulate_benchmark:
     resources:
         seconds=2,
     params:
-        folder=str(BENCHMARKS / "results"),
         code=digest("tabulate_benchmark"),
     message:
         "scoring the lists of transitions of other solvers"

@@ -1,5 +1,7 @@
 """Score the lists of transitions of other solvers."""
 
+from pathlib import Path
+
 from job import job, read, write_tables
 
 from precursors.benchmark.score import score_table
@@ -7,5 +9,6 @@ from precursors.support.files import read_table
 
 with job() as snakemake:
     solvers = read(read_table, snakemake.input.solvers)
-    table = score_table(solvers, snakemake.params.folder)
+    folder = str(Path(snakemake.input.solvers).with_name("results"))
+    table = score_table(solvers, folder)
     write_tables({"benchmark": table}, snakemake.output)
