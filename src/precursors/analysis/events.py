@@ -125,7 +125,9 @@ def told_of_light_blocks(run: Record) -> str:
     n, without = (len(slip_events(one)) for one in (run, others))
     if n == without:
         return ""
-    load = chain.weights[light].min()
-    block = chain.weights.tolist().index(load) + 1
+    block = np.where(light, chain.weights, np.inf).argmin()
     does = "keeps events from ending" if n < without else "has events of its own"
-    return f"block {block}, with {load:.2g} N, {does}: {n} in all, {without} without it"
+    return (
+        f"block {block + 1}, with {chain.weights[block]:.2g} N, {does}: "
+        f"{n} in all, {without} without it"
+    )
