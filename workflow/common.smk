@@ -31,7 +31,7 @@ from maegawa2010.support.digest import digest_code
 from precursors.model.chain import SLIDER, parse_theta
 
 PAPERS = ROOT / "src/maegawa2010"
-PROOFS = ROOT / "workflow/certificates"  # committed
+PROOFS = ROOT / "src/precursors/benchmark/certificates"  # committed
 COMMITTED = ROOT / "paper/tables"  # of long studies of the paper's slider
 # What a script computes: its rule has it as a parameter, and its jobs run again when it changes.
 digest = partial(digest_code, ROOT)

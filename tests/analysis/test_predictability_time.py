@@ -20,7 +20,7 @@ from precursors.analysis.horizon import (
 from precursors.proof import Certificate, ExactChain
 
 ROOT = Path(__file__).parents[2]
-CERTIFICATES = ROOT / "workflow" / "certificates"
+CERTIFICATES = ROOT / "src/precursors/benchmark/certificates"
 CHAINS = CONFIG["horizon"]["proved"]
 TOLERANCES = [1e-15, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5]  # s
 # An actual error may be so many times the one predicted: 0.7 is the largest known.

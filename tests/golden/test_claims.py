@@ -15,8 +15,8 @@ from golden.regenerate import GOLDEN
 
 from maegawa2010.paper.claims import claims_tables, stated_claims
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
+from maegawa2010.support.provenance import checksums
 from precursors.support.files import read_table
-from precursors.support.provenance import checksums
 
 RESULTS = Path(__file__).parents[2] / "results/tables"
 # Lyapunov exponents differ from one processor to another: the verdict stays.

@@ -3,15 +3,12 @@ know its Jacobian."""
 
 from __future__ import annotations
 
-import re
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from maegawa2010.methods import METHODS, columns, events
-from maegawa2010.methods.compiled import COMPILED
+from maegawa2010.methods import METHODS, events
 from maegawa2010.methods.events import EventMotion
 from precursors import Chain, simulate
 
@@ -104,13 +101,3 @@ def test_the_jacobian_of_located_events_is_that_of_their_rates():
     change = motion.rates(0.0, motion.y) - motion.rates(0.0, np.zeros(8))
     jacobian = events.jacobian_of(motion.system, motion.state)
     np.testing.assert_allclose(jacobian @ motion.y, change, atol=1e-12)
-
-
-def test_code_is_compiled_again_after_an_edit_of_any_module_that_it_uses():
-    modules = Path(columns.__file__).parent.glob("*.py")
-    names = {
-        file.name
-        for file in modules
-        if re.search(r"import .*\b(inner|outer)\b", file.read_text())
-    }
-    assert names | {"columns.py", "compiled.py", "tableaus.py"} == set(COMPILED)

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from maegawa2010.methods import SMOOTH
-from maegawa2010.methods.stability import (
+from maegawa2010.methods.tableaus import DOP853, RK4
+from maegawa2010.studies.failures.stability import (
     energy_left,
     highest_frequency,
     highest_mode,
     without_friction,
 )
-from maegawa2010.methods.tableaus import DOP853, RK4
 from precursors import Chain
 
 UNSTABLE = [name for name, smooth in SMOOTH.items() if 0.0 < smooth.limit < np.inf]

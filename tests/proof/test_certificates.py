@@ -33,7 +33,7 @@ from precursors.proof import (
 CHAINS = CONFIG["horizon"]["proved"]
 # A committed certificate is smaller [bytes].
 LARGEST_FILE = 300_000
-COMMITTED = Path(__file__).parents[2] / "workflow" / "certificates"
+COMMITTED = Path(__file__).parents[2] / "src/precursors/benchmark/certificates"
 SLIDER = ExactChain.from_slider
 
 

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from precursors.support.provenance import git_state, provenance
+from maegawa2010.support.provenance import provenance
+from precursors.support.checkout import git_state
 
 ROOT = Path(__file__).parents[2]
 # FIPS 180-4.

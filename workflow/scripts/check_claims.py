@@ -22,8 +22,8 @@ from maegawa2010.paper.claim import (
 )
 from maegawa2010.paper.claims import differences, evaluate
 from maegawa2010.paper.inputs import CLAIM_TABLES
+from maegawa2010.support.provenance import NOT_RESULTS, checksums
 from precursors.support.files import read_table
-from precursors.support.provenance import NOT_RESULTS, checksums
 
 WIDTH = 110
 HEADINGS = {

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from job import job, read, write_tables
 
-from precursors.benchmark.score import score_table
+from maegawa2010.studies.benchmark.tables import score_table
 from precursors.support.files import read_table
 
 with job() as snakemake:

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from job import job
 
+from maegawa2010.support.provenance import provenance
 from precursors.support.files import write_text
-from precursors.support.provenance import provenance
 
 with job() as snakemake:
     output = Path(snakemake.output.json)

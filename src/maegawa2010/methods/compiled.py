@@ -16,10 +16,6 @@ apart = njit(**OPTIONS, locals={"first": int64})
 inner = njit(**OPTIONS, forceinline=True)
 # Numba inlines it into its only caller.
 template = njit(inline="always")
-# Python calls these; their code is kept until one of these files is edited.
-NAMES = (
-    "columns compiled equations events fixed_step karnopp leapfrog moreau_jean "
-    "runge_kutta tableaus"
-)
-COMPILED = [f"{name}.py" for name in NAMES.split()]
-outer = entry(Path(__file__).parent, COMPILED, **OPTIONS, nogil=True)
+# Python calls these; their code is kept until a file of this directory is edited.
+FOLDER = Path(__file__).parent
+outer = entry(FOLDER, **OPTIONS, nogil=True)

@@ -3,7 +3,7 @@
 from importlib.machinery import PathFinder
 from pathlib import Path
 
-from precursors.support.provenance import checksums
+from maegawa2010.support.provenance import checksums
 
 
 def check_installed(sources: Path) -> None:
@@ -21,8 +21,7 @@ def check_installed(sources: Path) -> None:
         if installed.resolve() == (sources / name).resolve():
             continue
         ours, theirs = (
-            # The certificates lie beside the workflow, or in the wheel.
-            checksums(folder.rglob("*"), folder, leave_out=("certificates",))
+            checksums(folder.rglob("*"), folder)
             for folder in (sources / name, installed)
         )
         for file, _ in sorted(ours.items() ^ theirs.items()):

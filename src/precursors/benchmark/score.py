@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
 from precursors.analysis.slips import slip_table
 from precursors.analysis.summary import summary_of
@@ -17,9 +16,7 @@ from precursors.benchmark.compare import Truth, compare, until_global_slip
 from precursors.proof import Certificate
 from precursors.solver.run import Record
 
-# In a wheel the certificates lie in the package, in a checkout beside the workflow.
-PACKAGE = Path(__file__).parents[1]
-PLACES = (PACKAGE / "certificates", PACKAGE.parents[1] / "workflow" / "certificates")
+CERTIFICATES = Path(__file__).with_name("certificates")
 NEEDED = ("time_s", "block", "mode", "tangential_load_N")
 COSTS = ("evaluations", "seconds")
 # Transitions: time [s], block, mode, load [N].
@@ -28,7 +25,7 @@ Rows = list[Any]
 
 def problems() -> dict[str, Path]:
     """Names of the problems, with the certificates of their solutions."""
-    files = [path for place in PLACES for path in sorted(place.glob("*.json.gz"))]
+    files = sorted(CERTIFICATES.glob("*.json.gz"))
     return {path.name.removesuffix(".json.gz"): path for path in files}
 
 
@@ -38,16 +35,6 @@ def solution(problem: str) -> Truth:
     known = problems()
     require(problem in known, problem, f"the problems are {', '.join(known)}")
     return Truth.proved(Certificate.load(known[problem]))
-
-
-def score_table(solvers: pd.DataFrame, folder: str) -> pd.DataFrame:
-    """Score the files SOLVER-PROBLEM.csv of a folder: a row for each of them."""
-    rows = [
-        solver | score(path, path.stem.rpartition("-")[2], solver["ties_s"])
-        for solver in solvers.to_dict("records")
-        for path in sorted(Path(folder).glob(f"{solver['solver']}-*.csv"))
-    ]
-    return pd.DataFrame(rows)
 
 
 def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:

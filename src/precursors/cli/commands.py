@@ -24,8 +24,8 @@ from precursors.model.chain import (
 )
 from precursors.model.checks import positive
 from precursors.solver.run import LargerRun, Record, Run, RunFileError
+from precursors.support.checkout import git_state
 from precursors.support.files import write_table
-from precursors.support.provenance import git_state
 from precursors.support.spreadsheet import (
     LOAD,
     TIME,

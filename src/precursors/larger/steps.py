@@ -24,7 +24,7 @@ MOST_STALLED = 4  # times the number of blocks: steps that end where they begin
 BEGIN, IS_GLOBAL, FAST = range(3)
 
 inner = untyped.njit(forceinline=True, error_model="numpy")
-compiled = entry(Path(__file__).parent, ["steps.py"], error_model="numpy", nogil=True)
+compiled = entry(Path(__file__), error_model="numpy", nogil=True)
 
 
 class CompiledChain(NamedTuple):

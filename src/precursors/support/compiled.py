@@ -8,7 +8,7 @@ import sys
 import tempfile
 import warnings
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -49,15 +49,15 @@ class UserCache(UserWideCacheLocator):
         return self._place.name
 
 
-def entry(directory: Path, modules: Iterable[str] = (), **options: Any) -> Any:
-    """Decorator for functions that Python calls; their code is kept until a module in
-    `directory` is edited.
+def entry(*sources: Path, **options: Any) -> Any:
+    """Decorator for functions that Python calls; their code is kept until one of the
+    sources is edited: modules, or directories of modules.
 
     Numba looks at the file of a function only, and not at those of the functions that
-    it calls. So the code is kept in a directory that is named after the checksum of all
-    modules, or of those named.
+    it calls. So the code is kept in a directory that is named after the first source
+    and the checksum of all.
     """
-    place = _cache_place(directory, checksum(directory, modules))
+    place = _cache_place(sources[0].stem, checksum(*sources))
 
     def compile(function: Function) -> Any:
         if place is None:
@@ -93,19 +93,17 @@ class Announcement(event.Listener):
         """Say nothing."""
 
 
-def checksum(directory: Path, modules: Iterable[str] = ()) -> str:
-    """Checksum of all modules in a directory, or of those named, and of Numba's
-    version."""
+def checksum(*sources: Path) -> str:
+    """Checksum of modules, of all in a directory, and of Numba's version."""
     digest = hashlib.sha256(numba.__version__.encode())
-    for file in [directory / name for name in modules] or sorted(
-        directory.glob("*.py")
-    ):
-        digest.update(file.name.encode() + file.read_bytes())
+    for source in sources:
+        for file in sorted(source.glob("*.py")) or [source]:
+            digest.update(file.name.encode() + file.read_bytes())
     return digest.hexdigest()[:16]
 
 
-def _cache_place(directory: Path, digest: str) -> Path | None:
-    """A directory that can be written, named after the checksum of the modules; None,
+def _cache_place(name: str, digest: str) -> Path | None:
+    """A directory that can be written, named after sources and their checksum; None,
     with a warning.
 
     What was compiled from sources of long ago is removed, and what was not written to
@@ -114,11 +112,11 @@ def _cache_place(directory: Path, digest: str) -> Path | None:
     cache = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
     base = Path(untyped.config.CACHE_DIR or Path(cache, "precursors"))
     try:
-        place = base.expanduser() / f"{directory.name}-{digest}"
+        place = base.expanduser() / f"{name}-{digest}"
         place.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=place):  # marks when it was used last
             places = sorted(
-                place.parent.glob(f"{directory.name}-*"),
+                place.parent.glob(f"{name}-*"),
                 key=lambda one: one.stat().st_mtime,
             )
         for old in places[:-KEPT]:

@@ -14,8 +14,8 @@ import math
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from maegawa2010.methods.stability import highest_frequency, stiffness_matrix
 from maegawa2010.studies.failures.common import Curve
+from maegawa2010.studies.failures.stability import highest_frequency, stiffness_matrix
 from precursors.model.chain import Chain, FloatArray
 
 # The drop begins where tanh has all but reached 1, so that friction at its largest is

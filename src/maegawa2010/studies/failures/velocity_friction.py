@@ -5,7 +5,7 @@ from itertools import dropwhile, islice
 
 import numpy as np
 
-from maegawa2010.methods import karnopp
+from maegawa2010.studies.failures import karnopp
 from maegawa2010.studies.failures.common import Curve
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate

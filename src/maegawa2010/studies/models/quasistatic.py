@@ -44,7 +44,7 @@ MAX_STAGES = 100_000  # of one event, each with less elastic energy than the one
 ROUNDING = 1e-12  # of F_Z: a block that far beyond its strength still rests
 BEGAN, JOINED, PUT_OUT = range(3)
 
-compiled = entry(Path(__file__).parent, ["quasistatic.py"], error_model="numpy")
+compiled = entry(Path(__file__), error_model="numpy")
 
 
 class Cascade(NamedTuple):

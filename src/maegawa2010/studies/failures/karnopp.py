@@ -11,6 +11,7 @@ sticks again.
 
 import math
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 
@@ -22,11 +23,13 @@ from maegawa2010.methods.columns import (
     VELOCITY,
     at_rest,
 )
-from maegawa2010.methods.compiled import inner, outer
+from maegawa2010.methods.compiled import FOLDER, OPTIONS, inner
 from maegawa2010.methods.runge_kutta import step_of
 from maegawa2010.methods.tableaus import RK4
 from precursors.model.chain import Chain
+from precursors.support.compiled import entry
 
+compiled = entry(Path(__file__), FOLDER, **OPTIONS)
 DEAD_ZONE = 4  # a further row of the system [m/s]
 
 
@@ -59,7 +62,7 @@ def by_velocity(system, _state, i, net, velocity):
 step_by_velocity = step_of(RK4, by_velocity)
 
 
-@outer
+@compiled
 def slide(system, state, h, n_steps):
     """Make n steps of the whole chain."""
     n = state.shape[1] - 2

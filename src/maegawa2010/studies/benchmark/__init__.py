@@ -1,0 +1,1 @@
+"""Other solvers, scored on the reference problems."""
