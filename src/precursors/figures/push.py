@@ -12,12 +12,10 @@ from numpy.typing import NDArray
 from precursors.figures import style
 from precursors.figures.style import Options
 from precursors.figures.wave import middle_last_and_global
-from precursors.model.chain import Chain
 
 HEIGHT_MM = 66.0  # of a row of panels
 NARROW_MM = 120.0  # below this width the panels stand below each other
 FINDING = "A slip stops where friction has used up the push"
-EDGE: Options = {"color": style.BLACK, "linewidth": 0.9}
 FILL: Options = {"fill": True, "linewidth": 0}
 LEFT: Options = {
     "color": style.BLACK,
@@ -29,7 +27,7 @@ LEFT: Options = {
 # place of the drive and both ends.
 ROW = (0.0, -0.16, 1.0, 0.13)
 DRIVE = -0.1
-ENDS = (-0.14, 1.16)
+ENDS = (-0.14, 1.22)
 SIDE = 0.76  # of a block, in units of its part of the row
 NUMBERED = 12  # blocks at most that have their numbers in them
 
@@ -59,14 +57,17 @@ def draw(
     with style.page(style.PAGE_MM, HEIGHT_MM * size[0], look) as figure:
         panels = figure.subplots(*size, sharex=True, sharey=True, squeeze=False).flat
         panels[0].set(xticks=[], ylabel="Push in each spring [N]")
-        for axes, event in zip(panels, shown.itertuples(), strict=False):
+        ends = [
             _draw_event(axes, run, event)
+            for axes, event in zip(panels, shown.itertuples(), strict=False)
+        ]
         if shown.empty:
             panels[0].text(0.4, 0.5, "no slip event")
         else:
             panels[0].set_ylim(0, 1.14 * shown["load_before_N"].max())
             panels[0].legend(loc="upper right", handlelength=1.5, borderaxespad=0.2)
-        if title is None and _are_explained(run.chain, shown):
+        # Each slip stops within a block of where its push is used up.
+        if title is None and (np.abs(shown["front"] - ends) <= 1).all():
             title = FINDING
         if title:
             figure.suptitle(style.plain(title), fontweight="bold", fontsize="medium")
@@ -83,66 +84,44 @@ def _chosen(slips: pd.DataFrame, events: Sequence[int]) -> pd.DataFrame:
     return over.loc[rows]
 
 
-def _left(chain: Chain, load: float) -> NDArray[np.float64]:
-    """F_X - mu_k W [N] at both ends of the row and between the parts of two blocks."""
-    return load - chain.mu_k * np.append(0.0, np.cumsum(chain.weights))
-
-
-def _used_up(chain: Chain, load: float) -> float:
-    """Share of the row whose kinetic friction is F_X; 1 if F_X is more than that of
-    all."""
-    left = _left(chain, load)
-    return float(np.interp(0.0, -left, np.linspace(0, 1, len(left))))
-
-
-def _are_explained(chain: Chain, shown: pd.DataFrame) -> bool:
-    """Whether each slip stops within a block of where its push is used up."""
-    ends = [_used_up(chain, load) for load in shown["load_before_N"]]
-    return bool(((shown["front"] - np.multiply(chain.n_blocks, ends)).abs() <= 1).all())
-
-
-def _draw_event(axes: Axes, run: Any, event: Any) -> None:
-    n, load = run.chain.n_blocks, event.load_before_N
+def _draw_event(axes: Axes, run: Any, event: Any) -> float:
+    """Draw an event; return how many blocks have F_X as their kinetic friction."""
+    n, load = event.n_blocks, event.load_before_N
     color = style.GLOBAL if event.is_global else style.PARTIAL
     edges = np.linspace(0, 1, n + 1)
+    middles = (edges[1:] + edges[:-1]) / 2
     # Each spring reaches from the middle of a block to that of the next.
-    springs = np.append(0.0, (edges[1:] + edges[:-1]) / 2)
+    springs = np.append(0.0, middles)
     before, after = run.spring_forces([event.onset_s, event.end_s])
     kept = np.minimum(before, after)
     added: Options = {"color": style.pale(color, 0.6), "label": "added by the slip"}
     axes.stairs(kept, springs, **FILL, color=style.PALE, label="push before the slip")
     axes.stairs(after, springs, baseline=kept, **FILL, **added)
-    axes.stairs(after, springs, **EDGE)
-    left = _left(run.chain, load)
-    end = _used_up(run.chain, load)
-    x = np.append(edges[left > 0], end)
-    axes.plot(x, np.interp(x, edges, left), **LEFT)
+    axes.stairs(after, springs, color=style.BLACK, linewidth=0.9)
+    carried = run.chain.mu_k * np.append(0.0, np.cumsum(run.chain.weights))
+    end = np.interp(load, carried, edges)
+    x = np.append(edges[carried < load], end)
+    axes.plot(x, load - np.interp(x, edges, carried), **LEFT)
     near: Options = {"textcoords": "offset points"}
     axes.annotate(f"$F_X$ = {load:.3g} N", (0, load), (5, 3), **near)
-    words = f"{left[-1]:.2g} N left" if left[-1] > 0 else "used up"
-    place = (end, max(left[-1], 0))
+    left = max(load - carried[-1], 0.0)
+    words = f"{left:.2g} N left" if left else "used up"
     arrow = {"arrowstyle": "->", "shrinkB": 2}
-    axes.annotate(words, place, (0, 32), **near, arrowprops=arrow, ha="center")
-    axes.set_title(
-        f"Global slip: all {n} blocks"
-        if event.is_global
-        else f"Precursor: stops after block {event.front}"
-        if event.front < n
-        else "Precursor: to the end, not all at once"
-    )
-    _draw_row(axes, edges, event.front, color)
+    axes.annotate(words, (end, left), (-11, 32), **near, arrowprops=arrow)
+    kind = "Global slip" if event.is_global else "Precursor"
+    reach = f"stops after block {event.front}" if event.front < n else f"all {n} blocks"
+    axes.set_title(f"{kind}: {reach}")
+    _draw_row(axes, middles, event.front, color)
+    return float(n * end)
 
 
-def _draw_row(axes: Axes, edges: NDArray[np.float64], front: int, color: str) -> None:
+def _draw_row(axes: Axes, middles: NDArray[Any], front: int, color: str) -> None:
     """Draw the blocks that slid in colour, and the drive."""
-    n = len(edges) - 1
-    middles = (edges[1:] + edges[:-1]) / 2
+    n = len(middles)
     row = axes.inset_axes(ROW, sharex=axes)
     row.set_axis_off()
     row.set(xlim=ENDS, ylim=(0, 1))
-    row.plot(
-        [DRIVE, middles[-1]], [0.5, 0.5], color=style.GREY, linewidth=1.6, zorder=0
-    )
+    row.hlines(0.5, DRIVE, middles[-1], color=style.GREY, linewidth=1.6, zorder=0)
     row.plot(DRIVE, 0.5, "o", color=style.BLACK)
     colors = np.where(np.arange(n) < front, color, style.PALE)
     outline: Options = {"edgecolor": style.BLACK, "linewidth": min(0.6, 6 / n)}
