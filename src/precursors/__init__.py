@@ -19,11 +19,8 @@ from typing import TYPE_CHECKING
 from precursors.audit import audit  # at once, or the room would take its name
 
 if TYPE_CHECKING:
-    from precursors.analysis.slips import (
-        find_precursors,
-        find_slips,
-        slip_table,
-    )
+    from precursors.analysis.load_curve import load_curve
+    from precursors.analysis.slips import find_precursors, find_slips, slip_table
     from precursors.analysis.summary import apparent_friction, summarise
     from precursors.figures.run import plot
     from precursors.larger.chain import LargerChain
@@ -33,27 +30,43 @@ if TYPE_CHECKING:
     from precursors.solver.run import LargerRun, Record, Run, RunFileError
     from precursors.solver.simulate import TransitionLimitError, simulate
 
+    __version__: str
+
+# Written out for type checkers and editors.
+__all__ = [
+    "Chain",
+    "LargerChain",
+    "LargerRun",
+    "Record",
+    "Run",
+    "RunFileError",
+    "TransitionLimitError",
+    "apparent_friction",
+    "audit",
+    "certify",
+    "find_precursors",
+    "find_slips",
+    "load_curve",
+    "plot",
+    "simulate",
+    "simulate_many",
+    "slip_table",
+    "summarise",
+]
 # Imported when first asked for (PEP 562): checking a configuration or drawing a table
 # must not load the compiler.
 _MODULES = {
-    "Chain": "model.chain",
-    "LargerChain": "larger.chain",
-    "LargerRun": "solver.run",
-    "Record": "solver.run",
-    "Run": "solver.run",
-    "RunFileError": "solver.run",
-    "TransitionLimitError": "solver.simulate",
-    "apparent_friction": "analysis.summary",
-    "certify": "proof",
-    "find_precursors": "analysis.slips",
-    "find_slips": "analysis.slips",
-    "plot": "figures.run",
-    "simulate": "solver.simulate",
-    "simulate_many": "solver.many",
-    "slip_table": "analysis.slips",
-    "summarise": "analysis.summary",
+    "analysis.load_curve": ["load_curve"],
+    "analysis.slips": ["find_precursors", "find_slips", "slip_table"],
+    "analysis.summary": ["apparent_friction", "summarise"],
+    "figures.run": ["plot"],
+    "larger.chain": ["LargerChain"],
+    "model.chain": ["Chain"],
+    "proof": ["certify"],
+    "solver.many": ["simulate_many"],
+    "solver.run": ["LargerRun", "Record", "Run", "RunFileError"],
+    "solver.simulate": ["TransitionLimitError", "simulate"],
 }
-__all__ = ["audit", *_MODULES]
 
 # A type checker that saw it would take every name for one of this package.
 if not TYPE_CHECKING:
@@ -61,11 +74,12 @@ if not TYPE_CHECKING:
     def __getattr__(name: str) -> object:
         if name == "__version__":
             return version("precursors")
-        if name not in _MODULES:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        value = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
-        globals()[name] = value
-        return value
+        for module, names in _MODULES.items():
+            if name in names:
+                value = getattr(import_module(f"{__name__}.{module}"), name)
+                globals()[name] = value
+                return value
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

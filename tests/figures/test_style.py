@@ -3,6 +3,8 @@ do."""
 
 from __future__ import annotations
 
+from io import BytesIO
+
 import matplotlib
 import numpy as np
 import pytest
@@ -44,6 +46,13 @@ def test_every_format_has_the_same_bytes_whichever_file_is_first_and_settings_of
     assert first.startswith(b"%!PS-Adobe-3.0 EPSF")
     assert caplog.messages == []
     assert image.imread(tmp_path / "first.png").shape[1] == int(300 * 85 / 25.4)
+
+
+def test_a_figure_of_a_run_shows_itself_and_nothing_is_said_of_fonts(caplog):
+    figure = plot(simulate(Chain.from_slider(), 1.0))
+    assert figure._repr_png_().startswith(b"\x89PNG")
+    figure.canvas.print_figure(BytesIO())  # as Jupyter's own back end does
+    assert caplog.messages == []
 
 
 def test_an_svg_has_its_words_as_text_and_a_title(tmp_path):

@@ -1,5 +1,7 @@
 """F_X(t) as points between which straight lines draw it."""
 
+from __future__ import annotations
+
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray

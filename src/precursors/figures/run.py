@@ -1,6 +1,8 @@
 """The figure of a run in one line: its tables are made here, and drawn as those of the
 workflow."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, overload

@@ -53,6 +53,7 @@ MM_PER_INCH = 25.4
 COLUMN_MM = 85.0
 PAGE_MM = 178.0
 PNG_DPI = 300
+SCREEN_DPI = 120
 
 BLOCKS_LABEL = "Number of blocks $N$ [-]"
 EVENTS_LABEL = "Events counted [-]"
@@ -135,6 +136,23 @@ class Look:
 LOOK = Look()
 
 
+class Page(Figure):
+    """A figure that has its look wherever it is saved or shown, and that a notebook
+    shows."""
+
+    look = LOOK
+
+    def draw(self, renderer: Any) -> None:
+        """Draw it, without settings of the user's."""
+        with matplotlib.style.context(self.look.settings, after_reset=True):
+            super().draw(renderer)
+
+    def _repr_png_(self) -> bytes:
+        buffer = BytesIO()
+        self.savefig(buffer, dpi=SCREEN_DPI)
+        return buffer.getvalue()
+
+
 @contextmanager
 def page(width_mm: float, height_mm: float, look: Look = LOOK) -> Iterator[Figure]:
     """Make a figure of a given size on paper [mm], with room for its labels when the
@@ -145,7 +163,8 @@ def page(width_mm: float, height_mm: float, look: Look = LOOK) -> Iterator[Figur
     """
     with matplotlib.style.context(look.settings, after_reset=True):
         size = ((look.width_mm or width_mm) / MM_PER_INCH, height_mm / MM_PER_INCH)
-        figure = Figure(figsize=size, dpi=PNG_DPI, facecolor="white")
+        figure = Page(figsize=size, dpi=PNG_DPI, facecolor="white")
+        figure.look = look
         yield figure
         ConstrainedLayoutEngine().execute(figure)
         for axes in figure.axes:

@@ -86,6 +86,11 @@ class Chain:
     theta: float = field(default=math.nan, init=False)
 
     def __post_init__(self) -> None:
+        if number("drive_velocity", self.drive_velocity, "m/s") < 0:
+            raise ValueError(
+                "drive_velocity must be above 0 m/s, as the drive never turns back, "
+                f"but is {self.drive_velocity!r}"
+            )
         checked: dict[str, Any] = {
             name: positive(name, getattr(self, name), unit)
             for name, unit in _POSITIVE.items()

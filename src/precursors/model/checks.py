@@ -24,7 +24,10 @@ def number(name: str, value: object, unit: str) -> float:
         with suppress(OverflowError):
             if math.isfinite(result := float(value)):
                 return result
-    raise ValueError(f"{name} must be a finite number [{unit}], but is {value!r}")
+    # Of each block, or in time.
+    many = callable(value) or isinstance(value, (list, tuple, np.ndarray))
+    kind = "one number for all blocks and times" if many else "a finite number"
+    raise ValueError(f"{name} must be {kind} [{unit}], but is {value!r}")
 
 
 def number_array(name: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:

@@ -1,5 +1,7 @@
 """Simulate ensembles of chains on all cores."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 

@@ -1,5 +1,7 @@
 """A record of a chain's transitions, and a run, which has exact states as well."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from os import PathLike
 from typing import Any, Self

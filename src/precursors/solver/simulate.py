@@ -1,5 +1,7 @@
 """Simulate chains exactly: every transition between stick and slip, to rounding."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 

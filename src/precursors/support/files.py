@@ -80,8 +80,9 @@ def check_writable(path: AnyPath, endings: Sequence[str] = ()) -> None:
         raise OSError(
             f"cannot write {path}: its name has more than {LONGEST_NAME} bytes"
         )
-    if target.is_dir():
-        raise OSError(f"cannot write {path}: it is a directory")
+    if target.exists() and not target.is_file():
+        kind = "a directory" if target.is_dir() else "not a file"
+        raise OSError(f"cannot write {path}: it is {kind}")
     parent = next(above for above in target.parents if above.exists())
     if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
         raise OSError(
