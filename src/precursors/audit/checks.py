@@ -9,7 +9,7 @@ from precursors.audit.report import Audit
 from precursors.model.chain import FREE
 from precursors.model.checks import positive
 from precursors.solver.run import Run
-from precursors.support.waiting import tell
+from precursors.support.waiting import bar
 
 TIME_TOLERANCE = 1e-12
 """Of the duration: recorded times are rounded once a transition, the intervals are
@@ -72,9 +72,8 @@ class Auditor:
         transitions = [*self.run.transitions.tolist(), None]
         started = False
         steps = zip(intervals, instants, transitions, strict=True)
-        for duration, instant, transition in tell(
-            "auditing", steps, lambda: self.time / self.run.duration
-        ):
+        told = bar("auditing", len(intervals), steps)
+        for duration, instant, transition in told:
             if not started and (duration > 0 or transition is None):
                 started = True
                 self.check_start()

@@ -84,12 +84,10 @@ def simulate_larger(
     before = stored_energy(chain, state)
     ends_at = (until == "global slip", until == "settled")
     end = End(duration, *ends_at, lifting.min(), *limits)
-    now = np.zeros(1)
-    rows, points, time, steps = in_threads(
-        "running",
-        [partial(march, m, state, end, longest_steps(m, chain, step), now)],
-        done=lambda: now[0] / duration,
-    )[0]
+    steps_of = longest_steps(m, chain, step)
+    ((rows, points, time, steps),) = in_threads(
+        "running", [partial(march, m, state, end, steps_of)]
+    )
     if state.force[0] > lifting.min():
         raise ValueError(
             f"push_height = {larger.push_height:g} m lifts block {lifting.argmin() + 1} "

@@ -299,12 +299,11 @@ def close_event(m, s, results):
 
 
 @compiled
-def march(m, s, end, step, now):
+def march(m, s, end, step):
     """Run from rest: rows (time, block, mode, F_X), points (time, F_X), the time at the
     end and the number of steps.
 
-    `step` [s] is that while nothing slides ahead of each block. The time reached is in
-    `now` for those who wait.
+    `step` [s] is that while nothing slides ahead of each block.
     """
     n = len(m.weights)
     total = m.weights.sum()
@@ -344,7 +343,6 @@ def march(m, s, end, step, now):
             last = farthest(s.mode)
         stalled = 0 if time + h > time else stalled + 1
         time += h
-        now[0] = time
         ended = time >= end.duration or s.force[0] > end.lifting_load
         if notable and note(m, s, results, watched, load_before, time, h):
             settled = period_of(results.peaks, SETTLED * total) > 0

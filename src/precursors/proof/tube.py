@@ -25,7 +25,6 @@ new modes before that instant. So event functions are proved from -gap on.
 """
 
 from fractions import Fraction
-from itertools import count
 from typing import NamedTuple
 
 from flint import arb, ctx
@@ -50,7 +49,7 @@ from precursors.proof.motion import (
     log2,
     time_unit,
 )
-from precursors.support.waiting import tell
+from precursors.support.waiting import bar
 
 # Rounding is kept so many bits below the distance that the runs have come to.
 GUARD_BITS = 40
@@ -164,22 +163,24 @@ class Proof:
             Where the precision does not suffice or there is a tie, with the time in s;
             `transitions` are those that are proved.
         """
-        for _ in tell(
-            "proving", count(), lambda: float((self.clock / self.duration).mid())
-        ):
-            self.all_slid = self.all_slid or all(self.state.mode[1:-1])
-            if not {1, -1} & {*self.state.mode}:
-                if self.until and self.all_slid:
-                    break
-                self.all_slid = False
-            try:
-                if not (self.slide() if any(self.state.mode) else self.load()):
-                    break
-            except Undecided as undecided:
-                with ctx.workprec(self.bits + GUARD_BITS):
-                    undecided.time = self.clock + self.unit * undecided.time
-                raise
+        with bar("proving", float(self.duration.mid())) as told:
+            while self.step():
+                told.update(float(self.clock.mid()) - told.n)
         return self.transitions
+
+    def step(self) -> bool:
+        """Prove the next transition; False where the run ends."""
+        self.all_slid = self.all_slid or all(self.state.mode[1:-1])
+        if not {1, -1} & {*self.state.mode}:
+            if self.until and self.all_slid:
+                return False
+            self.all_slid = False
+        try:
+            return self.slide() if any(self.state.mode) else self.load()
+        except Undecided as undecided:
+            with ctx.workprec(self.bits + GUARD_BITS):
+                undecided.time = self.clock + self.unit * undecided.time
+            raise
 
     def load(self) -> bool:
         """Load the resting chain until block 1 is released: no other block feels the

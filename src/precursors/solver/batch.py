@@ -2,7 +2,6 @@
 
 import threading
 from collections.abc import Iterator, Sequence
-from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +10,7 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.solver import kernel
 from precursors.solver.record import COLUMNS, TRANSITION, States
 from precursors.solver.run import Record, Run
-from precursors.support.waiting import tell
+from precursors.support.waiting import bar
 
 # Stored states are thinned out so that they never take more room than this.
 STATES_BYTES = 64 * 2**20
@@ -97,19 +96,17 @@ def run_batch(
     words = np.zeros((len(chains), kernel.WORDS), np.int64)
     progress = words.view(kernel.PROGRESS)[:, 0]
     progress["stride"] = recorder.stride
-    telling = tell("running", count(), lambda: progress["onset"].mean() / end.duration)
     first = 0
-    while first < len(chains):
-        run = progress[first]
-        if run["stored"]:
-            next(telling)
-        arrays = (words, *recorder.room(run), recorder.memory)
-        n_finished, *rows = kernel.run_batch(
-            batch, end, *arrays, first, WINDOWS_PER_CALL
-        )
-        which = range(first, n_finished)
-        yield from _runs(chains, batch, progress, which, *recorder.take(*rows), end)
-        first = n_finished
+    with bar("running", end.duration) as told:
+        while first < len(chains):
+            arrays = (words, *recorder.room(progress[first]), recorder.memory)
+            n_finished, *rows = kernel.run_batch(
+                batch, end, *arrays, first, WINDOWS_PER_CALL
+            )
+            which = range(first, n_finished)
+            yield from _runs(chains, batch, progress, which, *recorder.take(*rows), end)
+            first = n_finished
+            told.update(progress["onset"].mean() - told.n)
 
 
 def _runs(
