@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
 from analysis.random_runs import random_chain, random_transitions
 
 from precursors import (
@@ -45,12 +44,6 @@ def test_a_load_below_1e_4_of_the_mean_has_the_events_of_none():
         slip_events(without_load(run, share)).tolist() for share in (0, 8e-5, 1e-4, 1)
     )
     assert none == next_to_none != light == even
-
-
-def test_a_rule_that_is_not_known_is_named_beside_those_that_are():
-    slips = find_slips(random_transitions(np.random.default_rng(1)))
-    with pytest.raises(ValueError, match=r"short must be one of 'shorter', .* is 'x'"):
-        find_precursors(slips, "x")
 
 
 def test_short_events_are_dropped_equal_ones_kept_and_nothing_after_the_global_slip():

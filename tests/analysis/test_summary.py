@@ -1,9 +1,7 @@
-"""The numbers of a run follow from its slip table, under every reading of the words."""
+"""The numbers of a run follow from its slip table."""
 
 import math
 
-import numpy as np
-import pandas as pd
 import pytest
 
 from precursors import (
@@ -14,7 +12,7 @@ from precursors import (
     slip_table,
     summarise,
 )
-from precursors.analysis.summary import Definition, speedup, summary_of
+from precursors.analysis.summary import summary_of
 
 # One quotient of doubles.
 ROUNDING = 1e-15
@@ -28,7 +26,7 @@ def test_the_numbers_of_runs_with_and_without_events_and_global_slips():
     assert found["events_counted"].tolist() == [0, 1, 6]
     assert found["events_in_all"].tolist() == [0, 1, 41]
     assert found["n_global"].tolist() == [0, 0, 24]
-    assert found.loc[:1, "mu_sapp":"speedup"].isna().all(axis=None)
+    assert found.loc[:1, "mu_sapp":"global_slip_load_N"].isna().all(axis=None)
     assert found["mu_sapp"].round(4)[2] == 0.4845
     assert apparent_friction(simulate(chain, 10.0)) == found["mu_sapp"][2]
     assert summarise([]).columns.equals(found.columns)
@@ -54,59 +52,3 @@ def test_a_global_slip_that_the_run_cuts_off_has_no_end():
     assert cut["reached"].item()
     assert math.isnan(cut["global_slip_end_s"].item())
     assert cut["mu_sapp"].item() == apparent_friction(run)
-
-
-# Front, blocks that slid, most at once, load before and after, of five events of a
-# chain of three blocks.
-EVENTS = pd.DataFrame(
-    [
-        (2, 2, 1, 9.0, 8.0),
-        (1, 1, 1, 10.0, 9.5),
-        (2, 2, 2, 11.0, 8.0),
-        (3, 3, 2, 12.0, 10.0),
-        (3, 3, 3, 11.0, 5.0),
-    ],
-    columns=["front", "n_slid", "n_simultaneous", "load_before_N", "load_after_N"],
-)
-EVENTS = EVENTS.assign(
-    onset_s=EVENTS.index,
-    end_s=EVENTS.index,
-    largest_load_N=EVENTS["load_before_N"].cummax(),
-    is_global=EVENTS["n_simultaneous"] == 3,
-    n_blocks=3,
-    normal_load_N=20.0,
-)
-
-
-@pytest.mark.parametrize(
-    ("definition", "events", "counted", "mu_sapp"),
-    [
-        (Definition(), 5, 4, 0.6),
-        (Definition("each"), 4, 3, 0.6),
-        (Definition(2.5), 3, 2, 0.55),
-        (Definition(short="not longer"), 5, 2, 0.6),
-        (Definition(short="shorter than the last"), 5, 4, 0.6),
-        (Definition("each", "n_simultaneous", "not longer"), 4, 2, 0.6),
-    ],
-)
-def test_a_reading_decides_which_event_is_global_and_which_are_short(
-    definition, events, counted, mu_sapp
-):
-    found = summary_of(EVENTS, definition)
-    assert (found.events_to_global_slip, found.events_counted) == (events, counted)
-    assert found.mu_sapp == pytest.approx(mu_sapp, rel=ROUNDING)
-
-
-@pytest.mark.parametrize(
-    ("fronts", "expected"),
-    [
-        ([1, 4, 7, 9, 10], (3 / 20) / (6 / 20)),
-        ([1, 4, 9, 7, 10], (3 / 10) / (6 / 30)),  # a rule that counts shorter ones
-        ([1, 4, 7, 9, 9], math.nan),  # the whole length is not reached
-        ([7, 7, 7, 10, 10], math.nan),  # no rise up to the kink
-    ],
-)
-def test_growth_beyond_the_kink_is_that_of_the_events_counted(fronts, expected):
-    loads = np.arange(10.0, 60.0, 10.0)
-    found = speedup(np.array(fronts), loads, n_blocks=10)
-    assert found == pytest.approx(expected, nan_ok=True)

@@ -9,19 +9,20 @@ import numpy as np
 import pandas as pd
 
 from maegawa2010 import printed
-from precursors.analysis.slips import SHORT_EVENTS, slip_table
-from precursors.analysis.summary import (
+from maegawa2010.paper.readings import (
     FRONTS,
     GLOBAL_SLIPS,
-    OURS,
+    SHORT_EVENTS,
     Definition,
-    summary_of,
 )
+from precursors.analysis.slips import slip_table
+from precursors.analysis.summary import summary_of
 from precursors.model.chain import Chain, parse_theta
 from precursors.solver import plain
 from precursors.solver.run import Record, Run
 from precursors.solver.simulate import MAX_TRANSITIONS, simulate
 
+OURS = Definition()
 # The size of theta where it is that of the scenes.
 OF_SCENES = "scenes"
 SIGNS = (-1, 0, 1)
@@ -146,7 +147,7 @@ def numbers(
 ) -> dict[str, Any]:
     """Both numbers of a run, and how many of them are the paper's: mu_sapp to a unit of
     its last digit."""
-    found = summary_of(slip_table(run), definition)
+    found = summary_of(definition.read(slip_table(run)))
     counted = found.events_counted if found.reached else math.nan
     off = abs(found.mu_sapp - of_paper.get("mu_sapp", math.nan))
     agree = [counted == of_paper.get("events_counted"), off <= printed.LAST_DIGIT]

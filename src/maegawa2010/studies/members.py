@@ -11,13 +11,16 @@ import numpy as np
 import pandas as pd
 
 from maegawa2010 import printed
+from maegawa2010.paper.readings import speedup
 from maegawa2010.support.run_statistics import (
     NOISE,
     compared,
     median_difference,
     nine_tenths,
 )
-from precursors.analysis.summary import summarise
+from precursors.analysis.events import slip_events
+from precursors.analysis.slips import slip_columns
+from precursors.analysis.summary import summaries
 from precursors.model.chain import SLIDER, Chain, FloatArray
 from precursors.solver.many import simulate_many
 from precursors.solver.run import Record
@@ -115,20 +118,31 @@ def run_members(study: Study) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        The members, each with the summary of its run (see `summarise`). A member that
+        The members, each with the numbers of its run (see `numbers_of`). A member that
         meets the limit of transitions is summarised as far as it came.
     """
     size = max(1, BLOCKS_PER_BATCH // max(study.members["n_blocks"], default=1))
-    results = [summarise([])]
+    results = [numbers_of([])]
     for _, members in study.members.groupby("duration", sort=False):
         for begin in range(0, len(members), size):
             batch = members.iloc[begin : begin + size]
             chains = [
                 chain_of(member, study.seed) for member in batch.to_dict("records")
             ]
-            summary = summarise(_runs(chains, float(batch["duration"].iloc[0])))
-            results.append(summary.set_index(batch.index))
+            runs = _runs(chains, float(batch["duration"].iloc[0]))
+            results.append(numbers_of(runs).set_index(batch.index))
     return study.members.join(pd.concat(results))
+
+
+def numbers_of(runs: Iterable[Record]) -> pd.DataFrame:
+    """A row for each run: its summary (see `summarise`), and the growth of L_p (see
+    `speedup`)."""
+    runs = list(runs)
+    tables = [slip_columns(slip_events(run), run.chain) for run in runs]
+    return summaries(tables).assign(
+        speedup=[speedup(table) for table in tables],
+        transitions=[len(run.transitions) for run in runs],
+    )
 
 
 def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:

@@ -131,3 +131,9 @@ def told_of_light_blocks(run: Record) -> str:
         f"block {block + 1}, with {chain.weights[block]:.2g} N, {does}: "
         f"{n} in all, {without} without it"
     )
+
+
+def agreeing(mine: NDArray[np.void], theirs: NDArray[np.void]) -> int:
+    """Number of rows that agree before the first that does not, or an end."""
+    n = min(len(mine), len(theirs))
+    return int(np.argmin(np.append(mine[:n] == theirs[:n], False)))

@@ -9,11 +9,10 @@ estimate; `certify` gives a proof.
 """
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from precursors.analysis.events import agreeing
 from precursors.model.chain import FloatArray
 from precursors.model.checks import positive
 from precursors.solver.many import simulate_many
@@ -154,9 +153,3 @@ def neighbours(run: Run) -> list[Run]:
 def rms(values: FloatArray) -> FloatArray:
     """Root of the mean of the squares over the first axis."""
     return np.sqrt(np.mean(values**2, axis=0))
-
-
-def agreeing(mine: NDArray[Any], theirs: NDArray[Any]) -> int:
-    """Number of rows that agree before the first that does not, or an end."""
-    n = min(len(mine), len(theirs))
-    return int(np.argmin(np.append(mine[:n] == theirs[:n], False)))

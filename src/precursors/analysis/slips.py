@@ -18,11 +18,6 @@ OF_SLIDER = {
     "slider_length_m": "length",
     "mu_k": "mu_k",
 }
-SHORT_EVENTS = {
-    "shorter": "shorter than one before it",
-    "not longer": "not longer than all before it",
-    "shorter than the last": "shorter than the one just before it",
-}
 
 
 def find_slips(run: Record) -> pd.DataFrame:
@@ -65,34 +60,27 @@ def slip_columns(slips: NDArray[np.void], chain: Chain) -> dict[str, NDArray[Any
     }
 
 
-def find_precursors(slips: pd.DataFrame, short: str = "shorter") -> pd.DataFrame:
+def find_precursors(slips: pd.DataFrame) -> pd.DataFrame:
     """Events of Fig. 13: short ones left out, up to and including the first global
     slip.
 
     An event is short if its front is strictly less than the farthest front before it;
-    equal ones are counted. `short` may name another reading, a key of SHORT_EVENTS.
-    Without a global slip all events that are not short are returned.
+    equal ones are counted. Without a global slip all events that are not short are
+    returned.
     """
-    return slips[counted(slips["front"], slips["is_global"], short)]
+    return slips[counted(slips["front"], slips["is_global"])]
 
 
-def counted(
-    front: ArrayLike, is_global: ArrayLike, short: str = "shorter"
-) -> NDArray[np.bool_]:
+def counted(front: ArrayLike, is_global: ArrayLike) -> NDArray[np.bool_]:
     """Which events Fig. 13 counts: see `find_precursors`."""
-    front = np.asarray(front)
-    farthest = np.maximum.accumulate(front)
+    is_short = np.asarray(front) < np.maximum.accumulate(front)
+    return until_global(is_global) & ~is_short
+
+
+def until_global(is_global: ArrayLike) -> NDArray[np.bool_]:
+    """Which events come up to and including the first global slip."""
     is_global = np.asarray(is_global, bool)
-    until_global = np.cumsum(is_global) - is_global == 0
-    if short == "shorter":
-        return until_global & (front == farthest)
-    if short == "not longer":
-        return until_global & (np.diff(farthest, prepend=0) > 0)
-    if short == "shorter than the last":
-        return until_global & (np.diff(front, prepend=0) >= 0)
-    raise ValueError(
-        f"short must be one of {', '.join(map(repr, SHORT_EVENTS))}, but is {short!r}"
-    )
+    return np.cumsum(is_global) - is_global == 0
 
 
 def first_global(is_global: ArrayLike) -> int | None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from precursors.analysis.horizon import agreeing
+from precursors.analysis.events import agreeing
 from precursors.analysis.slips import find_slips, first_global
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Record
