@@ -10,7 +10,7 @@ const ORDER = 24; // (2 WINDOW)^ORDER / ORDER! is below 1e-19
 const FREE = 2; // mode of a block without load: it moves without friction and has no transitions
 const MOST_TRANSITIONS = 200000;
 const MOST_WINDOWS = 2000000;
-const ROUNDINGS = 16 * Number.EPSILON; // a force below so many roundings of its springs counts as zero
+const ZERO = 16 * Number.EPSILON; // a force below so many roundings of its springs counts as zero
 const LEAST_SHARE = 1e-4; // of the mean load: a block with less has no part in events, as in model/chain.py
 
 // N blocks of a slider (Eqs. 9 and 10), which has the names of `Chain.from_slider`, under a straight line of normal loads
@@ -85,7 +85,7 @@ function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms
 
 // Size below which rounding hides a net force, or what it does to a velocity.
 const zeroBelow = (force, strength, i) =>
-  ROUNDINGS * (Math.abs(force[i]) + Math.abs(force[i + 1]) + strength[i]);
+  ZERO * (Math.abs(force[i]) + Math.abs(force[i + 1]) + strength[i]);
 
 // The earliest root of a function in [0, end], or end. With |g''| <= bound, the positive root s of
 // g + g' s - bound s^2/2 is a step that cannot pass a root of g. A root at the start, to within
