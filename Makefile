@@ -19,7 +19,7 @@ TARGETS := all test test-cluster results check report benchmark golden docs benc
 .PHONY: $(TARGETS)
 
 all: results
-	@$(BIN)/python workflow/scripts/print_reproduction.py results/tables/reproduction.csv results/figures
+	@$(BIN)/python workflow/scripts/print_reproduction.py results
 
 test: results $(DEV)
 	$(BIN)/pytest -n $(CORES) --dist worksteal

@@ -66,36 +66,28 @@ def test_a_run_that_meets_its_cap_is_kept_under_another_name(workspace):
 # What make calls
 
 
-REPRODUCTION = """\
-       theta quantity                                                   unit  paper  reproduced
-fig10 0       events counted in Fig. 13, the first global slip included  1      9        9     
-fig10 0                    apparent static friction coefficient mu_sapp  1   0.49   0.4858     
-fig10 0                                   time of the first global slip  s      -    2.739     
-fig10 0                                   load at the first global slip  N      -    194.3     
-fig10 0                          all events up to the first global slip  1      -       16     
-"""  # noqa: W291
-
-
-def test_the_reproduction_is_printed_beside_the_paper_with_the_names_of_the_figures(
+def test_the_reproduction_is_printed_beside_the_paper_with_what_to_open_next(
     tmp_path, capsys
 ):
-    golden = pd.read_csv(ROOT / "tests/golden/reproduction.csv").query(
-        "scene == 'fig10'"
-    )
-    golden.to_csv(tmp_path / "reproduction.csv", index=False)
-    for name in ("b.svg", "a.svg", "a.png"):
-        (tmp_path / name).touch()
-    print_reproduction.main(tmp_path / "reproduction.csv", tmp_path)
-    assert (
-        capsys.readouterr().out
-        == REPRODUCTION + f"Figures: a.svg, b.svg in {tmp_path}\n"
-    )
+    (tmp_path / "tables").mkdir()
+    golden = pd.read_csv(ROOT / "tests/golden/reproduction.csv")
+    golden.to_csv(tmp_path / "tables/reproduction.csv", index=False)
+    (tmp_path / "explorer.html").touch()
+    print_reproduction.main(tmp_path)
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == len(golden) + 2
+    assert any(line.split()[-2:] == ["0.49", "0.4858"] for line in lines)
+    assert lines[-1].startswith(f"Open {tmp_path / 'explorer.html'};")
 
 
 @pytest.mark.parametrize(
     ("script", "arguments", "told"),
     [
-        ("print_reproduction", ["none.csv", "figures"], "reproduction: .*none.csv"),
+        (
+            "print_reproduction",
+            ["none"],
+            "reproduction: .*none/tables/reproduction.csv",
+        ),
         ("codecheck", [], "codecheck: "),
     ],
 )

@@ -16,18 +16,26 @@ QUANTITIES = {
 }
 
 
-def main(table: str | Path, figures: str | Path) -> None:
-    """Print the table of the reproduction for reading, four digits a number."""
-    found = read_table(table).rename_axis(index=None).set_index("scene")
+# What a reader opens first, seen from the results; those of another slider have no article.
+PAGES = ("paper.pdf", "supplement.pdf", "explorer.html", "figures")
+
+
+def main(results: str | Path) -> None:
+    """Print the table of the reproduction for reading, four digits a number, and what
+    to open next."""
+    found = (
+        read_table(Path(results, "tables/reproduction.csv"))
+        .rename_axis(index=None)
+        .set_index("scene")
+    )
     found["quantity"] = found["quantity"].map(QUANTITIES)
     print(
         found.to_string(
             float_format="{:.4g}".format, na_rep="-", justify="left", index_names=False
         )
     )
-    print(
-        f"Figures: {', '.join(sorted(path.name for path in Path(figures).glob('*.svg')))} in {figures}"
-    )
+    there = [str(Path(results, name)) for name in PAGES if Path(results, name).exists()]
+    print(f"Open {', '.join(there)}; `make check` prints the claims of the paper.")
 
 
 if __name__ == "__main__":
