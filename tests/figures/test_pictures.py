@@ -113,10 +113,5 @@ PICTURES = {
     "scene_calm": lambda: draw_scene(slips().iloc[:0], look=style.Look(85.0)),
     "precursor_lengths_others": (other_lengths, NARROW),
     "precursor_lengths_one": one_length,
-    "larger": lambda: larger.draw(
-        *(
-            read(COMMITTED / f"larger_{name}_full.csv")
-            for name in ("nucleation", "settled")
-        )
-    ),
+    "larger": lambda: larger.draw(read(COMMITTED / "larger_settled_full.csv")),
 }

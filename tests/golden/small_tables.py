@@ -35,5 +35,5 @@ def small_larger_tables() -> dict[str, pd.DataFrame]:
     members = run_settled(settled_study(CONFIG["chain"], settled))
     chunk = members.rename_axis("member").reset_index()
     return larger_tables(CONFIG["chain"], first) | {
-        "larger_settled": settled_table([chunk])
+        "larger_settled": settled_table([chunk], CONFIG["chain"])
     }

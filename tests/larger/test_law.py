@@ -8,17 +8,19 @@ import numpy as np
 import pytest
 from chains import SLIDER
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from precursors.larger.chain import LargerChain, critical_length, weakening_velocity
-from precursors.larger.law import law_of
+from precursors.larger.law import Law
 from precursors.larger.settled import beside_law, settled
 from precursors.larger.simulate import simulate_larger
 
-LAW = 0.005  # of the peaks of runs with the number of precursors counted in them
+LAW = 0.003  # of the peaks of runs with the number of precursors counted in them
+PREDICTED = 0.005  # of peaks with nothing counted
 STEP = 0.5  # changes settled peaks by 3e-4, compared with 0.25
 PLACES = (np.arange(50) + 0.5) / 50
 EVEN = np.ones(50)
+# Of the amplitude of a swing: waves other than the slowest mode, once they are damped.
+WAVES = 0.015
 
 
 def chain_of(shape, part, t_v, normal_load=400.0, **slider):
@@ -34,56 +36,82 @@ def chain_of(shape, part, t_v, normal_load=400.0, **slider):
     [
         chain_of(1.0 - 1.4 * (PLACES - 0.5), 0.17, 1.3e-4),
         chain_of(1.0 + 1.2 * (PLACES - 0.5), 0.23, 1.7e-4),
+        chain_of(0.3 + PLACES * (1.0 - PLACES), 0.2, 1.5e-4),
         chain_of(EVEN, 0.2, 1.5e-4, drive_stiffness=1.2e6),
         chain_of(EVEN, 0.2, 1.5e-4, mu_k=0.55),
     ],
-    ids=["-0.7", "+0.6", "K", "mu_k"],
+    ids=["-0.7", "+0.6", "middle", "K", "mu_k"],
 )
-def test_a_run_settles_at_the_law_with_the_precursors_that_it_has(larger):
-    law = law_of(larger)
+def test_a_run_settles_at_the_law_with_its_precursors_and_with_nothing_counted(larger):
+    law = Law(larger)
     found = settled(simulate_larger(larger, 12.0, "settled", STEP), law.nucleus)
+    counted = law.fixed_point(found["precursors"])
+    predicted = law.cycle(law.rest)
     assert found["period"] > 0
-    assert found["coefficient"] == pytest.approx(
-        law.coefficient(found["precursors"]), abs=LAW
-    )
-    assert found["precursors"] in law.possible
-    assert found["coefficient"] > law.bound
+    assert found["coefficient"] == pytest.approx(counted.coefficient, abs=LAW)
+    assert found["coefficient"] == pytest.approx(predicted.coefficient, abs=PREDICTED)
+    assert found["precursors"] == predicted.precursors
+    assert predicted.precursors in law.possible
 
 
-@pytest.mark.parametrize("t_v", [2e-5, 2e-4])
-def test_the_rebound_is_the_stress_left_by_a_periodic_swing(t_v):
-    """Elastic stress lags the total one by t_v during half a swing, from -r to r."""
-    larger = chain_of(EVEN, 0.2, t_v)
-    omega = 7754.0  # of the paper's slider on its drive [1/s]
+@pytest.mark.parametrize("t_v", [2e-5, 1e-4, 2e-4, 4e-4])
+def test_a_slip_leaves_the_stress_of_the_bar_with_dashpots_after_half_a_swing(t_v):
+    """T_i' = k (v_{i-1} - v_i), m v_i' = T_i + D_i - T_{i+1} - D_{i+1}, released at rest
+    under the stress of the slowest mode, until block 1 turns."""
+    n = 100
+    law = Law(chain_of(np.ones(n), 0.2, t_v))
+    chain = chain_of(np.ones(n), 0.2, t_v).chain
+    bonds = np.eye(n) - np.eye(n, k=-1)
+    lags = np.append(0.0, np.full(n - 1, t_v))
 
-    def gain(left):
-        half = (0.0, np.pi / omega)
-        lag = solve_ivp(
-            lambda t, s: (np.cos(omega * t) - s) / t_v, half, [-left], rtol=1e-9
-        )
-        return lag.y[0, -1] + left
+    def motion(_, state):
+        forces, velocities = np.split(state, 2)
+        rates = -chain.springs * (bonds @ velocities)
+        return np.append(rates, bonds.T @ (forces + lags * rates) / chain.mass)
 
-    assert law_of(larger).rebound == pytest.approx(brentq(gain, 0.0, 2.0), rel=1e-4)
+    def turns(time, state):
+        return state[n] + 1.0 * (time < 1e-4)
+
+    turns.terminal = True
+    places = np.arange(n) / n
+    start = np.interp(places, law.places, law.shape)
+    state = np.append(start, np.zeros(n))
+    half = solve_ivp(motion, (0.0, 1e-3), state, "LSODA", events=turns, rtol=1e-6)
+    said = law.memory * start - law.swing(1.0, law.shape) * start
+    inside = places > 0.1
+    np.testing.assert_allclose(half.y[:n, -1][inside], said[inside], atol=WAVES)
+
+
+@pytest.mark.parametrize("t_v", [5e-5, 1.5e-4, 3e-4])
+def test_the_slope_is_that_of_the_events_about_the_fixed_point(t_v):
+    law = Law(chain_of(1.0 - 1.2 * (PLACES - 0.5), 0.25, t_v))
+    fixed = law.fixed_point()
+    peak = (fixed.coefficient - law.mu_k) / law.drop
+    left = (law.nucleus_load - peak) / (1.0 - law.nucleus)
+    stress = 0.8 * left * (law.places - 1.0)
+    peaks = np.empty(20)
+    for i in range(20):
+        peaks[i], front, stress = law.event(stress)
+        assert front == 1.0
+    changes = np.diff(peaks)
+    assert peaks[-1] == pytest.approx(peak, abs=0.01)
+    assert changes[1] / changes[0] == pytest.approx(fixed.slope, abs=0.05)
 
 
 def test_the_need_of_an_even_load_is_its_nucleation_length():
-    law = law_of(chain_of(EVEN, 0.2, 1e-4))
-    np.testing.assert_allclose(law.need, 2.0 / np.pi * 0.2, rtol=1e-12)
+    law = Law(chain_of(EVEN, 0.2, 1e-4))
+    np.testing.assert_allclose(law.need, 2.0 / np.pi * 0.2, rtol=1e-9)
     assert law.nucleus == pytest.approx(0.2, abs=1e-3)
 
 
-def test_more_load_at_the_far_end_needs_more_precursors():
-    chains = [chain_of(1.0 + s * (PLACES - 0.5), 0.15, 1e-4) for s in (-1.6, 0.0, 1.6)]
-    assert [min(law_of(chain).possible) for chain in chains] == [0, 0, 2]
-
-
-def test_a_front_stops_before_the_end_unless_the_cycle_has_enough_precursors():
-    law = law_of(chain_of(1.0 + 1.6 * (PLACES - 0.5), 0.15, 1e-4))
-    n = min(law.possible)
-    fronts = [law.front(k, n) for k in range(n + 1)]
-    assert fronts == sorted(fronts)
-    assert law.nucleus < fronts[0] < 1.0
-    assert fronts[-1] == 1.0
+def test_more_load_at_the_far_end_needs_more_precursors_which_come_farther_each_time():
+    laws = [
+        Law(chain_of(1.0 + s * (PLACES - 0.5), 0.15, 1e-4)) for s in (-1.6, 0.0, 1.6)
+    ]
+    cycles = [law.cycle(law.rest) for law in laws]
+    assert [cycle.precursors for cycle in cycles] == [0.0, 0.0, 2.0]
+    fronts = cycles[-1].fronts
+    assert laws[-1].nucleus < fronts[0] < fronts[1] < 1.0
 
 
 EVENLY = chain_of(EVEN, 0.2, 1e-4)
@@ -92,38 +120,28 @@ EVENLY = chain_of(EVEN, 0.2, 1e-4)
 @pytest.mark.parametrize(
     ("larger", "reason"),
     [
-        (replace(EVENLY, weakening_velocity=0.0), "friction does not weaken"),
-        (replace(EVENLY, relaxation_time=0.0), "omega t_v = 0 is below 0.05"),
-        (chain_of(EVEN, 0.2, 1e-3), "omega t_v = 7.8 is above 4"),
-        (
-            chain_of(EVEN, 0.05, 1e-4, drive_velocity=1e-5),
-            "l_c is shorter than 3 blocks",
-        ),
-        (replace(EVENLY, weakening_velocity=1.0), "l_c = inf L is above 0.7 L"),
-        (
-            chain_of(EVEN, 0.2, 1e-4, drive_velocity=0.01),
-            "V = 0.01 m/s is above 0.3 v_c",
-        ),
-        (
-            chain_of(EVEN, 0.2, 1e-4, drive_stiffness=5e6),
-            "K = 2 E S/L is above 1.3 E S/L",
-        ),
+        (replace(EVENLY, weakening_velocity=0.0), "v_c/V must be between 3.3 and inf"),
+        (chain_of(EVEN, 0.3, 1e-6), "omega t_v .* between 0.05 and 4, but is 0.0078"),
+        (chain_of(EVEN, 0.2, 1e-3), "omega t_v .* but is 7.8"),
+        (chain_of(EVEN, 0.05, 1e-4, drive_velocity=1e-5), "l_c/L .* 0.06 and 0.7"),
+        (replace(EVENLY, weakening_velocity=1.0), "l_c/L .* but is inf"),
+        (chain_of(EVEN, 0.2, 1e-4, drive_velocity=0.01), "v_c/V .* but is 0.55"),
+        (chain_of(EVEN, 0.2, 1e-4, drive_stiffness=5e6), r"K L/\(E S\) .* but is 2"),
     ],
 )
 def test_outside_its_limits_the_law_is_refused_with_the_reason(larger, reason):
-    with pytest.raises(ValueError, match=f"^the law of .* fails: {reason}$"):
-        law_of(larger)
+    with pytest.raises(ValueError, match=f"^the law of .* does not apply: .*{reason}"):
+        Law(larger)
 
 
 def test_a_run_tells_the_law_beside_its_own_coefficient():
     larger = chain_of(np.ones(25), 0.25, 1e-4, drive_velocity=5e-4)
-    law = law_of(larger)
+    law = Law(larger)
     told = beside_law(simulate_larger(larger, 3.0, step=STEP))
     assert told["critical_length_m"] == critical_length(larger)
-    assert told["law_coefficient"] == law.coefficient(told["precursors"])
-    assert told["settled_coefficient"] == pytest.approx(
-        told["law_coefficient"], abs=0.01
-    )
+    fixed = law.fixed_point(told["precursors"])
+    assert told["law_coefficient"] == fixed.coefficient
+    assert told["settled_coefficient"] == pytest.approx(fixed.coefficient, abs=0.01)
     early = beside_law(simulate_larger(larger, 0.1, step=STEP))
     assert np.isnan(early["settled_coefficient"])
-    assert early["law_coefficient"] == law.coefficient(min(law.possible))
+    assert early["predicted_coefficient"] == told["predicted_coefficient"]

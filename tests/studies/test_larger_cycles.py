@@ -11,7 +11,12 @@ import pytest
 from chains import SLIDER
 from settings import CONFIG
 
-from maegawa2010.studies.larger.cycles import run_past, settled_study, with_past
+from maegawa2010.studies.larger.cycles import (
+    beside_law,
+    run_past,
+    settled_study,
+    with_past,
+)
 from maegawa2010.studies.larger.first_slips import points, run_draw
 from precursors import TransitionLimitError
 from precursors.larger.chain import LargerChain, weakening_velocity
@@ -150,6 +155,19 @@ def test_the_committed_coefficients_are_those_of_the_library():
         run_past(study.seed, of)["coefficient"] for of in chosen.to_dict("records")
     ]
     np.testing.assert_allclose(there["coefficient"], again, atol=MACHINE)
+
+
+def test_the_committed_law_is_that_of_the_library_and_gives_the_coefficients():
+    there = committed("larger_settled")
+    some = there[there["past"] == 0].iloc[::40]
+    of_runs = some.loc[:, :"slope"]
+    pd.testing.assert_frame_equal(beside_law(of_runs, CONFIG["chain"]), some, rtol=1e-9)
+    runs = there[there["period"] > 0]
+    miss = runs["coefficient"] - runs["law_coefficient"]
+    assert np.sqrt((miss**2).mean()) < 0.0023
+    right = (runs["predicted_precursors"] - runs["precursors"]).abs() < 0.05
+    assert right.mean() > 0.85
+    assert (there["coefficient"] > there["mu_k"]).all()
 
 
 def settled_runs(study):

@@ -49,9 +49,10 @@ if config["full"]:
             "results/logs/tabulate_settled.log",
         localrule: True
         params:
+            slider=config["chain"],
             code=digest("tabulate_settled"),
         message:
-            "gathering the settled runs of chains with a length"
+            "gathering the settled runs of chains with a length, beside their law"
         script:
             "../scripts/tabulate_settled.py"
 
@@ -60,16 +61,15 @@ if config["full"]:
 if IS_PAPERS:
 
     rule draw_larger:
-        """Draw a chain with a length, cut from the paper's slider."""
+        """Draw the settled coefficient of chains with a length."""
         input:
-            nucleation=COMMITTED / "larger_nucleation_full.csv",
             settled=COMMITTED / "larger_settled_full.csv",
         output:
             report(
                 "results/figures/larger.svg",
                 caption="../report/larger.rst",
                 category="Hierarchy",
-                labels={"figure": "larger: a chain with a length, cut from the paper's slider"},
+                labels={"figure": "larger: the settled coefficient of chains with a length"},
             ),
             collect("results/figures/larger.{kind}", kind=MORE_FORMATS),
         log:
@@ -78,7 +78,7 @@ if IS_PAPERS:
         params:
             code=digest("draw_larger"),
         message:
-            "drawing a chain with a length"
+            "drawing the settled coefficient of chains with a length"
         script:
             "../scripts/draw_larger.py"
 

@@ -7,7 +7,6 @@ from maegawa2010.studies.larger.figure import draw
 from precursors.support.files import read_table
 
 with job() as snakemake:
-    nucleation = read_table(snakemake.input.nucleation)
-    figure = draw(nucleation, read_table(snakemake.input.settled))
-    title = "a chain with a length, cut from the paper's slider"
+    figure = draw(read_table(snakemake.input.settled))
+    title = "the settled coefficient of chains with a length"
     save(figure, snakemake.output, title)

@@ -1,4 +1,4 @@
-"""Gather the settled runs of chains with a length."""
+"""Gather the settled runs of chains with a length, beside their law."""
 
 from job import job, read_all, write_tables
 
@@ -7,4 +7,5 @@ from precursors.support.files import read_table
 
 with job() as snakemake:
     chunks = read_all(read_table, snakemake.input.chunks)
-    write_tables({"settled": settled_table(chunks.values())}, snakemake.output)
+    table = settled_table(chunks.values(), snakemake.params.slider)
+    write_tables({"settled": table}, snakemake.output)

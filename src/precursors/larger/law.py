@@ -1,43 +1,46 @@
 """The law of the settled coefficient: F_X/F_Z at which global slips begin, once
 stick-slip repeats.
 
-Lengths are in L, l is l_c (`critical_length`), W(l) the share of F_Z on 0..l, and n the
-number of precursors between two global slips:
+Lengths are in L, times in L/c with c = sqrt(E S L/M), and forces, without the kinetic
+friction that they overcome, in (mu_s - mu_k) F_Z: P is the peak of F_X, and Y(x) the
+force in the bar, less the kinetic friction ahead of x. l is l_c (`critical_length`),
+W(x) the share of F_Z on 0..x, kappa = K L/(E S), and x = omega t_v below.
 
-    peak_n = mu_k + (1 + n phi) (mu_s - mu_k) W(l) / [1 + r (1 - l)]
+*What the next slip needs.* Creep runs away at l: the stretch that creeps carries mu_s w,
+the rest what the last slip left. So P = W(l) + Y(l), and Y = P - W(x) up to l.
 
-*What a slip leaves (r, derived).* A global slip is half a swing of the slider on its
-drive, at the bar's slowest frequency omega: q tan q = K L/(E S), omega = q c/L, c =
-sqrt(E S L/M). The slider then moves nearly as one body, so the force per length that
-decelerates it is even along the row, and it swings from (peak - mu_k) F_Z to minus as
-much. The elastic stress follows the total one with the lag t_v:
+*What a global slip leaves.* It is half a swing of the bar on its drive in the slowest
+mode, q tan q = kappa. The bar has the part b of the elastic energy, and only the bar is
+damped and stiffened by its dashpots:
 
-    t_v s' + s = cos(omega t),    0 < t < pi/omega
+    b = (2q - sin 2q)/(2q + sin 2q),  omega^2 = q^2/[1 - b x^2/(1 + x^2)],
+    D = exp[-(pi b/2) x/(1 + x^2)]
 
-It begins with what the last slip left, s = -r, and a periodic motion leaves -r again:
+D is what is left of the amplitude. The amplitude a at the drive is the part of the mode
+in the state at the runaway, and elastic stress follows the total one by t_v Y' + Y:
 
-    r = (1 + e)/(1 - e)/(1 + (omega t_v)^2),    e = exp(-pi/(omega t_v))
+    a = (1 - b) [P + kappa int sin q(1 - x)/sin q Y dx],    e = exp(-pi/x)
+    Y after = -a r sin q(1 - x)/sin q + e Y,                r = (D + e)/(1 + x^2)
 
-So the stress left is mu_k w(x) - d/L, d = r (peak - mu_k) F_Z, even where w is not.
+*Closed form.* With Y = -d (1 - x) beyond l the next d is linear in d: its fixed point
+and its slope follow (`fixed_point`). n precursors refill the deficit up to their fronts,
+taken halfway between l and the end, and carry n phi W(l) forward: phi = 1 - exp(-1/t_v),
+as stress relaxes for the time L/c in which a front runs half of the bar and the news of
+its arrest comes back.
 
-*What the next slip needs (W, derived).* Creep runs away at l: the stretch that creeps
-carries mu_s w, the rest what the last slip left. Their sum is the peak with n = 0.
+*Fronts.* A steady front needs a force of w/q, where t_v q^2 + 2 q is the fall of
+friction with velocity (`need`). One that brings less, P - Y, stops there, and behind it
+Y relaxes towards P until the news of that comes back (`event`). So the stress that a
+slip leaves decides about the next one: iterated, it gives n, peaks and fronts, and
+nothing is counted (`cycle`).
 
-*What precursors add (phi, an estimate).* A front that stops on the way refills the
-deficit behind it and carries one more (mu_s - mu_k) W(l) forward, as far as elastic
-stress follows while it runs: phi = 1 - exp(-L/(c t_v)).
-
-*Where fronts stop (no constant).* A steady front with weakening friction and viscosity
-needs a force of w/q, and k precursors push with `push`; a front stops where the push is
-less. n is possible if it carries to the end, and n - 1 does not.
-
-The article compares all three with some 1,500 runs. The law is weak with more load at
-the far end, where precursors come and omega t_v is above 1 (peaks are higher by up to
-0.015, and n is lower than it says), and with a drive that is stiffer than the slider.
+Nothing is fitted. Known errors: at n = 0 the coefficient is too high by 0.0005, as creep
+that trembles carries less than mu_s w; errors are larger where load rises towards the
+far end, and with K above 2 MN/m at the paper's bar.
 """
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
@@ -45,122 +48,150 @@ from scipy.optimize import brentq
 from precursors.larger.chain import LargerChain, critical_length
 from precursors.model.chain import FloatArray
 
-# Limits within which the law was compared with runs.
-FEWEST_BLOCKS = 3  # in l_c
-LONGEST = 0.7  # l_c/L
-SLOW_DRIVE = 0.3  # V/v_c
-STIFF_DRIVE = 1.3  # K L/(E S)
-LAGS = (0.05, 4.0)  # omega t_v
-MOST_PRECURSORS = 12
-PLACES = 200  # along the row, at which the push is compared with the need
+PAST = 1.1  # of l_c: an event whose front stops before is creep that trembles
+PLACES = 200  # along the row
+EVENTS = 300  # of a cycle, which has settled by then
+SLIPS = 12  # whose mean is that of the cycle: whole periods of 1, 2, 3 and 4
+PASTS = np.linspace(0.0, 0.7, 8)  # d from which cycles are sought
 
 
-@dataclass(frozen=True)
+class FixedPoint(NamedTuple):
+    """Peak of F_X/F_Z that comes again, and the change of a peak over that of the one
+    before."""
+
+    coefficient: float
+    slope: float
+
+
+class Cycle(NamedTuple):
+    """Mean peak of F_X/F_Z, mean number of precursors between two global slips, and the
+    places x/L at which the last ones stopped."""
+
+    coefficient: float
+    precursors: float
+    fronts: FloatArray
+
+
 class Law:
-    """Terms of the law for one chain: l_c/L, W(l), r, phi, and the need of a front.
+    """The law for one chain; its height of the push is left out.
 
-    `need` is that at `places` x/L from l_c to the end; forces are in (mu_s - mu_k) F_Z.
-    """
-
-    mu_s: float
-    mu_k: float
-    nucleus: float
-    load: float
-    rebound: float
-    refill: float
-    places: FloatArray
-    need: FloatArray
-
-    def coefficient(self, precursors: float = 0) -> float:
-        """Peak of F_X/F_Z with so many precursors between two global slips; a mean if
-        cycles alternate."""
-        excess = (1.0 + precursors * self.refill) * self.load
-        excess /= 1.0 + self.rebound * (1.0 - self.nucleus)
-        return self.mu_k + (self.mu_s - self.mu_k) * excess
-
-    def push(self, events: int, precursors: int) -> FloatArray:
-        """Force that a front brings to each place after so many events of a cycle that
-        has `precursors`."""
-        excess = self.coefficient(precursors) - self.mu_k
-        deficit = self.rebound * excess / (self.mu_s - self.mu_k)
-        ahead = self.places - self.nucleus
-        return (1.0 + events * self.refill) * self.load - deficit * ahead
-
-    def front(self, events: int, precursors: int) -> float:
-        """Place x/L at which the front stops after so many events of a cycle; 1: it is
-        a global slip."""
-        lacks = self.push(events, precursors) < self.need
-        return float(self.places[lacks.argmax()]) if lacks.any() else 1.0
-
-    @property
-    def possible(self) -> list[int]:
-        """Numbers of precursors that a cycle can have."""
-        return [
-            n
-            for n in range(MOST_PRECURSORS + 1)
-            if self.front(n, n) == 1.0 and (n == 0 or self.front(n - 1, n) < 1.0)
-        ]
-
-    @property
-    def bound(self) -> float:
-        """Least settled coefficient: a front must reach the end."""
-        return self.mu_k + (self.mu_s - self.mu_k) * float(self.need[-1])
-
-
-def law_of(larger: LargerChain) -> Law:
-    """Terms of the law for a chain; the height of the push is left out.
+    nucleus is l, drive kappa, lag t_v, memory e, rebound (1 - b) r; at `places` x there
+    are load W, shape sin q(1 - x)/sin q, tip 1/q of a front, its need, and the Y at rest
+    without strain.
 
     Raises
     ------
     ValueError
         If the chain is outside the limits within which the law was compared with runs.
     """
-    chain, v_c = larger.chain, larger.weakening_velocity
-    if larger.friction:
-        name = type(larger.friction).__name__
-        raise ValueError(f"the law of the settled coefficient is not known with {name}")
-    t_v = larger.relaxation_time + larger.viscosity / chain.stiffness
-    block = chain.length / chain.n_blocks
-    rigidity = chain.stiffness * block  # E S
-    inertia = chain.mass / block  # M/L
-    speed = math.sqrt(rigidity / inertia)
-    nucleus = critical_length(larger) / chain.length
-    drive = chain.drive_stiffness * chain.length / rigidity
-    q = brentq(lambda q: q * math.tan(q) - drive, 0.0, 0.5 * math.pi - 1e-12)
-    lag = q * speed / chain.length * t_v
-    for fails, reason in (
-        (v_c == 0.0 or chain.mu_k == chain.mu_s, "friction does not weaken"),
-        (lag < LAGS[0], f"omega t_v = {lag:.2g} is below {LAGS[0]:g}"),
-        (lag > LAGS[1], f"omega t_v = {lag:.2g} is above {LAGS[1]:g}"),
-        (drive > STIFF_DRIVE, f"K = {drive:.2g} E S/L is above {STIFF_DRIVE:g} E S/L"),
-        (
-            chain.drive_velocity > SLOW_DRIVE * v_c,
-            f"V = {chain.drive_velocity:g} m/s is above {SLOW_DRIVE:g} v_c",
-        ),
-        (nucleus > LONGEST, f"l_c = {nucleus:.2g} L is above {LONGEST:g} L"),
-        (
-            nucleus * chain.n_blocks < FEWEST_BLOCKS,
-            f"l_c is shorter than {FEWEST_BLOCKS} blocks",
-        ),
-    ):
-        if fails:
-            raise ValueError(f"the law of the settled coefficient fails: {reason}")
-    shares = np.append(0.0, np.cumsum(chain.weights)) / chain.normal_load
-    ends = np.linspace(0.0, 1.0, chain.n_blocks + 1)
-    places = np.linspace(nucleus, 1.0, PLACES)
-    load = np.interp(places, 0.5 * (ends[1:] + ends[:-1]), chain.weights)
-    resistance = math.sqrt(inertia * rigidity)  # rho c
-    fall = larger.fall * load / block
-    viscous = np.sqrt(resistance**2 + t_v * rigidity * fall)
-    inverse = (resistance + viscous) / (fall * chain.length)  # 1/(q L)
-    swing = math.exp(-math.pi / lag)
-    return Law(
-        mu_s=chain.mu_s,
-        mu_k=chain.mu_k,
-        nucleus=nucleus,
-        load=float(np.interp(nucleus, ends, shares)),
-        rebound=(1.0 + swing) / (1.0 - swing) / (1.0 + lag**2),
-        refill=1.0 - math.exp(-chain.length / (speed * t_v)),
-        places=places,
-        need=load * chain.n_blocks / chain.normal_load * inverse,
-    )
+
+    def __init__(self, larger: LargerChain) -> None:
+        chain = larger.chain
+        self.mu_k = chain.mu_k
+        self.drop = chain.mu_s - chain.mu_k
+        impedance = math.sqrt(chain.mass * chain.stiffness)
+        t_v = larger.relaxation_time + larger.viscosity / chain.stiffness
+        self.lag = t_v * chain.stiffness / impedance / chain.n_blocks
+        self.drive = chain.drive_stiffness * chain.n_blocks / chain.stiffness
+        self.nucleus = critical_length(larger) / chain.length
+        q = brentq(lambda q: q * math.tan(q) - self.drive, 0.0, 0.5 * math.pi - 1e-12)
+        x = q * self.lag
+        for name, value, least, most in (
+            (
+                "linear v_c/V",
+                larger.weakening_velocity / chain.drive_velocity,
+                3.3,
+                math.inf,
+            ),
+            ("l_c/L", self.nucleus, 3.0 / chain.n_blocks, 0.7),
+            ("omega t_v", x, 0.05, 4.0),
+            ("K L/(E S)", self.drive, 0.0, 1.3),
+        ):
+            if not least <= value <= most:
+                raise ValueError(
+                    f"the law of the settled coefficient does not apply: {name} must be "
+                    f"between {least:.2g} and {most:.2g}, but is {value:.2g}"
+                )
+        double = math.sin(2.0 * q) / (2.0 * q)
+        bar = (1.0 - double) / (1.0 + double)
+        x /= math.sqrt(1.0 - bar * x**2 / (1.0 + x**2))
+        self.memory = math.exp(-math.pi / x)
+        decay = math.exp(-0.5 * math.pi * bar * x / (1.0 + x**2))
+        self.rebound = (1.0 - bar) * (decay + self.memory) / (1.0 + x**2)
+        self.places = (np.arange(PLACES) + 0.5) / PLACES
+        ends = np.linspace(0.0, 1.0, chain.n_blocks + 1)
+        shares = np.append(0.0, np.cumsum(chain.weights)) / chain.normal_load
+        self.load = np.interp(self.places, ends, shares)
+        self.nucleus_load = np.interp(self.nucleus, ends, shares)
+        self.shape = np.sin(q * (1.0 - self.places)) / math.sin(q)
+        weights = np.gradient(self.load, self.places)
+        fall = larger.fall * chain.normal_load / impedance * weights
+        self.tip = (1.0 + np.sqrt(1.0 + self.lag * fall)) / fall
+        self.need = weights * self.tip
+        self.rest = (self.load - 1.0) * self.mu_k / self.drop
+
+    def fixed_point(self, precursors: float = 0) -> FixedPoint:
+        """Where a cycle with so many precursors between two global slips settles; its
+        mean if peaks alternate."""
+        ahead = 1.0 - self.nucleus
+        refill = -math.expm1(-1.0 / self.lag) / (1.0 - self.memory)
+        carried = precursors * refill * self.nucleus_load
+        front = self.nucleus + 0.5 * ahead
+        left = np.interp(self.nucleus, self.places, self.shape) / ahead
+
+        def swung(d: float) -> float:
+            stress = carried * (self.places < front) + d * (self.places - 1.0)
+            return float(left * self.swing(*self.runaway(stress)))
+
+        slope = self.memory + swung(1.0) - swung(0.0)
+        peak = self.nucleus_load + carried - ahead * swung(0.0) / (1.0 - slope)
+        return FixedPoint(self.mu_k + self.drop * peak, slope)
+
+    def runaway(self, stress: FloatArray) -> tuple[float, FloatArray]:
+        """P and Y at the runaway that comes next."""
+        peak = self.nucleus_load + np.interp(self.nucleus, self.places, stress)
+        crept = self.places < self.nucleus
+        return float(peak), np.where(crept, peak - self.load, stress)
+
+    def swing(self, peak: float, stress: FloatArray) -> float:
+        """a r, which half a swing leaves at the drive."""
+        carried = peak + self.drive * (self.shape * stress).mean()
+        return float(self.rebound * carried)
+
+    def event(self, stress: FloatArray) -> tuple[float, float, FloatArray]:
+        """P of the next event, place x at which its front stops (1: it is a global
+        slip), and the Y that it leaves."""
+        peak, stress = self.runaway(stress)
+        push = peak - stress
+        lacks = (push < self.need) & (self.places > PAST * self.nucleus)
+        if not lacks.any():
+            left = self.memory * stress - self.swing(peak, stress) * self.shape
+            return peak, 1.0, left
+        front = float(self.places[lacks.argmax()])
+        behind = self.places < front
+        # Over c: of a steady front by what it brings, and the least that one has.
+        speed = np.sqrt(1.0 - self.need / push.clip(self.need))
+        speed = speed.clip(np.cbrt(0.5 * self.tip / self.lag))
+        passes = behind & (self.places > self.nucleus)
+        until_news = np.where(passes, 1.0 + 1.0 / speed, 0.0)[::-1].cumsum()[::-1]
+        refill = behind * -np.expm1(-until_news / PLACES / self.lag)
+        unloaded = (push * refill).mean() / (1.0 / self.drive + refill.mean())
+        return peak, front, stress + (push - unloaded) * refill
+
+    def cycle(self, stress: FloatArray) -> Cycle:
+        """Cycle that is reached from a Y."""
+        peaks, fronts = np.empty((2, EVENTS))
+        for i in range(EVENTS):
+            peaks[i], fronts[i], stress = self.event(stress)
+        slips = np.flatnonzero(fronts == 1.0)[-SLIPS - 1 :]
+        return Cycle(
+            coefficient=self.mu_k + self.drop * float(peaks[slips[1:]].mean()),
+            precursors=float(np.diff(slips).mean()) - 1.0,
+            fronts=fronts[slips[-2] + 1 : slips[-1]],
+        )
+
+    @property
+    def possible(self) -> list[float]:
+        """Numbers of precursors in the cycles that are reached from `rest` and `PASTS`."""
+        pasts = [self.rest, *(d * (self.places - 1.0) for d in PASTS)]
+        return sorted({round(self.cycle(past).precursors, 2) for past in pasts})

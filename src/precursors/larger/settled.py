@@ -7,12 +7,9 @@ import pandas as pd
 
 from precursors.analysis.slips import find_slips
 from precursors.larger.chain import LargerChain
-from precursors.larger.law import law_of
+from precursors.larger.law import PAST, Law
 from precursors.larger.steps import REPEATS, SETTLED, period_of
 from precursors.solver.run import LargerRun, Record
-
-# Of l_c: an event whose front stops before is creep that trembles, and no precursor.
-PAST = 1.1
 
 
 def settled(run: Record, nucleus: float) -> dict[str, Any]:
@@ -54,23 +51,27 @@ def events_of(run: Record, nucleus: float) -> pd.DataFrame:
 def beside_law(run: LargerRun) -> dict[str, Any]:
     """Settled coefficient and precursors of a run, and those of the law.
 
-    settled_coefficient and precursors are NaN before `REPEATS` global slips. Then the
-    law takes the least number of precursors that is possible.
+    predicted_coefficient and predicted_precursors are those of the cycle that the law
+    reaches from rest, with nothing counted. law_coefficient is its fixed point with the
+    precursors of the run; before `REPEATS` global slips these and settled_coefficient
+    are NaN.
 
     Raises
     ------
     ValueError
         If the chain is outside the limits of the law.
     """
-    law = law_of(LargerChain.of_run(run))
+    law = Law(LargerChain.of_run(run))
     found = settled(run, law.nucleus)
+    cycle = law.cycle(law.rest)
     has_settled = len(found["peaks"]) >= REPEATS
-    n = found["precursors"] if has_settled else min(law.possible, default=np.nan)
+    n = found["precursors"] if has_settled else np.nan
     return {
         "critical_length_m": law.nucleus * run.chain.length,
-        "possible_precursors": " or ".join(map(str, law.possible)) or None,
-        "precursors": found["precursors"] if has_settled else np.nan,
-        "law_coefficient": law.coefficient(n),
+        "possible_precursors": " or ".join(f"{n:g}" for n in law.possible),
+        "predicted_precursors": cycle.precursors,
+        "predicted_coefficient": cycle.coefficient,
+        "precursors": n,
+        "law_coefficient": law.fixed_point(n).coefficient,
         "settled_coefficient": found["coefficient"] if has_settled else np.nan,
-        "least_coefficient": law.bound,
     }

@@ -11,9 +11,9 @@ import pandas as pd
 
 from maegawa2010.studies.larger.first_slips import larger_of, points
 from maegawa2010.studies.members import LOADINGS, Study, gather
-from precursors.larger.chain import LargerChain, weakening_velocity
-from precursors.larger.law import Law, law_of
-from precursors.larger.settled import events_of, settled
+from precursors.larger.chain import LargerChain, critical_length, weakening_velocity
+from precursors.larger.law import Law
+from precursors.larger.settled import settled
 from precursors.larger.simulate import simulate_larger
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Record
@@ -33,7 +33,6 @@ DRAWN = {
     "mu_k": (0.6, 1.3),
 }
 CHANGE = 1e-3  # of a peak [F_Z], from which the change after it says how it alternates
-PLACED = 0.1  # L, within which the place is right at which a front stops
 
 
 def settled_study(slider: Mapping[str, Any], settings: Mapping[str, Any]) -> Study:
@@ -83,23 +82,25 @@ def draw_points(
 def law_or_none(larger: LargerChain) -> Law | None:
     """Law of a chain; none outside its limits."""
     try:
-        return law_of(larger)
+        return Law(larger)
     except ValueError:
         return None
 
 
 def run_settled(study: Study) -> pd.DataFrame:
-    """Run every member until it settles: the members, each with `numbers_beside_law`."""
+    """Run every member until it settles: the members, each with `run_past`."""
     members = study.members.to_dict("records")
     rows = in_threads("running", [partial(run_past, study.seed, at) for at in members])
     return study.members.join(pd.DataFrame(rows, study.members.index))
 
 
 def run_past(seed: int, member: Mapping[Any, Any]) -> dict[str, float]:
-    """Run a member until it settles, or as far as the limit of work lets it."""
+    """Run a member until it settles, or as far as the limit of work lets it: what
+    `settled` finds, with l_c/L and, for the peaks, their `slope_of`."""
     random = np.random.default_rng([seed, member["past"]])
     past = (member["noise"], member["strain"])
     larger = larger_of(member)
+    nucleus = critical_length(larger) / larger.chain.length
     chain, forces = with_past(larger.chain, past, random)
     run: Record
     try:
@@ -112,7 +113,9 @@ def run_past(seed: int, member: Mapping[Any, Any]) -> dict[str, float]:
         )
     except TransitionLimitError as limit:
         run = limit.run
-    return numbers_beside_law(run, law_of(larger))
+    found = settled(run, nucleus)
+    slope = slope_of(found.pop("peaks"))
+    return {"critical_length": nucleus, **found, "slope": slope}
 
 
 def with_past(
@@ -137,29 +140,6 @@ def with_past(
     return replace(chain, weights=noisy), forces
 
 
-def numbers_beside_law(run: Record, law: Law) -> dict[str, float]:
-    """Settled coefficient, precursors and period of a run (see `settled`), and what the
-    law says.
-
-    law_coefficient is its own with the precursors counted in the run; critical_length is
-    l_c/L, and least to most are the possible precursors (NaN: none). slope is the
-    change from one peak to the next over the one before, and law_slope that of the law.
-    """
-    found = settled(run, law.nucleus)
-    peaks = found.pop("peaks")
-    possible: list[float] = [*law.possible] or [np.nan]
-    return {
-        "critical_length": law.nucleus,
-        **found,
-        "law_coefficient": law.coefficient(found["precursors"]),
-        "least": min(possible),
-        "most": max(possible),
-        "slope": slope_of(peaks),
-        "law_slope": -law.rebound * (1.0 - law.nucleus),
-        **fronts(run, law),
-    }
-
-
 def slope_of(peaks: FloatArray) -> float:
     """Median ratio of the changes of successive peaks; NaN if they hardly change."""
     changes = np.diff(peaks)
@@ -168,31 +148,37 @@ def slope_of(peaks: FloatArray) -> float:
     return float(np.median(ratios)) if len(ratios) else np.nan
 
 
-def fronts(run: Record, law: Law) -> dict[str, int]:
-    """Events in whole cycles of the later half of a run, and how many of them the law
-    tells rightly.
+def settled_table(
+    chunks: Iterable[pd.DataFrame], slider: Mapping[str, Any]
+) -> pd.DataFrame:
+    """All runs of the study, beside the law."""
+    runs = gather(chunks).drop(columns=["duration", "push_height"], errors="ignore")
+    return beside_law(runs, slider)
 
-    stopped are those whose front stops on the way; told those of which the law says
-    rightly whether it does; placed the stopped ones whose front is right to `PLACED`.
-    """
-    events = events_of(run, law.nucleus)
-    n = events.groupby("cycle")["precursors"].transform("max")
-    is_whole = events["cycle"] < events["is_global"].sum()
-    late = events.assign(n=n)[is_whole & (events["onset"] > 0.5 * run.duration)]
-    said = np.array(
-        [law.front(*of) for of in zip(late["precursors"], late["n"], strict=True)]
+
+def beside_law(runs: pd.DataFrame, slider: Mapping[str, Any]) -> pd.DataFrame:
+    """Runs with the law of their chains: law_coefficient with the precursors of the
+    run, law_slope, and with nothing counted predicted_coefficient and
+    predicted_precursors of the cycle from rest, and the `possible` numbers of them."""
+    every = runs.assign(
+        push_height=0.0, **{name: slider[name] for name in set(slider) - set(runs)}
     )
-    stops = ~late["is_global"].to_numpy()
-    places = late["front"].to_numpy() / run.chain.n_blocks
-    return {
-        "events": len(late),
-        "stopped": int(stops.sum()),
-        "told": int((stops == (said < 1.0)).sum()),
-        "placed": int((abs(said - places) < PLACED)[stops].sum()),
-    }
-
-
-def settled_table(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
-    """All runs of the study."""
-    runs = gather(chunks)
-    return runs.drop(columns=["duration", "push_height"], errors="ignore")
+    rows: list[Any] = every.to_dict("records")
+    chains = [larger_of(row) for row in rows]
+    predictions = {}
+    for larger in set(chains):
+        law = Law(larger)
+        cycle = law.cycle(law.rest)
+        predictions[larger] = {
+            "law_slope": law.fixed_point().slope,
+            "predicted_coefficient": cycle.coefficient,
+            "predicted_precursors": cycle.precursors,
+            "possible": " ".join(f"{n:g}" for n in law.possible),
+            "law": law,
+        }
+    beside = pd.DataFrame([predictions[larger] for larger in chains], runs.index)
+    counted = [
+        law.fixed_point(n).coefficient
+        for law, n in zip(beside.pop("law"), runs["precursors"], strict=True)
+    ]
+    return runs.assign(law_coefficient=counted, **beside)
