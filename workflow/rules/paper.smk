@@ -1,4 +1,4 @@
-# Eq. 15, claims, paper.pdf, supplement.pdf
+# Eq. 15, claims, Fig. 9, paper.pdf, supplement.pdf
 
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
 from maegawa2010.paper.shown import results_shown
@@ -48,12 +48,33 @@ if set(PAPERS_SCENES) <= set(FIG13):
             "../scripts/judge_claims.py"
 
 
+rule fig09:
+    """Draw the model (Fig. 9)."""
+    output:
+        report(
+            "results/figures/fig09.svg",
+            caption="../report/fig09.rst",
+            category="Reproduction",
+            labels={"figure": "fig09: the model: blocks on springs, pushed through a spring"},
+        ),
+        collect("results/figures/fig09.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/fig09.log",
+    localrule: True
+    params:
+        code=digest("fig09"),
+    message:
+        "drawing Fig. 9"
+    script:
+        "../scripts/fig09.py"
+
+
 rule write_paper:
     """Set a document of paper/ with the numbers and figures of the results."""
     input:
         shown=lambda wildcards: results_shown(PAPER_SOURCE / f"{wildcards.document}.typ"),
         main=PAPER_SOURCE / "{document}.typ",
-        source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.is_file()),
+        source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.suffix != ".pdf"),
         about=[ROOT / "CITATION.cff", ROOT / "metadata.yaml"],
     output:
         "results/{document}.pdf",
@@ -71,20 +92,21 @@ rule write_paper:
 
 
 rule paper_figures:
-    """Figs. 10 to 13, and three slips: their push, and in slow motion."""
+    """Figs. 9 to 13, and three slips: their push, and in slow motion."""
     input:
+        rules.fig09.output,
         collect("results/figures/{scene}.{kind}", scene=SCENES, kind=["svg", *MORE_FORMATS]),
         rules.fig13.output,
-        rules.draw_push.output,
-        rules.write_wave.output,
+        rules.draw_slips.output,
     localrule: True
 
 
 rule paper:
-    """Eq. 15, the claims, the article and its supplement."""
+    """Eq. 15, the claims, Fig. 9, the article and its supplement."""
     input:
         rules.eq15.output,
         rules.judge_claims.output if set(PAPERS_SCENES) <= set(FIG13) else [],
+        rules.fig09.output,
         PAPER,
     localrule: True
 

@@ -102,52 +102,35 @@ rule mu_sapp:
 SHOWN = FIG13[len(FIG13) // 2]
 
 
-rule draw_push:
-    """Draw the push along the row before and after three slips."""
+rule draw_slips:
+    """Draw three slips of a scene: the push along the row, and the blocks in slow motion."""
     input:
         run=f"results/runs/{SHOWN}.h5",
         slips=f"results/tables/{SHOWN}_slips.csv",
     output:
-        report(
-            "results/figures/push.svg",
-            caption="../report/push.rst",
-            category="Reproduction",
-            labels={"figure": "push: why a slip stops where it does"},
-        ),
-        collect("results/figures/push.{kind}", kind=MORE_FORMATS),
-    log:
-        "results/logs/draw_push.log",
-    localrule: True
-    params:
-        look=config["figure"],
-        code=digest("draw_push"),
-    message:
-        f"drawing the push in three slips of {SHOWN}"
-    script:
-        "../scripts/draw_push.py"
-
-
-rule write_wave:
-    """Draw the first global slip of a scene in slow motion."""
-    input:
-        run=f"results/runs/{SHOWN}.h5",
-        slips=f"results/tables/{SHOWN}_slips.csv",
-    output:
-        report(
+        wave=report(
             "results/figures/wave.svg",
             caption="../report/wave.rst",
             category="Reproduction",
             labels={"figure": "wave: two precursors and the global slip, in slow motion"},
         ),
+        push=report(
+            "results/figures/push.svg",
+            caption="../report/push.rst",
+            category="Reproduction",
+            labels={"figure": "push: why a slip stops where it does"},
+        ),
+        more=collect("results/figures/push.{kind}", kind=MORE_FORMATS),
     log:
-        "results/logs/write_wave.log",
+        "results/logs/draw_slips.log",
     localrule: True
     params:
-        code=digest("write_wave"),
+        look=config["figure"],
+        code=digest("draw_slips"),
     message:
-        f"drawing the first global slip of {SHOWN} in slow motion"
+        f"drawing three slips of {SHOWN}"
     script:
-        "../scripts/write_wave.py"
+        "../scripts/draw_slips.py"
 
 
 rule scenes:
@@ -158,6 +141,5 @@ rule scenes:
         collect("results/figures/{scene}.{kind}", scene=SCENES, kind=["svg", *MORE_FORMATS]),
         rules.fig13.output,
         rules.mu_sapp.output,
-        rules.draw_push.output,
-        rules.write_wave.output,
+        rules.draw_slips.output,
     localrule: True

@@ -1,0 +1,17 @@
+"""Draw three slips of a scene: the push along the row, and the blocks in slow motion."""
+
+from drawing import save
+from job import job, read
+
+from precursors.figures import push, style, wave
+from precursors.solver.run import Run
+from precursors.support.files import read_table
+
+with job() as snakemake:
+    look = style.Look(**snakemake.params.look)
+    run = read(Run.load, snakemake.input.run)
+    slips = read(read_table, snakemake.input.slips)
+    figures = [snakemake.output.push, *snakemake.output.more]
+    title = "why a slip stops where it does"
+    save(push.draw(run, slips, look=look), figures, title, look)
+    wave.draw(run, slips).savefig(snakemake.output.wave)
