@@ -24,7 +24,8 @@ TABLES = (
     "open_points.csv",
 )
 FIGURES = tuple(
-    f"{figure}.png" for figure in (*PAPERS_SCENES, "fig13", "hero", "push", "speed")
+    f"{figure}.png"
+    for figure in ("fig09", *PAPERS_SCENES, "fig13", "hero", "push", "speed")
 )
 
 
