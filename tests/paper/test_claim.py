@@ -158,7 +158,7 @@ def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_
     def no_event(_):
         raise IndexError
 
-    row = Claim("a", "Sect. 1", RESULT, "", "", "1", no_event).row({})
+    row = Claim("a", "Sect. 1", RESULT, "", "", "1", "", no_event).row({})
     assert row["verdict"] == FAILS
     with pytest.raises(
         ValueError, match=r"^claim count-trailing: the tables do not have its numbers"

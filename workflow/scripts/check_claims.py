@@ -97,10 +97,11 @@ def numbers(claim: Mapping[Any, str]) -> str:
     """The value found and the one expected, the rule, the shares of the ensembles, and
     the note."""
     unit = "" if claim["unit"] == "1" else f" {claim['unit']}"
+    of = f" ({claim['of']})" if claim["of"] else ""
     expected = f", expected {claim['expected']}{unit}" if claim["expected"] else ""
-    sentences = [f"found {claim['ours']}{unit}{expected} ({claim['rule']})."]
+    sentences = [f"found {claim['ours']}{unit}{of}{expected}: {claim['rule']}."]
     shares = [
-        f"{100 * float(claim[f'{name}_share']):.0f} % of the {runs}"
+        f"{100 * float(claim[f'{name}_share']):.0f}\N{NO-BREAK SPACE}% of the {runs}"
         for name, runs in RUNS.items()
         if claim[f"{name}_share"]
     ]

@@ -84,7 +84,7 @@ class Finding:
 
 
 Find = Callable[[Tables], Finding]
-SAID = ("section", "kind", "statement", "rule", "unit")
+SAID = ("section", "kind", "statement", "rule", "unit", "of")
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,8 @@ class Claim:
     """A statement of the paper that a run could contradict.
 
     `section` says where the paper states it, `kind` is one of those above, `rule` says when
-    it holds, `unit` is the unit of its numbers, and `find` compares it with the tables.
+    it holds, `unit` is the unit of its numbers, `of` says of what each is, if there are
+    several, and `find` compares it with the tables.
     """
 
     name: str
@@ -101,6 +102,7 @@ class Claim:
     statement: str
     rule: str
     unit: str
+    of: str
     find: Find
 
     def __post_init__(self) -> None:

@@ -91,7 +91,7 @@ def chaos(t: Tables) -> Finding:
         cell(t["lyapunov"], column, scene=UNIFORM)
         for column in ("exponent_per_s", "uncertainty_per_s")
     )
-    return Finding(exponent, exponent > uncertainty, uncertainty)
+    return Finding([exponent, uncertainty], exponent > uncertainty)
 
 
 def line_of_lengths(slips: pd.DataFrame, along: str) -> FloatArray:
@@ -200,12 +200,13 @@ def friction_independent_with_ten_blocks(t: Tables) -> Finding:
 
 @of_claim
 def friction_independent_of_loading(t: Tables) -> Finding:
-    """The same differences for a row that is cut finely, as a slider has no blocks."""
+    """The largest of the same differences for rows that are cut finely, as a slider has
+    no blocks."""
     pairs = t["resolution_differences"]
     fine = pairs[pairs["n_blocks"] >= CUT_FINELY]
-    numbers = fine["n_blocks"].astype(str).unique()
-    note = f"Numbers of blocks: {', '.join(numbers)}."
-    return Finding(fine["difference"], all_same(fine), printed.LAST_DIGIT, note=note)
+    largest = fine["difference"].abs().groupby(fine["n_blocks"]).max()
+    note = f"The largest with {', '.join(map(str, largest.index))} blocks."
+    return Finding(largest, all_same(fine), printed.LAST_DIGIT, note=note)
 
 
 def all_same(pairs: pd.DataFrame) -> bool | None:
@@ -318,7 +319,7 @@ def stated_claims() -> list[Claim]:
     ValueError
         In one line, if a claim has no function or is of an unknown kind.
     """
-    stated = read_table(Path(__file__).with_name("claims.csv"), dtype=str)
+    stated = read_table(Path(__file__).with_name("claims.csv"), dtype=str).fillna("")
     for name in stated["name"]:
         if name not in FINDINGS:
             raise ValueError(f"claim {name}: it has no function in claims.py")
