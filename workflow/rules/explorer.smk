@@ -7,14 +7,23 @@ rule write_explorer:
         page=sorted(
             path for path in (PAPERS / "explorer").iterdir() if path.suffix in (".js", ".css", ".html")
         ),
-        slips=collect("results/tables/{scene}_slips.csv", scene=scenes_with_theta(config)),
+        slips=SLIPS,
+        measures="results/tables/measures.csv",
+        members="results/tables/digits_members.csv",
+        shares="results/tables/digits.csv",
+        # to 320 blocks, of the paper's slider
+        resolution=(
+            COMMITTED / "resolution_full.csv"
+            if IS_PAPERS and not config["full"]
+            else "results/tables/resolution.csv"
+        ),
     output:
         page="results/explorer.html",
     log:
         "results/logs/write_explorer.log",
     localrule: True
     params:
-        sliders=[scene_slider(config, scene) for scene in scenes_with_theta(config)],
+        sliders=SLIDERS,
         proved=config["horizon"]["proved"],
         numbers={"duration": config["duration"], "tolerance": config["horizon"]["tolerance"]},
         code=digest("write_explorer"),

@@ -1,31 +1,36 @@
 "use strict";
 // The paper's chain, solved transition by transition in the browser: the twin of solver/plain.py.
 //
-// Units inside: force in N, time in tau, velocity in N/tau, with tau = 2 / (largest angular frequency). The state is the
-// force T_i in the spring behind each block and its velocity v_i. Between transitions (Eqs. 2-6)
-//   dT_i/dt = c_i (v_{i-1} - v_i),   dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i  for a block that slides.
+// Units inside: force in N, time in tau, velocity in N/tau; tau = 2 / (largest angular frequency).
+// The state is the force T_i in the spring behind each block and its velocity v_i. Between
+// transitions dT_i/dt = c_i (v_{i-1} - v_i) and, of a block that slides (Eqs. 2-6),
+// dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i.
 
 const WINDOW = 0.6875; // length of a Taylor window [tau]
 const ORDER = 24; // (2 WINDOW)^ORDER / ORDER! is below 1e-19
 const FREE = 2; // mode of a block without load: it moves without friction and has no transitions
 const MOST_TRANSITIONS = 200000;
 const MOST_WINDOWS = 2000000;
-const ZERO = 16 * Number.EPSILON; // a force below so many roundings of its springs counts as zero
-const LEAST_SHARE = 1e-4; // of the mean load: a block with less has no part in events, as in model/chain.py
+const ZERO = 16 * Number.EPSILON; // of its springs: a force below them counts as zero
+const LEAST_SHARE = 1e-4; // of the mean load: a block with less has no part in events (chain.py)
 
-// N blocks of a slider (Eqs. 9 and 10), which has the names of `Chain.from_slider`, under a straight line of normal loads
-// (Eq. 7) or under given ones.
+// N blocks of a slider (Eqs. 9 and 10), which has the names of `Chain.from_slider`, under a
+// straight line of normal loads (Eq. 7) or under given ones.
 function chainOf(slider) {
   const { n_blocks: n, theta, normal_load: load, drive_stiffness: K } = slider;
-  const weights = slider.weights ?? Array.from({ length: n }, (_, j) => (load / n) * (1 + ((2 * j + 1 - n) / (n - 1 || 1)) * theta));
-  const m = slider.slider_mass / n, k = (n * slider.youngs_modulus * slider.cross_section) / slider.length;
+  const tilted = (_, j) => (load / n) * (1 + ((2 * j + 1 - n) / (n - 1 || 1)) * theta);
+  const weights = slider.weights ?? Array.from({ length: n }, tilted);
+  const m = slider.slider_mass / n;
+  const k = (n * slider.youngs_modulus * slider.cross_section) / slider.length;
   const tau = 2 / Math.sqrt(Math.max(4 * k, 2 * k + K) / m);
-  const c = Float64Array.from([0, K, ...Array(n - 1).fill(k), 0], (stiffness) => (stiffness * tau * tau) / m); // c[i]: behind block i
+  const springs = [0, K, ...Array(n - 1).fill(k), 0]; // number i is behind block i
+  const c = Float64Array.from(springs, (stiffness) => (stiffness * tau * tau) / m);
   const perBlock = (mu) => Float64Array.from([NaN, ...weights.map((w) => mu * w)]);
-  return { n, c, tau, k, weights, strength: perBlock(slider.mu_s), friction: perBlock(slider.mu_k), drive: (slider.drive_velocity * m) / tau };
+  const [strength, friction] = [slider.mu_s, slider.mu_k].map(perBlock);
+  return { n, c, tau, k, weights, strength, friction, drive: (slider.drive_velocity * m) / tau };
 }
 
-// Taylor rows of the velocities from their row 0: row r, which starts at r (n + 2), is the r-th derivative.
+// Taylor rows of the velocities from row 0; row r, from r (n + 2), has their r-th derivatives.
 function expand({ n, c, friction }, rows, force, mode, last) {
   const size = c.length;
   rows.fill(0, size);
@@ -35,7 +40,9 @@ function expand({ n, c, friction }, rows, force, mode, last) {
   for (let order = 2; order <= ORDER; order++) {
     const row = order * size, before = row - 2 * size;
     for (let i = 1; i <= last; i++) {
-      if (mode[i]) rows[row + i] = c[i] * (rows[before + i - 1] - rows[before + i]) - c[i + 1] * (rows[before + i] - rows[before + i + 1]);
+      if (!mode[i]) continue;
+      const at = before + i;
+      rows[row + i] = c[i] * (rows[at - 1] - rows[at]) - c[i + 1] * (rows[at] - rows[at + 1]);
     }
   }
 }
@@ -46,8 +53,9 @@ function setTerms(terms, t) {
   for (let r = 0; r <= ORDER; r++) terms[r + 1] = (terms[r] * t) / (r + 1);
 }
 
-// The first transition before `end`: [time, block, way]. Way 0 is the velocity of a block that slides, which reaches zero;
-// +1 and -1 are the margins mu_s w -+ G of a block that sticks. Most of these functions provably have no root.
+// The first transition before `end`: [time, block, way]. Way 0 is the velocity of a block that
+// slides, which reaches zero; +1 and -1 are the margins mu_s w -+ G of a block that sticks. Most
+// of these functions provably have no root.
 function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms, series) {
   const size = c.length;
   let first = [end, 0, 0];
@@ -96,7 +104,8 @@ function earliestRoot(derivatives, end, zero) {
   if (first > 0) {
     if (derivatives[first] < 0) return 0;
     let scale = 1;
-    derivatives = derivatives.map((_, n) => (scale *= n / (n + first) || 1) * (derivatives[n + first] ?? 0));
+    const divided = (_, n) => (scale *= n / (n + first) || 1) * (derivatives[n + first] ?? 0);
+    derivatives = derivatives.map(divided);
   }
   let bound = 0, power = 1;
   for (let n = 2; n <= ORDER; n++, power *= end / (n - 2)) bound += Math.abs(derivatives[n]) * power;
@@ -134,12 +143,13 @@ function advance({ n, c, drive }, rows, force, last, t, terms, slip) {
   for (let i = 1; i <= Math.min(last + 1, n); i++) force[i] += c[i] * (slip[i - 1] - slip[i]);
 }
 
-// Follow the motion from where a block lets go, block 1 if all are at rest, until nothing moves, and pause after every window;
-// `note(t, block, mode, force, velocity)` hears every transition and window (block 0). The result is the duration [tau].
-// It is one slip event, unless blocks without load go on moving after it.
+// Follow the motion from where a block lets go, block 1 if all are at rest, until nothing moves,
+// and pause after every window; `note(t, block, mode, force, velocity)` hears every transition and
+// window (block 0). The result is the duration [tau]. It is one slip event, unless blocks without
+// load go on moving after it.
 const FROM_REST = { block: 1, way: 1, velocity: [] };
-function* motionFrom(chain, force, longest, note, window = WINDOW, { block: first, way: side, velocity } = FROM_REST) {
-  const { n, c, strength, weights, drive } = chain;
+function* motionFrom(chain, force, longest, note, window = WINDOW, start = FROM_REST) {
+  const { n, c, strength, weights, drive } = chain, { block: first, way: side, velocity } = start;
   const rows = new Float64Array(c.length + ORDER * c.length), slip = new Float64Array(c.length);
   const mode = new Int8Array(c.length), terms = [], series = [];
   rows.set(velocity);
@@ -153,13 +163,15 @@ function* motionFrom(chain, force, longest, note, window = WINDOW, { block: firs
   while (moving && elapsed < longest) {
     const last = Math.min(farthest + 1, n);
     expand(chain, rows, force, mode, last);
-    const [t, block, way] = firstTransition(chain, rows, force, mode, last, Math.min(window, longest - elapsed), terms, series);
+    const end = Math.min(window, longest - elapsed);
+    const found = firstTransition(chain, rows, force, mode, last, end, terms, series);
+    const [t, block, way] = found;
     advance(chain, rows, force, last, t, terms, slip);
     elapsed += t;
     if (block) {
       const net = force[block] - force[block + 1];
       rows[block] = 0;
-      // The switching rule: it lets go in the direction of the force, or sticks where the force is below the limit.
+      // The switching rule: it lets go in the direction of the force, or sticks below the limit.
       const holds = Math.abs(net) <= strength[block] + zeroBelow(force, strength, block);
       const next = way || (holds ? 0 : Math.sign(net));
       moving += Math.abs(next) - Math.abs(mode[block]);
@@ -173,17 +185,23 @@ function* motionFrom(chain, force, longest, note, window = WINDOW, { block: firs
   return elapsed;
 }
 
-// A run from rest that has not begun: transitions, and the slip events with the spring forces at their onset.
-const newRun = (chain, duration) => ({ chain, duration, time: [], block: [], mode: [], load: [], events: [], end: 0, force: new Float64Array(chain.c.length), stopped: false });
+// A run from rest that has not begun: transitions, and the slip events with the spring forces at
+// their onset.
+const newRun = (chain, duration) => ({
+  chain, duration, time: [], block: [], mode: [], load: [], events: [],
+  end: 0, force: new Float64Array(chain.c.length), stopped: false,
+});
 
-// Solve a run, and pause with the time [s] in it after every window. A run that meets a limit is `stopped` at its `end`.
+// Solve a run, and pause with the time [s] in it after every window. A run that meets a limit is
+// `stopped` at its `end`.
 function* solve(run) {
   const { chain, duration, force } = run, { n, c, tau, strength, weights, drive } = chain;
   const least = (LEAST_SHARE * weights.reduce((sum, w) => sum + w)) / n;
   const loaded = weights.filter((w) => w >= least).length;
   let windows = 0;
   for (;;) {
-    const wait = ((strength[1] - (force[1] - force[2])) / (c[1] * drive)) * tau, onset = run.end + wait;
+    const wait = ((strength[1] - (force[1] - force[2])) / (c[1] * drive)) * tau;
+    const onset = run.end + wait;
     if (onset > duration) {
       force[1] += (c[1] * drive * (duration - run.end)) / tau;
       run.end = duration;
@@ -197,15 +215,20 @@ function* solve(run) {
       run.end = elapsed < longest ? onset + elapsed * tau : duration;
       if (!event) return;
       const isGlobal = event.mostSliding === loaded, front = isGlobal ? n : event.front;
-      run.events.push({ ...event, front, end: run.end, after: force[1], last: run.time.length, isGlobal });
+      const last = run.time.length;
+      run.events.push({ ...event, front, end: run.end, after: force[1], last, isGlobal });
       event = null;
     };
     const motion = motionFrom(chain, force, longest, (t, i, m, forces, rows) => {
       elapsed = t;
       if (!i) return;
-      if (weights[i - 1] >= least) event ??= { onset: onset + t * tau, force: force.slice(), start: { block: i, way: m, velocity: rows.slice(0, c.length) }, first: run.time.length, before: force[1], front: 1, mostSliding: 0 };
-      run.time.push(onset + t * tau), run.block.push(i), run.mode.push(m), run.load.push(forces[1]);
-      if (weights[i - 1] < least) return;
+      const time = onset + t * tau, hasPart = weights[i - 1] >= least;
+      if (hasPart) event ??= {
+        onset: time, force: force.slice(), before: force[1], first: run.time.length,
+        start: { block: i, way: m, velocity: rows.slice(0, c.length) }, front: 1, mostSliding: 0,
+      };
+      run.time.push(time), run.block.push(i), run.mode.push(m), run.load.push(forces[1]);
+      if (!hasPart) return;
       sliding += Math.abs(m) - Math.abs(states[i]);
       states[i] = m;
       event.front = Math.max(event.front, i);

@@ -1,79 +1,78 @@
-// Studies: sliders that are solved one after the other while the reader watches, and the dots of their mu_sapp.
+// Studies of many sliders, from the tables of the project, and where the reader's slider lies.
 
-const BAND = [0.48, 0.5]; // the printed 0.49, give or take 0.01
-const AXIS = [0.4, 0.62];
+const BAND = DATA.printed; // mu_sapp, give or take a unit of its last digit
+const BIN = 0.005; // of mu_sapp: dots closer than this stand in rows on each other
+const ACROSS = 5;
 
-const STUDIES = {
-  // The paper's tilts and one more, whose coefficients stand on the buttons of step 4.
-  tilts: { name: "tilts", count: THETAS.length, duration: DURATION, sliderOf: (i) => ({ ...UNIFORM.slider, theta: THETAS[i] }) },
-  // Sliders with the same printed inputs. Draw i differs from them in the same way under each of the paper's loadings.
-  digits: {
-    name: "digits", count: 400 * TILTS.length, duration: 2 * DURATION,
-    sliderOf(i) {
-      const { slider } = TILTS[i % TILTS.length], random = randomOf(Math.floor(i / TILTS.length));
-      const printed = { ...slider, theta: Number(slider.theta.toFixed(3)) };
-      for (const [name, half] of Object.entries(PRINTED)) printed[name] += half * (2 * random() - 1);
-      return printed;
-    },
-    draw(context, width, height, points) {
-      const figure = axes(context, width, height, AXIS, [0, TILTS.length], ["μsapp of sliders with the same printed inputs", ""], null, { values: [], decimals: 0 });
-      context.fillStyle = palette.band;
-      context.fillRect(figure.x(BAND[0]), figure.box.top, figure.x(BAND[1]) - figure.x(BAND[0]), figure.box.bottom - figure.box.top);
-      points.forEach(({ value, isKnown }, i) => {
-        const row = (i % TILTS.length) + 0.5, colour = palette[isKnown ? colourOf(TILTS[i % TILTS.length]) : "unsure"];
-        if (value) mark(context, "dot", figure.x(Math.min(Math.max(value, AXIS[0]), AXIS[1])), figure.y(row - 0.4 + 0.6 * ((i * 0.618) % 1)), 1.7, colour);
-      });
-      const texts = TILTS.map((scene, t) => {
-        const of = points.filter((_, i) => i % TILTS.length === t), inside = of.filter(({ value }) => value >= BAND[0] && value <= BAND[1]);
-        if (scene.mu_sapp) mark(context, "ring", figure.x(scene.mu_sapp), figure.y(t + 0.4), 6, palette.ink);
-        return `${loadingOf(scene)}: ${Math.round((100 * inside.length) / (of.length || 1))} % of ${of.length} inside`;
-      });
-      context.textAlign = "left";
-      context.fillStyle = palette.ink;
-      texts.forEach((text, t) => context.fillText(text, figure.box.left + 4, figure.y(t + 0.9)));
-      return `μsapp of sliders with the same printed inputs. ${texts.join("; ")}`;
-    },
-    keyOf: () => `${keyTo("ring", "ink", "the slider with the printed digits")} ${keyTo("box", "band", "as printed, 0.49 ± 0.01")}`,
-  },
-  // The paper's sliders, cut into more and more blocks.
-  blocks: {
-    name: "blocks", count: 36 * TILTS.length, duration: DURATION,
-    sliderOf: (i) => ({ ...TILTS[i % TILTS.length].slider, n_blocks: 5 + Math.floor(i / TILTS.length) }),
-    draw(context, width, height, points) {
-      const figure = axes(context, width, height, [2, 41], AXIS, ["Number of blocks N", "μsapp"]), friction = figure.y(UNIFORM.slider.mu_k);
-      context.strokeStyle = context.fillStyle = palette.ink;
-      stroke(context, [[figure.box.left, friction], [figure.box.right, friction]]);
-      context.textAlign = "left";
-      context.fillText(`μₖ = ${UNIFORM.slider.mu_k}`, figure.box.left + 4, friction + 9);
-      points.forEach(({ value, isKnown }, i) => {
-        const x = figure.x(5 + Math.floor(i / TILTS.length) + 0.2 * ((i % TILTS.length) - 1));
-        if (value) mark(context, isKnown ? "dot" : "ring", x, figure.y(value), 3, palette[colourOf(TILTS[i % TILTS.length])]);
-      });
-      return `μsapp falls towards μk as the number of blocks grows. ${points.filter(({ isKnown }) => !isKnown).length} of ${points.length} values are not predictable`;
-    },
-    keyOf: (points) => TILTS.map((scene) => keyTo("dot", colourOf(scene), loadingOf(scene))).join(" ") + (points.every(({ isKnown }) => isKnown) ? "" : keyTo("ring", "ink", "not predictable")),
-  },
-};
-const found = Object.fromEntries(Object.keys(STUDIES).map((name) => [name, []]));
-const study = () => STUDIES[STEPS[state.step - 1].study];
-
-// Numbers from 0 to 1 that depend on the seed alone (mulberry32).
-function randomOf(seed) {
-  return () => {
-    seed = (seed + 0x6d2b79f5) | 0;
-    let mixed = Math.imul(seed ^ (seed >>> 15), 1 | seed);
-    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
-    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
-  };
+function spanOf(values) {
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  return [Math.floor(50 * low) / 50, Math.ceil(50 * high) / 50];
+}
+function drawBand(context, from, to) {
+  context.fillStyle = palette.band;
+  context.fillRect(...from, to[0] - from[0], to[1] - from[1]);
 }
 
-// Solve the next slider of the study, if there is one.
-function goOnWithStudy() {
-  const { name, sliderOf, duration, count } = study() ?? {}, i = found[name]?.length;
-  if (i < count) ask({ slider: sliderOf(i), duration, study: name, all: false });
+// mu_sapp of the sliders with the same printed inputs, a strip for each loading.
+function drawDigits(context, width, height) {
+  const across = spanOf(TILTS.flatMap(of("draws"))), none = { values: [], decimals: 0 };
+  const labels = ["μ_sapp of sliders with the same printed inputs", ""];
+  const figure = axes(context, width, height, across, [0, TILTS.length], labels, null, none);
+  const { x, y, box } = figure, strip = (box.bottom - box.top) / TILTS.length;
+  drawBand(context, [x(BAND[0]), box.top], [x(BAND[1]), box.bottom]);
+  const said = TILTS.map((scene, t) => {
+    const heights = {}, wide = (x(BIN) - x(0)) / ACROSS, base = y(t) - 0.12 * strip;
+    for (const value of scene.draws) {
+      const bin = Math.floor(value / BIN), before = (heights[bin] = (heights[bin] ?? -1) + 1);
+      const up = base - 1.05 * wide * Math.floor(before / ACROSS);
+      const at = x(bin * BIN) + ((before % ACROSS) + 0.5) * wide;
+      mark(context, "dot", at, up, 0.45 * wide, palette[colourOf(scene)]);
+    }
+    mark(context, "ring", x(scene.mu_sapp), base, 6, palette.ink);
+    const { k, n } = scene.within, share = `${Math.round((100 * k) / n)} %`;
+    write(context, loadingOf(scene), box.left + 4, y(t + 1) + 10);
+    context.fillStyle = palette.ink;
+    write(context, share, x((BAND[0] + BAND[1]) / 2), y(t + 1) + 26, "center");
+    return `${loadingOf(scene)}: ${share}`;
+  });
+  if (firstGlobal()) {
+    const at = Math.min(Math.max(x(apparent()), box.left), box.right);
+    context.strokeStyle = palette.ink;
+    stroke(context, [[at, box.top - 4], [at, box.bottom]]);
+    write(context, "your slider", at, 8, "center");
+  }
+  setHtml("study-key", `${keyTo("dot", "soft", "a slider with the same printed inputs")}
+    ${keyTo("ring", "ink", "with the printed digits")}
+    ${keyTo("box", "band", `as printed, ${BAND.map(twoDigits).join(" to ")}`)}`);
+  return `μ_sapp of sliders with the same printed inputs. ${said.join("; ")}`;
 }
-function noteInStudy(name, run) {
-  const slip = firstGlobal(run);
-  found[name].push({ value: slip ? apparentIn(run) : null, isKnown: slip && slip.onset < run.known });
-  redraw("lengths"), showStep();
+
+// Medians of mu_sapp, and nine tenths of the runs, against the number of blocks.
+function drawBlocks(context, width, height) {
+  const medians = TILTS.flatMap(of("medians")), sizes = [...new Set(medians.map(([n]) => n))];
+  const log = Math.log10, along = { values: sizes.map(log), names: sizes };
+  const ends = [log(sizes[0]) - 0.08, log(sizes.at(-1)) + 0.1];
+  const up = spanOf(medians.flatMap(([, ...values]) => values));
+  const labels = ["Number of blocks N", "μ_sapp: medians, and 5 to 95 % of the runs"];
+  const { x, y, box } = axes(context, width, height, ends, up, labels, along);
+  drawBand(context, [box.left, y(BAND[1])], [box.right, y(BAND[0])]);
+  const level = y(UNIFORM.slider.mu_k);
+  context.fillStyle = context.strokeStyle = palette.ink;
+  dashed(context, [[box.left, level], [box.right, level]]);
+  TILTS.forEach((scene, t) => {
+    const colour = palette[colourOf(scene)], points = [];
+    for (const [n, low, median, high] of scene.medians) {
+      const at = x(log(n)) + 5 * (t - 1);
+      points.push([at, y(median)]);
+      mark(context, "dot", at, y(median), 4, colour);
+      stroke(context, [[at, y(low)], [at, y(high)]]);
+    }
+    stroke(context, points);
+  });
+  const n = state.slider.n_blocks, value = firstGlobal() && apparent();
+  if (value && n >= sizes[0]) mark(context, "ring", x(log(n)), y(value), 7, palette.ink);
+  setHtml("study-key", `${TILTS.map((scene) => keyTo("dot", colourOf(scene), loadingOf(scene)))
+    .join(" ")} ${keyTo("ring", "ink", "your slider")} ${keyTo("box", "band", "as printed")}
+    dashed: μ_k`);
+  return `μ_sapp falls to μ_k as the number of blocks grows, for each loading`;
 }

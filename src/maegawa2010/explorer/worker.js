@@ -1,86 +1,106 @@
-// Runs in two workers, after solver.js: one solves the chain, the other its twin. They work in short slices, so that a
-// newer request is heard in between.
+// Runs in a worker, after solver.js: it solves a slider and its twin side by side, in short slices,
+// so that a newer request is heard in between.
 
 const SLICE = 8; // ms
 const PATIENCE = 200; // ms of work on a request, after which what is there is shown
 const FINE = 0.1; // Taylor window of a motion that is played [tau]
 const MOST_STATES = 4000; // of a motion
-const ROUNDINGS = 64; // in which a number of the twin differs, as in analysis/horizon.py
+const TWIN_ROUNDINGS = 64; // in which a number of the twin differs, as in analysis/horizon.py
+const APART = 10; // how much further apart a run and its twin are than rounding errors
 
-let job = null, motion = null, idle = true;
+let job = null, motion = null, isIdle = true;
 const clock = new MessageChannel();
 clock.port1.onmessage = work;
 
 onmessage = ({ data }) => {
-  if (data.force) motion = follow(data);
-  else {
-    const run = newRun(data.isTwin ? twinOf(data.slider) : chainOf(data.slider), data.duration);
-    job = { ...data, run, steps: solve(run), started: performance.now(), isFirst: false, isShown: false, isDone: false };
-    if (!data.study) motion = null;
-  }
-  if (idle) clock.port2.postMessage(0);
-  idle = false;
+  if (data.event === undefined) {
+    const runs = [chainOf, twinOf].map((make) => newRun(make(data.slider), data.duration));
+    job = { ...data, runs, steps: runs.map(solve), started: performance.now() };
+    motion = null;
+  } else if (data.id === job.id) motion = follow(job.runs[0], data);
+  if (isIdle) clock.port2.postMessage(0);
+  isIdle = false;
 };
 
-// A slider whose numbers differ by roundings from those of another: its run shows how far rounding errors grow.
+// A slider whose numbers differ by roundings: its run shows how far rounding errors grow.
 function twinOf(slider) {
+  const size = (TWIN_ROUNDINGS / 2) * Number.EPSILON * Math.SQRT2, twin = { ...slider };
   let count = 0;
-  const near = (value) => value * (1 + (ROUNDINGS / 2) * Number.EPSILON * Math.SQRT2 * Math.cos(++count * count));
-  const twin = Object.fromEntries(Object.entries(slider).map(([name, value]) => [name, near(value)]));
-  const weights = chainOf(slider).weights.map(near);
-  return chainOf({ ...twin, mu_k: Math.min(twin.mu_k, twin.mu_s), n_blocks: slider.n_blocks, weights });
+  const near = (value) => value * (1 + size * Math.cos(++count * count));
+  for (const name in slider) twin[name] = near(slider[name]);
+  const weights = chainOf(slider).weights.map(near), mu_k = Math.min(twin.mu_k, twin.mu_s);
+  return chainOf({ ...twin, mu_k, n_blocks: slider.n_blocks, weights });
 }
 
-// One slice of work; then the messages that have come in are heard. A run is sent at its first global slip and at its end.
 function work() {
   const until = performance.now() + SLICE;
-  do {
-    if (motion) {
-      if (motion.next().done) motion = null;
-    } else if (job && !job.isDone && (job.all || !job.isFirst)) {
-      job.isDone = job.steps.next().done;
-      const isFirst = job.isFirst || Boolean(job.run.events.at(-1)?.isGlobal);
-      if (job.isDone || isFirst !== job.isFirst) send();
-      job.isFirst = isFirst;
-    } else return (idle = true);
-  } while (performance.now() < until);
-  if (job && !job.study && !job.isDone && performance.now() - job.started > PATIENCE) {
-    if (!job.isShown) send();
-    postMessage({ kind: "progress", id: job.id, share: job.run.end / job.duration });
+  while (performance.now() < until) {
+    if (motion) motion = motion.next().done ? null : motion;
+    else if (job && !job.isOver) goOn(job);
+    else return (isIdle = true);
   }
   clock.port2.postMessage(0);
 }
 
-// What the page draws of a run so far: its transitions between the start and the end, which have block 0, its events, and
-// the spring forces between them.
-function send() {
-  const { id, run, slider, isDone } = job, { chain, events, end, stopped } = run, last = events.at(-1)?.last ?? 0;
-  const between = (first, values, end) => [first, ...values.slice(0, last), end], forces = new Float64Array((events.length + 1) * (chain.n + 2));
-  [...events.map((event) => event.force), run.force].forEach((force, e) => forces.set(force, e * (chain.n + 2)));
+// Solve one window of the run that is behind. Both are sent at their first global slips and at
+// their ends.
+function goOn({ runs, steps, all, started }) {
+  const [run, twin] = runs, i = Number(run.isDone || (!twin.isDone && twin.end < run.end));
+  runs[i].isDone = steps[i].next().done;
+  runs[i].isThere ||= runs[i].isDone || Boolean(runs[i].events.at(-1)?.isGlobal);
+  const isThere = run.isThere && twin.isThere, areDone = run.isDone && twin.isDone;
+  const isLate = performance.now() - started > PATIENCE;
+  if (areDone || (isThere && !job.isThere) || (isLate && !job.isShown)) send(areDone);
+  Object.assign(job, { isThere, isOver: areDone || (isThere && !all) });
+}
+
+// Until when a run and its twin have the same transitions, at the same time [s] to the tolerance.
+function agreement(run, twin, slider, tolerance) {
+  // A block that lets go has no net force then: whether it sticks again is a matter of rounding.
+  if (slider.mu_k === slider.mu_s) return run.events[0]?.onset ?? Infinity;
+  const isSame = (i) => run.block[i] === twin.block[i] && run.mode[i] === twin.mode[i] &&
+    Math.abs(run.time[i] - twin.time[i]) < APART * tolerance;
+  const n = Math.min(run.time.length, twin.time.length), areDone = run.isDone && twin.isDone;
+  let i = 0;
+  while (i < n && isSame(i)) i++;
+  if (i === n && (run.time.length === twin.time.length || !areDone)) return Infinity;
+  return Math.min(run.time[i] ?? Infinity, twin.time[i] ?? Infinity);
+}
+
+// What the page draws of a run so far: its transitions between the start and the end, which have
+// block 0, and its events.
+function send(isFinal) {
+  const { id, slider, tolerance, runs } = job, [run, twin] = runs, last = run.events.at(-1)?.last;
+  const { n, k, weights, strength } = run.chain, { end, force, stopped } = run;
+  const column = (name, first, final) => [first, ...run[name].slice(0, last ?? 0), final];
   const arrays = {
-    time: Float64Array.from(between(0, run.time, end)), load: Float64Array.from(between(0, run.load, run.force[1])),
-    block: Uint8Array.from(between(0, run.block, 0)), mode: Int8Array.from(between(0, run.mode, 0)), forces,
+    time: Float64Array.from(column("time", 0, end)),
+    load: Float64Array.from(column("load", 0, force[1])),
+    block: Uint8Array.from(column("block", 0, 0)), mode: Int8Array.from(column("mode", 0, 0)),
   };
-  const { n, k, weights, strength } = chain, told = events.map(({ force, ...event }) => event);
-  postMessage({ kind: "run", id, isFinal: isDone, arrays, events: told, end, stopped, n, k, weights, strength, slider }, Object.values(arrays).map((array) => array.buffer));
+  const events = run.events.map(({ start, ...event }) => event);
+  const known = agreement(run, twin, slider, tolerance), chain = { n, k, weights, strength };
+  postMessage({ id, isFinal, slider, ...chain, arrays, events, end, force, stopped, known });
   job.isShown = true;
 }
 
-// The motion in an event from the spring forces at its onset: times, forces and modes at the ends of small steps.
-function* follow({ id, slider, duration, event, onset, end, force, start }) {
-  const chain = chainOf(slider), modes = new Int8Array(chain.n + 2);
-  const length = (end - onset) / chain.tau, window = Math.min(Math.max(FINE, length / MOST_STATES), WINDOW);
-  const states = { time: [], forces: [], modes: [] };
+// The motion in an event: times, forces and modes at the ends of small steps.
+function* follow({ chain, duration, events }, { id, event }) {
+  const { onset, end, force, start } = events[event], { n, tau } = chain;
+  const mode = new Int8Array(n + 2), length = (end - onset) / tau;
+  const window = Math.min(Math.max(FINE, length / MOST_STATES), WINDOW);
+  const time = [], forces = [], modes = [];
   let due = 0;
-  const steps = motionFrom(chain, force, (duration - onset) / chain.tau, (t, i, mode, forces) => {
-    if (i) modes[i] = mode;
+  const note = (t, i, way, force) => {
+    if (i) mode[i] = way;
     if (t < due && !(i && length < MOST_STATES * FINE)) return;
     due = t + length / MOST_STATES;
-    states.time.push(onset + t * chain.tau), states.forces.push(...forces), states.modes.push(...modes);
-  }, window, start);
-  for (const t of steps) {
+    time.push(onset + t * tau), forces.push(force.slice()), modes.push(mode.slice());
+  };
+  const longest = (duration - onset) / tau;
+  for (const t of motionFrom(chain, force.slice(), longest, note, window, start)) {
     if (t > length) break;
     yield t;
   }
-  postMessage({ kind: "motion", id, event, time: Float64Array.from(states.time), forces: Float32Array.from(states.forces), modes: Int8Array.from(states.modes) });
+  postMessage({ kind: "motion", id, event, time, forces, modes });
 }
