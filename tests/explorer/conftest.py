@@ -1,15 +1,13 @@
-"""A browser for the tests of the explorer, and a page with the paper's scenes."""
+"""A browser for the tests of the explorer, and the page of the build."""
 
 import pytest
 from browser import browser, find_browser
-from explorer.example import write_example
+from explorer.example import PAGE
 
 
 @pytest.fixture(scope="session")
-def file(tmp_path_factory):
-    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    write_example(path)
-    return path
+def file():
+    return PAGE
 
 
 @pytest.fixture(scope="session")

@@ -7,14 +7,16 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
+import pandas as pd
 import pytest
 from colours import SIGHTS, TOLD_APART, alike, in_cielab
-from explorer.example import LAPTOP, SETTLED, SOURCE, TOLERANCE
+from explorer.example import LAPTOP, ROOT, SETTLED, SOURCE, TOLERANCE
 
 from precursors import Chain, apparent_friction, cli, simulate, slip_table, summarise
 from precursors.analysis.horizon import horizon
 from precursors.figures import style
 
+SCENES = ["fig11", "fig10", "fig12"]
 MOST_BYTES = 120e3
 # Predictability times of the page, which has one twin, and of the library, which has
 # sixteen, agree within a factor.
@@ -29,8 +31,7 @@ SHIFT = 0.02  # of the layout, largest sum over the steps and over a drag
 TARGET = 44  # px, smallest width and height of what a finger meets
 TEXT_CONTRAST, MARK_CONTRAST = 4.5, 3.0  # WCAG 2.2 AA
 
-# What a reader does; and a study of few sliders, with fewer than the last step's 40
-# blocks, which take seconds.
+# What a reader does; with fewer than the last step's 40 blocks, which take seconds.
 TOOLS = """
   var press = (query) => document.querySelector(query).click();
   var set = (query, ...values) => values.forEach((value) => {
@@ -43,14 +44,14 @@ TOOLS = """
     const at = { clientX: box.left + x, clientY: box.top + y, bubbles: true };
     element(id).dispatchEvent(new MouseEvent("click", at));
   };
-  STUDIES.digits.count = STUDIES.blocks.count = 12, STEPS.at(-1).blocks = 12;
+  STEPS.at(-1).blocks = 12;
 """
 
 
 def open_explorer(page, file, *size):
     page.open(file.as_uri(), *size)
     page.prefer(prefers_reduced_motion="reduce")  # less motion: no film is played
-    page.evaluate(TOOLS)
+    page.evaluate(f"{TOOLS} state.isToPlay = false, stop()")
     page.wait_for(SETTLED)
 
 
@@ -114,7 +115,7 @@ def test_the_row_moves_and_its_springs_push_as_the_library_says(page, file):
     for share in (0.01, 0.4, 0.8, 1.5):
         time = slip.onset_s + share * (slip.end_s - slip.onset_s)
         page.evaluate(f"state.time = {time}, redraw('row')")
-        page.wait_for(f"motions.has({slip.name}) && {SETTLED}")
+        page.wait_for(f"run.motions.has({slip.name}) && {SETTLED}")
         frame = f"frameAt({time})"
         shifts = np.array(page.evaluate(f"{frame}.shifts"))
         forces = page.evaluate(f"[...{frame}.forces].slice(0, -1)")
@@ -129,15 +130,12 @@ def test_an_event_is_a_film_of_three_seconds_that_stops_at_its_end(page, file):
     open_explorer(page, file)
     page.prefer(prefers_reduced_motion="no-preference")
     page.evaluate("goToStep(1)")
-    page.wait_for("playing")
-    first, last = page.evaluate(
-        "[event().onset, event().end].map((time) => along(film.time, film.wall, time))"
-    )
+    page.wait_for("state.playing")
+    first, last = page.evaluate("[event().onset, event().end].map(inFilm)")
     assert last - first == pytest.approx(FILM)
     began = perf_counter()
-    start = f"along(film.wall, film.time, {last - SEEN})"
-    page.evaluate(f"stop(), state.time = {start}, play()")
-    page.wait_for("!playing")
+    page.evaluate(f"stop(), state.time = inRun({last - SEEN}), play()")
+    page.wait_for("!state.playing")
     assert perf_counter() - began > SEEN
     assert page.evaluate("[state.view, state.time - event().end]") == ["event", 0]
 
@@ -161,15 +159,15 @@ def test_the_keyboard_reaches_the_six_steps_and_every_event(page, file):
     do(page, "choose(0)")
     for slip in slips.itertuples():
         page.settle()
-        kind = "precursor" if slip.counted else "shorter slip"
+        kind = "precursor" if slip.counted else "shorter precursor"
         kind = "global slip" if slip.is_global else kind
-        told = page.evaluate("element('readout').textContent")
+        told = " ".join(page.evaluate("element('readout').textContent").split())
         assert told.startswith(f"Event {slip.Index + 1} of 60, {kind}: block")
-        assert f"Fₓ: {slip.load_before_N:#.4g} N → {slip.load_after_N:#.4g} N" in told
+        assert f"FX: {slip.load_before_N:#.4g} N → {slip.load_after_N:#.4g} N" in told
         press_key(page, "ArrowRight", code=39)
     for is_playing in (True, False):
         press_key(page, " ", " ", 32)
-        assert page.evaluate("Boolean(playing)") == is_playing
+        assert page.evaluate("Boolean(state.playing)") == is_playing
 
 
 def test_a_click_on_an_event_opens_it_and_one_beside_events_goes_to_that_time(
@@ -177,16 +175,16 @@ def test_a_click_on_an_event_opens_it_and_one_beside_events_goes_to_that_time(
 ):
     open_explorer(page, file)
     for event, place in {
-        4: "'stairs', shares.x(run.events[4].onset) + 9",
-        8: "'slips', shares.x(run.events[8].onset) - 9",
-        11: "'lengths', marks[11][0] + 9, marks[11][1]",
+        4: "'stairs', chart.time.x(run.events[4].onset) + 9",
+        8: "'slips', chart.time.x(run.events[8].onset) - 9",
+        11: "'lengths', chart.marks[11][0] + 9, chart.marks[11][1]",
     }.items():
         do(page, "setView('first')")
         page.evaluate(f"tap({place})")
         assert page.evaluate("[state.event, state.view]") == [event, "event"]
         assert page.evaluate("state.time === event().onset")
     do(page, "setView('first')")
-    page.evaluate("tap('slips', shares.x(0.1))")
+    page.evaluate("tap('slips', chart.time.x(0.1))")
     assert page.evaluate("state.time") == pytest.approx(0.1, abs=0.005)
 
 
@@ -219,27 +217,50 @@ def test_from_where_the_library_calls_a_run_unpredictable_the_page_is_grey(
     assert is_grey == (answer == "lost") == ("one draw" in trust)
 
 
-STUDIES = [
-    (4, "tilts", "0.01\n0.4568"),
-    (5, "digits", "of 4 inside"),
-    (6, "blocks", "0 of 12 values"),
-]
+def table(name):
+    return pd.read_csv(ROOT / f"results/tables/{name}.csv")
 
 
-@pytest.mark.parametrize(("step", "name", "words"), STUDIES)
-def test_a_study_finds_what_the_library_finds(page, file, step, name, words):
+def test_the_steps_tell_the_numbers_of_the_tables(page, file):
+    """Words of the event that is shown follow it."""
     open_explorer(page, file)
-    do(page, f"goToStep({step})")
-    found = page.evaluate(
-        f"found.{name}.map(({{ value }}, i) => [value, STUDIES.{name}.sliderOf(i)])"
+    text = " ".join(
+        page.evaluate(f"goToStep({step}), plain(shown['step-{step}'])")
+        for step in range(1, 7)
     )
-    for value, slider in found:
-        run = simulate(Chain.from_slider(**slider), 20.0, until="global slip")
-        assert value == pytest.approx(apparent_friction(run), 1e-9)
-    assert len(found) == page.evaluate(f"STUDIES.{name}.count")
-    assert words in page.evaluate(
-        "element('step').innerText + element('lengths').ariaLabel"
+    studies = table("digits").set_index(["scene", "quantity", "question"])["share"]
+    in_band = [100 * studies[scene, "mu_sapp", "as_printed"] for scene in SCENES]
+    full = pd.read_csv(ROOT / "paper/tables/resolution_full.csv")
+    medians = full.query("quantity == 'mu_sapp'").pivot(
+        index="scene", columns="n_blocks", values="q50"
     )
+    means = table("measures").set_index("scene")["mean"]
+    for values, digits, end in (
+        (in_band, 0, " % have the printed"),
+        (medians.loc[SCENES, 10], 3, " with 10 blocks"),
+        (medians.loc[SCENES, 320], 3, " with 320"),
+        (means[SCENES], 4, " FZ"),
+    ):
+        first, second, third = (f"{value:.{digits}f}" for value in values)
+        assert f"{first}, {second} and {third}{end}" in text
+    tilted = page.evaluate("DATA.tilted")
+    run = simulate(Chain.from_slider(theta=tilted["theta"]), until="global slip")
+    assert f"{apparent_friction(run):.4f}" in text
+    do(page, "goToStep(2), choose(9)")
+    front = page.evaluate("event().front")
+    assert f"after block {front}" in page.evaluate(
+        "element('step-2').textContent.replaceAll('\u2060', '')"
+    )
+
+
+@pytest.mark.parametrize("part", ["bars", "frames", "line", "blocks"])
+def test_a_word_singles_out_what_it_names(page, file, part):
+    open_explorer(page, file)
+    do(page, "goToStep(2)")
+    before = page.evaluate("element('row').toDataURL()")
+    page.evaluate(f"document.body.dataset.lit = '{part}', redraw('row')")
+    page.settle()
+    assert page.evaluate("element('row').toDataURL()") != before
 
 
 # Everybody
@@ -350,10 +371,10 @@ CONTRASTS = """(() => {
     .map((e) => [ratio(getComputedStyle(e).color, behind(e)), e.outerHTML.slice(0, 90)]);
   const against = (other) => (name) => [ratio(palette[name], palette[other]), name];
   const kinds = ["stuck", "partial", "global", "backward"];
-  const numbers = kinds.map((kind) => [ratio(palette[kind], inkOn(palette[kind])), kind]);
+  const numbers = kinds.map((kind) => [ratio(palette[kind], inkOn(kind)), kind]);
   return [
     [...texts, ...numbers, against("paper")("soft")],
-    [...kinds, "unsure", "pushed", "even", "far", "line", "ink", "strong"].map(against("paper")),
+    [...kinds, "unsure", ...TILT_COLOURS, "line", "ink", "strong"].map(against("paper")),
   ];
 })()"""
 
@@ -380,13 +401,16 @@ FIGURES = {
     "partial": style.PARTIAL,
     "global": style.GLOBAL,
     "backward": style.BACKWARD,
-    "pushed": style.TRAILING,
-    "even": style.UNIFORM,
-    "far": style.LEADING,
+    "trailing": style.TRAILING,
+    "uniform": style.UNIFORM,
+    "leading": style.LEADING,
     "unsure": style.GREY,
 }
 # Marks that stand side by side. A backward slip is half as high besides.
-SIDE_BY_SIDE = [("partial", "global", "unsure"), ("pushed", "even", "far", "unsure")]
+SIDE_BY_SIDE = [
+    ("partial", "global", "unsure"),
+    ("trailing", "uniform", "leading", "unsure"),
+]
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -19,7 +19,7 @@ function readPalette() {
   }
 }
 // Colour of a number on a block.
-const inkOn = (kind) => ({ stuck: palette.paper, global: "#ffffff" })[kind] ?? "#000000";
+const inkOn = (kind) => ({ stuck: palette.paper, partial: "#000000" })[kind] ?? "#ffffff";
 
 // Clear a canvas, which has as many pixels as the screen gives it: [context, width, height].
 function clear(canvas) {

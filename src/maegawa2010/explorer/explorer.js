@@ -164,7 +164,7 @@ function setHtml(id, html) {
   return true;
 }
 
-function press(query, isPressed) {
+function setPressed(query, isPressed) {
   for (const button of document.querySelectorAll(query)) {
     button.setAttribute("aria-pressed", isPressed(button.dataset));
   }
@@ -179,9 +179,9 @@ function showParameters() {
     element(`${name}-value`).textContent = text;
   }
   element("told").textContent = command();
-  press("[data-view]", ({ view }) => view === state.view);
-  press("[data-theta]", (data) => Number(data.theta) === theta && !weights);
-  press("[data-step]", ({ step }) => Number(step) === state.step);
+  setPressed("[data-view]", ({ view }) => view === state.view);
+  setPressed("[data-theta]", (data) => Number(data.theta) === theta && !weights);
+  setPressed("[data-step]", ({ step }) => Number(step) === state.step);
 }
 
 // All steps lie in one place, so that nothing below them moves; only one is seen.

@@ -164,7 +164,7 @@ function showStairs() {
     if (from < to) curve(context, x, y, time, values, from, to);
   }
   context.restore();
-  chart.time = { box };
+  chart.time = { x, box };
   setName("stairs", `${label}, against time: ${counts(run.events.length, "event")}.
     ${shown.answers}. ${shown.trust}`);
 }

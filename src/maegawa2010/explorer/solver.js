@@ -108,7 +108,7 @@ function earliestRoot(derivatives, end, zero) {
     derivatives = derivatives.map(divided);
   }
   let bound = 0, power = 1;
-  for (let n = 2; n <= ORDER; n++, power *= end / (n - 2)) bound += Math.abs(derivatives[n]) * power;
+  for (let n = 2; n <= ORDER; power *= end / (++n - 2)) bound += Math.abs(derivatives[n]) * power;
   let t = 0;
   for (;;) {
     let g = 0, slope = 0;

@@ -85,8 +85,8 @@ const STEPS = [
   },
   {
     title: "Where does it stop?", scene: UNIFORM, pick: "longer", view: "event", plays: true,
-    text: (word) => `Friction takes from the push of ${word("load")} what each sliding block needs.
-      The ${word("line")} is what is left of it. <b>Where it meets zero, the slip stops</b>, here
+    text: (word) => `Each sliding block takes its kinetic friction from the load
+      ${word("load")}. The ${word("line")} is what is left. <b>Where it meets zero, the slip stops</b>, here
       after ${word("blocks")}. ${word("left")} is the push before the slip, and the
       ${word("added")} what the slip adds. The next slip starts at a higher load, so its line meets
       zero farther along. Press → and see the ${word("front")} grow; now and then a shorter slip
@@ -129,10 +129,10 @@ const STEPS = [
   {
     title: "What holds?", scene: UNIFORM, blocks: 40, pick: "global", view: "all",
     study: drawBlocks,
-    text: (word) => `<b>The time mean of ${word("load")} after the first slip is μ_k F_Z, for every
-      loading and number of blocks</b>, as the drive does the work that friction takes. In the
-      paper’s scenes it is ${ofTilts(({ mean }) => mean?.toFixed(4) ?? "–")} F_Z. The largest F_X
-      lies above it by as much as the slips are large. Many blocks make them small: with
+    text: (word) => `<b>After the first global slip the time mean of ${word("load")} is μ_k F_Z, for
+      every loading and number of blocks</b>, as the drive does the work that friction takes. In the
+      paper’s scenes it is ${ofTilts(({ mean }) => mean?.toFixed(4) ?? "–")} F_Z. The largest
+      F_X lies above it by as much as the slips are large. Many blocks make them small: with
       ${digits(DATA.noise)} % noise in the loads, the medians of ${word("apparent")} are
       ${ofTilts(({ medians }) => medians[0][2].toFixed(3))} with ${TILTS[0].medians[0][0]} blocks,
       and ${ofTilts(({ medians }) => medians.at(-1)[2].toFixed(3))} with
@@ -178,7 +178,8 @@ function explained(place, name) {
     id="${tip}">${about}</span></span>\u2060`;
 }
 // A text without its explanations and marks.
-const plain = (html) => marked(html).replace(/<span class="tip".*?<\/span>|<[^>]*>/gs, "");
+const plain = (html) => marked(html).replace(/<span class="tip".*?<\/span>|<[^>]*>|\u2060/gs, "")
+  .replace(/\s+/g, " ");
 const wayOf = ({ slider }) => 1 + Math.sign(slider.theta); // of the tilt: 0, 1 or 2
 const colourOf = (scene) => TILT_COLOURS[wayOf(scene)];
 const loadingOf = (scene) => DATA.loadings[wayOf(scene)];
