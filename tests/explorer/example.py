@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import zlib
 from pathlib import Path
 
 from browser import browser, find_browser
@@ -14,6 +15,7 @@ PICTURE = ROOT / "docs/explorer.png"
 THETAS = {"fig10": 0.0, "fig11": -5 / 6, "fig12": 5 / 6}
 TOLERANCE = 1e-9  # s, of the times of a run that is called predictable
 LAPTOP = (1280, 800)  # px
+END = 12  # bytes of the last chunk of a PNG
 SETTLED = (
     "run && !state.playing && request.isShown && !request.next && run.isFinal"
     " && run.id === request.id && !dirty.size"
@@ -21,28 +23,32 @@ SETTLED = (
 
 
 def drawn_from() -> str:
-    """Digest of what the picture shows: all of the page but what only answers a
-    reader."""
+    """Digest of the sources of the page."""
     parts = sorted(file for file in SOURCE.iterdir() if file.suffix != ".py")
     return hashlib.sha256(b"".join(file.read_bytes() for file in parts)).hexdigest()
 
 
 def picture() -> bytes:
-    """The second step in the middle of a precursor, without the sliders, as a small
-    PNG that says in its end what it was drawn from."""
+    """The row in the middle of the second step's precursor, and its slips, as a PNG that
+    says what it was drawn from."""
     path = find_browser()
     if path is None:
         raise FileNotFoundError("no Chromium or Chrome here")
     with browser(path) as page:
         page.open(PAGE.as_uri(), *LAPTOP)
-        page.evaluate("goToStep(2), stop()")
+        page.evaluate("goToStep(2), state.isToPlay = false, stop()")
         page.wait_for(SETTLED)
-        page.evaluate(
-            "state.time = event().onset + 0.6 * (event().end - event().onset), redraw()"
-        )
+        middle = "0.6 * (event().end - event().onset)"
+        page.evaluate(f"state.time = event().onset + {middle}, redraw()")
         page.wait_for(f"run.motions.has(state.event) && {SETTLED}")
         page.evaluate("redraw()")
         page.settle()
-        bottom = page.evaluate("element('readout').getBoundingClientRect().bottom")
-        png = page.picture(x=0, y=0, width=LAPTOP[0], height=bottom, scale=0.75)
-    return png + drawn_from().encode()
+        place = "element('{}').getBoundingClientRect().{}"
+        top, right, bottom = (
+            page.evaluate(place.format(*side))
+            for side in (("row", "top"), ("row", "right"), ("slips", "bottom"))
+        )
+        png = page.picture(x=0, y=top, width=right + 8, height=bottom - top, scale=1)
+    chunk = b"tEXtSource\0" + drawn_from().encode()
+    size, check = (n.to_bytes(4) for n in (len(chunk) - 4, zlib.crc32(chunk)))
+    return png[:-END] + size + chunk + check + png[-END:]

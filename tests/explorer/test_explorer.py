@@ -10,7 +10,15 @@ import numpy as np
 import pandas as pd
 import pytest
 from colours import SIGHTS, TOLD_APART, alike, in_cielab
-from explorer.example import LAPTOP, ROOT, SETTLED, SOURCE, TOLERANCE
+from explorer.example import (
+    LAPTOP,
+    PICTURE,
+    ROOT,
+    SETTLED,
+    SOURCE,
+    TOLERANCE,
+    drawn_from,
+)
 
 from precursors import Chain, apparent_friction, cli, simulate, slip_table, summarise
 from precursors.analysis.horizon import horizon
@@ -231,7 +239,7 @@ def test_the_steps_tell_the_numbers_of_the_tables(page, file):
     studies = table("digits").set_index(["scene", "quantity", "question"])["share"]
     in_band = [100 * studies[scene, "mu_sapp", "as_printed"] for scene in SCENES]
     full = pd.read_csv(ROOT / "paper/tables/resolution_full.csv")
-    medians = full.query("quantity == 'mu_sapp'").pivot(
+    medians = full.query("quantity == 'mu_sapp'").pivot_table(
         index="scene", columns="n_blocks", values="q50"
     )
     means = table("measures").set_index("scene")["mean"]
@@ -264,6 +272,12 @@ def test_a_word_singles_out_what_it_names(page, file, part):
 
 
 # Everybody
+
+
+def test_the_picture_in_readme_was_drawn_from_this_page():
+    png = PICTURE.read_bytes()
+    assert drawn_from().encode() in png, "older than the page: make golden"
+    assert len(png) < MOST_BYTES
 
 
 def test_the_page_is_one_small_file_that_asks_the_network_for_nothing(page, file):

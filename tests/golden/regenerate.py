@@ -27,6 +27,12 @@ FIGURES = tuple(
     f"{figure}.png"
     for figure in ("fig09", *PAPERS_SCENES, "fig13", "hero", "push", "speed")
 )
+# What is read without a build.
+BUILT = {
+    "explorer.html": "docs/explorer.html",
+    "paper.pdf": "paper/paper.pdf",
+    "supplement.pdf": "paper/supplement.pdf",
+}
 
 
 def main(results: Path, golden: Path = GOLDEN) -> None:
@@ -45,7 +51,9 @@ def main(results: Path, golden: Path = GOLDEN) -> None:
         write_table(name, table)
     for name, how in pictures().items():
         write_picture(golden / f"small/{name}.png", how)
-    write_whole(ROOT / "docs/explorer.png", example.picture())
+    write_whole(example.PICTURE, example.picture())
+    for name, kept in BUILT.items():
+        shutil.copyfile(results / name, ROOT / kept)
 
 
 if __name__ == "__main__":

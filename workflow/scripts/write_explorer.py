@@ -30,7 +30,7 @@ def scene_data(scene, slider, slips, members, measures, resolution):
         "mean": None if pd.isna(mean) else mean,
         "draws": draws.round(4).tolist(),
         "within": {"k": int(agree.sum()), "n": len(draws)},
-        "medians": medians[["n_blocks", "q05", "q50", "q95"]].values.tolist(),
+        "medians": medians[["n_blocks", "q05", "q50", "q95"]].to_numpy().tolist(),
     }
 
 

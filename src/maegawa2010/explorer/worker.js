@@ -5,7 +5,7 @@ const SLICE = 8; // ms
 const PATIENCE = 200; // ms of work on a request, after which what is there is shown
 const FINE = 0.1; // Taylor window of a motion that is played [tau]
 const MOST_STATES = 4000; // of a motion
-const TWIN_ROUNDINGS = 64; // in which a number of the twin differs, as in analysis/horizon.py
+const ROUNDINGS = 64; // in which a number of the twin differs, as in analysis/horizon.py
 const APART = 10; // how much further apart a run and its twin are than rounding errors
 
 let job = null, motion = null, isIdle = true;
@@ -24,7 +24,7 @@ onmessage = ({ data }) => {
 
 // A slider whose numbers differ by roundings: its run shows how far rounding errors grow.
 function twinOf(slider) {
-  const size = (TWIN_ROUNDINGS / 2) * Number.EPSILON * Math.SQRT2, twin = { ...slider };
+  const size = (ROUNDINGS / 2) * Number.EPSILON * Math.SQRT2, twin = { ...slider };
   let count = 0;
   const near = (value) => value * (1 + size * Math.cos(++count * count));
   for (const name in slider) twin[name] = near(slider[name]);
