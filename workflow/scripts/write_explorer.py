@@ -1,5 +1,7 @@
 """Write the explorer: one HTML page that solves the chain in the browser."""
 
+from typing import Any
+
 import pandas as pd
 from job import job
 
@@ -16,7 +18,14 @@ from precursors.figures.style import LOADINGS
 STEP = 0.01  # of theta, after which the paper's loadings no longer agree
 
 
-def scene_data(scene, slider, slips, members, measures, resolution):
+def scene_data(
+    scene: str,
+    slider: dict[str, Any],
+    slips: pd.DataFrame,
+    members: pd.DataFrame,
+    measures: pd.DataFrame,
+    resolution: pd.DataFrame,
+) -> dict[str, Any]:
     """What the page has of a scene: see `write_explorer`."""
     found = summary_of(slips)
     draws = members.query("scene == @scene and draw > 0")["mu_sapp"].dropna()
@@ -34,7 +43,7 @@ def scene_data(scene, slider, slips, members, measures, resolution):
     }
 
 
-def tilted(slider):
+def tilted(slider: dict[str, Any]) -> dict[str, float]:
     """mu_sapp of a slider whose theta is larger by `STEP`."""
     theta = slider["theta"] + STEP
     run = simulate(Chain.from_slider(**slider | {"theta": theta}), until="global slip")
