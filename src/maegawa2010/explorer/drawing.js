@@ -29,10 +29,10 @@ function clear(canvas) {
   if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
   const context = canvas.getContext("2d");
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.lineWidth = context.globalAlpha = 1;
   context.fillStyle = palette.paper;
   context.fillRect(0, 0, width, height);
   context.textBaseline = "middle";
-  context.lineWidth = context.globalAlpha = 1;
   context.setLineDash([]);
   return [context, width, height];
 }

@@ -201,7 +201,7 @@ function goToStep(number) {
   stop();
   const { scene, blocks, pick, view = "first", plays = false, study } = STEPS[number - 1];
   Object.assign(state, { step: number, pick, view, isToPlay: plays, repeats: plays });
-  Object.assign(document.body.dataset, { shows: number, study: Boolean(study) });
+  Object.assign(document.body.dataset, { shows: number, study: Boolean(study), lit: "" });
   useSlider({ ...scene.slider, n_blocks: blocks ?? scene.slider.n_blocks });
   showStep();
 }

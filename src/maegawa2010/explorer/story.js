@@ -86,8 +86,9 @@ const STEPS = [
   {
     title: "Where does it stop?", scene: UNIFORM, pick: "longer", view: "event", plays: true,
     text: (word) => `Each sliding block takes its kinetic friction from the load
-      ${word("load")}. The ${word("line")} is what is left. <b>Where it meets zero, the slip stops</b>, here
-      after ${word("blocks")}. ${word("left")} is the push before the slip, and the
+      ${word("load")}. The ${word("line")} is what is left.
+      <b>Where it meets zero, the slip stops</b>,
+      here after ${word("blocks")}. ${word("left")} is the push before the slip, and the
       ${word("added")} what the slip adds. The next slip starts at a higher load, so its line meets
       zero farther along. Press → and see the ${word("front")} grow; now and then a shorter slip
       comes in between.`,
@@ -129,8 +130,9 @@ const STEPS = [
   {
     title: "What holds?", scene: UNIFORM, blocks: 40, pick: "global", view: "all",
     study: drawBlocks,
-    text: (word) => `<b>After the first global slip the time mean of ${word("load")} is μ_k F_Z, for
-      every loading and number of blocks</b>, as the drive does the work that friction takes. In the
+    text: (word) => `<b>After the first global slip the time mean of
+      ${word("load")} is μ_k F_Z,
+      for every loading and number of blocks</b>, as the drive does the work that friction takes. In the
       paper’s scenes it is ${ofTilts(({ mean }) => mean?.toFixed(4) ?? "–")} F_Z. The largest
       F_X lies above it by as much as the slips are large. Many blocks make them small: with
       ${digits(DATA.noise)} % noise in the loads, the medians of ${word("apparent")} are
@@ -175,11 +177,11 @@ function explained(place, name) {
   const [text, about] = WORDS[name], tip = `tip-${place}-${name}`;
   return `<span class="word"><button type="button" class="why" data-lights="${name}"
     aria-describedby="${tip}">${text}</button><span class="tip" role="tooltip"
-    id="${tip}">${about}</span></span>\u2060`;
+    id="${tip}">${about}</span></span>`;
 }
 // A text without its explanations and marks.
-const plain = (html) => marked(html).replace(/<span class="tip".*?<\/span>|<[^>]*>|\u2060/gs, "")
-  .replace(/\s+/g, " ");
+const plain = (html) =>
+  marked(html).replace(/<span class="tip".*?<\/span>|<[^>]*>/gs, "").replace(/\s+/g, " ");
 const wayOf = ({ slider }) => 1 + Math.sign(slider.theta); // of the tilt: 0, 1 or 2
 const colourOf = (scene) => TILT_COLOURS[wayOf(scene)];
 const loadingOf = (scene) => DATA.loadings[wayOf(scene)];
