@@ -132,7 +132,8 @@ const STEPS = [
     study: drawBlocks,
     text: (word) => `<b>After the first global slip the time mean of
       ${word("load")} is μ_k F_Z,
-      for every loading and number of blocks</b>, as the drive does the work that friction takes. In the
+      for every loading and number of blocks</b>, as the drive does the work that friction takes.
+      In the
       paper’s scenes it is ${ofTilts(({ mean }) => mean?.toFixed(4) ?? "–")} F_Z. The largest
       F_X lies above it by as much as the slips are large. Many blocks make them small: with
       ${digits(DATA.noise)} % noise in the loads, the medians of ${word("apparent")} are
