@@ -95,7 +95,7 @@ def test_an_installed_library_must_be_that_of_the_checkout(workspace):
         (
             "precursors/analysis/slips",
             {"simulate_scene fig10", "mu_sapp"},
-            {"take_certificates"},
+            {"fig09"},
         ),
         ("precursors/solver/kernel/events", PAPERS | {"run_noise"}, set()),
     ],
@@ -118,7 +118,7 @@ def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
             "figure: {}",
             "figure: {width_mm: 85, font_size: 9}",
             {"draw_scene fig10", "draw_scene fig11", "draw_scene fig12"}
-            | {"draw_scene steep", "fig13"},
+            | {"draw_scene steep", "fig13", "draw_slips"},
         ),
         (
             "config.yaml",
