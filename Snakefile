@@ -3,13 +3,10 @@ from snakemake.utils import min_version
 min_version("9.20")
 
 
-configfile: "config.yaml"
-
-
 report: "workflow/report/workflow.rst"
 
 
-include: "workflow/common.smk"  # the configuration, scenes, chains, digests of code
+include: "workflow/common.smk"  # config.yaml, its scenes and their chains, digests of code
 # The paper
 include: "workflow/rules/scenes.smk"  # every transition, slips, mu_sapp, Figs. 10-13
 include: "workflow/rules/paper.smk"  # Eq. 15, claims, Fig. 9, paper.pdf

@@ -18,7 +18,7 @@ except ValueError as error:
     raise WorkflowError(str(error)) from None
 
 from maegawa2010 import printed
-from maegawa2010.config import load_config
+from maegawa2010.config import load_config, read_file
 from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
 from maegawa2010.scenes import (
     scene_additions,
@@ -36,8 +36,18 @@ COMMITTED = ROOT / "paper/tables"  # of long studies of the paper's slider
 # What a script computes: its rule has it as a parameter, and its jobs run again when it changes.
 digest = partial(digest_code, ROOT)
 
+files = [] if workflow.modifier.skip_configfile else ["config.yaml", *workflow.overwrite_configfiles]
 try:
-    files = [] if workflow.modifier.skip_configfile else ["config.yaml", *workflow.overwrite_configfiles]
+    for path in filter(os.path.exists, files):
+        read_file(path)  # before Snakemake, which would run code in it, or take hours for nested aliases
+except ValueError as error:
+    raise WorkflowError(str(error)) from None
+
+
+configfile: "config.yaml"
+
+
+try:
     config.update(load_config(config, files, ROOT / "workflow"))
 except ValueError as error:
     raise WorkflowError(str(error)) from None

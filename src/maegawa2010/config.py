@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from copy import deepcopy
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from snakemake.utils import update_config
 
 from maegawa2010.scenes import Config, scene_slider, scenes_with_theta
 from precursors.model.chain import Chain
-from precursors.support.files import AnyPath
+from precursors.support.files import AnyPath, read_bytes
 
 SECTIONS = (
     "chain",
@@ -28,10 +29,14 @@ SECTIONS = (
     "figure",
     "figure_formats",
 )
-# YAML reads 010 as 8, and 1:30 as 90; .nan and .inf are no number to compute with.
+# YAML reads 010 as 8, 0x10 as 16, 1_0 as 10, and 1:30 as 90; .nan and .inf are no number
+# to compute with.
 NOT_PLAIN = re.compile(
-    r"[-+]?(0[\d_]+|\d[\d_]*(:[0-5]?\d)+(\.[\d_]*)?|\.(inf|nan))", re.IGNORECASE
+    r"[-+]?(0[\d_]+|0x[\da-f_]+|0b[01_]+|\d[\d.]*_[\d_.]*(e[-+]?\d+)?"
+    r"|\d[\d_]*(:[0-5]?\d)+(\.[\d_]*)?|\.(inf|nan))",
+    re.IGNORECASE,
 )
+MOST_VALUES = 100_000  # in a file, those of aliases and merges written out
 # Python's numbers that YAML reads as text.
 TEXT_TO_YAML = re.compile(r"[-+]?(\d+|(\d*\.\d+|\d+\.)(?=e\d))e[-+]?\d+", re.IGNORECASE)
 KINDS: dict[Any, str] = {
@@ -44,7 +49,14 @@ KINDS: dict[Any, str] = {
 
 
 class Loader(yaml.CSafeLoader):
-    """Reads each key once, and no value that YAML takes for another."""
+    """Reads each key once, no value that YAML takes for another, and no file whose
+    aliases make it endless."""
+
+    def construct_document(self, node: yaml.Node) -> Any:
+        """Return what a file has."""
+        if _size(node, {}) > MOST_VALUES:
+            raise _misread(node, "aliases (*) and merges (<<) are nested too deep")
+        return super().construct_document(node)
 
     def construct_mapping(
         self, node: yaml.MappingNode, deep: bool = False
@@ -66,6 +78,16 @@ class Loader(yaml.CSafeLoader):
             remedy = "write a decimal number, or a text in quotes"
             raise _misread(node, f"{node.value} is not plain: {remedy}")
         return super().construct_scalar(node)
+
+
+def _size(node: yaml.Node, known: dict[int, float]) -> float:
+    """Number of values in a node with its aliases written out."""
+    if id(node) not in known:
+        known[id(node)] = math.inf  # of a node within itself
+        inside = node.value if isinstance(node, yaml.CollectionNode) else []
+        nodes = chain.from_iterable(x if isinstance(x, tuple) else [x] for x in inside)
+        known[id(node)] = 1 + sum(_size(value, known) for value in nodes)
+    return known[id(node)]
 
 
 def _misread(node: Any, problem: str) -> yaml.MarkedYAMLError:
@@ -116,7 +138,7 @@ def read_file(path: AnyPath) -> dict[str, Any]:
     The ValueError says in one line which file, where in it, and what is wrong.
     """
     try:
-        config = yaml.load(Path(path).read_text(encoding="utf-8"), Loader)
+        config = yaml.load(read_bytes(path).decode(), Loader)
     except yaml.MarkedYAMLError as error:
         mark: Any = error.problem_mark
         place = f"in line {mark.line + 1}, column {mark.column + 1}"
@@ -125,6 +147,8 @@ def read_file(path: AnyPath) -> dict[str, Any]:
         raise ValueError(_short(f"{path}: {error}")) from None
     if not isinstance(config, dict):
         raise ValueError(f"{path} must be a table of keys and values")
+    if "__use_yte__" in config:
+        raise ValueError(f"{path}: __use_yte__: write values, not code that makes them")
     return config
 
 
@@ -176,6 +200,7 @@ def check_config(
         error = best_match(Draft202012Validator(schema).iter_errors(config))
         if error is None:
             _check_chains(config)
+            _check_case(config["scenes"])
             check_names("fig13", config["fig13"], scenes_with_theta(config))
             return
     except ValueError as problem:
@@ -258,6 +283,15 @@ def _check_chains(config: Config) -> None:
         raise ValueError(f"{where}: {error.filename}: {error.strerror}") from None
     except (ValueError, OverflowError) as error:
         raise ValueError(f"{where}: {error}") from None
+
+
+def _check_case(scenes: Iterable[str]) -> None:
+    """Refuse two scenes whose files have one name where case does not count."""
+    known: dict[str, str] = {}
+    for name in scenes:
+        other = known.setdefault(name.casefold(), name)
+        if other != name:
+            raise ValueError(f"scenes.{name} and {other} differ by case alone")
 
 
 def check_names(where: str, names: Iterable[str], known: Iterable[str]) -> None:

@@ -135,6 +135,25 @@ def test_rows_after_the_duration_are_ignored_and_costs_are_those_of_the_last(sco
     assert (found["evaluations"], found["seconds"]) == (1427, 1427 / 8)
 
 
+@pytest.mark.parametrize(
+    ("column", "factor"), [(0, 1e3), (0, 1e-6), (0, 1 / 60), (3, 1e-3)]
+)
+def test_other_units_are_refused(scored, column, factor):
+    rows = [row.split(",") for row in true_rows()[:9]]
+    for row in rows:
+        row[column] = repr(float(row[column]) * factor)
+    with pytest.raises(ValueError, match="times what it must be"):
+        scored(HEADER, *map(",".join, rows))
+
+
+def test_a_list_that_ends_early_says_where(scored):
+    assert scored(HEADER, *true_rows()[:90])["ends_s"] == float(
+        true_rows()[89].split(",")[0]
+    )
+    with pytest.raises(ValueError, match="ties must be between 0 and"):
+        scored(HEADER, *true_rows()[:90], ties=-1.0)
+
+
 ROW = "0.35,1,1,28"
 WRONG = {
     "no rows": ([HEADER], "mine.csv: no transition stands below the header"),

@@ -109,3 +109,11 @@ def test_the_check_names_a_result_that_changed_on_disk_with_its_time_kept(tmp_pa
     assert check_claims.changed(tmp_path) == [
         f"{table} is not as it was made: delete it, and run make all"
     ]
+
+
+def test_results_of_another_slider_are_compared_with_nothing(tmp_path):
+    made = json.loads((RESULTS.parent / "provenance.json").read_text())
+    made["config"]["chain"]["mu_k"] = 0.46
+    (tmp_path / "provenance.json").write_text(json.dumps(made))
+    with pytest.raises(SystemExit, match="config.yaml is not the paper's: nothing to"):
+        check_claims.main(tmp_path / "tables")

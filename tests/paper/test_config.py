@@ -20,6 +20,10 @@ STEEP = {"title": "steep", "theta": 0.9}
 
 
 # Key, value, and words that the line must hold.
+ALIASES = [", ".join([f"*a{i}"] * 9) for i in range(9)]
+NESTED = "a0: &a0 {k: 1}\n" + "".join(
+    f"a{i}: &a{i} {{<<: [{inside}]}}\n" for i, inside in enumerate(ALIASES, 1)
+)
 MEASURED = {"title": "as measured", "weights": [30.0, 40.0, 50.0]}
 WRONG = [
     (
@@ -48,6 +52,12 @@ WRONG = [
         "scenes.steep",
         STEEP | {"theta": 1.1},
         ["scenes.steep.theta: 1.1 must be a number between -1 and 1, or"],
+    ),
+    ("scenes.FIG11", STEEP, ["scenes.FIG11 and fig11 differ by case alone"]),
+    (
+        "scenes.steep",
+        STEEP | {"title": "a </script>"},
+        ["scenes.steep.title: ", "without control characters, </ and <!"],
     ),
     ("scenes.st eep", STEEP, ["scenes: 'st eep' must be a name of at most 64 letters"]),
     (
@@ -184,6 +194,13 @@ def test_a_section_is_checked_by_its_study_and_not_by_names_of_another():
         ),
         ("a: [1, 1:30]\n", "1:30 is not plain"),
         ("a: .nan\n", ".nan is not plain"),
+        ("a: 0x10\n", "0x10 is not plain"),
+        ("a: [1_0]\n", "1_0 is not plain"),
+        ("a: 1_0.5\n", "1_0.5 is not plain"),
+        (NESTED, "aliases (*) and merges (<<) are nested too deep"),
+        (NESTED.replace("{<<: [", "[[").replace("]}", "]]"), "are nested too deep"),
+        ("a: &a [*a]\n", "are nested too deep"),
+        ("__use_yte__: true\n", "__use_yte__: write values"),
         (
             "a: 1e-5\n",
             "1e-5 is text to YAML: write a number as 2.5e+9 and not as 2.5e9",
@@ -204,7 +221,7 @@ def test_a_file_that_is_not_plain_yaml_is_refused_with_its_place(tmp_path, text,
 def test_plain_numbers_and_quoted_texts_are_accepted(tmp_path):
     path = tmp_path / "mine.yaml"
     path.write_text(
-        """a: [0, -1, 0.5, 2.5e+9, 1_000, "010", '1:30', text, true]\n""",
+        """a: [0, -1, 0.5, 2.5e+9, 1000, "010", '1:30', text, true]\n""",
         encoding="utf-8",
     )
     read_file(path)

@@ -22,6 +22,12 @@ rule simulate_scene:
         "../scripts/simulate_scene.py"
 
 
+def label(wildcards):
+    """Name and title of a scene, without the braces that Snakemake takes for wildcards."""
+    title = config["scenes"][wildcards.scene]["title"].replace("{", "(").replace("}", ")")
+    return {"figure": f"{wildcards.scene}: {title}"}
+
+
 rule draw_scene:
     """Draw the load and the slips of a scene (Figs. 10-12)."""
     input:
@@ -32,9 +38,7 @@ rule draw_scene:
             "results/figures/{scene}.svg",
             caption="../report/scene.rst",
             category="Reproduction",
-            labels=lambda wildcards: {
-                "figure": f"{wildcards.scene}: {config['scenes'][wildcards.scene]['title']}"
-            },
+            labels=label,
         ),
         collect("results/figures/{{scene}}.{kind}", kind=MORE_FORMATS),
     log:

@@ -21,8 +21,10 @@ from maegawa2010.paper.claim import (
     RESULT,
 )
 from maegawa2010.paper.claims import differences, evaluate
-from maegawa2010.paper.inputs import CLAIM_TABLES
+from maegawa2010.paper.inputs import CLAIM_TABLES, SCENES
+from maegawa2010.scenes import scene_slider
 from maegawa2010.support.provenance import NOT_RESULTS, checksums
+from precursors.model.chain import SLIDER
 from precursors.support.files import read_table
 
 WIDTH = 110
@@ -43,6 +45,8 @@ def main(
 ) -> None:
     """Print the claims by the tables of a directory, and exit with 1 if a verdict is
     unexpected."""
+    if not is_papers(Path(tables).parent):
+        sys.exit("check: config.yaml is not the paper's: nothing to compare")
     try:
         found = evaluate(
             {name: read_table(Path(tables, f"{name}.csv")) for name in CLAIM_TABLES}
@@ -56,6 +60,19 @@ def main(
     unexpected += changed(Path(tables).parent)
     if unexpected:
         sys.exit("\n".join(f"check: {line}" for line in unexpected))
+
+
+def is_papers(results: Path) -> bool:
+    """Whether results are of the paper's slider and scenes, by `provenance.json`."""
+    made = results / "provenance.json"
+    if not made.is_file():
+        return True
+    config = json.loads(made.read_text(encoding="utf-8"))["config"]
+    return all(
+        scene in config["scenes"]
+        and scene_slider(config, scene) | {"weights": None} == SLIDER | {"theta": theta}
+        for scene, theta in zip(SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
+    )
 
 
 def changed(results: Path) -> list[str]:

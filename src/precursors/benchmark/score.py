@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Mapping
 from decimal import Decimal, InvalidOperation
 from functools import cache
 from itertools import takewhile
@@ -13,8 +14,10 @@ import numpy as np
 from precursors.analysis.slips import slip_table
 from precursors.analysis.summary import summary_of
 from precursors.benchmark.compare import Truth, compare, until_global_slip
+from precursors.model.checks import not_negative
 from precursors.proof import Certificate
 from precursors.solver.run import Record
+from precursors.support.files import read_bytes
 
 CERTIFICATES = Path(__file__).with_name("certificates")
 NEEDED = ("time_s", "block", "mode", "tangential_load_N")
@@ -47,10 +50,12 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
     truth = solution(problem)
     chain = truth.run.chain
     end = truth.run.duration
-    rows = [row for row in read_result(path, chain.n_blocks) if row["time_s"] <= end]
+    listed = read_result(path, chain.n_blocks)
+    check_units(path, listed[0], truth.run.transitions[0])
+    rows = [row for row in listed if row["time_s"] <= end]
     given = [tuple(row[name] for name in NEEDED) for row in rows]
     true = truth.run.transitions.tolist()
-    ordered = in_true_order(given, true, decimal("ties", str(ties)))
+    ordered = in_true_order(given, true, Decimal(repr(not_negative("ties", ties, "s"))))
     columns = np.array(ordered, dtype=float).reshape(-1, len(NEEDED)).T
     found = Record.from_columns(chain, end, *columns)
     whole = compare(found, truth)
@@ -73,6 +78,7 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
             f"events_counted{which}": counted,
             f"mu_sapp{which}": numbers.mu_sapp,
         }
+    values["ends_s"] = float(listed[-1]["time_s"])
     last = rows[-1] if rows else {}
     return values | {name: float(last.get(name, math.nan)) for name in COSTS}
 
@@ -101,7 +107,7 @@ def in_true_order(found: Rows, true: Rows, ties: Decimal) -> Rows:
 
 def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
     """Read the rows of a result file, with blocks from 1."""
-    text = Path(path).read_text(encoding="utf-8-sig", errors="replace")
+    text = read_bytes(path).decode("utf-8-sig", errors="replace")
     separator = next((s for s in ";\t" if re.search(f"(?m)^[^#\n]*{s}", text)), ",")
     lines = {
         number: [cell.strip('" ') for cell in line.split(separator)]
@@ -144,10 +150,20 @@ def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
     return rows
 
 
+def check_units(path: str | Path, first: Mapping[str, Any], true: np.void) -> None:
+    """Refuse times or loads that are those of the first true transition in ms, min, kN
+    or the like."""
+    for name in ("time_s", "tangential_load_N"):
+        ratio = float(first[name]) / true[name.removesuffix("_s").removesuffix("_N")]
+        for factor in (1e-6, 1e-3, 1 / 60, 1e3, 1e6):
+            is_other = math.isclose(ratio, factor, rel_tol=0.01)
+            require(not is_other, path, f"{name} is {factor:.3g} times what it must be")
+
+
 def decimal(where: str, text: str) -> Decimal:
     """Return a number as it is written, with a decimal point or comma."""
     try:
-        number = Decimal(text.replace(",", "."))
+        number = Decimal(text.replace(",", ".").replace("_", "?"))
     except InvalidOperation:
         number = Decimal("nan")
     if not number.is_finite():

@@ -33,7 +33,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     warnings.formatwarning = lambda message, *_: f"precursors: {message}\n"
     arguments = read_options(sys.argv[1:] if argv is None else argv)
     try:
-        if getattr(arguments, "output", None):
+        if getattr(arguments, "output", None) is not None:
             is_wave = getattr(arguments, "figure", None) == "wave"
             endings = (".svg",) if is_wave else ENDINGS.get(arguments.command, ())
             check_writable(arguments.output, endings)

@@ -2,6 +2,7 @@
 
 import json
 import logging
+import shlex
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -34,7 +35,7 @@ from precursors.support.spreadsheet import (
     read_weights,
 )
 
-FOUND = "{events_counted} events counted in Fig. 13, of {events_to_global_slip} "
+FOUND = "{counted} counted in Fig. 13, of {events_to_global_slip} "
 FIRST_SLIP = """\
 up to the first global slip and {events_in_all} in {duration_s:g} s.
 mu_sapp = {mu_sapp:.3f} = {largest_load_N:.1f} N / {F_Z:g} N; first global slip at {global_slip_s:.3f} s.
@@ -51,12 +52,21 @@ SHOWN = (
     "global_slip_s",
     "global_slip_end_s",
 )
+# Columns of a slip table that follow from others in it, and make it wide to read.
+TOLD_TWICE = ("largest_load_N", "front_length_m")
 NO_SLIP = "in {duration_s:g} s; no global slip.\n"
-SCORE = (
-    "{problem}: {transitions_right} of {transitions_true} transitions right, times "
-    "within {time_error_s:.1e} s ({time_error_to_global_slip_s:.1e} s to the first "
-    "global slip); events counted {events_counted} (true: {events_counted_true}), "
+SCORE = "{problem}: {transitions_right} of {transitions_true} transitions right"
+ERRORS = (
+    ", times within {time_error_s:.1e} s ({time_error_to_global_slip_s:.1e} s to the "
+    "first global slip)"
+)
+COUNTED = (
+    "; events counted {events_counted} (true: {events_counted_true}), "
     "mu_sapp {mu_sapp:.4f} (true: {mu_sapp_true:.4f})"
+)
+ENDS_EARLY = (
+    "; it ends at {ends_s:g} s, before the first global slip (true: {events_counted_true} "
+    "events counted, mu_sapp {mu_sapp_true:.4f})"
 )
 # Of measured times in a run, of measured loads and its own.
 LEAST_OVERLAP = 0.1
@@ -84,8 +94,13 @@ def simulate(arguments: Namespace) -> None:
         values["output"] = str(arguments.output)
     if not arguments.json:
         text = FOUND + (FIRST_SLIP if found["reached"] else NO_SLIP)
-        print(text.format(**values, F_Z=run.chain.normal_load))
+        counted = several(found["events_counted"], "event")
+        print(text.format(**values, F_Z=run.chain.normal_load, counted=counted))
     show_values(values, arguments.json)
+    if not arguments.json:
+        saved = "RUN.h5" if arguments.output is None else arguments.output
+        how = "--output RUN.h5 saves the run; " if arguments.output is None else ""
+        print(f"\n{how}precursors plot {shlex.quote(str(saved))} draws it")
     tell_accuracy(run, found["global_slip_s"])
 
 
@@ -103,13 +118,13 @@ def slips(arguments: Namespace) -> None:
     if arguments.json:
         found = table.astype(object).where(table.notna(), None)
         print(json.dumps(found.to_dict(orient="records"), indent=1))
-    elif arguments.output:
-        print(f"{len(table)} events: {arguments.output}")
+    elif arguments.output is not None:
+        print(f"{several(len(table), 'event')}: {arguments.output}")
     elif table.empty:
         print("no slip event")
     else:
-        shown = table.drop(columns=list(OF_SLIDER))
-        print(shown.to_string(index=False, na_rep="-", float_format="{:.8g}".format))
+        shown = table.drop(columns=[*OF_SLIDER, *TOLD_TWICE])
+        print(shown.to_string(index=False, na_rep="-", float_format="{:.7g}".format))
     tell_accuracy(run, first_global_slip)
 
 
@@ -171,7 +186,7 @@ def _measured(
         f"{name} {min(values):g} to {max(values):g}"
         for name, values in zip(axes, data.T, strict=True)
     ]
-    tell(f"{path}: {len(data)} points, {', '.join(ranges)}")
+    tell(f"{path}: {several(len(data), 'point')}, {', '.join(ranges)}")
     return data
 
 
@@ -206,7 +221,8 @@ def audit(arguments: Namespace) -> None:
                 )
                 raise Refused(f"{path}: {verdict}: {report.problems[0]}")
             print(
-                f"{path}: a motion of the model, {len(run.transitions)} transitions in {run.duration:g} s"
+                f"{path}: a motion of the model, "
+                f"{several(len(run.transitions), 'transition')} in {run.duration:g} s"
             )
         except (Refused, RunFileError) as refused:
             wrong.append(str(refused))
@@ -220,7 +236,9 @@ def score(arguments: Namespace) -> None:
 
     values = score(arguments.file, arguments.problem, arguments.ties)
     if not arguments.json:
-        print(SCORE.format(**values), end="\n\n")
+        errors = ERRORS if values["transitions_right"] else ""
+        numbers = ENDS_EARLY if np.isnan(values["mu_sapp"]) else COUNTED
+        print((SCORE + errors + numbers).format(**values), end="\n\n")
     show_values(values, arguments.json)
 
 
@@ -265,7 +283,7 @@ def run_of_options(arguments: Namespace) -> Record:
         source = next(iter(measured.values()))
         loads = chain.weights
         tell(
-            f"{source}: {chain.n_blocks} blocks, {loads.min():g} to {loads.max():g} N, "
+            f"{source}: {several(chain.n_blocks, 'block')}, {loads.min():g} to {loads.max():g} N, "
             f"F_Z = {chain.normal_load:g} N"
         )
     added = given(arguments, LARGER)
@@ -278,7 +296,7 @@ def run_of_options(arguments: Namespace) -> Record:
     try:
         return solve(**given(arguments, RUN))
     except TransitionLimitError as error:
-        if arguments.command != "simulate" or not arguments.output:
+        if arguments.command != "simulate" or arguments.output is None:
             raise Refused(str(error)) from error
         error.run.save(arguments.output)
         raise Refused(f"{error}; the run so far is in {arguments.output}") from error
@@ -325,6 +343,11 @@ def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:
     }
 
 
+def several(number: int, noun: str) -> str:
+    """A number of things, in words."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
 def tell(line: str) -> None:
     """Say something beside the result."""
     print(line, file=sys.stderr)
@@ -335,12 +358,15 @@ def numbers_of_larger(run: Record) -> dict[str, Any]:
     coefficient by the law and in the run; a line says why not."""
     if not isinstance(run, LargerRun):
         return {}
+    from precursors.larger.chain import LargerChain, critical_length
     from precursors.larger.settled import beside_law
 
     try:
         return run.numbers | beside_law(run)
     except ValueError as error:
-        tell(str(error))
+        weakens = 0.0 < critical_length(LargerChain.of_run(run)) < np.inf
+        no_length = "this chain is too weakly weakening for the law: no l_c"
+        tell(str(error) if weakens else no_length)
         return run.numbers
 
 

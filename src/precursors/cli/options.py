@@ -103,7 +103,7 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
     # argparse takes -5/6 for an option, and " -5/6" for a value.
     values = [re.sub(r"^-(?=[\d.])", " -", argument) for argument in argv]
     arguments = top.parse_args(values)
-    if arguments.command == "plot" and not arguments.output:
+    if arguments.command == "plot" and arguments.output is None:
         is_wave = arguments.figure == "wave"
         arguments.output = Path("precursors.svg" if is_wave else "precursors.png")
     if arguments.version:

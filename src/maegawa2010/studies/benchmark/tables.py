@@ -14,4 +14,4 @@ def score_table(solvers: pd.DataFrame, folder: str) -> pd.DataFrame:
         for solver in solvers.to_dict("records")
         for path in sorted(Path(folder).glob(f"{solver['solver']}-*.csv"))
     ]
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows).drop(columns="ends_s")
