@@ -497,7 +497,7 @@ def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monke
         (
             "simulate --output /dev/null --duration 1e9",
             3,
-            "it exists and is not a file",
+            "/dev/null: it is not a file",
         ),
         ("score none.csv --problem uniform", 3, "none.csv: No such file"),
     ],
