@@ -23,6 +23,7 @@ from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
 from maegawa2010.scenes import (
     scene_additions,
     scene_duration,
+    scene_label,
     scene_slider,
     scenes_with,
     scenes_with_theta,

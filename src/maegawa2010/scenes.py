@@ -37,6 +37,13 @@ def scene_duration(config: Config, name: str) -> float:
     return float(config["scenes"][name].get("duration", config["duration"]))
 
 
+def scene_label(config: Config, name: str) -> dict[str, str]:
+    """Name and title of a scene for the report, without the braces that Snakemake takes
+    for wildcards."""
+    title = config["scenes"][name]["title"].replace("{", "(").replace("}", ")")
+    return {"figure": f"{name}: {title}"}
+
+
 def scene_slider(config: Config, name: str) -> dict[str, Any]:
     """Arguments of `Chain.from_slider` for a scene; theta and F_Z are rounded once.
 

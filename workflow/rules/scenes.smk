@@ -22,12 +22,6 @@ rule simulate_scene:
         "../scripts/simulate_scene.py"
 
 
-def label(wildcards):
-    """Name and title of a scene, without the braces that Snakemake takes for wildcards."""
-    title = config["scenes"][wildcards.scene]["title"].replace("{", "(").replace("}", ")")
-    return {"figure": f"{wildcards.scene}: {title}"}
-
-
 rule draw_scene:
     """Draw the load and the slips of a scene (Figs. 10-12)."""
     input:
@@ -38,7 +32,7 @@ rule draw_scene:
             "results/figures/{scene}.svg",
             caption="../report/scene.rst",
             category="Reproduction",
-            labels=label,
+            labels=lambda wildcards: scene_label(config, wildcards.scene),
         ),
         collect("results/figures/{{scene}}.{kind}", kind=MORE_FORMATS),
     log:
