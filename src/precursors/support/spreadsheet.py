@@ -222,20 +222,19 @@ def _separator(text: str) -> str:
     fields = last.split()
     if ";" in last or "\t" in last:
         return ";" if ";" in last else "\t"
-    if "," in last and not all(map(NUMBER.fullmatch, fields)):
-        return ","
-    if len(fields) > 1:
+    are_numbers = all(map(NUMBER.fullmatch, fields))
+    if len(fields) > 1 and (are_numbers or "," not in last):
         return " "
     heads = [line for line in lines if re.match(r"[^\w#%]*[^\W\d_]", line)]
     head = heads[-1].split(",") if heads else []
-    if "," not in last or len(head) == 1:
+    if "," not in last or (are_numbers and len(head) == 1):
         return NO_SEPARATOR
-    are_units = list(map(is_unit, head))
-    if any(are_units) == all(are_units):
+    begins_with_unit = is_unit(next(filter(None, head), ""))  # as a line of units
+    if begins_with_unit == any(map(is_unit, head)) and (head or not are_numbers):
         return ","
     raise ValueError(
-        f"{last!r} may be one number with a decimal comma, or two numbers: separate "
-        "columns by semicolons, or write decimal points"
+        f"{last!r} may be one number with a decimal comma, or two numbers, and a name may "
+        "have a comma: separate columns by semicolons, or write decimal points"
     )
 
 
