@@ -485,7 +485,12 @@ def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monke
         ("plot --data ''", 3, "No such file or directory: ''"),
         ("simulate --columns w=F", 2, "--columns w=... needs --weights"),
         ("simulate --columns F", 2, "'F' must be t or F_X or L_p/L or w or p, = and"),
-        ("simulate --blocks 1_0", 2, "'1_0' is not a whole number"),
+        (
+            "simulate --blocks 1_0",
+            2,
+            "'1_0' is not a whole number (see precursors simulate",
+        ),
+        ("simulate --theta 0_1", 2, "theta must be a number between -1 and 1"),
         ("simulate --mu-k 0_1", 2, "'0_1' is not a number"),
         ("plot --data-start 1", 2, "--data is needed with data_start"),
         ("plot --figure lengths --data d.csv --data-start 1", 2, "need --figure load"),

@@ -90,7 +90,7 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
     top.add_argument(
         "--version", action="store_true", help="show version, commit and identifiers"
     )
-    subparsers = top.add_subparsers(dest="command", metavar="COMMAND")
+    subparsers = top.add_subparsers(dest="command", metavar="COMMAND", prog=top.prog)
     for name, meaning in COMMANDS.items():
         command = subparsers.add_parser(
             name,

@@ -321,7 +321,8 @@ def parse_theta(theta: float | str) -> float:
     "5/6"."""
     with suppress(ArithmeticError, ValueError):
         if isinstance(theta, str):
-            value = float(Fraction(theta) if "/" in theta else theta)
+            plain = theta.replace("_", "?")  # Python reads 0_1 as 1
+            value = float(Fraction(plain) if "/" in plain else plain)
         else:
             value = number("theta", theta, "1")
         if abs(value) <= 1:
