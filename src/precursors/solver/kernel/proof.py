@@ -50,26 +50,26 @@ def enclose(a0, a1, a2, a3, a4, a5, at_end, rest):
     a0..a5 are a_j / C(6, j), `at_end` is g(1), and `rest` is R. The lower bound leaves
     g(1) itself out: the function whose root ends the window is zero there, to rounding.
     """
-    # Sums of neighbours, again and again, are the sums with binomial coefficients.
-    c0 = a0 + a1
-    c1 = a1 + a2
-    c2 = a2 + a3
-    c3 = a3 + a4
-    c4 = a4 + a5
-    d0 = c0 + c1
-    d1 = c1 + c2
-    d2 = c2 + c3
-    d3 = c3 + c4
-    e0 = d0 + d1
-    e1 = d1 + d2
-    e2 = d2 + d3
-    f0 = e0 + e1
-    f1 = e1 + e2
-    b5 = f0 + f1
-    low = lanes.smaller(lanes.smaller(a0, c0), lanes.smaller(d0, e0))
-    low = lanes.smaller(low, lanes.smaller(f0, b5))
-    high = lanes.larger(lanes.larger(a0, c0), lanes.larger(d0, e0))
-    high = lanes.larger(high, lanes.larger(f0, b5))
+    # Pascal's triangle: a012 = a0 + 2 a1 + a2 is b_2, and so on. Each sum is that of
+    # two neighbours above it.
+    a01 = a0 + a1
+    a12 = a1 + a2
+    a23 = a2 + a3
+    a34 = a3 + a4
+    a45 = a4 + a5
+    a012 = a01 + a12
+    a123 = a12 + a23
+    a234 = a23 + a34
+    a345 = a34 + a45
+    a0123 = a012 + a123
+    a1234 = a123 + a234
+    a2345 = a234 + a345
+    a01234 = a0123 + a1234
+    b5 = a01234 + (a1234 + a2345)
+    low = lanes.smaller(lanes.smaller(a0, a01), lanes.smaller(a012, a0123))
+    low = lanes.smaller(low, lanes.smaller(a01234, b5))
+    high = lanes.larger(lanes.larger(a0, a01), lanes.larger(a012, a0123))
+    high = lanes.larger(high, lanes.larger(a01234, b5))
     last = 6.0 * b5 + at_end
     high = lanes.larger(lanes.larger(high, at_end), (last + rest) * (1.0 / 7.0))
     return lanes.smaller(low, (last - rest) * (1.0 / 7.0)), high
