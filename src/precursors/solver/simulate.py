@@ -93,17 +93,13 @@ def checked_end(
             raise TypeError(
                 f"what is simulated must be a Chain, but is {type(chain).__name__}{own}"
             )
-    longest = (
-        math.inf
-        if longest_slip is None
-        else positive("longest_slip", longest_slip, "s")
-    )
-    if most is not None:
-        most = whole("max_transitions", most)
-    elif any(chain.n_blocks > MANY_BLOCKS for chain in chains):
-        most = MAX_TRANSITIONS // 10
-    else:
-        most = MAX_TRANSITIONS
+    longest = math.inf
+    if longest_slip is not None:
+        longest = positive("longest_slip", longest_slip, "s")
+    if most is None:
+        is_long = any(chain.n_blocks > MANY_BLOCKS for chain in chains)
+        most = MAX_TRANSITIONS // 10 if is_long else MAX_TRANSITIONS
+    most = whole("max_transitions", most)
     span = checked_span(duration, until)
     return End(span, until is not None, longest, most, MAX_WINDOWS)
 
