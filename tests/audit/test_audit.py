@@ -6,6 +6,7 @@ import re
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -13,9 +14,16 @@ from chains import SLIDER, first_transitions, positions_under
 
 from precursors import Run, simulate
 from precursors.audit import audit
-from precursors.audit.carried import CarriedState
+from precursors.audit.carried import motion_of, start_of
 from precursors.audit.checks import MAX_PROBLEMS, Auditor
-from precursors.audit.conditions import Conditions, lower_bound
+from precursors.audit.conditions import (
+    concerned,
+    conditions_of,
+    lower_bound,
+    take_modes,
+    value_and_slope,
+)
+from precursors.audit.motion import normal_modes, rows_and_modes
 
 # What an exact run of the paper's scenes is off by at most, in roundings; 16
 # may pass.
@@ -73,14 +81,23 @@ def test_the_bound_on_fourth_derivatives_holds():
     generator = np.random.default_rng(2010)
     run = simulate(chain, duration=1e-3)
     step = 0.02 / math.sqrt(4 * chain.stiffness / chain.mass)
-    seconds = step * np.arange(20_000)
-    for _ in range(20):
-        state = CarriedState(run)
+    seconds = step * np.arange(2_000)
+    modal = np.empty((3, 7))
+    for _ in range(5):
+        state = start_of(run)
         state.mode[:] = generator.integers(-1, 2, 7)
         state.velocity[:] = np.where(state.mode, generator.normal(size=7), 0.0)
         state.spring_force[:-1] = 100 * generator.normal(size=7)
-        conditions = Conditions(state.motion(), state)
-        values, slopes = conditions(seconds)
+        rows, modes = rows_and_modes(state.moves(), partial(normal_modes, chain))
+        motion = motion_of(state, rows, modes)
+        of_blocks = concerned(state, rows)
+        conditions = conditions_of(motion, state, rows, modes, *of_blocks)
+        found = []
+        for s in seconds:
+            take_modes(motion, 0, len(motion.omega), s, modal)
+            columns = range(len(conditions.fourth))
+            found.append([value_and_slope(conditions, c, s, modal) for c in columns])
+        values, slopes = np.moveaxis(found, 2, 0)
         rounding = 1e-14 * abs(values).max(axis=0)
         fourth = abs(np.diff(values, 4, axis=0) / step**4).max(axis=0)
         assert np.all(fourth <= conditions.fourth + rounding / step**4)
@@ -101,16 +118,17 @@ def test_no_function_is_below_its_bound_in_a_cell_and_one_with_a_constant_fourth
     width = 0.3
     fourth = 1e4
     s = np.linspace(0.0, 1.0, 101)[:, None]
-    slopes = 3.0 * np.diff(cells, axis=0)[[0, 2]] / width
-    bound = lower_bound(np.array(width), cells[[0, 3]], slopes, np.array(fourth))
+    rise, _, fall = 3.0 * np.diff(cells, axis=0) / width
+    of_cells = np.vectorize(lower_bound)
+    bound = of_cells(width, cells[0], cells[3], rise, fall, fourth)
     cubics = sum(
         math.comb(3, k) * s**k * (1 - s) ** (3 - k) * cells[k] for k in range(4)
     )
     least = (cubics - fourth * width**4 / 24 * (s * (1 - s)) ** 2).min(axis=0)
     assert (bound <= least + 1e-12).all()
-    assert bound[0, 0] == pytest.approx(least[0], rel=1e-12)
-    of_cubics = lower_bound(np.array(width), cells[[0, 3]], slopes, np.array(0.0))
-    assert of_cubics[0] == pytest.approx(cells.min(axis=0), abs=1e-12)
+    assert bound[0] == pytest.approx(least[0], rel=1e-12)
+    of_cubics = of_cells(width, cells[0], cells[3], rise, fall, 0.0)
+    assert of_cubics == pytest.approx(cells.min(axis=0), abs=1e-12)
 
 
 def test_an_audit_that_takes_too_much_work_ends_and_says_where(uniform, monkeypatch):

@@ -24,7 +24,9 @@ SETTLED = (
 
 def drawn_from() -> str:
     """Digest of the sources of the page."""
-    parts = sorted(file for file in SOURCE.iterdir() if file.suffix != ".py")
+    parts = sorted(
+        path for kind in ("js", "css", "html") for path in SOURCE.glob(f"*.{kind}")
+    )
     return hashlib.sha256(b"".join(file.read_bytes() for file in parts)).hexdigest()
 
 

@@ -1,21 +1,21 @@
 """The state that the audit carries through a run, and how far rounding has moved it."""
 
 import math
-from functools import lru_cache, partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.audit.motion import ModalMotion, modes_of_all, normal_modes
+from precursors.audit.motion import ModalMotion, Modes, Rows, at, inner, largest_speed
 from precursors.model.chain import FREE, FloatArray
+from precursors.solver.record import IntArray
 from precursors.solver.run import Run
 
 _UNIT = 2.0**-53  # a rounding, relative
 _START_ROUNDINGS = 8
-_MEMORY = 2e8  # bytes for normal modes
 
 
-class CarriedState:
+class CarriedState(NamedTuple):
     """Modes, velocities and spring forces (not positions) of a chain.
 
     Solver and audit carry spring forces f and velocities v in doubles. Each step rounds
@@ -29,30 +29,32 @@ class CarriedState:
     `force_rounding` [N] of the net force on each block.
     """
 
-    def __init__(self, run: Run) -> None:
-        chain = run.chain
-        positions = run.start_positions
-        self.chain = chain
-        self.springs = chain.springs
-        self.strength = chain.strength
-        self.friction = chain.kinetic_friction
-        self.mode = np.where(chain.weights > 0.0, 0, FREE)
-        self.velocity = run.start_velocities.copy()
-        # the force of the spring behind each block, and a zero ahead of block N
-        stretch = -np.diff(positions, prepend=0.0)
-        self.spring_force = np.append(self.springs * stretch, 0.0)
-        # Forces at the start are differences of positions, which are known to their
-        # rounding.
-        ends = positions**2 + np.append(0.0, positions[:-1]) ** 2
-        at_start = _START_ROUNDINGS * math.sqrt(self.springs @ ends)
-        self.drive_momentum = math.sqrt(chain.mass) * chain.drive_velocity
-        self.rounding = _UNIT * math.hypot(at_start, self.drive_momentum)
-        self.per_force = np.sqrt(self.springs)
-        self.per_load = self.per_force[0]
-        self.per_force[:-1] += np.sqrt(self.springs[1:])
-        self.fastest = 2 * math.sqrt(self.springs.max() / chain.mass)
-        room = max(32, int(_MEMORY // (16 * chain.n_blocks**2)))
-        self.modes_of_row = lru_cache(room)(partial(normal_modes, chain))
+    mode: IntArray
+    velocity: FloatArray
+    spring_force: FloatArray  # of the spring behind each block, and 0 ahead of block N
+    rounding: FloatArray  # one number
+    springs: FloatArray
+    strength: FloatArray
+    friction: FloatArray
+    per_force: FloatArray
+    mass: float
+    loading_rate: float
+    drive_momentum: float
+
+    def net_force(self) -> FloatArray:
+        """Force of the springs and the drive on each block [N], shape (N,) (Eqs.
+        2-4)."""
+        return self.spring_force[:-1] - self.spring_force[1:]
+
+    def moves(self) -> NDArray[np.bool_]:
+        """Which blocks move, shape (N,): those without load too, unless all is at
+        rest."""
+        moves = self.mode != 0
+        if (abs(self.mode) == 1).any():
+            return moves
+        pushed = (self.velocity != 0.0) | (self.net_force() != 0.0)
+        pushed[0] = True
+        return moves & (moves & pushed).any()
 
     @property
     def force_rounding(self) -> FloatArray:
@@ -62,51 +64,102 @@ class CarriedState:
     @property
     def velocity_rounding(self) -> float:
         """One rounding of a velocity [m/s]."""
-        return self.rounding / math.sqrt(self.chain.mass)
+        return float(self.rounding[0]) / math.sqrt(self.mass)
 
-    def net_force(self) -> FloatArray:
-        """Force of the springs and the drive on each block [N], shape (N,) (Eqs.
-        2-4)."""
-        return self.spring_force[:-1] - self.spring_force[1:]
+    @property
+    def load_rounding(self) -> float:
+        """One rounding of the tangential load [N]."""
+        return float(self.rounding[0]) * math.sqrt(self.springs[0])
 
-    def moves(self) -> NDArray[np.bool_]:
-        """Which blocks move, shape (N,): those without load too, unless all is at rest."""
-        moves = self.mode != 0
-        pushed = (self.velocity != 0.0) | (self.net_force() != 0.0)
-        pushed[0] = True
-        return moves & ((abs(self.mode) == 1) | (moves & pushed)).any()
 
-    def energy(self) -> float:
-        """Kinetic energy of the blocks and elastic energy of the springs [J]."""
-        kinetic = 0.5 * self.chain.mass * (self.velocity @ self.velocity)
-        elastic = 0.5 * (self.spring_force[:-1] ** 2 @ (1 / self.springs))
-        return float(kinetic + elastic)
+def start_of(run: Run) -> CarriedState:
+    """The state at the start of a run."""
+    chain = run.chain
+    positions = run.start_positions
+    stretch = -np.diff(positions, prepend=0.0)
+    # Forces at the start are differences of positions, which are known to their
+    # rounding.
+    ends = positions**2 + np.append(0.0, positions[:-1]) ** 2
+    at_start = _START_ROUNDINGS * math.sqrt(chain.springs @ ends)
+    drive_momentum = math.sqrt(chain.mass) * chain.drive_velocity
+    per_force = np.sqrt(chain.springs)
+    per_force[:-1] += np.sqrt(chain.springs[1:])
+    return CarriedState(
+        mode=np.where(chain.weights > 0.0, 0, FREE),
+        velocity=np.array(run.start_velocities),
+        spring_force=np.append(chain.springs * stretch, 0.0),
+        rounding=np.array([_UNIT * math.hypot(at_start, drive_momentum)]),
+        springs=np.array(chain.springs),
+        strength=np.array(chain.strength),
+        friction=np.array(chain.kinetic_friction),
+        per_force=per_force,
+        mass=chain.mass,
+        loading_rate=chain.loading_rate,
+        drive_momentum=drive_momentum,
+    )
 
-    def motion(self) -> ModalMotion:
-        """Motion of the blocks that slide."""
-        slides = self.moves()
-        modes = modes_of_all(slides, self.modes_of_row)
-        force = (self.net_force() - self.mode * self.friction)[slides]
-        # The drive loads block 1 only.
-        loads_first = modes.shapes[0] if slides[0] else np.zeros(len(force))
-        return ModalMotion(
-            modes=modes,
-            speed=self.velocity[slides] @ modes.shapes,
-            push=force @ modes.shapes / self.chain.mass,
-            ramp=self.chain.loading_rate / self.chain.mass * loads_first,
-        )
 
-    def advance(self, motion: ModalMotion, duration: float) -> None:
-        """Move to the end of an interval; add up roundings."""
-        before = self.energy()
-        slides = self.moves()
-        (displacement,), (velocity,), _ = motion.at(np.array([duration]))
-        self.velocity[slides] = motion.modes.shapes @ velocity
-        self.spring_force[0] += self.chain.loading_rate * duration
-        self.spring_force -= motion.modes.spring_shapes @ displacement
-        steps = 1 + self.fastest * duration if motion.speed.size else 1
-        momentum = math.sqrt(self.chain.mass) * motion.largest_speed()
-        size = math.sqrt(2 * max(before, self.energy())) + momentum
-        self.rounding = math.hypot(
-            self.rounding, _UNIT * steps * (size + self.drive_momentum)
-        )
+@inner
+def energy(state: CarriedState) -> float:
+    """Kinetic energy of the blocks and elastic energy of the springs [J]."""
+    twice = 0.0
+    for i in range(len(state.velocity)):
+        elastic = state.spring_force[i] ** 2 / state.springs[i]
+        twice += state.mass * state.velocity[i] ** 2 + elastic
+    return 0.5 * twice
+
+
+@inner
+def motion_of(state: CarriedState, rows: Rows, modes: Modes) -> ModalMotion:
+    """Motion of the blocks that move."""
+    n = len(modes.frequencies)
+    motion = ModalMotion(modes.frequencies, np.zeros(n), np.zeros(n), np.zeros(n))
+    j = 0
+    k = 0
+    for r in range(len(rows.first)):
+        first = rows.first[r]
+        count = rows.n_blocks[r]
+        for _ in range(count):
+            for i in range(first, first + count):
+                force = state.spring_force[i] - state.spring_force[i + 1]
+                force -= state.mode[i] * state.friction[i]
+                motion.speed[j] += state.velocity[i] * modes.shapes[k]
+                motion.push[j] += force / state.mass * modes.shapes[k]
+                if i == 0:  # the drive loads block 1 only
+                    motion.ramp[j] = state.loading_rate / state.mass * modes.shapes[k]
+                k += 1
+            j += 1
+    return motion
+
+
+@inner
+def advance(
+    state: CarriedState, rows: Rows, modes: Modes, motion: ModalMotion, duration: float
+) -> None:
+    """Move to the end of an interval; add up roundings."""
+    before = energy(state)
+    fallen = np.zeros(len(state.spring_force))
+    fallen[0] = -state.loading_rate * duration
+    j = 0
+    k = 0
+    for r in range(len(rows.first)):
+        first = rows.first[r]
+        count = rows.n_blocks[r]
+        state.velocity[first : first + count] = 0.0
+        for _ in range(count):
+            displacement, velocity, _ = at(motion, j, duration)
+            for i in range(count):
+                state.velocity[first + i] += modes.shapes[k] * velocity
+                fallen[first + i] += modes.spring_shapes[k + j] * displacement
+                k += 1
+            fallen[first + count] += modes.spring_shapes[k + j] * displacement
+            j += 1
+    state.spring_force[:] -= fallen
+    steps = 1.0
+    if j:
+        steps += 2 * math.sqrt(state.springs.max() / state.mass) * duration
+    momentum = math.sqrt(state.mass) * largest_speed(motion)
+    size = math.sqrt(2 * max(before, energy(state))) + momentum
+    state.rounding[0] = math.hypot(
+        state.rounding[0], _UNIT * steps * (size + state.drive_momentum)
+    )

@@ -1,10 +1,13 @@
 """The walk through the intervals and transitions of a run, which notes what is no
 motion of the model."""
 
+from functools import lru_cache, partial
+
 import numpy as np
 
-from precursors.audit.carried import CarriedState
-from precursors.audit.conditions import Conditions, TooLongError
+from precursors.audit.carried import start_of
+from precursors.audit.conditions import pass_interval
+from precursors.audit.motion import normal_modes, rows_and_modes
 from precursors.audit.report import Audit
 from precursors.model.chain import FREE
 from precursors.model.checks import positive
@@ -18,6 +21,8 @@ not."""
 MAX_PROBLEMS = 20
 """The audit stops at this many: what follows a wrong transition is wrong, and says
 nothing new."""
+
+_MEMORY = 2e8  # bytes for normal modes
 
 MAX_VALUES = 500_000_000
 """The audit stops when it has computed so many values, some half a minute of work:
@@ -59,7 +64,9 @@ class Auditor:
     def __init__(self, run: Run, roundings: float) -> None:
         self.run = run
         self.roundings = roundings
-        self.state = CarriedState(run)
+        self.state = start_of(run)
+        room = max(32, int(_MEMORY // (16 * run.chain.n_blocks**2)))
+        self.modes_of_row = lru_cache(room)(partial(normal_modes, run.chain))
         self.time = 0.0
         self.values_left = MAX_VALUES
         self.found = Audit(roundings=0.0)
@@ -77,13 +84,8 @@ class Auditor:
             if not started and (duration > 0 or transition is None):
                 started = True
                 self.check_start()
-            if duration > 0:
-                try:
-                    self.pass_interval(duration)
-                except TooLongError as error:
-                    found.is_undecided = not found.problems
-                    self.report(str(error))
-                    return
+            if duration > 0 and not self.pass_interval(duration):
+                return
             self.time = instant
             found.n_intervals += 1
             if len(found.problems) >= MAX_PROBLEMS:
@@ -93,22 +95,28 @@ class Auditor:
                 self.check_transition(not started, *transition)
         self.check_time(self.run.duration, "the duration")
 
-    def pass_interval(self, duration: float) -> None:
-        """Check Coulomb's law inside an interval and move the state to its end."""
+    def pass_interval(self, duration: float) -> bool:
+        """Check Coulomb's law inside an interval and move the state to its end; False
+        if that takes too much work."""
         state = self.state
-        motion = state.motion()
-        conditions = Conditions(motion, state)
-        state.advance(motion, duration)
-        of_velocity = np.full(len(conditions.sliding), state.velocity_rounding)
-        of_force = state.force_rounding[conditions.stuck]
-        rounding = np.concatenate([of_velocity, of_force, of_force])
-        lowest, when = conditions.lowest(
-            duration, self.roundings * rounding, self.values_left
+        rows, modes = rows_and_modes(state.moves(), self.modes_of_row)
+        passed = pass_interval(
+            state, rows, modes, duration, self.roundings, self.values_left
         )
-        self.values_left -= conditions.computed
-        for j in np.flatnonzero(np.signbit(lowest)).tolist():
-            what, unit = conditions.broken(j)
-            self.check(-lowest[j], rounding[j], what, unit, self.time + when[j])
+        self.values_left -= passed.computed
+        if self.values_left < 0:
+            self.found.is_undecided = not self.found.problems
+            radians = duration * modes.frequencies.max()
+            self.report(
+                f"the audit ends here: it cannot look at {duration:.3g} s of "
+                f"sliding, {radians:.3g} radians of the fastest mode"
+            )
+            return False
+        for j in np.flatnonzero(np.signbit(passed.lowest)).tolist():
+            what, unit = passed.broken(j, state.mode)
+            when = self.time + passed.when[j]
+            self.check(-passed.lowest[j], passed.rounding[j], what, unit, when)
+        return True
 
     def check_transition(
         self, at_start: bool, time: float, block: int, mode: int, load: float
@@ -118,7 +126,7 @@ class Auditor:
         self.check_time(time, f"a transition of block {block}")
         self.check(
             abs(load - state.spring_force[0]),
-            state.rounding * state.per_load,
+            state.load_rounding,
             f"block {block} has {load:.9g} N recorded as tangential load, wrong by",
             "N",
         )

@@ -1,137 +1,318 @@
 """Conditions inside an interval between two transitions, and a proof of them."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from precursors.audit.carried import CarriedState
-from precursors.audit.motion import ModalMotion
+from precursors.audit.carried import CarriedState, advance, motion_of
+from precursors.audit.motion import (
+    ModalMotion,
+    Modes,
+    Rows,
+    at,
+    inner,
+    largest_acceleration,
+    outer,
+)
 from precursors.model.chain import FloatArray
+from precursors.solver.record import IntArray
 
 _FEWEST_CELLS = 2
 _PARTS = 8  # of a cell for which that does not suffice
-# In an array: bounds the memory on long intervals and long chains.
-_NUMBERS_AT_ONCE = 200_000
+_MOST_SHOWN = 200_000  # values, of an interval in which something is wrong
 
 
-class TooLongError(Exception):
-    """An interval that would take more work than is left."""
-
-
-class Conditions:
+class Conditions(NamedTuple):
     """Functions of the time s since an interval's start that must not be negative in
-    it.
+    it: base + rate s and a sum over modes.
 
-    One column for each sliding block (its velocity [m/s] in the direction of its mode),
-    then two for each stuck block whose force can change (mu_s w - force and mu_s w +
-    force [N]). `fourth` bounds the fourth derivative of each column; `computed` is the
-    number of values so far.
+    One for each sliding block (its velocity [m/s] in the direction of its mode), then
+    two for each stuck block whose force can change (mu_s w - force and mu_s w + force
+    [N]). The first `n_speeds` sum modal velocities, the others displacements, of the
+    modes from `begin` to `end`. `fourth` bounds the fourth derivative.
     """
 
-    def __init__(self, motion: ModalMotion, state: CarriedState) -> None:
-        self.motion = motion
-        self.mode = state.mode.copy()
-        self.computed = 0
-        moves = state.moves()
-        near = moves.copy()
-        near[0] = True
-        near[1:] |= moves[:-1]
-        near[:-1] |= moves[1:]
-        slides = abs(state.mode) == 1
-        self.sliding = np.flatnonzero(slides)
-        self.stuck = np.flatnonzero(near & ~moves)
-        springs = motion.modes.spring_shapes
-        shapes = motion.modes.shapes[slides[moves]]
-        self.to_speed = shapes.T * state.mode[self.sliding]
-        self.to_force = (springs[self.stuck + 1] - springs[self.stuck]).T
-        self.force = state.net_force()[self.stuck]
-        self.strength = state.strength[self.stuck]
-        self.rate = np.where(self.stuck == 0, state.chain.loading_rate, 0.0)
-        displacement, velocity = motion.fourth_derivatives()
-        bend = displacement @ np.abs(self.to_force)
-        self.fourth = np.concatenate([velocity @ np.abs(self.to_speed), bend, bend])
+    motion: ModalMotion
+    n_speeds: int
+    base: FloatArray
+    rate: FloatArray
+    begin: IntArray
+    end: IntArray
+    share: FloatArray
+    fourth: FloatArray
 
-    def __call__(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Values and slopes at the times s, each of shape (len(s), number of
-        columns)."""
-        displacement, velocity, acceleration = self.motion.at(s)
-        force = displacement @ self.to_force + self.force + s[:, None] * self.rate
-        rate = velocity @ self.to_force + self.rate
-        values = [
-            velocity @ self.to_speed,
-            self.strength - force,
-            self.strength + force,
-        ]
-        slopes = [acceleration @ self.to_speed, -rate, rate]
-        return np.concatenate(values, axis=1), np.concatenate(slopes, axis=1)
 
-    def broken(self, column: int) -> tuple[str, str]:
+class Passed(NamedTuple):
+    """What was found in an interval: the lowest value of each condition, when, and one
+    rounding of it; the blocks, from 0, that they are of; and how many values were
+    computed."""
+
+    lowest: FloatArray
+    when: FloatArray
+    rounding: FloatArray
+    sliding: IntArray
+    stuck: IntArray
+    computed: int
+
+    def broken(self, column: int, mode: IntArray) -> tuple[str, str]:
         """Sentence and unit for a column that is negative."""
         n = len(self.sliding)
         if column < n:
             i = self.sliding[column]
-            return f"block {i + 1} slides against its mode {self.mode[i]:+d} at", "m/s"
+            return f"block {i + 1} slides against its mode {mode[i]:+d} at", "m/s"
         way, k = divmod(column - n, len(self.stuck))
         direction = "backward" if way else "forward"
         block = self.stuck[k] + 1
         return f"block {block} is stuck, pushed {direction} beyond mu_s w by", "N"
 
-    def lowest(
-        self, duration: float, tolerance: FloatArray, most: int
-    ) -> tuple[FloatArray, FloatArray]:
-        """Lowest values that were found and their times, each of shape (number of
-        columns,).
 
-        Where none is below -tolerance, none is below -2 tolerance anywhere in the
-        interval. The proof: with a fourth derivative of at most M, g is off by at most
-        M d^4/384 on a cell of width d from the cubic that has its values and slopes at
-        both ends, and a cubic is above the least of its Bernstein coefficients. A cell
-        for which that does not suffice is cut. The search ends where something is below
-        -tolerance, or in a `TooLongError` at so many values computed.
-        """
-        columns = len(self.fourth)
-        fastest = self.motion.modes.frequencies.max(initial=0.0)
+@outer
+def pass_interval(
+    state: CarriedState,
+    rows: Rows,
+    modes: Modes,
+    duration: float,
+    roundings: float,
+    most: int,
+) -> Passed:
+    """Prove the conditions of an interval in which rows of blocks move, and move the
+    state to its end."""
+    motion = motion_of(state, rows, modes)
+    sliding, stuck = concerned(state, rows)
+    conditions = conditions_of(motion, state, rows, modes, sliding, stuck)
+    advance(state, rows, modes, motion, duration)
+    n = len(sliding)
+    rounding = np.full(len(conditions.base), state.rounding[0])
+    rounding[:n] /= math.sqrt(state.mass)
+    for k in range(len(stuck)):
+        rounding[n + k] *= state.per_force[stuck[k]]
+        rounding[n + len(stuck) + k] = rounding[n + k]
+    lowest, when, computed = prove(conditions, duration, roundings * rounding, most)
+    return Passed(lowest, when, rounding, sliding, stuck, computed)
+
+
+@inner
+def concerned(state: CarriedState, rows: Rows) -> tuple[IntArray, IntArray]:
+    """Blocks that slide, and stuck ones whose force can change: block 1, and neighbours
+    of those that move."""
+    is_near = np.zeros(len(state.mode), np.bool_)
+    is_near[0] = True
+    for r in range(len(rows.first)):
+        first = rows.first[r]
+        count = rows.n_blocks[r]
+        is_near[max(first - 1, 0)] = True
+        is_near[first : first + count] = False
+        is_near[first + count : first + count + 1] = True
+    return np.flatnonzero(np.abs(state.mode) == 1), np.flatnonzero(is_near)
+
+
+@inner
+def conditions_of(
+    motion: ModalMotion,
+    state: CarriedState,
+    rows: Rows,
+    modes: Modes,
+    sliding: IntArray,
+    stuck: IntArray,
+) -> Conditions:
+    """Conditions of an interval, at its start."""
+    n = len(sliding)
+    m = len(stuck)
+    columns = n + 2 * m
+    n_modes = len(motion.omega)
+    found = Conditions(
+        motion,
+        n,
+        np.zeros(columns),
+        np.zeros(columns),
+        np.full(columns, n_modes),
+        np.zeros(columns, np.int64),
+        np.zeros((columns, n_modes)),
+        np.zeros(columns),
+    )
+    column = np.full(len(state.mode) + 1, -1)  # of each block
+    column[sliding] = np.arange(n)
+    column[stuck] = np.arange(n, n + m)
+    for k in range(m):
+        i = stuck[k]
+        force = state.spring_force[i] - state.spring_force[i + 1]
+        found.base[n + k] = state.strength[i] - force
+        found.base[n + m + k] = state.strength[i] + force
+        if i == 0:
+            found.rate[n] = -state.loading_rate
+            found.rate[n + m] = state.loading_rate
+    j = 0
+    k = 0
+    for r in range(len(rows.first)):
+        first = rows.first[r]
+        count = rows.n_blocks[r]
+        last = first + count
+        for _ in range(count):
+            for i in range(first, last):
+                if abs(state.mode[i]) == 1:
+                    add(found, column[i], j, state.mode[i] * modes.shapes[k])
+                k += 1
+            # The springs at both ends of a row pull at stuck blocks.
+            if first > 0:
+                ahead = modes.spring_shapes[k + j - count]
+                add(found, column[first - 1], j, -ahead)
+                add(found, column[first - 1] + m, j, ahead)
+            if last < len(state.mode):
+                behind = modes.spring_shapes[k + j]
+                add(found, column[last], j, behind)
+                add(found, column[last] + m, j, -behind)
+            j += 1
+    return found
+
+
+@inner
+def add(found: Conditions, column: int, j: int, share: float) -> None:
+    """Let a function have a share of mode j."""
+    found.begin[column] = min(found.begin[column], j)
+    found.end[column] = j + 1
+    found.share[column, j] = share
+    bend = found.motion.omega[j] ** 2 * largest_acceleration(found.motion, j)
+    if column < found.n_speeds:
+        bend *= found.motion.omega[j]
+    found.fourth[column] += bend * abs(share)
+
+
+@inner
+def take_modes(
+    motion: ModalMotion, begin: int, end: int, s: float, modal: FloatArray
+) -> None:
+    """Displacements, velocities and accelerations of some modes at the time s."""
+    for j in range(begin, end):
+        modal[0, j], modal[1, j], modal[2, j] = at(motion, j, s)
+
+
+@inner
+def value_and_slope(
+    conditions: Conditions, column: int, s: float, modal: FloatArray
+) -> tuple[float, float]:
+    """Value and slope of a function at the time s, of the modes at that time."""
+    value = conditions.base[column] + conditions.rate[column] * s
+    slope = conditions.rate[column]
+    order = 1 if column < conditions.n_speeds else 0
+    for j in range(conditions.begin[column], conditions.end[column]):
+        share = conditions.share[column, j]
+        value += share * modal[order, j]
+        slope += share * modal[order + 1, j]
+    return value, slope
+
+
+@inner
+def prove(
+    conditions: Conditions, duration: float, tolerance: FloatArray, most: int
+) -> tuple[FloatArray, FloatArray, int]:
+    """Lowest values that were found and their times, each of shape (number of
+    columns,), and the number of values computed.
+
+    Where none is below -tolerance, none is below -2 tolerance anywhere in the interval.
+    The proof: with a fourth derivative of at most M, g is off by at most M d^4/384 on a
+    cell of width d from the cubic that has its values and slopes at both ends, and a
+    cubic is above the least of its Bernstein coefficients. A cell for which that does
+    not suffice is cut, as long as nothing is below -tolerance. The search ends when it
+    has computed more than `most` values.
+    """
+    columns = len(tolerance)
+    n_modes = len(conditions.motion.omega)
+    n_cells = 1
+    if n_modes:
         # A cell of a radian of the fastest mode can usually be proved.
-        n_cells = max(_FEWEST_CELLS, math.ceil(duration * fastest)) if fastest else 1
-        at_once = max(_FEWEST_CELLS, _NUMBERS_AT_ONCE // columns)
-        lowest = np.full(columns, np.inf)
-        when = np.zeros(columns)
-        for k in range(0, n_cells, at_once):
-            # A row holds one edge of all cells, the next row the other.
-            edges = (
-                duration
-                / n_cells
-                * np.arange(k, min(k + at_once, n_cells) + 1, dtype=float)[:, None]
+        fastest = conditions.motion.omega.max()
+        n_cells = max(_FEWEST_CELLS, math.ceil(duration * fastest))
+    modal = np.empty((3, n_modes))
+    inside = np.empty((3, n_modes))
+    lowest = np.empty(columns)
+    slopes = np.empty(columns)
+    when = np.zeros(columns)
+    take_modes(conditions.motion, 0, n_modes, 0.0, modal)
+    for c in range(columns):
+        lowest[c], slopes[c] = value_and_slope(conditions, c, 0.0, modal)
+    values = lowest.copy()
+    computed = columns
+    is_broken = False
+    start = 0.0
+    for k in range(n_cells):
+        end = duration / n_cells * (k + 1)
+        take_modes(conditions.motion, 0, n_modes, end, modal)
+        for c in range(columns):
+            value, slope = value_and_slope(conditions, c, end, modal)
+            bound = lower_bound(
+                end - start, values[c], value, slopes[c], slope, conditions.fourth[c]
             )
-            while edges.size and not np.any(lowest < -tolerance):
-                self.computed += edges.size * columns
-                if self.computed > most:
-                    raise TooLongError(
-                        f"the audit ends here: it cannot look at {duration:.3g} s of "
-                        f"sliding, {duration * fastest:.3g} radians of the fastest mode"
-                    )
-                times = edges.ravel()
-                values, slopes = self(times)
-                row = np.argmin(values, axis=0)
-                value = values.min(axis=0)
-                when = np.where(value < lowest, times[row], when)
-                lowest = np.where(value < lowest, value, lowest)
-                shape = (*edges.shape, columns)
-                width = np.diff(edges, axis=0)[..., None]
-                bound = lower_bound(
-                    width, values.reshape(shape), slopes.reshape(shape), self.fourth
+            if bound < -2 * tolerance[c] and not is_broken:
+                computed += cut(
+                    conditions,
+                    c,
+                    (start, end),
+                    (values[c], slopes[c]),
+                    tolerance[c],
+                    most - computed,
+                    lowest,
+                    when,
+                    inside,
                 )
-                is_open = np.any(bound < -2 * tolerance, axis=-1)
-                edges = np.linspace(edges[:-1][is_open], edges[1:][is_open], _PARTS + 1)
-        return lowest, when
+            if value < lowest[c]:
+                lowest[c] = value
+                when[c] = end
+            values[c] = value
+            slopes[c] = slope
+        computed += columns
+        start = end
+        is_broken |= bool(np.any(lowest < -tolerance))
+        if computed > most or (is_broken and computed > _MOST_SHOWN):
+            break
+    return lowest, when, computed
 
 
+@inner
+def cut(
+    conditions: Conditions,
+    column: int,
+    cell: tuple[float, float],
+    at_start: tuple[float, float],
+    tolerance: float,
+    most: int,
+    lowest: FloatArray,
+    when: FloatArray,
+    modal: FloatArray,
+) -> int:
+    """Go through a cell in steps that can be proved; return the number of values
+    computed."""
+    start, stop = cell
+    low, rise = at_start
+    width = (stop - start) / _PARTS
+    computed = 0
+    while start < stop and computed <= most:
+        end = min(start + width, stop)
+        begin = conditions.begin[column]
+        take_modes(conditions.motion, begin, conditions.end[column], end, modal)
+        high, fall = value_and_slope(conditions, column, end, modal)
+        computed += 1
+        if high < lowest[column]:
+            lowest[column] = high
+            when[column] = end
+        bound = lower_bound(
+            end - start, low, high, rise, fall, conditions.fourth[column]
+        )
+        if bound < -2 * tolerance and not lowest[column] < -tolerance:
+            width /= _PARTS
+        else:
+            start = end
+            low = high
+            rise = fall
+            width *= 2
+    return computed
+
+
+@inner
 def lower_bound(
-    width: FloatArray, values: FloatArray, slopes: FloatArray, fourth: FloatArray
-) -> FloatArray:
-    """Bound functions from below in cells, from their values and slopes at both
-    edges."""
-    low = values[:-1]
-    high = values[1:]
-    inner = np.minimum(low + slopes[:-1] * (width / 3), high - slopes[1:] * (width / 3))
-    return np.minimum(np.minimum(low, high), inner) - fourth * (width**4 / 384)
+    width: float, low: float, high: float, rise: float, fall: float, fourth: float
+) -> float:
+    """Bound a function from below in a cell, from its values at both edges, its slopes
+    `rise` and `fall` there, and its fourth derivative."""
+    inside = min(low + rise * (width / 3), high - fall * (width / 3))
+    return min(low, high, inside) - fourth * (width**4 / 384)

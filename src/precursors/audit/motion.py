@@ -3,20 +3,27 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.linalg import svd
+from numpy.typing import NDArray
+from scipy.linalg.lapack import dgesvd
 
 from precursors.model.chain import Chain, FloatArray
+from precursors.solver.record import IntArray
+from precursors.support.compiled import entry, untyped
+
+# Compiled, as a run has as many intervals as transitions; a division by zero is inf.
+inner: Any = untyped.njit(error_model="numpy")
+outer: Any = entry(Path(__file__).parent, error_model="numpy")
 
 
-@dataclass(frozen=True, eq=False)
-class Modes:
-    """Normal modes of blocks that slide, between neighbours that do not move.
+class Modes(NamedTuple):
+    """Normal modes of rows of blocks that slide, between neighbours that do not move.
 
-    frequencies (n,) [rad/s]; shapes (n blocks, n): displacement = shapes @ q;
-    spring_shapes (n springs, n): the forces of the springs grow by -spring_shapes @ q.
+    Of all rows, mode by mode: frequencies [rad/s]; shapes, the n displacements of the
+    row's blocks; spring_shapes, the n + 1 forces by which its springs fall.
     """
 
     frequencies: FloatArray
@@ -41,84 +48,83 @@ def normal_modes(chain: Chain, first: int, last: int) -> Modes:
     # a frequency of zero.
     balance = np.diag(roots) - np.diag(roots[1:], 1)
     balance[n:] = 0.0
-    left, singular, right = svd(balance, lapack_driver="gesvd", check_finite=False)
+    left, singular, right, _ = dgesvd(balance)
     singular = singular[:n]
+    spring_shapes = np.zeros((n, n + 1))
+    spring_shapes[:, : len(roots)] = singular[:, None] * right[:n] * roots
     return Modes(
         frequencies=singular / math.sqrt(chain.mass),
-        shapes=np.ascontiguousarray(left[:n, :n]),
-        spring_shapes=roots[:, None] * right[:n].T * singular,
+        shapes=left[:n, :n].T.ravel(),
+        spring_shapes=spring_shapes.ravel(),
     )
 
 
-def modes_of_all(
-    slides: np.ndarray, modes_of_row: Callable[[int, int], Modes]
-) -> Modes:
-    """Normal modes of all blocks that slide, and of all springs; each row of neighbours
-    has its own."""
-    edges = np.flatnonzero(np.diff(slides, prepend=False, append=False))
-    n = np.count_nonzero(slides)
-    done = 0
-    modes = Modes(np.zeros(n), np.zeros((n, n)), np.zeros((len(slides) + 1, n)))
-    for first, end in edges.reshape(-1, 2).tolist():
-        row = modes_of_row(first, end - 1)
-        columns = slice(done, done + len(row.frequencies))
-        modes.frequencies[columns] = row.frequencies
-        modes.shapes[columns, columns] = row.shapes
-        modes.spring_shapes[first : first + len(row.spring_shapes), columns] = (
-            row.spring_shapes
-        )
-        done = columns.stop
-    return modes
+NO_MODES = Modes(np.zeros(0), np.zeros(0), np.zeros(0))
 
 
-@dataclass(frozen=True, eq=False)
-class ModalMotion:
+class Rows(NamedTuple):
+    """Rows of neighbours that move: their first blocks, from 0, and numbers of blocks."""
+
+    first: IntArray
+    n_blocks: IntArray
+
+
+def rows_and_modes(
+    moves: NDArray[np.bool_], modes_of_row: Callable[[int, int], Modes]
+) -> tuple[Rows, Modes]:
+    """Rows of the blocks that move, and their modes one after the other."""
+    padded = np.zeros(len(moves) + 2, dtype=bool)
+    padded[1:-1] = moves
+    first, end = (padded[1:] != padded[:-1]).nonzero()[0].reshape(-1, 2).T
+    of_rows = [NO_MODES, *map(modes_of_row, first.tolist(), (end - 1).tolist())]
+    modes = Modes(*map(np.concatenate, zip(*of_rows, strict=True)))
+    return Rows(first.copy(), end - first), modes
+
+
+class ModalMotion(NamedTuple):
     """Motion mode by mode: q'' + omega^2 q = push + ramp s, q = 0 and q' = speed at s =
     0."""
 
-    modes: Modes
+    omega: FloatArray
     speed: FloatArray
     push: FloatArray
     ramp: FloatArray
 
-    def at(self, s: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Modal displacements, velocities and accelerations at the times s, each of
-        shape (len(s), n)."""
-        omega = self.modes.frequencies
-        half = (0.5 * s)[:, None] * omega
-        versine = 2 * np.sin(half) ** 2  # 1 - cos without cancellation
-        sine = 2 * np.sin(half) * np.cos(half)
-        cosine = 1 - versine
-        # The difference cancels for omega s << 1, but relative to the drive's V s it
-        # keeps all digits.
-        lag = s[:, None] - sine / omega
-        displacement = (self.speed / omega) * sine + (
-            self.push * versine + self.ramp * lag
-        ) / omega**2
-        velocity = (
-            self.speed * cosine
-            + (self.push / omega) * sine
-            + (self.ramp / omega**2) * versine
-        )
-        acceleration = (
-            self.push * cosine + (self.ramp / omega - self.speed * omega) * sine
-        )
-        return displacement, velocity, acceleration
 
-    def fourth_derivatives(self) -> tuple[FloatArray, FloatArray]:
-        """Largest fourth derivatives of modal displacements and velocities, each of
-        shape (n,)."""
-        omega = self.modes.frequencies
-        acceleration = np.hypot(self.push, self.ramp / omega - self.speed * omega)
-        return acceleration * omega**2, acceleration * omega**3
+@inner
+def at(motion: ModalMotion, j: int, s: float) -> tuple[float, float, float]:
+    """Displacement, velocity and acceleration of mode j at the time s."""
+    omega = motion.omega[j]
+    speed = motion.speed[j]
+    push = motion.push[j]
+    ramp = motion.ramp[j]
+    half = 0.5 * s * omega
+    versine = 2 * math.sin(half) ** 2  # 1 - cos without cancellation
+    sine = 2 * math.sin(half) * math.cos(half)
+    cosine = 1 - versine
+    # The difference cancels for omega s << 1, but relative to the drive's V s it keeps
+    # all digits.
+    lag = s - sine / omega
+    displacement = speed / omega * sine + (push * versine + ramp * lag) / omega**2
+    velocity = speed * cosine + push / omega * sine + ramp / omega**2 * versine
+    return displacement, velocity, push * cosine + (ramp / omega - speed * omega) * sine
 
-    def largest_speed(self) -> float:
-        """Largest speed that all modes together can have: the root of the sum of the
-        squares."""
-        omega = self.modes.frequencies
-        largest = (
-            np.abs(self.speed)
-            + np.abs(self.push / omega)
-            + 2 * np.abs(self.ramp / omega**2)
-        )
-        return float(np.linalg.norm(largest))
+
+@inner
+def largest_acceleration(motion: ModalMotion, j: int) -> float:
+    """Largest acceleration of mode j; omega^2 and omega^3 times it are the largest
+    fourth derivatives of displacement and velocity."""
+    omega = motion.omega[j]
+    return math.hypot(motion.push[j], motion.ramp[j] / omega - motion.speed[j] * omega)
+
+
+@inner
+def largest_speed(motion: ModalMotion) -> float:
+    """Largest speed that all modes together can have: the root of the sum of the
+    squares."""
+    total = 0.0
+    for j in range(len(motion.omega)):
+        omega = motion.omega[j]
+        of_forces = abs(motion.push[j] / omega) + 2 * abs(motion.ramp[j] / omega**2)
+        total += (abs(motion.speed[j]) + of_forces) ** 2
+    return math.sqrt(total)
