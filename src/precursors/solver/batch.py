@@ -2,6 +2,7 @@
 
 import threading
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,11 +46,14 @@ class _Recorder:
             np.empty((n_states, 2 + 3 * n_blocks)),
         )
 
-    def room(self, run: np.void) -> tuple[FloatArray, FloatArray]:
-        """Record and states for a run to begin in, or to go on in, longer where they
+    def room(self, progress: NDArray[np.void], j: int) -> tuple[FloatArray, FloatArray]:
+        """Record and states for run j to begin in, or to go on in, longer where they
         are full."""
-        if run["stored"] == 0:  # it has not begun
+        # Of a record, a field of the array is read faster than one of its row.
+        if progress["stored"][j] == 0:  # it has not begun
             self.record, self.states = self.empty
+            return self.empty
+        run = progress[j]
         if run["transitions"] + 1 == len(self.record):
             self.record = np.resize(self.record, (2 * len(self.record), kernel.ROW))
         if run["stored"] == len(self.states):
@@ -97,16 +101,24 @@ def run_batch(
     progress = words.view(kernel.PROGRESS)[:, 0]
     progress["stride"] = recorder.stride
     first = 0
-    with bar("running", end.duration) as told:
-        while first < len(chains):
-            arrays = (words, *recorder.room(progress[first]), recorder.memory)
+    told: Any = None  # it takes a quarter of a short run's time
+    try:
+        while True:
+            arrays = (words, *recorder.room(progress, first), recorder.memory)
             n_finished, *rows = kernel.run_batch(
                 batch, end, *arrays, first, WINDOWS_PER_CALL
             )
             which = range(first, n_finished)
             yield from _runs(chains, batch, progress, which, *recorder.take(*rows), end)
             first = n_finished
+            if first == len(chains):
+                return
+            if told is None:
+                told = bar("running", end.duration)
             told.update(progress["onset"].mean() - told.n)
+    finally:
+        if told is not None:
+            told.close()
 
 
 def _runs(

@@ -99,7 +99,8 @@ def checked_end(
     if most is None:
         is_long = any(chain.n_blocks > MANY_BLOCKS for chain in chains)
         most = MAX_TRANSITIONS // 10 if is_long else MAX_TRANSITIONS
-    most = whole("max_transitions", most)
+    else:
+        most = whole("max_transitions", most)
     span = checked_span(duration, until)
     return End(span, until is not None, longest, most, MAX_WINDOWS)
 
