@@ -106,7 +106,7 @@ class Auditor:
         self.values_left -= passed.computed
         if self.values_left < 0:
             self.found.is_undecided = not self.found.problems
-            radians = duration * modes.frequencies.max()
+            radians = duration * modes.frequencies.max(initial=0.0)
             self.report(
                 f"the audit ends here: it cannot look at {duration:.3g} s of "
                 f"sliding, {radians:.3g} radians of the fastest mode"
