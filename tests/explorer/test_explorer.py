@@ -254,7 +254,8 @@ def test_the_steps_tell_the_numbers_of_the_tables(page, file):
     tilted = page.evaluate("DATA.tilted")
     run = simulate(Chain.from_slider(theta=tilted["theta"]), until="global slip")
     assert f"{apparent_friction(run):.4f}" in text
-    do(page, "goToStep(2), choose(9)")
+    do(page, "goToStep(2)")
+    do(page, "choose(9)")
     front = page.evaluate("event().front")
     assert f"after block {front}" in page.evaluate("element('step-2').textContent")
 
