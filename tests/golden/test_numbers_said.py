@@ -370,7 +370,8 @@ GIVEN = {
     ],
     "docs/proof.md": ["from 256 to 4096", "within 1e-40 s", "13 to 20 s"],
     "docs/reliability.md": [
-        "60 us a transition at 10 blocks and 90 us at 50",
+        "60 to 150 us a transition at 10 to 200 blocks, 70 to 105 times",
+        "in 13 s",
         "(400 MB)",
         "16 roundings of 2^-53",
         "20,000 random chains no run needed more than 12",
