@@ -21,6 +21,7 @@ from maegawa2010 import printed
 from maegawa2010.config import load_config, read_file
 from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
 from maegawa2010.scenes import (
+    is_papers,
     scene_additions,
     scene_duration,
     scene_label,
@@ -29,7 +30,7 @@ from maegawa2010.scenes import (
     scenes_with_theta,
 )
 from maegawa2010.support.digest import digest_code
-from precursors.model.chain import SLIDER, parse_theta
+from precursors.model.chain import parse_theta
 
 PAPERS = ROOT / "src/maegawa2010"
 PROOFS = ROOT / "src/precursors/benchmark/certificates"  # committed
@@ -39,8 +40,8 @@ digest = partial(digest_code, ROOT)
 
 files = [] if workflow.modifier.skip_configfile else ["config.yaml", *workflow.overwrite_configfiles]
 try:
-    for path in filter(os.path.exists, files):
-        read_file(path)  # before Snakemake, which would run code in it, or take hours for nested aliases
+    # Before Snakemake, which would run code in them, or take hours for nested aliases.
+    contents = {path: read_file(path) for path in filter(os.path.exists, files)}
 except ValueError as error:
     raise WorkflowError(str(error)) from None
 
@@ -49,7 +50,7 @@ configfile: "config.yaml"
 
 
 try:
-    config.update(load_config(config, files, ROOT / "workflow"))
+    config.update(load_config(config, contents, ROOT / "workflow"))
 except ValueError as error:
     raise WorkflowError(str(error)) from None
 if not os.access("results" if os.path.exists("results") else ".", os.W_OK | os.X_OK):
@@ -69,10 +70,7 @@ ASKED = scenes_with(config, "answers")
 FIG13 = config["fig13"]
 MORE_FORMATS = [name for name in config["figure_formats"] if name != "svg"]
 SLIDERS = {scene: scene_slider(config, scene) for scene in FIG13}
-PAPERS_SLIDERS = {
-    scene: SLIDER | {"theta": theta} for scene, theta in zip(PAPERS_SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
-}
-IS_PAPERS = PAPERS_SLIDERS == {scene: {"weights": None} | SLIDERS.get(scene, {}) for scene in PAPERS_SCENES}
+IS_PAPERS = is_papers(config, PAPERS_SCENES)
 RUNS = collect("results/runs/{scene}.h5", scene=FIG13)
 SLIPS = collect("results/tables/{scene}_slips.csv", scene=FIG13)
 # Jobs into which each study of many runs is divided.

@@ -94,7 +94,9 @@ def _misread(node: Any, problem: str) -> yaml.MarkedYAMLError:
     return yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
 
 
-def load_config(given: Config, files: Iterable[str], workflow: Path) -> dict[str, Any]:
+def load_config(
+    given: Config, files: Mapping[str, Config], workflow: Path
+) -> dict[str, Any]:
     """Put a configuration together, and check it.
 
     Parameters
@@ -102,8 +104,7 @@ def load_config(given: Config, files: Iterable[str], workflow: Path) -> dict[str
     given
         What Snakemake has read, the command line included.
     files
-        The files that it was read from, the most important one last; one that is
-        missing is left out.
+        The contents of the files that it was read from, the most important one last.
     workflow
         Directory of studies.yaml, which has what is not given, and of the schema.
 
@@ -113,15 +114,14 @@ def load_config(given: Config, files: Iterable[str], workflow: Path) -> dict[str
         In one line: which value, where, and what it must be.
     """
     defaults = str(workflow / "studies.yaml")
-    paths = [defaults, *(path for path in files if os.path.exists(path))]
-    contents = {path: read_file(path) for path in paths}
+    contents = {defaults: read_file(defaults), **files}
     config = deepcopy(dict(given))
     for path, content in reversed(contents.items()):
         place_weights(config, path, content)
     if "chain" in config:
         config["chain"] = read_numbers(config["chain"])
     check_sections(config, contents[defaults])
-    complete = deepcopy(contents[defaults])
+    complete = deepcopy(dict(contents[defaults]))
     update_config(complete, config)
     check_config(complete, workflow / "schemas/config.schema.yaml", contents)
     if complete["figure"]:

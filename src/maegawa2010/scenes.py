@@ -1,12 +1,12 @@
 """The scenes of a configuration, and the chain that each of them stands for."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 from precursors.larger.chain import ADDITIONS
-from precursors.model.chain import parse_theta, theta_from_load_cells
+from precursors.model.chain import SLIDER, parse_theta, theta_from_load_cells
 from precursors.support.spreadsheet import read_weights
 
 Config = Mapping[str, Any]
@@ -35,6 +35,15 @@ def scenes_with_theta(config: Config) -> list[str]:
 def scene_duration(config: Config, name: str) -> float:
     """Time that the scene is simulated for [s]."""
     return float(config["scenes"][name].get("duration", config["duration"]))
+
+
+def is_papers(config: Config, scenes: Sequence[str]) -> bool:
+    """Whether Fig. 13 has the paper's slider in these scenes, in the order of theta."""
+    return all(
+        scene in config["fig13"]
+        and {"weights": None} | scene_slider(config, scene) == SLIDER | {"theta": theta}
+        for scene, theta in zip(scenes, (-5 / 6, 0.0, 5 / 6), strict=True)
+    )
 
 
 def scene_label(config: Config, name: str) -> dict[str, str]:

@@ -22,9 +22,8 @@ from maegawa2010.paper.claim import (
 )
 from maegawa2010.paper.claims import differences, evaluate
 from maegawa2010.paper.inputs import CLAIM_TABLES, SCENES
-from maegawa2010.scenes import scene_slider
+from maegawa2010.scenes import is_papers
 from maegawa2010.support.provenance import NOT_RESULTS, checksums
-from precursors.model.chain import SLIDER
 from precursors.support.files import read_table
 
 WIDTH = 110
@@ -45,7 +44,10 @@ def main(
 ) -> None:
     """Print the claims by the tables of a directory, and exit with 1 if a verdict is
     unexpected."""
-    if not is_papers(Path(tables).parent):
+    results = Path(tables).parent
+    made = results / "provenance.json"
+    told = json.loads(made.read_text(encoding="utf-8")) if made.is_file() else {}
+    if told and not is_papers(told["config"], SCENES):
         sys.exit("check: config.yaml is not the paper's: nothing to compare")
     try:
         found = evaluate(
@@ -57,30 +59,13 @@ def main(
         sys.exit(f"check: {error}")
     print(printed(found))
     unexpected = differences(found, read_table(expected))
-    unexpected += changed(Path(tables).parent)
+    unexpected += changed(results, told.get("outputs", {}))
     if unexpected:
         sys.exit("\n".join(f"check: {line}" for line in unexpected))
 
 
-def is_papers(results: Path) -> bool:
-    """Whether results are of the paper's slider and scenes, by `provenance.json`."""
-    made = results / "provenance.json"
-    if not made.is_file():
-        return True
-    config = json.loads(made.read_text(encoding="utf-8"))["config"]
-    return all(
-        scene in config["scenes"]
-        and scene_slider(config, scene) | {"weights": None} == SLIDER | {"theta": theta}
-        for scene, theta in zip(SCENES, (-5 / 6, 0.0, 5 / 6), strict=True)
-    )
-
-
-def changed(results: Path) -> list[str]:
-    """Results that are not those of `provenance.json`, a line each."""
-    made = results / "provenance.json"
-    if not made.is_file():
-        return []
-    told = json.loads(made.read_text(encoding="utf-8"))["outputs"]
+def changed(results: Path, told: Mapping[str, str]) -> list[str]:
+    """Results whose checksums are not those told, a line each."""
     there = checksums(results.rglob("*"), results, leave_out=NOT_RESULTS)
     return [
         f"{results / name} is not as it was made: delete it, and run make all"
