@@ -20,7 +20,6 @@ RESULTS = Path(__file__).parent / "results"
 # The tightest setting of each method in the full chart, by name.
 BEST = {
     "exact": 0.0,
-    "dop853": 1e-13,
     "rk4_located": 3e-8,
     "leapfrog": 1e-9,
     "moreau_jean_half": 1e-9,

@@ -5,10 +5,10 @@ from importlib.util import find_spec
 
 import pytest
 
+from maegawa2010.methods import METHODS
 from maegawa2010.methods.cvode_events import solve_cvode
 from maegawa2010.methods.events import EventMotion
 from maegawa2010.methods.heyoka_events import solve_heyoka
-from maegawa2010.methods.runge_kutta import solve_dop853
 from precursors import Chain
 from precursors.benchmark.compare import compare
 from precursors.benchmark.score import solution
@@ -33,26 +33,19 @@ def needs(package: str) -> pytest.MarkDecorator:
 
 
 @pytest.mark.parametrize(
-    ("solve", "tolerance", "allowed"),
+    ("solve", "setting"),
     [
-        *(
-            pytest.param(solve_dop853, x, 100 * x, id=f"compiled {x:g}")
-            for x in (1e-7, 1e-13)
-        ),
-        pytest.param(
-            solve_cvode, 1e-10, TIGHT_ERROR, id="CVODE", marks=needs("sksundae")
-        ),
+        pytest.param(METHODS["rk4_located"].solve, 1e-7, id="RK4 located"),
+        pytest.param(solve_cvode, 1e-10, id="CVODE", marks=needs("sksundae")),
     ],
 )
 def test_a_method_makes_every_transition_of_the_first_global_slip(
-    uniform, solve, tolerance, allowed
+    uniform, solve, setting
 ):
-    """At a tight tolerance; compiled DOP853 also at that where SciPy's misses two
-    roots."""
-    result = solve(uniform, 10.0, tolerance, "global slip")
+    result = solve(uniform, 10.0, setting, "global slip")
     found = compare(result.run, solution("uniform").until_global_slip())
     assert found.transitions_right == found.transitions_found == FIRST_SLIP
-    assert found.time_error < allowed
+    assert found.time_error < TIGHT_ERROR
     assert result.evaluations > 10 * FIRST_SLIP
 
 

@@ -1,7 +1,7 @@
 """A chain in motion: its transitions, its waiting while all blocks stick, and its run
 from rest to the end.
 
-A compiled method is a function (motion, setting). It works in legs, the steps up to the
+A compiled method is a function (motion, step). It works in legs, the steps up to the
 next change of a mode, while there is one to begin: `begin_leg` waits while all blocks
 stick, and ends the run."""
 

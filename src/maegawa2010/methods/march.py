@@ -27,16 +27,13 @@ def march(
     method: Callable[..., None],
     chain: Chain,
     duration: float,
-    setting: float,
+    step: float,
     until: str | None = None,
     max_transitions: int = MAX_TRANSITIONS,
-    scaled: bool = False,
 ) -> Result:
-    """Run a compiled method from rest: `method` is (motion, setting).
+    """Run a compiled method from rest: `method` is (motion, step [s]).
 
-    `setting` is a step [s] or, where the method meets the numbers of solvers with a
-    tolerance (`scaled`, see `columns`), a tolerance. Other arguments: see
-    `precursors.simulate`.
+    Other arguments: see `precursors.simulate`.
 
     Raises
     ------
@@ -44,12 +41,12 @@ def march(
         If an argument is out of range, the numbers overflow, or there are more than
         `max_transitions`.
     """
-    positive("tolerance" if scaled else "step", setting, "1" if scaled else "s")
-    motion = motion_from_rest(chain, duration, until, scaled)
+    positive("step", step, "s")
+    motion = motion_from_rest(chain, duration, until)
     status = PAUSED
     while status == PAUSED and motion.progress["transitions"][0] < max_transitions:
         motion = with_room(motion)
-        method(motion, setting)
+        method(motion, step)
         status = int(motion.progress["status"][0])
     run = run_of(motion, chain)
     if status == DIVERGED:

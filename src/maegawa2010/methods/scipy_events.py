@@ -4,7 +4,7 @@ Events are the velocities of the blocks that slide and the margins of the stuck 
 beside them; elsewhere no force changes. SciPy looks for an event where its function has
 changed sign over a step, so a velocity that falls below zero and rises again within one
 step is missed without a warning. Shorter steps are one cure; the roots of each step's
-interpolation, as `dop853` finds them, are another."""
+interpolation, as `rk4_located` finds them, are another."""
 
 from collections.abc import Callable, Iterator
 from typing import Literal

@@ -24,8 +24,7 @@ from maegawa2010.methods.columns import (
     at_rest,
 )
 from maegawa2010.methods.compiled import FOLDER, OPTIONS, inner
-from maegawa2010.methods.runge_kutta import step_of
-from maegawa2010.methods.tableaus import RK4
+from maegawa2010.methods.runge_kutta import STAGES, rk4_step
 from precursors.model.chain import Chain
 from precursors.support.compiled import entry
 
@@ -59,16 +58,13 @@ def by_velocity(system, _state, i, net, velocity):
     return velocity, system[INVERSE_MASS, i] * (net - friction)
 
 
-step_by_velocity = step_of(RK4, by_velocity)
-
-
 @compiled
 def slide(system, state, h, n_steps):
     """Make n steps of the whole chain."""
     n = state.shape[1] - 2
-    k = np.zeros((4, 2, n + 2))
+    work = np.zeros((STAGES + 1, 2, n + 2))
     for _ in range(n_steps):
-        step_by_velocity(system, state, n, h, k)
+        rk4_step(by_velocity, system, state, n, h, work)
 
 
 def from_limit(

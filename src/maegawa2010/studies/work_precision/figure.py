@@ -13,7 +13,6 @@ HEIGHT_MM = 74.0
 NAMES: dict[str, tuple[str, tuple[float, float], str]] = {
     "exact": ("exact solver", (7, -10), "left"),
     "heyoka": ("heyoka", (6, -4), "left"),
-    "dop853": ("DOP853,\ncompiled", (5, -12), "left"),
     "scipy_dop853": ("DOP853,\nSciPy", (0, -19), "center"),
     "cvode_adams": ("CVODE", (-5, -5), "right"),
     "rk4_located": ("RK4,\nlocated", (5, -6), "left"),
