@@ -105,13 +105,11 @@ def one_length():
     return precursor_lengths.draw([slips()], data=np.array([[50.0, 0.3]]))
 
 
-# By the names of the modules.
 PICTURES = {
     "scene_crowded": (crowded_scene, NARROW),
     "scene_endless": endless_scene,
     "scene_partial": partial_scene,
     "scene_calm": lambda: draw_scene(slips().iloc[:0], look=style.Look(85.0)),
     "precursor_lengths_others": (other_lengths, NARROW),
-    "precursor_lengths_one": one_length,
     "larger": lambda: larger.draw(read(COMMITTED / "larger_settled_full.csv")),
 }

@@ -5,13 +5,11 @@ import shutil
 import sys
 from pathlib import Path
 
-import check_claims
 from explorer import example
 from golden import benchmark_page
-from golden.kept import pictures, write_picture, write_table
-from golden.small_tables import small_larger_tables
+from golden.kept import SMALL, pictures, write_picture
 
-from precursors.support.files import read_table, write_text, write_whole
+from precursors.support.files import read_table, write_whole
 
 GOLDEN = Path(__file__).parent
 ROOT = GOLDEN.parents[1]
@@ -35,22 +33,15 @@ BUILT = {
 }
 
 
-def main(results: Path, golden: Path = GOLDEN) -> None:
-    """Copy golden files from `results` to `golden`, and make the small ones."""
+def main(results: Path) -> None:
+    """Copy golden files from `results`, and make the small ones."""
     for kind, names in (("tables", TABLES), ("figures", FIGURES)):
         for name in names:
-            shutil.copyfile(results / kind / name, golden / name)
-    shutil.copyfile(results / "figures/wave.svg", golden / "wave.svg")
-    claims = read_table(golden / "claims.csv")
-    write_text(
-        golden / "check.txt",
-        f"{check_claims.printed(claims)}\n",
-    )
+            shutil.copyfile(results / kind / name, GOLDEN / name)
+    shutil.copyfile(results / "figures/wave.svg", GOLDEN / "wave.svg")
     benchmark_page.write(read_table(results / "tables/benchmark.csv"))
-    for name, table in small_larger_tables().items():
-        write_table(name, table)
     for name, how in pictures().items():
-        write_picture(golden / f"small/{name}.png", how)
+        write_picture(SMALL / f"{name}.png", how)
     write_whole(example.PICTURE, example.picture())
     for name, kept in BUILT.items():
         shutil.copyfile(results / name, ROOT / kept)

@@ -9,8 +9,6 @@ import numpy as np
 import pandas as pd
 import pytest
 from chains import SLIDER
-from golden.kept import assert_table
-from golden.small_tables import small_larger_tables
 from scipy.integrate import solve_ivp
 
 from precursors import (
@@ -197,11 +195,6 @@ def test_an_even_load_has_the_closed_form_of_l_c(part, t_v):
 def test_creep_of_a_chain_that_hardly_weakens_does_not_run_away():
     assert critical_length(LargerChain(SLIDER(), 10.0, 1e-4)) == np.inf
     assert critical_length(LargerChain(SLIDER())) == 0.0
-
-
-def test_the_tables_of_the_study_are_those_that_are_kept():
-    for name, table in small_larger_tables().items():
-        assert_table(name, table)
 
 
 def test_a_run_survives_its_file_and_knows_its_transitions_only(tmp_path):

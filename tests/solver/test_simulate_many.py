@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-import signal
-import subprocess
-import sys
-import time
-
 import numpy as np
 import pytest
 from chains import SLIDER
@@ -17,7 +12,6 @@ from precursors.solver import batch as solver
 ROUNDING = 1e-12  # of the largest position or velocity
 # Bytes for stored states that a long run exceeds.
 ROOM = 2**18
-SOON = 5.0  # s; it takes a hundredth, and 17 if the chains at work are waited for
 
 
 def same(one: Run, other: Run) -> bool:
@@ -133,29 +127,3 @@ def test_a_larger_chain_is_told_to_run_itself():
     for call in (lambda: simulate(larger), lambda: simulate_many([SLIDER(), larger])):
         with pytest.raises(TypeError, match="LargerChain, which has its own simulate"):
             call()
-
-
-INTERRUPTED = """
-import signal, time
-signal.signal(signal.SIGINT, signal.default_int_handler)
-from precursors import Chain, simulate, simulate_many
-simulate(Chain.from_slider(), 0.1)
-chains = [Chain.from_slider(n_blocks=100, theta=i / 400) for i in range(200)]
-print("running", flush=True)
-try:
-    simulate_many(chains)
-except KeyboardInterrupt:
-    print("stopped", flush=True)
-"""
-
-
-def test_an_interrupt_does_not_wait_for_the_chains_at_work():
-    with subprocess.Popen(
-        [sys.executable, "-c", INTERRUPTED], stdout=subprocess.PIPE, text=True
-    ) as command:
-        assert command.stdout.readline() == "running\n"
-        time.sleep(0.3)
-        start = time.monotonic()
-        command.send_signal(signal.SIGINT)
-        assert command.stdout.readline() == "stopped\n"
-        assert time.monotonic() - start < SOON

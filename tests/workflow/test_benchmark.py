@@ -14,8 +14,8 @@ from itertools import pairwise
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import ROOT, copy_workflow
 from golden.benchmark_page import PAGE, PROBLEMS, results_table
+from workflow_copy import ROOT, copy_workflow
 
 from precursors import find_slips
 from precursors.benchmark.score import problems, score, solution

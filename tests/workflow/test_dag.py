@@ -4,7 +4,7 @@ import shutil
 from collections import Counter
 
 import pytest
-from conftest import Workspace, copy_workflow
+from workflow_copy import Workspace, copy_workflow
 
 PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all

@@ -11,7 +11,7 @@ from textwrap import dedent
 
 import pytest
 from colours import SIGHTS, alike
-from conftest import ROOT, copy_workflow
+from workflow_copy import ROOT, copy_workflow
 
 from precursors import cli
 

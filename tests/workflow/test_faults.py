@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from conftest import ROOT, Workspace, copy_workflow
+from workflow_copy import ROOT, Workspace, copy_workflow
 
 KILLS = int(os.environ.get("FAULT_KILLS", "1"))
 SEED = 1964

@@ -12,8 +12,8 @@ import numpy as np
 import pandas as pd
 import print_reproduction
 import pytest
-from conftest import ROOT
 from matplotlib import image
+from workflow_copy import ROOT
 
 from maegawa2010.studies.models.models import scene_answers
 from precursors import Record, Run
