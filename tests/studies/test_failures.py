@@ -28,14 +28,11 @@ def curves(mode: str, role: str) -> dict[str, np.ndarray]:
     return {c.name: np.array([c.x, c.y]) for c in measured(mode) if c.role == role}
 
 
-@pytest.mark.parametrize(
-    "mode",
-    ["unstable", "numerical_damping", "dead_zone_too_large", "creep", "stiffness"],
-)
+@pytest.mark.parametrize("mode", ["unstable", "numerical_damping", "creep"])
 def test_a_method_fails_as_theory_predicts(mode):
     theory = curves(mode, "theory")
     for name, (x, y) in curves(mode, "failing").items():
-        predicted = np.interp(x, *theory.get(name, theory.get("theory")))
+        predicted = np.interp(x, *theory[name])
         # Near its limit, the energy of leapfrog swings.
         far = slice(-3 if mode == "unstable" else None, None)
         np.testing.assert_allclose(y[far], predicted[far], rtol=THEORY_TOLERANCE)
@@ -46,9 +43,6 @@ def test_what_a_method_gives_is_not_what_is_right():
     assert curves("literal_friction", "exact")["exact"][1].max() > 2.5 * limit
     for _, load in curves("literal_friction", "failing").values():
         assert load.max() == pytest.approx(limit)
-    for _, rests in curves("dead_zone_too_small", "failing").values():
-        assert (rests[0], rests[-1]) == (0.0, 1.0)
-    assert curves("dead_zone_too_large", "failing")["measured"][1].min() > 0.0
     (exact,) = curves("missed_roots", "exact").values()
     (steps,) = curves("missed_roots", "failing").values()
     assert exact[1].min() < 0.0

@@ -20,7 +20,7 @@ rule tabulate_failures:
 
 
 rule draw_failures:
-    """Draw nine ways in which methods fail."""
+    """Draw six ways in which methods fail."""
     input:
         curves="results/tables/failure_curves.csv",
         panels=PAPERS / "studies/failures/failure_gallery.csv",
@@ -29,7 +29,7 @@ rule draw_failures:
             "results/figures/failure_gallery.svg",
             caption="../report/failure_gallery.rst",
             category="Accuracy",
-            labels={"figure": "failure_gallery: nine ways in which methods fail"},
+            labels={"figure": "failure_gallery: six ways in which methods fail"},
         ),
         collect("results/figures/failure_gallery.{kind}", kind=MORE_FORMATS),
     log:
@@ -38,7 +38,7 @@ rule draw_failures:
     params:
         code=digest("draw_failures"),
     message:
-        "drawing nine ways in which methods fail"
+        "drawing six ways in which methods fail"
     script:
         "../scripts/draw_failures.py"
 

@@ -1,4 +1,4 @@
-"""Draw nine ways in which methods fail."""
+"""Draw six ways in which methods fail."""
 
 from drawing import save
 from job import job, read
@@ -9,4 +9,4 @@ from precursors.support.files import read_table
 with job() as snakemake:
     curves = read(read_table, snakemake.input.curves)
     figure = draw(curves, read_table(snakemake.input.panels))
-    save(figure, snakemake.output, "nine ways in which methods fail")
+    save(figure, snakemake.output, "six ways in which methods fail")

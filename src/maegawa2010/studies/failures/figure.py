@@ -21,15 +21,14 @@ LOOKS: dict[str, Options] = {
 def draw(curves: pd.DataFrame, panels: pd.DataFrame) -> Figure:
     """Draw the failure modes of failure_curves.csv.
 
-    A row of `panels` (failure_gallery.csv) is a panel: its title and its axes, of which
-    `log` names the logarithmic ones and `scale` is from the table's x to the axis; how
-    points of a failing curve look, and where the key stands.
+    A row of `panels` (failure_gallery.csv) is a panel: its title and its axes, `scale`
+    being from the table's x to the axis; how points of a failing curve look, and where
+    the key stands.
     """
-    panels = panels.fillna({"log": ""})
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        grid = figure.subplots(3, 3).flat
+        grid = figure.subplots(3, 2).flat
         rows: Any = panels.itertuples()
-        for letter, axes, panel in zip("abcdefghi", grid, rows, strict=True):
+        for letter, axes, panel in zip("abcdef", grid, rows, strict=True):
             _draw_curves(axes, panel, curves[curves["failure_mode"] == panel.mode])
             axes.set_title(f"$\\bf{{{letter}}}$  {panel.title}", fontsize="small")
         look = THEORY | {"color": style.OTHERS[0]}
@@ -53,9 +52,7 @@ def _draw_curves(axes: Axes, panel: Any, curves: pd.DataFrame) -> None:
             label="_" if role == "theory" else pretty(name),
             **look,
         )
-    axes.set_xscale("log" if "x" in panel.log else "linear")
-    axes.set_yscale("log" if "y" in panel.log else "linear")
-    axes.tick_params(which="minor", labelbottom=False, labelleft=False)
+    axes.set_yscale(panel.yscale)
     if pd.notna(panel.bottom):
         axes.set_ylim(bottom=panel.bottom)
     axes.set_xlabel(panel.x, fontsize="small")

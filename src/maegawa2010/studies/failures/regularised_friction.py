@@ -1,12 +1,11 @@
-"""Regularised friction: blocks creep under less than mu_s w, and the narrower the law,
-the stiffer it is.
+"""Regularised friction: blocks creep under less than mu_s w.
 
 A steep tanh stands in place of the jump at zero velocity, with a Stribeck drop to mu_k:
 
     mu(v) = tanh(v / width) (mu_k + (mu_s - mu_k) exp(-(v / (STRIBECK width))^2)).
 
 Nothing ever sticks: a block under a constant load F < mu_s w creeps at
-`creep_velocity`, and the equations are as stiff as mu_s w / (m width).
+`creep_velocity`.
 """
 
 import math
@@ -15,7 +14,6 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from maegawa2010.studies.failures.common import Curve
-from maegawa2010.studies.failures.stability import highest_frequency, stiffness_matrix
 from precursors.model.chain import Chain, FloatArray
 
 # The drop begins where tanh has all but reached 1, so that friction at its largest is
@@ -23,7 +21,6 @@ from precursors.model.chain import Chain, FloatArray
 STRIBECK = 100.0
 WIDTHS = (1e-5, 1e-6, 1e-7)  # m/s
 LOADS = np.array([0.3, 0.6, 0.9])  # parts of mu_s w
-STIFF_WIDTHS = np.geomspace(1e-9, 1e-4, 11)  # m/s
 
 
 def friction_coefficient(
@@ -72,31 +69,3 @@ def creep() -> list[Curve]:
             Curve(setting, LOADS, measured),
         ]
     return curves
-
-
-def fastest_rate(chain: Chain, width: float) -> float:
-    """Largest eigenvalue [1/s] of the equations, linear about rest, where d mu/dv = mu_s
-    / width."""
-    damping = np.diag(chain.strength / width)
-    still = np.zeros_like(damping)
-    identity = np.eye(chain.n_blocks)
-    matrix = np.block(
-        [
-            [still, identity],
-            [-stiffness_matrix(chain) / chain.mass, -damping / chain.mass],
-        ]
-    )
-    return float(abs(np.linalg.eigvals(matrix)).max())
-
-
-def stiffness() -> list[Curve]:
-    """Regularised friction: the narrower, the stiffer."""
-    chain = Chain.from_slider()
-    omega = highest_frequency(chain)
-    rates = [fastest_rate(chain, width) for width in STIFF_WIDTHS]
-    theory = float(chain.strength.max()) / chain.mass / STIFF_WIDTHS
-    return [
-        Curve("theory", STIFF_WIDTHS, theory, "theory"),
-        Curve("measured", STIFF_WIDTHS, rates),
-        Curve("the chain itself", STIFF_WIDTHS[[0, -1]], [omega, omega], "reference"),
-    ]

@@ -10,13 +10,9 @@ from maegawa2010.studies.failures.energy import (
     silent_instability,
     unstable,
 )
+from maegawa2010.studies.failures.literal_friction import literal_friction
 from maegawa2010.studies.failures.missed_roots import missed_roots
-from maegawa2010.studies.failures.regularised_friction import creep, stiffness
-from maegawa2010.studies.failures.velocity_friction import (
-    dead_zone_too_large,
-    dead_zone_too_small,
-    literal_friction,
-)
+from maegawa2010.studies.failures.regularised_friction import creep
 
 # By name, in the order of the gallery.
 FAILURE_MODES: dict[str, Callable[[], list[Curve]]] = {
@@ -26,10 +22,7 @@ FAILURE_MODES: dict[str, Callable[[], list[Curve]]] = {
         silent_instability,
         numerical_damping,
         literal_friction,
-        dead_zone_too_small,
-        dead_zone_too_large,
         creep,
-        stiffness,
         missed_roots,
     )
 }
