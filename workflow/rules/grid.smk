@@ -23,35 +23,23 @@ rule run_grid:
         "../scripts/run_grid.py"
 
 
-rule tabulate_grid:
-    """Gather the runs of the grid."""
+rule draw_grid:
+    """Gather the runs of the grid, and draw mu_sapp over two values of the chain."""
     input:
         chunks=collect("results/ensembles/grid/{chunk}.csv", chunk=CHUNKS),
     output:
-        grid="results/tables/grid.csv",
-    log:
-        "results/logs/tabulate_grid.log",
-    localrule: True
-    params:
-        code=digest("tabulate_grid"),
-    message:
-        "gathering the runs of the grid"
-    script:
-        "../scripts/tabulate_grid.py"
-
-
-rule draw_grid:
-    """Draw mu_sapp over two values of the chain."""
-    input:
         table="results/tables/grid.csv",
-    output:
-        report(
-            "results/figures/grid.svg",
-            caption="../report/grid.rst",
-            category="Sensitivity",
-            labels={"figure": f"grid: mu_sapp over {' and '.join(axis['key'] for axis in config['grid'])}"},
-        ),
-        collect("results/figures/grid.{kind}", kind=MORE_FORMATS),
+        figures=[
+            report(
+                "results/figures/grid.svg",
+                caption="../report/grid.rst",
+                category="Sensitivity",
+                labels={
+                    "figure": f"grid: mu_sapp over {' and '.join(axis['key'] for axis in config['grid'])}"
+                },
+            ),
+            *collect("results/figures/grid.{kind}", kind=MORE_FORMATS),
+        ],
     log:
         "results/logs/draw_grid.log",
     localrule: True
@@ -68,7 +56,6 @@ rule draw_grid:
 rule grid:
     """mu_sapp over any two values of the chain."""
     input:
-        rules.tabulate_grid.input,
-        rules.tabulate_grid.output,
+        rules.draw_grid.input,
         rules.draw_grid.output,
     localrule: True

@@ -7,19 +7,14 @@ The exit code is 1 if a verdict is not the expected one.
 import json
 import sys
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from textwrap import fill
+from textwrap import fill, indent
 from typing import Any
 
 import pandas as pd
 
-from maegawa2010.paper.claim import (
-    EXPERIMENT,
-    IN_WORDS,
-    READINGS,
-    RESULT,
-)
+from maegawa2010.paper.claim import EXPERIMENT, IN_WORDS, READINGS, RESULT
 from maegawa2010.paper.claims import differences, evaluate
 from maegawa2010.paper.inputs import CLAIM_TABLES, SCENES
 from maegawa2010.scenes import is_papers
@@ -75,53 +70,44 @@ def changed(results: Path, told: Mapping[str, str]) -> list[str]:
 
 
 def printed(claims: pd.DataFrame) -> str:
-    """All claims and their totals."""
-    return "\n".join([*entries(claims), "", *totals(claims)]).lstrip()
-
-
-def entries(claims: pd.DataFrame) -> Iterator[str]:
     """Each claim under the heading of its kind: section, statement, verdict, numbers,
-    and its shares of the ensembles."""
+    and its shares of the ensembles; then the totals."""
     texts = claims.astype(object).where(claims.notna(), "").astype(str)
+    lines, totals = [], [""]
     number = 0
     for kind, of_kind in texts.groupby("kind", sort=False):
-        yield f"\n{HEADINGS[str(kind)]}\n"
+        heading = HEADINGS[str(kind)]
+        lines += ["", heading, ""]
         for claim in of_kind.to_dict("records"):
             number += 1
-            yield f"{number:2d}  {claim['statement']}"
-            yield f"    [{claim['claim']}]  {claim['section']}"
-            evidence = f"{claim['verdict_text'].upper()}: {numbers(claim)}"
-            indent = " " * 4
-            yield fill(evidence, WIDTH, initial_indent=indent, subsequent_indent=indent)
-
-
-def numbers(claim: Mapping[Any, str]) -> str:
-    """The value found and the one expected, the rule, the shares of the ensembles, and
-    the note."""
-    unit = "" if claim["unit"] == "1" else f" {claim['unit']}"
-    of = f" ({claim['of']})" if claim["of"] else ""
-    expected = f", expected {claim['expected']}{unit}" if claim["expected"] else ""
-    sentences = [f"found {claim['ours']}{unit}{of}{expected}: {claim['rule']}."]
-    shares = [
-        f"{100 * float(claim[f'{name}_share']):.0f}\N{NO-BREAK SPACE}% of the {runs}"
-        for name, runs in RUNS.items()
-        if claim[f"{name}_share"]
-    ]
-    if shares:
-        sentences.append(f"Agree: {', '.join(shares)}.")
-    return " ".join([*sentences, claim["note"]]).rstrip()
-
-
-def totals(claims: pd.DataFrame) -> Iterator[str]:
-    """The number of claims with each verdict, a line for each kind."""
-    for kind, of_kind in claims.groupby("kind", sort=False):
+            lines.append(f"{number:2d}  {claim['statement']}")
+            lines.append(f"    [{claim['claim']}]  {claim['section']}")
+            lines.append(indent(fill(evidence(claim), WIDTH - 4), " " * 4))
         verdicts = Counter(of_kind["verdict"])
         counts = ", ".join(
             f"{words} {verdicts[verdict]}"
             for verdict, words in IN_WORDS[str(kind)].items()
             if verdicts[verdict]
         )
-        yield f"{HEADINGS[str(kind)]}: {len(of_kind)} ({counts})"
+        totals.append(f"{heading}: {len(of_kind)} ({counts})")
+    return "\n".join(lines[1:] + totals)
+
+
+def evidence(claim: Mapping[Any, str]) -> str:
+    """The verdict, the value found and the one expected, the rule, the shares of the
+    ensembles, and the note."""
+    unit = "" if claim["unit"] == "1" else f" {claim['unit']}"
+    of = f" ({claim['of']})" if claim["of"] else ""
+    expected = f", expected {claim['expected']}{unit}" if claim["expected"] else ""
+    found = f"found {claim['ours']}{unit}{of}{expected}: {claim['rule']}."
+    shares = [
+        f"{100 * float(claim[f'{name}_share']):.0f}\N{NO-BREAK SPACE}% of the {runs}"
+        for name, runs in RUNS.items()
+        if claim[f"{name}_share"]
+    ]
+    agree = f" Agree: {', '.join(shares)}." if shares else ""
+    note = f" {claim['note']}" if claim["note"] else ""
+    return f"{claim['verdict_text'].upper()}: {found}{agree}{note}"
 
 
 if __name__ == "__main__":

@@ -21,12 +21,8 @@ COLUMNS = {"claims.csv": ["claim", "verdict"]}
 
 def manifest() -> list[str]:
     """The files of codecheck.yml."""
-    return [
-        entry["file"]
-        for entry in yaml.safe_load(Path("codecheck.yml").read_text("utf-8"))[
-            "manifest"
-        ]
-    ]
+    content = yaml.safe_load(Path("codecheck.yml").read_text("utf-8"))
+    return [entry["file"] for entry in content["manifest"]]
 
 
 def difference(made: Path, kept: Path) -> str:

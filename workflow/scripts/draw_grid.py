@@ -1,14 +1,17 @@
-"""Draw mu_sapp over two values of the chain."""
+"""Gather the runs of the grid, and draw mu_sapp over two values of the chain."""
 
 from drawing import save
-from job import job, read
+from job import job, read_all
 
 from maegawa2010.studies.grid.figure import draw
-from precursors.support.files import read_table
+from maegawa2010.studies.members import gather
+from precursors.support.files import read_table, write_table
 
 with job() as snakemake:
     params = snakemake.params
-    table = read(read_table, snakemake.input.table)
+    chunks = read_all(read_table, snakemake.input.chunks)
+    table = gather(chunks.values())
+    write_table(table, snakemake.output.table)
     keys = " and ".join(axis["key"] for axis in params.axes)
     figure = draw(table, params.axes, params.scenes)
-    save(figure, snakemake.output, f"mu_sapp over {keys}")
+    save(figure, snakemake.output.figures, f"mu_sapp over {keys}")

@@ -26,7 +26,6 @@ FIELDS = [
     | {"description": text, "constraints": {"required": True}}
     for name, (unit, text) in COLUMNS.items()
 ]
-NOT_IN_THE_MODEL = {"length"}
 DATE = (2010, 1, 1, 0, 0, 0)  # in the archive, so that its bytes do not change
 PACKAGE = {
     "profile": "tabular-data-package",
@@ -36,41 +35,34 @@ PACKAGE = {
 }
 
 
-def files_of(name: str, certificate: bytes) -> dict[str, str]:
-    """Texts of the two files of a problem."""
-    content = json.loads(gzip.decompress(certificate))
-    rows = [",".join(map(str, row[: len(COLUMNS)])) for row in content["transitions"]]
-    chain = {
-        key: x for key, x in content["chain"].items() if key not in NOT_IN_THE_MODEL
-    }
-    problem = {"problem": name, "duration": content["duration_s"], **chain}
+def files_of(name: str, certificate: bytes) -> dict[str, bytes]:
+    """The two files of a problem."""
+    proof = json.loads(gzip.decompress(certificate))
+    chain = {key: x for key, x in proof["chain"].items() if key != "length"}
+    problem = {"problem": name, "duration": proof["duration_s"], **chain}
+    rows = [COLUMNS, *(row[: len(COLUMNS)] for row in proof["transitions"])]
+    table = "".join(f"{','.join(map(str, row))}\n" for row in rows)
     return {
-        f"{name}/problem.json": json.dumps(problem, indent=1) + "\n",
-        f"{name}/transitions.csv": "\n".join([",".join(COLUMNS), *rows, ""]),
+        f"{name}/problem.json": f"{json.dumps(problem, indent=1)}\n".encode(),
+        f"{name}/transitions.csv": table.encode(),
     }
 
 
 def resource(path: str, content: bytes) -> dict[str, object]:
     """Entry of a file in the data package."""
-    kind = path.rpartition(".")[2]
+    name, _, kind = path.rpartition(".")
     about = {
-        "name": path.replace("/", "-").removesuffix(f".{kind}").replace("_", "-"),
+        "name": re.sub("[/_]", "-", name),
         "path": path,
-        "format": kind,
-        "encoding": "utf-8",
-        "bytes": len(content),
         "hash": f"sha256:{hashlib.sha256(content).hexdigest()}",
     }
-    if kind == "json":
-        return about
-    return about | {"profile": "tabular-data-resource", "schema": {"fields": FIELDS}}
+    return about | ({"schema": {"fields": FIELDS}} if kind == "csv" else {})
 
 
 with job() as snakemake:
-    texts: dict[str, str] = {}
+    files: dict[str, bytes] = {}
     for path in map(Path, snakemake.input.certificates):
-        texts |= files_of(path.name.removesuffix(".json.gz"), path.read_bytes())
-    files = {path: text.encode() for path, text in texts.items()}
+        files |= files_of(path.name.removesuffix(".json.gz"), path.read_bytes())
     resources = [resource(path, content) for path, content in files.items()]
     package = json.dumps(PACKAGE | {"resources": resources}, indent=1)
     files["datapackage.json"] = f"{package}\n".encode()
@@ -81,7 +73,7 @@ with job() as snakemake:
     archive = BytesIO()
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
         for name, content in files.items():
-            information = zipfile.ZipInfo(f"benchmark/{name}", DATE)
-            file.writestr(information, content, zipfile.ZIP_DEFLATED)
+            entry = zipfile.ZipInfo(f"benchmark/{name}", DATE)
+            file.writestr(entry, content, zipfile.ZIP_DEFLATED)
             write_whole(Path(snakemake.output.folder) / name, content)
     write_whole(snakemake.output.archive, archive.getvalue())

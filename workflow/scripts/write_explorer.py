@@ -13,7 +13,6 @@ from maegawa2010.studies.printed_digits.tables import HALF_A_DIGIT
 from maegawa2010.support.run_statistics import NOISE
 from precursors import Chain, apparent_friction, simulate
 from precursors.analysis.summary import summary_of
-from precursors.figures.style import LOADINGS
 
 STEP = 0.01  # of theta, after which the paper's loadings no longer agree
 
@@ -73,7 +72,6 @@ with job() as snakemake:
             printed.MU_SAPP + printed.LAST_DIGIT,
         ],
         "noise": 100 * NOISE,
-        "loadings": [LOADINGS[sign] for sign in (-1, 0, 1)],
         "proved": [
             {"slider": proved_slider(values), "duration": chain_duration(values)}
             for values in params.proved.values()

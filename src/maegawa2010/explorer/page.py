@@ -48,7 +48,7 @@ def write_explorer(data: Mapping[str, Any], path: str | PathLike[str]) -> None:
         [s] up to which its transitions are proved. `duration` [s] of a run; `tolerance`
         [s] of the times of a run that is called predictable; `printed`: range of
         mu_sapp; `half_a_digit`: by how much sliders with the same printed inputs
-        differ; `noise` of the loads [%]; `loadings`: words for theta < 0, = 0 and > 0.
+        differ; `noise` of the loads [%].
     path
         The file that is written.
     """

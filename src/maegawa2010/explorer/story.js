@@ -185,4 +185,5 @@ const plain = (html) =>
   marked(html).replace(/<span class="tip".*?<\/span>|<[^>]*>/gs, "").replace(/\s+/g, " ");
 const wayOf = ({ slider }) => 1 + Math.sign(slider.theta); // of the tilt: 0, 1 or 2
 const colourOf = (scene) => TILT_COLOURS[wayOf(scene)];
-const loadingOf = (scene) => DATA.loadings[wayOf(scene)];
+const loadingOf = (scene) =>
+  ["more load at the trailing edge", "uniform load", "more load at the leading edge"][wayOf(scene)];
