@@ -19,11 +19,6 @@ from precursors import Run
         ),
         (
             "scenes:",
-            "scenes:\n  paper: {title: a, theta: 0}",
-            "scenes.paper has the name of a target or a figure",
-        ),
-        (
-            "scenes:",
             "scenes:\n  speed: {title: a, theta: 0}",
             "scenes.speed has the name of a target or a figure",
         ),

@@ -73,16 +73,13 @@ def test_the_scene_and_the_study_shown_are_made(documented):
     outcome = documented.run(*command("A study"))
     assert outcome.code == 0, outcome.text
     assert (documented.path / "results/figures/durations.svg").is_file()
-    subprocess.run(
-        [sys.executable, "-m", "pytest", "tests/studies/test_durations.py"],
-        cwd=documented.path,
-        env=os.environ | {"PYTHONPATH": str(documented.path / "src")},
-        check=True,
-    )
 
 
-# A chart of the method shown, its points in it, and the colours of its line and of other methods.
-CHART_OF_THE_METHOD = """
+# The test of the study shown, a chart of the method shown, its points in it, and the
+# colours of its line and of other methods.
+MORE = """
+from runpy import run_path
+run_path("tests/studies/test_durations.py")["test_short_slips_are_left_out"]()
 from matplotlib.colors import to_hex
 from precursors import Chain, simulate
 from precursors.benchmark.compare import Truth
@@ -99,7 +96,7 @@ print(*(row["color"] for name, row in ROWS.items() if name != "scipy_rk23"))
 """
 
 
-def test_the_model_and_the_method_shown_give_what_is_shown_and_the_method_has_a_colour_of_its_own(
+def test_the_test_shown_passes_model_and_method_give_what_is_shown_and_this_has_a_colour_of_its_own(
     documented,
 ):
     found = [block for of in ("A model", "A method") for block in blocks(of)]
@@ -107,7 +104,8 @@ def test_the_model_and_the_method_shown_give_what_is_shown_and_the_method_has_a_
         code for language, name, code in found if language == "python" and not name
     ]
     done = subprocess.run(
-        [sys.executable, "-c", "\n".join([*programs, CHART_OF_THE_METHOD])],
+        [sys.executable, "-c", "\n".join([*programs, MORE])],
+        cwd=documented.path,
         env=os.environ | {"PYTHONPATH": str(documented.path / "src")},
         capture_output=True,
         text=True,
