@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-from snakemake.utils import update_config
-
 from maegawa2010.config import read_file
 from maegawa2010.scenes import scene_slider
 
@@ -12,10 +10,3 @@ STUDIES = read_file(ROOT / "workflow/studies.yaml")
 FULL = read_file(ROOT / "workflow/full.yaml")
 CONFIG = {**STUDIES, **read_file(ROOT / "config.yaml")}
 SLIDERS = {scene: scene_slider(CONFIG, scene) for scene in CONFIG["fig13"]}
-
-
-def full() -> dict:
-    """The configuration with the larger studies."""
-    config = read_file(ROOT / "workflow/studies.yaml")
-    update_config(config, FULL)
-    return {**CONFIG, **config}

@@ -7,27 +7,7 @@ from precursors import Chain, LargerChain, simulate
 from precursors.analysis.load_curve import TOLERANCE_N
 from precursors.analysis.mean_load import backward_slip, mean_coefficient, mean_load
 
-ODD = 40.0 * np.array([1, 3, 2, 5, 4, 1, 2, 8, 1, 3]) / 3.0
 CURVE = TOLERANCE_N / 400.0  # of the mean, over F_Z
-SECONDS = 80.0  # of a drive with K V = 80 N/s
-
-
-@pytest.mark.parametrize("velocity", [1e-4, 3e-3])
-@pytest.mark.parametrize("stiffness", [1e5, 3e6])
-def test_for_odd_loads_and_any_drive_the_mean_is_that_of_kinetic_friction(
-    stiffness, velocity
-):
-    chain = Chain.from_slider(
-        weights=ODD, drive_stiffness=stiffness, drive_velocity=velocity
-    )
-    end = SECONDS * 80.0 / chain.loading_rate
-    run = simulate(chain, end)
-    found = mean_load(run, end / 20.0, end)
-    assert found.backward > 1e-6
-    assert found.mean == pytest.approx(
-        chain.mu_k + found.stored + found.backward, abs=CURVE
-    )
-    assert found.mean == pytest.approx(chain.mu_k, abs=1e-3)
 
 
 @pytest.mark.parametrize("end", [2.0, 2.8904, 2.9])

@@ -295,16 +295,6 @@ def test_plot_draws_what_the_library_draws_as_it_is_told_to(
     assert Path("a.svg").read_bytes() == Path("b.svg").read_bytes()
 
 
-def test_plot_takes_measured_values_from_a_frame(run_file):
-    frame = pd.DataFrame({"F_X [N]": [0.0, 120.5], "t [s]": [0.0, 15.0]})
-    axes = plot(Run.load(run_file), data=frame).axes[0]
-    drawn = [line.get_xydata().tolist() for line in axes.lines]
-    assert [[0.0, 0.0], [15.0, 120.5]] in drawn
-    assert axes.get_xlim() == (0.0, 15.0)  # the run ends at 3 s
-    with pytest.raises(ValueError, match="data must have two columns"):
-        plot(Run.load(run_file), data=[1.0, 2.0])
-
-
 def test_plot_runs_a_chain_and_draws_into_a_file_of_its_own_name(
     cli, tmp_path, monkeypatch
 ):

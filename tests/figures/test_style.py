@@ -7,6 +7,7 @@ from io import BytesIO
 
 import matplotlib
 import numpy as np
+import pandas as pd
 import pytest
 from colours import SIGHTS, alike
 from figures.test_pictures import one_length, slips
@@ -82,6 +83,10 @@ def test_the_law_holds_for_measured_loads_and_the_axis_holds_the_data():
     low, high = axes.get_xlim()
     assert low <= -5.0
     assert high >= 300.0
+    frame = pd.DataFrame({"F_X [N]": [0.0, 120.5], "t [s]": [0.0, 15.0]})
+    assert plot(run, data=frame).axes[0].get_xlim() == (0.0, 15.0)
+    with pytest.raises(ValueError, match="data must have two columns"):
+        plot(run, data=[1.0, 2.0])
 
 
 def test_measured_lengths_are_shares_of_the_whole():

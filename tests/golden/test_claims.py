@@ -14,7 +14,7 @@ import pandas as pd
 import pytest
 from golden.regenerate import GOLDEN
 
-from maegawa2010.paper.claims import claims_tables, stated_claims
+from maegawa2010.paper.claims import claims_tables
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
 from maegawa2010.support.provenance import checksums
 from precursors.support.files import read_table
@@ -31,20 +31,6 @@ def true() -> dict[str, pd.DataFrame]:
         name: read_table(RESULTS / f"{name}.csv")
         for name in {*CLAIM_TABLES, *POINT_TABLES}
     }
-
-
-def falsified(column: pd.Series) -> pd.Series:
-    """Other numbers, and flags in another order; texts as they are."""
-    if column.dtype == bool:
-        return column.sample(frac=1, random_state=1, ignore_index=True)
-    numbers = pd.to_numeric(column, errors="coerce")
-    # Not the same change in each column, as some claims compare two.
-    other = 1 - len(str(column.name)) * numbers
-    return (
-        other
-        if pd.api.types.is_numeric_dtype(column)
-        else column.where(numbers.isna(), other.astype(str))
-    )
 
 
 def without_exponents(claims: pd.DataFrame) -> pd.DataFrame:
@@ -64,16 +50,6 @@ def test_claims_and_open_points_are_the_golden_ones(true, tmp_path):
         if name == "claims":
             found, kept = map(without_exponents, (found, kept))
         pd.testing.assert_frame_equal(found, kept)
-
-
-def test_no_claim_stays_the_same_on_other_numbers(true):
-    false = {name: table.apply(falsified) for name, table in true.items()}
-    for name, table in false.items():
-        for key in {"draw", "scene"} & set(table):
-            table[key] = true[name][key]
-    assert [
-        claim.name for claim in stated_claims() if claim.row(true) == claim.row(false)
-    ] == []
 
 
 def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_another(

@@ -245,6 +245,11 @@ def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
 @pytest.mark.parametrize(
     ("name", "meets", "misses"),
     [
+        (
+            "count-leading",
+            members_of(events_counted=14),
+            members_of(events_counted=13),
+        ),
         ("friction-uniform", members_of(mu_sapp=0.4801), members_of(mu_sapp=0.4799)),
         ("friction-uniform", members_of(mu_sapp=0.4999), members_of(mu_sapp=0.5001)),
         ("chaos", lyapunov(1.001), lyapunov(1.0)),

@@ -39,7 +39,6 @@ def test_every_public_name_is_there(name):
 @pytest.mark.parametrize(
     ("program", "missing"),
     [
-        ("import precursors", HEAVY | {"numpy"}),
         ("import precursors.figures.scene, maegawa2010.scenes", HEAVY - {"pandas"}),
         (
             "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.1)",
