@@ -27,7 +27,6 @@ def by_plain(
     duration: float,
     until_global: bool = False,
     most: int = 10_000,
-    longest_slip: float = np.inf,
     **start: ArrayLike,
 ) -> tuple[np.ndarray, float]:
     """Rows (time, interval, block, mode, load) of transitions in plain Python, and the
@@ -35,9 +34,7 @@ def by_plain(
     names = ("start_positions", "start_velocities")
     at = [np.array(start.get(name, np.zeros(chain.n_blocks))) for name in names]
     state = plain.at_start(chain, *at)
-    rows, end = plain.find_transitions(
-        chain, state, duration, until_global, longest_slip, most
-    )
+    rows, end = plain.find_transitions(chain, state, duration, until_global, most)
     return np.array(rows, float).reshape(-1, 5), end
 
 

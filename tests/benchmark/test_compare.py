@@ -75,7 +75,7 @@ FOUND = {
 def test_what_is_right_ends_with_the_first_difference(
     rows, n, n_slips, time, load, differs
 ):
-    of = compare(made_up(rows), Truth.of_run(made_up(TRUE)))
+    of = compare(made_up(rows), Truth.exact(CHAIN, DURATION, TRUE))
     assert (of.transitions_right, of.slips_right) == (n, n_slips)
     assert (of.transitions_found, of.transitions_true) == (len(rows), 12)
     assert (of.time_error, of.load_error, of.first_difference) == pytest.approx(
@@ -93,7 +93,7 @@ def test_digits_that_doubles_do_not_hold_count_too():
 def test_runs_of_other_chains_are_refused():
     with pytest.raises(ValueError, match="as many blocks as the truth, 3, but has 4"):
         compare(
-            simulate(Chain.from_slider(n_blocks=4), 0.1), Truth.of_run(made_up(TRUE))
+            simulate(Chain.from_slider(n_blocks=4), 0.1), Truth.exact(CHAIN, DURATION, TRUE)
         )
 
 

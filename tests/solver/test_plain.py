@@ -39,15 +39,6 @@ def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(
     assert end == pytest.approx(run.duration, abs=TO_GLOBAL_SLIP)
 
 
-def test_a_run_ends_at_the_same_time_within_a_slip_that_lasts_too_long():
-    longest = 2e-4  # s, less than a global slip
-    run = simulate(SLIDER(), 10.0, longest_slip=longest)
-    rows, end = by_plain(SLIDER(), 10.0, longest_slip=longest)
-    assert rows[:, 2].tolist() == run.transitions["block"].tolist()
-    assert end == pytest.approx(run.duration, abs=TO_GLOBAL_SLIP)
-    assert end < 10.0
-
-
 @pytest.mark.parametrize(("over", "mode"), [(1e-9, 1), (0.0, 0), (-1e-9, 0)])
 def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks(
     over, mode

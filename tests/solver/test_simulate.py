@@ -99,18 +99,6 @@ def test_a_run_until_the_global_slip_stops_at_its_end_or_at_its_duration():
         np.testing.assert_array_equal(found, whole[: len(found)])
 
 
-def test_a_run_ends_when_a_slip_has_lasted_too_long():
-    whole = simulate(SLIDER(), until="global slip")
-    slips = find_slips(whole)
-    durations = slips["end"] - slips["onset"]
-    longest = 0.5 * durations.max()
-    cut = simulate(SLIDER(), longest_slip=longest)
-    onset = slips["onset"][durations > longest].iloc[0]
-    assert cut.duration == pytest.approx(onset + longest, rel=ROUNDING)
-    before = whole.transitions["time"] < cut.duration
-    assert cut.transitions.tolist() == whole.transitions[before].tolist()
-
-
 @pytest.mark.parametrize(
     ("options", "words"),
     [

@@ -67,7 +67,7 @@ def fake(monkeypatch: pytest.MonkeyPatch, clock) -> Fake:
 
 
 def measured(*values: float, **limits: float) -> list[dict]:
-    truth = Truth.of_run(made_up(FIVE))
+    truth = Truth.exact(CHAIN, DURATION, FIVE)
     table = measure_methods(truth, DURATION, {"rk4": values}, 5, **limits)
     return table.to_dict("records")
 

@@ -88,7 +88,7 @@ from maegawa2010.studies.work_precision import figure as speed
 from maegawa2010.methods import ROWS
 
 chain = Chain.from_slider(drive_velocity=0.01)
-truth = Truth.of_run(simulate(chain, 0.01))
+truth = Truth.exact(chain, 0.01, simulate(chain, 0.01).transitions.tolist())
 table = measure_methods(truth, 0.01, {"scipy_rk23": charted_values(False)["scipy_rk23"]}, 1)
 lines = [line for axes in speed.draw(table).axes for line in axes.lines if line.get_marker() != "None"]
 print(len(table), *{to_hex(line.get_color()).upper() for line in lines})

@@ -134,7 +134,6 @@ def run_switching(chain: Chain, duration: float, rule: str) -> Record:
         plain.at_start(chain, rest, rest),
         duration,
         until_global=True,
-        longest_slip=math.inf,
         most=MAX_TRANSITIONS,
         switching=switching,
     )

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.audit.motion import ModalMotion, Modes, Rows, at, inner, largest_speed
+from precursors.audit.motion import ModalMotion, Modes, at, inner, largest_speed
 from precursors.model.chain import FREE, FloatArray
 from precursors.solver.record import IntArray
 from precursors.solver.run import Run
@@ -110,17 +110,15 @@ def energy(state: CarriedState) -> float:
 
 
 @inner
-def motion_of(state: CarriedState, rows: Rows, modes: Modes) -> ModalMotion:
+def motion_of(state: CarriedState, rows: IntArray, modes: Modes) -> ModalMotion:
     """Motion of the blocks that move."""
     n = len(modes.frequencies)
     motion = ModalMotion(modes.frequencies, np.zeros(n), np.zeros(n), np.zeros(n))
     j = 0
     k = 0
-    for r in range(len(rows.first)):
-        first = rows.first[r]
-        count = rows.n_blocks[r]
-        for _ in range(count):
-            for i in range(first, first + count):
+    for first, end in rows:
+        for _ in range(first, end):
+            for i in range(first, end):
                 force = state.spring_force[i] - state.spring_force[i + 1]
                 force -= state.mode[i] * state.friction[i]
                 motion.speed[j] += state.velocity[i] * modes.shapes[k]
@@ -134,7 +132,11 @@ def motion_of(state: CarriedState, rows: Rows, modes: Modes) -> ModalMotion:
 
 @inner
 def advance(
-    state: CarriedState, rows: Rows, modes: Modes, motion: ModalMotion, duration: float
+    state: CarriedState,
+    rows: IntArray,
+    modes: Modes,
+    motion: ModalMotion,
+    duration: float,
 ) -> None:
     """Move to the end of an interval; add up roundings."""
     before = energy(state)
@@ -142,17 +144,15 @@ def advance(
     fallen[0] = -state.loading_rate * duration
     j = 0
     k = 0
-    for r in range(len(rows.first)):
-        first = rows.first[r]
-        count = rows.n_blocks[r]
-        state.velocity[first : first + count] = 0.0
-        for _ in range(count):
+    for first, end in rows:
+        state.velocity[first:end] = 0.0
+        for _ in range(first, end):
             displacement, velocity, _ = at(motion, j, duration)
-            for i in range(count):
-                state.velocity[first + i] += modes.shapes[k] * velocity
-                fallen[first + i] += modes.spring_shapes[k + j] * displacement
+            for i in range(first, end):
+                state.velocity[i] += modes.shapes[k] * velocity
+                fallen[i] += modes.spring_shapes[k + j] * displacement
                 k += 1
-            fallen[first + count] += modes.spring_shapes[k + j] * displacement
+            fallen[end] += modes.spring_shapes[k + j] * displacement
             j += 1
     state.spring_force[:] -= fallen
     steps = 1.0

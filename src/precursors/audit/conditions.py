@@ -9,7 +9,6 @@ from precursors.audit.carried import CarriedState, advance, motion_of
 from precursors.audit.motion import (
     ModalMotion,
     Modes,
-    Rows,
     at,
     inner,
     largest_acceleration,
@@ -70,7 +69,7 @@ class Passed(NamedTuple):
 @outer
 def pass_interval(
     state: CarriedState,
-    rows: Rows,
+    rows: IntArray,
     modes: Modes,
     duration: float,
     roundings: float,
@@ -82,28 +81,23 @@ def pass_interval(
     sliding, stuck = concerned(state, rows)
     conditions = conditions_of(motion, state, rows, modes, sliding, stuck)
     advance(state, rows, modes, motion, duration)
-    n = len(sliding)
-    rounding = np.full(len(conditions.base), state.rounding[0])
-    rounding[:n] /= math.sqrt(state.mass)
-    for k in range(len(stuck)):
-        rounding[n + k] *= state.per_force[stuck[k]]
-        rounding[n + len(stuck) + k] = rounding[n + k]
+    of_force = state.per_force[stuck]
+    of_speed = np.full(len(sliding), 1.0 / math.sqrt(state.mass))
+    rounding = state.rounding[0] * np.concatenate((of_speed, of_force, of_force))
     lowest, when, computed = prove(conditions, duration, roundings * rounding, most)
     return Passed(lowest, when, rounding, sliding, stuck, computed)
 
 
 @inner
-def concerned(state: CarriedState, rows: Rows) -> tuple[IntArray, IntArray]:
+def concerned(state: CarriedState, rows: IntArray) -> tuple[IntArray, IntArray]:
     """Blocks that slide, and stuck ones whose force can change: block 1, and neighbours
     of those that move."""
     is_near = np.zeros(len(state.mode), np.bool_)
     is_near[0] = True
-    for r in range(len(rows.first)):
-        first = rows.first[r]
-        count = rows.n_blocks[r]
+    for first, end in rows:
         is_near[max(first - 1, 0)] = True
-        is_near[first : first + count] = False
-        is_near[first + count : first + count + 1] = True
+        is_near[first:end] = False
+        is_near[end : end + 1] = True
     return np.flatnonzero(np.abs(state.mode) == 1), np.flatnonzero(is_near)
 
 
@@ -111,7 +105,7 @@ def concerned(state: CarriedState, rows: Rows) -> tuple[IntArray, IntArray]:
 def conditions_of(
     motion: ModalMotion,
     state: CarriedState,
-    rows: Rows,
+    rows: IntArray,
     modes: Modes,
     sliding: IntArray,
     stuck: IntArray,
@@ -144,24 +138,21 @@ def conditions_of(
             found.rate[n + m] = state.loading_rate
     j = 0
     k = 0
-    for r in range(len(rows.first)):
-        first = rows.first[r]
-        count = rows.n_blocks[r]
-        last = first + count
-        for _ in range(count):
-            for i in range(first, last):
+    for first, end in rows:
+        for _ in range(first, end):
+            for i in range(first, end):
                 if abs(state.mode[i]) == 1:
                     add(found, column[i], j, state.mode[i] * modes.shapes[k])
                 k += 1
             # The springs at both ends of a row pull at stuck blocks.
             if first > 0:
-                ahead = modes.spring_shapes[k + j - count]
+                ahead = modes.spring_shapes[k + j - (end - first)]
                 add(found, column[first - 1], j, -ahead)
                 add(found, column[first - 1] + m, j, ahead)
-            if last < len(state.mode):
+            if end < len(state.mode):
                 behind = modes.spring_shapes[k + j]
-                add(found, column[last], j, behind)
-                add(found, column[last] + m, j, -behind)
+                add(found, column[end], j, behind)
+                add(found, column[end] + m, j, -behind)
             j += 1
     return found
 

@@ -31,9 +31,9 @@ class Modes(NamedTuple):
     spring_shapes: FloatArray
 
 
-def normal_modes(chain: Chain, first: int, last: int) -> Modes:
-    """Normal modes of the blocks first..last, counted from 0, and of the springs behind
-    and ahead of them.
+def normal_modes(chain: Chain, first: int, end: int) -> Modes:
+    """Normal modes of the blocks from `first` to before `end`, counted from 0, and of
+    the springs behind and ahead of them.
 
     With springs s, the stiffness matrix is B B^T, B the bidiagonal matrix of
     +sqrt(s_i), -sqrt(s_i+1). Its singular values, not the eigenvalues of the product,
@@ -42,8 +42,8 @@ def normal_modes(chain: Chain, first: int, last: int) -> Modes:
     equal displacements. LAPACK's gesvd leaves a bidiagonal matrix as it is and finds
     its singular values to high relative accuracy (Demmel & Kahan, 1990).
     """
-    roots = np.sqrt(chain.springs[first : last + 2])
-    n = last - first + 1
+    roots = np.sqrt(chain.springs[first : end + 1])
+    n = end - first
     # A last row of zeros makes B square where a spring follows the last block; it adds
     # a frequency of zero.
     balance = np.diag(roots) - np.diag(roots[1:], 1)
@@ -62,23 +62,16 @@ def normal_modes(chain: Chain, first: int, last: int) -> Modes:
 NO_MODES = Modes(np.zeros(0), np.zeros(0), np.zeros(0))
 
 
-class Rows(NamedTuple):
-    """Rows of neighbours that move: their first blocks, from 0, and numbers of blocks."""
-
-    first: IntArray
-    n_blocks: IntArray
-
-
 def rows_and_modes(
     moves: NDArray[np.bool_], modes_of_row: Callable[[int, int], Modes]
-) -> tuple[Rows, Modes]:
-    """Rows of the blocks that move, and their modes one after the other."""
+) -> tuple[IntArray, Modes]:
+    """Rows of neighbours that move, the first block of each, from 0, and the one beyond
+    its last; and their modes one after the other."""
     padded = np.zeros(len(moves) + 2, dtype=bool)
     padded[1:-1] = moves
-    first, end = (padded[1:] != padded[:-1]).nonzero()[0].reshape(-1, 2).T
-    of_rows = [NO_MODES, *map(modes_of_row, first.tolist(), (end - 1).tolist())]
-    modes = Modes(*map(np.concatenate, zip(*of_rows, strict=True)))
-    return Rows(first.copy(), end - first), modes
+    rows = (padded[1:] != padded[:-1]).nonzero()[0].reshape(-1, 2)
+    of_rows = [NO_MODES, *(modes_of_row(*row) for row in rows.tolist())]
+    return rows, Modes(*map(np.concatenate, zip(*of_rows, strict=True)))
 
 
 class ModalMotion(NamedTuple):

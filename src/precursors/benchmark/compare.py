@@ -40,11 +40,6 @@ class Truth:
     load_rest: FloatArray
 
     @classmethod
-    def of_run(cls, run: Record) -> Truth:
-        """Take a run, of the exact solver say, as it is."""
-        return cls(run, np.zeros(len(run.transitions)), np.zeros(len(run.transitions)))
-
-    @classmethod
     def exact(
         cls, chain: Chain, duration: float, transitions: Sequence[Transition]
     ) -> Truth:

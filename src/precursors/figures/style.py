@@ -56,7 +56,6 @@ PNG_DPI = 300
 SCREEN_DPI = 120
 
 BLOCKS_LABEL = "Number of blocks $N$ [-]"
-EVENTS_LABEL = "Events counted [-]"
 MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
 DOTTED: Options = {"color": GREY, "linewidth": 0.6, "linestyle": ":", "zorder": 1}
 

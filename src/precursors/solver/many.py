@@ -32,7 +32,6 @@ def simulate_many(
     threads: int | None = None,
     start_positions: Sequence[ArrayLike] | None = None,
     start_velocities: Sequence[ArrayLike] | None = None,
-    longest_slip: float | None = None,
 ) -> list[Run]:
     """Run an ensemble on all cores; every run equals that of `simulate`, bit for bit.
 
@@ -40,7 +39,7 @@ def simulate_many(
     ----------
     chains : iterable of Chain
         The chains, of any lengths.
-    duration, until, longest_slip
+    duration, until
         As in `simulate`, for all of them.
     threads : int, optional
         Threads to use; by default as many as Numba takes, one for each core of this
@@ -60,7 +59,7 @@ def simulate_many(
             "what simulate_many runs must be a list of chains, but is a Chain"
         )
     chains = list(chains)
-    end = checked_end(chains, duration, until, None, longest_slip)
+    end = checked_end(chains, duration, until, None)
     threads = (
         untyped.config.NUMBA_NUM_THREADS
         if threads is None

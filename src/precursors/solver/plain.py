@@ -202,7 +202,6 @@ def find_transitions(
     state: State,
     duration: float,
     until_global: bool,
-    longest_slip: float,
     most: int,
     switching: Switching | None = None,
 ) -> tuple[list[tuple[float, float, int, int, float]], float]:
@@ -224,8 +223,6 @@ def find_transitions(
                 break
             onset = onset + elapsed
             elapsed = 0.0
-        if elapsed >= longest_slip:
-            break
         if is_at_rest(state):
             margin = chain.strength[0] - state.force[1] + state.force[2]
             wait = max(margin / chain.loading_rate, 0.0)
@@ -238,7 +235,7 @@ def find_transitions(
             new = 1
         else:
             roundings = ROUNDINGS * 2.0 ** (at_once // (4 * chain.n_blocks))
-            span = min(window, left, longest_slip - elapsed)
+            span = min(window, left)
             s, block, new, state = next_transition(
                 chain, switching, state, span, roundings
             )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,7 +13,6 @@ from precursors.model.checks import (
     Until,
     checked_span,
     number_array,
-    positive,
     whole,
 )
 from precursors.solver.batch import TransitionLimitError, run_batch
@@ -38,7 +36,6 @@ def simulate(
     start_positions: ArrayLike | None = None,
     start_velocities: ArrayLike | None = None,
     max_transitions: int | None = None,
-    longest_slip: float | None = None,
 ) -> Run:
     """Run a chain from rest, or from a given start, through all its transitions (Eqs.
     2-6).
@@ -58,9 +55,6 @@ def simulate(
     max_transitions : int, optional
         Cap on the number of transitions; by default ten million, and one million for
         more than 500 blocks.
-    longest_slip : float, optional
-        Stop when one slip event has lasted so long [s]: some runs of many blocks never
-        come to rest again.
 
     Returns
     -------
@@ -73,7 +67,7 @@ def simulate(
         If the cap, or one on the work of chains that hardly ever rest, is met; its
         attribute `run` holds what was computed.
     """
-    end = checked_end([chain], duration, until, max_transitions, longest_slip)
+    end = checked_end([chain], duration, until, max_transitions)
     positions = checked_start("start_positions", start_positions, "m", chain)
     velocities = checked_start("start_velocities", start_velocities, "m/s", chain)
     return next(run_batch([chain], positions[None], velocities[None], end))
@@ -84,7 +78,6 @@ def checked_end(
     duration: float,
     until: Until,
     most: int | None,
-    longest_slip: float | None,
 ) -> End:
     """Check what is simulated and where it ends."""
     for chain in chains:
@@ -93,16 +86,13 @@ def checked_end(
             raise TypeError(
                 f"what is simulated must be a Chain, but is {type(chain).__name__}{own}"
             )
-    longest = math.inf
-    if longest_slip is not None:
-        longest = positive("longest_slip", longest_slip, "s")
     if most is None:
         is_long = any(chain.n_blocks > MANY_BLOCKS for chain in chains)
         most = MAX_TRANSITIONS // 10 if is_long else MAX_TRANSITIONS
     else:
         most = whole("max_transitions", most)
     span = checked_span(duration, until)
-    return End(span, until is not None, longest, most, MAX_WINDOWS)
+    return End(span, until is not None, most, MAX_WINDOWS)
 
 
 def checked_start(

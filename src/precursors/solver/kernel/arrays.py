@@ -90,12 +90,11 @@ class Batch(NamedTuple):
 
 
 class End(NamedTuple):
-    """Where runs end: at a time [s], after a global slip, in a slip so long [s], and
-    with an error after so many transitions or windows."""
+    """Where runs end: at a time [s], after a global slip, and with an error after so
+    many transitions or windows."""
 
     duration: float
     until_global: bool
-    longest_slip: float
     most: int
     most_windows: int
 

@@ -253,14 +253,11 @@ def slide(chain, motion, end, progress, record):
             return STOPPED
         start_clock(0.0, progress)
     remaining = time_left(end, progress)
-    left_of_slip = end.longest_slip / chain.tau - progress.elapsed
     if remaining <= 0.0:
         return FINISHED
-    if left_of_slip <= 0.0:
-        return STOPPED
     roundings = ROUNDINGS * 2.0 ** (progress.at_once // (4 * chain.n_blocks))
     progress.farthest = farthest_sliding(progress.farthest, motion.mode)
-    window = min(WINDOW, min(remaining, left_of_slip))
+    window = min(WINDOW, remaining)
     s, i, side = next_transition(window, roundings, chain, motion, progress)
     progress.elapsed += s
     progress.since += s

@@ -41,8 +41,7 @@ INVERSE_FACTORIAL = np.array([1.0 / math.factorial(n) for n in range(TERMS)])
 # decide: the limit is doubled until they do not.
 ROUNDINGS = 8 * float(np.finfo(float).eps)
 
-# A run reached its duration; it ended before, at rest or in a long slip; or it can go
-# on.
+# A run reached its duration; it ended before, at rest; or it can go on.
 FINISHED = 0
 STOPPED = 1
 PAUSED = 2
