@@ -93,7 +93,8 @@ def test_digits_that_doubles_do_not_hold_count_too():
 def test_runs_of_other_chains_are_refused():
     with pytest.raises(ValueError, match="as many blocks as the truth, 3, but has 4"):
         compare(
-            simulate(Chain.from_slider(n_blocks=4), 0.1), Truth.exact(CHAIN, DURATION, TRUE)
+            simulate(Chain.from_slider(n_blocks=4), 0.1),
+            Truth.exact(CHAIN, DURATION, TRUE),
         )
 
 

@@ -6,6 +6,7 @@ import math
 
 import pytest
 from benchmark.made_up import (
+    CHAIN,
     DURATION,
     TRUE,
     made_up,

@@ -67,9 +67,7 @@ def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
         times = np.insert(times, begin + 1, middle)
         loads = np.insert(loads, begin + 1, load)
         slopes = np.insert(slopes, begin + 1, slope)
-        begin = np.repeat(begin + np.arange(len(begin)), 2) + np.tile(
-            [0, 1], len(begin)
-        )
+        begin = np.add.outer(begin + np.arange(len(begin)), [0, 1]).ravel()
     return times, loads
 
 

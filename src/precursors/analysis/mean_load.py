@@ -57,17 +57,14 @@ def mean_coefficient(run: Record, start: float, end: float) -> float:
 def backward_slip(run: Run, start: float, end: float) -> FloatArray:
     """Distance b_i that each block slides backward from `start` to `end` [m], shape
     (N,)."""
-    order = np.argsort(run.transitions["block"], kind="stable")
-    block, mode, begin = (
-        run.transitions[order][key] for key in ("block", "mode", "time")
-    )
-    until = np.append(begin[1:], run.duration)
-    until[np.append(np.diff(block) != 0, True)] = run.duration
-    slides = mode == -1
-    edges = np.clip([begin[slides], until[slides]], start, end)
-    places = run.at(edges.ravel())[0].reshape(2, -1, run.chain.n_blocks)
-    of_block = block[slides] - 1
-    ways = (places[0] - places[1])[np.arange(len(of_block)), of_block]
+    by_block = run.transitions[np.argsort(run.transitions["block"], kind="stable")]
+    until = np.append(by_block["time"][1:], 0.0)
+    until[np.diff(by_block["block"], append=0) != 0] = run.duration
+    slides = by_block["mode"] == -1
+    block = by_block["block"][slides] - 1
+    edges = np.append(by_block["time"][slides], until[slides]).clip(start, end)
+    places = run.at(edges)[0][np.arange(len(edges)), np.tile(block, 2)]
+    first, last = places.reshape(2, -1)
     slip = np.zeros(run.chain.n_blocks)
-    np.add.at(slip, of_block, ways)
+    np.add.at(slip, block, first - last)
     return slip

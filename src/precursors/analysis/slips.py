@@ -91,5 +91,4 @@ def first_global(is_global: ArrayLike) -> int | None:
 
 def up_to_first_global(slips: pd.DataFrame) -> pd.DataFrame:
     """Rows up to and including the first global slip; all without one."""
-    first = first_global(slips["is_global"])
-    return slips if first is None else slips.iloc[: first + 1]
+    return slips[until_global(slips["is_global"])]

@@ -137,21 +137,14 @@ def plot(arguments: Namespace) -> None:
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of fonts
     look = Look(**given(arguments, ("width_mm", "font_size", "font")))
     how = given(arguments, ("figure", "title", "events"))
-    axes = AXES[arguments.figure]
-    run = None if arguments.file is None else run_of(arguments)
-    data = None
-    if arguments.data is not None:
-        of_options = SLIDER["length"] if arguments.length is None else arguments.length
-        length = of_options if run is None else run.chain.length
-        how["data"] = data = _measured(arguments, axes, length)
-    elif unused := given(arguments, DATA):
+    unused = given(arguments, DATA)
+    if unused and arguments.data is None:
         raise ValueError(f"--data is needed with {', '.join(unused)}")
-    if run is None:
-        run = run_of_options(arguments)
-    if data is not None:
-        tell_apart(f"{arguments.data}", dict(zip(axes, data.T, strict=True)), run)
+    run = run_of(arguments)
+    if arguments.data is not None:
+        how["data"] = _measured(arguments, AXES[arguments.figure], run)
     drawn: Any = plot(run, look=look, **how)
-    if data is not None:
+    if arguments.data is not None:
         tell(f"{arguments.data}, {' '.join(drawn.get_label().split())}")
     if isinstance(drawn, Movie):
         drawn.savefig(arguments.output)
@@ -161,10 +154,10 @@ def plot(arguments: Namespace) -> None:
 
 
 def _measured(
-    arguments: Namespace, axes: Sequence[str], length: float
+    arguments: Namespace, axes: Sequence[str], run: Record
 ) -> NDArray[np.float64]:
     """Measured values of a file, from the start of the run on, without the offset of
-    F_X; the slider has a length [m]."""
+    F_X; a line says what they are, and one if they hardly overlap the run."""
     path = arguments.data
     rate = arguments.sample_rate
     start = arguments.data_start
@@ -174,7 +167,7 @@ def _measured(
         raise ValueError("--sample-rate and --data-start need --figure load")
     if rate is not None:
         positive("--sample-rate", rate, "Hz")
-    data = read_columns(path, axes, rate, choice_of(arguments), length)
+    data = read_columns(path, axes, rate, choice_of(arguments), run.chain.length)
     if arguments.data_offset is not None:
         data[:, axes.index(LOAD)] -= arguments.data_offset
     if start is not None:
@@ -182,11 +175,12 @@ def _measured(
         data = data[data[:, 0] >= 0]
     if not len(data):
         raise ValueError(f"{path} ends before --data-start")
+    columns = dict(zip(axes, data.T, strict=True))
     ranges = [
-        f"{name} {min(values):g} to {max(values):g}"
-        for name, values in zip(axes, data.T, strict=True)
+        f"{name} {min(values):g} to {max(values):g}" for name, values in columns.items()
     ]
     tell(f"{path}: {several(len(data), 'point')}, {', '.join(ranges)}")
+    tell_apart(path, columns, run)
     return data
 
 
@@ -214,18 +208,18 @@ def audit(arguments: Namespace) -> None:
     for path in arguments.files:
         try:
             run = Run.load(path)
-            report = audit(run)
-            if report.problems:
-                verdict = (
-                    "undecided" if report.is_undecided else "not a motion of the model"
-                )
-                raise Refused(f"{path}: {verdict}: {report.problems[0]}")
+        except RunFileError as refused:
+            wrong.append(str(refused))
+            continue
+        report = audit(run)
+        if report.ok:
             print(
                 f"{path}: a motion of the model, "
                 f"{several(len(run.transitions), 'transition')} in {run.duration:g} s"
             )
-        except (Refused, RunFileError) as refused:
-            wrong.append(str(refused))
+        else:
+            is_not = "undecided" if report.is_undecided else "not a motion of the model"
+            wrong.append(f"{path}: {is_not}: {report.problems[0]}")
     if wrong:
         raise Refused(*wrong)
 
