@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.audit.motion import ModalMotion, Modes, at, inner, largest_speed
+from precursors.audit.motion import ModalMotion, at, inner, largest_speed
 from precursors.model.chain import FREE, FloatArray
 from precursors.solver.record import IntArray
 from precursors.solver.run import Run
@@ -100,7 +100,7 @@ def start_of(run: Run) -> CarriedState:
 
 
 @inner
-def energy(state: CarriedState) -> float:
+def energy(state):
     """Kinetic energy of the blocks and elastic energy of the springs [J]."""
     twice = 0.0
     for i in range(len(state.velocity)):
@@ -110,7 +110,7 @@ def energy(state: CarriedState) -> float:
 
 
 @inner
-def motion_of(state: CarriedState, rows: IntArray, modes: Modes) -> ModalMotion:
+def motion_of(state, rows, modes):
     """Motion of the blocks that move."""
     n = len(modes.frequencies)
     motion = ModalMotion(modes.frequencies, np.zeros(n), np.zeros(n), np.zeros(n))
@@ -131,13 +131,7 @@ def motion_of(state: CarriedState, rows: IntArray, modes: Modes) -> ModalMotion:
 
 
 @inner
-def advance(
-    state: CarriedState,
-    rows: IntArray,
-    modes: Modes,
-    motion: ModalMotion,
-    duration: float,
-) -> None:
+def advance(state, rows, modes, motion, duration):
     """Move to the end of an interval; add up roundings."""
     before = energy(state)
     fallen = np.zeros(len(state.spring_force))

@@ -5,10 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from precursors.audit.carried import CarriedState, advance, motion_of
+from precursors.audit.carried import advance, motion_of
 from precursors.audit.motion import (
     ModalMotion,
-    Modes,
     at,
     inner,
     largest_acceleration,
@@ -67,14 +66,7 @@ class Passed(NamedTuple):
 
 
 @outer
-def pass_interval(
-    state: CarriedState,
-    rows: IntArray,
-    modes: Modes,
-    duration: float,
-    roundings: float,
-    most: int,
-) -> Passed:
+def pass_interval(state, rows, modes, duration, roundings, most):
     """Prove the conditions of an interval in which rows of blocks move, and move the
     state to its end."""
     motion = motion_of(state, rows, modes)
@@ -89,7 +81,7 @@ def pass_interval(
 
 
 @inner
-def concerned(state: CarriedState, rows: IntArray) -> tuple[IntArray, IntArray]:
+def concerned(state, rows):
     """Blocks that slide, and stuck ones whose force can change: block 1, and neighbours
     of those that move."""
     is_near = np.zeros(len(state.mode), np.bool_)
@@ -102,14 +94,7 @@ def concerned(state: CarriedState, rows: IntArray) -> tuple[IntArray, IntArray]:
 
 
 @inner
-def conditions_of(
-    motion: ModalMotion,
-    state: CarriedState,
-    rows: IntArray,
-    modes: Modes,
-    sliding: IntArray,
-    stuck: IntArray,
-) -> Conditions:
+def conditions_of(motion, state, rows, modes, sliding, stuck):
     """Conditions of an interval, at its start."""
     n = len(sliding)
     m = len(stuck)
@@ -158,7 +143,7 @@ def conditions_of(
 
 
 @inner
-def add(found: Conditions, column: int, j: int, share: float) -> None:
+def add(found, column, j, share):
     """Let a function have a share of mode j."""
     found.begin[column] = min(found.begin[column], j)
     found.end[column] = j + 1
@@ -170,18 +155,14 @@ def add(found: Conditions, column: int, j: int, share: float) -> None:
 
 
 @inner
-def take_modes(
-    motion: ModalMotion, begin: int, end: int, s: float, modal: FloatArray
-) -> None:
+def take_modes(motion, begin, end, s, modal):
     """Displacements, velocities and accelerations of some modes at the time s."""
     for j in range(begin, end):
         modal[0, j], modal[1, j], modal[2, j] = at(motion, j, s)
 
 
 @inner
-def value_and_slope(
-    conditions: Conditions, column: int, s: float, modal: FloatArray
-) -> tuple[float, float]:
+def value_and_slope(conditions, column, s, modal):
     """Value and slope of a function at the time s, of the modes at that time."""
     value = conditions.base[column] + conditions.rate[column] * s
     slope = conditions.rate[column]
@@ -194,9 +175,7 @@ def value_and_slope(
 
 
 @inner
-def prove(
-    conditions: Conditions, duration: float, tolerance: FloatArray, most: int
-) -> tuple[FloatArray, FloatArray, int]:
+def prove(conditions, duration, tolerance, most):
     """Lowest values that were found and their times, each of shape (number of
     columns,), and the number of values computed.
 
@@ -238,8 +217,10 @@ def prove(
                 computed += cut(
                     conditions,
                     c,
-                    (start, end),
-                    (values[c], slopes[c]),
+                    start,
+                    end,
+                    values[c],
+                    slopes[c],
                     tolerance[c],
                     most - computed,
                     lowest,
@@ -261,20 +242,10 @@ def prove(
 
 @inner
 def cut(
-    conditions: Conditions,
-    column: int,
-    cell: tuple[float, float],
-    at_start: tuple[float, float],
-    tolerance: float,
-    most: int,
-    lowest: FloatArray,
-    when: FloatArray,
-    modal: FloatArray,
-) -> int:
-    """Go through a cell in steps that can be proved; return the number of values
-    computed."""
-    start, stop = cell
-    low, rise = at_start
+    conditions, column, start, stop, low, rise, tolerance, most, lowest, when, modal
+):
+    """Go through a cell, at whose start value and slope are `low` and `rise`, in steps
+    that can be proved; return the number of values computed."""
     width = (stop - start) / _PARTS
     computed = 0
     while start < stop and computed <= most:
@@ -300,9 +271,7 @@ def cut(
 
 
 @inner
-def lower_bound(
-    width: float, low: float, high: float, rise: float, fall: float, fourth: float
-) -> float:
+def lower_bound(width, low, high, rise, fall, fourth):
     """Bound a function from below in a cell, from its values at both edges, its slopes
     `rise` and `fall` there, and its fourth derivative."""
     inside = min(low + rise * (width / 3), high - fall * (width / 3))

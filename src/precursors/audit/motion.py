@@ -85,7 +85,7 @@ class ModalMotion(NamedTuple):
 
 
 @inner
-def at(motion: ModalMotion, j: int, s: float) -> tuple[float, float, float]:
+def at(motion, j, s):
     """Displacement, velocity and acceleration of mode j at the time s."""
     omega = motion.omega[j]
     speed = motion.speed[j]
@@ -104,7 +104,7 @@ def at(motion: ModalMotion, j: int, s: float) -> tuple[float, float, float]:
 
 
 @inner
-def largest_acceleration(motion: ModalMotion, j: int) -> float:
+def largest_acceleration(motion, j):
     """Largest acceleration of mode j; omega^2 and omega^3 times it are the largest
     fourth derivatives of displacement and velocity."""
     omega = motion.omega[j]
@@ -112,7 +112,7 @@ def largest_acceleration(motion: ModalMotion, j: int) -> float:
 
 
 @inner
-def largest_speed(motion: ModalMotion) -> float:
+def largest_speed(motion):
     """Largest speed that all modes together can have: the root of the sum of the
     squares."""
     total = 0.0

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from precursors.cli import Refused
 from precursors.cli.options import DATA, LARGER, MEASURED, RUN, SLIDER_OPTIONS
@@ -21,6 +20,7 @@ from precursors.model.chain import (
     CELL_SPACING,
     SLIDER,
     Chain,
+    FloatArray,
     theta_from_load_cells,
 )
 from precursors.model.checks import positive
@@ -153,9 +153,7 @@ def plot(arguments: Namespace) -> None:
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
 
 
-def _measured(
-    arguments: Namespace, axes: Sequence[str], run: Record
-) -> NDArray[np.float64]:
+def _measured(arguments: Namespace, axes: Sequence[str], run: Record) -> FloatArray:
     """Measured values of a file, from the start of the run on, without the offset of
     F_X; a line says what they are, and one if they hardly overlap the run."""
     path = arguments.data
@@ -184,7 +182,7 @@ def _measured(
     return data
 
 
-def tell_apart(path: str, data: Mapping[str, NDArray[np.float64]], run: Record) -> None:
+def tell_apart(path: str, data: Mapping[str, FloatArray], run: Record) -> None:
     """Say if measured values hardly overlap a run, as in other units."""
     from precursors.analysis.slips import slip_table
 

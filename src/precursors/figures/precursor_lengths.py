@@ -8,10 +8,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from precursors.figures import style
 from precursors.figures.style import Options
+from precursors.model.chain import FloatArray
 
 HEIGHT_MM = 76.0
 LEGEND_MM = 8.0  # of an entry of the key, where one stands below the panel
@@ -50,7 +51,7 @@ ROOM = 0.28
 
 def draw(
     slips: Sequence[pd.DataFrame],
-    data: NDArray[np.float64] = style.NO_DATA,
+    data: FloatArray = style.NO_DATA,
     title: str = "",
     look: style.Look = style.LOOK,
     weights: ArrayLike | None = None,
@@ -116,7 +117,7 @@ def draw_lengths(
 
 def friction_carried(
     slider: pd.Series, weights: ArrayLike | None = None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[FloatArray, FloatArray]:
     """Lengths L_p/L, and F_X = mu_k W(L_p) [N], the kinetic friction of the blocks up
     to there: their weights [N], or those of theta (Eq. 7)."""
     n_blocks = int(slider["n_blocks"])
@@ -149,7 +150,7 @@ def _add_coefficient(axes: Axes, slips: pd.DataFrame) -> None:
         )
 
 
-def _beside(slips: pd.DataFrame, data: NDArray[np.float64]) -> str:
+def _beside(slips: pd.DataFrame, data: FloatArray) -> str:
     """How far measured lengths are from the lines between the events of Fig. 13."""
     counted = slips[slips["counted"]].sort_values("load_before_N")
     first = counted.loc[counted["is_global"], "load_before_N"].min()
@@ -180,7 +181,7 @@ def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
     )
 
 
-def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> NDArray[np.float64]:
+def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> FloatArray:
     """Draw the events of a scene; return those that Fig. 13 counts."""
     sign = _sign(slips)
     color = style.theta_color(sign)
@@ -205,7 +206,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> NDArray[np.fl
     return counted
 
 
-def _name(axes: Axes, points: NDArray[np.float64], sign: int) -> None:
+def _name(axes: Axes, points: FloatArray, sign: int) -> None:
     words, part, side, offset = NAMES[sign]
     axes.annotate(
         words.format(len(points)),

@@ -7,10 +7,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from precursors.figures import style
 from precursors.figures.style import Options
+from precursors.model.chain import FloatArray
 
 HEIGHT_MM = 58.0
 KEY_MM = 8.0
@@ -51,7 +51,7 @@ def draw(
     slips: pd.DataFrame,
     trace: pd.DataFrame,
     title: str = "",
-    data: NDArray[np.float64] = style.NO_DATA,
+    data: FloatArray = style.NO_DATA,
     look: style.Look = style.LOOK,
 ) -> Figure:
     """Draw F_X(t) and all slip events, and K x_1 = K V t - F_X, magnified up to the

@@ -10,6 +10,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from precursors.figures import style
+from precursors.model.chain import FloatArray
 from precursors.support.files import AnyPath, check_writable, write_text
 
 XMLNS = "http://www.w3.org/2000/svg"
@@ -73,7 +74,7 @@ class Act:
 
     event: Any  # its row of the slip table
     duration: float  # [s]
-    moved: NDArray[np.float64]  # of each block in each picture [pixels]
+    moved: FloatArray  # of each block in each picture [pixels]
     scale: float  # pixels per m
     slides: Slides
     left: float  # of its panel
@@ -167,7 +168,7 @@ def _slides(transitions: NDArray[Any], event: Any) -> Slides:
 
 
 def _springs(
-    home: NDArray[np.float64], moved: NDArray[np.float64], side: float, n_acts: int
+    home: FloatArray, moved: FloatArray, side: float, n_acts: int
 ) -> Iterable[str]:
     """The drive's spring, whose other end rests, and those between the blocks."""
     right = home + moved
@@ -184,9 +185,7 @@ def _spring(x1: float, x2: float, y: float) -> str:
     return f"M{x1:.1f} {y:.1f}{half}-6{whole} 12{whole}-12{whole} 12{half}-6"
 
 
-def _block(
-    i: int, x: float, moved: NDArray[np.float64], side: float, acts: list[Act]
-) -> str:
+def _block(i: int, x: float, moved: FloatArray, side: float, acts: list[Act]) -> str:
     """A block, with its number, that moves and has the colour of what it does."""
     share = MOVING / PICTURES
     colors = [STUCK]
@@ -209,7 +208,7 @@ def _block(
 def _caption(
     act: Act,
     acts: list[Act],
-    home: NDArray[np.float64],
+    home: FloatArray,
     side: float,
     pixels_per_m: float,
 ) -> str:
@@ -280,7 +279,7 @@ def _animate(
     )
 
 
-def _move(pixels: NDArray[np.float64], n_acts: int) -> str:
+def _move(pixels: FloatArray, n_acts: int) -> str:
     values = [f"{x:.1f}" for x in pixels]
     return _animate("transform", values, n_acts, 'type="translate"', "animateTransform")
 
