@@ -56,16 +56,23 @@ __all__ = [
 # Imported when first asked for (PEP 562): checking a configuration or drawing a table
 # must not load the compiler.
 _MODULES = {
-    "analysis.load_curve": ["load_curve"],
-    "analysis.slips": ["find_precursors", "find_slips", "slip_table"],
-    "analysis.summary": ["apparent_friction", "summarise"],
-    "figures.run": ["plot"],
-    "larger.chain": ["LargerChain"],
-    "model.chain": ["Chain"],
-    "proof": ["certify"],
-    "solver.many": ["simulate_many"],
-    "solver.run": ["LargerRun", "Record", "Run", "RunFileError"],
-    "solver.simulate": ["TransitionLimitError", "simulate"],
+    "Chain": "model.chain",
+    "LargerChain": "larger.chain",
+    "LargerRun": "solver.run",
+    "Record": "solver.run",
+    "Run": "solver.run",
+    "RunFileError": "solver.run",
+    "TransitionLimitError": "solver.simulate",
+    "apparent_friction": "analysis.summary",
+    "certify": "proof",
+    "find_precursors": "analysis.slips",
+    "find_slips": "analysis.slips",
+    "load_curve": "analysis.load_curve",
+    "plot": "figures.run",
+    "simulate": "solver.simulate",
+    "simulate_many": "solver.many",
+    "slip_table": "analysis.slips",
+    "summarise": "analysis.summary",
 }
 
 # A type checker that saw it would take every name for one of this package.
@@ -74,11 +81,10 @@ if not TYPE_CHECKING:
     def __getattr__(name: str) -> object:
         if name == "__version__":
             return version("precursors")
-        for module, names in _MODULES.items():
-            if name in names:
-                value = getattr(import_module(f"{__name__}.{module}"), name)
-                globals()[name] = value
-                return value
+        if name in _MODULES:
+            module = import_module(f"{__name__}.{_MODULES[name]}")
+            value = globals()[name] = getattr(module, name)
+            return value
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -66,11 +66,6 @@ class CarriedState(NamedTuple):
         """One rounding of a velocity [m/s]."""
         return float(self.rounding[0]) / math.sqrt(self.mass)
 
-    @property
-    def load_rounding(self) -> float:
-        """One rounding of the tangential load [N]."""
-        return float(self.rounding[0]) * math.sqrt(self.springs[0])
-
 
 def start_of(run: Run) -> CarriedState:
     """The state at the start of a run."""

@@ -1,6 +1,7 @@
 """The walk through the intervals and transitions of a run, which notes what is no
 motion of the model."""
 
+import math
 from functools import lru_cache, partial
 
 import numpy as np
@@ -126,7 +127,7 @@ class Auditor:
         self.check_time(time, f"a transition of block {block}")
         self.check(
             abs(load - state.spring_force[0]),
-            state.load_rounding,
+            state.rounding[0] * math.sqrt(state.springs[0]),
             f"block {block} has {load:.9g} N recorded as tangential load, wrong by",
             "N",
         )

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import gzip
 import json
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from decimal import Context, Decimal, Inexact
@@ -15,7 +14,7 @@ from typing import Any, NamedTuple
 
 from precursors.model.checks import Until, checked_until, whole
 from precursors.proof.exact_chain import ExactChain, exact_start, written_fraction
-from precursors.support.files import write_whole
+from precursors.support.files import AnyPath, write_whole
 
 FORMAT = "precursors certificate 2"
 CLAIM = (
@@ -117,7 +116,7 @@ class Certificate:
         """Time [s] up to which the transitions listed are proved to be all."""
         return self.tie.time.lower if self.tie else self.duration
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: AnyPath) -> None:
         """Write the certificate as JSON compressed with gzip, the same bytes for the
         same certificate."""
         write_whole(
@@ -125,7 +124,7 @@ class Certificate:
         )
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Certificate:
+    def load(cls, path: AnyPath) -> Certificate:
         """Read a certificate.
 
         Raises

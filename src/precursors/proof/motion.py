@@ -19,11 +19,11 @@ see `tube` for what a transition does to it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
-from itertools import groupby
+from itertools import groupby, pairwise
 
 from flint import arb, arb_poly, ctx, fmpq
 
@@ -40,6 +40,11 @@ def ball(x: Fraction) -> arb:
     return arb(fmpq(x.numerator, x.denominator))
 
 
+def bordered(of_blocks: Iterable[Fraction]) -> list[Fraction]:
+    """Numbers of the blocks between zeros of the drive and the free end."""
+    return [Fraction(0), *of_blocks, Fraction(0)]
+
+
 def log2(x: arb) -> int:
     """Return an integer at or just above log2 of |x|, for x != 0 of any size."""
     mantissa, exponent = x.abs_upper().man_exp()
@@ -49,12 +54,8 @@ def log2(x: arb) -> int:
 def time_unit(chain: ExactChain) -> Fraction:
     """Return T [s], the largest power of two for which no frequency of the chain
     exceeds 2 / T."""
-    behind = chain.springs
-    ahead = (*behind[1:], Fraction(0))
-    fastest = (
-        max(2 * (k + k_ahead) for k, k_ahead in zip(behind, ahead, strict=True))
-        / chain.mass
-    )
+    pairs = pairwise((*chain.springs, Fraction(0)))
+    fastest = max(2 * (k + ahead) for k, ahead in pairs) / chain.mass
     ratio = LARGEST_FREQUENCY_SQUARED / fastest
     # the logarithm of the ratio to base 2, rounded down, or one more
     power = ratio.numerator.bit_length() - ratio.denominator.bit_length()
@@ -81,19 +82,12 @@ class Constants:
     @classmethod
     def of(cls, chain: ExactChain, unit: Fraction) -> Constants:
         """Enclose the numbers of a chain at the working precision."""
-        c = [
-            Fraction(0),
-            *(k * unit**2 / chain.mass for k in chain.springs),
-            Fraction(0),
-        ]
-        pairs = [
-            (c[i], c[i + 1] if i <= chain.n_blocks else Fraction(0))
-            for i in range(len(c))
-        ]
+        c = bordered(k * unit**2 / chain.mass for k in chain.springs)
+        pairs = list(pairwise((*c, Fraction(0))))
         return cls(
             coupling=[ball(x) for x in c],
-            strength=[arb(0), *(ball(chain.mu_s * w) for w in chain.weights), arb(0)],
-            friction=[arb(0), *(ball(chain.mu_k * w) for w in chain.weights), arb(0)],
+            strength=[ball(chain.mu_s * w) for w in bordered(chain.weights)],
+            friction=[ball(chain.mu_k * w) for w in bordered(chain.weights)],
             drive=ball(chain.drive_velocity * chain.mass / unit),
             frequency_squared=ball(max(2 * (a + b) for a, b in pairs)).abs_upper(),
             force_reach=[ball(a + b).sqrt().abs_upper() for a, b in pairs],
@@ -123,9 +117,8 @@ class EnclosedState:
 
     def sliding_rows(self) -> Iterator[list[int]]:
         """Blocks of each row of neighbours that slide."""
-        for slides, row in groupby(
-            range(1, len(self.mode) - 1), key=lambda i: self.mode[i] != 0
-        ):
+        blocks = range(1, len(self.mode) - 1)
+        for slides, row in groupby(blocks, key=lambda i: self.mode[i] != 0):
             if slides:
                 yield list(row)
 
@@ -248,12 +241,9 @@ def force_rate(
 ) -> arb_poly:
     """Taylor polynomial of the rate of the net force on a stuck block i."""
     rate = arb_poly([constants.coupling[1] * constants.drive] if i == 1 else [])
-    for neighbour, c in (
-        (i - 1, constants.coupling[i]),
-        (i + 1, constants.coupling[i + 1]),
-    ):
+    for neighbour, spring in ((i - 1, i), (i + 1, i + 1)):
         if neighbour in polynomials:
-            rate += c * polynomials[neighbour]
+            rate += constants.coupling[spring] * polynomials[neighbour]
     return rate
 
 

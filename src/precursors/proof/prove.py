@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
@@ -20,6 +19,7 @@ from precursors.proof.certificate import (
     Tie,
 )
 from precursors.proof.exact_chain import ExactChain, Number, exact, exact_start
+from precursors.support.files import AnyPath
 
 if TYPE_CHECKING:
     from flint import arb
@@ -128,7 +128,7 @@ def certify(
     return replace(certificate, transitions=transitions, tie=tie)
 
 
-def verify(certificate: Certificate | str | os.PathLike[str]) -> Certificate:
+def verify(certificate: Certificate | AnyPath) -> Certificate:
     """Make the proof of a certificate, or of the file of one, again, with its bits;
     return the certificate.
 

@@ -25,6 +25,8 @@ new modes before that instant. So event functions are proved from -gap on.
 """
 
 from fractions import Fraction
+from itertools import pairwise
+from operator import mul
 from typing import NamedTuple
 
 from flint import arb, ctx
@@ -44,6 +46,7 @@ from precursors.proof.motion import (
     EnclosedState,
     advance,
     ball,
+    bordered,
     expand,
     force_rate,
     log2,
@@ -107,33 +110,21 @@ class Proof:
         """Given positions and velocities; a block slides that moves, or is beyond its
         strength."""
         chain = self.chain
-        n = self.chain.n_blocks
-        x = (Fraction(0), *positions)
-        exact = [
-            Fraction(0),
-            *(k * (x[i] - x[i + 1]) for i, k in enumerate(chain.springs)),
-            Fraction(0),
-        ]
+        compressions = (a - b for a, b in pairwise((Fraction(0), *positions)))
+        exact = bordered(map(mul, chain.springs, compressions))
+        rate = bordered(v * chain.mass / self.unit_seconds for v in velocities)
         constants = self.constants()
         least_distance = arb(2) ** (
             log2(max(constants.strength, key=float)) - self.bits
         )
-        state = EnclosedState([], [], [0] * (n + 2), least_distance)
-        rate = [
-            Fraction(0),
-            *(v * chain.mass / self.unit_seconds for v in velocities),
-            Fraction(0),
-        ]
+        state = EnclosedState([], [], [0] * len(rate), least_distance)
         state.absorb(constants, [ball(f) for f in exact], [ball(u) for u in rate])
-        for i in range(1, n + 1):
+        for i, weight in enumerate(chain.weights, 1):
             force = exact[i] - exact[i + 1]
-            if chain.weights[i - 1] == 0:
-                state.mode[i] = FREE if rate[i] or force or i == 1 else 0
-                continue
-            push = rate[i] or (
-                force if abs(force) > chain.mu_s * chain.weights[i - 1] else 0
-            )
-            if push:
+            push = rate[i] or (force if abs(force) > chain.mu_s * weight else 0)
+            if weight == 0:
+                state.mode[i] = FREE if push or i == 1 else 0
+            elif push:
                 state.mode[i] = 1 if push > 0 else -1
                 self.transitions.append(
                     Proved(arb(0), i, state.mode[i], ball(exact[1]), arb(0))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from os import PathLike
 from typing import Any, Self
 
 import numpy as np
@@ -13,6 +12,7 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import number_array
 from precursors.solver.record import TRANSITION, States
 from precursors.solver.run_file import RunFileError, read_record, write_record
+from precursors.support.files import AnyPath
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,12 +78,12 @@ class Record:
             **others,
         )
 
-    def save(self, path: str | PathLike[str]) -> None:
+    def save(self, path: AnyPath) -> None:
         """Write an HDF5 file, whole or not at all; a missing directory is made."""
         write_record(self, path)
 
     @classmethod
-    def load(cls, path: str | PathLike[str]) -> Self:
+    def load(cls, path: AnyPath) -> Self:
         """Read a file that `save` wrote; any other file is a `RunFileError`.
 
         `Record.load` reads every kind of record; `Run.load` refuses one that has no

@@ -6,7 +6,6 @@ import json
 import math
 from importlib.metadata import version
 from io import BytesIO
-from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +14,7 @@ import numpy as np
 from precursors.model.chain import ARGUMENTS, Chain, remember_theta
 from precursors.model.checks import not_negative
 from precursors.solver.record import COLUMNS, States
-from precursors.support.files import write_whole
+from precursors.support.files import AnyPath, write_whole
 
 if TYPE_CHECKING:
     import h5py
@@ -45,7 +44,7 @@ class RunFileError(ValueError):
     """A file that is not a whole run of this format."""
 
 
-def write_record(record: Record, path: str | PathLike[str]) -> None:
+def write_record(record: Record, path: AnyPath) -> None:
     """Write a record or run to an HDF5 file, whole or not at all."""
     import h5py  # slow, and needed for files only
 
@@ -90,7 +89,7 @@ def write_record(record: Record, path: str | PathLike[str]) -> None:
     write_whole(path, memory.getvalue())
 
 
-def read_record(path: str | PathLike[str]) -> dict[str, Any]:
+def read_record(path: AnyPath) -> dict[str, Any]:
     """Read what `Record.from_columns` takes; `RunFileError` says why a file has
     none."""
     import h5py
