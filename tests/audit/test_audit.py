@@ -90,7 +90,7 @@ def test_the_bound_on_fourth_derivatives_holds(monkeypatch):
         of = conditions.conditions_of(of_modes, state, rows, modes, *of_blocks)
         found = []
         for s in seconds:
-            conditions.take_modes(of_modes, 0, len(of_modes.omega), s, modal)
+            conditions.take_modes(of_modes, s, modal)
             columns = range(len(of.fourth))
             found.append([conditions.value_and_slope(of, c, s, modal) for c in columns])
         values, slopes = np.moveaxis(found, 2, 0)

@@ -27,16 +27,14 @@ class Conditions(NamedTuple):
 
     One for each sliding block (its velocity [m/s] in the direction of its mode), then
     two for each stuck block whose force can change (mu_s w - force and mu_s w + force
-    [N]). The first `n_speeds` sum modal velocities, the others displacements, of the
-    modes from `begin` to `end`. `fourth` bounds the fourth derivative.
+    [N]). The first `n_speeds` sum modal velocities, the others displacements. `fourth`
+    bounds the fourth derivative.
     """
 
     motion: ModalMotion
     n_speeds: int
     base: FloatArray
     rate: FloatArray
-    begin: IntArray
-    end: IntArray
     share: FloatArray
     fourth: FloatArray
 
@@ -98,66 +96,43 @@ def conditions_of(motion, state, rows, modes, sliding, stuck):
     """Conditions of an interval, at its start."""
     n = len(sliding)
     m = len(stuck)
-    columns = n + 2 * m
-    n_modes = len(motion.omega)
-    found = Conditions(
-        motion,
-        n,
-        np.zeros(columns),
-        np.zeros(columns),
-        np.full(columns, n_modes),
-        np.zeros(columns, np.int64),
-        np.zeros((columns, n_modes)),
-        np.zeros(columns),
-    )
-    column = np.full(len(state.mode) + 1, -1)  # of each block
+    force = state.spring_force[stuck] - state.spring_force[stuck + 1]
+    strength = state.strength[stuck]
+    base = np.concatenate((np.zeros(n), strength - force, strength + force))
+    rate = np.zeros(len(base))
+    if m and stuck[0] == 0:
+        rate[n] = -state.loading_rate
+        rate[n + m] = state.loading_rate
+    column = np.full(len(state.mode), -1)  # of each block
     column[sliding] = np.arange(n)
     column[stuck] = np.arange(n, n + m)
-    for k in range(m):
-        i = stuck[k]
-        force = state.spring_force[i] - state.spring_force[i + 1]
-        found.base[n + k] = state.strength[i] - force
-        found.base[n + m + k] = state.strength[i] + force
-        if i == 0:
-            found.rate[n] = -state.loading_rate
-            found.rate[n + m] = state.loading_rate
+    bends = motion.omega**2
+    share = np.zeros((len(base), len(bends)))
     j = 0
     k = 0
     for first, end in rows:
         for _ in range(first, end):
-            for i in range(first, end):
-                if abs(state.mode[i]) == 1:
-                    add(found, column[i], j, state.mode[i] * modes.shapes[k])
-                k += 1
+            bends[j] *= largest_acceleration(motion, j)
             # The springs at both ends of a row pull at stuck blocks.
             if first > 0:
-                ahead = modes.spring_shapes[k + j - (end - first)]
-                add(found, column[first - 1], j, -ahead)
-                add(found, column[first - 1] + m, j, ahead)
+                share[column[first - 1], j] = -modes.spring_shapes[k + j]
+            for i in range(first, end):
+                if abs(state.mode[i]) == 1:
+                    share[column[i], j] = state.mode[i] * modes.shapes[k]
+                k += 1
             if end < len(state.mode):
-                behind = modes.spring_shapes[k + j]
-                add(found, column[end], j, behind)
-                add(found, column[end] + m, j, -behind)
+                share[column[end], j] = modes.spring_shapes[k + j]
             j += 1
-    return found
+    share[n + m :] = -share[n : n + m]
+    fourth = np.dot(np.abs(share), bends)
+    fourth[:n] = np.dot(np.abs(share[:n]), bends * motion.omega)
+    return Conditions(motion, n, base, rate, share, fourth)
 
 
 @inner
-def add(found, column, j, share):
-    """Let a function have a share of mode j."""
-    found.begin[column] = min(found.begin[column], j)
-    found.end[column] = j + 1
-    found.share[column, j] = share
-    bend = found.motion.omega[j] ** 2 * largest_acceleration(found.motion, j)
-    if column < found.n_speeds:
-        bend *= found.motion.omega[j]
-    found.fourth[column] += bend * abs(share)
-
-
-@inner
-def take_modes(motion, begin, end, s, modal):
-    """Displacements, velocities and accelerations of some modes at the time s."""
-    for j in range(begin, end):
+def take_modes(motion, s, modal):
+    """Displacements, velocities and accelerations of all modes at the time s."""
+    for j in range(len(motion.omega)):
         modal[0, j], modal[1, j], modal[2, j] = at(motion, j, s)
 
 
@@ -167,7 +142,7 @@ def value_and_slope(conditions, column, s, modal):
     value = conditions.base[column] + conditions.rate[column] * s
     slope = conditions.rate[column]
     order = 1 if column < conditions.n_speeds else 0
-    for j in range(conditions.begin[column], conditions.end[column]):
+    for j in range(len(conditions.motion.omega)):
         share = conditions.share[column, j]
         value += share * modal[order, j]
         slope += share * modal[order + 1, j]
@@ -198,7 +173,7 @@ def prove(conditions, duration, tolerance, most):
     lowest = np.empty(columns)
     slopes = np.empty(columns)
     when = np.zeros(columns)
-    take_modes(conditions.motion, 0, n_modes, 0.0, modal)
+    take_modes(conditions.motion, 0.0, modal)
     for c in range(columns):
         lowest[c], slopes[c] = value_and_slope(conditions, c, 0.0, modal)
     values = lowest.copy()
@@ -207,7 +182,7 @@ def prove(conditions, duration, tolerance, most):
     start = 0.0
     for k in range(n_cells):
         end = duration / n_cells * (k + 1)
-        take_modes(conditions.motion, 0, n_modes, end, modal)
+        take_modes(conditions.motion, end, modal)
         for c in range(columns):
             value, slope = value_and_slope(conditions, c, end, modal)
             bound = lower_bound(
@@ -250,8 +225,7 @@ def cut(
     computed = 0
     while start < stop and computed <= most:
         end = min(start + width, stop)
-        begin = conditions.begin[column]
-        take_modes(conditions.motion, begin, conditions.end[column], end, modal)
+        take_modes(conditions.motion, end, modal)
         high, fall = value_and_slope(conditions, column, end, modal)
         computed += 1
         if high < lowest[column]:
