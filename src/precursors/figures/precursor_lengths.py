@@ -80,7 +80,7 @@ def draw(
             axes.plot(*data.T, **MEASURED, label=told)
         draw_lengths(axes, slips, weights)
         if has_key:
-            style.draw_key(figure, axes.get_legend_handles_labels()[0], ncols=1)
+            style.draw_key(figure, ncols=1)
     return figure
 
 

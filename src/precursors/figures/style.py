@@ -2,7 +2,7 @@
 files."""
 
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -13,7 +13,6 @@ from typing import Any
 
 import matplotlib.style
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
@@ -55,7 +54,6 @@ PAGE_MM = 178.0
 PNG_DPI = 300
 SCREEN_DPI = 120
 
-BLOCKS_LABEL = "Number of blocks $N$ [-]"
 MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
 DOTTED: Options = {"color": GREY, "linewidth": 0.6, "linestyle": ":", "zorder": 1}
 
@@ -190,14 +188,11 @@ def save(
     write_whole(path, re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
 
 
-def columns(figure: Figure, labels: Collection[str], n: int) -> NDArray[Any]:
-    """Make rows of panels, with a label of the y axis for each, in `n` columns of one
-    x axis."""
-    grid = figure.subplots(len(labels), n, sharex=True, sharey="row", squeeze=False)
-    for axes, label in zip(grid[:, 0], labels, strict=True):
-        axes.set_ylabel(label)
-    figure.align_ylabels(grid[:, 0])
-    return grid
+def columns(figure: Figure, label: str, n: int) -> NDArray[Any]:
+    """Make `n` panels side by side with the same axes, and a label of the y axis."""
+    panels = figure.subplots(1, n, sharex=True, sharey=True, squeeze=False)[0]
+    panels[0].set_ylabel(label)
+    return panels
 
 
 def pale(color: str, share: float) -> str:
@@ -257,13 +252,6 @@ def plain(text: str) -> str:
     if re.search(r"[\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]", text):
         raise ValueError(f"the title must have no control characters, but is {text!r}")
     return text.replace("$", r"\$")
-
-
-def draw_level(axes: Axes, value: float, text: str, side: str = "bottom") -> None:
-    """Draw a dotted line at a value of the y axis, with its name at its right end."""
-    axes.axhline(value, **DOTTED)
-    where = axes.get_yaxis_transform()
-    axes.text(0.98, value, text, ha="right", va=side, transform=where, fontsize="small")
 
 
 def draw_key(figure: Figure, entries: Sequence[Any] = (), ncols: int = 0) -> None:

@@ -159,19 +159,18 @@ class Run(Record):
         F_X."""
         return self.forces_and_velocities(times)[0]
 
-    def forces_and_velocities(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Spring forces [N] and velocities [m/s], each (len(times), N): the state,
+    def forces_and_velocities(self, times: ArrayLike) -> FloatArray:
+        """Spring forces [N] and velocities [m/s], shape (2, len(times), N): the state,
         apart from the drive's."""
         # Imported here: reading a run must not load Numba.
         from precursors.solver import kernel
 
         when = self._times(times)
         order = np.argsort(when, kind="stable")
-        force, velocity = kernel.evaluate(
+        found = kernel.evaluate(
             self.chain, when[order], self.transitions, self.intervals, self.states
         )
-        back = np.argsort(order)
-        return force[back], velocity[back]
+        return found[:, np.argsort(order)]
 
     def _times(self, times: ArrayLike) -> FloatArray:
         when = np.atleast_1d(number_array("times", times, "s"))

@@ -32,7 +32,7 @@ def draw(
     `tolerance` [s].
     """
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        (panels,) = style.columns(figure, ["Error of time [s]"], len(thetas))
+        panels = style.columns(figure, "Error of time [s]", len(thetas))
         for axes, (chain, theta) in zip(panels, thetas.items(), strict=True):
             own = errors[errors["chain"] == chain]
             for column, (color, _, _) in ERRORS.items():

@@ -77,7 +77,7 @@ def _draw_slopes(axes: Axes, runs: pd.DataFrame) -> None:
     for sign, rows in runs.groupby(np.sign(runs["theta"])):
         apart = 1.07 ** float(sign)
         axes.plot(times_ms[rows.index] * apart, rows["slope"], **_look(sign, 1.0))
-    style.draw_level(axes, 0.0, "")
+    axes.axhline(0.0, **style.DOTTED)
     axes.set(xscale="log", title="Peaks alternate where $t_v$ is small")
     axes.set(xlabel="$t_v$ [ms]", ylabel="slope from peak to peak [-]")
     style.set_ticks(axes.xaxis, TIMES_MS)

@@ -55,7 +55,7 @@ def draw(
         right = frictions.secondary_yaxis("right")
         right.set_yticks(list(levels.values()), levels)
         for axes in (counts, frictions):
-            axes.set(xscale="log", xlabel=style.BLOCKS_LABEL)
+            axes.set(xscale="log", xlabel="Number of blocks $N$ [-]")
             axes.axvline(papers_n, **style.DOTTED)
             style.set_ticks(axes.xaxis, [2, 5, 10, 20, 50, 100, 200])
         events = _medians(table, "events_counted")

@@ -21,7 +21,7 @@ def draw(table: pd.DataFrame) -> Figure:
     share = table["transitions_right"] / table["transitions_true"]
     scenes = table.assign(percentage=100 * share).groupby("scene", sort=False)
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
-        (panels,) = style.columns(figure, ["Transitions right [%]"], len(scenes))
+        panels = style.columns(figure, "Transitions right [%]", len(scenes))
         for axes, (_, rows) in zip(panels, scenes, strict=True):
             exact = rows[rows["method"] == "exact"].iloc[0]
             steps = rows[rows["method"] == "rk4"]

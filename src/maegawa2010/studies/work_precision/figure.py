@@ -68,7 +68,17 @@ def _draw_points(axes: Axes, rows: pd.DataFrame) -> None:
         _name(axes, first)
     axes.set(xscale="log", yscale="log")
     axes.margins(x=0.2, y=0.1)
-    style.draw_level(axes, np.spacing(SHOWN_TIME_S), "spacing of doubles", "top")
+    floor = np.spacing(SHOWN_TIME_S)
+    axes.axhline(floor, **style.DOTTED)
+    axes.text(
+        0.98,
+        floor,
+        "spacing of doubles",
+        ha="right",
+        va="top",
+        fontsize="small",
+        transform=axes.get_yaxis_transform(),
+    )
     axes.tick_params(which="minor", left=False, labelbottom=False)
 
 

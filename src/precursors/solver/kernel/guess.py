@@ -39,6 +39,15 @@ def watched(n, i, slides, motion):
 
 
 @inner
+def two_terms(n, i, slides, motion):
+    """Terms n and n + 1 of the functions that are watched, at the end of the window."""
+    whole = motion.whole
+    return whole[n] * watched(n, i, slides, motion) + whole[n + 1] * watched(
+        n + 1, i, slides, motion
+    )
+
+
+@inner
 def guess(end, motion):
     """The block whose function seems to vanish first: (share of the window, block);
     (infinity, 0) if none.
@@ -47,7 +56,6 @@ def guess(end, motion):
     parabola has one that shares its value and slope at the start, and its value at the
     end.
     """
-    whole = motion.whole
     zero = lanes.spread(0.0)
     share = np.inf
     block = 0
@@ -58,21 +66,9 @@ def guess(end, motion):
         )
         sign = lanes.choose(slides, lanes.load(motion.sign, i), nearer)
         g = sign * watched(0, i, slides, motion) + lanes.load(motion.hold, i)
-        slope = sign * watched(1, i, slides, motion) * whole[1]
-        bend = (
-            whole[2] * watched(2, i, slides, motion)
-            + whole[3] * watched(3, i, slides, motion)
-        ) + (
-            whole[4] * watched(4, i, slides, motion)
-            + whole[5] * watched(5, i, slides, motion)
-        )
-        bend = sign * (
-            bend
-            + (
-                whole[6] * watched(6, i, slides, motion)
-                + whole[7] * watched(7, i, slides, motion)
-            )
-        )
+        slope = sign * watched(1, i, slides, motion) * motion.whole[1]
+        bend = two_terms(2, i, slides, motion) + two_terms(4, i, slides, motion)
+        bend = sign * (bend + two_terms(6, i, slides, motion))
         lanes.store(motion.sign, i, sign)
         below = lanes.only(lanes.load(motion.felt, i), zero - (g + (slope + bend)))
         if lanes.where_negative(zero - below) == 0:

@@ -35,9 +35,9 @@ def evaluate(
     transitions: NDArray[np.void],
     intervals: FloatArray,
     states: States,
-) -> tuple[FloatArray, FloatArray]:
-    """Spring forces [N] and velocities [m/s] of the blocks at each of `sorted_times`
-    [s]."""
+) -> FloatArray:
+    """Spring forces [N] and velocities [m/s] of the blocks, shape (2, number of times,
+    N), at each of `sorted_times` [s]."""
     # Times of the start and of the transitions; the state stored last at each time.
     instants = np.append(0.0, transitions["time"])
     stored = instants[states.after] + states.offset
@@ -56,7 +56,7 @@ def evaluate(
         nearest,
         memory_for(chain.n_blocks),
     )
-    return found[0], found[1]
+    return found
 
 
 @outer
