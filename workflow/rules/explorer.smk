@@ -38,3 +38,6 @@ rule explorer:
     input:
         rules.write_explorer.output,
     localrule: True
+
+
+RESULTS.append(rules.explorer.input)

@@ -1,30 +1,44 @@
 # Where methods fail
 
 
-rule draw_failures:
-    """Make every method fail, and draw six ways of it."""
+rule tabulate_failures:
+    """Make every method fail."""
     input:
         methods=PAPERS / "methods/methods.csv",
-        panels=PAPERS / "studies/failures/failure_gallery.csv",
     output:
-        curves="results/tables/failure_curves.csv",
-        figures=[
-            report(
-                "results/figures/failure_gallery.svg",
-                caption="../report/failure_gallery.rst",
-                category="Accuracy",
-                labels={"figure": "failure_gallery: six ways in which methods fail"},
-            ),
-            *collect("results/figures/failure_gallery.{kind}", kind=MORE_FORMATS),
-        ],
+        failure_curves="results/tables/failure_curves.csv",
     log:
-        "results/logs/draw_failures.log",
+        "results/logs/tabulate_failures.log",
     resources:
         seconds=3,
     params:
+        code=digest("tabulate_failures"),
+    message:
+        "making every method fail"
+    script:
+        "../scripts/tabulate_failures.py"
+
+
+rule draw_failures:
+    """Draw six ways in which methods fail."""
+    input:
+        curves="results/tables/failure_curves.csv",
+        panels=PAPERS / "studies/failures/failure_gallery.csv",
+    output:
+        report(
+            "results/figures/failure_gallery.svg",
+            caption="../report/failure_gallery.rst",
+            category="Accuracy",
+            labels={"figure": "failure_gallery: six ways in which methods fail"},
+        ),
+        collect("results/figures/failure_gallery.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/draw_failures.log",
+    localrule: True
+    params:
         code=digest("draw_failures"),
     message:
-        "making every method fail, and drawing it"
+        "drawing six ways in which methods fail"
     script:
         "../scripts/draw_failures.py"
 
@@ -32,5 +46,9 @@ rule draw_failures:
 rule failures:
     """Where methods fail."""
     input:
+        rules.tabulate_failures.output,
         rules.draw_failures.output,
     localrule: True
+
+
+RESULTS.append(rules.failures.input)

@@ -59,3 +59,6 @@ rule grid:
         rules.draw_grid.input,
         rules.draw_grid.output,
     localrule: True
+
+
+RESULTS.append(rules.grid.input)

@@ -90,3 +90,6 @@ rule larger:
         [rules.tabulate_settled.input, rules.tabulate_settled.output] if config["full"] else [],
         rules.draw_larger.output if IS_PAPERS else [],
     localrule: True
+
+
+RESULTS.append(rules.larger.input)

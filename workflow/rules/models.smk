@@ -43,3 +43,6 @@ rule models:
         rules.tabulate_models.output,
         collect("results/tables/{scene}_answers.csv", scene=ASKED),
     localrule: True
+
+
+RESULTS.append(rules.models.input)

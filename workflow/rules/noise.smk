@@ -45,3 +45,6 @@ rule noise:
         rules.tabulate_noise.input,
         rules.tabulate_noise.output,
     localrule: True
+
+
+RESULTS.append(rules.noise.input)

@@ -117,3 +117,6 @@ onstart:
             "paper.pdf is not made: it is about the paper's slider, and this is another one",
             file=sys.stderr,
         )
+
+
+RESULTS.append(rules.paper.input)

@@ -75,3 +75,6 @@ rule printed_digits:
         rules.tabulate_printed_digits.output,
         rules.draw_printed_digits.output if IS_PAPERS else [],
     localrule: True
+
+
+RESULTS.append(rules.printed_digits.input)

@@ -79,3 +79,6 @@ rule resolution:
         rules.tabulate_resolution.output,
         rules.draw_resolution.output,
     localrule: True
+
+
+RESULTS.append(rules.resolution.input)

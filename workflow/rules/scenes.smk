@@ -141,3 +141,6 @@ rule scenes:
         rules.mu_sapp.output,
         rules.draw_slips.output,
     localrule: True
+
+
+RESULTS.append(rules.scenes.input)

@@ -74,3 +74,6 @@ rule work_precision:
         rules.tabulate_work_precision.output,
         rules.draw_work_precision.output,
     localrule: True
+
+
+RESULTS.append(rules.work_precision.input)

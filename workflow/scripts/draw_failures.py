@@ -1,14 +1,12 @@
-"""Make every method fail, and draw six ways of it."""
+"""Draw six ways in which methods fail."""
 
 from drawing import save
-from job import job
+from job import job, read
 
 from maegawa2010.studies.failures.figure import draw
-from maegawa2010.studies.failures.tables import failure_curves
-from precursors.support.files import read_table, write_table
+from precursors.support.files import read_table
 
 with job() as snakemake:
-    output = snakemake.output
-    write_table(failure_curves(), output.curves)
-    figure = draw(read_table(output.curves), read_table(snakemake.input.panels))
-    save(figure, output.figures, "six ways in which methods fail")
+    curves = read(read_table, snakemake.input.curves)
+    figure = draw(curves, read_table(snakemake.input.panels))
+    save(figure, snakemake.output, "six ways in which methods fail")

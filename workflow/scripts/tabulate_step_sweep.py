@@ -1,0 +1,11 @@
+"""Run the scenes with Runge-Kutta steps of many sizes."""
+
+from job import job, read_all, write_tables
+
+from maegawa2010.studies.step_sweep.tables import step_sweep_table
+from precursors.solver.run import Run
+
+with job() as snakemake:
+    runs = read_all(Run.load, snakemake.input.runs)
+    table = step_sweep_table(runs, snakemake.params.full)
+    write_tables({"step_sweep": table}, snakemake.output)
